@@ -86,15 +86,7 @@ class Fit {
     if (!choose_start()) return false;
     residuals_ = windows_.residuals(u_);
     set_noise();
-    const int most_rounds = task_.robust ? 40 : 12;
-    for (int round = 0; round < most_rounds; ++round) {
-      if (!minimize(task_, windows_, all_keys(), u_, made_.iterations)) return false;
-      residuals_ = windows_.residuals(u_);
-      const double reweighted = task_.robust ? set_weights() : 0;
-      if (std::max(set_noise(), reweighted) < (task_.robust ? 1e-4 : 1e-5)) break;
-    }
-    residuals_ = windows_.residuals(u_);
-    return !is_stopped(task_);
+    return settle_weights();
   }
 
   // Whether a run that was interrupted has come to anything.
@@ -214,6 +206,26 @@ class Fit {
     return !is_stopped(task_);
   }
 
+  // The keys at their best with weights that follow the residuals. False if it is interrupted.
+  bool settle_weights() {
+    const int most_rounds = task_.robust ? 40 : 12;
+    // Changes of the weights move the keys little, but the last round is exact.
+    bool exact = true;
+    for (int round = 0; round < most_rounds; ++round) {
+      if (exact || !follow(task_, windows_, u_)) {
+        if (!minimize(task_, windows_, all_keys(), u_, made_.iterations)) return false;
+        exact = true;
+      }
+      residuals_ = windows_.residuals(u_);
+      const double reweighted = task_.robust ? set_weights() : 0;
+      const bool is_settled = std::max(set_noise(), reweighted) < (task_.robust ? 1e-4 : 1e-5);
+      if (is_settled && exact) break;
+      exact = is_settled || round + 2 == most_rounds;
+    }
+    residuals_ = windows_.residuals(u_);
+    return !is_stopped(task_);
+  }
+
   void refuse_idle_keys() {
     // With the noise at the columns' spreads.
     const VectorXd changes = scale_keys(task_, windows_, u_);
@@ -294,8 +306,9 @@ class Fit {
   }
 
   void tell_parameters() {
-    const auto [jacobian, norms] = windows_.derivatives(u_);
-    const VectorXd sizes = norms.cwiseMax(1e-300);
+    const WindowsFit::Derivatives derivatives = windows_.derivatives(u_);
+    const MatrixXd& jacobian = derivatives.projected;
+    const VectorXd sizes = derivatives.free_norms.cwiseMax(1e-300);
     const MatrixXd scaled = jacobian * sizes.cwiseInverse().asDiagonal();
     const Eigen::JacobiSVD<MatrixXd> svd(scaled.transpose() * scaled, Eigen::ComputeFullV);
     // Of the square: singular values 1e-4 of the greatest are the error of the differences.
@@ -318,13 +331,7 @@ class Fit {
     covariance = sizes.cwiseInverse().asDiagonal() * covariance * sizes.cwiseInverse().asDiagonal();
     const double variance = scatter();
     const double t = student_95(degrees_of_freedom());
-    std::vector<Index> moving;
-    for (Index k = 0; k < keys; ++k) {
-      const FreeKey& key = task_.keys[static_cast<std::size_t>(k)];
-      const double value = key.value(u_[k]);
-      if (value != key.lower && value != key.upper) moving.push_back(k);
-    }
-    std::size_t iterations = made_.iterations;  // for the progress alone
+    Profiles profiles(task_, windows_, u_, derivatives);
     for (Index k = 0; k < keys; ++k) {
       const auto i = static_cast<std::size_t>(k);
       const FreeKey& key = task_.keys[i];
@@ -337,8 +344,7 @@ class Fit {
       one.at_bound = one.estimate == key.lower || one.estimate == key.upper;
       if (one.told) {
         one.sd = std::sqrt(covariance(k, k) * variance) * std::abs(key.slope(u_[k]));
-        const Ends ends =
-            profile(task_, windows_, u_, covariance, k, t * t * variance, moving, iterations);
+        const Ends ends = profiles.ends(k, t * t * variance);
         one.low = key.value(ends.low);
         one.high = key.value(ends.high);
       } else {

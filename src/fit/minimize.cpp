@@ -3,7 +3,10 @@
 
 #include "fit/minimize.hpp"
 
+#include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <unsupported/Eigen/LevenbergMarquardt>
 #include <utility>
@@ -72,15 +75,21 @@ bool is_stopped(const Task& task) {
   return task.stop != nullptr && task.stop->load(std::memory_order_relaxed);
 }
 
+bool is_at_bound(const FreeKey& key, double u) {
+  const double value = key.value(u);
+  const bool positive = key.logarithmic && key.lower == 0;
+  return (value == key.lower && !positive) || value == key.upper;
+}
+
 bool minimize(const Task& task, WindowsFit& windows, std::vector<Index> moving, VectorXd& u,
-              std::size_t& iterations, const Precision& precision) {
+              std::size_t& iterations) {
   while (!moving.empty()) {
     Functor functor(task, windows, u, moving, iterations);
     Eigen::LevenbergMarquardt<Functor> method(functor);
-    method.setFtol(precision.cost);
-    method.setXtol(precision.numbers);
+    method.setFtol(1e-12);
+    method.setXtol(1e-9);
     method.setFactor(1000);
-    method.setMaxfev(precision.evaluations);
+    method.setMaxfev(200);
     VectorXd v(static_cast<Index>(moving.size()));
     for (std::size_t i = 0; i < moving.size(); ++i) v[static_cast<Index>(i)] = u[moving[i]];
     method.minimize(v);
@@ -89,11 +98,8 @@ bool minimize(const Task& task, WindowsFit& windows, std::vector<Index> moving, 
     std::vector<Index> rest;
     for (const Index k : moving) {
       const FreeKey& key = task.keys[static_cast<std::size_t>(k)];
-      const double value = key.value(u[k]);
-      const bool positive = key.logarithmic && key.lower == 0;
-      const bool at_bound = (value == key.lower && !positive) || value == key.upper;
-      if (at_bound) {
-        u[k] = key.number(value);
+      if (is_at_bound(key, u[k])) {
+        u[k] = key.number(key.value(u[k]));
       } else {
         rest.push_back(k);
       }
@@ -102,6 +108,48 @@ bool minimize(const Task& task, WindowsFit& windows, std::vector<Index> moving, 
     moving = std::move(rest);
   }
   return true;
+}
+
+bool follow(const Task& task, WindowsFit& windows, VectorXd& u) {
+  const MatrixXd known = windows.known_derivatives().projected;
+  if (known.cols() != u.size()) return false;
+  std::vector<Index> moving;
+  for (Index k = 0; k < u.size(); ++k) {
+    if (!is_at_bound(task.keys[static_cast<std::size_t>(k)], u[k])) moving.push_back(k);
+  }
+  if (moving.empty()) return true;
+  MatrixXd jacobian(known.rows(), static_cast<Index>(moving.size()));
+  VectorXd sizes(jacobian.cols());
+  for (Index i = 0; i < jacobian.cols(); ++i) {
+    const auto column = known.col(moving[static_cast<std::size_t>(i)]);
+    sizes[i] = std::max(column.norm(), 1e-300);
+    jacobian.col(i) = column / sizes[i];
+  }
+  // Keys that are hardly told apart stay together.
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
+  solver.setThreshold(1e-4);
+  solver.compute(jacobian);
+  VectorXd residuals = windows.residuals(u);
+  double last = std::numeric_limits<double>::infinity();
+  constexpr int most_steps = 10;
+  for (int i = 0; i < most_steps; ++i) {
+    if (is_stopped(task)) return false;
+    const VectorXd step = solver.solve(residuals);
+    const double gain = (jacobian * step).squaredNorm();
+    if (gain <= 1e-12 * residuals.squaredNorm()) return true;
+    // Each step must leave much less to the next.
+    if (gain > 0.1 * last) return false;
+    last = gain;
+    VectorXd to = u;
+    for (Index k = 0; k < step.size(); ++k) {
+      const Index key = moving[static_cast<std::size_t>(k)];
+      to[key] -= step[k] / sizes[k];
+      if (is_at_bound(task.keys[static_cast<std::size_t>(key)], to[key])) return false;
+    }
+    u = to;
+    residuals = windows.residuals(u);
+  }
+  return false;
 }
 
 }  // namespace bbsim::fit

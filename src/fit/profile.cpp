@@ -3,107 +3,173 @@
 
 #include "fit/profile.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "fit/minimize.hpp"
 
 namespace bbsim::fit {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
 
-class Profile {
- public:
-  Profile(const Task& task, WindowsFit& windows, const VectorXd& u,
-          const Eigen::MatrixXd& covariance, Index k, double growth,
-          const std::vector<Index>& moving, std::size_t& iterations)
-      : task_(task),
-        windows_(windows),
-        u_(u),
-        direction_(covariance.col(k) / covariance(k, k)),
-        k_(k),
-        growth_(growth),
-        linear_(std::sqrt(covariance(k, k) * growth)),
-        least_(windows.residuals(u).squaredNorm()),
-        iterations_(iterations) {
-    std::ranges::copy_if(moving, std::back_inserter(others_), [k](Index one) { return one != k; });
-  }
-
-  // The distance of the end on the side of `sign`.
-  double distance(double sign) {
-    const VectorXd linear = u_ + sign * linear_ * direction_;
-    // Mostly the other keys are best where the linearized problem has them.
-    const double first = ratio_at(linear);
-    if (std::abs(first - 1) < 0.1) return linear_ / first;
-    if (is_at_bound(linear) && first <= 1) return linear_;
-    // Otherwise step by step: the way from the optimum through the step before leads to the next.
-    VectorXd towards = sign * direction_;
-    double step = linear_ / 2;
-    double inside = 0, outside = std::numeric_limits<double>::infinity();
-    constexpr int most_steps = 10;
-    for (int i = 0; i < most_steps; ++i) {
-      if (is_stopped(task_)) return linear_;
-      VectorXd v = u_ + step * towards;
-      const bool at_bound = is_at_bound(v);
-      // To 1 % of the growth.
-      const Precision enough{0.01 * growth_ / (least_ + growth_), 1e-4, 15};
-      static_cast<void>(minimize(task_, windows_, others_, v, iterations_, enough));
-      const double ratio = ratio_at(v);
-      if (std::abs(ratio - 1) < 0.03) return step / ratio;
-      // An end beyond a bound is the bound.
-      if (at_bound && ratio <= 1) return step;
-      if (step > 30 * linear_) return std::numeric_limits<double>::infinity();
-      if (ratio < 1) {
-        inside = step;
-        towards = (v - u_) / step;
-      } else {
-        outside = step;
-      }
-      if (outside - inside < 0.02 * linear_) break;
-      step *= std::clamp(1 / ratio, 0.4, 2.0);
-      // Where another key comes to a bound, the growth has a corner: no step leaves the bracket.
-      const double margin = 0.1 * (outside - inside);
-      if (std::isfinite(outside) && (step < inside + margin || step > outside - margin)) {
-        step = (inside + outside) / 2;
-      }
-    }
-    return step;
-  }
-
- private:
-  [[nodiscard]] bool is_at_bound(const VectorXd& v) const {
-    const FreeKey& key = task_.keys[static_cast<std::size_t>(k_)];
-    const double value = key.value(v[k_]);
-    return value == key.lower || value == key.upper;
-  }
-
-  // How far `v` is on the way to the end: to second order, the root of the growth.
-  [[nodiscard]] double ratio_at(const VectorXd& v) {
-    const double above = windows_.residuals(v).squaredNorm() - least_;
-    return std::sqrt(std::max(above, 1e-6 * growth_) / growth_);
-  }
-
-  const Task& task_;
-  WindowsFit& windows_;
-  const VectorXd& u_;
-  VectorXd direction_;
-  Index k_;
-  double growth_, linear_, least_;
-  std::size_t& iterations_;
-  std::vector<Index> others_;
-};
+constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-Ends profile(const Task& task, WindowsFit& windows, const VectorXd& u,
-             const Eigen::MatrixXd& covariance, Index k, double growth,
-             const std::vector<Index>& moving, std::size_t& iterations) {
-  Profile one(task, windows, u, covariance, k, growth, moving, iterations);
-  return {u[k] - one.distance(-1), u[k] + one.distance(1)};
+struct Profiles::Point {
+  VectorXd u, residuals;
+  MatrixXd jacobian;
+};
+
+struct Profiles::Step {
+  VectorXd by;               // of all keys
+  bool at_bound = false;     // the key comes to its bound
+  double reach = unlimited;  // how far the key would go without bound or limit
+  double slack = 0;          // what the other keys can still take from the sum of squares
+};
+
+Profiles::Profiles(const Task& task, const WindowsFit& windows, const VectorXd& u,
+                   const WindowsFit::Derivatives& derivatives)
+    : task_(task),
+      windows_(windows),
+      u_(u),
+      jacobian_(derivatives.projected),
+      lower_(u.size()),
+      upper_(u.size()) {
+  for (Index k = 0; k < u.size(); ++k) {
+    const FreeKey& key = task.keys[static_cast<std::size_t>(k)];
+    lower_[k] = key.number(key.lower);
+    upper_[k] = key.number(key.upper);
+  }
+  WindowsFit at_optimum = windows;
+  residuals_ = at_optimum.residuals(u);
+  least_ = residuals_.squaredNorm();
+}
+
+// To where the linear residuals have the sum of squares `target`, with the other keys at their
+// best. The key goes no farther than `most` from the optimum.
+Profiles::Step Profiles::step_from(const Point& from, Index k, double sign, double target,
+                                   double most) const {
+  Step step{VectorXd::Zero(u_.size())};
+  std::vector<Index> free;
+  for (Index i = 0; i < u_.size(); ++i) {
+    if (i != k) free.push_back(i);
+  }
+  VectorXd residuals = from.residuals;  // with the keys that are at a bound where they are
+  for (;;) {
+    // Keys that are hardly told apart stay together, as in the covariance.
+    const VectorXd sizes = from.jacobian.colwise().norm().cwiseMax(1e-300);
+    MatrixXd others(residuals.size(), static_cast<Index>(free.size()));
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      others.col(static_cast<Index>(i)) = from.jacobian.col(free[i]) / sizes[free[i]];
+    }
+    const VectorXd column = from.jacobian.col(k);
+    VectorXd by_residuals, by_column, rest = residuals, effect = column;
+    if (!free.empty()) {
+      Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
+      solver.setThreshold(1e-4);
+      solver.compute(others);
+      by_residuals = solver.solve(residuals);
+      by_column = solver.solve(column);
+      rest -= others * by_residuals;
+      effect -= others * by_column;
+    }
+    // |rest + effect d|^2 = target has the key's step d.
+    const double a = std::max(effect.squaredNorm(), 1e-300), b = effect.dot(rest);
+    const double inside = b * b - a * (rest.squaredNorm() - target);
+    const double key_step = (-b + sign * std::sqrt(std::max(inside, 0.0))) / a;
+    step.slack = residuals.squaredNorm() - rest.squaredNorm();
+    const double reached = from.u[k] - u_[k];
+    step.reach = sign * (reached + key_step);
+    double to = sign * std::min(step.reach, most);
+    step.at_bound = u_[k] + to <= lower_[k] || u_[k] + to >= upper_[k];
+    to = std::clamp(u_[k] + to, lower_[k], upper_[k]) - u_[k];
+    step.by[k] = to - reached;
+
+    std::vector<Index> rest_of_free;
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      const Index key = free[i];
+      const auto row = static_cast<Index>(i);
+      const double goes = -(by_residuals[row] + by_column[row] * step.by[k]) / sizes[key];
+      const double goal = from.u[key] + goes;
+      step.by[key] = std::clamp(goal, lower_[key], upper_[key]) - from.u[key];
+      if (goal > lower_[key] && goal < upper_[key]) rest_of_free.push_back(key);
+    }
+    if (rest_of_free.size() == free.size()) return step;
+    for (const Index key : free) {
+      if (std::ranges::find(rest_of_free, key) == rest_of_free.end()) {
+        residuals += from.jacobian.col(key) * step.by[key];
+      }
+    }
+    free = std::move(rest_of_free);
+  }
+}
+
+// How far the end is on the side of `sign`.
+double Profiles::distance(Index k, double growth, double sign) const {
+  const double target = least_ + growth;
+  // How far a point is on the way to the end: to second order, the root of the growth.
+  const auto ratio_at = [&](const VectorXd& residuals) {
+    const double above = residuals.squaredNorm() - least_;
+    return std::sqrt(std::max(above, 1e-6 * growth) / growth);
+  };
+  WindowsFit windows = windows_;
+  Point at{u_, residuals_, jacobian_};
+  Step step = step_from(at, k, sign, target, unlimited);
+  const double linear = step.reach;
+  double inside = 0, outside = unlimited, gone = 0;
+  constexpr int most_steps = 20;
+  for (int i = 0; i < most_steps; ++i) {
+    if (is_stopped(task_)) return linear;
+    const VectorXd to = at.u + step.by;
+    gone = sign * (to[k] - u_[k]);
+    const VectorXd residuals = windows.residuals(to);
+    const double ratio = ratio_at(residuals);
+    // Where the residuals are far from linear, a whole step would go to and fro.
+    const double expected = (at.residuals + at.jacobian * step.by).squaredNorm();
+    const double excess = residuals.squaredNorm() - expected;
+    if (excess > std::max(growth, step.slack / 2)) {
+      step.by /= 2;
+      step.at_bound = false;
+      continue;
+    }
+    // Mostly the other keys are best where the linear problem has them.
+    Point next{to, residuals, at.jacobian};
+    const bool is_bound = step.at_bound && ratio <= 1;
+    if (is_bound || std::abs(ratio - 1) < (i == 0 ? 0.1 : 0.03)) {
+      const double slack = step_from(next, k, sign, target, unlimited).slack;
+      if (slack < 0.06 * growth) return is_bound ? gone : gone / ratio;
+    }
+    if (gone > 30 * linear) return unlimited;
+    next.jacobian = windows.derivatives(to).projected;
+    at = std::move(next);
+    step = step_from(at, k, sign, target, unlimited);
+    const double best = std::sqrt(std::max(at.residuals.squaredNorm() - step.slack - least_, 0.0));
+    if (best < std::sqrt(growth)) {
+      inside = std::max(inside, gone);
+    } else {
+      outside = std::min(outside, gone);
+    }
+    double most = std::clamp(step.reach, 0.3 * gone, 2.5 * gone);
+    const double margin = 0.1 * (outside - inside);
+    if (std::isfinite(outside) && (most < inside + margin || most > outside - margin)) {
+      most = (inside + outside) / 2;
+    }
+    if (outside - inside < 0.02 * linear) return most;
+    step = step_from(at, k, sign, target, most);
+  }
+  return gone;
+}
+
+Ends Profiles::ends(Index k, double growth) const {
+  return {u_[k] - distance(k, growth, -1), u_[k] + distance(k, growth, 1)};
 }
 
 }  // namespace bbsim::fit

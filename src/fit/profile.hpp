@@ -6,8 +6,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
-#include <vector>
 
 #include "fit/windows_fit.hpp"
 
@@ -17,11 +15,34 @@ struct Ends {
   double low, high;  // of the key's number; infinite where no value is refuted
 };
 
-// Of key `k` at the optimum `u`, whose linearized covariance is `covariance`. `growth` is the sum
-// of squares that an end has more than the optimum has, `moving` has the keys that are not at a
-// bound.
-[[nodiscard]] Ends profile(const Task& task, WindowsFit& windows, const Eigen::VectorXd& u,
-                           const Eigen::MatrixXd& covariance, Eigen::Index k, double growth,
-                           const std::vector<Eigen::Index>& moving, std::size_t& iterations);
+// Finds an end as the solution of a problem of its own: the farthest value of the key at which the
+// sum of squares has that growth, and is least by the other keys (Venzon and Moolgavkar, Applied
+// Statistics 37, 1988). Each step solves it exactly for residuals that are linear in the keys, so
+// that one or two sets of derivatives are enough where a search along the profile needs one for
+// each step of many minimizations.
+class Profiles {
+ public:
+  // At the optimum `u` and its derivatives. All references must outlive this.
+  Profiles(const Task& task, const WindowsFit& windows, const Eigen::VectorXd& u,
+           const WindowsFit::Derivatives& derivatives);
+
+  // Of key `k`. `growth` is the sum of squares that an end has more than the optimum has.
+  [[nodiscard]] Ends ends(Eigen::Index k, double growth) const;
+
+ private:
+  struct Point;
+  struct Step;
+  [[nodiscard]] double distance(Eigen::Index k, double growth, double sign) const;
+  [[nodiscard]] Step step_from(const Point& from, Eigen::Index k, double sign, double target,
+                               double most) const;
+
+  const Task& task_;
+  const WindowsFit& windows_;
+  const Eigen::VectorXd& u_;
+  const Eigen::MatrixXd& jacobian_;
+  Eigen::VectorXd lower_, upper_;  // bounds of the numbers
+  Eigen::VectorXd residuals_;
+  double least_;
+};
 
 }  // namespace bbsim::fit

@@ -77,22 +77,44 @@ void WindowsFit::guess_starts() {
   }
 }
 
-void WindowsFit::set_noise(std::vector<double> noise) {
-  noise_ = std::move(noise);
-  for (State& state : base_) state.fresh_rounds = std::max(state.fresh_rounds, 1);
+// Other weights scale the rows of derivatives that are known.
+void WindowsFit::scale_rows(const VectorXd& factors) {
+  for (std::size_t w = 0; w < windows_.size(); ++w) {
+    State& state = base_[w];
+    if (state.by_start.rows() == 0) continue;
+    const auto rows = factors.segment(at(first_rows_[w]), state.by_start.rows()).asDiagonal();
+    set_slopes(state, rows * state.by_start);
+    if (state.by_key.rows() > 0) state.by_key = rows * state.by_key;
+  }
   trial_u_.resize(0);
 }
 
+void WindowsFit::set_noise(std::vector<double> noise) {
+  VectorXd factors = VectorXd::Ones(at(size_));
+  for (std::size_t i = 0; i < size_ && !noise_.empty(); ++i) {
+    factors[at(i)] = noise_[columns_[i]] / noise[columns_[i]];
+  }
+  noise_ = std::move(noise);
+  scale_rows(factors);
+}
+
 void WindowsFit::set_weights(VectorXd weights) {
+  const VectorXd factors = weights.cwiseQuotient(weights_);
   weights_ = std::move(weights);
-  for (State& state : base_) state.fresh_rounds = std::max(state.fresh_rounds, 1);
-  trial_u_.resize(0);
+  scale_rows(factors);
 }
 
 void WindowsFit::restart() {
   guess_starts();
   for (State& state : base_) state.fresh_rounds = State{}.fresh_rounds;
+  base_u_.resize(0);
   trial_u_.resize(0);
+}
+
+void WindowsFit::set_slopes(State& state, MatrixXd by_start) {
+  state.by_start = std::move(by_start);
+  state.start_solver.setThreshold(1e-9);
+  state.start_solver.compute(state.by_start);
 }
 
 bool WindowsFit::is_stopped() const {
@@ -223,10 +245,12 @@ bool WindowsFit::settle(std::size_t w, const Scene& scene, State& state, std::st
         why = "it does not run from starts nearby";
         return false;
       }
-      state.by_start.setThreshold(1e-9);
-      state.by_start.compute(by_start);
+      set_slopes(state, std::move(by_start));
     }
-    const VectorXd step = state.by_start.solve(state.residual);
+    const VectorXd step = state.start_solver.solve(state.residual);
+    // What the step can still bring is known before its run.
+    const double left = (state.by_start * step).squaredNorm();
+    if (round >= fresh && left <= 1e-14 * state.residual.squaredNorm()) break;
     Start moved = state.start;
     for (std::size_t k = 0; k < coordinates_.size(); ++k) {
       moved[coordinates_[k]] -= step[at(k)];
@@ -250,10 +274,24 @@ VectorXd WindowsFit::residuals(const VectorXd& u, bool first) {
   if (scenes.scenes.empty()) return all;
   trial_ = base_;
   trial_u_.resize(0);
+  const VectorXd change = base_u_.size() == u.size() ? VectorXd(u - base_u_) : VectorXd{};
   std::vector<std::string> faults(windows_.size());
   std::vector<char> runs(windows_.size(), 0);
   for_each_window([&](std::size_t w) {
-    runs[w] = settle(w, scene_of(w, scenes), trial_[w], faults[w]) ? 1 : 0;
+    const Scene scene = scene_of(w, scenes);
+    // The best start follows the keys almost linearly.
+    if (change.size() > 0 && !change.isZero(0) && base_[w].by_key.rows() > 0) {
+      const VectorXd step = base_[w].start_solver.solve(base_[w].by_key * change);
+      for (std::size_t k = 0; k < coordinates_.size(); ++k) {
+        trial_[w].start[coordinates_[k]] -= step[at(k)];
+      }
+      if (settle(w, scene, trial_[w], faults[w])) {
+        runs[w] = 1;
+        return;
+      }
+      trial_[w] = base_[w];
+    }
+    runs[w] = settle(w, scene, trial_[w], faults[w]) ? 1 : 0;
   });
   if (is_stopped()) return all;
   for (std::size_t w = 0; w < windows_.size(); ++w) {
@@ -310,15 +348,13 @@ WindowsFit::Derivatives WindowsFit::differences(const VectorXd& u) {
     }
     width.push_back(down.back().scenes.empty() ? 0 : to - from);
   }
-  Derivatives made{MatrixXd::Zero(at(size_), keys), VectorXd::Zero(keys)};
-  MatrixXd whole = MatrixXd::Zero(at(size_), keys);
   for_each_window([&](std::size_t w) {
     State& state = base_[w];
     std::string unheard;
-    MatrixXd by_start, by_key = MatrixXd::Zero(at(first_rows_[w + 1] - first_rows_[w]), keys);
+    state.by_key = MatrixXd::Zero(at(first_rows_[w + 1] - first_rows_[w]), keys);
+    MatrixXd by_start;
     if (!slopes(w, scene_of(w, middle), state.start, by_start)) return;
-    state.by_start.setThreshold(1e-9);
-    state.by_start.compute(by_start);
+    set_slopes(state, std::move(by_start));
     state.fresh_rounds = 0;
     VectorXd above, below;
     for (Index k = 0; k < keys; ++k) {
@@ -326,13 +362,25 @@ WindowsFit::Derivatives WindowsFit::differences(const VectorXd& u) {
       if (width[i] == 0) continue;
       if (!residual_of(w, scene_of(w, up[i]), state.start, above, unheard)) continue;
       if (!residual_of(w, scene_of(w, down[i]), state.start, below, unheard)) continue;
-      by_key.col(k) = (above - below) / width[i];
+      state.by_key.col(k) = (above - below) / width[i];
     }
-    whole.middleRows(at(first_rows_[w]), by_key.rows()) = by_key;
-    made.projected.middleRows(at(first_rows_[w]), by_key.rows()) =
-        by_key - by_start * state.by_start.solve(by_key);
   });
-  made.free_norms = whole.colwise().norm();
+  base_u_ = u;
+  return projected(keys);
+}
+
+// The starts follow the keys: what they undo is none of a key's effect.
+WindowsFit::Derivatives WindowsFit::projected(Index keys) const {
+  Derivatives made{MatrixXd::Zero(at(size_), keys), VectorXd::Zero(keys)};
+  VectorXd squares = VectorXd::Zero(keys);
+  for (std::size_t w = 0; w < windows_.size(); ++w) {
+    const State& state = base_[w];
+    if (state.by_key.cols() != keys || state.by_start.rows() == 0) continue;
+    squares += state.by_key.colwise().squaredNorm().transpose();
+    made.projected.middleRows(at(first_rows_[w]), state.by_key.rows()) =
+        state.by_key - state.by_start * state.start_solver.solve(state.by_key);
+  }
+  made.free_norms = squares.cwiseSqrt();
   return made;
 }
 

@@ -55,12 +55,14 @@ class WindowsFit {
   [[nodiscard]] std::vector<WindowSeries> series(const Eigen::VectorXd& u);
 
   // The derivatives of the residuals by u, at u; residuals() may be asked before or not. `free`:
-  // with the starts as they are, without letting them follow.
+  // with the starts as they are, without letting them follow. `known`: those that were computed
+  // last, with the noise and weights of now.
   struct Derivatives {
     Eigen::MatrixXd projected;
     Eigen::VectorXd free_norms;
   };
   [[nodiscard]] Derivatives derivatives(const Eigen::VectorXd& u);
+  [[nodiscard]] Derivatives known_derivatives() const { return projected(base_u_.size()); }
   // The same where the windows' starts are known.
   [[nodiscard]] Derivatives derivatives(const Eigen::VectorXd& u, const std::vector<Start>& starts);
 
@@ -73,11 +75,16 @@ class WindowsFit {
   struct State {
     Start start{};
     Eigen::VectorXd residual;
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> by_start;
+    // The derivatives of the residual by the start and by the keys, where they were last computed.
+    Eigen::MatrixXd by_start, by_key;
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> start_solver;  // of by_start
     int fresh_rounds = 3;  // for which slopes are still to be computed; the first start is a guess
   };
 
   [[nodiscard]] Derivatives differences(const Eigen::VectorXd& u);
+  [[nodiscard]] Derivatives projected(Eigen::Index keys) const;
+  void scale_rows(const Eigen::VectorXd& factors);
+  static void set_slopes(State& state, Eigen::MatrixXd by_start);
   [[nodiscard]] Variant variant(const Eigen::VectorXd& u, std::string* why) const;
   void guess_starts();
   // One window at one set of values.
@@ -103,6 +110,7 @@ class WindowsFit {
   Eigen::VectorXd weights_;
   bool heeds_stop_ = true;
   std::vector<State> base_, trial_;
+  Eigen::VectorXd base_u_;   // where the derivatives of base_ are from; empty if there are none
   Eigen::VectorXd trial_u_;  // of trial_
 };
 
