@@ -51,6 +51,7 @@ struct FitArguments {
   std::size_t threads = 0;
   std::size_t starts = 1;
   std::string loss = "squares";
+  bool continuity = false;
 };
 
 ExitCode fit(const FitArguments& arguments, const Options& options) {
@@ -73,6 +74,7 @@ ExitCode fit(const FitArguments& arguments, const Options& options) {
   request.threads = arguments.threads;
   request.starts = arguments.starts;
   request.loss = arguments.loss;
+  request.continuity = arguments.continuity;
   Progress progress(family.source().file, options.quiet);
   const api::FitResult made = api::fit(request, !arguments.files.scenario.empty(), progress);
   if (!options.quiet) {
@@ -119,13 +121,16 @@ void add_fit(Command& command, const Options& options) {
   add_log_options(command, arguments->choice);
   command
       .option("--window", arguments->window,
-              "length of a window; default: 2 s, and with a controller and without --hold-out the "
-              "whole log")
+              "length of a window; default: 2 s, and with a controller and without --hold-out or "
+              "--continuity the whole log")
       .takes("TIME");
   command
       .option("--hold-out", arguments->hold_out,
               "keep this share of the windows out of the fit, and print their residuals")
       .takes("F");
+  command.flag("--continuity", arguments->continuity,
+               "join windows that follow one another without a gap: each then begins where the one "
+               "before ends, as in one long window");
   command
       .option("--loss", arguments->loss,
               "squares, or huber: numbers that are far off have less weight; default: squares")

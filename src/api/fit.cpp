@@ -215,6 +215,7 @@ FitResult fit(const FitRequest& request, bool with_scenario, Watch& watch) {
   task.threads = request.threads;
   task.starts = request.starts;
   task.robust = request.loss == "huber";
+  task.continuity = request.continuity;
   task.stop = watch.stop();
   task.progress = [&watch](double fraction, const std::string& detail) {
     watch.update(fraction, detail);

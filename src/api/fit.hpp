@@ -28,6 +28,7 @@ struct FitRequest {
   std::size_t threads = 0;        // 0: as many as there are processors
   std::size_t starts = 1;         // sets of values to begin with, from 1 on
   std::string loss = "squares";   // or huber
+  bool continuity = false;        // windows join where no gap is between them
 };
 
 struct FitResult {

@@ -124,6 +124,10 @@ std::string remarks_of(const FitRequest& request, const fit::Fitted& fitted) {
                      std::to_string(fitted.windows) +
                      (fitted.windows == 1 ? " window" : " windows");
   if (std::isfinite(fitted.window)) text += " of " + short_number(fitted.window) + " s";
+  if (fitted.joints) {
+    text += ", joined at " + std::to_string(*fitted.joints) +
+            (*fitted.joints == 1 ? " joint" : " joints");
+  }
   if (fitted.held > 0) text += ", " + std::to_string(fitted.held) + " more held out";
   text += "; " + std::to_string(request.logs.size()) +
           (request.logs.size() == 1 ? " log\n" : " logs\n");
@@ -197,6 +201,7 @@ std::string json_of(const fit::Fitted& fitted) {
   for (const fit::ColumnResidual& column : fitted.columns) {
     json["outliers"][column.column] = column.outliers;
   }
+  if (fitted.joints) json["joints"] = *fitted.joints;
   if (fitted.interrupted) json["interrupted"] = true;
   return json.dump(2) + "\n";
 }

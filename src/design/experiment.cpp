@@ -149,7 +149,7 @@ Experiment::Information Experiment::information(const ScenarioFamily& family,
   std::string why;
   const std::vector<double> run = fit::run_window(
       fit::from_time(scenario, 0, task_.length), fit::start_of(scenario), log_.times,
-      columns_named({"x", "y", "vx", "vy", "phi", "theta", "phi_rate", "theta_rate"}), why);
+      columns_named({"x", "y", "vx", "vy", "phi", "theta", "phi_rate", "theta_rate", "spin"}), why);
   Information made;
   const auto keys = static_cast<Index>(task_.keys.size());
   made.matrix = Eigen::MatrixXd::Zero(keys, keys);

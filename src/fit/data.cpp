@@ -63,6 +63,19 @@ std::vector<Window> cut(const std::vector<Log>& logs, double length, double shar
   return windows;
 }
 
+void find_joints(std::vector<Window>& windows) {
+  const auto interval = [](const Window& window) {
+    return (window.times.back() - window.times.front()) /
+           static_cast<double>(window.times.size() - 1);
+  };
+  for (std::size_t w = 0; w + 1 < windows.size(); ++w) {
+    Window& one = windows[w];
+    const Window& next = windows[w + 1];
+    const double pause = next.begin - (one.begin + one.times.back());
+    one.goes_on = one.log == next.log && pause <= 5 * std::min(interval(one), interval(next));
+  }
+}
+
 std::vector<std::size_t> start_coordinates(const std::vector<const scenario::Column*>& columns,
                                            bool with_gimbal) {
   bool along[2] = {false, false};

@@ -27,8 +27,9 @@ struct Window {
   double begin = 0;           // s
   std::vector<double> times;  // from `begin` on, s
   std::vector<std::vector<double>> values;
-  bool first = false;  // of its log: it starts where the scenario does
-  bool held = false;   // out of the fit
+  bool first = false;    // of its log: it starts where the scenario does
+  bool held = false;     // out of the fit
+  bool goes_on = false;  // the next window follows without a gap
 };
 
 // Cuts logs into windows of `length` (s); a rest of less than half of it joins the window before.
@@ -36,6 +37,10 @@ struct Window {
 // each window i for which floor((i + 1) share) > floor(i share).
 [[nodiscard]] std::vector<Window> cut(const std::vector<Log>& logs, double length, double share,
                                       std::size_t fewest);
+
+// Says of each window whether the next one follows without a gap: after no more than five of the
+// intervals between its rows.
+void find_joints(std::vector<Window>& windows);
 
 // Whether the numbers of a column are positions, velocities and so on of the ball along axis 0 or
 // 1; the coordinates of a window's start that they tell.

@@ -86,7 +86,7 @@ class Fit {
     if (!choose_start()) return false;
     residuals_ = windows_.residuals(u_);
     set_noise();
-    return settle_weights();
+    return settle_weights() && (!task_.continuity || join());
   }
 
   // Whether a run that was interrupted has come to anything.
@@ -165,6 +165,9 @@ class Fit {
     its.finish();
     its.set_noise(windows_.noise());
     try {
+      const VectorXd free = its.residuals(VectorXd{}, true);
+      if (!windows_.is_joined() || windows.front().held) return rms_of(its, free);
+      its.join();
       return rms_of(its, its.residuals(VectorXd{}, true));
     } catch (const InputError&) {
       return {};
@@ -206,6 +209,15 @@ class Fit {
     return !is_stopped(task_);
   }
 
+  // From the optimum of free windows, which is near: one trajectory of each chain of windows.
+  bool join() {
+    windows_.join();
+    residuals_ = windows_.residuals(u_, true);
+    if (is_stopped(task_)) return false;
+    set_noise();
+    return settle_weights();
+  }
+
   // The keys at their best with weights that follow the residuals. False if it is interrupted.
   bool settle_weights() {
     const int most_rounds = task_.robust ? 40 : 12;
@@ -218,7 +230,7 @@ class Fit {
       }
       residuals_ = windows_.residuals(u_);
       const double reweighted = task_.robust ? set_weights() : 0;
-      const bool is_settled = std::max(set_noise(), reweighted) < (task_.robust ? 1e-4 : 1e-5);
+      const bool is_settled = std::max(set_noise(), reweighted) < (task_.robust ? 1e-4 : 1e-7);
       if (is_settled && exact) break;
       exact = is_settled || round + 2 == most_rounds;
     }
@@ -403,6 +415,24 @@ void drop_rows_before(double time, Window& window) {
   for (auto& column : window.values) column.erase(column.begin(), column.begin() + kept);
 }
 
+// A window's start has the states of ball and gimbal, and no others.
+void require_whole_starts(const Scenario& scenario) {
+  const auto refuse = [](const std::string& found) {
+    throw InputError("--continuity: found " + found +
+                     ", whose state is not all at the start of a window; allowed: scenes whose "
+                     "state is that of the ball and of the gimbal");
+  };
+  const bool is_loop = scenario.controller && commands_of(scenario) == nullptr;
+  if (is_loop && scenario.controller->sampling) refuse("a sampled controller");
+  if (is_loop && scenario.controller->law == Law::pid) refuse("an integral in the controller");
+  if (scenario.ball.rotation || (scenario.events.slip && scenario.events.slip->sliding)) {
+    refuse("a ball that slides");
+  }
+  for (const auto& servo : {scenario.gimbal.servo, scenario.gimbal.theta_servo}) {
+    if (is_loop && servo && servo->backlash > 0) refuse("backlash");
+  }
+}
+
 // Tables of the scenario end where their splines would run away.
 void require_tables(const Task& task, const std::vector<Window>& windows) {
   std::vector<Span> spans;
@@ -428,8 +458,8 @@ Fitted fit(const Task& task) {
   const Scenario scenario = task.family.read(task.logs.front().settings);
   Fitted made;
   // A loop keeps errors small, and states that no log tells go on in it.
-  const bool whole_logs =
-      scenario.controller && commands_of(scenario) == nullptr && !task.window && task.hold_out == 0;
+  const bool whole_logs = scenario.controller && commands_of(scenario) == nullptr && !task.window &&
+                          task.hold_out == 0 && !task.continuity;
   made.window = whole_logs ? unlimited : task.window.value_or(usual_window);
   const std::size_t coordinates =
       start_coordinates(task.columns, begins_anywhere(scenario) && !whole_logs).size();
@@ -446,6 +476,11 @@ Fitted fit(const Task& task) {
        cut(task.logs, std::min(made.window, 2 * longest + 1), task.hold_out, coordinates)) {
     drop_rows_before(most_delay, window);
     if (window.times.size() > 1) (window.held ? held : windows).push_back(std::move(window));
+  }
+  if (task.continuity) {
+    require_whole_starts(scenario);
+    find_joints(windows);
+    made.joints = static_cast<std::size_t>(std::ranges::count_if(windows, &Window::goes_on));
   }
   made.windows = windows.size();
   made.held = held.size();

@@ -5,6 +5,7 @@
 //
 // Least squares over windows of the logs. Each window has a start of its own, which a linear
 // problem inside eliminates (variable projection); Levenberg and Marquardt's method finds the keys.
+// With continuity, windows that follow one another then become one trajectory (chain.hpp).
 #pragma once
 
 #include <atomic>
@@ -32,6 +33,7 @@ struct Task {
   std::size_t threads = 0;         // 0: as many as there are processors
   std::size_t starts = 1;          // sets of values to begin with; the best goes on
   bool robust = false;             // Huber's loss in place of least squares
+  bool continuity = false;         // windows without a gap between them join in the end
   std::function<void(double fraction, const std::string& detail)> progress{};
   const std::atomic<bool>* stop = nullptr;
   bool with_series = false;                // Fitted has them
@@ -87,9 +89,10 @@ struct Fitted {
   // Keys that the logs tell only together: "a of +1 % is undone by b of -1 %".
   std::vector<std::string> untold;
   std::size_t windows = 0, held = 0, numbers = 0;
-  std::vector<WindowSeries> series;  // those that were held out last; only if they are asked for
-  double window = 0;                 // s
-  bool white = true;                 // neighboring residuals are independent
+  std::optional<std::size_t> joints{};  // with continuity
+  std::vector<WindowSeries> series;     // those that were held out last; only if they are asked for
+  double window = 0;                    // s
+  bool white = true;                    // neighboring residuals are independent
   std::optional<Suggestion> suggestion{};  // only if they are not
   std::size_t iterations = 0;
   // Of each pair of parameters; NaN for those that the logs do not tell.

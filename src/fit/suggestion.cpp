@@ -23,6 +23,7 @@ std::optional<Suggestion> suggestion(const Task& task, const WindowsFit& at, con
   windows.finish();
   windows.set_noise(at.noise());
   windows.set_weights(at.weights());
+  windows.begin_as(at);
   VectorXd all = VectorXd::Zero(static_cast<Index>(wider.keys.size()));
   all.head(u.size()) = u;
   scale_keys(wider, windows, all);

@@ -72,8 +72,8 @@ bool begins_anywhere(const Scenario& scenario) {
 Start start_of(const Scenario& scenario) {
   const Ball& ball = scenario.ball;
   const GimbalStart& gimbal = scenario.gimbal.start;
-  return {ball.position[0], ball.position[1], ball.velocity[0], ball.velocity[1],
-          gimbal.phi,       gimbal.theta,     gimbal.phi_rate,  gimbal.theta_rate};
+  return {ball.position[0], ball.position[1], ball.velocity[0],  ball.velocity[1], gimbal.phi,
+          gimbal.theta,     gimbal.phi_rate,  gimbal.theta_rate, ball.spin};
 }
 
 std::vector<double> run_window(const Scenario& scene, const Start& start,
@@ -83,6 +83,7 @@ std::vector<double> run_window(const Scenario& scene, const Start& start,
   Scenario begun = scene;
   begun.ball.position = {start[0], start[1]};
   begun.ball.velocity = {start[2], start[3]};
+  begun.ball.spin = start[8];
   if (begins_anywhere(scene)) begun.gimbal.start = {start[4], start[5], start[6], start[7]};
   std::optional<model::Model> assembled;
   try {

@@ -13,9 +13,9 @@
 
 namespace bbsim::fit {
 
-// The state at a window's start: x, y, vx, vy, phi, theta, phi_rate, theta_rate (SI). The gimbal's
-// angles are those of gimbal.start, and matter only where a controller or torques move it.
-using Start = std::array<double, 8>;
+// The state at a window's start: x, y, vx, vy, phi, theta, phi_rate, theta_rate, spin (SI). The
+// gimbal's angles are those of gimbal.start, and matter only where a controller or torques move it.
+using Start = std::array<double, 9>;
 
 // The scenario without what ends a run early or only watches it, at tolerances for differences.
 [[nodiscard]] Scenario prepared(Scenario scenario);

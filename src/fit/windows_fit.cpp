@@ -8,6 +8,7 @@
 #include <exception>
 #include <limits>
 #include <mutex>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -31,6 +32,12 @@ constexpr double far = 1e6;
 
 Index at(std::size_t i) {
   return static_cast<Index>(i);
+}
+
+const scenario::Column* column_of_state(std::size_t state) {
+  constexpr std::string_view names[] = {"x",     "y",        "vx",         "vy",  "phi",
+                                        "theta", "phi_rate", "theta_rate", "spin"};
+  return scenario::find_column(names[state]);
 }
 
 }  // namespace
@@ -83,7 +90,8 @@ void WindowsFit::scale_rows(const VectorXd& factors) {
     State& state = base_[w];
     if (state.by_start.rows() == 0) continue;
     const auto rows = factors.segment(at(first_rows_[w]), state.by_start.rows()).asDiagonal();
-    set_slopes(state, rows * state.by_start);
+    state.by_start = rows * state.by_start;
+    state.start_solver.compute(state.by_start);
     if (state.by_key.rows() > 0) state.by_key = rows * state.by_key;
   }
   trial_u_.resize(0);
@@ -109,12 +117,6 @@ void WindowsFit::restart() {
   for (State& state : base_) state.fresh_rounds = State{}.fresh_rounds;
   base_u_.resize(0);
   trial_u_.resize(0);
-}
-
-void WindowsFit::set_slopes(State& state, MatrixXd by_start) {
-  state.by_start = std::move(by_start);
-  state.start_solver.setThreshold(1e-9);
-  state.start_solver.compute(state.by_start);
 }
 
 bool WindowsFit::is_stopped() const {
@@ -162,8 +164,8 @@ Variant WindowsFit::variant(const VectorXd& u, std::string* why) const {
 
 WindowsFit::Scene WindowsFit::scene_of(std::size_t w, const Variant& variant) const {
   const Window& window = windows_[w];
-  return {window_of(variant.scenes[window.log], window.begin, window.begin + window.times.back()),
-          variant.sensors};
+  const double end = has_joint(w) ? windows_[w + 1].begin : window.begin + window.times.back();
+  return {window_of(variant.scenes[window.log], window.begin, end), variant.sensors};
 }
 
 void WindowsFit::for_each_window(const std::function<void(std::size_t)>& work) const {
@@ -194,12 +196,18 @@ void WindowsFit::for_each_window(const std::function<void(std::size_t)>& work) c
 }
 
 bool WindowsFit::residual_of(std::size_t w, const Scene& scene, const Start& start, VectorXd& into,
-                             std::string& why) const {
+                             std::string& why, Start* end) const {
   const Window& window = windows_[w];
   const Sensors& sensors = scene.sensors;
   std::vector<double> shown = window.times;  // the times that the sensors show
   for (double& time : shown) time = std::max(time - sensors.delay, 0.0);
-  const std::vector<double> values = run_window(scene.scenario, start, shown, task_.columns, why);
+  std::vector<const scenario::Column*> columns = task_.columns;
+  const bool joins = end != nullptr && has_joint(w);
+  if (joins) {
+    shown.push_back(windows_[w + 1].begin - window.begin);
+    for (const std::size_t state : states_) columns.push_back(column_of_state(state));
+  }
+  const std::vector<double> values = run_window(scene.scenario, start, shown, columns, why);
   into.resize(at(first_rows_[w + 1] - first_rows_[w]));
   if (values.empty()) return false;
   Index row = 0;
@@ -208,27 +216,43 @@ bool WindowsFit::residual_of(std::size_t w, const Scene& scene, const Start& sta
     for (std::size_t i = 0; i < rows; ++i) {
       const double measured = window.values[c][i];
       if (!std::isfinite(measured)) continue;
-      const double expected = sensors.offsets[c] + sensors.scales[c] * values[c * rows + i];
+      const double modelled = values[c * shown.size() + i];
+      const double expected = sensors.offsets[c] + sensors.scales[c] * modelled;
       into[row++] = (expected - measured) / noise_[c];
     }
   }
   into.array() *= weights_.segment(at(first_rows_[w]), into.size()).array();
+  if (!joins) return true;
+  *end = start;
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    (*end)[states_[i]] = values[(task_.columns.size() + i + 1) * shown.size() - 1];
+  }
+  if (begins_anywhere(scene.scenario)) {  // gimbal.start is before errors of the mounting
+    (*end)[4] -= scene.scenario.gimbal.mounting.phi_offset;
+    (*end)[5] -= scene.scenario.gimbal.mounting.theta_offset;
+  }
   return true;
 }
 
-bool WindowsFit::slopes(std::size_t w, const Scene& scene, const Start& start,
-                        MatrixXd& into) const {
+bool WindowsFit::slopes(std::size_t w, const Scene& scene, State& state) const {
+  const std::vector<std::size_t>& coordinates = joined_ ? states_ : coordinates_;
   std::string why;
-  into.resize(at(first_rows_[w + 1] - first_rows_[w]), at(coordinates_.size()));
+  MatrixXd by_start(at(first_rows_[w + 1] - first_rows_[w]), at(coordinates.size()));
+  MatrixXd end_by_start(at(states_.size()), at(coordinates.size()));
   VectorXd up, down;
-  for (std::size_t k = 0; k < coordinates_.size(); ++k) {
-    Start moved = start;
-    moved[coordinates_[k]] += start_step;
-    if (!residual_of(w, scene, moved, up, why)) return false;
-    moved[coordinates_[k]] -= 2 * start_step;
-    if (!residual_of(w, scene, moved, down, why)) return false;
-    into.col(at(k)) = (up - down) / (2 * start_step);
+  for (std::size_t k = 0; k < coordinates.size(); ++k) {
+    Start moved = state.start, end_up{}, end_down{};
+    moved[coordinates[k]] += start_step;
+    if (!residual_of(w, scene, moved, up, why, &end_up)) return false;
+    moved[coordinates[k]] -= 2 * start_step;
+    if (!residual_of(w, scene, moved, down, why, &end_down)) return false;
+    by_start.col(at(k)) = (up - down) / (2 * start_step);
+    end_by_start.col(at(k)) = (states_of(end_up) - states_of(end_down)) / (2 * start_step);
   }
+  state.by_start = std::move(by_start);
+  state.end_by_start = std::move(end_by_start);
+  state.start_solver.setThreshold(1e-9);
+  state.start_solver.compute(state.by_start);
   return true;
 }
 
@@ -240,12 +264,10 @@ bool WindowsFit::settle(std::size_t w, const Scene& scene, State& state, std::st
   constexpr int most_rounds = 12;
   for (int round = 0; round < most_rounds; ++round) {
     if (round < fresh) {
-      MatrixXd by_start;
-      if (!slopes(w, scene, state.start, by_start)) {
+      if (!slopes(w, scene, state)) {
         why = "it does not run from starts nearby";
         return false;
       }
-      set_slopes(state, std::move(by_start));
     }
     const VectorXd step = state.start_solver.solve(state.residual);
     // What the step can still bring is known before its run.
@@ -277,7 +299,14 @@ VectorXd WindowsFit::residuals(const VectorXd& u, bool first) {
   const VectorXd change = base_u_.size() == u.size() ? VectorXd(u - base_u_) : VectorXd{};
   std::vector<std::string> faults(windows_.size());
   std::vector<char> runs(windows_.size(), 0);
+  if (joined_) {
+    if (change.size() > 0) {
+      for (const Chain& chain : chains_) predict(chain, change);
+    }
+    close_chains(scenes, runs, faults);
+  }
   for_each_window([&](std::size_t w) {
+    if (joined_) return;
     const Scene scene = scene_of(w, scenes);
     // The best start follows the keys almost linearly.
     if (change.size() > 0 && !change.isZero(0) && base_[w].by_key.rows() > 0) {
@@ -352,17 +381,18 @@ WindowsFit::Derivatives WindowsFit::differences(const VectorXd& u) {
     State& state = base_[w];
     std::string unheard;
     state.by_key = MatrixXd::Zero(at(first_rows_[w + 1] - first_rows_[w]), keys);
-    MatrixXd by_start;
-    if (!slopes(w, scene_of(w, middle), state.start, by_start)) return;
-    set_slopes(state, std::move(by_start));
+    state.end_by_key = MatrixXd::Zero(at(states_.size()), keys);
+    if (!slopes(w, scene_of(w, middle), state)) return;
     state.fresh_rounds = 0;
+    Start end_above{}, end_below{};
     VectorXd above, below;
     for (Index k = 0; k < keys; ++k) {
       const auto i = static_cast<std::size_t>(k);
       if (width[i] == 0) continue;
-      if (!residual_of(w, scene_of(w, up[i]), state.start, above, unheard)) continue;
-      if (!residual_of(w, scene_of(w, down[i]), state.start, below, unheard)) continue;
+      if (!residual_of(w, scene_of(w, up[i]), state.start, above, unheard, &end_above)) continue;
+      if (!residual_of(w, scene_of(w, down[i]), state.start, below, unheard, &end_below)) continue;
       state.by_key.col(k) = (above - below) / width[i];
+      state.end_by_key.col(k) = (states_of(end_above) - states_of(end_below)) / width[i];
     }
   });
   base_u_ = u;
@@ -373,9 +403,16 @@ WindowsFit::Derivatives WindowsFit::differences(const VectorXd& u) {
 WindowsFit::Derivatives WindowsFit::projected(Index keys) const {
   Derivatives made{MatrixXd::Zero(at(size_), keys), VectorXd::Zero(keys)};
   VectorXd squares = VectorXd::Zero(keys);
+  for (const Chain& chain : chains_) {
+    if (!has_derivatives(chain, keys)) continue;
+    const Condensed linear = condensed(chain, base_, keys);
+    squares += linear.by_key.colwise().squaredNorm().transpose();
+    made.projected.middleRows(at(first_rows_[chain.first]), linear.by_key.rows()) =
+        linear.by_key + linear.by_first * linear.best_first_by_key();
+  }
   for (std::size_t w = 0; w < windows_.size(); ++w) {
     const State& state = base_[w];
-    if (state.by_key.cols() != keys || state.by_start.rows() == 0) continue;
+    if (joined_ || state.by_key.cols() != keys || state.by_start.rows() == 0) continue;
     squares += state.by_key.colwise().squaredNorm().transpose();
     made.projected.middleRows(at(first_rows_[w]), state.by_key.rows()) =
         state.by_key - state.by_start * state.start_solver.solve(state.by_key);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "fit/chain.hpp"
 #include "fit/fit.hpp"
 #include "fit/window_run.hpp"
 
@@ -35,7 +36,9 @@ class WindowsFit {
   [[nodiscard]] const std::vector<Window>& windows() const { return windows_; }
   // The numbers that are compared, and those of the starts.
   [[nodiscard]] std::size_t size() const { return size_; }
-  [[nodiscard]] std::size_t starts() const { return windows_.size() * coordinates_.size(); }
+  [[nodiscard]] std::size_t starts() const {
+    return (joined_ ? chains_.size() : windows_.size()) * coordinates_.size();
+  }
   // The rows of a window, of the numbers of all windows.
   [[nodiscard]] std::size_t first_row(std::size_t window) const { return first_rows_[window]; }
   [[nodiscard]] const std::vector<std::size_t>& columns_of_rows() const { return columns_; }
@@ -66,17 +69,22 @@ class WindowsFit {
   // The same where the windows' starts are known.
   [[nodiscard]] Derivatives derivatives(const Eigen::VectorXd& u, const std::vector<Start>& starts);
 
+  // From now on, windows that go on are joined: each window begins where the one before ends. The
+  // starts begin at those of the last residuals().
+  void join();
+  [[nodiscard]] bool is_joined() const { return joined_; }
+  // Begins with the starts of `other`, of the same windows, and is joined if that is.
+  void begin_as(const WindowsFit& other);
+
   // Begins again with guesses of the windows' starts.
   void restart();
   // From now on, a task that is stopped is computed nevertheless.
   void finish() { heeds_stop_ = false; }
 
  private:
-  struct State {
-    Start start{};
-    Eigen::VectorXd residual;
-    // The derivatives of the residual by the start and by the keys, where they were last computed.
-    Eigen::MatrixXd by_start, by_key;
+  // Derivatives are those where they were last computed.
+  struct State : Link {
+    Start start{}, end{};
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> start_solver;  // of by_start
     int fresh_rounds = 3;  // for which slopes are still to be computed; the first start is a guess
   };
@@ -84,7 +92,6 @@ class WindowsFit {
   [[nodiscard]] Derivatives differences(const Eigen::VectorXd& u);
   [[nodiscard]] Derivatives projected(Eigen::Index keys) const;
   void scale_rows(const Eigen::VectorXd& factors);
-  static void set_slopes(State& state, Eigen::MatrixXd by_start);
   [[nodiscard]] Variant variant(const Eigen::VectorXd& u, std::string* why) const;
   void guess_starts();
   // One window at one set of values.
@@ -92,18 +99,37 @@ class WindowsFit {
     Scenario scenario;
     const Sensors& sensors;
   };
+  // `end`: where the next window begins; only if this one is joined to it.
   bool residual_of(std::size_t w, const Scene& scene, const Start& start, Eigen::VectorXd& into,
-                   std::string& why) const;
-  // The derivatives by the start; false if a run fails.
-  bool slopes(std::size_t w, const Scene& scene, const Start& start, Eigen::MatrixXd& into) const;
+                   std::string& why, Start* end = nullptr) const;
+  // The derivatives by the start; false, and none, if a run fails.
+  bool slopes(std::size_t w, const Scene& scene, State& state) const;
   bool settle(std::size_t w, const Scene& scene, State& state, std::string& why) const;
   [[nodiscard]] Scene scene_of(std::size_t w, const Variant& variant) const;
   [[nodiscard]] bool is_stopped() const;
   void for_each_window(const std::function<void(std::size_t)>& work) const;
 
+  // Of joined windows.
+  struct Chain {
+    std::size_t first, last;
+  };
+  class Closing;
+  [[nodiscard]] bool has_joint(std::size_t w) const { return joined_ && windows_[w].goes_on; }
+  [[nodiscard]] bool has_derivatives(const Chain& chain, Eigen::Index keys) const;
+  [[nodiscard]] Eigen::VectorXd states_of(const Start& start) const;
+  [[nodiscard]] Condensed condensed(const Chain& chain, const std::vector<State>& states,
+                                    Eigen::Index keys) const;
+  void predict(const Chain& chain, const Eigen::VectorXd& change);
+  void move(Start& start, const Eigen::VectorXd& by) const;
+  void close_chains(const Variant& scenes, std::vector<char>& runs,
+                    std::vector<std::string>& faults);
+
   const Task& task_;
   std::vector<Window> windows_;
-  std::vector<std::size_t> coordinates_;
+  std::vector<std::size_t> coordinates_;  // of a start that is free
+  bool joined_ = false;
+  std::vector<std::size_t> states_;  // coordinates that pass from window to window
+  std::vector<Chain> chains_;
   std::vector<std::size_t> first_rows_, columns_;
   std::size_t size_ = 0;
   std::vector<double> noise_;

@@ -464,7 +464,7 @@ TEST_CASE("a unit of the upper bound alone is that of both") {
 
 TEST_CASE("a key at its bound stays there") {
   const Case rig(log_text(5e-4));
-  const api::FitResult made = rig.fit({"ball.inertia_factor=0.3:0.38"});
+  const api::FitResult made = rig.fit({"ball.inertia_factor=0.3:0.41"});
   CHECK(made.fitted.parameters[0].estimate == 0.41);
   CHECK(made.fitted.parameters[0].at_bound);
 }

@@ -84,8 +84,7 @@ TEST_CASE("a scene from a later time is the rest of the scene") {
   Scenario scenario = family.read({});
   const std::vector<double> times = {2, 2.3, 2.9, 3.7};
   const std::vector<double> whole = run_from(scenario, 0, 4, fit::start_of(scenario), times);
-  const fit::Start at_two = {whole[0], whole[4], whole[8], whole[12], 0, 0, 0, 0};
-  scenario.ball.spin = whole[16];
+  const fit::Start at_two = {whole[0], whole[4], whole[8], whole[12], 0, 0, 0, 0, whole[16]};
   const std::vector<double> rest = run_from(scenario, 2, 4, at_two, times);
   for (std::size_t i = 0; i < whole.size(); ++i) {
     CAPTURE(scene, i);
