@@ -22,9 +22,8 @@ Scenario window_of(const Scenario& whole, double begin, double end) {
   const double before = std::min(begin, lead);
   Scenario run_up = from_time(whole, begin - before, begin);
   GimbalStart& start = run_up.gimbal.start;
-  const bool is_given =
-      start.phi != 0 || start.theta != 0 || start.phi_rate != 0 || start.theta_rate != 0;
-  if (begin > before || !is_given) {
+  // A run up from 0 begins as the scenario does.
+  if (begin > before) {
     const auto commands = model::reference_path(run_up.controller->reference, 0).at(0.0);
     start = {commands[0].value, commands[1].value, 0, 0};
   }

@@ -98,13 +98,14 @@ TEST_CASE(
     "a window of known commands goes on with the samples' clock and the commands on their way") {
   const std::string clock = GENERATE("", ", jitter: 2 ms");
   const std::string delay = GENERATE("0 ms", "7 ms", "65 ms");
-  CAPTURE(clock, delay);
+  const std::string start = GENERATE("0 deg", "2 deg");
+  CAPTURE(clock, delay, start);
   const ScenarioFamily family(Source{"rig.yaml",
                                      R"(
 ball: {radius: 2 cm, position: [5 cm, 0]}
 gimbal:
   servo: {natural_frequency: 5 Hz, damping: 0.8}
-  start: {phi: 2 deg}
+  start: {phi: )" + start + R"(}
 controller:
   commands:
     phi: {sinusoid: {amplitude: 3 deg, frequency: 9 rad/s}}
@@ -124,7 +125,7 @@ output: {columns: [phi, theta, phi_rate, theta_rate]}
     columns.push_back(scenario::find_column(name));
   }
   // Windows that begin between samples, at one, and before the first command comes.
-  for (const int first : {2013, 2020, 2507, 33}) {
+  for (const int first : {2013, 2020, 2507, 33, 0}) {
     CAPTURE(first);
     std::vector<double> times;
     for (int i = 0; i <= 400; ++i) times.push_back(i * 1e-3);
