@@ -18,7 +18,7 @@ struct Ends {
 // Finds an end as the solution of a problem of its own: the farthest value of the key at which the
 // sum of squares has that growth, and is least by the other keys (Venzon and Moolgavkar, Applied
 // Statistics 37, 1988). Each step solves it exactly for residuals that are linear in the keys, so
-// that one or two sets of derivatives are enough where a search along the profile needs one for
+// that a few sets of derivatives are enough where a search along the profile needs one for
 // each step of many minimizations.
 class Profiles {
  public:
