@@ -4,43 +4,13 @@
 #include "base/printable.hpp"
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 
+#include "base/utf8.hpp"
+
 namespace bbsim {
 namespace {
-
-// A UTF-8 character. Length 0: none begins here.
-struct Character {
-  std::uint32_t code = 0;
-  std::size_t length = 0;
-};
-
-Character first_character(std::string_view text) {
-  struct Form {
-    unsigned char mask, lead;
-    std::uint32_t least;  // codes below it have a shorter form
-  };
-  constexpr std::array forms = {Form{0x80, 0x00, 0}, Form{0xE0, 0xC0, 0x80},
-                                Form{0xF0, 0xE0, 0x800}, Form{0xF8, 0xF0, 0x10000}};
-  const auto lead = static_cast<unsigned char>(text[0]);
-  for (std::size_t length = 1; length <= forms.size(); ++length) {
-    const Form& form = forms[length - 1];
-    if ((lead & form.mask) != form.lead) continue;
-    std::uint32_t code = lead & ~std::uint32_t{form.mask};
-    if (text.size() < length) return {};
-    for (std::size_t i = 1; i < length; ++i) {
-      const auto next = static_cast<unsigned char>(text[i]);
-      if ((next & 0xC0U) != 0x80U) return {};
-      code = code << 6U | (next & 0x3FU);
-    }
-    const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
-    if (code < form.least || code > 0x10FFFF || surrogate) return {};
-    return {code, length};
-  }
-  return {};
-}
 
 bool is_control(std::uint32_t code) {
   if (code == '\n' || code == '\t') return false;
@@ -65,7 +35,7 @@ std::string printable(std::string_view text) {
   std::string result;
   result.reserve(text.size());
   while (!text.empty()) {
-    const Character next = first_character(text);
+    const Utf8Character next = first_character(text);
     if (next.length == 0) {
       append_escape(result, "\\x%02x", static_cast<unsigned char>(text[0]));
     } else if (is_control(next.code) && next.code < 0x80) {
