@@ -173,8 +173,7 @@ void draw(const Task& task, plot::Format format, const PlotArguments& arguments,
   if (options.quiet || task.output == "-") return;
   std::size_t rows = 0;
   for (const plot::Result& result : results) rows += result.rows - (result.has_end_row ? 1 : 0);
-  const auto panels = picture.panels.size() - static_cast<std::size_t>(std::ranges::count_if(
-                                                  picture.panels, &plot::Panel::is_scale));
+  const std::size_t panels = picture.panels.size();
   say(task.output + ": " + std::to_string(rows) +
       (results.front().is_sweep() ? " cases, " : " rows, ") + std::to_string(panels) +
       (panels == 1 ? " panel" : " panels"));

@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Units and tics that suit a range of values, so that labels are short whatever its size.
+// Units and axes that suit a range of values, so that labels are short whatever its size.
 #pragma once
 
-#include <cstddef>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "plot/picture.hpp"
@@ -18,6 +16,8 @@ struct Range {
   double low = 1, high = 0;
 
   [[nodiscard]] bool empty() const { return low > high; }
+  [[nodiscard]] double width() const { return empty() ? 0 : high - low; }
+  [[nodiscard]] double middle() const { return low / 2 + high / 2; }
   [[nodiscard]] double largest() const;  // size, 0 if empty
   // Wide enough to be seen: more than the rounding of its values.
   [[nodiscard]] bool wide() const;
@@ -40,6 +40,7 @@ struct Scale {
   std::string shift{};  // what to write after the quantity's name: " − 0.1 m", or nothing
 
   [[nodiscard]] double operator()(double value) const { return (value - offset) * factor; }
+  [[nodiscard]] Range operator()(const Range& range) const;
   // "x (cm)", "x − 0.1 m (µm)"
   [[nodiscard]] std::string heading(const std::string& name) const;
 };
@@ -58,22 +59,16 @@ struct PlaneScales {
 };
 [[nodiscard]] PlaneScales choose_scales(const Unit& unit, const Range& x, const Range& y);
 
-// An axis over a range in drawn units, with air at both ends, and tics about so far apart.
-[[nodiscard]] Axis linear_axis(Range range, double pixels, double pixels_a_tic, double air = 0.06);
+enum class Along { x, y };
 
-// An axis of the same kind, from the least value to the greatest.
-[[nodiscard]] Axis tight_axis(const Range& range, double pixels, double pixels_a_tic);
+// An axis of so many pixels over a range in drawn units, with air at both ends. Its labels have
+// room: beside each other along x, one above the other along y.
+[[nodiscard]] Axis linear_axis(const Range& range, Along along, double pixels, double air = 0.06);
 
 // A logarithmic axis over a range above 0.
-[[nodiscard]] Axis log_axis(const Range& range, double pixels, double pixels_a_tic, double air);
-
-// A horizontal axis, with fewer tics where the labels would be too near to each other.
-[[nodiscard]] Axis across(Axis axis, double pixels);
+[[nodiscard]] Axis log_axis(const Range& range, Along along, double pixels, double air);
 
 // Whether values above 0 are better seen by their logarithm: they span more than three decades.
 [[nodiscard]] bool better_by_log(const Range& range);
-
-// Tics of a linear axis between two values, at 1, 2 or 5 times a power of ten.
-[[nodiscard]] std::vector<Tic> linear_tics(double low, double high, std::size_t about);
 
 }  // namespace bbsim::plot

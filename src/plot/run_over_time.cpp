@@ -3,9 +3,10 @@
 
 // Columns over time, with the commands, references and limits that belong to them.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
+#include <map>
+#include <set>
+#include <utility>
 
 #include "plot/run_parts.hpp"
 #include "plot/text.hpp"
@@ -13,8 +14,6 @@
 
 namespace bbsim::plot {
 namespace {
-
-const Stroke limit{"#000000", 1.2, Dash::dashed};
 
 // More marks than these stand at the panels' top only, without lines through them.
 constexpr std::size_t most_uprights = 40;
@@ -30,127 +29,110 @@ bool is_held(const Result& run, Role role) {
 
 Stroke stroke_in(const std::vector<Result>& runs, const Result& run, Role role,
                  std::size_t main_before) {
-  const bool one = runs.size() == 1;
-  switch (role) {
-    case Role::reference:
-      return band_of_reference;
-    case Role::measured:
-      return one ? Stroke{"#f2c45c", 4} : stroke_of_run(runs, run);
-    case Role::command:
-      return one ? Stroke{"#707070", 1.2} : stroke_of_run(runs, run);
-    case Role::main:
-      break;
+  if (role == Role::reference) return band_of_reference;
+  if (runs.size() > 1) return stroke_of_run(runs, run);
+  if (role == Role::measured) return {"#f2c45c", 4};
+  if (role == Role::command) return {"#707070", 1.2};
+  return stroke_of(main_before);
+}
+
+std::set<double> friction_limits(const std::vector<Result>& runs, const PlannedPanel& planned) {
+  std::set<double> limits;
+  if (std::ranges::find(planned.lines, "friction_demand", &PlannedLine::column) ==
+      planned.lines.end()) {
+    return limits;
   }
-  return one ? stroke_of(main_before) : stroke_of_run(runs, run);
-}
-
-// References and what was seen are bands, under the thin lines of commands and of what was.
-int layer(Role role) {
-  constexpr std::array layers = {3, 0, 1, 2};
-  return layers[static_cast<std::size_t>(role)];
-}
-
-std::vector<double> friction_limits(const std::vector<Result>& runs, const PlannedPanel& planned) {
-  std::vector<double> limits;
-  const bool about_friction = std::ranges::any_of(
-      planned.lines, [](const PlannedLine& line) { return line.column == "friction_demand"; });
   for (const Result& run : runs) {
-    if (!about_friction || !run.scenario || !run.scenario->events.slip) continue;
-    const double friction = run.scenario->events.slip->friction;
-    if (std::ranges::find(limits, friction) == limits.end()) limits.push_back(friction);
+    if (run.scenario && run.scenario->events.slip) {
+      limits.insert(run.scenario->events.slip->friction);
+    }
   }
   return limits;
 }
 
-// Without two neighbours that are numbers no line would be seen.
-bool is_line(const std::vector<double>& values) {
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    if (std::isfinite(values[i - 1]) && std::isfinite(values[i])) return true;
+// At the top of the panel, with a line through it if they are few.
+void add_events(Panel& panel, const Result& run, const Abscissa& abscissa,
+                const EventMarks& marks) {
+  std::map<std::string, Curve> rows;
+  for (const Event& event : run.events) {
+    const double t = abscissa.scale(event.t);
+    Curve& row = rows[event.name];
+    row.stroke = marks.stroke_of(run, event.name);
+    row.add(t, panel.y.high);
+    if (run.events.size() > most_uprights) continue;
+    Curve upright{Curve::Shape::line, {row.stroke.colour, 1, Dash::dotted}};
+    upright.add(t, panel.y.low);
+    upright.add(t, panel.y.high);
+    panel.curves.push_back(std::move(upright));
   }
-  return false;
+  for (auto& [event, row] : rows) panel.curves.push_back(std::move(row));
 }
 
 }  // namespace
 
-void add_time_panel(Picture& picture, const std::vector<Result>& runs, const PlannedPanel& planned,
-                    const Abscissa& abscissa, const EventMarks& marks, Box box, bool lowest) {
+Panel time_panel(const std::vector<Result>& runs, const PlannedPanel& planned,
+                 const Abscissa& abscissa, const EventMarks& marks, const Box& box, bool lowest) {
   Range range;
   for (const Result& run : runs) {
     for (const PlannedLine& line : planned.lines) {
       if (const Column* column = run.find(line.column)) range.include(column->numbers);
     }
   }
-  const std::vector<double> limits = friction_limits(runs, planned);
+  const std::set<double> limits = friction_limits(runs, planned);
   Range shown = range;
   for (const double value : limits) shown.include(value);
   // A limit that is far away is left to its label.
-  const bool limit_in_sight = shown.high - shown.low < 20 * (range.high - range.low);
+  const bool limit_in_sight = shown.width() < 20 * range.width();
   if (!limit_in_sight) shown = range;
 
   const Scale scale = choose_scale(planned.unit, shown);
-  Panel panel;
-  panel.box = box;
-  panel.x =
-      across(tight_axis({abscissa.scale(abscissa.range.low), abscissa.scale(abscissa.range.high)},
-                        box.width(), 70),
-             box.width());
-  panel.y = linear_axis({scale(shown.low), scale(shown.high)}, box.height(), 26);
-  if (!lowest) {
-    for (Tic& tic : panel.x.tics) tic.label.clear();
-  }
+  Panel panel{box, scale.heading(planned.name)};
+  panel.x = linear_axis(abscissa.range, Along::x, box.width(), 0);
+  panel.x.numbered = lowest;
+  if (lowest) panel.x.label = abscissa.scale.heading(abscissa.is_time ? "t" : "row");
+  panel.y = linear_axis(scale(shown), Along::y, box.height());
 
-  std::vector<Entry> legend;
-  struct Drawn {
-    int layer;
-    Curve curve;
-  };
-  std::vector<Drawn> drawn;
-  const bool named = planned.lines.size() > 1;
+  // References and what was seen are bands, under the thin lines of commands and of what was.
+  std::map<Role, std::vector<Curve>> layers;
   for (const Result& run : runs) {
     std::size_t mains = 0;
     for (const PlannedLine& line : planned.lines) {
-      Stroke stroke = stroke_in(runs, run, line.role, mains);
+      const Stroke stroke = stroke_in(runs, run, line.role, mains);
       if (line.role == Role::main) ++mains;
       const bool first_run = &run == &runs.front();
-      if (named && first_run && (runs.size() == 1 || line.role == Role::reference)) {
-        legend.push_back({line.name, stroke});
+      if (planned.lines.size() > 1 && first_run &&
+          (runs.size() == 1 || line.role == Role::reference)) {
+        panel.legend.push_back({line.name, stroke});
       }
       const Column* const column = run.find(line.column);
       if (column == nullptr) continue;
       Curve curve{is_held(run, line.role) ? Curve::Shape::steps : Curve::Shape::line, stroke,
                   abscissa.of(run), column->numbers};
-      if (!is_line(curve.y)) curve.stroke.marker = Marker::dot;
       for (double& value : curve.y) value = scale(value);
-      if (curve.stroke.marker == Marker::none) {
-        if (Curve lone = lone_points(curve); !lone.x.empty()) {
-          drawn.push_back({layer(line.role), thin_over_time(std::move(lone), panel)});
-        }
-      }
-      drawn.push_back({layer(line.role), thin_over_time(std::move(curve), panel)});
+      layers[line.role].push_back(thin_over_time(lone_points(curve), panel));
+      layers[line.role].push_back(thin_over_time(std::move(curve), panel));
     }
   }
-  std::ranges::stable_sort(drawn, {}, &Drawn::layer);
-  for (Drawn& one : drawn) panel.curves.push_back(std::move(one.curve));
+  for (const Role role : {Role::reference, Role::measured, Role::command, Role::main}) {
+    for (Curve& curve : layers[role]) {
+      if (!curve.x.empty()) panel.curves.push_back(std::move(curve));
+    }
+  }
+  const Stroke limit{"#000000", 1.2, Dash::dashed};
+  std::string coefficients;
   for (const double value : limits) {
-    legend.push_back(
-        {"coefficient " + number(value) + (limit_in_sight ? "" : ", far above"), limit});
+    coefficients += (coefficients.empty() ? "coefficient " : ", ") + number(value);
     if (!limit_in_sight) continue;
     panel.curves.push_back(
         {Curve::Shape::line, limit, {panel.x.low, panel.x.high}, {scale(value), scale(value)}});
   }
-  if (abscissa.is_time) {
-    for (const Result& run : runs) {
-      for (const Event& event : run.events) {
-        Stroke stroke = marks.stroke_of(run, event);
-        if (run.events.size() > most_uprights) stroke.width = 0;
-        panel.uprights.push_back({abscissa.scale(event.t), stroke});
-      }
-    }
+  if (!limits.empty()) {
+    panel.legend.push_back({coefficients + (limit_in_sight ? "" : ", far above"), limit});
   }
-  const std::string heading = scale.heading(planned.name);
-  add_heading(picture, box, heading);
-  place_in_a_row(picture, legend, box.left + 20 + width_of(heading, 13), box.right, box.top - 12);
-  picture.panels.push_back(std::move(panel));
+  if (abscissa.is_time) {
+    for (const Result& run : runs) add_events(panel, run, abscissa, marks);
+  }
+  return panel;
 }
 
 }  // namespace bbsim::plot

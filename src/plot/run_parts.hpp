@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "plot/axis.hpp"
 #include "plot/columns.hpp"
-#include "plot/legend.hpp"
 #include "plot/picture.hpp"
 #include "plot/result.hpp"
 
@@ -17,7 +17,7 @@ namespace bbsim::plot {
 // The time that runs are drawn over; row numbers where one of them has no t.
 struct Abscissa {
   bool is_time = true;
-  Range range;
+  Range range;  // as drawn
   Scale scale;
 
   [[nodiscard]] std::vector<double> of(const Result& run) const;  // as drawn
@@ -25,9 +25,10 @@ struct Abscissa {
 [[nodiscard]] Abscissa abscissa_of(const std::vector<Result>& runs);
 
 // How each kind of event is marked, in all panels alike: kinds in the order in which they come.
-struct EventMarks {
+class EventMarks {
+ public:
   explicit EventMarks(const std::vector<Result>& runs);
-  [[nodiscard]] Stroke stroke_of(const Result& run, const Event& event) const;
+  [[nodiscard]] Stroke stroke_of(const Result& run, const std::string& event) const;
   [[nodiscard]] std::vector<Entry> legend() const;
 
  private:
@@ -54,11 +55,13 @@ inline const Stroke band_of_reference{"#d0d0d0", 6};
 // x or y, and no plate is known.
 [[nodiscard]] bool is_along_an_axis(const std::vector<Result>& runs);
 
-// The path in the plane, to scale, in the box or the part of it that its legend leaves.
-void add_path(Picture& picture, const std::vector<Result>& runs, const EventMarks& marks, Box box);
+// The path in the plane, to scale. What it shows is added to the picture's legend.
+void add_path(Picture& picture, const std::vector<Result>& runs, const EventMarks& marks,
+              const Box& box);
 
 // Columns over time. Only the lowest panel of a stack has labels at its time axis.
-void add_time_panel(Picture& picture, const std::vector<Result>& runs, const PlannedPanel& planned,
-                    const Abscissa& abscissa, const EventMarks& marks, Box box, bool lowest);
+[[nodiscard]] Panel time_panel(const std::vector<Result>& runs, const PlannedPanel& planned,
+                               const Abscissa& abscissa, const EventMarks& marks, const Box& box,
+                               bool lowest);
 
 }  // namespace bbsim::plot

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include "base/error.hpp"
@@ -15,46 +14,27 @@
 namespace bbsim::plot {
 namespace {
 
-constexpr double sheet_width = 1200, narrow_sheet_width = 900;
-constexpr double bottom_margin = 56;  // tics, and what they are of
 constexpr double left_axis = 78, left_end = 560, right_axis = 668, right_margin = 25;
+constexpr double below_panel = 56;  // the labels of tics, and what they are of
 constexpr std::size_t path_rows = 4;
 
-// Where panels go: a column beside the path, and when that is long, below the path too.
+// Panels in one column, or in two: the second one is beside the path, if there is one.
 struct Layout {
   bool path = false;
-  std::size_t right = 0, left = 0;  // panels in each column; without two columns all are at left
-  double pitch = 0;
-  double width = sheet_width;
-
-  [[nodiscard]] double height() const { return static_cast<double>(rows()) * pitch; }
-  [[nodiscard]] std::size_t rows() const {
-    return std::max(right, left + (path && left > 0 ? path_rows : path ? 1 : 0));
-  }
+  std::size_t left = 0, right = 0;
+  double pitch = 122;
+  double width = 1200;
 };
 
 Layout lay_out(bool path, std::size_t panels) {
-  Layout layout;
-  layout.path = path;
-  if (path && panels < 6) {
-    layout.right = panels;
-    const std::array<double, 6> pitches = {520, 520, 260, 173, 130, 116};
-    layout.pitch = pitches[panels];
-    if (panels == 0) layout.width = left_end + right_margin;
-  } else if (path) {
-    layout.right = (panels + path_rows + 1) / 2;
-    layout.left = panels - layout.right;
-    layout.pitch = 122;
-  } else if (panels <= 6) {
-    layout.left = panels;
-    layout.width = narrow_sheet_width;
-    layout.pitch = panels == 1 ? 360 : panels == 2 ? 220 : 150;
-  } else {
-    layout.left = (panels + 1) / 2;
-    layout.right = panels - layout.left;
-    layout.pitch = 122;
-  }
-  return layout;
+  const auto share = [panels](double whole, double least) {
+    return std::max(whole / static_cast<double>(std::max<std::size_t>(panels, 1)), least);
+  };
+  if (path && panels == 0) return {true, 0, 0, 520, left_end + right_margin};
+  if (path && panels < 6) return {true, 0, panels, share(520, 116)};
+  const std::size_t right = path ? (panels + path_rows + 1) / 2 : panels / 2;
+  if (path || panels > 6) return {path, panels - right, right};
+  return {false, panels, 0, share(panels == 1 ? 360 : 440, 150), 900};
 }
 
 std::string status_text(const Result& run) {
@@ -65,69 +45,57 @@ std::string status_text(const Result& run) {
   return text;
 }
 
-// Names of runs in a comparison: of the files, with their folders if the files have one name.
-std::vector<std::string> labels_of(const std::vector<Result>& runs) {
-  std::vector<std::string> names;
-  for (const Result& run : runs) {
-    const auto same = std::ranges::count_if(
-        runs, [&](const Result& other) { return other.shown_file() == run.shown_file(); });
-    const std::string status = status_text(run);
-    names.push_back((same > 1 ? run.file : run.shown_file()) +
-                    (status.empty() ? "" : ", " + status));
-  }
-  return names;
+// The name of a run in a comparison: of its file, with its folder if the files have one name.
+std::string label_of(const std::vector<Result>& runs, const Result& run) {
+  const auto same = std::ranges::count(runs, run.shown_file(), &Result::shown_file);
+  const std::string status = status_text(run);
+  return (same > 1 ? run.file : run.shown_file()) + (status.empty() ? "" : ", " + status);
 }
 
-// Title, subtitle or legend of the runs; where the panels begin.
-double add_top(Picture& picture, const std::vector<Result>& runs) {
+void add_titles(Picture& picture, const std::vector<Result>& runs) {
   const Result& first = runs.front();
-  const bool one_title =
-      std::ranges::all_of(runs, [&](const Result& run) { return run.title == first.title; });
-  std::string title = one_title ? clean(first.title) : "";
-  if (runs.size() == 1) {
-    std::string subtitle = clean(first.shown_file());
-    if (title.empty()) std::swap(title, subtitle);
-    const std::string status = status_text(first);
-    if (!status.empty()) subtitle += (subtitle.empty() ? "" : ", ") + status;
-    return add_heading(picture, title, subtitle, {});
+  if (std::ranges::count(runs, first.title, &Result::title) == std::ssize(runs)) {
+    picture.title = first.title;
   }
-  std::vector<Entry> legend;
-  const std::vector<std::string> names = labels_of(runs);
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    legend.push_back({names[r], stroke_of_run(runs, runs[r])});
+  if (runs.size() > 1) {
+    for (const Result& run : runs) {
+      picture.legend.push_back({label_of(runs, run), stroke_of_run(runs, run)});
+    }
+    return;
   }
-  return add_heading(picture, title, "", legend);
+  picture.subtitle = first.shown_file();
+  if (picture.title.empty()) std::swap(picture.title, picture.subtitle);
+  const std::string status = status_text(first);
+  if (!status.empty()) picture.subtitle += (picture.subtitle.empty() ? "" : ", ") + status;
 }
 
 }  // namespace
 
 std::vector<double> Abscissa::of(const Result& run) const {
-  std::vector<double> values;
-  if (const Column* t = is_time ? run.find("t") : nullptr) {
-    values = t->numbers;
-  } else {
-    for (std::size_t i = 0; i < run.rows; ++i) values.push_back(static_cast<double>(i));
+  std::vector<double> values(run.rows);
+  for (std::size_t i = 0; i < run.rows; ++i) {
+    values[i] = scale(is_time ? run.find("t")->numbers[i] : static_cast<double>(i));
   }
-  for (double& value : values) value = scale(value);
   return values;
 }
 
 Abscissa abscissa_of(const std::vector<Result>& runs) {
   Abscissa abscissa;
-  for (const Result& run : runs) {
+  abscissa.is_time = std::ranges::all_of(runs, [](const Result& run) {
     const Column* const t = run.find("t");
-    abscissa.is_time = abscissa.is_time && t != nullptr && !t->is_text();
-  }
+    return t != nullptr && !t->is_text();
+  });
+  Range range;
   for (const Result& run : runs) {
-    if (!abscissa.is_time) {
-      abscissa.range.include(0);
-      abscissa.range.include(static_cast<double>(run.rows - 1));
-      continue;
+    if (abscissa.is_time) {
+      range.include(run.find("t")->numbers);
+      for (const Event& event : run.events) range.include(event.t);
+    } else {
+      range.include(Range{0, static_cast<double>(run.rows - 1)});
     }
-    abscissa.range.include(run.find("t")->numbers);
-    for (const Event& event : run.events) abscissa.range.include(event.t);
   }
-  abscissa.scale = choose_scale(abscissa.is_time ? unit_of(runs, "t") : Unit{}, abscissa.range);
+  abscissa.scale = choose_scale(abscissa.is_time ? unit_of(runs, "t") : Unit{}, range);
+  abscissa.range = abscissa.scale(range);
   return abscissa;
 }
 
@@ -143,24 +111,22 @@ EventMarks::EventMarks(const std::vector<Result>& runs) : runs_(runs) {
 }
 
 std::size_t EventMarks::index_of(const std::string& name) const {
-  const auto found = std::ranges::find(kinds_, name, &Kind::name);
-  return static_cast<std::size_t>(found - kinds_.begin());
+  return static_cast<std::size_t>(std::ranges::find(kinds_, name, &Kind::name) - kinds_.begin());
 }
 
-Stroke EventMarks::stroke_of(const Result& run, const Event& event) const {
+Stroke EventMarks::stroke_of(const Result& run, const std::string& event) const {
   constexpr std::array shapes = {Marker::triangle, Marker::diamond, Marker::filled_square,
                                  Marker::square, Marker::plus};
   const std::string colour = runs_.size() == 1 ? "#d55e00" : stroke_of_run(runs_, run).colour;
-  return {colour, 1, Dash::dotted, shapes[index_of(event.name) % shapes.size()], 1.3};
+  return {colour, 0, Dash::solid, shapes[index_of(event) % shapes.size()], 1.3};
 }
 
 std::vector<Entry> EventMarks::legend() const {
   std::vector<Entry> entries;
   for (const Kind& kind : kinds_) {
-    Stroke stroke = stroke_of(runs_.front(), {kind.name});
-    stroke.width = 0;
+    Stroke stroke = stroke_of(runs_.front(), kind.name);
     if (runs_.size() > 1) stroke.colour = "#000000";
-    std::string text = clean(kind.name);
+    std::string text = kind.name;
     if (kind.times > 1) text += ", " + std::to_string(kind.times) + " times";
     if (kind.stopped && runs_.size() == 1) text += " (stops)";
     entries.push_back({text, stroke});
@@ -187,31 +153,30 @@ Picture run_picture(const std::vector<Result>& runs, const Asked& asked) {
   }
 
   const Layout layout = lay_out(path, panels.size());
+  const std::size_t rows_above = !path ? 0 : layout.left > 0 ? path_rows : 1;
+  const auto height = [&](std::size_t rows) { return static_cast<double>(rows) * layout.pitch; };
   Picture picture;
   picture.width = layout.width;
-  const double top = add_top(picture, runs);
-  picture.height = top + layout.height() + bottom_margin;
+  picture.height = height(std::max(layout.right, layout.left + rows_above)) + below_panel;
+  add_titles(picture, runs);
   const Abscissa abscissa = abscissa_of(runs);
   const EventMarks marks(runs);
   if (path) {
-    const double rows = layout.left > 0 ? path_rows * layout.pitch - 44 : layout.height() - 6;
-    add_path(picture, runs, marks, {left_axis, top, left_end, top + std::min(rows, 560.0)});
+    const double room = layout.left > 0 ? height(path_rows) - 44 : picture.height - below_panel - 6;
+    add_path(picture, runs, marks, {left_axis, 27, left_end, std::min(room, 560.0)});
   }
+  for (const Entry& entry : marks.legend()) picture.legend.push_back(entry);
 
   const bool two_columns = path || layout.right > 0;
-  const double end = layout.width - right_margin;
   for (std::size_t p = 0; p < panels.size(); ++p) {
     // Beside a path the right column is the first one.
     const bool at_right = path ? p < layout.right : p >= layout.left;
     const std::size_t in_column = path == at_right ? p : p - (path ? layout.right : layout.left);
-    const std::size_t row = in_column + (path && !at_right ? path_rows : 0);
+    const double y = height(in_column + (at_right ? 0 : rows_above));
+    const double end = at_right || !two_columns ? layout.width - right_margin : left_end;
+    const Box box{at_right ? right_axis : left_axis, y + 27, end, y + layout.pitch - 6};
     const bool lowest = in_column + 1 == (at_right ? layout.right : layout.left);
-    const double y = top + static_cast<double>(row) * layout.pitch;
-    const Box box{at_right ? right_axis : left_axis, y + 27,
-                  at_right || !two_columns ? end : left_end, y + layout.pitch - 6};
-    add_time_panel(picture, runs, panels[p], abscissa, marks, box, lowest);
-    if (!lowest) continue;
-    add_axis_label(picture, box, abscissa.scale.heading(abscissa.is_time ? "t" : "row"));
+    picture.panels.push_back(time_panel(runs, panels[p], abscissa, marks, box, lowest));
   }
   return picture;
 }

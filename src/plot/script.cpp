@@ -4,11 +4,10 @@
 #include "plot/script.hpp"
 
 #include <algorithm>
-#include <charconv>
+#include <array>
 #include <cmath>
-#include <cstdint>
+#include <cstdio>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "plot/text.hpp"
@@ -16,82 +15,91 @@
 namespace bbsim::plot {
 namespace {
 
-constexpr double seam = 0.7;  // pixels
+constexpr double title_size = 17, heading_size = 13, legend_size = 12, number_size = 11;
+constexpr double legend_pitch = 19, legend_sample = 50;  // pixels: of a row; beside a name
+constexpr double side = 30;                              // pixels left free beside the heading
+
+std::string digits(double value) {
+  if (!std::isfinite(value)) return "NaN";
+  char text[40];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
 
 // What differs between the terminals: each has sizes of its own.
 struct Terminal {
-  std::string name;
-  std::string font;       // of tics, with its size as the terminal takes it
-  double font_scale = 1;  // of a size in pixels to that
-  double line_scale = 1, marker_scale = 1;
-  double dash_scale = 1;                     // of a length in pixels to what the terminal takes ...
-  bool dashes_grow = true;                   // ... for a line of width 1, or for any
-  std::string x_offset = "", y_offset = "";  // of labels that are set too far from their axis
+  const char* name;
+  double pixel;      // of the picture, in the unit of its size
+  const char* unit;  // of that
+  double marker_scale;
+  const char* tics_offset = "";   // of labels that are set too far from their axis,
+  const char* label_offset = "";  // and of what is below them
 };
 
-std::string fixed(double value, int digits = 6) {
-  if (!std::isfinite(value)) return "NaN";
-  char text[400];
-  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, digits);
-  return {text, end.ptr};
-}
-
-// Fonts that have Greek letters, superscripts and arrows; a picture has 100 pixels an inch.
-Terminal terminal_for(const Picture& picture, Format format) {
-  const std::string pixels = fixed(picture.width, 0) + "," + fixed(picture.height, 0);
+// Fonts that have Greek letters, superscripts and arrows; a PDF has 100 pixels an inch.
+Terminal terminal_of(Format format) {
   switch (format) {
     case Format::svg:
-      return {.name = "svg size " + pixels,
-              .font = "DejaVu Sans,Verdana,Helvetica,sans-serif,13",
-              .marker_scale = 0.62,
-              .dash_scale = 2,
-              .x_offset = " offset 0, 0.35",
-              .y_offset = " offset 0.6, 0"};
+      return {"svg font 'DejaVu Sans,Verdana,Helvetica,sans-serif,13' dashlength 0.5",
+              1,
+              "",
+              0.62,
+              " offset 0, 0.35",
+              " offset 0, 0.9"};
     case Format::png:
-      return {.name = "pngcairo size " + pixels,
-              .font = "DejaVu Sans,9.75",
-              .font_scale = 0.75,
-              .marker_scale = 0.98,
-              .dash_scale = 4};
+      return {"pngcairo font 'DejaVu Sans,13' fontscale 0.75 dashlength 0.6", 1, "", 0.98};
     case Format::pdf:
       break;
   }
-  constexpr double pixels_an_inch = 100;
-  return {.name = "pdfcairo size " + fixed(picture.width / pixels_an_inch) + "in," +
-                  fixed(picture.height / pixels_an_inch) + "in",
-          .font = "DejaVu Sans,12.8",
-          .font_scale = 0.985,
-          .line_scale = 1.35,
-          .marker_scale = 0.62,
-          .dash_scale = 2.62,
-          .dashes_grow = false};
+  return {"pdfcairo font 'DejaVu Sans,13' fontscale 0.985 linewidth 1.35", 0.01, "in", 0.62};
+}
+
+struct Heading {
+  double height = 0;
+  std::size_t columns = 1;  // of the legend
+};
+
+Heading heading_of(const Picture& picture) {
+  double widest = 0;
+  for (const Entry& entry : picture.legend) {
+    widest = std::max(widest, width_of(clean(entry.name), legend_size));
+  }
+  const std::size_t entries = picture.legend.size();
+  const double fit = std::floor((picture.width - 2 * side) / (widest + legend_sample));
+  const auto columns = std::clamp<std::size_t>(static_cast<std::size_t>(fit), 1, entries + 1);
+  const std::size_t rows = (entries + columns - 1) / columns;
+  return {20.0 + (picture.title.empty() ? 0 : 23) + (picture.subtitle.empty() ? 0 : 20) +
+              (rows == 0 ? 0 : 10 + legend_pitch * static_cast<double>(rows)),
+          columns};
 }
 
 class Script {
  public:
   Script(const Picture& picture, Format format, const HasLetter& has_letter)
       : picture_(picture),
-        terminal_(terminal_for(picture, format)),
+        heading_(heading_of(picture)),
+        height_(picture.height + heading_.height),
+        terminal_(terminal_of(format)),
         viewer_has_fonts_(format == Format::svg),
         has_letter_(has_letter) {}
 
   std::string write() {
-    text_ = "set encoding utf8\napostrophe = \"\\047\"\nset terminal " + terminal_.name +
-            " noenhanced rounded background '#ffffff' font '" + terminal_.font +
-            "'\nset border 0\nunset key\n";
-    for (std::size_t i = 0; i < picture_.panels.size(); ++i) write_data(picture_.panels[i], i);
+    const auto size = [&](double pixels) { return digits(pixels * terminal_.pixel); };
+    text_ = std::string("set encoding utf8\nset minussign\napostrophe = \"\\047\"\nset terminal ") +
+            terminal_.name + " noenhanced rounded background '#ffffff' size " +
+            size(picture_.width) + terminal_.unit + ',' + size(height_) + terminal_.unit + '\n';
+    for (std::size_t p = 0; p < picture_.panels.size(); ++p) write_data(picture_.panels[p], p);
     text_ += "set multiplot\n";
-    for (std::size_t i = 0; i < picture_.panels.size(); ++i) write_panel(picture_.panels[i], i);
-    write_words();
+    write_heading();
+    for (std::size_t p = 0; p < picture_.panels.size(); ++p) write_panel(picture_.panels[p], p);
     return text_ + "unset multiplot\n";
   }
 
  private:
-  [[nodiscard]] std::string screen_x(double x) const { return fixed(x / picture_.width); }
-  [[nodiscard]] std::string screen_y(double y) const { return fixed(1 - y / picture_.height); }
-  [[nodiscard]] std::string at(double x, double y) const {
-    return "screen " + screen_x(x) + ", screen " + screen_y(y);
+  [[nodiscard]] std::string screen_x(double x) const {
+    return "screen " + digits(x / picture_.width);
   }
+  [[nodiscard]] std::string screen_y(double y) const { return "screen " + digits(1 - y / height_); }
 
   // As strings in single quotes, in which all is itself, with the variable `apostrophe` between
   // them: gnuplot 5 neither reads two quotes that are doubled, one after the other, nor leaves
@@ -100,184 +108,180 @@ class Script {
     std::string shown = clean(text);
     if (!viewer_has_fonts_) shown = with_letters(shown, has_letter_);
     std::string result = "'";
-    for (const char c : shown) {
-      if (c == '\'') {
-        result += "'.apostrophe.'";
-      } else {
-        result += c;
-      }
-    }
+    for (const char c : shown) result += c == '\'' ? "'.apostrophe.'" : std::string(1, c);
     return result += '\'';
   }
 
+  [[nodiscard]] static std::string font(double size) { return " font '," + digits(size) + '\''; }
+
   static std::string block(std::size_t panel, const char* kind, std::size_t item) {
-    std::string name = "$";
-    name += kind;
-    name += std::to_string(panel);
-    name += '_';
-    return name += std::to_string(item);
+    return '$' + std::string(kind) + std::to_string(panel) + '_' + std::to_string(item);
   }
 
   // Data come before `set multiplot`: within it gnuplot 5 takes no new blocks.
   void write_data(const Panel& panel, std::size_t number) {
-    if (!panel.cells.empty()) {
-      text_ += block(number, "cells", 0) + " << END\n";
-      // Each cell goes a little under those that come after it, at its right and above it, so
-      // that no seam is seen between them.
-      const double more_x = seam / panel.box.width(), more_y = seam / panel.box.height();
-      for (const Cell& cell : panel.cells) {
-        const double left = panel.x.fraction(cell.left), low = panel.y.fraction(cell.bottom);
-        const double right = std::min(panel.x.fraction(cell.right) + more_x, 1.0);
-        const double high = std::min(panel.y.fraction(cell.top) + more_y, 1.0);
-        for (const double value : {(left + right) / 2, (low + high) / 2, left, right, low, high}) {
-          text_ += fixed(value) + ' ';
-        }
-        text_ += std::to_string(cell.rgb) + '\n';
-      }
-      text_ += "END\n";
-    }
     for (std::size_t c = 0; c < panel.curves.size(); ++c) {
       const Curve& curve = panel.curves[c];
       text_ += block(number, "curve", c) + " << END\n";
       for (std::size_t i = 0; i < curve.x.size(); ++i) {
-        text_ += fixed(panel.x.fraction(curve.x[i])) + ' ' + fixed(panel.y.fraction(curve.y[i]));
-        if (curve.shape == Curve::Shape::band) {
-          text_ += ' ' + fixed(panel.y.fraction(curve.y_high[i]));
-        }
+        text_ += digits(curve.x[i]) + ' ' + digits(curve.y[i]);
+        if (curve.shape == Curve::Shape::band) text_ += ' ' + digits(curve.y_high[i]);
         text_ += '\n';
       }
       text_ += "END\n";
     }
-  }
-
-  [[nodiscard]] std::string dashes_of(const Stroke& stroke) const {
-    if (stroke.dash == Dash::solid) return "solid";
-    // In pixels, without the round ends, which are as long as the line is wide.
-    static const std::vector<double> patterns[] = {{}, {8, 6}, {0.5, 5}, {11, 5, 0.5, 5}};
-    const double scale = terminal_.dash_scale / (terminal_.dashes_grow ? stroke.width : 1);
-    std::string text;
-    for (const double length : patterns[static_cast<int>(stroke.dash)]) {
-      text += text.empty() ? '(' : ',';
-      text += fixed(length * scale, 2);
+    if (panel.cells.empty()) return;
+    text_ += block(number, "cells", 0) + " << END\n";
+    for (const Cell& cell : panel.cells) {
+      for (const double value :
+           {panel.x.middle(cell.left, cell.right), panel.y.middle(cell.bottom, cell.top), cell.left,
+            cell.right, cell.bottom, cell.top, cell.value}) {
+        text_ += digits(value) + ' ';
+      }
+      // White is read on the dark half of the colors.
+      const bool dark = panel.colours && panel.colours->fraction(cell.value) < 0.55;
+      text_ += (dark ? "0xffffff " : "0 ") + (cell.text.empty() ? "-" : cell.text) + '\n';
     }
-    return text += ')';
+    text_ += "END\n";
   }
 
-  [[nodiscard]] std::string line_of(const Stroke& stroke) const {
-    return "linewidth " + fixed(stroke.width * terminal_.line_scale, 2) + " dashtype " +
-           dashes_of(stroke) + " linecolor rgb '" + stroke.colour + "'";
-  }
-
-  [[nodiscard]] std::string point_of(const Stroke& stroke) const {
-    constexpr int types[] = {0, 1, 2, 4, 5, 6, 7, 8, 13};
+  [[nodiscard]] std::string style_of(const Stroke& stroke) const {
+    constexpr std::array points = {0, 1, 2, 4, 5, 6, 7, 8, 13};
+    std::string text = stroke.width > 0 && stroke.marker != Marker::none ? "linespoints"
+                       : stroke.width > 0                                ? "lines"
+                                                                         : "points";
+    text += " linecolor rgb '" + stroke.colour + "'";
+    if (stroke.width > 0) {
+      text += " dashtype " + std::to_string(static_cast<int>(stroke.dash) + 1);
+    }
+    if (stroke.marker == Marker::none) return text + " linewidth " + digits(stroke.width);
     // A dot is smaller than a ring around it.
-    const double size = stroke.marker == Marker::dot ? 0.55 : 1.0;
-    return "pointtype " + std::to_string(types[static_cast<int>(stroke.marker)]) + " pointsize " +
-           fixed(stroke.marker_size * size * terminal_.marker_scale, 2) + " linewidth " +
-           fixed(1.6 * terminal_.line_scale, 2) + " linecolor rgb '" + stroke.colour + "'";
+    const double size = stroke.marker_size * (stroke.marker == Marker::dot ? 0.55 : 1.0);
+    return text + " linewidth " + digits(stroke.width > 0 ? stroke.width : 1.6) + " pointtype " +
+           std::to_string(points[static_cast<std::size_t>(stroke.marker)]) + " pointsize " +
+           digits(size * terminal_.marker_scale);
   }
 
-  void write_tics(const char* name, const Axis& axis) {
-    if (axis.tics.empty()) {
-      text_ += "unset " + std::string(name) + '\n';
-      return;
+  void write_axis(const std::string& name, const Axis& axis) {
+    text_ += "set " + name + "range [" + digits(axis.low) + ':' + digits(axis.high) + "]\n";
+    if (axis.log) text_ += "set logscale " + name + '\n';
+    if (!axis.label.empty())
+      text_ += "set " + name + "label " + quoted(axis.label) +
+               (name == "x" ? terminal_.label_offset : "") + '\n';
+    text_ += "set " + name + "tics ";
+    if (axis.step > 0) {
+      text_ += digits(axis.step);
+    } else {
+      text_ += '(';
+      for (const Tic& tic : axis.tics) {
+        text_ += (&tic == axis.tics.data() ? "" : ", ") + quoted(axis.numbered ? tic.label : "") +
+                 ' ' + digits(tic.at);
+      }
+      text_ += ')';
     }
-    text_ += "set " + std::string(name) + " (";
-    for (std::size_t i = 0; i < axis.tics.size(); ++i) {
-      text_ += (i > 0 ? ", " : "") + quoted(axis.tics[i].label) + ' ' +
-               fixed(axis.fraction(axis.tics[i].at));
-    }
-    text_ += ')';
-    if (!axis.at_right) text_ += name[0] == 'x' ? terminal_.x_offset : terminal_.y_offset;
-    text_ += '\n';
+    if (name == "x") text_ += terminal_.tics_offset;
+    text_ += "\nset format " + name + " '" +
+             (axis.numbered ? "%." + std::to_string(axis.decimals()) + "f" : "") + "'\n";
   }
 
   void write_panel(const Panel& panel, std::size_t number) {
-    text_ += "reset\nset border " +
-             std::string(panel.framed       ? "15"
-                         : panel.y.at_right ? "9"
-                                            : "3") +
-             " linecolor rgb '#404040' linewidth " + fixed(terminal_.line_scale, 2) +
-             "\nunset key\nset tics nomirror out textcolor rgb '#202020' scale 0.6\n";
-    text_ += "set lmargin at screen " + screen_x(panel.box.left) + "\nset rmargin at screen " +
-             screen_x(panel.box.right) + "\nset bmargin at screen " + screen_y(panel.box.bottom) +
-             "\nset tmargin at screen " + screen_y(panel.box.top) + '\n';
-    text_ += "set xrange [0:1]\nset yrange [0:1]\nset y2range [0:1]\n";
-    write_tics("xtics", panel.x);
-    if (panel.y.at_right) text_ += "unset ytics\n";
-    write_tics(panel.y.at_right ? "y2tics" : "ytics", panel.y);
-    if (panel.grid) {
-      text_ += "set grid " + std::string(panel.y.at_right ? "xtics y2tics" : "xtics ytics") +
-               " linecolor rgb '#e4e4e4' linewidth " + fixed(terminal_.line_scale, 2) +
-               " linetype 1\n";
+    const Box& box = panel.box;
+    const double top = heading_.height + box.top, bottom = heading_.height + box.bottom;
+    text_ += "reset\nset border " + std::string(panel.colours ? "15" : "3") +
+             " linecolor rgb '#404040'\nset tics nomirror out textcolor rgb '#202020' scale 0.6\n"
+             "set lmargin at " +
+             screen_x(box.left) + "\nset rmargin at " + screen_x(box.right) + "\nset tmargin at " +
+             screen_y(top) + "\nset bmargin at " + screen_y(bottom) + '\n';
+    write_axis("x", panel.x);
+    write_axis("y", panel.y);
+    if (panel.colours) {
+      // Viridis: its lightness grows with the value, for print and for all eyes.
+      text_ +=
+          "set palette defined (0 '#440154', 1 '#472d7b', 2 '#3b528b', 3 '#2c728e', 4 '#21918c', "
+          "5 '#28ae80', 6 '#5ec962', 7 '#addc30', 8 '#fde725')\nset colorbox user origin " +
+          screen_x(box.right + 16) + ", " + screen_y(bottom) + " size " + screen_x(14) +
+          ", screen " + digits(box.height() / height_) + "\n";
+      write_axis("cb", *panel.colours);
+    } else {
+      text_ += "set grid linecolor rgb '#e4e4e4' linetype 1\n";
     }
-    for (const Upright& upright : panel.uprights) {
-      const std::string x = fixed(panel.x.fraction(upright.x));
-      if (upright.stroke.width > 0) {
-        text_ += "set arrow from first " + x + ", graph 0 to first " + x +
-                 ", graph 1 nohead back " + line_of(upright.stroke) + '\n';
-      }
-      if (upright.stroke.marker != Marker::none) {
-        text_ += "set label '' at first " + x + ", graph 1 point " + point_of(upright.stroke) +
-                 " front\n";
-      }
-    }
+    const std::string heading = cut(clean(panel.heading), 0.7 * box.width(), heading_size);
+    text_ += "set label " + quoted(heading) + " at " + screen_x(box.left - 4) + ", " +
+             screen_y(top - 12) + '\n';
+    text_ += "set key at " + screen_x(box.right) + ", " + screen_y(top - 3) +
+             " right bottom horizontal Left reverse samplen 2" + font(legend_size) + '\n';
     text_ += "plot ";
-    if (!panel.cells.empty()) {
-      text_ += block(number, "cells", 0) +
-               " using 1:2:3:4:5:6:7 with boxxyerror fillstyle solid noborder "
-               "linecolor rgb variable, ";
-    }
+    if (!panel.cells.empty()) write_cells(panel, block(number, "cells", 0));
     for (std::size_t c = 0; c < panel.curves.size(); ++c) {
       write_curve(panel.curves[c], block(number, "curve", c));
     }
-    text_ += "NaN notitle\n";  // so that a panel may be empty
+    const double room = (box.width() - width_of(heading, heading_size) - 10) /
+                        static_cast<double>(panel.legend.size());
+    write_legend(panel.legend, room - legend_sample);
+  }
+
+  void write_cells(const Panel& panel, const std::string& data) {
+    const auto boxes = [&](const char* x, const char* value, const char* colour) {
+      // With a border of their own color, so that no seam is seen between them.
+      text_ += data + " using " + x + ":2:3:4:5:6" + value + " with boxxyerror linecolor " +
+               colour + " fillstyle solid border notitle, ";
+    };
+    if (!panel.colours) return boxes("1", "", "rgb '#7fb8d8'");
+    boxes("1", "", "rgb '#d9d9d9'");
+    boxes("($7 == $7 ? $1 : NaN)", ":7", "palette");
+    text_ += data +
+             " using 1:2:(strcol(9) eq '-' ? '' : strcol(9)):8 with labels textcolor rgb variable" +
+             font(number_size) + " notitle, ";
   }
 
   void write_curve(const Curve& curve, const std::string& data) {
+    if (std::ranges::none_of(curve.y, [](double y) { return std::isfinite(y); })) return;
     if (curve.shape == Curve::Shape::band) {
-      text_ += data + " using 1:2:3 with filledcurves fillstyle solid noborder linecolor rgb '" +
-               curve.stroke.colour + "', ";
+      text_ += data +
+               " using 1:2:3 with filledcurves fillstyle transparent solid 0.25 noborder linecolor "
+               "rgb '" +
+               curve.stroke.colour + "' notitle, ";
       return;
     }
-    if (curve.stroke.width > 0) {
-      text_ += data + " using 1:2 with " +
-               (curve.shape == Curve::Shape::steps ? "steps " : "lines ") + line_of(curve.stroke) +
-               ", ";
-    }
-    if (curve.stroke.marker != Marker::none) {
-      text_ += data + " using 1:2 with points " + point_of(curve.stroke) + ", ";
-    }
+    std::string style = style_of(curve.stroke);
+    if (curve.shape == Curve::Shape::steps && style.starts_with("lines "))
+      style.replace(0, 5, "steps");
+    text_ += data + " using 1:2 with " + style + " notitle, ";
   }
 
-  // An empty plot over the whole sheet carries what stands outside the panels.
-  void write_words() {
-    text_ +=
-        "reset\nset border 0\nunset key\nunset tics\nset lmargin at screen 0\n"
-        "set rmargin at screen 1\nset bmargin at screen 0\nset tmargin at screen 1\n"
-        "set xrange [0:1]\nset yrange [0:1]\n";
-    for (const Words& words : picture_.words) {
-      constexpr std::string_view aligns[] = {"left", "center", "right"};
-      text_ += "set label " + quoted(words.text) + " at " + at(words.x, words.y) + ' ' +
-               std::string(aligns[static_cast<int>(words.align)]) + " noenhanced font '," +
-               fixed(words.size * terminal_.font_scale, 2) + "' textcolor rgb '" + words.colour +
-               (words.upwards ? "' rotate by 90\n" : "'\n");
+  // Ends a plot, which has at least one element so.
+  void write_legend(const std::vector<Entry>& legend, double room) {
+    text_ += "NaN notitle";
+    for (const Entry& entry : legend) {
+      text_ += ", keyentry with " + style_of(entry.stroke) + " title " +
+               quoted(cut(clean(entry.name), room, legend_size));
     }
-    for (const Sample& sample : picture_.samples) {
-      if (sample.stroke.width > 0) {
-        text_ += "set arrow from " + at(sample.x, sample.y) + " to " +
-                 at(sample.x + sample.length, sample.y) + " nohead " + line_of(sample.stroke) +
-                 '\n';
-      }
-      if (sample.stroke.marker != Marker::none) {
-        text_ += "set label '' at " + at(sample.x + sample.length / 2, sample.y) + " point " +
-                 point_of(sample.stroke) + '\n';
-      }
-    }
-    text_ += "plot NaN notitle\n";
+    text_ += '\n';
+  }
+
+  // A plot without axes carries what stands above all panels.
+  void write_heading() {
+    const double room = picture_.width - 2 * side;
+    double y = 26;
+    text_ += "unset border\nunset tics\nset xrange [0:1]\nset yrange [0:1]\n";
+    const auto line = [&](const std::string& words, double size, const char* colour,
+                          double height) {
+      if (words.empty()) return;
+      text_ += "set label " + quoted(cut(clean(words), room, size)) + " at screen 0.5, " +
+               screen_y(y) + " center" + font(size) + " textcolor rgb '" + colour + "'\n";
+      y += height;
+    };
+    line(picture_.title, title_size, "#202020", 23);
+    line(picture_.subtitle, legend_size, "#505050", 20);
+    text_ += "set key at screen 0.5, " + screen_y(y - 6) +
+             " center top horizontal Left reverse samplen 2 spacing 1.35 maxcols " +
+             std::to_string(heading_.columns) + font(legend_size) + "\nplot ";
+    write_legend(picture_.legend, room - legend_sample);
   }
 
   const Picture& picture_;
+  Heading heading_;
+  double height_;
   Terminal terminal_;
   bool viewer_has_fonts_;
   const HasLetter& has_letter_;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 #include "plot/columns.hpp"
 #include "plot/sweep_parts.hpp"
@@ -42,11 +41,11 @@ Unit unit_of_measure(const std::string& name) {
 StatusMarks::StatusMarks(const SweepTable& table) {
   for (const std::string& status : table.status) {
     if (status == "done") continue;
-    const auto known = std::ranges::find(kinds_, status, &Kind::status);
-    if (known == kinds_.end()) {
-      kinds_.push_back({status, 1});
+    const auto known = std::ranges::find(cases_, status, &decltype(cases_)::value_type::first);
+    if (known == cases_.end()) {
+      cases_.emplace_back(status, 1);
     } else {
-      ++known->cases;
+      ++known->second;
     }
   }
 }
@@ -54,16 +53,16 @@ StatusMarks::StatusMarks(const SweepTable& table) {
 Stroke StatusMarks::stroke_of(const std::string& status) const {
   constexpr std::array shapes = {Marker::cross, Marker::plus, Marker::square, Marker::diamond,
                                  Marker::triangle};
-  const auto index = std::ranges::find(kinds_, status, &Kind::status) - kinds_.begin();
-  return {"#d55e00", 0, Dash::solid, shapes[static_cast<std::size_t>(index) % shapes.size()], 1};
+  const auto found = std::ranges::find(cases_, status, &decltype(cases_)::value_type::first);
+  const auto index = static_cast<std::size_t>(found - cases_.begin());
+  return {"#d55e00", 0, Dash::solid, shapes[index % shapes.size()]};
 }
 
 std::vector<Entry> StatusMarks::legend() const {
   std::vector<Entry> entries;
-  for (const Kind& kind : kinds_) {
-    entries.push_back(
-        {kind.status + ": " + std::to_string(kind.cases) + (kind.cases == 1 ? " case" : " cases"),
-         stroke_of(kind.status)});
+  for (const auto& [status, count] : cases_) {
+    entries.push_back({status + ": " + std::to_string(count) + (count == 1 ? " case" : " cases"),
+                       stroke_of(status)});
   }
   return entries;
 }
@@ -75,29 +74,24 @@ MeasureAxis::MeasureAxis(const SweepTable& table, const Column& measure, double 
   }
   log = better_by_log(whole);
   scale = choose_scale(unit_of_measure(measure.name), whole, log ? 0 : close);
-  if (!whole.empty()) range = {scale(whole.low), scale(whole.high)};
+  range = scale(whole);
 }
 
-Axis MeasureAxis::axis(double pixels, double pixels_a_tic, double air) const {
-  return log ? log_axis(range, pixels, pixels_a_tic, air)
-             : linear_axis(range, pixels, pixels_a_tic, air);
+Axis MeasureAxis::axis(Along along, double pixels, double air) const {
+  return log ? log_axis(range, along, pixels, air) : linear_axis(range, along, pixels, air);
 }
 
-KeyAxis::KeyAxis(const SweepTable& table, const Key& of) : key(of) {
-  std::string name = clean(key.name);
+KeyAxis::KeyAxis(const SweepTable& table, const Key& of) : key(of), label(of.name) {
   const std::vector<std::string> followers = table.followers(key);
   for (std::size_t i = 0; i < followers.size(); ++i) {
-    name += (i == 0 ? ", with " : ", ") + clean(followers[i]);
+    label += (i == 0 ? ", with " : ", ") + followers[i];
   }
-  if (key.is_text()) {
-    label = name;
-    return;
-  }
+  if (key.is_text()) return;
   log = by_equal_factors(key.distinct);
   Range range;
   range.include(key.distinct);
   scale = choose_scale({key.unit}, range, log ? 0 : close_together);
-  label = scale.heading(name);
+  label = scale.heading(label);
 }
 
 std::vector<double> KeyAxis::edges() const {
@@ -113,27 +107,25 @@ std::vector<double> KeyAxis::edges() const {
   return edges;
 }
 
-Axis KeyAxis::axis(double pixels, double pixels_a_tic, bool cells) const {
-  const std::vector<double> limits = edges();
-  Range range{cells ? limits.front() : place(key.distinct.front()),
-              cells ? limits.back() : place(key.distinct.back())};
-  if (key.is_text()) {
-    const auto count = static_cast<double>(key.labels.size());
-    Axis axis{-0.5, count - 0.5};
-    for (std::size_t i = 0; i < key.labels.size(); ++i) {
-      axis.tics.push_back(
-          {static_cast<double>(i), cut_middle(clean(key.labels[i]), 0.9 * pixels / count, 12)});
-    }
-    return axis;
-  }
+Axis KeyAxis::axis(Along along, double pixels, bool cells) const {
   const double air = cells ? 0 : 0.02;
-  return log ? log_axis(range, pixels, pixels_a_tic, air)
-             : linear_axis(range, pixels, pixels_a_tic, air);
-}
-
-Axis KeyAxis::axis_across(double pixels, bool cells) const {
-  Axis made = axis(pixels, 80, cells);
-  return key.is_text() || log ? made : across(std::move(made), pixels);
+  Range range{place(key.distinct.front()), place(key.distinct.back())};
+  if (cells) range = {edges().front(), edges().back()};
+  Axis axis;
+  if (key.is_text()) {
+    constexpr double font_size = 12;
+    const auto count = static_cast<double>(key.labels.size());
+    axis = {-0.5, count - 0.5};
+    for (std::size_t i = 0; i < key.labels.size(); ++i) {
+      const std::string word = cut(clean(key.labels[i]), 0.9 * pixels / count, font_size);
+      axis.tics.push_back({static_cast<double>(i), word});
+    }
+  } else {
+    axis = log ? log_axis(range, along, pixels, air) : linear_axis(range, along, pixels, air);
+  }
+  constexpr double label_size = 13;
+  axis.label = cut(clean(label), pixels, label_size);
+  return axis;
 }
 
 }  // namespace bbsim::plot

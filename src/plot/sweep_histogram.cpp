@@ -4,15 +4,12 @@
 // How often which value of a measure came.
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "plot/sweep_parts.hpp"
 #include "plot/text.hpp"
 
 namespace bbsim::plot {
 namespace {
-
-constexpr unsigned bars = 0x7fb8d8;  // of the blue of lines, paler
 
 // The width as Freedman and Diaconis choose it, from the quartiles, within what can be seen.
 std::size_t bin_count(std::vector<double>& values, double width) {
@@ -28,64 +25,62 @@ int digits_between(double low, double high) {
   return part > 0 ? std::clamp(2 - static_cast<int>(std::floor(std::log10(part))), 3, 12) : 4;
 }
 
+void add_quantiles(Panel& panel, double below, double middle, double above, int digits) {
+  const Stroke median{"#000000", 1.6}, tail{"#000000", 1.2, Dash::dashed};
+  const auto add = [&](const char* name, double value, const Stroke& stroke) {
+    panel.curves.push_back({Curve::Shape::line, stroke, {value, value}, {0, panel.y.high}});
+    panel.legend.push_back({name + number(value, digits), stroke});
+  };
+  if (number(below, digits) == number(above, digits)) return add("all ", middle, median);
+  add("5 %: ", below, tail);
+  add("median ", middle, median);
+  add("95 %: ", above, tail);
+}
+
 }  // namespace
 
-void add_histogram(Picture& picture, const SweepTable& table, const Column& measure, Box box) {
-  const MeasureAxis along(table, measure);
+Panel histogram_panel(const SweepPanel& of) {
+  const MeasureAxis along(of.table, of.measure);
   std::vector<double> values;  // as they lie along the axis
-  for (std::size_t i = 0; i < measure.numbers.size(); ++i) {
-    if (!table.done(i) || !std::isfinite(measure.numbers[i])) continue;
-    const double value = along.scale(measure.numbers[i]);
+  for (std::size_t i = 0; i < of.measure.numbers.size(); ++i) {
+    if (!of.table.done(i) || !std::isfinite(of.measure.numbers[i])) continue;
+    const double value = along.scale(of.measure.numbers[i]);
     values.push_back(along.log ? std::log(value) : value);
   }
-  Panel panel;
-  panel.box = box;
-  panel.x = along.axis(box.width(), 70, 0.03);
-  if (!along.log) panel.x = across(std::move(panel.x), box.width());
+  std::ranges::sort(values);
+  Panel panel{of.box};
+  panel.x = along.axis(Along::x, of.box.width(), 0.03);
+  panel.x.label = along.scale.heading(of.measure.name);
   const auto drawn = [&](double value) { return along.log ? std::exp(value) : value; };
   double most = 1;
-  std::vector<Entry> legend;
-  std::vector<std::pair<double, Stroke>> quantiles;
   if (!values.empty()) {
-    std::ranges::sort(values);
-    const double low = values.front(), width = values.back() - low;
-    const std::size_t bins = along.range.wide() ? bin_count(values, width) : 1;
+    const bool wide = along.range.wide();
+    const double width = values.back() - values.front();
+    const std::size_t bins = wide ? bin_count(values, width) : 1;
+    // What is constant is one bar, not wider than others would be.
+    const double thick = wide        ? width / static_cast<double>(bins)
+                         : along.log ? 0.05
+                                     : (panel.x.high - panel.x.low) / 40;
+    const double start = wide ? values.front() : values.front() - thick / 2;
     std::vector<double> counts(bins, 0);
     for (const double value : values) {
-      const double part = width > 0 ? (value - low) / width : 0;
-      counts[std::min(static_cast<std::size_t>(part * static_cast<double>(bins)), bins - 1)] += 1;
+      counts[std::min(static_cast<std::size_t>((value - start) / thick), bins - 1)] += 1;
     }
-    most = *std::ranges::max_element(counts);
-    // What is constant is one bar, not wider than others would be.
-    const double thick = along.range.wide() ? width / static_cast<double>(bins)
-                         : along.log        ? 0.05
-                                            : (panel.x.high - panel.x.low) / 40;
-    const double start = along.range.wide() ? low : low - thick / 2;
     for (std::size_t b = 0; b < bins; ++b) {
-      if (counts[b] == 0) continue;
       const double left = start + thick * static_cast<double>(b);
-      panel.cells.push_back({drawn(left), drawn(left + thick), 0, counts[b], bars});
+      panel.cells.push_back({drawn(left), drawn(left + thick), 0, counts[b]});
     }
-    const Stroke median{"#000000", 1.6}, tail{"#000000", 1.2, Dash::dashed};
-    const double middle = drawn(quantile(values, 0.5));
-    const double below = drawn(quantile(values, 0.05)), above = drawn(quantile(values, 0.95));
+    most = std::ranges::max(counts);
+  }
+  panel.y = linear_axis({0, most * 1.05}, Along::y, of.box.height(), 0);
+  panel.y.step = std::max(panel.y.step, 1.0);  // there is no half a case
+  panel.y.label = "cases";
+  if (!values.empty()) {
     const int digits = digits_between(drawn(values.front()), drawn(values.back()));
-    const auto text = [digits](double value) { return number(value, digits); };
-    quantiles = {{middle, median}, {below, tail}, {above, tail}};
-    legend = {{"median " + text(middle), median},
-              {"5 and 95 %: " + text(below) + ", " + text(above), tail}};
-    if (text(below) == text(above)) legend = {{"all " + text(middle), median}};
+    add_quantiles(panel, drawn(quantile(values, 0.05)), drawn(quantile(values, 0.5)),
+                  drawn(quantile(values, 0.95)), digits);
   }
-  panel.y = linear_axis({0, most * 1.05}, box.height(), 32, 0);
-  for (const auto& [value, stroke] : quantiles) {
-    panel.curves.push_back({Curve::Shape::line, stroke, {value, value}, {0, panel.y.high}});
-  }
-  // There is no half a case.
-  std::erase_if(panel.y.tics, [](const Tic& tic) { return tic.at != std::round(tic.at); });
-  add_heading(picture, box, "cases");
-  place_legend(picture, legend, box.left + 70, box.right, box.top - 12);
-  add_axis_label(picture, box, along.scale.heading(measure.name));
-  picture.panels.push_back(std::move(panel));
+  return panel;
 }
 
 }  // namespace bbsim::plot

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Measures over one key, as lines or as points.
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
-#include <string_view>
+#include <set>
+#include <utility>
 
-#include "plot/columns.hpp"
 #include "plot/sweep_parts.hpp"
 #include "plot/text.hpp"
 
@@ -19,51 +18,24 @@ namespace {
 constexpr std::size_t most_markers = 60;
 constexpr std::size_t most_points = 20000;
 
-// The cases of a group at a value.
-struct Bundle {
-  std::vector<double> done;
-  std::vector<std::string> others{};  // how those ended that are not
-};
+// Where cases ended in each other way: a row of marks at the foot of the panel.
+using Others = std::map<std::string, std::set<double>>;
 
-// Ways to end, each once for each value: a row of marks at the foot of the panel.
-void add_marks(Panel& panel, const std::map<double, Bundle>& bundles, const KeyAxis& axis,
-               const StatusMarks& marks) {
-  std::map<std::string, Curve> rows;
-  for (const auto& [value, bundle] : bundles) {
-    for (const std::string& status : bundle.others) {
-      Curve& row = rows[status];
-      row.stroke = marks.stroke_of(status);
-      const double x = axis.place(value);
-      if (!row.x.empty() && row.x.back() == x) continue;
-      row.x.push_back(x);
-      row.y.push_back(panel.y.low);
-    }
+void add_marks(Panel& panel, const Others& others, const StatusMarks& marks) {
+  for (const auto& [status, places] : others) {
+    Curve row{Curve::Shape::line, marks.stroke_of(status)};
+    for (const double x : places) row.add(x, panel.y.low);
+    panel.curves.push_back(std::move(row));
   }
-  for (auto& [status, row] : rows) panel.curves.push_back(std::move(row));
 }
 
-Panel empty_panel(const KeyAxis& along, const MeasureAxis& up, const Box& box, bool lowest) {
-  Panel panel;
-  panel.box = box;
-  panel.x = along.axis_across(box.width(), false);
-  panel.y = up.axis(box.height(), 28, 0.08);
-  if (!lowest) {
-    for (Tic& tic : panel.x.tics) tic.label.clear();
-  }
+Panel empty_panel(const SweepPanel& of, const KeyAxis& along, const MeasureAxis& up) {
+  Panel panel{of.box, up.scale.heading(of.measure.name)};
+  panel.x = along.axis(Along::x, of.box.width(), false);
+  panel.y = up.axis(Along::y, of.box.height(), 0.08);
+  panel.x.numbered = of.lowest;
+  if (!of.lowest) panel.x.label.clear();
   return panel;
-}
-
-std::string pale(const std::string& colour) {
-  constexpr int base = 16;
-  std::string result = "#";
-  for (std::size_t i = 1; i < colour.size(); i += 2) {
-    const int part = std::stoi(colour.substr(i, 2), nullptr, base);
-    const int paler = 255 - (255 - part) / 4;
-    constexpr std::string_view digits = "0123456789abcdef";
-    result += digits[static_cast<std::size_t>(paler / base)];
-    result += digits[static_cast<std::size_t>(paler % base)];
-  }
-  return result;
 }
 
 Stroke stroke_of_group(std::size_t group) {
@@ -75,8 +47,8 @@ Stroke stroke_of_group(std::size_t group) {
 }
 
 std::string group_name(const Key& group, double value) {
-  return clean(group.name) + " = " +
-         (group.is_text() ? clean(group.labels[static_cast<std::size_t>(value)]) : number(value));
+  return group.name + " = " +
+         (group.is_text() ? group.labels[static_cast<std::size_t>(value)] : number(value));
 }
 
 }  // namespace
@@ -89,74 +61,62 @@ std::vector<Entry> group_legend(const Key* group) {
   return entries;
 }
 
-void add_lines(Picture& picture, const SweepTable& table, const Column& measure, const Key& over,
-               const Key* group, const StatusMarks& marks, Box box, bool lowest) {
-  const KeyAxis along(table, over);
-  const MeasureAxis up(table, measure);
-  Panel panel = empty_panel(along, up, box, lowest);
+Panel line_panel(const SweepPanel& of, const Key& over, const Key* group) {
+  const KeyAxis along(of.table, over);
+  const MeasureAxis up(of.table, of.measure);
+  Panel panel = empty_panel(of, along, up);
   const std::vector<double> groups = group != nullptr ? group->distinct : std::vector<double>{0};
-  std::vector<Curve> bands, lines;
-  std::map<double, Bundle> all;
+  std::vector<Curve> lines;
+  Others others;
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    std::map<double, Bundle> bundles;
+    std::map<double, std::vector<double>> done;
     for (std::size_t i = 0; i < over.values.size(); ++i) {
       if (group != nullptr && group->values[i] != groups[g]) continue;
-      Bundle& bundle = bundles[over.values[i]];
-      if (!table.done(i)) {
-        bundle.others.push_back(table.status[i]);
-        all[over.values[i]].others.push_back(table.status[i]);
-      } else if (std::isfinite(measure.numbers[i])) {
-        bundle.done.push_back(measure.numbers[i]);
+      std::vector<double>& bundle = done[over.values[i]];
+      if (!of.table.done(i)) {
+        others[of.table.status[i]].insert(along.place(over.values[i]));
+      } else if (std::isfinite(of.measure.numbers[i])) {
+        bundle.push_back(up.scale(of.measure.numbers[i]));
       }
     }
     Stroke stroke = stroke_of_group(g);
     if (over.distinct.size() > most_markers) stroke.marker = Marker::none;
     if (over.is_text()) stroke.width = 0;  // nothing lies between two words
-    Curve line{Curve::Shape::line, stroke, {}, {}};
-    Curve band{Curve::Shape::band, {pale(stroke.colour)}, {}, {}, {}};
+    Curve line{Curve::Shape::line, stroke}, band{Curve::Shape::band, stroke};
     bool several = false;
-    for (auto& [value, bundle] : bundles) {
-      several = several || bundle.done.size() > 1;
-      line.x.push_back(along.place(value));
-      line.y.push_back(up.scale(quantile(bundle.done, 0.5)));
-      band.x.push_back(line.x.back());
-      band.y.push_back(up.scale(quantile(bundle.done, 0.05)));
-      band.y_high.push_back(up.scale(quantile(bundle.done, 0.95)));
+    for (auto& [value, bundle] : done) {
+      several = several || bundle.size() > 1;
+      line.add(along.place(value), quantile(bundle, 0.5));
+      band.add(along.place(value), quantile(bundle, 0.05));
+      band.y_high.push_back(quantile(bundle, 0.95));
     }
-    if (several && groups.size() <= most_bands) bands.push_back(std::move(band));
+    if (several && groups.size() <= most_bands) panel.curves.push_back(std::move(band));
     lines.push_back(std::move(line));
   }
-  for (Curve& band : bands) panel.curves.push_back(std::move(band));
   for (Curve& line : lines) panel.curves.push_back(std::move(line));
-  add_marks(panel, all, along, marks);
-  add_heading(picture, box, up.scale.heading(measure.name));
-  if (lowest) add_axis_label(picture, box, along.label);
-  picture.panels.push_back(std::move(panel));
+  add_marks(panel, others, of.marks);
+  return panel;
 }
 
-void add_scatter(Picture& picture, const SweepTable& table, const Column& measure, const Key& over,
-                 const StatusMarks& marks, Box box, bool lowest) {
-  const KeyAxis along(table, over);
-  const MeasureAxis up(table, measure);
-  Panel panel = empty_panel(along, up, box, lowest);
-  const bool many = over.values.size() > 500;
-  Curve points{
-      Curve::Shape::line, {"#0072b2", 0, Dash::solid, Marker::dot, many ? 0.4 : 0.9}, {}, {}};
-  std::map<double, Bundle> others;
+Panel scatter_panel(const SweepPanel& of, const Key& over) {
+  const KeyAxis along(of.table, over);
+  const MeasureAxis up(of.table, of.measure);
+  Panel panel = empty_panel(of, along, up);
+  const double size = over.values.size() > 500 ? 0.4 : 0.9;
+  Curve points{Curve::Shape::line, {"#0072b2", 0, Dash::solid, Marker::dot, size}};
+  Others others;
   const std::size_t every = over.values.size() / most_points + 1;
   for (std::size_t i = 0; i < over.values.size(); i += every) {
-    if (!table.done(i)) {
-      others[over.values[i]].others.push_back(table.status[i]);
-      continue;
+    const double x = along.place(over.values[i]);
+    if (of.table.done(i)) {
+      points.add(x, up.scale(of.measure.numbers[i]));
+    } else {
+      others[of.table.status[i]].insert(x);
     }
-    points.x.push_back(along.place(over.values[i]));
-    points.y.push_back(up.scale(measure.numbers[i]));
   }
   panel.curves.push_back(std::move(points));
-  add_marks(panel, others, along, marks);
-  add_heading(picture, box, up.scale.heading(measure.name));
-  if (lowest) add_axis_label(picture, box, along.label);
-  picture.panels.push_back(std::move(panel));
+  add_marks(panel, others, of.marks);
+  return panel;
 }
 
 }  // namespace bbsim::plot

@@ -6,10 +6,10 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "plot/axis.hpp"
-#include "plot/legend.hpp"
 #include "plot/picture.hpp"
 #include "plot/sweep_table.hpp"
 
@@ -23,11 +23,7 @@ class StatusMarks {
   [[nodiscard]] std::vector<Entry> legend() const;
 
  private:
-  struct Kind {
-    std::string status;
-    std::size_t cases = 0;
-  };
-  std::vector<Kind> kinds_;
+  std::vector<std::pair<std::string, std::size_t>> cases_;
 };
 
 // A measure as it is drawn: in a unit that suits it, by its logarithm if it spans decades.
@@ -37,7 +33,7 @@ struct MeasureAxis {
   bool log = false;
 
   MeasureAxis(const SweepTable& table, const Column& measure, double close = close_together);
-  [[nodiscard]] Axis axis(double pixels, double pixels_a_tic, double air) const;
+  [[nodiscard]] Axis axis(Along along, double pixels, double air) const;
 };
 
 // A key as an axis: numbers, by their logarithm if they follow each other by equal factors, or
@@ -50,35 +46,36 @@ struct KeyAxis {
 
   KeyAxis(const SweepTable& table, const Key& of);
   // Room at both ends for half the distance to the next value if `cells`, otherwise for a marker.
-  [[nodiscard]] Axis axis(double pixels, double pixels_a_tic, bool cells) const;
-  // The same, below its panel.
-  [[nodiscard]] Axis axis_across(double pixels, bool cells) const;
-  // Edges are between neighbours, and beyond the outermost: where the cell of each value begins,
+  [[nodiscard]] Axis axis(Along along, double pixels, bool cells) const;
+  // Edges are between neighbors, and beyond the outermost: where the cell of each value begins,
   // and the last one ends. They are as drawn.
   [[nodiscard]] std::vector<double> edges() const;
   [[nodiscard]] double place(double value) const { return key.is_text() ? value : scale(value); }
 };
 
-// Bands of more curves would hide each other.
-inline constexpr std::size_t most_bands = 3;
+// What a panel of each kind is made from.
+struct SweepPanel {
+  const SweepTable& table;
+  const Column& measure;
+  const StatusMarks& marks;
+  Box box;
+  bool lowest;  // of its column: the others have no labels below them
+};
 
 // A curve for each value of `group`, or one if it is null, through the medians of the cases that
 // are done; a band where nine of ten of them lie, if there are several, for up to most_bands
-// curves.
-void add_lines(Picture& picture, const SweepTable& table, const Column& measure, const Key& over,
-               const Key* group, const StatusMarks& marks, Box box, bool lowest);
+// curves: more would hide each other.
+inline constexpr std::size_t most_bands = 3;
+[[nodiscard]] Panel line_panel(const SweepPanel& of, const Key& over, const Key* group);
 [[nodiscard]] std::vector<Entry> group_legend(const Key* group);
 
 // A point a case.
-void add_scatter(Picture& picture, const SweepTable& table, const Column& measure, const Key& over,
-                 const StatusMarks& marks, Box box, bool lowest);
+[[nodiscard]] Panel scatter_panel(const SweepPanel& of, const Key& over);
 
 // A map of medians over two keys, with its scale of colours at its right.
-void add_map(Picture& picture, const SweepTable& table, const Column& measure, const Key& over,
-             const Key& against, const StatusMarks& marks, Box box, bool lowest);
-inline constexpr double map_scale_width = 110;  // of the box's, with the gap
+[[nodiscard]] Panel map_panel(const SweepPanel& of, const Key& over, const Key& against);
 
 // How often which value came.
-void add_histogram(Picture& picture, const SweepTable& table, const Column& measure, Box box);
+[[nodiscard]] Panel histogram_panel(const SweepPanel& of);
 
 }  // namespace bbsim::plot

@@ -7,7 +7,6 @@
 
 #include "base/error.hpp"
 #include "plot/sweep_parts.hpp"
-#include "plot/text.hpp"
 
 namespace bbsim::plot {
 namespace {
@@ -109,7 +108,7 @@ std::vector<const Column*> choose_measures(const SweepTable& table, const Result
   return measures.empty() ? table.measures : measures;
 }
 
-// What the keys that are no axis did: nothing, or a median was taken over them.
+// What the keys that are no axis did: nothing, or a median was taken over them, as words to add.
 std::string taken_over(const SweepTable& table, const Form& form) {
   if (form.kind == Form::Kind::histogram || form.kind == Form::Kind::scatter) return "";
   std::string listed, drawn;
@@ -119,23 +118,14 @@ std::string taken_over(const SweepTable& table, const Form& form) {
     };
     if (leads(form.over) || leads(form.against) || leads(form.group)) continue;
     std::string& text = key.drawn ? drawn : listed;
-    text += (text.empty() ? "" : ", ") + clean(key.name);
+    text += (text.empty() ? "" : ", ") + key.name;
   }
   if (!drawn.empty()) drawn = "draws of " + drawn;
   if (listed.empty() && drawn.empty()) return "";
   const std::string over = listed + (listed.empty() || drawn.empty() ? "" : " and ") + drawn;
   const bool bands = form.kind == Form::Kind::lines &&
                      (form.group == nullptr || form.group->distinct.size() <= most_bands);
-  return (bands ? "median, and 5 to 95 % as a band, over " : "median over ") + over;
-}
-
-// Title, subtitle and legend; where the panels begin.
-double add_top(Picture& picture, const Result& sweep, const std::string& remark,
-               const std::vector<Entry>& legend) {
-  const std::string file = clean(sweep.shown_file()), title = clean(sweep.title);
-  std::string subtitle = (title.empty() ? "" : file + ", ") + std::to_string(sweep.rows) + " cases";
-  if (!remark.empty()) subtitle += "; " + remark;
-  return add_heading(picture, title.empty() ? file : title, subtitle, legend);
+  return (bands ? "; median, and 5 to 95 % as a band, over " : "; median over ") + over;
 }
 
 }  // namespace
@@ -148,35 +138,36 @@ Picture sweep_picture(const Result& sweep, const SweepChoice& choice) {
   const Form form = choose_form(table, choice.over);
   const StatusMarks marks(table);
   const bool map = form.kind == Form::Kind::map, histogram = form.kind == Form::Kind::histogram;
-
   const bool one = measures.size() == 1;
+
   Picture picture;
+  picture.title = sweep.title.empty() ? sweep.shown_file() : sweep.title;
+  picture.subtitle = (sweep.title.empty() ? "" : sweep.shown_file() + ", ") +
+                     std::to_string(sweep.rows) + " cases" + taken_over(table, form);
+  if (form.kind == Form::Kind::lines) picture.legend = group_legend(form.group);
+  for (const Entry& entry : marks.legend()) picture.legend.push_back(entry);
   picture.width = one ? 900 : 1200;
-  std::vector<Entry> legend =
-      form.kind == Form::Kind::lines ? group_legend(form.group) : std::vector<Entry>{};
-  for (const Entry& entry : marks.legend()) legend.push_back(entry);
-  const double top = add_top(picture, sweep, taken_over(table, form), legend);
   const double pitch = one ? 440 : map ? 320 : histogram ? 230 : 185;
   const double below = histogram ? 52 : 12;  // its tics and label, where each panel has them
   const std::size_t columns = one ? 1 : 2, rows = (measures.size() + columns - 1) / columns;
-  picture.height = top + pitch * static_cast<double>(rows) + (histogram ? 10 : 50);
+  picture.height = pitch * static_cast<double>(rows) + (histogram ? 10 : 50);
   for (std::size_t m = 0; m < measures.size(); ++m) {
-    const std::size_t row = m / columns, column = m % columns;
-    const double left = column == 0 ? 88 : 688, y = top + pitch * static_cast<double>(row);
+    const double left = m % columns == 0 ? 88 : 688;
+    const double y = pitch * static_cast<double>(m / columns);
     const Box box{left, y + 28, one ? picture.width - 30 : left + 482, y + pitch - below};
-    const bool lowest = m + columns >= measures.size();
+    const SweepPanel of{table, *measures[m], marks, box, m + columns >= measures.size()};
     switch (form.kind) {
       case Form::Kind::lines:
-        add_lines(picture, table, *measures[m], *form.over, form.group, marks, box, lowest);
+        picture.panels.push_back(line_panel(of, *form.over, form.group));
         break;
       case Form::Kind::scatter:
-        add_scatter(picture, table, *measures[m], *form.over, marks, box, lowest);
+        picture.panels.push_back(scatter_panel(of, *form.over));
         break;
       case Form::Kind::map:
-        add_map(picture, table, *measures[m], *form.over, *form.against, marks, box, lowest);
+        picture.panels.push_back(map_panel(of, *form.over, *form.against));
         break;
       case Form::Kind::histogram:
-        add_histogram(picture, table, *measures[m], box);
+        picture.panels.push_back(histogram_panel(of));
         break;
     }
   }

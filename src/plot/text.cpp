@@ -3,68 +3,45 @@
 
 #include "plot/text.hpp"
 
+#include <algorithm>
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <vector>
+
+#include "base/utf8.hpp"
 
 namespace bbsim::plot {
 namespace {
 
 constexpr std::string_view replacement = "\xEF\xBF\xBD";  // U+FFFD
-constexpr std::string_view ellipsis = "\xE2\x80\xA6";
-constexpr std::string_view minus = "\xE2\x88\x92";
 
-struct Character {
-  std::uint32_t code = 0;
-  std::size_t bytes = 1;
-  bool valid = false;
+struct Block {
+  std::uint32_t first, last;
 };
 
-// The character that begins at `text`'s first byte.
-Character first_character(std::string_view text) {
-  const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char lead = byte(0);
-  if (lead < 0x80) return {lead, 1, true};
-  const std::size_t bytes = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  if (lead < 0xC2 || lead > 0xF4) return {};
-  std::uint32_t code = lead & (0x7FU >> bytes);
-  for (std::size_t i = 1; i < bytes; ++i) {
-    if (i >= text.size() || (byte(i) & 0xC0U) != 0x80) return {};
-    code = (code << 6U) | (byte(i) & 0x3FU);
-  }
-  constexpr std::uint32_t smallest[] = {0, 0, 0x80, 0x800, 0x10000};
-  const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
-  if (code < smallest[bytes] || surrogate || code > 0x10FFFF) return {};
-  return {code, bytes, true};
+template <std::size_t count>
+bool is_in(const std::array<Block, count>& blocks, std::uint32_t code) {
+  return std::ranges::any_of(
+      blocks, [code](const Block& block) { return code >= block.first && code <= block.last; });
 }
 
-bool is_control(std::uint32_t code) {
-  return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x2028 || code == 0x2029;
-}
+constexpr std::array controls = {Block{0, 0x1F}, Block{0x7F, 0x9F}, Block{0x2028, 0x2029}};
 
-// Not for print: no character at all, or one that changes how its neighbours are written.
+// Not for print: no character at all, or one that changes how its neighbors are written.
+constexpr std::array hostile = {Block{0x200B, 0x200F}, Block{0x202A, 0x202E}, Block{0x2066, 0x2069},
+                                Block{0xFDD0, 0xFDEF}, Block{0xFEFF, 0xFEFF}};
+
 bool is_hostile(std::uint32_t code) {
-  return (code & 0xFFFEU) == 0xFFFE || (code >= 0xFDD0 && code <= 0xFDEF) ||
-         (code >= 0x200B && code <= 0x200F) || (code >= 0x202A && code <= 0x202E) ||
-         (code >= 0x2066 && code <= 0x2069) || code == 0xFEFF;
+  return (code & 0xFFFEU) == 0xFFFE || is_in(hostile, code);
 }
 
 // What DejaVu Sans has for certain: Latin, Greek and Cyrillic, punctuation, superscripts, arrows,
 // mathematics.
-bool in_dejavu(std::uint32_t code) {
-  struct Block {
-    std::uint32_t first, last;
-  };
-  constexpr Block blocks[] = {{0x20, 0x7E},     {0xA0, 0x2E9},    {0x300, 0x34F},
-                              {0x38E, 0x3A1},   {0x3A3, 0x525},   {0x2010, 0x205E},
-                              {0x2074, 0x208E}, {0x2190, 0x22FF}, {0xFFFD, 0xFFFD}};
-  for (const Block& block : blocks) {
-    if (code >= block.first && code <= block.last) return true;
-  }
-  return code == 0x2070;  // superscript zero stands alone
-}
+constexpr std::array in_dejavu = {
+    Block{0x20, 0x7E},     Block{0xA0, 0x2E9},    Block{0x300, 0x34F},   Block{0x38E, 0x3A1},
+    Block{0x3A3, 0x525},   Block{0x2010, 0x205E}, Block{0x2070, 0x2070}, Block{0x2074, 0x208E},
+    Block{0x2190, 0x22FF}, Block{0xFFFD, 0xFFFD}};
 
 // Widths in hundredths of the font's size: of DejaVu Sans, the widest of the usual fonts, from the
 // blank to the tilde.
@@ -81,51 +58,32 @@ double part_of_size(std::uint32_t code) {
   return 1.0;
 }
 
-std::vector<std::string_view> characters_of(std::string_view text) {
-  std::vector<std::string_view> characters;
+struct Letter {
+  std::string_view text;
+  std::uint32_t code;  // U+FFFD where no character begins
+};
+
+std::vector<Letter> letters_of(std::string_view text) {
+  std::vector<Letter> letters;
   while (!text.empty()) {
-    const std::size_t bytes = first_character(text).bytes;
-    characters.push_back(text.substr(0, bytes));
-    text.remove_prefix(bytes);
+    const Utf8Character next = first_character(text);
+    letters.push_back(next.length == 0 ? Letter{replacement, 0xFFFD}
+                                       : Letter{text.substr(0, next.length), next.code});
+    text.remove_prefix(std::max<std::size_t>(next.length, 1));
   }
-  return characters;
-}
-
-// `keep` characters of the text, those before and after the ellipsis.
-std::string shortened(const std::vector<std::string_view>& characters, std::size_t before,
-                      std::size_t after) {
-  std::string text;
-  for (std::size_t i = 0; i < before; ++i) text += characters[i];
-  text += ellipsis;
-  for (std::size_t i = characters.size() - after; i < characters.size(); ++i) text += characters[i];
-  return text;
-}
-
-std::string cut_to(const std::string& text, double width, double size, bool middle) {
-  if (width_of(text, size) <= width) return text;
-  const std::vector<std::string_view> characters = characters_of(text);
-  for (std::size_t keep = characters.size() - 1; keep > 0; --keep) {
-    const std::size_t after = middle ? keep / 2 : 0;
-    std::string shorter = shortened(characters, keep - after, after);
-    if (width_of(shorter, size) <= width) return shorter;
-  }
-  return std::string(ellipsis);
+  return letters;
 }
 
 }  // namespace
 
 std::string clean(std::string_view text) {
   std::string result;
-  while (!text.empty()) {
-    const Character character = first_character(text);
-    if (!character.valid || is_hostile(character.code)) {
-      result += replacement;
-    } else if (is_control(character.code)) {
-      if (!result.empty() && result.back() != ' ') result += ' ';
-    } else {
-      result += text.substr(0, character.bytes);
+  for (const Letter& letter : letters_of(text)) {
+    if (!is_in(controls, letter.code)) {
+      result += is_hostile(letter.code) ? replacement : letter.text;
+    } else if (!result.empty() && result.back() != ' ') {
+      result += ' ';
     }
-    text.remove_prefix(character.bytes);
   }
   while (!result.empty() && result.back() == ' ') result.pop_back();
   return result;
@@ -134,44 +92,39 @@ std::string clean(std::string_view text) {
 std::string with_letters(std::string_view text,
                          const std::function<bool(std::uint32_t)>& has_letter) {
   std::string result;
-  while (!text.empty()) {
-    const Character character = first_character(text);
-    const bool known = in_dejavu(character.code) || has_letter(character.code);
-    result += known ? text.substr(0, character.bytes) : replacement;
-    text.remove_prefix(character.bytes);
+  for (const Letter& letter : letters_of(text)) {
+    const bool known = is_in(in_dejavu, letter.code) || has_letter(letter.code);
+    result += known ? letter.text : replacement;
   }
   return result;
 }
 
 double width_of(std::string_view text, double size) {
   double parts = 0;
-  while (!text.empty()) {
-    const Character character = first_character(text);
-    parts += part_of_size(character.code);
-    text.remove_prefix(character.bytes);
-  }
+  for (const Letter& letter : letters_of(text)) parts += part_of_size(letter.code);
   return parts * size;
 }
 
 std::string cut(const std::string& text, double width, double size) {
-  return cut_to(text, width, size, false);
-}
-
-std::string cut_middle(const std::string& text, double width, double size) {
-  return cut_to(text, width, size, true);
+  if (width_of(text, size) <= width) return text;
+  const std::vector<Letter> letters = letters_of(text);
+  for (std::size_t keep = letters.size() - 1; keep > 0; --keep) {
+    const std::size_t after = keep / 2, before = keep - after;
+    std::string kept;
+    for (std::size_t i = 0; i < letters.size(); ++i) {
+      if (i == before) kept += "…";
+      if (i < before || i >= letters.size() - after) kept += letters[i].text;
+    }
+    if (width_of(kept, size) <= width) return kept;
+  }
+  return "…";
 }
 
 std::string number(double value, int digits) {
   char plain[40];
   std::snprintf(plain, sizeof plain, "%.*g", digits, value);
   std::string text;
-  for (const char* c = plain; *c != '\0'; ++c) {
-    if (*c == '-') {
-      text += minus;
-    } else {
-      text += *c;
-    }
-  }
+  for (const char c : std::string_view(plain)) text += c == '-' ? "−" : std::string(1, c);
   return text;
 }
 

@@ -23,10 +23,9 @@ namespace bbsim::plot {
 // pixels as `size` is.
 [[nodiscard]] double width_of(std::string_view text, double size);
 
-// The text, or as much of it as fits into `width` with "..." for the rest: at the end, or, for
-// names of files, which differ at either end, in the middle.
+// The text, or as much of it as fits into `width` with "…" for the rest: in its middle, since names
+// of files differ at either end.
 [[nodiscard]] std::string cut(const std::string& text, double width, double size);
-[[nodiscard]] std::string cut_middle(const std::string& text, double width, double size);
 
 // A number as a person reads it: up to `digits` of them, with a minus sign rather than a hyphen.
 [[nodiscard]] std::string number(double value, int digits = 4);

@@ -6,78 +6,44 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <set>
 #include <vector>
 
 namespace bbsim::plot {
 namespace {
 
 bool grows(const std::vector<double>& x) {
-  for (std::size_t i = 1; i < x.size(); ++i) {
-    if (!(x[i] >= x[i - 1])) return false;
-  }
-  return true;
+  return std::ranges::adjacent_find(x, [](double a, double b) { return !(a <= b); }) == x.end();
 }
 
-Curve only(const Curve& curve, const std::vector<std::size_t>& kept) {
-  Curve result{curve.shape, curve.stroke, {}, {}};
-  result.x.reserve(kept.size());
-  result.y.reserve(kept.size());
-  for (const std::size_t i : kept) {
-    result.x.push_back(curve.x[i]);
-    result.y.push_back(curve.y[i]);
-  }
+template <class Places>
+Curve only(const Curve& curve, const Places& kept) {
+  Curve result{curve.shape, curve.stroke};
+  for (const std::size_t i : kept) result.add(curve.x[i], curve.y[i]);
   return result;
 }
-
-// The points kept of those in one column of pixels.
-class PixelColumn {
- public:
-  explicit PixelColumn(const Curve& curve) : curve_(curve) {}
-
-  void add(std::size_t i) {
-    const double y = curve_.y[i];
-    if (count_ == 0) first_ = low_ = high_ = i;
-    if (y < curve_.y[low_] || std::isnan(curve_.y[low_])) low_ = i;
-    if (y > curve_.y[high_] || std::isnan(curve_.y[high_])) high_ = i;
-    if (std::isnan(y)) gap_ = i;
-    last_ = i;
-    ++count_;
-  }
-
-  void flush(std::vector<std::size_t>& kept) {
-    if (count_ == 0) return;
-    // They go in order, each once. A gap in a column of pixels is one point.
-    std::vector<std::size_t> found{first_, low_, high_, last_};
-    if (gap_ != none) found.push_back(gap_);
-    std::sort(found.begin(), found.end());
-    for (const std::size_t i : found) {
-      if (kept.empty() || i > kept.back()) kept.push_back(i);
-    }
-    count_ = 0;
-    gap_ = none;
-  }
-
- private:
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
-  const Curve& curve_;
-  std::size_t count_ = 0, first_ = 0, low_ = 0, high_ = 0, last_ = 0, gap_ = none;
-};
 
 }  // namespace
 
 Curve thin_over_time(Curve curve, const Panel& panel) {
   const double pixels = panel.box.width();
-  if (static_cast<double>(curve.x.size()) < 4 * pixels || !grows(curve.x)) return curve;
-  std::vector<std::size_t> kept;
-  PixelColumn column(curve);
-  double current = -1;
-  for (std::size_t i = 0; i < curve.x.size(); ++i) {
-    const double at = std::floor(panel.x.fraction(curve.x[i]) * pixels);
-    if (at != current) column.flush(kept);
-    current = at;
-    column.add(i);
+  const std::size_t size = curve.x.size();
+  if (static_cast<double>(size) < 4 * pixels || !grows(curve.x)) return curve;
+  const auto pixel = [&](std::size_t i) {
+    return std::floor(panel.x.fraction(curve.x[i]) * pixels);
+  };
+  std::set<std::size_t> kept;
+  for (std::size_t first = 0, end = 0; first < size; first = end) {
+    std::size_t low = first, high = first;
+    for (end = first; end < size && pixel(end) == pixel(first); ++end) {
+      const double y = curve.y[end];
+      if (y < curve.y[low] || std::isnan(curve.y[low])) low = end;
+      if (y > curve.y[high] || std::isnan(curve.y[high])) high = end;
+      // A gap in a column of pixels is one point.
+      if (std::isnan(y) && (end == first || !std::isnan(curve.y[end - 1]))) kept.insert(end);
+    }
+    kept.insert({first, low, high, end - 1});
   }
-  column.flush(kept);
   return only(curve, kept);
 }
 

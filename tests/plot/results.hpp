@@ -6,14 +6,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "file/external.hpp"
 #include "plot/picture.hpp"
 #include "plot/result.hpp"
-#include "plot/text.hpp"
+#include "plot/script.hpp"
+#include "support/svg_texts.hpp"
 
 namespace bbsim_test {
 
@@ -37,71 +40,26 @@ inline bbsim::plot::Result run_of(const std::vector<std::pair<std::string, Funct
   return run;
 }
 
-// Where something is written, in pixels.
-struct Written {
-  std::string text;
-  double left, right, top, bottom;
-};
-
-// All texts of a picture: words, and the labels of tics as the terminals set them.
-inline std::vector<Written> all_texts(const bbsim::plot::Picture& picture) {
-  using namespace bbsim::plot;
-  std::vector<Written> texts;
-  const auto add = [&texts](const std::string& text, double left, double y, double size) {
-    const double width = width_of(text, size);
-    texts.push_back({text, left, left + width, y - 0.4 * size, y + 0.4 * size});
-  };
-  for (const Words& words : picture.words) {
-    const double width = width_of(words.text, words.size);
-    if (words.upwards) {
-      texts.push_back({words.text, words.x - 0.4 * words.size, words.x + 0.4 * words.size,
-                       words.y - width / 2, words.y + width / 2});
-      continue;
-    }
-    const double part = words.align == Words::Align::left     ? 0
-                        : words.align == Words::Align::centre ? 0.5
-                                                              : 1;
-    add(words.text, words.x - part * width, words.y, words.size);
-  }
-  constexpr double size = 13, gap = 9;
-  for (const Panel& panel : picture.panels) {
-    for (const Tic& tic : panel.x.tics) {
-      if (tic.label.empty()) continue;
-      const double x = panel.box.left + panel.box.width() * panel.x.fraction(tic.at);
-      add(tic.label, x - width_of(tic.label, size) / 2, panel.box.bottom + 18, size);
-    }
-    for (const Tic& tic : panel.y.tics) {
-      if (tic.label.empty()) continue;
-      const double y = panel.box.bottom - panel.box.height() * panel.y.fraction(tic.at);
-      const double left = panel.y.at_right ? panel.box.right + gap
-                                           : panel.box.left - gap - width_of(tic.label, size);
-      add(tic.label, left, y, size);
-    }
-  }
-  return texts;
-}
-
-// What collides or leaves the sheet, in words; empty if all can be read.
+// What collides where gnuplot draws a picture (svg_texts.hpp), and what it complains of.
 inline std::string collisions(const bbsim::plot::Picture& picture) {
-  const std::vector<Written> texts = all_texts(picture);
-  std::string found;
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    const Written& one = texts[i];
-    if (one.left < 0 || one.right > picture.width || one.top < 0 || one.bottom > picture.height) {
-      found += "outside: " + one.text + "\n";
-    }
-    for (std::size_t j = i + 1; j < texts.size(); ++j) {
-      const Written& other = texts[j];
-      const bool apart = one.right <= other.left || other.right <= one.left ||
-                         one.bottom <= other.top || other.bottom <= one.top;
-      if (!apart) found += "\"" + one.text + "\" over \"" + other.text + "\"\n";
-    }
-  }
-  return found;
+  using namespace bbsim::plot;
+  const std::string script =
+      gnuplot_script(picture, Format::svg, [](std::uint32_t) { return true; });
+  const auto drawn = bbsim::file::run_program({"gnuplot", "--default-settings", "-"}, script, "");
+  if (!drawn || !drawn->well()) return "gnuplot failed";
+  return drawn->complaint + collisions_in(drawn->output);
 }
 
+// Whether one of the picture's texts, as its author has it, is this.
 inline bool says(const bbsim::plot::Picture& picture, const std::string& text) {
-  return std::ranges::any_of(picture.words, [&](const auto& words) { return words.text == text; });
+  const auto named = [&](const std::vector<bbsim::plot::Entry>& legend) {
+    return std::ranges::find(legend, text, &bbsim::plot::Entry::name) != legend.end();
+  };
+  return picture.title == text || picture.subtitle == text || named(picture.legend) ||
+         std::ranges::any_of(picture.panels, [&](const bbsim::plot::Panel& panel) {
+           return panel.heading == text || panel.x.label == text || panel.y.label == text ||
+                  named(panel.legend);
+         });
 }
 
 }  // namespace bbsim_test

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <cmath>
-#include <limits>
+#include <cstdio>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "catch.hpp"
 #include "plot/axis.hpp"
@@ -20,6 +22,24 @@ Range range_of(double low, double high) {
   return range;
 }
 
+std::vector<double> tics_of(const Axis& axis) {
+  std::vector<double> tics;
+  const double first = std::ceil(axis.low / axis.step), last = std::floor(axis.high / axis.step);
+  for (double i = first; i <= last; ++i) tics.push_back(i * axis.step);
+  return tics;
+}
+
+// As gnuplot writes them by the format that it is given.
+std::set<std::string> labels_of(const Axis& axis) {
+  std::set<std::string> labels;
+  for (const double tic : tics_of(axis)) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f", axis.decimals(), tic);
+    labels.insert(text);
+  }
+  return labels;
+}
+
 }  // namespace
 
 TEST_CASE("labels are short and unlike each other, whatever the size of the values") {
@@ -29,19 +49,17 @@ TEST_CASE("labels are short and unlike each other, whatever the size of the valu
         const double size = std::pow(10.0, exponent);
         const Range range = range_of(size * (1 - part / 2), size * (1 + part / 2));
         const Scale scale = choose_scale({unit}, range);
-        const Axis axis = linear_axis({scale(range.low), scale(range.high)}, 100, 26);
+        const Axis axis = linear_axis(scale(range), Along::y, 100);
         CAPTURE(unit, exponent, part, scale.unit, scale.offset, axis.low, axis.high);
         REQUIRE(axis.low < axis.high);
         CHECK(axis.low <= scale(range.low));
         CHECK(axis.high >= scale(range.high));
-        REQUIRE(axis.tics.size() >= 2);
-        CHECK(axis.tics.size() <= 10);
-        std::set<std::string> labels;
-        for (const Tic& tic : axis.tics) {
-          CHECK(width_of(tic.label, 13) <= 58);  // what a panel's margin has room for
-          labels.insert(tic.label);
-        }
-        CHECK(labels.size() == axis.tics.size());
+        const std::set<std::string> labels = labels_of(axis);
+        CHECK(labels.size() >= 2);
+        CHECK(labels.size() <= 10);
+        // What a panel's margin has room for; all labels differ.
+        for (const std::string& label : labels) CHECK(width_of(label, 13) <= 58);
+        CHECK(labels.size() == tics_of(axis).size());
       }
     }
   }
@@ -83,26 +101,25 @@ TEST_CASE("the two axes of a plane have one factor") {
 }
 
 TEST_CASE("a constant, and nothing at all, still have an axis") {
-  const Axis constant = linear_axis({5, 5}, 100, 26);
+  const Axis constant = linear_axis({5, 5}, Along::y, 100);
   CHECK(constant.low < 5);
   CHECK(constant.high > 5);
-  const Axis zero = linear_axis({0, 0}, 100, 26);
+  const Axis zero = linear_axis({0, 0}, Along::y, 100);
   CHECK(zero.low < 0);
-  const Axis none = linear_axis({}, 100, 26);
+  const Axis none = linear_axis({}, Along::y, 100);
   CHECK(none.low < none.high);
 }
 
 TEST_CASE("logarithmic axes have tics over any number of decades") {
   for (const double high : {2.0, 12.0, 1e2, 1e5, 1e30, 1e300}) {
-    const Axis axis = log_axis({1, high}, 300, 60, 0.02);
+    const Axis axis = log_axis({1, high}, Along::x, 300, 0.02);
     CAPTURE(high);
     CHECK(axis.tics.size() >= 2);
     CHECK(axis.tics.size() <= 9);
     CHECK(axis.fraction(1) >= 0);
     CHECK(axis.fraction(high) <= 1);
-    CHECK(std::isnan(axis.fraction(0)));
   }
-  CHECK(log_axis({1e-8, 1e8}, 300, 60, 0).tics.front().label == "10⁻⁸");
+  CHECK(log_axis({1e-8, 1e8}, Along::x, 300, 0).tics.front().label == "10⁻⁸");
   CHECK(better_by_log({1e-4, 1}));
   CHECK_FALSE(better_by_log({0, 1}));
   CHECK_FALSE(better_by_log({-1, 1e9}));
@@ -110,18 +127,10 @@ TEST_CASE("logarithmic axes have tics over any number of decades") {
 
 TEST_CASE("labels below a panel are not nearer than a letter, however long they are") {
   for (const double pixels : {120.0, 300.0, 480.0}) {
-    const Axis axis = across(tight_axis({64.00465, 64.02571}, pixels, 40), pixels);
-    REQUIRE(axis.tics.size() >= 2);
-    for (std::size_t i = 1; i < axis.tics.size(); ++i) {
-      const double apart = (axis.fraction(axis.tics[i].at) - axis.fraction(axis.tics[i - 1].at));
-      CHECK(apart * pixels > width_of(axis.tics[i].label, 13) + 8);
-    }
+    const Axis axis = linear_axis({64.00465, 64.02571}, Along::x, pixels, 0);
+    const std::set<std::string> labels = labels_of(axis);
+    REQUIRE(labels.size() >= 2);
+    const double apart = axis.step / (axis.high - axis.low) * pixels;
+    for (const std::string& label : labels) CHECK(apart > width_of(label, 13) + 8);
   }
-}
-
-TEST_CASE("places on an axis do not overflow") {
-  constexpr double largest = std::numeric_limits<double>::max();
-  const Axis axis{-largest, largest};
-  CHECK(axis.fraction(0) == 0.5);
-  CHECK(axis.fraction(largest) == 1);
 }

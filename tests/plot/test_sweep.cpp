@@ -140,7 +140,8 @@ TEST_CASE("two keys give a map; one with few values gives a line for each") {
   const Picture map = sweep_picture(grid, {});
   CHECK(collisions(map) == "");
   CHECK(cells(map) == 120);
-  CHECK(map.panels.size() == 2);  // the scale of colours is the other one
+  CHECK(map.panels.size() == 1);
+  CHECK(map.panels[0].colours);
   CHECK(says(map, "failed: 1 case"));
   const Picture lines =
       sweep_picture(sweep_of({repeated("a", 60, 3, 20), repeated("b", 60, 1, 3)}), {});
@@ -160,9 +161,7 @@ TEST_CASE("draws give histograms, a median and a band over listed keys, or point
   const Picture lines = sweep_picture(mixed, {});
   CHECK(has_band(lines));
   CHECK(says(lines, "sweep.csv"));
-  CHECK(std::ranges::any_of(lines.words, [](const Words& words) {
-    return words.text.find("over draws of b") != std::string::npos;
-  }));
+  CHECK_THAT(lines.subtitle, Contains("over draws of b"));
   const Picture points = sweep_picture(mixed, {{}, {"b"}});
   CHECK(points.panels[0].curves[0].x.size() == 200);
   CHECK(points.panels[0].curves[0].stroke.width == 0);
@@ -205,9 +204,7 @@ TEST_CASE("numbers beside a histogram are told apart, and one that all share sta
   CHECK_FALSE(says(picture, "median 1.304"));
   CHECK(says(constant, "all 1.304"));
   CHECK_FALSE(says(constant, "median"));
-  for (std::size_t i = 1; i < picture.panels[0].x.tics.size(); ++i) {
-    CHECK(picture.panels[0].x.tics[i].label != picture.panels[0].x.tics[i - 1].label);
-  }
+  CHECK(picture.panels[0].x.decimals() <= 2);  // so tics have labels of their own
 }
 
 TEST_CASE("a map's colours and cells differ in three digits") {
