@@ -32,6 +32,7 @@ CellTable read_hdf5_cells(const std::string& file) {
   CellTable table;
   for (const Hdf5Column& column : reader.columns()) {
     table.names.push_back(column.name);
+    table.units.push_back(column.unit);
     table.columns.emplace_back();
     if (column.kind == Hdf5Kind::series) table.columns.back().width = column.width;
   }
@@ -47,6 +48,7 @@ CellTable read_hdf5_cells(const std::string& file) {
   }
   for (const auto& [column, values] : reader.axes()) {
     table.names.push_back(column.name);
+    table.units.push_back(column.unit);
     table.columns.emplace_back(values, values.size());  // one row with all values of the axis
   }
   table.rows = reader.rows();

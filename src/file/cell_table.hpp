@@ -51,6 +51,7 @@ struct CellTable {
   std::vector<CellColumn> columns;
   std::size_t rows = columns.empty() ? 0 : columns.front().size();
   Attributes attributes{};           // of an HDF5 file's root
+  std::vector<std::string> units{};  // of an HDF5 file's columns
   std::string file{};                // its name in messages, of a CSV
   std::vector<std::string> notes{};  // what was left out: "warning: ..." or "note: ..."
 

@@ -44,22 +44,8 @@ PlannedLine line_of(std::string_view column) {
   return {std::string(column), known->role, std::string(known->symbol)};
 }
 
-bool is_drawable(const Result& run, std::string_view column) {
-  const Column* const found = run.find(column);
-  return found != nullptr &&
-         std::ranges::any_of(found->numbers, [](double value) { return std::isfinite(value); });
-}
-
-bool any_draws(const std::vector<Result>& runs, std::string_view column) {
-  return std::ranges::any_of(runs, [&](const Result& run) { return is_drawable(run, column); });
-}
-
-Range range_of(const std::vector<Result>& runs, std::string_view column) {
-  Range range;
-  for (const Result& run : runs) {
-    if (const Column* found = run.find(column)) range.include(found->numbers);
-  }
-  return range;
+bool draws(const std::vector<Result>& runs, std::string_view column) {
+  return !range_of(runs, column).empty();
 }
 
 std::size_t count_of(const PlannedPanel& panel, Role role) {
@@ -104,48 +90,32 @@ void name_panel(PlannedPanel& panel) {
 
 // Beside one of the lines another would be flat.
 bool flattens(const std::vector<Result>& runs, const PlannedPanel& panel) {
-  double widest = 0, narrowest = 0;
-  bool first = true;
+  Range widths;
   for (const PlannedLine& line : panel.lines) {
-    if (line.role != Role::main) continue;
     const Range range = range_of(runs, line.column);
-    if (!range.wide()) continue;  // flat anyway
-    const double width = range.high - range.low;
-    widest = std::max(widest, width);
-    narrowest = first ? width : std::min(narrowest, width);
-    first = false;
+    if (line.role == Role::main && range.wide()) widths.include(range.width());  // others are flat
   }
-  return widest > 50 * narrowest;
+  return !widths.empty() && widths.high > 50 * widths.low;
 }
 
-// A panel for each main line, with what stands beside it.
-void split_into(std::vector<PlannedPanel>& panels, const PlannedPanel& panel) {
+// A panel for each line that leads, with what stands beside it: beside the one of its axis, or the
+// first.
+template <class Leads>
+void split_into(std::vector<PlannedPanel>& panels, const PlannedPanel& panel, Leads leads) {
   std::vector<PlannedPanel> parts;
   for (const PlannedLine& line : panel.lines) {
-    if (line.role == Role::main) parts.push_back({"", panel.unit, {line}});
+    if (leads(line.role)) parts.push_back({"", panel.unit, {line}});
   }
+  if (parts.empty()) parts.push_back({"", panel.unit, {}});
   for (const PlannedLine& line : panel.lines) {
-    if (line.role == Role::main) continue;
+    if (leads(line.role)) continue;
     const auto partner = std::ranges::find_if(parts, [&](const PlannedPanel& part) {
-      return scenario::axis_of(part.lines.front().column) == scenario::axis_of(line.column);
+      return !part.lines.empty() &&
+             scenario::axis_of(part.lines.front().column) == scenario::axis_of(line.column);
     });
     (partner == parts.end() ? parts.front() : *partner).lines.push_back(line);
   }
   panels.insert(panels.end(), parts.begin(), parts.end());
-}
-
-// With several runs, the lines of a panel differ by the run, so that no two quantities share one;
-// only references do, which are bands.
-void split_for_comparison(std::vector<PlannedPanel>& panels, const PlannedPanel& panel) {
-  const std::size_t begin = panels.size();
-  for (const PlannedLine& line : panel.lines) {
-    if (line.role != Role::reference) panels.push_back({"", panel.unit, {line}});
-  }
-  for (const PlannedLine& line : panel.lines) {
-    if (line.role != Role::reference) continue;
-    if (panels.size() == begin) panels.push_back({"", panel.unit, {}});
-    panels[begin].lines.push_back(line);
-  }
 }
 
 std::vector<PlannedPanel> finish(const std::vector<Result>& runs,
@@ -153,10 +123,12 @@ std::vector<PlannedPanel> finish(const std::vector<Result>& runs,
   std::vector<PlannedPanel> panels;
   for (const PlannedPanel& panel : wanted) {
     if (runs.size() > 1) {
-      split_for_comparison(panels, panel);
+      // The lines of a panel differ by the run, so that no two quantities share one; only
+      // references do, which are bands.
+      split_into(panels, panel, [](Role role) { return role != Role::reference; });
     } else if (may_split && count_of(panel, Role::main) > 1 &&
                (flattens(runs, panel) || count_of(panel, Role::command) > 0)) {
-      split_into(panels, panel);
+      split_into(panels, panel, [](Role role) { return role == Role::main; });
     } else {
       panels.push_back(panel);
     }
@@ -184,22 +156,28 @@ double misfit(const std::vector<double>& t, const std::vector<double>& u,
   return count > 0 ? std::sqrt(sum / count) : 0;
 }
 
-std::string did_you_mean(const std::vector<Result>& runs, const std::string& name) {
+// What there is in place of a column that no run has.
+std::string allowed(const Result& run, const std::string& name) {
   std::vector<std::string_view> names{"path"};
-  for (const Column& column : runs.front().columns) names.push_back(column.name);
-  const std::string_view nearest = yaml::nearest_name(name, names);
-  return nearest.empty() ? "" : "; did you mean " + std::string(nearest) + "?";
-}
-
-std::string columns_of(const std::vector<Result>& runs) {
-  std::string names;
-  for (const Column& column : runs.front().columns) {
-    names += (names.empty() ? "" : ", ") + column.name;
+  std::string list;
+  for (const Column& column : run.columns) {
+    names.push_back(column.name);
+    list += (list.empty() ? "" : ", ") + column.name;
   }
-  return names;
+  const std::string_view nearest = yaml::nearest_name(name, names);
+  return (nearest.empty() ? "" : "; did you mean " + std::string(nearest) + "?") + "; " + run.file +
+         " has " + list + ", and path is their picture in the plane";
 }
 
 }  // namespace
+
+Range range_of(const std::vector<Result>& runs, std::string_view column) {
+  Range range;
+  for (const Result& run : runs) {
+    if (const Column* found = run.find(column)) range.include(found->numbers);
+  }
+  return range;
+}
 
 Unit unit_of(std::string_view column) {
   const scenario::Column* const found = find_result_column(column);
@@ -244,7 +222,7 @@ std::vector<PlannedPanel> plan_panels(const std::vector<Result>& runs) {
     const auto add = [&](const scenario::Column& column) {
       const std::string_view unit =
           scenario::is_command(column.name) ? command_unit(driven) : column.unit;
-      if (scenario::panel_of(column, unit) != at || !any_draws(runs, column.name)) return;
+      if (scenario::panel_of(column, unit) != at || !draws(runs, column.name)) return;
       panel.unit = drawn_unit(runs, column.name, driven);
       panel.lines.push_back(line_of(column.name));
     };
@@ -269,7 +247,7 @@ std::vector<PlannedPanel> plan_panels(const std::vector<Result>& runs) {
         return std::ranges::find(panel.lines, column.name, &PlannedLine::column) !=
                panel.lines.end();
       });
-      if (planned || column.name == "t" || !is_drawable(run, column.name)) continue;
+      if (planned || column.name == "t" || !draws(runs, column.name)) continue;
       panels.push_back({"", unit_of(runs, column.name), {line_of(column.name)}});
     }
   }
@@ -287,10 +265,9 @@ std::vector<PlannedPanel> plan_panels(const std::vector<Result>& runs,
       if (name == "t") throw InputError(found + ", over which the others are drawn");
       if (std::ranges::none_of(runs,
                                [&](const Result& run) { return run.find(name) != nullptr; })) {
-        throw InputError(found + did_you_mean(runs, name) + "; " + runs.front().file + " has " +
-                         columns_of(runs) + ", and path is their picture in the plane");
+        throw InputError(found + allowed(runs.front(), name));
       }
-      if (!any_draws(runs, name)) throw InputError(found + ", which holds no finite number");
+      if (!draws(runs, name)) throw InputError(found + ", which holds no finite number");
       const Unit unit = drawn_unit(runs, name, driven);
       if (!panel.lines.empty() && !(unit == panel.unit)) {
         throw InputError(found + " in a panel with " + panel.lines.front().column +

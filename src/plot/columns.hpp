@@ -39,6 +39,9 @@ struct PlannedPanel {
 [[nodiscard]] std::vector<PlannedPanel> plan_panels(
     const std::vector<Result>& runs, const std::vector<std::vector<std::string>>& asked);
 
+// What the numbers of a column span in all of these runs.
+[[nodiscard]] Range range_of(const std::vector<Result>& runs, std::string_view column);
+
 // The unit in which a column of `bbsim columns` is drawn.
 [[nodiscard]] Unit unit_of(std::string_view column);
 

@@ -7,9 +7,8 @@
 #include <array>
 #include <charconv>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
-#include <map>
+#include <iterator>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -19,7 +18,6 @@
 #include "base/json.hpp"
 #include "base/text.hpp"
 #include "file/format.hpp"
-#include "file/hdf5_table.hpp"
 #include "file/whole_file.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/reader.hpp"
@@ -35,100 +33,6 @@ bool is_hdf5(const std::string& file) {
   return file::format_of(file) == file::Format::hdf5;
 }
 
-double to_number(const std::string& text) {
-  double value = 0;
-  std::from_chars(text.data(), text.data() + text.size(), value);
-  return value;
-}
-
-// The scenario's text has a place of its own.
-std::string summary_text(Json json) {
-  json.erase("scenario_text");
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-// The attributes of an HDF5 file as the summary that they are; of lists, a line an entry.
-std::string summary_of(const file::Attributes& attributes) {
-  constexpr std::array statistics = {"steps", "rhs_evaluations", "jacobian_evaluations",
-                                     "nonlinear_iterations", "error_test_failures"};
-  Json json = Json::object();
-  for (const auto& [name, value] : attributes) {
-    Json& place = std::ranges::find(statistics, name) == statistics.end()
-                      ? json[name]
-                      : json["statistics"][name];
-    std::visit([&place](const auto& held) { place = held; }, value.value());
-  }
-  return summary_text(std::move(json));
-}
-
-// "t=0.54 event=edge action=stop x=0.16 y=-0.02 ...", as record/summary.hpp writes it.
-Event event_of(const std::string& line) {
-  std::map<std::string, std::string> members;
-  std::istringstream words(line);
-  for (std::string word; words >> word;) {
-    const std::size_t equals = word.find('=');
-    if (equals != std::string::npos) members[word.substr(0, equals)] = word.substr(equals + 1);
-  }
-  Event event{members["event"], members["action"] == "stop", to_number(members["t"]),
-              to_number(members["x"]), to_number(members["y"])};
-  for (const auto& [name, value] : members) {
-    if (scenario::find_column(name) != nullptr) event.state[name] = to_number(value);
-  }
-  return event;
-}
-
-// Where the scenario's text stands for a file that may have changed since, or be gone with its
-// tables: what can be read of it is enough for a picture.
-void take_scenario(Result& result, const std::string& text, const std::string& name,
-                   const std::vector<std::string>& overrides) {
-  if (text.empty()) return;
-  result.scenario = parse_sound_parts(text, name, overrides);
-}
-
-void take_attributes(Result& result, const file::Attributes& attributes) {
-  std::map<std::string, std::string> by_name;
-  for (const auto& [name, value] : attributes) by_name[name] = value.text();
-  result.title = by_name["title"];
-  result.status = by_name["status"];
-  result.reason = by_name["reason"];
-  result.version = by_name["version"];
-  result.summary = summary_of(attributes);
-  if (by_name.contains("end_time")) result.end_time = to_number(by_name["end_time"]);
-  for (const std::string& line : lines_of(by_name["events"])) {
-    result.events.push_back(event_of(line));
-  }
-  take_scenario(result, by_name["scenario_text"], by_name["scenario"],
-                lines_of(by_name["overrides"]));
-  result.tells_drawn = by_name.contains("vary");
-  for (const std::string& line : lines_of(by_name["vary"])) {
-    const Variation variation = scenario::split_variation(line);
-    if (scenario::parse_variation(variation).random()) result.drawn_keys.push_back(variation.key);
-  }
-}
-
-Result read_hdf5_result(const std::string& file) {
-  const file::Hdf5TableReader reader(file);
-  file::Hdf5Block block;
-  reader.read(0, reader.rows(), block);
-  Result result;
-  result.file = file;
-  result.rows = reader.rows();
-  for (std::size_t c = 0; c < reader.columns().size(); ++c) {
-    const file::Hdf5Column& from = reader.columns()[c];
-    if (from.kind == file::Hdf5Kind::series) continue;  // trajectories of a sweep
-    Column column{from.name, std::move(block.values[c])};
-    column.unit = from.unit;
-    if (from.kind == file::Hdf5Kind::text) {
-      column.texts = std::move(block.texts[c]);
-      column.numbers.assign(result.rows, NAN);
-    }
-    result.columns.push_back(std::move(column));
-  }
-  if (result.rows == 0) throw InputError(file + ": has no rows");
-  take_attributes(result, reader.attributes());
-  return result;
-}
-
 template <class T>
 T member(const Json& json, const char* name, T otherwise) {
   const auto found = json.find(name);
@@ -140,6 +44,68 @@ T member(const Json& json, const char* name, T otherwise) {
   }
 }
 
+std::string text_in(const Json& json, const char* name) {
+  return member<std::string>(json, name, "");
+}
+
+// The attributes of an HDF5 file as the summary that they are; of lists, a line an entry.
+Json summary_of(const file::Attributes& attributes) {
+  constexpr std::array statistics = {"steps", "rhs_evaluations", "jacobian_evaluations",
+                                     "nonlinear_iterations", "error_test_failures"};
+  Json json = Json::object();
+  for (const auto& [name, value] : attributes) {
+    Json& place = std::ranges::find(statistics, name) == statistics.end()
+                      ? json[name]
+                      : json["statistics"][name];
+    std::visit([&place](const auto& held) { place = held; }, value.value());
+  }
+  return json;
+}
+
+// A list of texts; in an HDF5 file, lines.
+std::vector<std::string> list_in(const Json& json, const char* name) {
+  std::vector<std::string> list = lines_of(text_in(json, name));
+  if (!json.contains(name) || !json[name].is_array()) return list;
+  for (const Json& text : json[name]) {
+    if (text.is_string()) list.push_back(text.get<std::string>());
+  }
+  return list;
+}
+
+// "t=0.54 event=edge action=stop x=0.16 y=-0.02 ...", as record/summary.hpp writes it.
+Json members_of(const std::string& line) {
+  Json members = Json::object();
+  std::istringstream words(line);
+  for (std::string word; words >> word;) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos) continue;
+    const std::string name = word.substr(0, equals), text = word.substr(equals + 1);
+    double value = 0;
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool number = read.ec == std::errc() && read.ptr == text.data() + text.size();
+    members[name] = number ? Json(value) : Json(text);
+  }
+  return members;
+}
+
+std::vector<Event> events_in(const Json& json) {
+  std::vector<Json> all;
+  for (const std::string& line : lines_of(text_in(json, "events"))) all.push_back(members_of(line));
+  if (json.contains("events") && json["events"].is_array()) {
+    std::ranges::copy_if(json["events"], std::back_inserter(all), &Json::is_object);
+  }
+  std::vector<Event> events;
+  for (const Json& one : all) {
+    events.push_back({text_in(one, "event"), text_in(one, "action") == "stop",
+                      member(one, "t", 0.0), member(one, "x", 0.0), member(one, "y", 0.0)});
+    for (const auto& [name, value] : one.items()) {
+      const bool column = value.is_number() && scenario::find_column(name) != nullptr;
+      if (column) events.back().state[name] = value.get<double>();
+    }
+  }
+  return events;
+}
+
 constexpr std::size_t most_of_a_summary = std::size_t{1} << 28U;  // bytes: a million events
 
 bool is_summary(const Json& json) {
@@ -149,31 +115,26 @@ bool is_summary(const Json& json) {
 
 void take_summary(Result& result, const Json& json) {
   result.units_known = true;
-  result.title = member<std::string>(json, "title", "");
-  result.status = member<std::string>(json, "status", "");
-  result.reason = member<std::string>(json, "reason", "");
-  result.version = member<std::string>(json, "version", "");
-  result.summary = summary_text(json);
+  result.title = text_in(json, "title");
+  result.status = text_in(json, "status");
+  result.reason = text_in(json, "reason");
+  result.version = text_in(json, "version");
   if (json.contains("end_time")) result.end_time = member(json, "end_time", 0.0);
-  for (const Json& event : json["events"]) {
-    if (!event.is_object()) continue;
-    result.events.push_back({member<std::string>(event, "event", ""),
-                             member<std::string>(event, "action", "") == "stop",
-                             member(event, "t", 0.0), member(event, "x", 0.0),
-                             member(event, "y", 0.0)});
-    for (const auto& [name, value] : event.items()) {
-      const bool column = value.is_number() && scenario::find_column(name) != nullptr;
-      if (column) result.events.back().state[name] = value.get<double>();
-    }
+  result.events = events_in(json);
+  result.tells_drawn = json.contains("vary");
+  for (const std::string& line : list_in(json, "vary")) {
+    const Variation variation = scenario::split_variation(line);
+    if (scenario::parse_variation(variation).random()) result.drawn_keys.push_back(variation.key);
   }
-  std::vector<std::string> overrides;
-  if (json.contains("overrides") && json["overrides"].is_array()) {
-    for (const Json& text : json["overrides"]) {
-      if (text.is_string()) overrides.push_back(text.get<std::string>());
-    }
+  // The scenario's file may have changed since, or be gone with its tables: what can be read of its
+  // text is enough for a picture.
+  if (const std::string text = text_in(json, "scenario_text"); !text.empty()) {
+    result.scenario =
+        parse_sound_parts(text, text_in(json, "scenario"), list_in(json, "overrides"));
   }
-  take_scenario(result, member<std::string>(json, "scenario_text", ""),
-                member<std::string>(json, "scenario", ""), overrides);
+  Json shown = json;
+  shown.erase("scenario_text");  // it has a place of its own
+  result.summary = shown.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 void read_summary(Result& result, const std::string& file) {
@@ -211,7 +172,7 @@ void find_summary(Result& result) {
     return;
   }
   if (!is_summary(json)) return;
-  if (fs::path(member<std::string>(json, "output", "")).filename() != csv.filename()) return;
+  if (fs::path(text_in(json, "output")).filename() != csv.filename()) return;
   const bool as_long = member(json, "rows", std::size_t{0}) == result.rows;
   if (as_long && !is_newer(csv, summary)) return take_summary(result, json);
   result.left_out = summary.string() + ": left out, since it " +
@@ -238,7 +199,10 @@ Result read_result(const std::string& file, const Beside& beside, const LogChoic
   }
   std::vector<std::string> ignored;
   std::vector<std::string>& told = notes == nullptr ? ignored : *notes;
-  Result result = is_hdf5(file) ? read_hdf5_result(file) : read_csv_columns(file, log.header, told);
+  file::CellTable cells = file::read_cells(file, {{}, log.header});
+  const file::Attributes attributes = cells.attributes;
+  Result result = result_of(std::move(cells), file, told);
+  if (is_hdf5(file)) take_summary(result, summary_of(attributes));
   if (!beside.summary.empty()) {
     read_summary(result, beside.summary);
   } else if (!result.is_sweep()) {

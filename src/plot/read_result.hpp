@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "file/cell_table.hpp"
 #include "plot/log.hpp"
 #include "plot/result.hpp"
 
@@ -31,6 +32,10 @@ struct Beside {
 
 // NAME.json beside NAME.csv, as read_result() looks for it: empty if there is none.
 [[nodiscard]] std::string summary_beside(const std::string& file);
+
+// The columns of a table that was read from a file. Adds to `notes` what was left out.
+[[nodiscard]] Result result_of(file::CellTable cells, const std::string& file,
+                               std::vector<std::string>& notes);
 
 // Only the columns, of CSV; `header` names them if the file does not. Adds to `notes` what was left
 // out. Throws InputError with file:line:column.

@@ -73,11 +73,7 @@ void add_events(Panel& panel, const Result& run, const Abscissa& abscissa,
 Panel time_panel(const std::vector<Result>& runs, const PlannedPanel& planned,
                  const Abscissa& abscissa, const EventMarks& marks, const Box& box, bool lowest) {
   Range range;
-  for (const Result& run : runs) {
-    for (const PlannedLine& line : planned.lines) {
-      if (const Column* column = run.find(line.column)) range.include(column->numbers);
-    }
-  }
+  for (const PlannedLine& line : planned.lines) range.include(range_of(runs, line.column));
   const std::set<double> limits = friction_limits(runs, planned);
   Range shown = range;
   for (const double value : limits) shown.include(value);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// CSV of any origin: numbers and texts, quoted or not, as a picture can use them.
+// Tables of any origin: numbers and texts, as a picture can use them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -45,18 +45,21 @@ bool looks_like_a_run(const Result& table) {
 
 }  // namespace
 
-Result read_csv_columns(const std::string& file, const std::vector<std::string>& header,
-                        std::vector<std::string>& notes) {
-  file::CellTable cells = file::read_cells(file, {{}, header});
+Result result_of(file::CellTable cells, const std::string& file, std::vector<std::string>& notes) {
   notes.insert(notes.end(), cells.notes.begin(), cells.notes.end());
+  const bool is_csv = !cells.file.empty();
   Result result;
   result.file = file;
   result.rows = cells.rows;
-  if (result.rows == 0) throw InputError(cells.file + ": has a header and no rows");
+  if (result.rows == 0) {
+    throw InputError(is_csv ? cells.file + ": has a header and no rows" : file + ": has no rows");
+  }
   for (std::size_t c = 0; c < cells.columns.size(); ++c) {
     file::CellColumn& from = cells.columns[c];
+    if (from.size() != result.rows) continue;  // trajectories of a sweep
     Column column{std::move(cells.names[c]), std::move(from.numbers)};
-    if (from.first_text.line != 0) {  // then all fields are texts as well
+    if (!is_csv) column.unit = std::move(cells.units[c]);
+    if (std::ranges::any_of(from.texts, [](const std::string& text) { return !text.empty(); })) {
       column.texts = std::move(from.texts);
       for (std::size_t row = 0; row < column.texts.size(); ++row) {
         const double number = column.numbers[row];
@@ -65,8 +68,13 @@ Result read_csv_columns(const std::string& file, const std::vector<std::string>&
     }
     result.columns.push_back(std::move(column));
   }
-  result.units_known = result.is_sweep() || looks_like_a_run(result);
+  result.units_known = !is_csv || result.is_sweep() || looks_like_a_run(result);
   return result;
+}
+
+Result read_csv_columns(const std::string& file, const std::vector<std::string>& header,
+                        std::vector<std::string>& notes) {
+  return result_of(file::read_cells(file, {{}, header}), file, notes);
 }
 
 }  // namespace bbsim::plot
