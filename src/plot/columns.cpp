@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "plot/text.hpp"
 #include "scenario/columns.hpp"
 #include "yaml/nearest.hpp"
 
@@ -158,15 +159,12 @@ double misfit(const std::vector<double>& t, const std::vector<double>& u,
 
 // What there is in place of a column that no run has.
 std::string allowed(const Result& run, const std::string& name) {
-  std::vector<std::string_view> names{"path"};
-  std::string list;
-  for (const Column& column : run.columns) {
-    names.push_back(column.name);
-    list += (list.empty() ? "" : ", ") + column.name;
-  }
+  const std::vector<std::string> columns = run.names();
+  std::vector<std::string_view> names(columns.begin(), columns.end());
+  names.emplace_back("path");
   const std::string_view nearest = yaml::nearest_name(name, names);
   return (nearest.empty() ? "" : "; did you mean " + std::string(nearest) + "?") + "; " + run.file +
-         " has " + list + ", and path is their picture in the plane";
+         " has " + joined(columns) + ", and path is their picture in the plane";
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "base/shown.hpp"
 #include "base/text.hpp"
 #include "plot/read_result.hpp"
+#include "plot/text.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/log_clock.hpp"
 #include "scenario/log_names.hpp"
@@ -60,12 +61,6 @@ std::optional<double> number_of(std::string_view text) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-std::vector<std::string> names_of(const Result& log) {
-  std::vector<std::string> names;
-  for (const Column& column : log.columns) names.push_back(column.name);
-  return names;
-}
-
 const scenario::Column& target_of(std::string_view part, std::string_view name) {
   if (const scenario::Column* const column = scenario::find_column(name)) return *column;
   std::vector<std::string_view> names;
@@ -79,7 +74,7 @@ const scenario::Column& target_of(std::string_view part, std::string_view name) 
 class PartReader {
  public:
   PartReader(std::string_view part, const Result& log)
-      : part_(part), log_(log), names_(names_of(log)) {}
+      : part_(part), log_(log), names_(log.names()) {}
 
   Mapped read() {
     const std::size_t equals = part_.find('=');
@@ -131,10 +126,10 @@ class PartReader {
       if (is_column(rest)) return;
     }
     std::vector<std::string_view> names(names_.begin(), names_.end());
-    std::string known;
-    for (const std::string_view name : names) known += (known.empty() ? "" : ", ") + shown(name);
+    std::vector<std::string> known;
+    for (const std::string_view name : names) known.push_back(shown(name));
     throw InputError("--map: " + log_.file + " has no column " + bbsim::quoted(rest) +
-                     near(rest, names) + "; it has " + known);
+                     near(rest, names) + "; it has " + joined(known));
   }
 
   std::string_view part_;
@@ -202,7 +197,7 @@ Column made_of(const Result& log, const Mapped& mapped, const Teller& tell) {
 // Columns that are called as bbsim's with a unit beside the name, and the clock.
 std::vector<Mapped> by_their_names(const Result& log, const std::vector<Mapped>& mapped) {
   std::vector<Mapped> more;
-  const std::vector<std::string> names = names_of(log);
+  const std::vector<std::string> names = log.names();
   for (const scenario::Column& column : scenario::catalogue) {
     if (std::ranges::find(mapped, &column, &Mapped::column) != mapped.end()) continue;
     const yaml::Dimension dimension = yaml::dimension_of(column.unit);

@@ -15,6 +15,12 @@ const Column* Result::find(std::string_view name) const {
   return found == columns.end() ? nullptr : &*found;
 }
 
+std::vector<std::string> Result::names() const {
+  std::vector<std::string> names;
+  for (const Column& column : columns) names.push_back(column.name);
+  return names;
+}
+
 std::string Result::shown_file() const {
   return file == "-" ? "standard input" : std::filesystem::path(file).filename().string();
 }

@@ -55,6 +55,7 @@ struct Result {
   bool has_end_row = false;  // that add_end_row() added
 
   [[nodiscard]] const Column* find(std::string_view name) const;
+  [[nodiscard]] std::vector<std::string> names() const;  // of the columns
   // How a picture calls its file.
   [[nodiscard]] std::string shown_file() const;
   // A row a case, as `bbsim sweep` writes them.

@@ -16,7 +16,8 @@ namespace {
 
 // Lines with more points carry no markers.
 constexpr std::size_t most_markers = 60;
-constexpr std::size_t most_points = 20000;
+// Draws are points: these are small, and of more than those some are left out.
+constexpr std::size_t many_points = 500, most_points = 20000;
 
 // Where cases ended in each other way: a row of marks at the foot of the panel.
 using Others = std::map<std::string, std::set<double>>;
@@ -66,11 +67,12 @@ Panel line_panel(const SweepPanel& of, const Key& over, const Key* group) {
   const MeasureAxis up(of.table, of.measure);
   Panel panel = empty_panel(of, along, up);
   const std::vector<double> groups = group != nullptr ? group->distinct : std::vector<double>{0};
+  const std::size_t cases = over.values.size(), every = over.drawn ? cases / most_points + 1 : 1;
   std::vector<Curve> lines;
   Others others;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     std::map<double, std::vector<double>> done;
-    for (std::size_t i = 0; i < over.values.size(); ++i) {
+    for (std::size_t i = 0; i < cases; i += every) {
       if (group != nullptr && group->values[i] != groups[g]) continue;
       std::vector<double>& bundle = done[over.values[i]];
       if (!of.table.done(i)) {
@@ -80,8 +82,9 @@ Panel line_panel(const SweepPanel& of, const Key& over, const Key* group) {
       }
     }
     Stroke stroke = stroke_of_group(g);
-    if (over.distinct.size() > most_markers) stroke.marker = Marker::none;
-    if (over.is_text()) stroke.width = 0;  // nothing lies between two words
+    if (over.distinct.size() > most_markers && !over.drawn) stroke.marker = Marker::none;
+    if (over.is_text() || over.drawn) stroke.width = 0;  // nothing lies between words, or draws
+    if (over.drawn && cases > many_points) stroke.marker_size = 0.4;
     Curve line{Curve::Shape::line, stroke}, band{Curve::Shape::band, stroke};
     bool several = false;
     for (auto& [value, bundle] : done) {
@@ -94,27 +97,6 @@ Panel line_panel(const SweepPanel& of, const Key& over, const Key* group) {
     lines.push_back(std::move(line));
   }
   for (Curve& line : lines) panel.curves.push_back(std::move(line));
-  add_marks(panel, others, of.marks);
-  return panel;
-}
-
-Panel scatter_panel(const SweepPanel& of, const Key& over) {
-  const KeyAxis along(of.table, over);
-  const MeasureAxis up(of.table, of.measure);
-  Panel panel = empty_panel(of, along, up);
-  const double size = over.values.size() > 500 ? 0.4 : 0.9;
-  Curve points{Curve::Shape::line, {"#0072b2", 0, Dash::solid, Marker::dot, size}};
-  Others others;
-  const std::size_t every = over.values.size() / most_points + 1;
-  for (std::size_t i = 0; i < over.values.size(); i += every) {
-    const double x = along.place(over.values[i]);
-    if (of.table.done(i)) {
-      points.add(x, up.scale(of.measure.numbers[i]));
-    } else {
-      others[of.table.status[i]].insert(x);
-    }
-  }
-  panel.curves.push_back(std::move(points));
   add_marks(panel, others, of.marks);
   return panel;
 }

@@ -64,13 +64,10 @@ struct SweepPanel {
 
 // A curve for each value of `group`, or one if it is null, through the medians of the cases that
 // are done; a band where nine of ten of them lie, if there are several, for up to most_bands
-// curves: more would hide each other.
+// curves: more would hide each other. Of a key that was drawn by chance, a point a case.
 inline constexpr std::size_t most_bands = 3;
 [[nodiscard]] Panel line_panel(const SweepPanel& of, const Key& over, const Key* group);
 [[nodiscard]] std::vector<Entry> group_legend(const Key* group);
-
-// A point a case.
-[[nodiscard]] Panel scatter_panel(const SweepPanel& of, const Key& over);
 
 // A map of medians over two keys, with its scale of colours at its right.
 [[nodiscard]] Panel map_panel(const SweepPanel& of, const Key& over, const Key& against);

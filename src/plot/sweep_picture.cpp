@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "plot/sweep_parts.hpp"
+#include "plot/text.hpp"
 
 namespace bbsim::plot {
 namespace {
@@ -14,26 +15,24 @@ namespace {
 // More values than these make a map rather than a line each.
 constexpr std::size_t most_groups = 5;
 
-// What the measures are drawn over.
+// What the measures are drawn over: a map over two keys, or lines over one; histograms over none.
 struct Form {
-  enum class Kind { lines, scatter, map, histogram } kind = Kind::histogram;
   const Key* over = nullptr;
-  const Key* against = nullptr;  // of a map
-  const Key* group = nullptr;    // of lines
+  const Key* against = nullptr;
+  const Key* group = nullptr;  // a line for each of its values
 };
 
-std::string names_of(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
+template <class Named>
+std::string names_of(const std::vector<Named>& all) {
+  std::vector<std::string> names;
+  for (const auto& one : all) names.push_back(one.name);
+  return joined(names);
 }
 
 const Key& find_key(const SweepTable& table, const std::string& name) {
   const auto found = std::ranges::find(table.keys, name, &Key::name);
   if (found != table.keys.end()) return *found;
-  std::vector<std::string> names;
-  for (const Key& key : table.keys) names.push_back(key.name);
-  throw InputError("--over: found " + name + "; what varies: " + names_of(names));
+  throw InputError("--over: found " + name + "; what varies: " + names_of(table.keys));
 }
 
 // The keys whose values were listed, those that go along with others left out.
@@ -52,39 +51,37 @@ bool makes_groups(const Key& key) {
 
 Form form_over(const SweepTable& table, const std::vector<std::string>& names) {
   if (names.size() > 2) {
-    throw InputError("--over: found " + names_of(names) + "; allowed: one key, or two");
+    throw InputError("--over: found " + joined(names) + "; allowed: one key, or two");
   }
   const Key& first = find_key(table, names[0]);
   if (names.size() == 2) {
     const Key& second = find_key(table, names[1]);
     if (&first == &second) throw InputError("--over: found " + names[0] + " twice");
-    return {Form::Kind::map, &first, &second, nullptr};
+    return {&first, &second};
   }
-  if (first.drawn) return {Form::Kind::scatter, &first, nullptr, nullptr};
+  if (first.drawn) return {&first};
   const Key* group = nullptr;
   for (const Key* key : listed_keys(table)) {
     if (key->leader != first.leader && makes_groups(*key) && group == nullptr) group = key;
   }
-  return {Form::Kind::lines, &first, nullptr, group};
+  return {&first, nullptr, group};
 }
 
 Form choose_form(const SweepTable& table, const std::vector<std::string>& over) {
   if (!over.empty()) return form_over(table, over);
   std::vector<const Key*> keys = listed_keys(table);
-  if (keys.empty()) return {Form::Kind::histogram, nullptr, nullptr, nullptr};
+  if (keys.empty()) return {};
   // The two with most values, in the file's order.
   const auto more = [](const Key* a, const Key* b) {
     return a->distinct.size() > b->distinct.size();
   };
   std::vector<const Key*> by_count = keys;
   std::ranges::stable_sort(by_count, more);
-  if (by_count.size() == 1) return {Form::Kind::lines, by_count[0], nullptr, nullptr};
+  if (by_count.size() == 1) return {by_count[0]};
   const Key *first = by_count[0], *second = by_count[1];
-  if (makes_groups(*second) && !first->is_text()) {
-    return {Form::Kind::lines, first, nullptr, second};
-  }
+  if (makes_groups(*second) && !first->is_text()) return {first, nullptr, second};
   if (std::ranges::find(keys, first) > std::ranges::find(keys, second)) std::swap(first, second);
-  return {Form::Kind::map, first, second, nullptr};
+  return {first, second};
 }
 
 // The measures that are asked for; or all, but those that are the same in all cases.
@@ -97,7 +94,7 @@ std::vector<const Column*> choose_measures(const SweepTable& table, const Result
       std::vector<std::string> names;
       for (const Column* measure : table.measures) names.push_back(measure->name);
       throw InputError("--columns: found " + (name.empty() ? "nothing" : name) + "; measures of " +
-                       sweep.file + ": " + names_of(names));
+                       sweep.file + ": " + joined(names));
     }
     measures.push_back(found);
   }
@@ -110,22 +107,21 @@ std::vector<const Column*> choose_measures(const SweepTable& table, const Result
 
 // What the keys that are no axis did: nothing, or a median was taken over them, as words to add.
 std::string taken_over(const SweepTable& table, const Form& form) {
-  if (form.kind == Form::Kind::histogram || form.kind == Form::Kind::scatter) return "";
-  std::string listed, drawn;
+  if (form.over == nullptr || form.over->drawn) return "";
+  std::vector<std::string> listed, drawn;
   for (const Key& key : table.keys) {
     const auto leads = [&](const Key* axis) {
       return axis != nullptr && axis->leader == key.leader;
     };
     if (leads(form.over) || leads(form.against) || leads(form.group)) continue;
-    std::string& text = key.drawn ? drawn : listed;
-    text += (text.empty() ? "" : ", ") + key.name;
+    (key.drawn ? drawn : listed).push_back(key.name);
   }
-  if (!drawn.empty()) drawn = "draws of " + drawn;
   if (listed.empty() && drawn.empty()) return "";
-  const std::string over = listed + (listed.empty() || drawn.empty() ? "" : " and ") + drawn;
-  const bool bands = form.kind == Form::Kind::lines &&
+  const bool bands = form.against == nullptr &&
                      (form.group == nullptr || form.group->distinct.size() <= most_bands);
-  return (bands ? "; median, and 5 to 95 % as a band, over " : "; median over ") + over;
+  return (bands ? "; median, and 5 to 95 % as a band, over " : "; median over ") + joined(listed) +
+         (listed.empty() || drawn.empty() ? "" : " and ") +
+         (drawn.empty() ? "" : "draws of " + joined(drawn));
 }
 
 }  // namespace
@@ -137,14 +133,14 @@ Picture sweep_picture(const Result& sweep, const SweepChoice& choice) {
   if (measures.empty()) throw InputError(sweep.file + ": nothing to draw: it has no measures");
   const Form form = choose_form(table, choice.over);
   const StatusMarks marks(table);
-  const bool map = form.kind == Form::Kind::map, histogram = form.kind == Form::Kind::histogram;
+  const bool map = form.against != nullptr, histogram = form.over == nullptr;
   const bool one = measures.size() == 1;
 
   Picture picture;
   picture.title = sweep.title.empty() ? sweep.shown_file() : sweep.title;
   picture.subtitle = (sweep.title.empty() ? "" : sweep.shown_file() + ", ") +
                      std::to_string(sweep.rows) + " cases" + taken_over(table, form);
-  if (form.kind == Form::Kind::lines) picture.legend = group_legend(form.group);
+  picture.legend = group_legend(form.group);
   for (const Entry& entry : marks.legend()) picture.legend.push_back(entry);
   picture.width = one ? 900 : 1200;
   const double pitch = one ? 440 : map ? 320 : histogram ? 230 : 185;
@@ -156,20 +152,9 @@ Picture sweep_picture(const Result& sweep, const SweepChoice& choice) {
     const double y = pitch * static_cast<double>(m / columns);
     const Box box{left, y + 28, one ? picture.width - 30 : left + 482, y + pitch - below};
     const SweepPanel of{table, *measures[m], marks, box, m + columns >= measures.size()};
-    switch (form.kind) {
-      case Form::Kind::lines:
-        picture.panels.push_back(line_panel(of, *form.over, form.group));
-        break;
-      case Form::Kind::scatter:
-        picture.panels.push_back(scatter_panel(of, *form.over));
-        break;
-      case Form::Kind::map:
-        picture.panels.push_back(map_panel(of, *form.over, *form.against));
-        break;
-      case Form::Kind::histogram:
-        picture.panels.push_back(histogram_panel(of));
-        break;
-    }
+    picture.panels.push_back(map         ? map_panel(of, *form.over, *form.against)
+                             : histogram ? histogram_panel(of)
+                                         : line_panel(of, *form.over, form.group));
   }
   return picture;
 }

@@ -8,6 +8,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace bbsim::plot {
 
@@ -26,6 +27,9 @@ namespace bbsim::plot {
 // The text, or as much of it as fits into `width` with "…" for the rest: in its middle, since names
 // of files differ at either end.
 [[nodiscard]] std::string cut(const std::string& text, double width, double size);
+
+// The texts in one, with ", " between them.
+[[nodiscard]] std::string joined(const std::vector<std::string>& texts);
 
 // A number as a person reads it: up to `digits` of them, with a minus sign rather than a hyphen.
 [[nodiscard]] std::string number(double value, int digits = 4);
