@@ -54,6 +54,13 @@ Terminal terminal_of(Format format) {
   return {"pdfcairo font 'DejaVu Sans,13' fontscale 0.985 linewidth 1.35", 0.01, "in", 0.62};
 }
 
+// The label of a tic, which gnuplot takes for a format of its number.
+std::string unformatted(const std::string& label) {
+  std::string result;
+  for (const char c : label) result.append(c == '%' ? 2 : 1, c);
+  return result;
+}
+
 struct Heading {
   double height = 0;
   std::size_t columns = 1;  // of the legend
@@ -174,8 +181,8 @@ class Script {
     } else {
       text_ += '(';
       for (const Tic& tic : axis.tics) {
-        text_ += (&tic == axis.tics.data() ? "" : ", ") + quoted(axis.numbered ? tic.label : "") +
-                 ' ' + digits(tic.at);
+        if (&tic != axis.tics.data()) text_ += ", ";
+        text_ += quoted(axis.numbered ? unformatted(tic.label) : "") + ' ' + digits(tic.at);
       }
       text_ += ')';
     }
@@ -202,6 +209,8 @@ class Script {
           screen_x(box.right + 16) + ", " + screen_y(bottom) + " size " + screen_x(14) +
           ", screen " + digits(box.height() / height_) + "\n";
       write_axis("cb", *panel.colours);
+      const auto has_value = [](const Cell& cell) { return std::isfinite(cell.value); };
+      if (std::ranges::none_of(panel.cells, has_value)) text_ += "unset colorbox\n";
     } else {
       text_ += "set grid linecolor rgb '#e4e4e4' linetype 1\n";
     }

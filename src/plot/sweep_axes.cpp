@@ -27,44 +27,24 @@ Unit unit_of_measure(const std::string& name) {
   if (name == "end_time") return {"s"};
   const std::optional<scenario::Measure> measure = scenario::find_measure(name);
   if (!measure) return {};
+  const Unit unit{measure->unit() == "1" ? "" : measure->unit()};
   if (measure->kind == scenario::Measure::Kind::loop) {
     // Angles and their rates are shown in degrees; frequencies stay rad/s.
-    return measure->unit() == "rad" ? unit_of("phi") : Unit{measure->unit()};
+    return measure->unit() == "rad" ? unit_of("phi") : unit;
   }
   // What is measured in the column's own unit is shown as the column is.
   if (measure->unit() == measure->column->unit) return unit_of(measure->column->name);
-  return {measure->unit()};
+  return unit;
 }
 
 }  // namespace
 
-StatusMarks::StatusMarks(const SweepTable& table) {
-  for (const std::string& status : table.status) {
-    if (status == "done") continue;
-    const auto known = std::ranges::find(cases_, status, &decltype(cases_)::value_type::first);
-    if (known == cases_.end()) {
-      cases_.emplace_back(status, 1);
-    } else {
-      ++known->second;
-    }
-  }
-}
-
-Stroke StatusMarks::stroke_of(const std::string& status) const {
+Stroke stroke_of_status(const SweepTable& table, const std::string& status) {
   constexpr std::array shapes = {Marker::cross, Marker::plus, Marker::square, Marker::diamond,
                                  Marker::triangle};
-  const auto found = std::ranges::find(cases_, status, &decltype(cases_)::value_type::first);
-  const auto index = static_cast<std::size_t>(found - cases_.begin());
+  std::size_t index = 0;
+  while (index < table.others.size() && table.others[index].first != status) ++index;
   return {"#d55e00", 0, Dash::solid, shapes[index % shapes.size()]};
-}
-
-std::vector<Entry> StatusMarks::legend() const {
-  std::vector<Entry> entries;
-  for (const auto& [status, count] : cases_) {
-    entries.push_back({status + ": " + std::to_string(count) + (count == 1 ? " case" : " cases"),
-                       stroke_of(status)});
-  }
-  return entries;
 }
 
 MeasureAxis::MeasureAxis(const SweepTable& table, const Column& measure, double close) {

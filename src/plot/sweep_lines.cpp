@@ -22,9 +22,9 @@ constexpr std::size_t many_points = 500, most_points = 20000;
 // Where cases ended in each other way: a row of marks at the foot of the panel.
 using Others = std::map<std::string, std::set<double>>;
 
-void add_marks(Panel& panel, const Others& others, const StatusMarks& marks) {
+void add_marks(Panel& panel, const Others& others, const SweepTable& table) {
   for (const auto& [status, places] : others) {
-    Curve row{Curve::Shape::line, marks.stroke_of(status)};
+    Curve row{Curve::Shape::line, stroke_of_status(table, status)};
     for (const double x : places) row.add(x, panel.y.low);
     panel.curves.push_back(std::move(row));
   }
@@ -97,7 +97,7 @@ Panel line_panel(const SweepPanel& of, const Key& over, const Key* group) {
     lines.push_back(std::move(line));
   }
   for (Curve& line : lines) panel.curves.push_back(std::move(line));
-  add_marks(panel, others, of.marks);
+  add_marks(panel, others, of.table);
   return panel;
 }
 

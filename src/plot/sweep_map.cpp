@@ -81,7 +81,7 @@ Panel map_panel(const SweepPanel& of, const Key& over, const Key& against) {
               rows.edges[row + 1], quantile(cases.done, 0.5)};
     if (!cases.other.empty()) {
       Curve& curve = others[cases.other];
-      curve.stroke = of.marks.stroke_of(cases.other);
+      curve.stroke = stroke_of_status(of.table, cases.other);
       curve.stroke.marker_size = std::clamp(std::min(columns.pixels, rows.pixels) / 14, 0.25, 1.0);
       curve.add(panel.x.middle(cell.left, cell.right), panel.y.middle(cell.bottom, cell.top));
     } else if (with_numbers && std::isfinite(cell.value)) {

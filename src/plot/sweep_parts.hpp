@@ -6,7 +6,6 @@
 
 #include <cstddef>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "plot/axis.hpp"
@@ -15,16 +14,8 @@
 
 namespace bbsim::plot {
 
-// How each way to end but `done` is marked, with how many cases ended so.
-class StatusMarks {
- public:
-  explicit StatusMarks(const SweepTable& table);
-  [[nodiscard]] Stroke stroke_of(const std::string& status) const;
-  [[nodiscard]] std::vector<Entry> legend() const;
-
- private:
-  std::vector<std::pair<std::string, std::size_t>> cases_;
-};
+// How each way to end but `done` is marked.
+[[nodiscard]] Stroke stroke_of_status(const SweepTable& table, const std::string& status);
 
 // A measure as it is drawn: in a unit that suits it, by its logarithm if it spans decades.
 struct MeasureAxis {
@@ -57,7 +48,6 @@ struct KeyAxis {
 struct SweepPanel {
   const SweepTable& table;
   const Column& measure;
-  const StatusMarks& marks;
   Box box;
   bool lowest;  // of its column: the others have no labels below them
 };

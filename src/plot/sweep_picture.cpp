@@ -132,7 +132,6 @@ Picture sweep_picture(const Result& sweep, const SweepChoice& choice) {
   const std::vector<const Column*> measures = choose_measures(table, sweep, choice.measures);
   if (measures.empty()) throw InputError(sweep.file + ": nothing to draw: it has no measures");
   const Form form = choose_form(table, choice.over);
-  const StatusMarks marks(table);
   const bool map = form.against != nullptr, histogram = form.over == nullptr;
   const bool one = measures.size() == 1;
 
@@ -141,7 +140,11 @@ Picture sweep_picture(const Result& sweep, const SweepChoice& choice) {
   picture.subtitle = (sweep.title.empty() ? "" : sweep.shown_file() + ", ") +
                      std::to_string(sweep.rows) + " cases" + taken_over(table, form);
   picture.legend = group_legend(form.group);
-  for (const Entry& entry : marks.legend()) picture.legend.push_back(entry);
+  for (const auto& [status, cases] : table.others) {
+    picture.legend.push_back(
+        {status + ": " + std::to_string(cases) + (cases == 1 ? " case" : " cases"),
+         stroke_of_status(table, status)});
+  }
   picture.width = one ? 900 : 1200;
   const double pitch = one ? 440 : map ? 320 : histogram ? 230 : 185;
   const double below = histogram ? 52 : 12;  // its tics and label, where each panel has them
@@ -151,7 +154,7 @@ Picture sweep_picture(const Result& sweep, const SweepChoice& choice) {
     const double left = m % columns == 0 ? 88 : 688;
     const double y = pitch * static_cast<double>(m / columns);
     const Box box{left, y + 28, one ? picture.width - 30 : left + 482, y + pitch - below};
-    const SweepPanel of{table, *measures[m], marks, box, m + columns >= measures.size()};
+    const SweepPanel of{table, *measures[m], box, m + columns >= measures.size()};
     picture.panels.push_back(map         ? map_panel(of, *form.over, *form.against)
                              : histogram ? histogram_panel(of)
                                          : line_panel(of, *form.over, form.group));

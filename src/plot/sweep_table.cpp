@@ -64,6 +64,17 @@ std::string first_word(const std::string& text) {
   return {text.begin(), end};
 }
 
+void end_a_case(SweepTable& table, const std::string& status) {
+  table.status.push_back(status);
+  if (status == "done") return;
+  for (auto& [other, cases] : table.others) {
+    if (other != status) continue;
+    ++cases;
+    return;
+  }
+  table.others.emplace_back(status, 1);
+}
+
 }  // namespace
 
 std::vector<std::string> SweepTable::followers(const Key& key) const {
@@ -81,7 +92,7 @@ SweepTable sweep_table(const Result& sweep) {
     if (column.name == "case") continue;
     if (column.name == "status") {
       before_status = false;
-      for (const std::string& text : column.texts) table.status.push_back(first_word(text));
+      for (const std::string& text : column.texts) end_a_case(table, first_word(text));
       continue;
     }
     if (!before_status) {

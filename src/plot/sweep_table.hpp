@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "plot/result.hpp"
@@ -29,6 +30,8 @@ struct SweepTable {
   std::vector<Key> keys;
   std::vector<std::string> status;  // a word a case
   std::vector<const Column*> measures;
+  // Each way to end but `done`, in the order in which they come, and how many cases ended so.
+  std::vector<std::pair<std::string, std::size_t>> others{};
 
   [[nodiscard]] bool done(std::size_t a_case) const { return status[a_case] == "done"; }
   // Names of the keys that go along with this one.

@@ -40,14 +40,19 @@ inline bbsim::plot::Result run_of(const std::vector<std::pair<std::string, Funct
   return run;
 }
 
-// What collides where gnuplot draws a picture (svg_texts.hpp), and what it complains of.
-inline std::string collisions(const bbsim::plot::Picture& picture) {
+// What gnuplot draws of a picture, after what it complains of.
+inline std::string svg_of(const bbsim::plot::Picture& picture) {
   using namespace bbsim::plot;
   const std::string script =
       gnuplot_script(picture, Format::svg, [](std::uint32_t) { return true; });
   const auto drawn = bbsim::file::run_program({"gnuplot", "--default-settings", "-"}, script, "");
-  if (!drawn || !drawn->well()) return "gnuplot failed";
-  return drawn->complaint + collisions_in(drawn->output);
+  return drawn && drawn->well() ? drawn->complaint + drawn->output : "gnuplot failed";
+}
+
+// What collides where gnuplot draws a picture (svg_texts.hpp), and what it complains of.
+inline std::string collisions(const bbsim::plot::Picture& picture) {
+  const std::string svg = svg_of(picture);
+  return svg.substr(0, svg.find("<?xml")) + collisions_in(svg);
 }
 
 // Whether one of the picture's texts, as its author has it, is this.

@@ -170,13 +170,15 @@ TEST_CASE("draws give histograms, a median and a band over listed keys, or point
 TEST_CASE("a key of words stands beside the words") {
   Column method{"solver.method",
                 std::vector<double>(6, NAN),
-                {"radau", "bdf", "adams", "radau", "bdf", "adams"}};
+                {"radau", "bdf", "50 %s", "radau", "bdf", "50 %s"}};
   const Picture picture =
       sweep_picture(sweep_of({method, repeated("a", 6, 3, 2)}), {{}, {"solver.method"}});
   CHECK(collisions(picture) == "");
   REQUIRE(picture.panels[0].x.tics.size() == 3);
   CHECK(picture.panels[0].x.tics[1].label == "bdf");
   CHECK(picture.panels[0].curves[0].stroke.width == 0);
+  // gnuplot would take the label for a format.
+  CHECK_THAT(svg_of(picture), Contains(">50 %s<"));
 }
 
 TEST_CASE("measures over decades, constant ones, and none that is done are drawn") {
@@ -189,6 +191,7 @@ TEST_CASE("measures over decades, constant ones, and none that is done are drawn
   Result map = sweep_of({repeated("a", 100, 10, 10), repeated("b", 100, 1, 10)});
   for (std::size_t i = 0; i < 100; ++i) end_as(map, i, "failed");
   CHECK(collisions(sweep_picture(map, {})) == "");
+  CHECK_THAT(gnuplot_script(sweep_picture(map, {}), Format::svg, {}), Contains("unset colorbox"));
   Result draws = sweep_of({drawn("a", 50)});
   for (std::size_t i = 0; i < 50; ++i) end_as(draws, i, "failed");
   CHECK(says(sweep_picture(draws, {}), "failed: 50 cases"));
