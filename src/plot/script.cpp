@@ -17,7 +17,8 @@ namespace {
 
 constexpr double title_size = 17, heading_size = 13, legend_size = 12, number_size = 11;
 constexpr double legend_pitch = 19, legend_sample = 50;  // pixels: of a row; beside a name
-constexpr double side = 30;                              // pixels left free beside the heading
+constexpr double legend_letter = 0.65;  // of its size: gnuplot counts the letters of a name
+constexpr double side = 30;             // pixels left free beside the heading
 
 std::string digits(double value) {
   if (!std::isfinite(value)) return "NaN";
@@ -32,6 +33,7 @@ struct Terminal {
   double pixel;      // of the picture, in the unit of its size
   const char* unit;  // of that
   double marker_scale;
+  double row_height;              // of a legend, in pixels
   const char* tics_offset = "";   // of labels that are set too far from their axis,
   const char* label_offset = "";  // and of what is below them
 };
@@ -44,14 +46,15 @@ Terminal terminal_of(Format format) {
               1,
               "",
               0.62,
+              18,
               " offset 0, 0.35",
               " offset 0, 0.9"};
     case Format::png:
-      return {"pngcairo font 'DejaVu Sans,13' fontscale 0.75 dashlength 0.6", 1, "", 0.98};
+      return {"pngcairo font 'DejaVu Sans,13' fontscale 0.75 dashlength 0.6", 1, "", 0.98, 14.1};
     case Format::pdf:
       break;
   }
-  return {"pdfcairo font 'DejaVu Sans,13' fontscale 0.985 linewidth 1.35", 0.01, "in", 0.62};
+  return {"pdfcairo font 'DejaVu Sans,13' fontscale 0.985 linewidth 1.35", 0.01, "in", 0.62, 14.1};
 }
 
 // The label of a tic, which gnuplot takes for a format of its number.
@@ -69,7 +72,7 @@ struct Heading {
 Heading heading_of(const Picture& picture) {
   double widest = 0;
   for (const Entry& entry : picture.legend) {
-    widest = std::max(widest, width_of(clean(entry.name), legend_size));
+    widest = std::max(widest, width_of(clean(entry.name), legend_size, legend_letter));
   }
   const std::size_t entries = picture.legend.size();
   const double fit = std::floor((picture.width - 2 * side) / (widest + legend_sample));
@@ -263,7 +266,7 @@ class Script {
     text_ += "NaN notitle";
     for (const Entry& entry : legend) {
       text_ += ", keyentry with " + style_of(entry.stroke) + " title " +
-               quoted(cut(clean(entry.name), room, legend_size));
+               quoted(cut(clean(entry.name), room, legend_size, legend_letter));
     }
     text_ += '\n';
   }
@@ -272,7 +275,8 @@ class Script {
   void write_heading() {
     const double room = picture_.width - 2 * side;
     double y = 26;
-    text_ += "unset border\nunset tics\nset xrange [0:1]\nset yrange [0:1]\n";
+    text_ +=
+        "unset border\nunset tics\nset margins 0, 0, 0, 0\nset xrange [0:1]\nset yrange [0:1]\n";
     const auto line = [&](const std::string& words, double size, const char* colour,
                           double height) {
       if (words.empty()) return;
@@ -283,9 +287,10 @@ class Script {
     line(picture_.title, title_size, "#202020", 23);
     line(picture_.subtitle, legend_size, "#505050", 20);
     text_ += "set key at screen 0.5, " + screen_y(y - 6) +
-             " center top horizontal Left reverse samplen 2 spacing 1.35 maxcols " +
+             " center top horizontal Left reverse samplen 2 spacing " +
+             digits(legend_pitch / terminal_.row_height) + " maxcols " +
              std::to_string(heading_.columns) + font(legend_size) + "\nplot ";
-    write_legend(picture_.legend, room - legend_sample);
+    write_legend(picture_.legend, 0.9 * room - legend_sample);
   }
 
   const Picture& picture_;

@@ -99,14 +99,16 @@ std::string with_letters(std::string_view text,
   return result;
 }
 
-double width_of(std::string_view text, double size) {
+double width_of(std::string_view text, double size, double narrowest) {
   double parts = 0;
-  for (const Letter& letter : letters_of(text)) parts += part_of_size(letter.code);
+  for (const Letter& letter : letters_of(text)) {
+    parts += std::max(part_of_size(letter.code), narrowest);
+  }
   return parts * size;
 }
 
-std::string cut(const std::string& text, double width, double size) {
-  if (width_of(text, size) <= width) return text;
+std::string cut(const std::string& text, double width, double size, double narrowest) {
+  if (width_of(text, size, narrowest) <= width) return text;
   const std::vector<Letter> letters = letters_of(text);
   for (std::size_t keep = letters.size() - 1; keep > 0; --keep) {
     const std::size_t after = keep / 2, before = keep - after;
@@ -115,7 +117,7 @@ std::string cut(const std::string& text, double width, double size) {
       if (i == before) kept += "…";
       if (i < before || i >= letters.size() - after) kept += letters[i].text;
     }
-    if (width_of(kept, size) <= width) return kept;
+    if (width_of(kept, size, narrowest) <= width) return kept;
   }
   return "…";
 }

@@ -21,12 +21,13 @@ namespace bbsim::plot {
                                        const std::function<bool(std::uint32_t)>& has_letter);
 
 // An upper bound, but for rare letters, on the width of a clean text in a sans-serif font, in
-// pixels as `size` is.
-[[nodiscard]] double width_of(std::string_view text, double size);
+// pixels as `size` is. No letter counts for less than the part `narrowest` of the size.
+[[nodiscard]] double width_of(std::string_view text, double size, double narrowest = 0);
 
 // The text, or as much of it as fits into `width` with "…" for the rest: in its middle, since names
 // of files differ at either end.
-[[nodiscard]] std::string cut(const std::string& text, double width, double size);
+[[nodiscard]] std::string cut(const std::string& text, double width, double size,
+                              double narrowest = 0);
 
 // The texts in one, with ", " between them.
 [[nodiscard]] std::string joined(const std::vector<std::string>& texts);

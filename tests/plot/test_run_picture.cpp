@@ -164,6 +164,19 @@ TEST_CASE("comparisons name each run, and tell them apart without colour") {
   }
 }
 
+TEST_CASE("the names of many runs have room, whether their letters are wide or narrow") {
+  for (const char letter : {'i', 'n', 'W'}) {
+    for (const std::size_t length : {1, 8, 20, 40, 200}) {
+      std::vector<Result> runs(17, run_of({{"x", wave(0.05)}, {"y", wave(0.04)}}));
+      for (std::size_t r = 0; r < runs.size(); ++r) {
+        runs[r].file = std::string(length, letter) + std::to_string(r) + ".csv";
+      }
+      CAPTURE(letter, length);
+      CHECK(collisions(run_picture(runs, {})) == "");
+    }
+  }
+}
+
 TEST_CASE("all runs of a comparison are drawn equally wide, and what was seen hides nothing") {
   const std::vector<Result> runs(8, rig_run());
   const Picture picture = run_picture(runs, {});
