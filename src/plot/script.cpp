@@ -17,8 +17,11 @@ namespace {
 
 constexpr double title_size = 17, heading_size = 13, legend_size = 12, number_size = 11;
 constexpr double legend_pitch = 19, legend_sample = 50;  // pixels: of a row; beside a name
-constexpr double legend_letter = 0.65;  // of its size: gnuplot counts the letters of a name
-constexpr double side = 30;             // pixels left free beside the heading
+// Of its size, the least that a letter takes: gnuplot counts the letters of a name.
+constexpr double legend_letter = 0.65;
+// The same of the one row of a panel, which may be closer.
+constexpr double panel_sample = 42, panel_letter = 0.5;
+constexpr double side = 30;  // pixels left free beside the heading
 
 std::string digits(double value) {
   if (!std::isfinite(value)) return "NaN";
@@ -220,7 +223,7 @@ class Script {
     const std::string heading = cut(clean(panel.heading), 0.7 * box.width(), heading_size);
     text_ += "set label " + quoted(heading) + " at " + screen_x(box.left - 4) + ", " +
              screen_y(top - 12) + '\n';
-    text_ += "set key at " + screen_x(box.right) + ", " + screen_y(top - 3) +
+    text_ += "set key at " + screen_x(box.right) + ", " + screen_y(top - 6) +
              " right bottom horizontal Left reverse samplen 2" + font(legend_size) + '\n';
     text_ += "plot ";
     if (!panel.cells.empty()) write_cells(panel, block(number, "cells", 0));
@@ -229,7 +232,7 @@ class Script {
     }
     const double room = (box.width() - width_of(heading, heading_size) - 10) /
                         static_cast<double>(panel.legend.size());
-    write_legend(panel.legend, room - legend_sample);
+    write_legend(panel.legend, room - panel_sample, panel_letter);
   }
 
   void write_cells(const Panel& panel, const std::string& data) {
@@ -261,12 +264,12 @@ class Script {
     text_ += data + " using 1:2 with " + style + " notitle, ";
   }
 
-  // Ends a plot, which has at least one element so.
-  void write_legend(const std::vector<Entry>& legend, double room) {
+  // Ends a plot, which has at least one element so. Names are cut to the room.
+  void write_legend(const std::vector<Entry>& legend, double room, double narrowest) {
     text_ += "NaN notitle";
     for (const Entry& entry : legend) {
       text_ += ", keyentry with " + style_of(entry.stroke) + " title " +
-               quoted(cut(clean(entry.name), room, legend_size, legend_letter));
+               quoted(cut(clean(entry.name), room, legend_size, narrowest));
     }
     text_ += '\n';
   }
@@ -290,7 +293,7 @@ class Script {
              " center top horizontal Left reverse samplen 2 spacing " +
              digits(legend_pitch / terminal_.row_height) + " maxcols " +
              std::to_string(heading_.columns) + font(legend_size) + "\nplot ";
-    write_legend(picture_.legend, 0.9 * room - legend_sample);
+    write_legend(picture_.legend, 0.9 * room - legend_sample, legend_letter);
   }
 
   const Picture& picture_;
