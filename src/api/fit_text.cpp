@@ -68,8 +68,8 @@ std::vector<std::vector<std::string>> residual_table(const fit::Fitted& fitted) 
     line.insert(line.end(), {record::rounded(column.before), record::rounded(column.rms)});
     if (fitted.held > 0) {
       if (has_ideal) line.push_back(number(column.held_ideal));
-      line.push_back(record::rounded(column.held_before.value_or(0)));
-      line.push_back(record::rounded(column.held.value_or(0)));
+      line.push_back(number(column.held_before));
+      line.push_back(number(column.held));
     }
     line.push_back(record::unit_or_one(column.unit));
     lines.push_back(std::move(line));

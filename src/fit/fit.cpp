@@ -128,12 +128,14 @@ class Fit {
     WindowsFit others(task_, std::move(held));
     others.finish();
     others.set_noise(windows_.noise());
-    const std::vector<double> before = rms_of(others, others.residuals(VectorXd::Zero(u_.size())));
-    const std::vector<double> rms = rms_of(others, others.residuals(u_));
-    for (std::size_t c = 0; c < rms.size(); ++c) {
-      made_.columns[c].held_before = before[c];
-      made_.columns[c].held = rms[c];
-    }
+    const auto tell = [&](const VectorXd& u, std::optional<double> ColumnResidual::*held) {
+      const VectorXd residuals = others.residuals(u);
+      if ((residuals.array() == WindowsFit::far).any()) return;  // a window does not run
+      const std::vector<double> rms = rms_of(others, residuals);
+      for (std::size_t c = 0; c < rms.size(); ++c) made_.columns[c].*held = rms[c];
+    };
+    tell(VectorXd::Zero(u_.size()), &ColumnResidual::held_before);
+    tell(u_, &ColumnResidual::held);
   }
 
   void tell_series(const std::vector<Window>& held) {

@@ -54,7 +54,8 @@ struct Parameter {
 struct ColumnResidual {
   std::string column, unit;
   double before = 0, rms = 0;  // of the windows of the fit, with the scenario's values and after
-  std::optional<double> held_before{}, held{};  // of the windows that were held out, likewise
+  std::optional<double> held_before{},
+      held{};  // of the windows that were held out, likewise; none if one does not run
   std::optional<double> ideal{},
       held_ideal{};        // of an ideal rig (ideal_rig.hpp), where there is one
   double correlation = 0;  // of neighboring residuals

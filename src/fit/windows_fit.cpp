@@ -27,9 +27,6 @@ using Eigen::VectorXd;
 // and its square, are small.
 constexpr double key_step = 1e-3, start_step = 1e-3;
 
-// In standard deviations: where a run fails, far from any log.
-constexpr double far = 1e6;
-
 Index at(std::size_t i) {
   return static_cast<Index>(i);
 }

@@ -31,6 +31,9 @@ struct Variant {
 
 class WindowsFit {
  public:
+  // The residuals of a window that does not run, in standard deviations.
+  static constexpr double far = 1e6;
+
   WindowsFit(const Task& task, std::vector<Window> windows);
 
   [[nodiscard]] const std::vector<Window>& windows() const { return windows_; }
