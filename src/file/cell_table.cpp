@@ -28,7 +28,8 @@ void CellColumn::add_text(std::string text) {
 }
 
 CellTable read_hdf5_cells(const std::string& file) {
-  const Hdf5TableReader reader(file);
+  constexpr std::size_t rows_at_a_time = 65536;
+  Hdf5TableReader reader(file, {rows_at_a_time});
   CellTable table;
   for (const Hdf5Column& column : reader.columns()) {
     table.names.push_back(column.name);
@@ -36,10 +37,8 @@ CellTable read_hdf5_cells(const std::string& file) {
     table.columns.emplace_back();
     if (column.kind == Hdf5Kind::series) table.columns.back().width = column.width;
   }
-  constexpr std::size_t rows_at_a_time = 65536;
   Hdf5Block block;
-  for (std::size_t first = 0; first < reader.rows(); first += block.rows) {
-    reader.read(first, rows_at_a_time, block);
+  while (reader.read(block)) {
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
       CellColumn& column = table.columns[c];
       for (std::string& text : block.texts[c]) column.add_text(std::move(text));

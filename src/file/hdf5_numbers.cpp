@@ -7,7 +7,6 @@
 
 #include "base/shown.hpp"
 #include "file/formats.hpp"
-#include "file/hdf5_input.hpp"
 #include "file/hdf5_table.hpp"
 
 namespace bbsim::file {
@@ -39,16 +38,20 @@ class Hdf5Writer final : public TableWriter {
   Hdf5TableWriter table_;
 };
 
-const char* why_no_column(bbsim_hdf5_kind kind) {
-  switch (kind) {
-    case BBSIM_HDF5_TEXT:
-      return "text";
-    case BBSIM_HDF5_SERIES:
-      return "several numbers a row, in two dimensions";
-    case BBSIM_HDF5_AXIS:
-      return "the axis of other datasets";
-    default:
-      return nullptr;
+[[noreturn]] void refuse(const Hdf5TableReader& reader, const std::string& dataset,
+                         const char* held) {
+  reader.fail("dataset " + shown(dataset) + " is no column of numbers: it holds " + held);
+}
+
+void check_numbers(const Hdf5TableReader& reader) {
+  for (const Hdf5Column& column : reader.columns()) {
+    if (column.kind == Hdf5Kind::text) refuse(reader, column.name, "text");
+    if (column.kind == Hdf5Kind::series) {
+      refuse(reader, column.name, "several numbers a row, in two dimensions");
+    }
+  }
+  for (const auto& [axis, values] : reader.axes()) {
+    refuse(reader, axis.name, "the axis of other datasets");
   }
 }
 
@@ -62,26 +65,13 @@ std::unique_ptr<TableWriter> open_hdf5(const std::string& target,
 }
 
 TableData read_hdf5(const std::string& file) {
-  const Hdf5Input input(file);
-  const std::span<const Hdf5Dataset> datasets(input.datasets().data(), input.root_datasets());
-  if (datasets.empty()) input.fail("it holds no datasets at its root");
-  const Hdf5Dataset& first = datasets.front();
+  Hdf5TableReader reader(file);
+  check_numbers(reader);
   TableData table;
-  for (const Hdf5Dataset& dataset : datasets) {
-    if (const char* held = why_no_column(dataset.kind)) {
-      input.fail("dataset " + shown(dataset.name) + " is no column of numbers: it holds " + held);
-    }
-    if (dataset.rows != first.rows) {
-      input.fail("dataset " + shown(dataset.name) + " has " + std::to_string(dataset.rows) +
-                 " rows, " + shown(first.name) + " has " + std::to_string(first.rows) +
-                 "; all must have the same number");
-    }
-    table.names.push_back(dataset.name);
-  }
-  table.columns.resize(datasets.size());
-  std::vector<Hdf5Wanted> wanted;
-  for (std::size_t d = 0; d < datasets.size(); ++d) wanted.push_back({d, &table.columns[d]});
-  input.read(0, first.rows, wanted);
+  for (const Hdf5Column& column : reader.columns()) table.names.push_back(column.name);
+  Hdf5Block block;
+  reader.read(block);
+  table.columns = std::move(block.values);
   return table;
 }
 

@@ -1,127 +1,187 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Cases read back, some rows at a time.
+// Tables as the process that reads HDF5 prints them: hdf5/table_text.hpp.
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstdint>
+#include <new>
+#include <optional>
+#include <stdexcept>
 #include <utility>
 
+#include "base/error.hpp"
+#include "base/json.hpp"
 #include "base/shown.hpp"
-#include "file/hdf5_input.hpp"
+#include "file/descriptor.hpp"
+#include "file/hdf5/table_text.hpp"
+#include "file/hdf5_process.hpp"
 #include "file/hdf5_table.hpp"
 
 namespace bbsim::file {
 namespace {
 
-Hdf5Kind kind_of(bbsim_hdf5_kind kind) {
-  switch (kind) {
-    case BBSIM_HDF5_TEXT:
-      return Hdf5Kind::text;
-    case BBSIM_HDF5_SERIES:
-      return Hdf5Kind::series;
-    default:
-      return Hdf5Kind::number;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t numbers_at_once = 32768;  // taken before there is memory for more
+
+[[noreturn]] void refuse_file(const std::string& file, std::string_view reason) {
+  throw InputError("cannot read " + shown(file, uncut) + ": " + std::string(reason));
+}
+
+// Runs `action`, with all that can go wrong in it as an InputError about the file.
+template <class Action>
+auto guarded(const std::string& file, Action action) {
+  try {
+    return action();
+  } catch (const std::bad_alloc&) {
+    refuse_file(file, "there is not enough memory for its content");
+  } catch (const std::length_error&) {
+    refuse_file(file, "there is not enough memory for its content");
+  } catch (const Hdf5Trouble& trouble) {
+    refuse_file(file, trouble.what());
+  } catch (const Json::exception&) {
+    refuse_file(file, "the HDF5 reader printed something unexpected: the file is damaged");
   }
+}
+
+void check_regular(const std::string& file) {
+  struct stat status {};
+  if (stat(file.c_str(), &status) != 0 || access(file.c_str(), R_OK) != 0) {
+    refuse_file(file, error_text(errno));
+  }
+  if (!S_ISREG(status.st_mode)) refuse_file(file, "it is no regular file");
+}
+
+Hdf5Kind kind_named(const std::string& text) {
+  return text == hdf5::text_kind     ? Hdf5Kind::text
+         : text == hdf5::series_kind ? Hdf5Kind::series
+                                     : Hdf5Kind::number;
+}
+
+Hdf5Column column_of(const Json& json) {
+  return {json.at("name"), json.at("unit"), json.at("meaning"), kind_named(json.at("kind")),
+          json.at("width")};
+}
+
+AttributeValue value_of(const Json& json) {
+  if (json.contains("text")) return json["text"].get<std::string>();
+  if (json.contains("integer")) return json["integer"].get<std::int64_t>();
+  const std::string text = json.at("real");
+  double number = 0;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
+std::size_t product(std::size_t rows, std::size_t width) {
+  std::size_t result = 0;
+  if (__builtin_mul_overflow(rows, width, &result)) throw std::length_error("");
+  return result;
 }
 
 }  // namespace
 
-class Hdf5TableReader::State {
- public:
-  explicit State(const std::string& file) : input_(file) {
-    for (std::size_t d = 0; d < input_.root_datasets(); ++d) {
-      const Hdf5Dataset& dataset = input_.datasets()[d];
-      Hdf5Column column{dataset.name, dataset.unit, dataset.description, kind_of(dataset.kind),
-                        dataset.width};
-      if (dataset.kind == BBSIM_HDF5_AXIS) {
-        column.width = 1;
-        axes_.emplace_back(std::move(column), std::vector<double>());
-        const Hdf5Wanted wanted{d, &axes_.back().second};
-        input_.read(0, dataset.rows, {&wanted, 1});
-        continue;
-      }
-      if (!columns_.empty() && dataset.rows != rows_) {
-        input_.fail("dataset " + shown(column.name) + " has " + std::to_string(dataset.rows) +
-                    " rows, " + shown(columns_[0].name) + " has " + std::to_string(rows_) +
-                    "; all must have the same number");
-      }
-      rows_ = dataset.rows;
-      columns_.push_back(std::move(column));
-      datasets_.push_back(d);
-    }
-    if (columns_.empty()) input_.fail("it holds no column of cases at its root");
+Hdf5TableReader::Hdf5TableReader(const std::string& file, const Hdf5Rows& rows)
+    : Hdf5TableReader(Hdf5TableReaders({file}, rows).next()) {}
+
+Hdf5TableReader::Hdf5TableReader(std::string file, const Hdf5Rows& rows,
+                                 std::shared_ptr<Hdf5Process> process)
+    : file_(std::move(file)), a_block_(rows.a_block), process_(std::move(process)) {
+  guarded(file_, [this] { read_head(); });
+  if (columns_.empty()) fail("it holds no column at its root");
+  left_ = std::min(rows_, rows.most);
+  for (auto& [axis, values] : axes_) {
+    guarded(file_, [&] { take_numbers(std::exchange(axis.width, 1), values); });
   }
+}
 
-  [[nodiscard]] const std::vector<Hdf5Column>& columns() const { return columns_; }
-  [[nodiscard]] const std::vector<Hdf5Axis>& axes() const { return axes_; }
-  [[nodiscard]] const Attributes& attributes() const { return input_.attributes(); }
-  [[nodiscard]] std::size_t rows() const { return rows_; }
-
-  void read(std::size_t first, std::size_t count, Hdf5Block& into) const {
-    count = first < rows_ ? std::min(count, rows_ - first) : 0;
-    into.rows = count;
-    into.values.resize(columns_.size());
-    into.texts.resize(columns_.size());
-    std::vector<Hdf5Wanted> wanted;
+bool Hdf5TableReader::read(Hdf5Block& into) {
+  into.rows = std::min(a_block_, left_);
+  into.values.resize(columns_.size());
+  into.texts.resize(columns_.size());
+  guarded(file_, [&] {
     for (std::size_t c = 0; c < columns_.size(); ++c) {
-      into.texts[c].clear();
-      into.values[c].clear();
-      wanted.push_back({datasets_[c], &into.values[c], &into.texts[c]});
+      const Hdf5Column& column = columns_[c];
+      const bool is_text = column.kind == Hdf5Kind::text;
+      const std::size_t width = column.kind == Hdf5Kind::series ? column.width : 1;
+      take_texts(is_text ? into.rows : 0, into.texts[c]);
+      take_numbers(is_text ? 0 : product(into.rows, width), into.values[c]);
     }
-    if (count > 0) input_.read(first, count, wanted);
-  }
+  });
+  left_ -= into.rows;
+  return into.rows > 0;
+}
 
-  [[nodiscard]] std::vector<InputTable> read_inputs() const {
-    std::vector<InputTable> inputs;
-    for (const auto& [file, first, count] : input_.inputs()) {
-      const auto table = std::make_shared<TableData>();
-      table->columns.resize(count);
-      std::vector<Hdf5Wanted> wanted;
-      for (std::size_t c = 0; c < count; ++c) {
-        const Hdf5Dataset& dataset = input_.datasets()[first + c];
-        if (dataset.kind != BBSIM_HDF5_NUMBER || dataset.rows != input_.datasets()[first].rows) {
-          input_.fail("input table " + shown(file) + " is no table of numbers");
-        }
-        table->names.push_back(dataset.name);
-        wanted.push_back({first + c, &table->columns[c]});
-      }
-      if (count > 0) input_.read(0, input_.datasets()[first].rows, wanted);
-      inputs.push_back({file, table});
+std::vector<InputTable> Hdf5TableReader::read_inputs() {
+  std::vector<InputTable> inputs;
+  for (const InputHead& head : inputs_) {
+    TableData table{head.columns, std::vector<std::vector<double>>(head.columns.size())};
+    for (std::vector<double>& column : table.columns) {
+      guarded(file_, [&] { take_numbers(head.rows, column); });
     }
-    return inputs;
+    inputs.push_back({head.file, std::make_shared<TableData>(std::move(table))});
   }
-
- private:
-  Hdf5Input input_;
-  std::vector<Hdf5Column> columns_;
-  std::vector<std::size_t> datasets_;  // of each column, as the input counts them
-  std::vector<Hdf5Axis> axes_;
-  std::size_t rows_ = 0;
-};
-
-Hdf5TableReader::Hdf5TableReader(const std::string& file) : state_(std::make_unique<State>(file)) {}
-Hdf5TableReader::~Hdf5TableReader() = default;
-Hdf5TableReader::Hdf5TableReader(Hdf5TableReader&&) noexcept = default;
-Hdf5TableReader& Hdf5TableReader::operator=(Hdf5TableReader&&) noexcept = default;
-
-const std::vector<Hdf5Column>& Hdf5TableReader::columns() const {
-  return state_->columns();
-}
-const std::vector<Hdf5Axis>& Hdf5TableReader::axes() const {
-  return state_->axes();
-}
-const Attributes& Hdf5TableReader::attributes() const {
-  return state_->attributes();
-}
-std::size_t Hdf5TableReader::rows() const {
-  return state_->rows();
+  return inputs;
 }
 
-std::vector<InputTable> Hdf5TableReader::read_inputs() const {
-  return state_->read_inputs();
+void Hdf5TableReader::fail(std::string_view reason) const {
+  refuse_file(file_, reason);
 }
 
-void Hdf5TableReader::read(std::size_t first, std::size_t count, Hdf5Block& into) const {
-  state_->read(first, count, into);
+void Hdf5TableReader::read_head() {
+  const Json head = parse_json(process_->line());
+  if (!head.is_object() || head.value(hdf5::table_key, 0) != hdf5::table_version) {
+    throw Hdf5Trouble(
+        "the HDF5 reader belongs to another version of bbsim; install the two together");
+  }
+  rows_ = head.at("rows");
+  for (const Json& column : head.at("columns")) columns_.push_back(column_of(column));
+  for (const Json& axis : head.at("axes")) {
+    axes_.emplace_back(column_of(axis), std::vector<double>());
+  }
+  for (const Json& attribute : head.at("attributes")) {
+    attributes_.emplace_back(attribute.at("name").get<std::string>(), value_of(attribute));
+  }
+  for (const Json& input : head.at("inputs")) {
+    inputs_.push_back({input.at("file"), input.at("columns"), input.at("rows")});
+  }
+}
+
+void Hdf5TableReader::take_numbers(std::size_t count, std::vector<double>& numbers) {
+  numbers.clear();
+  numbers.reserve(count);
+  while (numbers.size() < count) {
+    const std::size_t place = numbers.size();
+    const std::size_t now = std::min(numbers_at_once, count - place);
+    numbers.resize(place + now);
+    process_->take(&numbers[place], now * sizeof(double));
+  }
+}
+
+void Hdf5TableReader::take_texts(std::size_t count, std::vector<std::string>& texts) {
+  texts.clear();
+  while (texts.size() < count) {
+    std::uint64_t size = 0;
+    process_->take(&size, sizeof size);
+    if (size > hdf5::longest_text) throw Hdf5Trouble("the HDF5 reader printed too long a text");
+    std::string& text = texts.emplace_back(size, '\0');
+    process_->take(text.data(), size);
+  }
+}
+
+Hdf5TableReaders::Hdf5TableReaders(std::vector<std::string> files, const Hdf5Rows& rows)
+    : files_(std::move(files)), rows_(rows) {
+  for (const std::string& file : files_) check_regular(file);
+  process_ =
+      guarded(files_.front(), [this] { return std::make_shared<Hdf5Process>(files_, rows_); });
+}
+
+Hdf5TableReader Hdf5TableReaders::next() {
+  return {files_.at(next_++), rows_, process_};
 }
 
 }  // namespace bbsim::file

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "base/error.hpp"
 #include "file/hdf5_table.hpp"
@@ -23,6 +24,7 @@ constexpr const char* instruction_set = "instruction_set";
 struct Hdf5Part {
   std::string file;
   file::Hdf5TableReader table;
+  std::vector<file::InputTable> inputs;
   std::size_t first = 0;  // number of the first case
 };
 
@@ -80,63 +82,75 @@ bool same_inputs(const std::vector<file::InputTable>& a, const std::vector<file:
                     });
 }
 
+Hdf5Part read_part(const std::string& file, file::Hdf5TableReader table) {
+  if (table.columns()[0].name != "case" || table.columns()[0].kind != file::Hdf5Kind::number) {
+    throw InputError(file + ": found no column case first; allowed: a file that bbsim sweep wrote");
+  }
+  file::Hdf5Block row;
+  const std::size_t first = table.read(row) ? case_in(file, row.values[0][0]) : 0;
+  std::vector<file::InputTable> inputs = table.read_inputs();
+  return {file, std::move(table), std::move(inputs), first};
+}
+
+// In the order of their cases.
+std::vector<Hdf5Part> read_parts(const std::vector<std::string>& files) {
+  file::Hdf5TableReaders tables(files, {1, 1});
+  std::vector<Hdf5Part> parts;
+  for (const std::string& file : files) parts.push_back(read_part(file, tables.next()));
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const Hdf5Part& a, const Hdf5Part& b) { return a.first < b.first; });
+  return parts;
+}
+
+void check_same_sweep(const std::vector<Hdf5Part>& parts) {
+  const Hdf5Part& model = parts.front();
+  const file::Attributes common = without_instruction_set(model.table.attributes());
+  for (const Hdf5Part& part : parts) {
+    if (part.table.columns() == model.table.columns() && part.table.axes() == model.table.axes() &&
+        without_instruction_set(part.table.attributes()) == common &&
+        same_inputs(part.inputs, model.inputs)) {
+      continue;
+    }
+    throw InputError(part.file + ": found other columns or another scenario than in " + model.file +
+                     "; allowed: parts of one sweep");
+  }
+}
+
+std::vector<std::string> files_of(const std::vector<Hdf5Part>& parts) {
+  std::vector<std::string> files;
+  for (const Hdf5Part& part : parts) files.push_back(part.file);
+  return files;
+}
+
 }  // namespace
 
 Merged merge_hdf5(const std::vector<std::string>& files, const std::string& target,
                   const std::atomic<bool>& stop) {
-  std::vector<Hdf5Part> parts;
-  file::Hdf5Block block;
-  for (const std::string& file : files) {
-    Hdf5Part part{file, file::Hdf5TableReader(file), 0};
-    if (part.table.columns().empty() || part.table.columns()[0].name != "case" ||
-        part.table.columns()[0].kind != file::Hdf5Kind::number) {
-      throw InputError(file +
-                       ": found no column case first; allowed: a file that bbsim sweep wrote");
-    }
-    if (part.table.rows() > 0) {
-      part.table.read(0, 1, block);
-      part.first = case_in(file, block.values[0][0]);
-    }
-    parts.push_back(std::move(part));
-  }
-  std::stable_sort(parts.begin(), parts.end(),
-                   [](const Hdf5Part& a, const Hdf5Part& b) { return a.first < b.first; });
-
-  const file::Hdf5TableReader& model = parts.front().table;
+  const std::vector<Hdf5Part> parts = read_parts(files);
+  check_same_sweep(parts);
+  const Hdf5Part& model = parts.front();
   const InstructionSets instruction_sets = instruction_sets_of(parts);
-  const file::Attributes common = without_instruction_set(model.attributes());
-  const std::vector<file::InputTable> inputs = model.read_inputs();
-  for (const Hdf5Part& part : parts) {
-    if (part.table.columns() == model.columns() && part.table.axes() == model.axes() &&
-        without_instruction_set(part.table.attributes()) == common &&
-        same_inputs(part.table.read_inputs(), inputs)) {
-      continue;
-    }
-    throw InputError(part.file + ": found other columns or another scenario than in " +
-                     parts.front().file + "; allowed: parts of one sweep");
-  }
 
-  file::Hdf5TableWriter out(target, model.columns(), model.axes());
-  out.keep(inputs);
+  file::Hdf5TableWriter out(target, model.table.columns(), model.table.axes());
+  out.keep(model.inputs);
   Merged merged{0, false, instruction_sets.note()};
-  const std::size_t rows = rows_at_a_time(model.columns());
+  file::Hdf5TableReaders tables(files_of(parts), {rows_at_a_time(model.table.columns())});
+  file::Hdf5Block block;
   for (const Hdf5Part& part : parts) {
-    for (std::size_t first = 0; first < part.table.rows(); first += rows) {
+    file::Hdf5TableReader table = tables.next();
+    while (table.read(block)) {
       if (stop.load(std::memory_order_relaxed)) {
         merged.interrupted = true;
         return merged;
-      }
-      part.table.read(first, rows, block);
-      if (block.rows != std::min(rows, part.table.rows() - first)) {
-        throw InputError("cannot read " + part.file + ": fewer rows came than it has");
       }
       for (std::size_t i = 0; i < block.rows; ++i, ++merged.cases) {
         check_case(part.file, case_in(part.file, block.values[0][i]), merged.cases);
       }
       out.append(block);
     }
+    static_cast<void>(table.read_inputs());  // they are the model's
   }
-  file::Attributes attributes = model.attributes();
+  file::Attributes attributes = model.table.attributes();
   for (auto& [name, value] : attributes) {
     if (name == "cases" && value.text() != std::to_string(merged.cases)) {
       throw InputError("found " + std::to_string(merged.cases) + " cases of " + value.text() +

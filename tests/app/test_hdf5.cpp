@@ -77,7 +77,7 @@ TEST_CASE("a run can be run again from its HDF5 file alone, to the byte") {
   const Folder folder, other;
   run({"run", config("recorded.yaml"), "-q", "--set", "time.step=0.05", "-o", folder / "a.h5"},
       folder);
-  const Hdf5TableReader file(folder / "a.h5");
+  Hdf5TableReader file(folder / "a.h5");
   other.write("recorded.yaml", attribute_of(file, "scenario_text").text());
   const std::vector<InputTable> inputs = file.read_inputs();
   REQUIRE(inputs.size() == 1);
@@ -97,13 +97,13 @@ TEST_CASE("with a bound on the error, each row has its estimate") {
   const Folder folder;
   run({"run", config("fig2b.yaml"), "-q", "--error", "1 um", "-o", "a.h5"}, folder);
   run({"run", config("fig2b.yaml"), "-q", "-o", "b.h5"}, folder);
-  const Hdf5TableReader file(folder / "a.h5");
+  Hdf5TableReader file(folder / "a.h5");
   const auto column = std::find_if(file.columns().begin(), file.columns().end(),
                                    [](const auto& one) { return one.name == "position_error"; });
   REQUIRE(column != file.columns().end());
   CHECK(column->unit == "m");
   bbsim::file::Hdf5Block block;
-  file.read(0, file.rows(), block);
+  CHECK(file.read(block));
   const auto& errors = block.values[static_cast<std::size_t>(column - file.columns().begin())];
   REQUIRE(errors.size() == file.rows());
   const double greatest = *std::max_element(errors.begin(), errors.end());
@@ -120,7 +120,7 @@ TEST_CASE("a sweep's HDF5 file has numbers as numbers, units of the keys, and it
        "ball.spin=normal:0:1", "--vary", "ball.inertia_factor=list:0.4,0.5", "--samples", "2",
        "--seed", "9", "-o", "a.h5"},
       folder);
-  const Hdf5TableReader file(folder / "a.h5");
+  Hdf5TableReader file(folder / "a.h5");
   CHECK(attribute_of(file, "cases") == AttributeValue(20));
   CHECK(attribute_of(file, "samples") == AttributeValue(2));
   CHECK(attribute_of(file, "seed") == AttributeValue(9));

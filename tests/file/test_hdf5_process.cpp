@@ -5,12 +5,13 @@
 // what a file says of its size is not believed; and nothing of a file reaches a terminal raw.
 #include <fcntl.h>
 #include <hdf5.h>
-#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -32,11 +33,9 @@ using bbsim::file::Descriptor;
 using bbsim::file::Hdf5Block;
 using bbsim::file::Hdf5Process;
 using bbsim::file::Hdf5TableReader;
-using bbsim::file::Hdf5Talk;
 using bbsim::file::Hdf5Trouble;
 using bbsim::file::read_table;
 using bbsim::file::TableData;
-using bbsim::hdf5::Message;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -49,7 +48,6 @@ std::string refusal(const std::string& file) {
 class FakeReader {
  public:
   explicit FakeReader(const std::string& script) {
-    Hdf5Process::running()->retire();
     if (const char* before = std::getenv("BBSIM_MODULE_PATH")) before_ = before;
     const std::string file = folder_.put("bbsim-hdf5-reader", script);
     chmod(file.c_str(), 0755);
@@ -61,7 +59,6 @@ class FakeReader {
     } else {
       unsetenv("BBSIM_MODULE_PATH");
     }
-    Hdf5Process::running()->retire();
   }
   FakeReader(const FakeReader&) = delete;
   FakeReader& operator=(const FakeReader&) = delete;
@@ -160,8 +157,8 @@ TEST_CASE("a file whose strings lead nowhere is an error") {
   const std::string file = folder.put("damaged.h5", bytes);
   Hdf5Block block;
   CHECK_THAT(message_of<InputError>([&] {
-               const Hdf5TableReader reader(file);
-               reader.read(0, 3, block);
+               Hdf5TableReader reader(file);
+               reader.read(block);
              }),
              Contains("cannot read " + file + ": "));
 }
@@ -174,7 +171,6 @@ TEST_CASE("a reader that cannot be started is an error") {
     CHECK_THAT(refusal(folder / "a.h5"),
                Contains("no process can be had to read it in: no such file or directory"));
   }
-  Hdf5Process::running()->retire();
   const char* before = std::getenv("BBSIM_MODULE_PATH");
   const std::string kept = before == nullptr ? "" : before;
   setenv("BBSIM_MODULE_PATH", folder.name().c_str(), 1);
@@ -185,10 +181,8 @@ TEST_CASE("a reader that cannot be started is an error") {
 }
 
 TEST_CASE("a line to the reader that fails is an error, and not a wait for the reader's end") {
-  std::array<int, 2> requests{-1, -1};
-  REQUIRE(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, requests.data()) == 0);
-  const int answers = open("/", O_RDONLY | O_DIRECTORY | O_CLOEXEC);  // read() of it is an error
-  REQUIRE(answers >= 0);
+  const int output = open("/", O_RDONLY | O_DIRECTORY | O_CLOEXEC);  // read() of it is an error
+  REQUIRE(output >= 0);
   const pid_t child = fork();
   if (child == 0) {
     execlp("sleep", "sleep", "60", nullptr);
@@ -197,33 +191,27 @@ TEST_CASE("a line to the reader that fails is an error, and not a wait for the r
   REQUIRE(child > 0);
   const auto started = std::chrono::steady_clock::now();
   {
-    Hdf5Process process(child, Descriptor(requests[0]), Descriptor(answers));
-    Hdf5Talk talk(process, Message::open, "a.h5");
-    CHECK(message_of<Hdf5Trouble>([&] { (void)talk.next(); }) ==
+    Hdf5Process process(child, Descriptor(output), Descriptor());
+    CHECK(message_of<Hdf5Trouble>([&] { (void)process.line(); }) ==
           "talking with the HDF5 reader failed: is a directory");
   }
   CHECK(std::chrono::steady_clock::now() - started < std::chrono::seconds(20));
-  close(requests[1]);
 }
 
-TEST_CASE("files that are open at a time share a process, which ends when it has nothing to do") {
+TEST_CASE("many files may be open at a time, and one that is given up leaves no process") {
   const Folder folder;
   const std::string file = folder / "a.h5";
-  const TableData table = random_table(3, 100);
+  const TableData table = random_table(3, 100000);  // more than a pipe holds
   write_table(file, table);
-  const auto process = Hdf5Process::running();
   {
     std::vector<std::unique_ptr<Hdf5TableReader>> readers;
-    for (int i = 0; i < 200; ++i) readers.push_back(std::make_unique<Hdf5TableReader>(file));
+    for (int i = 0; i < 20; ++i) readers.push_back(std::make_unique<Hdf5TableReader>(file));
     Hdf5Block block;
-    readers[17]->read(0, 100, block);
+    readers[17]->read(block);
     CHECK(same_bits(block.values[2], table.columns[2]));
   }
-  CHECK(Hdf5Process::running() == process);
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
-  CHECK(same_bits(read_table(file).columns[1], table.columns[1]));
-  CHECK(process->ended_idle());
-  CHECK(Hdf5Process::running() != process);
+  CHECK(waitpid(-1, nullptr, WNOHANG) == -1);
+  CHECK(errno == ECHILD);
 }
 
 TEST_CASE("threads that read at a time get each their own rows") {
@@ -249,14 +237,54 @@ TEST_CASE("threads that read at a time get each their own rows") {
   CHECK(wrong == 0);
 }
 
-TEST_CASE("after a file that HDF5 fails on the next one is read by another process") {
+TEST_CASE("what a reader says is the reason if it ends with 1, and is shown fit for a terminal") {
+  const Folder folder;
+  const std::string file = folder / "a.h5";
+  write_table(file, random_table(3, 3000));
+  const auto with = [&](const std::string& script) {
+    const FakeReader fake("#!/bin/sh\n" + script + "\n");
+    return refusal(file);
+  };
+  const std::string start = "cannot read " + file + ": ";
+  CHECK(with("printf 'it is \\033[2Jred' >&2; exit 1") == start + "it is \\x1b[2Jred");
+  CHECK_THAT(with("echo why >&2; exit 3"), Contains("the HDF5 reader ended with code 3"));
+  CHECK_THAT(with("echo why >&2; kill -SEGV $$"), Contains("(signal 11, Segmentation fault)"));
+  // However much it says, it waits for nobody to read it.
+  CHECK_THAT(with("head -c 5000000 /dev/zero >&2; exit 3"), Contains("ended with code 3"));
+}
+
+TEST_CASE("a table that is not printed to its end, or otherwise than it should be, is an error") {
+  const Folder folder;
+  const std::string file = folder / "a.h5";
+  write_table(file, random_table(3, 3000));
+  const auto with = [&](const std::string& head) {
+    const FakeReader fake("#!/bin/sh\nprintf '%s\\n' '" + head + "'\n");
+    return refusal(file);
+  };
+  const auto table = [](const std::string& rows, const std::string& kind) {
+    return R"({"bbsim_table": 1, "rows": )" + rows +
+           R"(, "columns": [{"name": "x", "unit": "", "meaning": "", "kind": ")" + kind +
+           R"(", "width": 1}], "axes": [], "attributes": [], "inputs": []})";
+  };
+  const std::string start = "cannot read " + file + ": ";
+  CHECK(with(table("0", "number")).empty());
+  CHECK_THAT(with(table("1", "number")), Contains("the HDF5 reader ended with code 0"));
+  CHECK_THAT(with(table("-1", "number")), Contains("there is not enough memory"));
+  CHECK_THAT(with(table("1e300", "text")), Contains("is no column of numbers"));
+  CHECK_THAT(with(table("\"one\"", "number")), Contains("printed something unexpected"));
+  CHECK_THAT(with(R"({"bbsim_table": 1})"), Contains("printed something unexpected"));
+  CHECK_THAT(with(R"({"bbsim_table": "1"})"), Contains("printed something unexpected"));
+  CHECK_THAT(with(R"({"bbsim_table": 2})"), Contains("another version of bbsim"));
+  CHECK_THAT(with("[1]"), Contains("another version of bbsim"));
+  CHECK_THAT(with(std::string(200, '[')), Contains("another version of bbsim"));
+}
+
+TEST_CASE("a file that is cut off is an error, and the next one is read") {
   const Folder folder;
   write_table(folder / "a.h5", random_table(3, 3000));
   const std::string whole = content_of(folder / "a.h5");
   const std::string cut = folder.put("cut.h5", whole.substr(0, whole.size() / 2));
-  const auto process = Hdf5Process::running();
   CHECK_THAT(refusal(cut), Contains("opening the file failed"));
-  CHECK(Hdf5Process::running() != process);
   CHECK(refusal(folder / "a.h5").empty());
 }
 
@@ -370,10 +398,8 @@ TEST_CASE("files are read where the system keeps no children's ends") {
   const std::string file = folder / "a.h5";
   write_table(file, {{"t", "x"}, {{0, 1}, {2, 3}}});
   void (*const before)(int) = std::signal(SIGCHLD, SIG_IGN);
-  Hdf5Process::running()->retire();
   CHECK(refusal(file).empty());
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
-  CHECK(refusal(file).empty());
+  CHECK_THAT(refusal(folder.put("b.h5", "none")), Contains("it is no HDF5 file"));
   {
     const FakeReader fake("#!/bin/sh\nkill -SEGV $$\n");
     CHECK_THAT(refusal(file), Contains("the HDF5 reader ended over it: the file is damaged"));

@@ -27,6 +27,7 @@ using bbsim::file::Hdf5Block;
 using bbsim::file::Hdf5Column;
 using bbsim::file::Hdf5Kind;
 using bbsim::file::Hdf5TableReader;
+using bbsim::file::Hdf5TableReaders;
 using bbsim::file::Hdf5TableWriter;
 using bbsim::file::read_table;
 using Catch::Matchers::Contains;
@@ -210,10 +211,10 @@ TEST_CASE("cases are whole numbers and the scale of all rows, times that of traj
   H5Dclose(number);
   H5Fclose(file);
 
-  const Hdf5TableReader reader(folder / "a.h5");
+  Hdf5TableReader reader(folder / "a.h5");
   CHECK(reader.columns() == columns);
   Hdf5Block back;
-  reader.read(0, 5, back);
+  CHECK(reader.read(back));
   CHECK(same(back, block));
 }
 
@@ -261,10 +262,10 @@ TEST_CASE("tables of cases are compressed, and texts of one length stand side by
     H5Dclose(dataset);
   }
   H5Fclose(file);
-  const Hdf5TableReader reader(folder / "a.h5");
+  Hdf5TableReader reader(folder / "a.h5");
   CHECK(reader.columns() == columns);
   Hdf5Block back;
-  reader.read(0, rows, back);
+  CHECK(reader.read(back));
   CHECK(same(back, block));
 
   // A text is never cut off.
@@ -292,7 +293,7 @@ TEST_CASE("chunks of series are whole rows of some 100 KiB") {
 TEST_CASE("a table of cases reads back: columns, units, axes, attributes, rows") {
   const Folder folder;
   write_cases(folder / "a.h5", 2500, 3, 700);
-  const Hdf5TableReader reader(folder / "a.h5");
+  Hdf5TableReader reader(folder / "a.h5");
   CHECK(reader.columns() == three_kinds(3));
   REQUIRE(reader.axes().size() == 1);
   CHECK(reader.axes()[0].first == some_axes[0].first);
@@ -301,16 +302,32 @@ TEST_CASE("a table of cases reads back: columns, units, axes, attributes, rows")
   CHECK(reader.rows() == 2500);
 
   Hdf5Block block;
-  reader.read(0, 2500, block);
+  CHECK(reader.read(block));
   CHECK(same(block, cases(0, 2500, 3)));
-  reader.read(1023, 2, block);
-  CHECK(same(block, cases(1023, 2, 3)));
-  reader.read(2400, 1000, block);  // beyond the end
-  CHECK(same(block, cases(2400, 100, 3)));
-  reader.read(2500, 1, block);
+  CHECK_FALSE(reader.read(block));
   CHECK(same(block, cases(0, 0, 3)));
-  reader.read(17, 0, block);
-  CHECK(same(block, cases(0, 0, 3)));
+
+  // In blocks: the last is what is left.
+  for (const std::size_t a_block : {1, 341, 1024, 2499, 2500, 2501}) {
+    CAPTURE(a_block);
+    Hdf5TableReader in_blocks(folder / "a.h5", {a_block});
+    CHECK(in_blocks.rows() == 2500);
+    std::size_t first = 0;
+    bool equal = true;
+    for (; in_blocks.read(block); first += block.rows) {
+      equal = equal && same(block, cases(first, std::min(a_block, 2500 - first), 3));
+    }
+    CHECK(equal);
+    CHECK(first == 2500);
+  }
+  // Some of the rows.
+  Hdf5TableReader some(folder / "a.h5", {10, 14});
+  CHECK(some.rows() == 2500);
+  CHECK(some.read(block));
+  CHECK(same(block, cases(0, 10, 3)));
+  CHECK(some.read(block));
+  CHECK(same(block, cases(10, 4, 3)));
+  CHECK_FALSE(some.read(block));
   CHECK(folder.entries() == 1);
 }
 
@@ -325,18 +342,18 @@ TEST_CASE("any number reads back to the bit from a table of cases") {
   writer.append(block);
   writer.finish({});
   Hdf5Block back;
-  Hdf5TableReader(folder / "a.h5").read(0, 3000, back);
+  Hdf5TableReader(folder / "a.h5").read(back);
   CHECK(same(back, block));
 }
 
 TEST_CASE("a table without cases, of one case, and of a single column") {
   const Folder folder;
   write_cases(folder / "none.h5", 0, 3, 1);
-  const Hdf5TableReader none(folder / "none.h5");
+  Hdf5TableReader none(folder / "none.h5");
   CHECK(none.rows() == 0);
   CHECK(none.columns() == three_kinds(3));
   Hdf5Block block = cases(0, 2, 3);
-  none.read(0, 10, block);
+  CHECK_FALSE(none.read(block));
   CHECK(same(block, cases(0, 0, 3)));
 
   for (const Hdf5Column& column : three_kinds(3)) {
@@ -346,10 +363,10 @@ TEST_CASE("a table without cases, of one case, and of a single column") {
     const Hdf5Block one{1, {values}, {std::vector<std::string>(text ? 1 : 0, "ψ")}};
     writer.append(one);
     writer.finish({});
-    const Hdf5TableReader reader(folder / "one.h5");
+    Hdf5TableReader reader(folder / "one.h5");
     CHECK(reader.axes().empty());
     CHECK(reader.attributes().empty());
-    reader.read(0, 1, block);
+    CHECK(reader.read(block));
     CHECK(same(block, one));
   }
 }
@@ -383,13 +400,10 @@ TEST_CASE("parts that are merged give the bytes of the whole") {
   const Hdf5TableReader first(folder / "1.h5");
   Hdf5TableWriter merged(folder / "merged.h5", first.columns(), first.axes());
   for (const char* name : {"1.h5", "2.h5", "3.h5"}) {
-    const Hdf5TableReader part(folder / name);
+    Hdf5TableReader part(folder / name, {333});
     REQUIRE(part.columns() == first.columns());
     Hdf5Block block;
-    for (std::size_t row = 0; row < part.rows(); row += block.rows) {
-      part.read(row, 333, block);
-      merged.append(block);
-    }
+    while (part.read(block)) merged.append(block);
   }
   merged.finish(first.attributes());
   const bool equal = same_files(folder / "whole.h5", folder / "merged.h5");
@@ -404,26 +418,27 @@ TEST_CASE("a hundred thousand cases") {
   Hdf5Block block = cases(0, 10000, width);
   for (std::size_t first = 0; first < rows; first += block.rows) writer.append(block);
   writer.finish({});
-  const Hdf5TableReader reader(folder / "a.h5");
+  Hdf5TableReader reader(folder / "a.h5", {block.rows});
   REQUIRE(reader.rows() == rows);
   Hdf5Block back;
   bool equal = true;
-  for (std::size_t first = 0; first < rows; first += block.rows) {
-    reader.read(first, block.rows, back);
-    equal = equal && same(back, block);
-  }
+  std::size_t blocks = 0;
+  for (; reader.read(back); ++blocks) equal = equal && same(back, block);
   CHECK(equal);
+  CHECK(blocks == rows / block.rows);
 }
 
 TEST_CASE("wide series") {
   const Folder folder;
   write_cases(folder / "a.h5", 700, 5000, 64);
-  const Hdf5TableReader reader(folder / "a.h5");
+  Hdf5TableReader reader(folder / "a.h5");
   Hdf5Block back;
-  reader.read(0, 700, back);
+  CHECK(reader.read(back));
   const bool equal = same(back, cases(0, 700, 5000));
   CHECK(equal);
-  reader.read(699, 1, back);
+  Hdf5TableReader in_blocks(folder / "a.h5", {699});
+  CHECK(in_blocks.read(back));
+  CHECK(in_blocks.read(back));
   CHECK(same(back, cases(699, 1, 5000)));
 }
 
@@ -527,14 +542,14 @@ TEST_CASE("a run's HDF5 file is a table of cases, too") {
   const Folder folder;
   const auto table = random_table(3, 2000);
   write_table(folder / "a.h5", {{"t", "x", "y"}, table.columns}, {{"title", "run"}});
-  const Hdf5TableReader reader(folder / "a.h5");
+  Hdf5TableReader reader(folder / "a.h5");
   CHECK(reader.columns() == Columns{{"t", "m", "one value a row"},
                                     {"x", "m", "one value a row"},
                                     {"y", "m", "one value a row"}});
   CHECK(reader.axes().empty());
   CHECK(reader.attributes() == Attributes{{"title", "run"}});
   Hdf5Block block;
-  reader.read(0, 2000, block);
+  CHECK(reader.read(block));
   CHECK(same(block, {2000, table.columns, {{}, {}, {}}}));
 }
 
@@ -571,7 +586,7 @@ TEST_CASE("files that are no table of cases are refused") {
   }
 
   H5Fclose(H5Fcreate((folder / "bare.h5").c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT));
-  CHECK_THAT(refusal(folder / "bare.h5"), Contains("no column of cases"));
+  CHECK_THAT(refusal(folder / "bare.h5"), Contains("it holds no column at its root"));
 
   const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
   const hsize_t rows = 3001;
@@ -649,13 +664,13 @@ TEST_CASE("files of earlier versions are read: texts of any length, numbers as t
   H5Tclose(text);
   H5Fclose(id);
 
-  const Hdf5TableReader reader(file);
+  Hdf5TableReader reader(file);
   CHECK(reader.columns() ==
         Columns{{"case", "1", "number of the case"}, {"status", "", "", Hdf5Kind::text}});
   CHECK(reader.attributes() == Attributes{{"cases", "2"}});
   CHECK(reader.read_inputs().empty());
   Hdf5Block block;
-  reader.read(0, 2, block);
+  CHECK(reader.read(block));
   CHECK(block.values[0] == std::vector<double>{0, 1});
   CHECK(block.texts[1] == std::vector<std::string>{"done", "failed at 1 s"});
 }
@@ -674,8 +689,68 @@ TEST_CASE("texts of one length are texts") {
   H5Tclose(text);
   H5Fclose(id);
   Hdf5Block block;
-  const Hdf5TableReader reader(folder / "a.h5");
+  Hdf5TableReader reader(folder / "a.h5");
   REQUIRE(reader.columns()[0].kind == Hdf5Kind::text);
-  reader.read(0, 3, block);
+  CHECK(reader.read(block));
   CHECK(block.texts[0] == std::vector<std::string>{"done", "", "ab"});
+}
+
+TEST_CASE("attributes and names of all kinds come back as they were") {
+  const Folder folder;
+  const double infinity = std::numeric_limits<double>::infinity();
+  const Attributes attributes{{"a", "line\nand \"quote\" \\ \t é"},
+                              {"empty", ""},
+                              {"third", 1.0 / 3},
+                              {"whole real", 3.0},
+                              {"zero", -0.0},
+                              {"tiny", 5e-324},
+                              {"more", infinity},
+                              {"less", -infinity},
+                              {"integer", 3},
+                              {"most", std::numeric_limits<std::int64_t>::max()},
+                              {"least", std::numeric_limits<std::int64_t>::min()}};
+  {
+    Hdf5TableWriter writer(folder / "a.h5", {{"\"x\"\n", "m/s²", "{[\\"}}, {});
+    writer.append({2, {{1, 2}}, {{}}});
+    writer.finish(attributes);
+  }
+  const Hdf5TableReader reader(folder / "a.h5");
+  CHECK(reader.attributes() == attributes);
+  CHECK(reader.columns() == Columns{{"\"x\"\n", "m/s²", "{[\\"}});
+}
+
+TEST_CASE("several files are read by one process, in order") {
+  const Folder folder;
+  std::vector<std::string> files;
+  for (const std::size_t rows : {5, 0, 3000, 1}) {
+    files.push_back(folder / (std::to_string(rows) + ".h5"));
+    write_cases(files.back(), rows, 3, 1000);
+  }
+  Hdf5TableReaders readers(files, {1024});
+  for (const std::size_t rows : {5, 0, 3000, 1}) {
+    Hdf5TableReader reader = readers.next();
+    CHECK(reader.rows() == rows);
+    CHECK(reader.attributes() == some_attributes);
+    Hdf5Block block;
+    bool equal = true;
+    std::size_t first = 0;
+    for (; reader.read(block); first += block.rows) {
+      equal = equal && same(block, cases(first, block.rows, 3));
+    }
+    CHECK(equal);
+    CHECK(first == rows);
+    CHECK(reader.read_inputs().empty());
+  }
+
+  // A file among them that is none is an error about it.
+  files[2] = folder.put("text.h5", "t,x\n1,2\n");
+  Hdf5TableReaders others(files, {1, 1});
+  for (int i = 0; i < 2; ++i) {
+    Hdf5TableReader reader = others.next();
+    Hdf5Block block;
+    CHECK(reader.read(block) == (i == 0));
+    CHECK(reader.read_inputs().empty());
+  }
+  CHECK(message_of<InputError>([&] { (void)others.next(); }) ==
+        "cannot read " + files[2] + ": it is no HDF5 file");
 }

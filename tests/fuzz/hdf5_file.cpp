@@ -23,9 +23,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   folder.put("damaged.h5", std::string(text_of(data, size)));
   may_refuse([&] { (void)bbsim::file::read_table(file); });
   may_refuse([&] {
-    const bbsim::file::Hdf5TableReader reader(file);
+    bbsim::file::Hdf5TableReader reader(file, {8, 8});
     bbsim::file::Hdf5Block block;
-    reader.read(0, 8, block);
+    reader.read(block);
   });
   return 0;
 }

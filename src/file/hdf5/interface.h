@@ -3,7 +3,7 @@
 
 /* The C interface between the program and its HDF5 module, which is opened at run time to write
    files. No C++ type and no exception crosses it; each side frees what it allocated. (Files are
-   read elsewhere, in a process of their own: messages.hpp.) */
+   read elsewhere, in a process of their own: table_text.hpp.) */
 #ifndef BBSIM_RECORD_HDF5_INTERFACE_H
 #define BBSIM_RECORD_HDF5_INTERFACE_H
 

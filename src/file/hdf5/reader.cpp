@@ -215,34 +215,18 @@ void add_fixed_strings(hid_t dataset, const Datatype& type, const Selection& sel
   }
 }
 
-void tell_attributes(hid_t root, const Contents& contents) {
-  constexpr const char* doing = "reading an attribute";
-  const H5_index_t order = order_of(root, H5Pget_attr_creation_order);
-  const int count = check(H5Aget_num_attrs(root), doing);
-  for (int i = 0; i < count; ++i) {
-    const Attribute attribute(H5Aopen_by_idx(root, ".", order, H5_ITER_INC, static_cast<hsize_t>(i),
-                                             H5P_DEFAULT, H5P_DEFAULT),
-                              doing);
-    Value value;
-    if (!read_attribute(attribute, value)) continue;
-    contents.attribute(
-        name_from([&](char* to, std::size_t size) { return H5Aget_name(attribute, size, to); },
-                  doing),
-        value);
-  }
-}
-
 }  // namespace
 
-Reader::Reader(const char* path, const Contents& contents)
-    : file_(open_file(path)), bytes_(size_of(file_)) {
+Reader::Reader(const char* path, void (*got_on)())
+    : got_on_(got_on), file_(open_file(path)), bytes_(size_of(file_)) {
   const Group root(H5Gopen2(file_, "/", H5P_DEFAULT), "opening the file");
-  tell_datasets(root, "", contents);
-  tell_attributes(root, contents);
-  tell_inputs(root, contents);
+  find_datasets(root, "");
+  root_datasets_ = datasets_.size();
+  find_attributes(root);
+  find_inputs(root);
 }
 
-void Reader::tell_datasets(hid_t group, const std::string& path, const Contents& contents) {
+void Reader::find_datasets(hid_t group, const std::string& path) {
   const std::vector<std::string> links = links_of(group, path);
   for (const std::string& name : links) {
     const std::string shown_path = path + name;
@@ -256,7 +240,7 @@ void Reader::tell_datasets(hid_t group, const std::string& path, const Contents&
       const std::string title = attribute_of(object, input_title);
       if (!title.empty()) info.name = title;
     }
-    contents.dataset(info);
+    got_on_();
 
     // Rows are mostly read front to back: there is no need for HDF5's MiB a dataset, but a chunk
     // that is not kept whole is read, and unpacked, again and again.
@@ -271,7 +255,24 @@ void Reader::tell_datasets(hid_t group, const std::string& path, const Contents&
   }
 }
 
-void Reader::tell_inputs(hid_t root, const Contents& contents) {
+void Reader::find_attributes(hid_t root) {
+  constexpr const char* doing = "reading an attribute";
+  const H5_index_t order = order_of(root, H5Pget_attr_creation_order);
+  const int count = check(H5Aget_num_attrs(root), doing);
+  for (int i = 0; i < count; ++i) {
+    const Attribute attribute(H5Aopen_by_idx(root, ".", order, H5_ITER_INC, static_cast<hsize_t>(i),
+                                             H5P_DEFAULT, H5P_DEFAULT),
+                              doing);
+    Value value;
+    if (!read_attribute(attribute, value)) continue;
+    std::string name = name_from(
+        [&](char* to, std::size_t size) { return H5Aget_name(attribute, size, to); }, doing);
+    attributes_.emplace_back(std::move(name), std::move(value));
+    got_on_();
+  }
+}
+
+void Reader::find_inputs(hid_t root) {
   constexpr const char* doing = "listing the input tables";
   if (check(H5Lexists(root, inputs_group, H5P_DEFAULT), doing) == 0) return;
   const Object inputs(H5Oopen(root, inputs_group, within_file()), doing);
@@ -281,8 +282,9 @@ void Reader::tell_inputs(hid_t root, const Contents& contents) {
     const Object table(H5Oopen(inputs, name.c_str(), within_file()), doing);
     if (H5Iget_type(table) != H5I_GROUP) continue;
     const std::string file = attribute_of(table, input_file);
-    contents.input(file.empty() ? name : file);
-    tell_datasets(table, path + name + "/", contents);
+    const std::size_t first = datasets_.size();
+    find_datasets(table, path + name + "/");
+    inputs_.push_back({file.empty() ? name : file, first, datasets_.size() - first});
   }
 }
 
@@ -310,11 +312,6 @@ void Reader::check_size(hid_t dataset, const DatasetInfo& info, const std::strin
                 std::to_string(declared) + " bytes; the file has " + std::to_string(bytes_) +
                 " bytes, " + std::to_string(stored) +
                 " of them for it: it is damaged, or the dataset was never filled");
-}
-
-const DatasetInfo& Reader::info(std::size_t dataset) const {
-  if (dataset >= datasets_.size()) throw Failure("there is no such dataset");
-  return datasets_[dataset].info;
 }
 
 void Reader::read_numbers(std::size_t dataset, std::size_t first, std::size_t rows,

@@ -9,8 +9,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "file/hdf5/attributes.hpp"
@@ -25,21 +25,28 @@ struct DatasetInfo {
   std::size_t width = 1, rows = 0;
 };
 
-// Where a reader tells what a file holds: first the root's datasets, in the file's order, then its
-// attributes, then of each input table its file's name and its datasets.
-struct Contents {
-  std::function<void(const DatasetInfo&)> dataset;
-  std::function<void(const std::string& name, const Value&)> attribute;
-  std::function<void(const std::string& file)> input;
+// A table that the scenario read: datasets first ... first + count - 1 are its columns.
+struct InputInfo {
+  std::string file;
+  std::size_t first = 0, count = 0;
 };
 
 // Every function may throw Failure.
 class Reader {
  public:
-  Reader(const char* path, const Contents& contents);
+  // Calls `got_on` after each dataset and attribute that it finds.
+  Reader(const char* path, void (*got_on)());
 
-  // Datasets are counted in the order in which they were told.
-  [[nodiscard]] const DatasetInfo& info(std::size_t dataset) const;
+  // Datasets are counted in the file's order, those of the root first, then those of the inputs.
+  [[nodiscard]] std::size_t root_datasets() const { return root_datasets_; }
+  [[nodiscard]] const DatasetInfo& info(std::size_t dataset) const {
+    return datasets_.at(dataset).info;
+  }
+  [[nodiscard]] const std::vector<InputInfo>& inputs() const { return inputs_; }
+  // The root's, those that are a text or a number.
+  [[nodiscard]] const std::vector<std::pair<std::string, Value>>& attributes() const {
+    return attributes_;
+  }
   // Rows [first, first + rows), within what there is, of what is no text; an axis has `width` rows
   // of one number.
   void read_numbers(std::size_t dataset, std::size_t first, std::size_t rows, double* to) const;
@@ -48,8 +55,9 @@ class Reader {
                                                     std::size_t rows) const;
 
  private:
-  void tell_datasets(hid_t group, const std::string& path, const Contents& contents);
-  void tell_inputs(hid_t root, const Contents& contents);
+  void find_datasets(hid_t group, const std::string& path);
+  void find_attributes(hid_t root);
+  void find_inputs(hid_t root);
   void check_size(hid_t dataset, const DatasetInfo& info, const std::string& path);
 
   struct Open {
@@ -58,10 +66,14 @@ class Reader {
     Dataset dataset;
   };
 
+  void (*got_on_)();
   File file_;
   std::uint64_t bytes_;         // of the file
   std::uint64_t declared_ = 0;  // bytes of all datasets so far, as they say
   std::vector<Open> datasets_;
+  std::size_t root_datasets_ = 0;
+  std::vector<InputInfo> inputs_;
+  std::vector<std::pair<std::string, Value>> attributes_;
 };
 
 }  // namespace bbsim::hdf5

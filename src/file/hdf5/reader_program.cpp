@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// bbsim-hdf5-reader: reads HDF5 files for bbsim, in a process of its own, which may die of what a
-// damaged file does to the HDF5 library. Standard input is a socket with requests, standard output
-// a pipe for the answers: messages.hpp.
-#include <poll.h>
+// bbsim-hdf5-reader ROWS_A_BLOCK MOST_ROWS FILE...: prints the tables of HDF5 files, one after the
+// other, as table_text.hpp says. Why one cannot be read goes to standard error, with exit code 1.
+//
+// bbsim starts it as a process of its own, because a damaged file may crash the HDF5 library or
+// make it go in circles. So it is bounded in memory, and in time without progress.
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -12,53 +13,52 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <bit>
-#include <cerrno>
+#include <array>
+#include <charconv>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
-#include <map>
-#include <memory>
+#include <cstring>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "file/hdf5/messages.hpp"
+#include "base/shown.hpp"
+#include "file/descriptor.hpp"
 #include "file/hdf5/reader.hpp"
+#include "file/hdf5/table_text.hpp"
 
 namespace bbsim::hdf5 {
 namespace {
 
-// Processor time without an answer after which we are taken to go in circles: so much, and a second
-// for so many bytes of a file that is open. What is spent waiting for a disk does not count.
+using Json = nlohmann::ordered_json;
+
+// Processor time without progress after which HDF5 is taken to go in circles: so much, and a second
+// for so many bytes of the file. What is spent waiting for a disk does not count.
 constexpr rlim_t patience = 2;  // s
 constexpr rlim_t bytes_a_second = rlim_t{1} << 27U;
 // Memory that HDF5 may take for a file, beside four times the file's size.
 constexpr rlim_t most_memory = rlim_t{1} << 30U;
-// Whoever has no file open for so long does not come back soon.
-constexpr int idle_time = 1000;  // ms
 
 constexpr std::size_t numbers_at_once = 32768;  // 256 KiB
 constexpr std::size_t texts_at_once = 1024;
 
-// The program is gone, or wants nothing more.
-class End {};
-
-// Ends the process unless it is set again in time, or stopped.
+// Ends the process unless it is set again in time.
 class Timer {
  public:
   void allow_for(rlim_t bytes) {
     seconds_ = std::max(seconds_, static_cast<time_t>(patience + bytes / bytes_a_second));
+    set();
   }
-  void set() const { set_to(seconds_); }
-  static void stop() { set_to(0); }
-
- private:
-  static void set_to(time_t seconds) {
-    const itimerval timer{{0, 0}, {seconds, 0}};
+  void set() const {
+    const itimerval timer{{0, 0}, {seconds_, 0}};
     setitimer(ITIMER_PROF, &timer, nullptr);
   }
 
+ private:
   time_t seconds_ = patience;
 };
 Timer timer;
@@ -68,8 +68,8 @@ void prepare() {
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
   prctl(PR_SET_DUMPABLE, 0);
-  // Ctrl-C goes to all of a terminal's processes; the program decides what comes of it, and we end
-  // with it.
+  // Ctrl-C goes to all of a terminal's processes; the program decides what comes of it, and ends us
+  // with itself.
   for (const int one : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(one, SIG_IGN);
   keep_errors_to_ourselves();
 }
@@ -83,9 +83,9 @@ rlim_t memory_in_use() {
   return static_cast<rlim_t>(pages) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
 }
 
-rlim_t size_of(const std::string& path) {
+rlim_t size_of(const char* path) {
   struct stat status {};
-  return stat(path.c_str(), &status) == 0 ? static_cast<rlim_t>(status.st_size) : 0;
+  return stat(path, &status) == 0 ? static_cast<rlim_t>(status.st_size) : 0;
 }
 
 // What a damaged file makes HDF5 ask for beyond this fails.
@@ -97,172 +97,192 @@ void limit_memory(rlim_t file_size) {
   setrlimit(RLIMIT_AS, &limit);
 }
 
-void write_all(const void* bytes, std::size_t size) {
-  const char* from = static_cast<const char*>(bytes);
-  while (size > 0) {
-    const ssize_t put = ::write(STDOUT_FILENO, from, size);
-    if (put < 0 && errno != EINTR) throw End();
-    if (put <= 0) continue;
-    from += put;
-    size -= static_cast<std::size_t>(put);
-  }
-}
-
-void read_all(void* bytes, std::size_t size) {
-  char* to = static_cast<char*>(bytes);
-  while (size > 0) {
-    const ssize_t got = ::read(STDIN_FILENO, to, size);
-    if (got == 0 || (got < 0 && errno != EINTR)) throw End();
-    if (got < 0) continue;
-    to += got;
-    size -= static_cast<std::size_t>(got);
-  }
-}
-
-// An answer, which shows that we get on.
-void say(Message what, std::string_view bytes) {
-  if (bytes.size() > most_bytes) {
-    throw Failure("it holds a text of " + std::to_string(bytes.size()) +
-                  " bytes; allowed: " + std::to_string(most_bytes));
-  }
-  const Head head{what, static_cast<std::uint32_t>(bytes.size())};
-  write_all(&head, sizeof head);
-  write_all(bytes.data(), bytes.size());
+void print(std::string_view bytes) {
+  if (file::write_all(STDOUT_FILENO, bytes) != 0) _exit(0);  // the program wants no more
   timer.set();
 }
 
-void say_numbers(const std::vector<double>& numbers) {
-  for (std::size_t i = 0; i < numbers.size(); i += numbers_at_once) {
-    const std::size_t count = std::min(numbers_at_once, numbers.size() - i);
-    say(Message::numbers, {reinterpret_cast<const char*>(&numbers[i]), count * sizeof(double)});
-  }
+const char* kind_text(bbsim_hdf5_kind kind) {
+  return kind == BBSIM_HDF5_TEXT     ? text_kind
+         : kind == BBSIM_HDF5_SERIES ? series_kind
+                                     : number_kind;
 }
 
-void say_texts(const std::vector<std::string>& texts) {
-  constexpr std::size_t enough = std::size_t{1} << 18U;  // bytes
-  Packer message;
-  for (const std::string& text : texts) {
-    message.text(text);
-    if (message.bytes().size() < enough) continue;
-    say(Message::texts, message.bytes());
-    message = {};
-  }
-  if (!message.bytes().empty()) say(Message::texts, message.bytes());
+Json described(const DatasetInfo& info) {
+  return {{"name", info.name},
+          {"unit", info.unit},
+          {"meaning", info.description},
+          {"kind", kind_text(info.kind)},
+          {"width", info.width}};
 }
 
-void say_attribute(const std::string& name, const Value& value) {
-  Packer message;
-  message.text(name).number(value.index());
-  if (const auto* text = std::get_if<std::string>(&value)) {
-    message.text(*text);
-  } else if (const auto* number = std::get_if<double>(&value)) {
-    message.number(std::bit_cast<std::uint64_t>(*number));
-  } else {
-    message.number(static_cast<std::uint64_t>(std::get<std::int64_t>(value)));
-  }
-  say(Message::attribute, message.bytes());
+// The shortest that reads back as the same.
+std::string real_text(double number) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
 }
 
-class Server {
+Json described(const std::string& name, const Value& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return {{"name", name}, {"text", *text}};
+  if (const auto* real = std::get_if<double>(&value)) {
+    return {{"name", name}, {"real", real_text(*real)}};  // JSON has no infinity
+  }
+  return {{"name", name}, {"integer", std::get<std::int64_t>(value)}};
+}
+
+class Table {
  public:
-  // Throws End when there is nothing more to do.
-  [[noreturn]] void serve() {
-    say(Message::ready, Packer().number(protocol).bytes());
-    for (;;) {
-      Timer::stop();
-      wait();
-      Head head;
-      read_all(&head, sizeof head);
-      if (head.bytes > most_bytes) throw End();
-      std::string bytes(head.bytes, '\0');
-      read_all(bytes.data(), bytes.size());
-      timer.set();
-      answer(head.what, Unpacker(bytes));
+  explicit Table(const char* path) : reader_(path, [] { timer.set(); }) {
+    for (std::size_t d = 0; d < reader_.root_datasets(); ++d) {
+      (reader_.info(d).kind == BBSIM_HDF5_AXIS ? axes_ : columns_).push_back(d);
+    }
+    check_rows();
+  }
+
+  void print_head() const {
+    Json head{{table_key, table_version}, {"rows", rows()}};
+    for (const char* list : {"columns", "axes", "attributes", "inputs"}) {
+      head[list] = Json::array();
+    }
+    for (const std::size_t d : columns_) head["columns"].push_back(described(reader_.info(d)));
+    for (const std::size_t d : axes_) head["axes"].push_back(described(reader_.info(d)));
+    for (const auto& [name, value] : reader_.attributes()) {
+      head["attributes"].push_back(described(name, value));
+    }
+    for (const InputInfo& input : reader_.inputs()) {
+      Json names = Json::array();
+      for (std::size_t c = 0; c < input.count; ++c) {
+        names.push_back(reader_.info(input.first + c).name);
+      }
+      head["inputs"].push_back(
+          {{"file", input.file}, {"rows", rows_of(input)}, {"columns", std::move(names)}});
+    }
+    print(head.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n');
+  }
+
+  void print_axes() {
+    for (const std::size_t d : axes_) print_rows(d, 0, reader_.info(d).rows);
+  }
+
+  void print_blocks(std::size_t rows_a_block, std::size_t most_rows) {
+    const std::size_t last = std::min(rows(), most_rows);
+    for (std::size_t first = 0; first < last; first += std::min(rows_a_block, last - first)) {
+      for (const std::size_t d : columns_) {
+        print_rows(d, first, std::min(rows_a_block, last - first));
+      }
+    }
+  }
+
+  void print_inputs() {
+    for (const InputInfo& input : reader_.inputs()) {
+      for (std::size_t d = input.first; d < input.first + input.count; ++d) {
+        const DatasetInfo& info = reader_.info(d);
+        if (info.kind != BBSIM_HDF5_NUMBER || info.rows != rows_of(input)) {
+          throw Failure("input table " + shown(input.file) + " is no table of numbers");
+        }
+        print_rows(d, 0, info.rows);
+      }
     }
   }
 
  private:
-  void wait() const {
-    pollfd input{STDIN_FILENO, POLLIN, 0};
-    if (files_.empty() && poll(&input, 1, idle_time) == 0) throw End();
-  }
-
-  void answer(Message what, Unpacker request) {
-    try {
-      if (what == Message::open) open(std::string(request.text()));
-      if (what == Message::read) read(request);
-      if (what == Message::close) files_.erase(request.number());
-    } catch (const std::bad_alloc&) {
-      say(Message::failed, "there is not enough memory for the size that it declares");
-    } catch (const std::length_error&) {
-      say(Message::failed, "there is not enough memory for the size that it declares");
-    } catch (const std::exception& failure) {
-      say(Message::failed, failure.what());
+  void check_rows() const {
+    for (const std::size_t d : columns_) {
+      const DatasetInfo& info = reader_.info(d);
+      if (info.rows == rows()) continue;
+      throw Failure("dataset " + shown(info.name) + " has " + std::to_string(info.rows) +
+                    " rows, " + shown(reader_.info(columns_[0]).name) + " has " +
+                    std::to_string(rows()) + "; all must have the same number");
     }
   }
 
-  void open(const std::string& path) {
-    const rlim_t bytes = size_of(path);
-    limit_memory(bytes);
-    timer.allow_for(bytes);
-    Contents contents;
-    contents.dataset = [](const DatasetInfo& info) {
-      say(Message::dataset, Packer()
-                                .number(info.kind)
-                                .number(info.width)
-                                .number(info.rows)
-                                .text(info.name)
-                                .text(info.unit)
-                                .text(info.description)
-                                .bytes());
-    };
-    contents.attribute = say_attribute;
-    contents.input = [](const std::string& file) { say(Message::input, file); };
-    auto reader = std::make_unique<Reader>(path.c_str(), contents);
-    files_.emplace(next_, std::move(reader));
-    say(Message::opened, Packer().number(next_++).bytes());
+  [[nodiscard]] std::size_t rows() const {
+    return columns_.empty() ? 0 : reader_.info(columns_[0]).rows;
+  }
+  [[nodiscard]] std::size_t rows_of(const InputInfo& input) const {
+    return input.count == 0 ? 0 : reader_.info(input.first).rows;
   }
 
-  void read(Unpacker request) {
-    const Reader& reader = *files_.at(request.number());
-    const std::size_t first = request.number();
-    const std::size_t rows = request.number();
-    while (!request.empty()) {
-      const std::size_t dataset = request.number();
-      const DatasetInfo& info = reader.info(dataset);
-      if (info.kind == BBSIM_HDF5_TEXT) {
-        for (std::size_t done = 0; done < rows; done += texts_at_once) {
-          say_texts(reader.read_texts(dataset, first + done, std::min(texts_at_once, rows - done)));
-        }
+  void print_rows(std::size_t dataset, std::size_t first, std::size_t rows) {
+    const DatasetInfo& info = reader_.info(dataset);
+    const bool is_text = info.kind == BBSIM_HDF5_TEXT;
+    const std::size_t width = info.kind == BBSIM_HDF5_SERIES ? info.width : 1;
+    if (width == 0) return;
+    const std::size_t at_once =
+        is_text ? texts_at_once : std::max<std::size_t>(1, numbers_at_once / width);
+    for (std::size_t done = 0; done < rows; done += at_once) {
+      const std::size_t now = std::min(at_once, rows - done);
+      if (is_text) {
+        print_texts(reader_.read_texts(dataset, first + done, now));
         continue;
       }
-      const std::size_t width = info.kind == BBSIM_HDF5_SERIES ? info.width : 1;
-      if (width == 0) continue;
-      const std::size_t at_once = std::max<std::size_t>(1, numbers_at_once / width);
-      for (std::size_t done = 0; done < rows; done += at_once) {
-        const std::size_t now = std::min(at_once, rows - done);
-        numbers_.resize(now * width);
-        reader.read_numbers(dataset, first + done, now, numbers_.data());
-        say_numbers(numbers_);
-      }
+      numbers_.resize(now * width);
+      reader_.read_numbers(dataset, first + done, now, numbers_.data());
+      print({reinterpret_cast<const char*>(numbers_.data()), numbers_.size() * sizeof(double)});
     }
-    say(Message::done, "");
   }
 
-  std::map<std::uint64_t, std::unique_ptr<Reader>> files_;
-  std::uint64_t next_ = 0;
+  static void print_texts(const std::vector<std::string>& texts) {
+    std::string bytes;
+    for (const std::string& text : texts) {
+      if (text.size() > longest_text) {
+        throw Failure("it holds a text of " + std::to_string(text.size()) +
+                      " bytes; allowed: " + std::to_string(longest_text));
+      }
+      const std::uint64_t size = text.size();
+      bytes.append(reinterpret_cast<const char*>(&size), sizeof size).append(text);
+    }
+    print(bytes);
+  }
+
+  Reader reader_;
+  std::vector<std::size_t> columns_, axes_;
   std::vector<double> numbers_;
 };
+
+void print_table(const char* path, std::size_t rows_a_block, std::size_t most_rows) {
+  const rlim_t bytes = size_of(path);
+  limit_memory(bytes);
+  timer.allow_for(bytes);
+  Table table(path);
+  table.print_head();
+  table.print_axes();
+  table.print_blocks(rows_a_block, most_rows);
+  table.print_inputs();
+}
+
+std::size_t number_of(std::string_view text) {
+  std::size_t number = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || stop != text.data() + text.size() || number == 0) {
+    throw Failure("found " + shown(text) + "; allowed: a number of rows, 1 or more");
+  }
+  return number;
+}
+
+// What the program makes of it: hdf5_process.cpp.
+[[noreturn]] void give_up(std::string_view why) {
+  [[maybe_unused]] const int ignored = file::write_all(STDERR_FILENO, why);
+  _exit(1);
+}
 
 }  // namespace
 }  // namespace bbsim::hdf5
 
-int main() {
+int main(int argc, char** argv) {
   using namespace bbsim::hdf5;
+  constexpr const char* no_memory = "there is not enough memory for the size that it declares";
   prepare();
   try {
-    Server().serve();
-  } catch (const End&) {
+    if (argc < 4) throw Failure("allowed: ROWS_A_BLOCK MOST_ROWS FILE...");
+    const std::size_t rows_a_block = number_of(argv[1]), most_rows = number_of(argv[2]);
+    for (int i = 3; i < argc; ++i) print_table(argv[i], rows_a_block, most_rows);
+  } catch (const std::bad_alloc&) {
+    give_up(no_memory);
+  } catch (const std::length_error&) {
+    give_up(no_memory);
+  } catch (const std::exception& failure) {
+    give_up(failure.what());
   }
   _exit(0);  // not by way of what HDF5 does at exit, after files that may be damaged
 }
