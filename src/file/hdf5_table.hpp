@@ -100,7 +100,7 @@ class Hdf5TableReader {
 
   // The next block of rows. False, and none, after the last.
   bool read(Hdf5Block& into);
-  // What the scenario had read: to be asked for once, after the last row.
+  // What the scenario had read: to be asked for once. Skips the rows that are left.
   [[nodiscard]] std::vector<InputTable> read_inputs();
 
   [[noreturn]] void fail(std::string_view reason) const;
@@ -134,7 +134,7 @@ class Hdf5TableReaders {
  public:
   explicit Hdf5TableReaders(std::vector<std::string> files, const Hdf5Rows& rows = {});
 
-  // The next file's, once all rows and inputs of the one before were read.
+  // The next file's, once the inputs of the one before were read.
   [[nodiscard]] Hdf5TableReader next();
 
  private:

@@ -94,8 +94,8 @@ Hdf5TableReader::Hdf5TableReader(std::string file, const Hdf5Rows& rows,
   guarded(file_, [this] { read_head(); });
   if (columns_.empty()) fail("it holds no column at its root");
   left_ = std::min(rows_, rows.most);
-  for (auto& [axis, values] : axes_) {
-    guarded(file_, [&] { take_numbers(std::exchange(axis.width, 1), values); });
+  for (Hdf5Axis& axis : axes_) {
+    guarded(file_, [&] { take_numbers(std::exchange(axis.first.width, 1), axis.second); });
   }
 }
 
@@ -117,6 +117,9 @@ bool Hdf5TableReader::read(Hdf5Block& into) {
 }
 
 std::vector<InputTable> Hdf5TableReader::read_inputs() {
+  Hdf5Block skipped;
+  while (read(skipped)) {
+  }
   std::vector<InputTable> inputs;
   for (const InputHead& head : inputs_) {
     TableData table{head.columns, std::vector<std::vector<double>>(head.columns.size())};

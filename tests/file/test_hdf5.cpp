@@ -25,6 +25,7 @@ using bbsim::InputError;
 using bbsim::OutputError;
 using bbsim::file::find_hdf5_reader;
 using bbsim::file::hdf5_module_folders;
+using bbsim::file::Hdf5Block;
 using bbsim::file::Hdf5TableReader;
 using bbsim::file::InputTable;
 using bbsim::file::open_hdf5_module;
@@ -244,6 +245,14 @@ TEST_CASE("the tables that a scenario read go with its results, under any name")
   H5Fclose(id);
 
   const std::vector<InputTable> back = Hdf5TableReader(file).read_inputs();
+  const std::vector<InputTable> after_rows = [&] {
+    Hdf5TableReader reader(file, {7, 20});
+    Hdf5Block block;
+    reader.read(block);
+    return reader.read_inputs();
+  }();
+  REQUIRE(after_rows.size() == 4);
+  CHECK(same_bits(after_rows[0].data->columns[0], back[0].data->columns[0]));
   REQUIRE(back.size() == 4);
   for (std::size_t i = 0; i < back.size(); ++i) {
     CHECK(back[i].file == inputs[i].file);
