@@ -75,9 +75,8 @@ bool run_dopri5_by_hand(const Scene& scene, solve::Tolerances tolerances, Rows& 
   const auto* const system = std::get_if<Open>(&scene.model.system);
   if (system == nullptr) return false;
   const model::SignalView motion = system->motion().view();
-  const bool plain = motion.harmonic_count == 1 && motion.table_count == 0 &&
-                     motion.start[0] == 0 && motion.start[1] == 0 && motion.rate[0] == 0 &&
-                     motion.rate[1] == 0;
+  const bool plain = motion.harmonic_count == 1 && !motion.shared.any() && motion.start[0] == 0 &&
+                     motion.start[1] == 0 && motion.rate[0] == 0 && motion.rate[1] == 0;
   if (!plain) return false;
   const double w = motion.harmonics->frequency;
   const double a0 = motion.harmonics->sine[0], b0 = motion.harmonics->cosine[0];

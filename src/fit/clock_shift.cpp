@@ -39,11 +39,12 @@ void shift_rows(Numbers& times, std::initializer_list<Numbers*> values, double b
 struct Shift {
   double begin, end;
 
-  void operator()(double& /*constant*/) const {}
-  void operator()(Sinusoid& term) const { term.phase += term.frequency * begin; }
-  void operator()(Ramp& term) const { term.start += term.rate * begin; }
-  void operator()(Pulse& term) const { term.start -= begin; }
-  void operator()(Table& term) const { shift_rows(term.times, {&term.values}, begin, end); }
+  void shift_term(double& /*constant*/) const {}
+  void shift_term(Table& term) const { shift_rows(term.times, {&term.values}, begin, end); }
+  template <class Term>
+  void shift_term(Term& term) const {
+    term.move_clock(begin);
+  }
 
   void operator()(PointReference& /*point*/) const {}
   void operator()(CircleReference& circle) const { circle.phase += circle.rate * begin; }
@@ -68,7 +69,9 @@ struct Shift {
     (*this)(commands.theta);
   }
   void operator()(Profile& profile) const {
-    for (ProfileTerm& term : profile) std::visit(*this, term);
+    for (ProfileTerm& term : profile) {
+      std::visit([this](auto& part) { shift_term(part); }, term);
+    }
   }
 };
 

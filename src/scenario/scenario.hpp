@@ -31,21 +31,29 @@ struct Losses {
   friend bool operator==(const Losses&, const Losses&) = default;
 };
 
+// Terms of a profile. move_clock(begin) makes each the same function of time on a clock that is 0
+// at the time `begin` (s).
+
 // offset + amplitude sin(frequency t + phase).
 struct Sinusoid {
   double amplitude = 0;  // rad
   double frequency = 0;  // rad/s
   double phase = 0;      // rad
   double offset = 0;     // rad
+
+  void move_clock(double begin) { phase += frequency * begin; }
 };
 
 // start + rate t.
 struct Ramp {
   double start = 0;  // rad
   double rate = 0;   // rad/s
+
+  void move_clock(double begin) { start += rate * begin; }
 };
 
-// A C2 interpolant through (time, value): at least four rows with strictly increasing times.
+// A C2 interpolant through (time, value): at least four rows with strictly increasing times. Its
+// clock moves in fit/clock_shift.cpp, which leaves out the rows of other times.
 struct Table {
   std::string file;
   std::vector<double> times;   // s
@@ -56,6 +64,8 @@ struct Table {
 // smoothly as it can: each half has the least jerk.
 struct Pulse {
   double start = 0, duration = 0, value = 0;
+
+  void move_clock(double begin) { start -= begin; }
 };
 
 // The units are those of an angle. In a profile of torque or force, N m or N takes the place of

@@ -34,8 +34,8 @@ model::Model model_of(const Scenario& scenario) {
   return model::assemble(scenario, false, model::Form::full);
 }
 
-// Converts the case to the numbers of a lane. Tables do not vary; `tables` has them for all cases.
-void set(OpenCase& one, const Scenario& scenario, const model::SignalView& tables) {
+// Converts the case to the numbers of a lane. `shared` has the terms that do not vary.
+void set(OpenCase& one, const Scenario& scenario, const model::SharedTerms& shared) {
   const Ball& ball = scenario.ball;
   one.radius = ball.radius;
   one.gravity = scenario.gravity;
@@ -46,11 +46,10 @@ void set(OpenCase& one, const Scenario& scenario, const model::SignalView& table
   GivenMotion& motion = one.motion;
   for (int i = 0; i < 2; ++i) motion.start[i] = motion.rate[i] = 0;
   motion.wave_count = 0;
-  motion.tables = tables.tables;
-  motion.table_count = tables.table_count;
-  const auto no_spline = [](const auto&) {};
-  model::add_profile(gimbal.motion->phi, 0, motion, no_spline);
-  model::add_profile(gimbal.motion->theta, 1, motion, no_spline);
+  motion.shared = shared;
+  const auto is_shared = [](const auto&) {};
+  model::add_profile(gimbal.motion->phi, 0, motion, is_shared);
+  model::add_profile(gimbal.motion->theta, 1, motion, is_shared);
   motion.add_constant(0, gimbal.mounting.phi_offset);
   motion.add_constant(1, gimbal.mounting.theta_offset);
 }
@@ -79,7 +78,7 @@ class OpenCarrier : public GroupCarrier {
 
   void carry(std::span<GroupCase> cases, const std::atomic<bool>&) override {
     for (std::size_t i = 0; i < cases.size(); ++i) {
-      set(cases_[i], scenario_.at(cases[i].number, cases[i].values), motion_.view());
+      set(cases_[i], scenario_.at(cases[i].number, cases[i].values), motion_.view().shared);
     }
     const auto carried = lanes_.integrate(cases_.data(), static_cast<int>(cases.size()));
     for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -138,10 +137,10 @@ class OpenCarrier : public GroupCarrier {
     return true;
   }
 
-  // Lanes do not search tables, so a motion with tables is searched here: once if all cases share
-  // it, otherwise for each case.
+  // Lanes do not search shared terms, so a motion with some is searched here: once if all cases
+  // have the same motion, otherwise for each case.
   record::GimbalExtremes::Greatest turning(const GroupCase& one, const Reached& reached) {
-    if (motion_.view().table_count == 0) {
+    if (!motion_.view().shared.any()) {
       return {record::tilt_of(reached.versine), std::sqrt(reached.rate_squared)};
     }
     if (!turned_ || !same_signals_) {
@@ -152,7 +151,7 @@ class OpenCarrier : public GroupCarrier {
 
   const SweepTask& task_;
   const double end_time_;           // s
-  const model::SignalPair motion_;  // its tables are those of all cases
+  const model::SignalPair motion_;  // its shared terms are those of all cases
   CaseScenario scenario_;
   OpenLanes lanes_;
   std::vector<Take> take_;
@@ -197,7 +196,7 @@ std::optional<solve::open::Pace> open_lane_pace(const SweepTask& task) {
         if (model::given_motion(scenario).highest_frequency() * scenario.time.end > longest) {
           return {};
         }
-        set(cases[i], scenario, motion.view());
+        set(cases[i], scenario, motion.view().shared);
       }
       const auto measured = lanes.measure(cases.data(), static_cast<int>(solve::open::group));
       if (!measured) continue;

@@ -606,8 +606,10 @@ class EquilibriumSearch {
       law_ = model.rig->sampled->law;
       sensor_ = &model.rig->sampled->sensor;
     }
-    // Whatever a servo's answer is like, it rests at its command.
-    if (scene.gimbal.servo) at_rest_ = ServoResponse{1, 1, 0};
+    if (scene.gimbal.servo) {
+      with_loop([&](const auto& loop) { at_rest_ = gimbal_of(loop).servo(); });
+      for (ServoResponse& servo : at_rest_.of) servo = servo.at_rest();
+    }
     angles_stay_ = scene.gravity == 0 && is_plain(scene);
     follows_ = scene.controller && scene.controller->drives == Drives::angle &&
                !scenario::moved_by_torques(scene) && places_.servos == 2;
@@ -646,7 +648,7 @@ class EquilibriumSearch {
   }
 
   [[nodiscard]] bool has_law() const {
-    return law_.kind == LawKind::linear || law_.kind == LawKind::gravity_compensation;
+    return feeds_back(law_.kind) && law_.kind != LawKind::feedback_linearisation;
   }
 
   // To the servos or of the plane, and as the law has it.

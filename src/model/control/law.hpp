@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "base/real.hpp"
 #include "model/signals/spline.hpp"
@@ -67,6 +68,21 @@ struct BasicControlLaw {
   [[nodiscard]] bool integrates() const { return integrates(0) || integrates(1); }
 };
 using ControlLaw = BasicControlLaw<double>;
+
+// Calls use(to, from) with each number of a law and the same number of another one, which may be of
+// another type: lanes, and derivatives by keys, take all numbers from here.
+template <class To, class From, class Use>
+void for_each_number(To& to, From& from, const Use& use) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t j = 0; j < 8; ++j) use(to.gain[i][j], from.gain[i][j]);
+    for (std::size_t j = 0; j < 2; ++j) {
+      use(to.integral[i][j], from.integral[i][j]);
+      use(to.kv[i][j], from.kv[i][j]);
+      use(to.kp[i][j], from.kp[i][j]);
+    }
+  }
+  use(to.scale, from.scale);
+}
 
 // What a law feeds back, SI. Integral is Zero where nothing is integrated.
 template <class Real, class Integral = Real>

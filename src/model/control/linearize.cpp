@@ -106,8 +106,9 @@ Heave heave_of(const Scenario& scene, const LinearPoint& at) {
 }
 
 Linearization plant_about(const Scenario& scene, const Model& model, const LinearPoint& at) {
-  if (scene.gimbal.servo &&
-      (scene.gimbal.servo->time_constant || scene.gimbal.servo_of(1).time_constant)) {
+  if (model.rig && std::ranges::any_of(model.rig->servo, [](const RigServo& servo) {
+        return servo.time_constant.has_value();
+      })) {
     throw InputError(
         "linearize: found --plant and a servo of first order (gimbal.servo.time_constant), whose "
         "rate jumps with its command; allowed: --sampled or --loop");

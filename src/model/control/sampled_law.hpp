@@ -32,19 +32,13 @@ struct SampledLaw {
 // Calls `use` with each number of a law but those that round.
 template <class Law, class Use>
 void for_each_number(Law& of, const Use& use) {
+  for_each_number(of.law, of.law, [&use](auto& number, auto&) { use(number); });
   for (std::size_t i = 0; i < 2; ++i) {
-    for (auto& gain : of.law.gain[i]) use(gain);
-    for (std::size_t j = 0; j < 2; ++j) {
-      use(of.law.integral[i][j]);
-      use(of.law.kv[i][j]);
-      use(of.law.kp[i][j]);
-    }
     for (auto* const range : {&of.limit[i], &of.sine[i]}) {
       use(range->low);
       use(range->high);
     }
   }
-  use(of.law.scale);
   use(of.filter);
 }
 

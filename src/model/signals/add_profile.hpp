@@ -12,9 +12,9 @@
 namespace bbsim::model {
 
 // Gives a profile's constants, sinusoids and ramps to add_constant(component, ...) and its like of
-// `to`, and its pulses and tables, which are splines, to add_spline(part).
-template <class Signals, class Component, class AddSpline>
-void add_profile(const Profile& profile, Component component, Signals& to, AddSpline add_spline) {
+// `to`, and all other terms, which lanes share (SharedTerms), to add_shared(part).
+template <class Signals, class Component, class AddShared>
+void add_profile(const Profile& profile, Component component, Signals& to, AddShared add_shared) {
   for (const ProfileTerm& term : profile) {
     std::visit(
         [&](const auto& part) {
@@ -27,7 +27,7 @@ void add_profile(const Profile& profile, Component component, Signals& to, AddSp
           } else if constexpr (std::is_same_v<Part, Ramp>) {
             to.add_ramp(component, part.start, part.rate);
           } else {
-            add_spline(part);
+            add_shared(part);
           }
         },
         term);

@@ -83,7 +83,7 @@ std::vector<double> SignalPair::jumps() const {
 }
 
 double SignalPair::highest_frequency() const {
-  double highest = 0;
+  double highest = view().shared.highest_frequency;
   for (const Harmonic& h : harmonics_) highest = std::max(highest, std::abs(h.frequency));
   return highest;
 }
@@ -96,7 +96,7 @@ double SignalPair::bandwidth(double from, double to) const {
     }
   }
   const double of_sinusoids = 2 * highest_frequency() + rate;
-  if (tables_.empty()) return of_sinusoids;
+  if (!view().shared.any()) return of_sinusoids;
   double most = 0;
   for (const double t : {from, (from + to) / 2, to}) {
     const auto [one, other] = at(t);

@@ -29,6 +29,27 @@ struct Tabulated {
   SplineView spline;
 };
 
+// The terms beside constants, ramps and sinusoids, which all lanes of a group share: splines. A
+// term with a formula of its own, which is neither a sum of sinusoids nor a spline, belongs here.
+struct SharedTerms {
+  const Tabulated* tables = nullptr;
+  std::size_t table_count = 0;
+  double highest_frequency = 0;  // of formulas, rad/s; at knots of splines, integrators stop
+
+  [[nodiscard]] bool any() const { return table_count > 0; }
+
+  template <class Time>
+  void add_to(std::array<Jet<Time>, 2>& jets, const Time& t) const {
+    for (std::size_t k = 0; k < table_count; ++k) {
+      const Jet<Time> jet = tables[k].spline.at(t);
+      Jet<Time>& sum = jets[tables[k].component];
+      sum.value += jet.value;
+      sum.rate += jet.rate;
+      sum.acceleration += jet.acceleration;
+    }
+  }
+};
+
 // A view of a SignalPair that evaluates the signals for any type of time.
 //
 // It uses plain arrays and no library calls, so that code for one instruction set stays separate
@@ -38,8 +59,7 @@ struct BasicSignalView {
   Scalar start[2], rate[2];
   const BasicHarmonic<Scalar>* harmonics;
   std::size_t harmonic_count;
-  const Tabulated* tables;
-  std::size_t table_count;
+  SharedTerms shared;
 
   // Both components at time t (s).
   template <class Time>
@@ -59,13 +79,7 @@ struct BasicSignalView {
         jets[i].acceleration -= (w * w) * value;
       }
     }
-    for (std::size_t k = 0; k < table_count; ++k) {
-      const Jet<Time> jet = tables[k].spline.at(t);
-      Jet<Time>& sum = jets[tables[k].component];
-      sum.value += jet.value;
-      sum.rate += jet.rate;
-      sum.acceleration += jet.acceleration;
-    }
+    shared.add_to(jets, t);
     return jets;
   }
 };
@@ -93,7 +107,7 @@ class SignalPair {
   // Those of them at which a value jumps.
   [[nodiscard]] std::vector<double> jumps() const;
 
-  // The highest frequency of a sinusoid, rad/s; 0 without sinusoids.
+  // The highest frequency of a sinusoid or a formula, rad/s; 0 without them.
   [[nodiscard]] double highest_frequency() const;
 
   // A bound on how fast sines of the components vary between two times without a knot in between,
@@ -109,8 +123,11 @@ class SignalPair {
 
   // Valid until this pair changes or ends.
   [[nodiscard]] SignalView view() const {
-    return {{start_[0], start_[1]}, {rate_[0], rate_[1]}, harmonics_.data(),
-            harmonics_.size(),      tables_.data(),       tables_.size()};
+    return {{start_[0], start_[1]},
+            {rate_[0], rate_[1]},
+            harmonics_.data(),
+            harmonics_.size(),
+            {tables_.data(), tables_.size()}};
   }
 
  private:

@@ -47,6 +47,12 @@ struct RigMode {
 // Servo acceleration in free motion: from_command u - from_angle q - from_rate q'.
 struct ServoResponse {
   double from_command = 1, from_angle = 0, from_rate = 0;
+
+  // One that comes to rest at the same angle. A servo without stiffness, which takes its rate from
+  // its command, rests at that command.
+  [[nodiscard]] ServoResponse at_rest() const {
+    return {from_angle > 0 ? from_command / from_angle : 1, 1, 0};
+  }
 };
 
 // The responses of all servos.

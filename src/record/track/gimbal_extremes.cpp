@@ -23,7 +23,7 @@ constexpr std::size_t together = 60;  // stretches evaluated in one call
 // The time after which the motion repeats. A sinusoid of both angles takes all of its values in one
 // period, and in half of one if the plate is level on average.
 double repeats_after(const model::SignalView& motion) {
-  const bool repeats = motion.rate[0] == 0 && motion.rate[1] == 0 && motion.table_count == 0 &&
+  const bool repeats = motion.rate[0] == 0 && motion.rate[1] == 0 && !motion.shared.any() &&
                        motion.harmonic_count == 1;
   if (!repeats) return std::numeric_limits<double>::infinity();
   const bool level = motion.start[0] == 0 && motion.start[1] == 0;
@@ -44,17 +44,14 @@ GimbalExtremes::Greatest GimbalExtremes::of(const model::SignalPair& motion, dou
   versine_most_ = rate_squared_most_ = 0;
   count_ = 0;
   spans_.clear();
-  const model::SignalView view = motion.view();
   double from = 0;
-  if (view.table_count > 0) {
-    for (const double knot : motion.knots()) {
-      if (knot > from && knot < end) {
-        cover(motion, from, knot);
-        from = knot;
-      }
+  for (const double knot : motion.knots()) {
+    if (knot > from && knot < end) {
+      cover(motion, from, knot);
+      from = knot;
     }
   }
-  cover(motion, from, std::min(end, repeats_after(view)));
+  cover(motion, from, std::min(end, repeats_after(motion.view())));
   look(motion);
   return {tilt_of(versine_most_), std::sqrt(rate_squared_most_)};
 }

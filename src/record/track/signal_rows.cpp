@@ -18,8 +18,8 @@ void SignalRows::evaluate(const model::SignalPair& signals, std::size_t count) {
     column->resize(count);
   }
   const model::SignalView view = signals.view();
-  if (view.table_count > 0) {
-    evaluate_splines(signals, count);
+  if (view.shared.any()) {
+    evaluate_all(signals, count);
     return;
   }
   evaluate_waves(view, count);
@@ -28,7 +28,7 @@ void SignalRows::evaluate(const model::SignalPair& signals, std::size_t count) {
   kernels_.signals(view, waves_.data(), times_.data(), count, values, rates);
 }
 
-void SignalRows::evaluate_splines(const model::SignalPair& signals, std::size_t count) {
+void SignalRows::evaluate_all(const model::SignalPair& signals, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const auto jets = signals.at(times_.data()[i]);
     for (std::size_t c = 0; c < 2; ++c) {

@@ -29,7 +29,7 @@ class SignalRows {
   [[nodiscard]] const double* rate(std::size_t component) const { return rates_[component].data(); }
 
  private:
-  void evaluate_splines(const model::SignalPair& signals, std::size_t count);
+  void evaluate_all(const model::SignalPair& signals, std::size_t count);
   void evaluate_waves(const model::SignalView& signals, std::size_t count);
 
   struct Sampled {

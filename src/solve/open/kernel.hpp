@@ -23,7 +23,7 @@ inline constexpr int states = 5;  // of model::OpenLoop<Shape::full>: x, y, x', 
 inline constexpr int most_harmonics = 8;
 
 // A group's scenes, one per lane, in SI units. The angles (phi, theta) are start + rate t + sum of
-// (sine sin(frequency t) + cosine cos(frequency t)), plus tables that all lanes share.
+// (sine sin(frequency t) + cosine cos(frequency t)), plus terms that all lanes share.
 struct alignas(64) Scenes {
   double radius[group], gravity[group];
   double start[2][group], rate[2][group];
@@ -32,8 +32,7 @@ struct alignas(64) Scenes {
   } harmonics[most_harmonics];
   double initial[states][group];
   int harmonic_count;
-  const model::Tabulated* tables;
-  std::size_t table_count;
+  model::SharedTerms shared;
   bool small;  // whether all angles stay within pi/4
 };
 
@@ -71,8 +70,8 @@ struct Kernels {
   Kernel few, some, many;  // by the number of nodes
   // The sine and cosine of an angle in each lane.
   void (*directions)(const double* angles, double* sines, double* cosines);
-  // The greatest values of a plate without tables, from t = 0 to `until` (s) of each lane. Divides
-  // each lane's time into `intervals`.
+  // The greatest values of a plate without shared terms, from t = 0 to `until` (s) of each lane.
+  // Divides each lane's time into `intervals`.
   void (*turning)(const Scenes& scenes, const double* until, int intervals, Turning& greatest);
 };
 

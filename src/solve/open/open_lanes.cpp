@@ -79,9 +79,8 @@ void OpenLanes::load(const OpenCase* cases, int count) {
     for (int k = 0; k < motion.wave_count; ++k) angle += std::abs(motion.waves[k].amplitude);
     most = std::max(most, angle);
   }
-  scenes_.tables = cases[0].motion.tables;
-  scenes_.table_count = cases[0].motion.table_count;
-  scenes_.small = most < 0.785 && scenes_.table_count == 0;
+  scenes_.shared = cases[0].motion.shared;
+  scenes_.small = most < 0.785 && !scenes_.shared.any();
   load_waves(cases, count);
   kernel_->start(workspace_.get(), scenes_, tolerances_.rtol, tolerances_.atol);
 }
@@ -121,6 +120,7 @@ void OpenLanes::load_waves(const OpenCase* cases, int count) {
 // The highest frequency of a motion, and a bound of its angular velocities, rad/s.
 struct OpenLanes::Tempo {
   explicit Tempo(const GivenMotion& motion) {
+    frequency = motion.shared.highest_frequency;
     rate = std::abs(motion.rate[0]) + std::abs(motion.rate[1]);
     for (int k = 0; k < motion.wave_count; ++k) {
       const double of = std::abs(motion.waves[k].frequency);
@@ -220,7 +220,7 @@ std::array<bool, group> OpenLanes::integrate(const OpenCase* cases, int count) {
     from = stop;
   }
   kernel_->read(workspace_.get(), state_, distance_squared_);
-  if (scenes_.table_count == 0) turn(cases, count);
+  if (!scenes_.shared.any()) turn(cases, count);
   return lost_.carried(count);
 }
 

@@ -18,7 +18,7 @@
 namespace bbsim::solve::open {
 
 // The gimbal's angles (phi, theta) as functions of time: start + rate t + sums of amplitude
-// sin(frequency t + phase), plus tables that all cases share.
+// sin(frequency t + phase), plus terms that all cases share.
 struct GivenMotion {
   struct Wave {
     int component;
@@ -27,8 +27,7 @@ struct GivenMotion {
   double start[2] = {0, 0}, rate[2] = {0, 0};
   Wave waves[most_harmonics];
   int wave_count = 0;  // the same in all cases of a group, and with the same components
-  const model::Tabulated* tables = nullptr;
-  std::size_t table_count = 0;
+  model::SharedTerms shared;
 
   void add_constant(int component, double value) { start[component] += value; }
   void add_ramp(int component, double from, double slope) {
@@ -58,8 +57,8 @@ struct Pace {
 struct Reached {
   double state[states];     // at the end
   double distance_squared;  // the greatest from the plate's origin, m^2
-  // Greatest 1 - cos(tilt) and squared angular velocity of the plate. NaN with tables, whose
-  // extremes are computed elsewhere.
+  // Greatest 1 - cos(tilt) and squared angular velocity of the plate. NaN with shared
+  // terms, whose extremes are computed elsewhere.
   double versine;
   double rate_squared;
 };

@@ -58,8 +58,7 @@ struct Lanes {
       }
       signals.harmonics = harmonics;
       signals.harmonic_count = static_cast<std::size_t>(from.harmonic_count);
-      signals.tables = from.tables;
-      signals.table_count = from.table_count;
+      signals.shared = from.shared;
       for (int i = 0; i < 2; ++i) {
         signals.start[i] = lane(from.start[i], p);
         signals.rate[i] = lane(from.rate[i], p);

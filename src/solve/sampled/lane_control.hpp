@@ -35,16 +35,10 @@ struct LoadLanes {
     model::SampledLaw<P> law;
     law.law.kind = from.law.kind;
     law.integrates = from.integrates;
-    // Leaves numbers that this law does not use uninitialized.
-    if (from.law.kind == model::LawKind::gravity_compensation) {
-      each(law.law.kv, from.law.kv);
-      each(law.law.kp, from.law.kp);
-      law.law.scale = one(from.law.scale);
-      each(law.sine, from.sine);
-    } else {
-      each(law.law.gain, from.law.gain);
-    }
-    each(law.law.integral, from.law.integral);
+    model::for_each_number(
+        law.law,
+        from.law, [this](P & to, const Lanes& of) __attribute__((always_inline)) { to = one(of); });
+    each(law.sine, from.sine);
     each(law.limit, from.limit);
     law.resolution = one(from.resolution);
     each(law.reached, from.reached);

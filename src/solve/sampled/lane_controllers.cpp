@@ -21,17 +21,12 @@ void LaneControllers::take_over(std::size_t l, const model::SampledController& f
   LaneControl& to = *control_;
   to.law.law.kind = law.law.kind;
   to.law.integrates = to.law.integrates || law.integrates;
-  to.law.law.scale.of[l] = law.law.scale;
+  model::for_each_number(to.law.law, law.law,
+                         [l](Lanes& lanes, double number) { lanes.of[l] = number; });
   to.law.resolution.of[l] = law.resolution;
   to.law.filter.of[l] = law.filter;
   const Pair command = from.last_command();
   for (std::size_t i = 0; i < 2; ++i) {
-    for (int j = 0; j < 8; ++j) to.law.law.gain[i][j].of[l] = law.law.gain[i][j];
-    for (int j = 0; j < 2; ++j) {
-      to.law.law.integral[i][j].of[l] = law.law.integral[i][j];
-      to.law.law.kv[i][j].of[l] = law.law.kv[i][j];
-      to.law.law.kp[i][j].of[l] = law.law.kp[i][j];
-    }
     const auto put = [l](model::SampledLaw<Lanes>::Range& range,
                          const model::SampledLaw<double>::Range& of) {
       range.low.of[l] = of.low;
