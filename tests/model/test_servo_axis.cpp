@@ -191,3 +191,14 @@ TEST_CASE("a motion within a servo's clearance needs no search") {
   axis.settle(state, mode);
   CHECK(axis.clearance().angle == 0);
 }
+
+TEST_CASE("a servo rests where its equation says, and one without stiffness at its command") {
+  const auto rests_at = [](const ServoResponse& servo) {
+    const ServoResponse at_rest = servo.at_rest();
+    CHECK(at_rest.from_rate == 0);
+    return at_rest.from_command / at_rest.from_angle;
+  };
+  CHECK(rests_at(response) == 1);
+  CHECK(rests_at({90, 100, 10}) == 0.9);
+  CHECK(rests_at({0, 0, 20}) == 1);  // of first order
+}
