@@ -5,36 +5,44 @@
 #
 #   bbsim_add_kernels(TARGET ROOM)
 #
-# creates an object library from kernels_baseline.cpp and, for x86-64, kernels_avx2.cpp and kernels_avx512.cpp of the
-# current folder. Adds it to the library ROOM, which selects one of them (simd/instruction_set.hpp).
+# creates an object library from kernels.cpp of the current folder: once for the baseline and, for x86-64, for AVX2 and
+# AVX-512. BBSIM_ISA is the tag of the set (simd/isa.hpp). Adds it to the library ROOM, which selects one of them
+# (simd/instruction_set.hpp).
 set(BBSIM_X86_KERNELS OFF)
 if(NOT BBSIM_BASELINE_ONLY AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$" AND CMAKE_SIZEOF_VOID_P EQUAL 8)
   set(BBSIM_X86_KERNELS ON)
   target_compile_definitions(bbsim_options INTERFACE BBSIM_X86_KERNELS)
 endif()
 
-function(bbsim_add_kernels target room)
-  add_library(${target} OBJECT kernels_baseline.cpp)
-  target_include_directories(${target} PRIVATE $<TARGET_PROPERTY:${room},INCLUDE_DIRECTORIES>)
-  target_link_libraries(${target} PRIVATE bbsim::options)
-  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-
-  target_sources(${room} PRIVATE $<TARGET_OBJECTS:${target}>)
+# Adds kernels.cpp of the current folder to the object library, for one instruction set.
+function(_bbsim_add_kernels_of target isa)
+  string(TOLOWER ${isa} name)
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/kernels_${name}.cpp)
+  file(CONFIGURE OUTPUT ${source} CONTENT
+       "#define BBSIM_ISA bbsim::simd::${isa}\n#include \"${CMAKE_CURRENT_SOURCE_DIR}/kernels.cpp\"\n")
+  target_sources(${target} PRIVATE ${source})
 
   # Source options come last on the command line and so override those of bbsim::options. Instruction sets agree to the
   # tolerance, not to the bit, so products may be fused. Packs never cross a function's boundary, so their calling
   # convention (-Wpsabi) does not matter. Sanitizers are off, because the unrolled loops would take compilers many
   # minutes; all memory is in fixed arrays.
-  set(options -ffp-contract=fast -Wno-psabi)
+  set(options -ffp-contract=fast -Wno-psabi ${ARGN})
   if(BBSIM_INSTRUMENTED)
     list(APPEND options -fno-sanitize=all)
   endif()
-  set_source_files_properties(kernels_baseline.cpp PROPERTIES COMPILE_OPTIONS "${options}")
+  set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "${options}")
+endfunction()
 
+function(bbsim_add_kernels target room)
+  add_library(${target} OBJECT)
+  target_include_directories(${target} PRIVATE $<TARGET_PROPERTY:${room},INCLUDE_DIRECTORIES>)
+  target_link_libraries(${target} PRIVATE bbsim::options)
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_sources(${room} PRIVATE $<TARGET_OBJECTS:${target}>)
+
+  _bbsim_add_kernels_of(${target} Baseline)
   if(BBSIM_X86_KERNELS)
-    target_sources(${target} PRIVATE kernels_avx2.cpp kernels_avx512.cpp)
-    set_source_files_properties(kernels_avx2.cpp PROPERTIES COMPILE_OPTIONS "${options};-mavx2;-mfma")
-    set_source_files_properties(kernels_avx512.cpp PROPERTIES COMPILE_OPTIONS
-      "${options};-mavx512f;-mavx512dq;-mavx512vl;-mavx2;-mfma;-mprefer-vector-width=512")
+    _bbsim_add_kernels_of(${target} Avx2 -mavx2 -mfma)
+    _bbsim_add_kernels_of(${target} Avx512 -mavx512f -mavx512dq -mavx512vl -mavx2 -mfma -mprefer-vector-width=512)
   endif()
 endfunction()

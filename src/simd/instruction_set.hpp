@@ -7,6 +7,8 @@
 #include <optional>
 #include <string_view>
 
+#include "simd/isa.hpp"
+
 namespace bbsim::simd {
 
 // From the set that every processor has to the best: two lanes (SSE2 on x86-64, Neon on 64-bit
@@ -23,12 +25,16 @@ enum class InstructionSet { baseline, avx2, avx512 };
 // Throws InputError if the variable names no set of this processor.
 [[nodiscard]] InstructionSet chosen_instruction_set();
 
-// Picks the kernels for `set`.
-template <class Kernels>
-[[nodiscard]] const Kernels& pick(InstructionSet set, const Kernels& baseline, const Kernels& avx2,
-                                  const Kernels& avx512) {
-  if (set == InstructionSet::avx512) return avx512;
-  return set == InstructionSet::avx2 ? avx2 : baseline;
+// Returns get(tag), with the tag of `set`.
+template <class Get>
+[[nodiscard]] const auto& kernels_by(Get get, InstructionSet set = chosen_instruction_set()) {
+#ifdef BBSIM_X86_KERNELS
+  if (set == InstructionSet::avx512) return get(Avx512());
+  if (set == InstructionSet::avx2) return get(Avx2());
+#else
+  static_cast<void>(set);
+#endif
+  return get(Baseline());
 }
 
 }  // namespace bbsim::simd

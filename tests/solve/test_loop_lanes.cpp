@@ -30,10 +30,6 @@ using solve::loop::LoopRun;
 using solve::loop::LoopStudy;
 using solve::loop::states;
 
-namespace bbsim::solve::loop {
-extern const Kernels kernels_baseline;
-}
-
 namespace {
 
 template <Drives drives>
@@ -205,7 +201,7 @@ TEST_CASE("a step's error falls with the order of the method") {
     scene.time = {2, 2};
     scene.gimbal.start = {0.05, -0.03, 0, 0};
     const LoopCase one = case_of(scene);
-    const solve::loop::Kernel& kernel = solve::loop::kernels_baseline.angle.few;
+    const solve::loop::Kernel& kernel = solve::loop::kernels<simd::Baseline>().angle.few;
     std::vector<double> memory(kernel.workspace / sizeof(double) + 8);
     void* place = memory.data();
     std::size_t space = memory.size() * sizeof(double);

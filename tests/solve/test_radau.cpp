@@ -238,7 +238,8 @@ TEST_CASE("instruction sets agree to the tolerance") {
     const auto found = simd::find_instruction_set(set);
     if (!found) continue;
     CAPTURE(name, stages, set);
-    const StepKernels& kernels = solve::radau::kernels_for(*found);
+    const StepKernels& kernels = simd::kernels_by(
+        [](auto isa) -> const auto& { return solve::radau::kernels<decltype(isa)>(); }, *found);
     const Rows other = integrate(model, scene, 1e-9, kernels, stages);
     // Both within ten local errors of the truth; where they take the same steps, far closer.
     CHECK(difference(other.rows, chosen.rows, model.size() + (model.gamma ? 1 : 0)) < 2e-8);

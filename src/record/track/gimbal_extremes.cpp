@@ -8,6 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include "simd/instruction_set.hpp"
+
 namespace bbsim::record {
 namespace {
 
@@ -31,6 +33,10 @@ double repeats_after(const model::SignalView& motion) {
 }
 
 }  // namespace
+
+const TrackKernels& choose_track_kernels() {
+  return simd::kernels_by([](auto isa) -> const auto& { return track_kernels<decltype(isa)>(); });
+}
 
 double tilt_of(double versine) {
   return versine < 1 ? 2 * std::asin(std::sqrt(versine / 2))

@@ -124,6 +124,10 @@ struct Kernels {
   } acceleration, angle;
 };
 
+// The kernels of an instruction set (kernels.cpp).
+template <class Isa>
+[[nodiscard]] const Kernels& kernels();
+
 // The kernels of the chosen instruction set. Throws InputError if the environment variable
 // BBSIM_SIMD names no instruction set of this processor.
 [[nodiscard]] const Kernels& choose_kernels();

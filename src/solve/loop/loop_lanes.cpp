@@ -10,6 +10,7 @@
 #include <new>
 #include <utility>
 
+#include "simd/instruction_set.hpp"
 #include "solve/collocation/step_length.hpp"
 
 namespace bbsim::solve::loop {
@@ -65,6 +66,10 @@ double fastest_of(const Couplings& of, int lane) {
 }
 
 }  // namespace
+
+const Kernels& choose_kernels() {
+  return simd::kernels_by([](auto isa) -> const auto& { return kernels<decltype(isa)>(); });
+}
 
 int choose_nodes(double rtol) {
   constexpr double for_many = 3e-7;

@@ -75,6 +75,10 @@ struct Kernels {
   void (*turning)(const Scenes& scenes, const double* until, int intervals, Turning& greatest);
 };
 
+// The kernels of an instruction set (kernels.cpp).
+template <class Isa>
+[[nodiscard]] const Kernels& kernels();
+
 // The kernels of the chosen instruction set. Throws InputError if the environment variable
 // BBSIM_SIMD names no instruction set of this processor.
 [[nodiscard]] const Kernels& choose_kernels();

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <utility>
 
+#include "simd/instruction_set.hpp"
 #include "solve/collocation/step_length.hpp"
 
 namespace bbsim::solve::open {
@@ -31,11 +32,11 @@ constexpr double look_angle = 0.9;
 // Within this many points a gimbal has reached all its extremes.
 constexpr double most_looks = 1e6;
 
-const Kernel& kernel_of(const Kernels& kernels, int nodes) {
-  for (const Kernel* one : {&kernels.few, &kernels.some}) {
+const Kernel& kernel_of(const Kernels& all, int nodes) {
+  for (const Kernel* one : {&all.few, &all.some}) {
     if (one->nodes == nodes) return *one;
   }
-  return kernels.many;
+  return all.many;
 }
 
 // The cost of a step: sums over nodes, and coefficients at each node.
@@ -44,6 +45,10 @@ double step_cost(int nodes) {
 }
 
 }  // namespace
+
+const Kernels& choose_kernels() {
+  return simd::kernels_by([](auto isa) -> const auto& { return kernels<decltype(isa)>(); });
+}
 
 void OpenLanes::Free::operator()(void* memory) const {
   ::operator delete(memory, alignment);

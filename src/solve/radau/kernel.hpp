@@ -70,4 +70,8 @@ struct StepKernels {
   Kernel kernels[3][system_count];  // for 8, 12 and 16 stages
 };
 
+// The kernels of an instruction set (kernels.cpp).
+template <class Isa>
+[[nodiscard]] const StepKernels& kernels();
+
 }  // namespace bbsim::solve::radau

@@ -1,27 +1,18 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "simd/instruction_set.hpp"
-#include "solve/radau/radau.hpp"
+// Compiled once for each instruction set (cmake/kernels.cmake).
+#include "solve/radau/kernels.hpp"
+
+#include "simd/isa.hpp"
 
 namespace bbsim::solve::radau {
 
-extern const StepKernels kernels_baseline;
-#ifdef BBSIM_X86_KERNELS
-extern const StepKernels kernels_avx2;
-extern const StepKernels kernels_avx512;
-#endif
-
-const StepKernels& kernels_for([[maybe_unused]] simd::InstructionSet set) {
-#ifdef BBSIM_X86_KERNELS
-  return simd::pick(set, kernels_baseline, kernels_avx2, kernels_avx512);
-#else
-  return kernels_baseline;
-#endif
+template <class Isa>
+const StepKernels& kernels() {
+  static constexpr StepKernels table = kernels_of<Isa>();
+  return table;
 }
-
-const StepKernels& choose_kernels() {
-  return kernels_for(simd::chosen_instruction_set());
-}
+template const StepKernels& kernels<BBSIM_ISA>();
 
 }  // namespace bbsim::solve::radau

@@ -62,7 +62,7 @@ const Kernel& find_kernel(const StepKernels& kernels, int stages, const model::M
   const std::size_t order = stages == 8 ? 0 : stages == 12 ? 1 : 2;
   const Kernel& kernel = kernels.kernels[order][model.system.index()];
   if (kernel.attempt != nullptr) return kernel;
-  return kernels_for(simd::InstructionSet::baseline).kernels[order][model.system.index()];
+  return radau::kernels<simd::Baseline>().kernels[order][model.system.index()];
 }
 
 std::size_t size_of_view(const model::Model& model) {
@@ -80,6 +80,10 @@ double size_of(const std::vector<double>& state) {
 }
 
 }  // namespace
+
+const StepKernels& choose_kernels() {
+  return simd::kernels_by([](auto isa) -> const auto& { return kernels<decltype(isa)>(); });
+}
 
 int choose_stages(const model::Model& model, double rtol) {
   // Substitution solves no linear systems, so more stages take hardly longer.

@@ -18,8 +18,6 @@
 
 namespace bbsim::solve::radau {
 
-[[nodiscard]] const StepKernels& kernels_for(simd::InstructionSet set);
-
 // The kernels of the chosen instruction set. Throws InputError if the environment variable
 // BBSIM_SIMD names no instruction set of this processor.
 [[nodiscard]] const StepKernels& choose_kernels();

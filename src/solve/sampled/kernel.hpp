@@ -131,4 +131,8 @@ struct Kernels {
   void (*evaluate)(const Piece& piece, const double* times, std::size_t count, double (*ball)[6]);
 };
 
+// The kernels of an instruction set (kernels.cpp).
+template <class Isa>
+[[nodiscard]] const Kernels& kernels();
+
 }  // namespace bbsim::solve::sampled

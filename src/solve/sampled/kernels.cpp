@@ -1,36 +1,24 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "simd/instruction_set.hpp"
-#include "solve/sampled/lane_kernel.hpp"
-#include "solve/sampled/sampled.hpp"
+// Compiled once for each instruction set (cmake/kernels.cmake).
+#include "simd/isa.hpp"
+#include "solve/sampled/lane_piece.hpp"
 
 namespace bbsim::solve::sampled {
 
-extern const Kernels kernels_baseline;
-extern const LaneKernels lane_kernels_baseline;
-#ifdef BBSIM_X86_KERNELS
-extern const Kernels kernels_avx2;
-extern const Kernels kernels_avx512;
-extern const LaneKernels lane_kernels_avx2;
-extern const LaneKernels lane_kernels_avx512;
-#endif
-
-const Kernels& choose_kernels() {
-#ifdef BBSIM_X86_KERNELS
-  return simd::pick(simd::chosen_instruction_set(), kernels_baseline, kernels_avx2, kernels_avx512);
-#else
-  return kernels_baseline;
-#endif
+template <class Isa>
+const Kernels& kernels() {
+  static constexpr Kernels table = Kernel<Isa>::kernels;
+  return table;
 }
+template const Kernels& kernels<BBSIM_ISA>();
 
-const LaneKernels& choose_lane_kernels() {
-#ifdef BBSIM_X86_KERNELS
-  return simd::pick(simd::chosen_instruction_set(), lane_kernels_baseline, lane_kernels_avx2,
-                    lane_kernels_avx512);
-#else
-  return lane_kernels_baseline;
-#endif
+template <class Isa>
+const LaneKernels& lane_kernels() {
+  static constexpr LaneKernels table = LaneKernel<Isa>::kernels;
+  return table;
 }
+template const LaneKernels& lane_kernels<BBSIM_ISA>();
 
 }  // namespace bbsim::solve::sampled

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "model/model.hpp"
+#include "simd/instruction_set.hpp"
 #include "solve/collocation/step_length.hpp"
 #include "solve/sampled/sides.hpp"
 
@@ -28,6 +29,10 @@ void lose_nothing(LaneAxis& axis) {
 }
 
 }  // namespace
+
+const LaneKernels& choose_lane_kernels() {
+  return simd::kernels_by([](auto isa) -> const auto& { return lane_kernels<decltype(isa)>(); });
+}
 
 bool moves(const model::Model& model) {
   return knows(model) && !model.gamma &&

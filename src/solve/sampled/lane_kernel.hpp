@@ -139,6 +139,10 @@ struct LaneKernels {
   void (*evaluate)(const LanePieces& pieces, const double* times, double (*ball)[group]);
 };
 
+// The kernels of an instruction set (kernels.cpp).
+template <class Isa>
+[[nodiscard]] const LaneKernels& lane_kernels();
+
 // The kernels of the chosen instruction set. Throws InputError if the environment variable
 // BBSIM_SIMD names no instruction set of this processor.
 [[nodiscard]] const LaneKernels& choose_lane_kernels();

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/instant.hpp"
+#include "simd/instruction_set.hpp"
 #include "solve/collocation/step_length.hpp"
 #include "solve/sampled/sides.hpp"
 
@@ -17,6 +18,10 @@ namespace {
 constexpr std::size_t angle = model::RigLayout::angle, rate = model::RigLayout::rate;
 
 }  // namespace
+
+const Kernels& choose_kernels() {
+  return simd::kernels_by([](auto isa) -> const auto& { return kernels<decltype(isa)>(); });
+}
 
 bool knows(const model::Model& model) {
   if (!model.rig || !model.rig->sampled || model.dry) return false;

@@ -60,6 +60,10 @@ struct TrackKernels {
   double (*superpose)(const Superposition& motion, const double* factors, double* squares);
 };
 
+// The kernels of an instruction set (kernels.cpp).
+template <class Isa>
+[[nodiscard]] const TrackKernels& track_kernels();
+
 // The kernels of the chosen instruction set. Throws InputError if there are none for it.
 [[nodiscard]] const TrackKernels& choose_track_kernels();
 
