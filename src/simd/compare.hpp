@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Comparisons of packs, lane by lane: which is larger, which is finite. The same functions exist
-// for single numbers.
+// Comparisons and roots of packs, lane by lane: which is larger, which is finite. The same
+// functions exist for single numbers.
 //
 // Included only by the kernels, as pack.hpp is. Most of these are compiled as if all numbers were
 // finite, so is_finite() tests bits.
@@ -63,6 +63,12 @@ BBSIM_INLINE typename P::Mask is_finite(P a) {
 }
 BBSIM_INLINE bool is_finite(double a) {
   return (__builtin_bit_cast(unsigned long long, a) >> 52 & 0x7ff) != 0x7ff;
+}
+
+template <class P>
+BBSIM_INLINE P root_of(P a) {
+  for (int l = 0; l < P::size; ++l) a.v[l] = __builtin_sqrt(a.v[l]);
+  return a;
 }
 
 // The largest lane.

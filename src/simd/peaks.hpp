@@ -14,12 +14,6 @@ struct Looked {
   P at, value, slope;
 };
 
-template <class P>
-BBSIM_INLINE P root_of(P a) {
-  for (int l = 0; l < P::size; ++l) a.v[l] = __builtin_sqrt(a.v[l]);
-  return a;
-}
-
 // An upper bound between two places, from the cubic through values and slopes at both. The cubic is
 // monotonic if both slopes have the sign of the change and neither exceeds three times the mean
 // slope (Fritsch and Carlson, SIAM Journal on Numerical Analysis 17:238, 1980). Otherwise it

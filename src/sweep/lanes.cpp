@@ -7,32 +7,43 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <variant>
 
 #include "model/model.hpp"
+#include "model/signals/add_profile.hpp"
+#include "model/signals/given_motion.hpp"
 #include "record/track/track_measures.hpp"
 #include "solve/choose.hpp"
-#include "solve/loop/loop_lanes.hpp"
+#include "solve/ensemble/ensemble.hpp"
 #include "sweep/case_scenario.hpp"
 #include "sweep/group_runner.hpp"
 
 namespace bbsim::sweep {
 namespace {
 
-using solve::loop::LoopCase;
+namespace ensemble = solve::ensemble;
+using ensemble::Actuation;
+using Kind = scenario::Measure::Kind;
+
+// A smaller sweep of given motions is short anyway, and single runs give the bits of `bbsim run`.
+constexpr std::size_t least_given = 32;
 
 bool has_single_harmonic(const Reference& reference) {
   return std::holds_alternative<PointReference>(reference) ||
          std::holds_alternative<CircleReference>(reference);
 }
 
+Actuation actuation_of(const Scenario& scenario) {
+  if (!scenario.controller) return Actuation::given;
+  return scenario.controller->drives == Drives::angle ? Actuation::by_servo
+                                                      : Actuation::by_acceleration;
+}
+
 // Converts a loop of the paper to the numbers of a lane.
-LoopCase loop_case(const Scenario& scenario, const model::Model& model,
-                   const model::SignalView& reference) {
-  LoopCase loop{};
-  loop.radius = scenario.ball.radius;
-  loop.gravity = scenario.gravity;
+void set_loop(ensemble::Case& loop, const Scenario& scenario, const model::Model& model) {
+  const model::SignalView reference = record::signals_of(model).view();
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t j = 0; j < 2; ++j) {
       loop.kv[i][j] = scenario.controller->kv[i][j];
@@ -40,130 +51,243 @@ LoopCase loop_case(const Scenario& scenario, const model::Model& model,
     }
     loop.start[i] = reference.start[i];
     loop.rate[i] = reference.rate[i];
-    if (reference.harmonic_count == 0) continue;
-    loop.sine[i] = reference.harmonics[0].sine[i];
-    loop.cosine[i] = reference.harmonics[0].cosine[i];
   }
-  if (reference.harmonic_count > 0) loop.frequency = reference.harmonics[0].frequency;
+  loop.harmonic_count = static_cast<int>(reference.harmonic_count);
+  std::copy_n(reference.harmonics, reference.harmonic_count, loop.harmonics);
   if (scenario.gimbal.servo) {
     loop.omega_n = scenario.gimbal.servo->natural_frequency;
     loop.zeta = scenario.gimbal.servo->damping;
   }
   std::copy(model.initial.begin(), model.initial.end(), loop.initial);
-  return loop;
+}
+
+// Adds a profile's terms but its tables to a case. Sinusoids of one frequency share one, as in
+// model::SignalPair, which would take longer to make.
+struct CaseSignals {
+  ensemble::Case& to;
+
+  void add_constant(int component, double value) { to.start[component] += value; }
+  void add_ramp(int component, double start, double rate) {
+    to.start[component] += start;
+    to.rate[component] += rate;
+  }
+  void add_sinusoid(int component, double amplitude, double frequency, double phase) {
+    model::Harmonic* const end = to.harmonics + to.harmonic_count;
+    model::Harmonic* const one = std::find_if(
+        to.harmonics, end, [&](const model::Harmonic& h) { return h.frequency == frequency; });
+    if (one == end) {
+      one->frequency = frequency;
+      ++to.harmonic_count;
+    }
+    one->sine[component] += amplitude * std::cos(phase);
+    one->cosine[component] += amplitude * std::sin(phase);
+  }
+};
+
+// Converts a given motion to the numbers of a lane.
+void set_given(ensemble::Case& one, const Scenario& scenario, bool has_tables) {
+  const Ball& ball = scenario.ball;
+  const double initial[] = {ball.position[0], ball.position[1], ball.velocity[0], ball.velocity[1],
+                            ball.radius * ball.spin};
+  std::copy(std::begin(initial), std::end(initial), one.initial);
+  const Gimbal& gimbal = scenario.gimbal;
+  CaseSignals signals{one};
+  const auto no_spline = [](const auto&) {};
+  model::add_profile(gimbal.motion->phi, 0, signals, no_spline);
+  model::add_profile(gimbal.motion->theta, 1, signals, no_spline);
+  signals.add_constant(0, gimbal.mounting.phi_offset);
+  signals.add_constant(1, gimbal.mounting.theta_offset);
+  if (!has_tables) {
+    one.repeats_after = record::repeats_after({{one.start[0], one.start[1]},
+                                               {one.rate[0], one.rate[1]},
+                                               one.harmonics,
+                                               static_cast<std::size_t>(one.harmonic_count),
+                                               nullptr,
+                                               0});
+  }
+}
+
+std::size_t sinusoids(const Profile& profile) {
+  return static_cast<std::size_t>(std::count_if(
+      profile.begin(), profile.end(),
+      [](const ProfileTerm& term) { return std::holds_alternative<Sinusoid>(term); }));
+}
+
+model::Model model_of(const Scenario& scenario) {
+  return model::assemble(scenario, false, model::Form::full);
 }
 
 // Cases that share one call of the lanes. Some lanes are empty while the last cases finish; among
 // this many cases that costs little.
 constexpr std::size_t in_turn = 1024;
 
-class LoopCarrier : public GroupCarrier, private solve::loop::LoopStudy {
+// Measures that an ensemble knows itself, for which no model has to be made.
+enum Known : std::size_t { x_end, y_end, distance, tilt, tilt_rate, unknown };
+
+Known known(const scenario::Measure& measure) {
+  const std::string_view name = measure.column->name;
+  if (measure.kind == Kind::end) return name == "x" ? x_end : name == "y" ? y_end : unknown;
+  return name == "distance"    ? distance
+         : name == "tilt"      ? tilt
+         : name == "tilt_rate" ? tilt_rate
+                               : unknown;
+}
+
+bool is_known(Known one) {
+  return one != unknown;
+}
+
+class LaneCarrier : public GroupCarrier, private ensemble::Study {
  public:
-  LoopCarrier(const SweepTask& task, const Scenario& first)
+  LaneCarrier(const SweepTask& task, const Scenario& first)
       : scenario_(task),
         track_(task.measures),
         grid_(first.time),
-        lanes_(first.controller->drives, solve::loop::choose_nodes(first.solver.rtol),
-               {first.solver.rtol, first.solver.atol}, grid_),
-        same_signals_(task.plan.shares_signals()),
-        ends_at_places_(std::all_of(
-            task.measures.begin(), task.measures.end(), [](const scenario::Measure& measure) {
-              return measure.kind != scenario::Measure::Kind::end || measure.column->name == "x" ||
-                     measure.column->name == "y";
-            })) {}
+        given_(actuation_of(first) == Actuation::given),
+        motion_(given_ ? model::given_motion(first) : model::SignalPair()),
+        lanes_({actuation_of(first), grid_, !given_,
+                given_ ? model_of(first).stops : std::vector<double>(), motion_.view().tables,
+                motion_.view().table_count},
+               ensemble::choose_nodes(actuation_of(first), first.solver.rtol),
+               {first.solver.rtol, first.solver.atol}),
+        same_signals_(task.plan.shares_signals()) {
+    for (const scenario::Measure& measure : task.measures) known_.push_back(known(measure));
+    needs_model_ = !given_ || !std::ranges::all_of(known_, is_known);
+    ends_at_places_ = std::ranges::all_of(task.measures, [](const scenario::Measure& measure) {
+      return measure.kind != Kind::end || is_known(known(measure));
+    });
+  }
 
   void carry(std::span<GroupCase> cases, const std::atomic<bool>& stop) override {
     cases_ = cases;
     begun_ = 0;
-    loops_.clear();
-    loops_.resize(cases.size());
+    models_.clear();
+    if (needs_model_) models_.resize(cases.size());
     lanes_.carry(*this, stop);
   }
 
  private:
-  struct Loop {
+  struct Scene {
     model::Model model;
     model::BallConstants constants;
   };
 
-  std::optional<std::size_t> begin(LoopCase& loop) override {
+  std::optional<std::size_t> begin(ensemble::Case& one) override {
     if (begun_ == cases_.size()) return {};
-    const GroupCase& one = cases_[begun_];
-    const Scenario& scenario = scenario_.at(one.number, one.values);
-    model::Model model = model::assemble(scenario, false, model::Form::full);
-    loop = loop_case(scenario, model, record::signals_of(model).view());
-    loops_[begun_].emplace(Loop{std::move(model), model::constants_of(scenario)});
+    const GroupCase& from = cases_[begun_];
+    const Scenario& scenario = scenario_.at(from.number, from.values);
+    one = {};
+    one.radius = scenario.ball.radius;
+    one.gravity = scenario.gravity;
+    if (needs_model_)
+      models_[begun_].emplace(Scene{model_of(scenario), model::constants_of(scenario)});
+    if (given_) {
+      set_given(one, scenario, motion_.view().table_count > 0);
+    } else {
+      set_loop(one, scenario, models_[begun_]->model);
+    }
     return begun_++;
   }
 
-  void end(std::size_t number, const solve::loop::LoopRun& run) override {
-    using solve::loop::LoopEnding;
+  void end(std::size_t number, const ensemble::Result& run) override {
+    using ensemble::Ending;
     GroupCase& one = cases_[number];
-    std::optional<Loop>& loop = loops_[number];
     const auto greatest = extremes(run);
-    const bool unbounded = run.ending == LoopEnding::unbounded;
-    // In the last row before infinity only x and y are known.
-    if (run.ending != LoopEnding::given_up && greatest && (!unbounded || ends_at_places_)) {
-      track_.begin(loop->model, loop->constants, grid_, same_signals_);
-      std::array<double, solve::loop::states> last;
-      std::copy_n(run.state, last.size(), last.begin());
-      if (unbounded) {
-        last[0] = run.x[run.rows - 1];
-        last[1] = run.y[run.rows - 1];
+    const bool unbounded = run.ending == Ending::unbounded;
+    // In the last row before infinity only x and y are known, and of given motions not even these.
+    if (run.ending != Ending::given_up && greatest &&
+        (!unbounded || (ends_at_places_ && !given_))) {
+      if (needs_model_) {
+        take(number, run, *greatest);
+      } else {
+        const double values[] = {run.state[0], run.state[1], greatest->distance,
+                                 record::tilt_of(greatest->versine),
+                                 std::sqrt(greatest->rate_squared)};
+        for (std::size_t m = 0; m < known_.size(); ++m) one.measures[m] = values[known_[m]];
       }
-      track_.take(run.rows, run.x, run.y, last.data(), *greatest);
-      track_.finish(one.measures);
       one.carried = true;
       if (unbounded) one.unbounded_at = run.reached;
     }
-    loop.reset();
+    if (needs_model_) models_[number].reset();
+  }
+
+  void take(std::size_t number, const ensemble::Result& run,
+            const record::TrackExtremes& greatest) {
+    const Scene& scene = *models_[number];
+    track_.begin(scene.model, scene.constants, grid_, same_signals_);
+    std::array<double, ensemble::states> last;
+    std::copy_n(run.state, last.size(), last.begin());
+    if (run.ending == ensemble::Ending::unbounded) {
+      last[0] = run.x[run.rows - 1];
+      last[1] = run.y[run.rows - 1];
+    }
+    track_.take(given_ ? grid_.size() : run.rows, run.x, run.y, last.data(), greatest);
+    track_.finish(cases_[number].measures);
   }
 
   // Empty if a square overflows or vanishes.
-  [[nodiscard]] static std::optional<record::TrackExtremes> extremes(
-      const solve::loop::LoopRun& run) {
-    const double distance = run.greatest[solve::loop::distance_squared];
-    const double error = run.greatest[solve::loop::error_squared];
-    if (!record::is_square(distance) || !record::is_square(error)) return {};
-    return record::TrackExtremes{run.greatest[solve::loop::versine],
-                                 run.greatest[solve::loop::rate_squared], std::sqrt(distance),
+  [[nodiscard]] std::optional<record::TrackExtremes> extremes(const ensemble::Result& run) const {
+    const double distance = run.greatest[ensemble::distance_squared];
+    const double error = run.greatest[ensemble::error_squared];
+    if (!record::is_square(distance) || (!given_ && !record::is_square(error))) return {};
+    return record::TrackExtremes{run.greatest[ensemble::versine],
+                                 run.greatest[ensemble::rate_squared], std::sqrt(distance),
                                  std::sqrt(error)};
   }
 
   CaseScenario scenario_;
   record::TrackMeasures track_;
   solve::OutputGrid grid_;
-  solve::loop::LoopLanes lanes_;
+  bool given_;                // whether the gimbal's motion is given
+  model::SignalPair motion_;  // its tables are those of all cases
+  ensemble::Ensemble lanes_;
   bool same_signals_;
+  std::vector<Known> known_;  // for each measure
+  bool needs_model_;
   bool ends_at_places_;  // measures at the end are of x and y only
   std::span<GroupCase> cases_;
   std::size_t begun_ = 0;
-  std::vector<std::optional<Loop>> loops_;  // of cases that are in a lane
+  std::vector<std::optional<Scene>> models_;  // of cases that are in a lane
 };
+
+// What must hold whatever moves the gimbal. Everything tested here is the same in all cases.
+bool can_be_asked(const SweepTask& task) {
+  return task.series.empty() && record::are_track_measures(task.measures) &&
+         task.plan.independent();
+}
+bool is_by_collocation(const Scenario& scenario) {
+  return !scenario.solver.error && solve::choose_method(scenario.solver.method) == Method::radau;
+}
 
 }  // namespace
 
+bool can_use_open_lanes(const SweepTask& task) {
+  if (task.plan.cases() < least_given || !can_be_asked(task)) return false;
+  // Planar cases are carried like the others.
+  const Scenario scenario = task.family.read(task.plan.settings(0));
+  return scenario.gimbal.motion && is_by_collocation(scenario) &&
+         sinusoids(scenario.gimbal.motion->phi) + sinusoids(scenario.gimbal.motion->theta) <=
+             ensemble::most_harmonics &&
+         record::has_track(model_of(scenario));
+}
+
 bool can_use_lanes(const SweepTask& task) {
-  if (!task.series.empty() || !record::are_track_measures(task.measures) ||
-      !task.plan.independent()) {
-    return false;
-  }
+  if (!can_be_asked(task)) return false;
   // Among others, planar cases are carried with all states. A sweep of only planar cases has fewer
-  // states, and runs singly. Everything else tested here is the same in all cases.
+  // states, and runs singly.
   const Scenario scenario = task.family.read(task.plan.general_settings());
-  return scenario.controller && !scenario.solver.error &&
-         solve::choose_method(scenario.solver.method) == Method::radau &&
+  return scenario.controller && is_by_collocation(scenario) &&
          has_single_harmonic(scenario.controller->reference) &&
          record::has_track(model::assemble(scenario, false));
 }
 
 std::size_t lane_group() {
-  return solve::loop::group;
+  return ensemble::group;
 }
 
 std::unique_ptr<CaseRunner> lane_runner(const SweepTask& task) {
   const Scenario first = task.family.read(task.plan.settings(0));
-  return group_runner(task, first, in_turn, std::make_unique<LoopCarrier>(task, first));
+  return group_runner(task, first, in_turn, std::make_unique<LaneCarrier>(task, first));
 }
 
 }  // namespace bbsim::sweep

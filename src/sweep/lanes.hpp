@@ -1,23 +1,24 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sweeps of continuous control loops, with a case in each SIMD lane.
+// Sweeps of given motions and of continuous control loops, with a case in each SIMD lane.
 #pragma once
 
 #include "sweep/task.hpp"
 
 namespace bbsim::sweep {
 
-// Whether all cases are loops under equation (31) that lanes can carry, and all measures are track
-// measures (record/track/track_measures.hpp).
+// Whether all cases have a given motion under equation (27), or are loops under equation (31), that
+// lanes can carry, and all measures are track measures (record/track/track_measures.hpp).
+[[nodiscard]] bool can_use_open_lanes(const SweepTask& task);
 [[nodiscard]] bool can_use_lanes(const SweepTask& task);
 
 // The number of cases in a group.
 [[nodiscard]] std::size_t lane_group();
 
-// Requires can_use_lanes(task). The task must outlive the runner. A case that the lanes give up is
-// run singly. So is a case that grows without bound, if the sweep has a measure at the end other
-// than x and y.
+// Requires can_use_lanes(task) or can_use_open_lanes(task). The task must outlive the runner. A
+// case that the lanes give up is run singly. So is a case that grows without bound under a given
+// motion, or if the sweep has a measure at the end other than x and y.
 [[nodiscard]] std::unique_ptr<CaseRunner> lane_runner(const SweepTask& task);
 
 }  // namespace bbsim::sweep

@@ -16,7 +16,6 @@
 
 #include "sweep/lanes.hpp"
 #include "sweep/loop_measures.hpp"
-#include "sweep/open_lanes.hpp"
 #include "sweep/rig_lanes.hpp"
 #include "sweep/single.hpp"
 #include "sweep/superposition.hpp"
@@ -179,10 +178,7 @@ Engine choose_engine(const SweepTask& task) {
     }
   }
   if (can_use_open_lanes(task)) {
-    if (const auto pace = open_lane_pace(task)) {
-      return {"open lanes", task, open_lane_group(),
-              [&task, pace = *pace] { return open_lane_runner(task, pace); }};
-    }
+    return {"open lanes", task, lane_group(), [&task] { return lane_runner(task); }};
   }
   if (can_use_lanes(task)) {
     return {"lanes", task, lane_group(), [&task] { return lane_runner(task); }};

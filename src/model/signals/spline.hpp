@@ -19,25 +19,33 @@ struct Jet {
   Real value, rate, acceleration;
 };
 
+// A polynomial. Scalar is double, or a pack with another polynomial in each lane.
+template <class Scalar>
+struct SplinePiece {
+  // Of powers of t - start.
+  Scalar start, c0, c1 = 0, c2 = 0, c3 = 0, c4 = 0, c5 = 0;
+
+  template <class Time>
+  [[nodiscard]] Jet<Time> at(const Time& t) const {
+    const Time s = t - start;
+    return {c0 + s * (c1 + s * (c2 + s * (c3 + s * (c4 + s * c5)))),
+            c1 + s * (2 * c2 + s * (3 * c3 + s * (4 * c4 + s * (5 * c5)))),
+            2 * c2 + s * (6 * c3 + s * (12 * c4 + s * (20 * c5)))};
+  }
+};
+
 // A view of a Spline's pieces.
 struct SplineView {
-  struct Piece {
-    double start, c0, c1 = 0, c2 = 0, c3 = 0, c4 = 0, c5 = 0;  // of powers of t - start
-  };
+  using Piece = SplinePiece<double>;
   const Piece* pieces;
   std::size_t count;
 
   // The end pieces continue outside the knots.
   template <class Time>
   [[nodiscard]] Jet<Time> at(const Time& t) const {
-    const Piece& p = pieces[interval(t)];
-    const Time s = t - p.start;
-    return {p.c0 + s * (p.c1 + s * (p.c2 + s * (p.c3 + s * (p.c4 + s * p.c5)))),
-            p.c1 + s * (2 * p.c2 + s * (3 * p.c3 + s * (4 * p.c4 + s * (5 * p.c5)))),
-            2 * p.c2 + s * (6 * p.c3 + s * (12 * p.c4 + s * (20 * p.c5)))};
+    return pieces[interval(t)].at(t);
   }
 
- private:
   // The last piece that starts at or before t, or else the first piece.
   template <class Time>
   [[nodiscard]] std::size_t interval(const Time& t) const {

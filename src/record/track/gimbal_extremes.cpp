@@ -22,20 +22,18 @@ constexpr double stretch = 4;  // rad
 constexpr double most_stretches = 1e5;
 constexpr std::size_t together = 60;  // stretches evaluated in one call
 
-// The time after which the motion repeats. A sinusoid of both angles takes all of its values in one
-// period, and in half of one if the plate is level on average.
+}  // namespace
+
+const TrackKernels& choose_track_kernels() {
+  return simd::kernels_by([](auto isa) -> const auto& { return track_kernels<decltype(isa)>(); });
+}
+
 double repeats_after(const model::SignalView& motion) {
   const bool repeats = motion.rate[0] == 0 && motion.rate[1] == 0 && !motion.shared.any() &&
                        motion.harmonic_count == 1;
   if (!repeats) return std::numeric_limits<double>::infinity();
   const bool level = motion.start[0] == 0 && motion.start[1] == 0;
   return (level ? 1 : 2) * std::numbers::pi / std::abs(motion.harmonics[0].frequency);
-}
-
-}  // namespace
-
-const TrackKernels& choose_track_kernels() {
-  return simd::kernels_by([](auto isa) -> const auto& { return track_kernels<decltype(isa)>(); });
 }
 
 double tilt_of(double versine) {

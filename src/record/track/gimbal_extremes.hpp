@@ -20,6 +20,11 @@ namespace bbsim::record {
 // The tilt (rad) that has this versine, 1 - cos(tilt).
 [[nodiscard]] double tilt_of(double versine);
 
+// The time after which a motion of the gimbal has shown all its tilts and rates, s. A sinusoid of
+// both angles takes all of its values in one period, and in half of one if the plate is level on
+// average. Infinite for all other motions.
+[[nodiscard]] double repeats_after(const model::SignalView& motion);
+
 class GimbalExtremes {
  public:
   GimbalExtremes();

@@ -120,6 +120,7 @@ void TrackMeasures::begin(const model::Model& model, const model::BallConstants&
 // The start belongs to no piece, and a run may end there.
 void TrackMeasures::begin_run() {
   greatest_ = {};
+  taken_ = false;
   reached_ = 0;
   rows_ = 1;
   spans_.clear();
@@ -205,6 +206,7 @@ void TrackMeasures::take(std::size_t count, const double* x, const double* y, co
   std::copy_n(last, last_.size(), last_.begin());
   points_ = 0;
   greatest_ = greatest;
+  taken_ = true;
 }
 
 // Searches the pieces so far for the greatest values.
@@ -294,7 +296,7 @@ double TrackMeasures::rms_error() {
 void TrackMeasures::finish(double* results) {
   look();
   GimbalExtremes::Greatest gimbal{tilt_of(greatest_.versine), std::sqrt(greatest_.rate_squared)};
-  if (!closed_ && wants_gimbal_) gimbal = motion_extremes();
+  if (!closed_ && wants_gimbal_ && !taken_) gimbal = motion_extremes();
   if (!end_.columns().empty()) {
     const double t = (*grid_)[rows_ - 1];
     end_.evaluate(&t, last_.data(), 1);

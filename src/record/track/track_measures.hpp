@@ -65,7 +65,7 @@ class TrackMeasures : public solve::PieceSink {
   void begin_run() override;
   void accept(const solve::Piece& piece) override;
 
-  // Replaces both accept(): takes x and y of a loop at its first `count` rows, all states of the
+  // Replaces both accept(): takes x and y at the first `count` rows, all states of the
   // last of these rows, and the greatest values of the motion.
   void take(std::size_t count, const double* x, const double* y, const double* last,
             const TrackExtremes& greatest);
@@ -98,7 +98,8 @@ class TrackMeasures : public solve::PieceSink {
   PaddedRows sizes_, more_sizes_;
   std::vector<double> times_, piece_rows_;
 
-  TrackExtremes greatest_;  // so far; without those of a given motion
+  TrackExtremes greatest_;  // so far; without those of a given motion, unless they were taken
+  bool taken_ = false;      // by take()
   double reached_ = 0;      // s
 
   GimbalExtremes gimbal_;                           // of a given motion

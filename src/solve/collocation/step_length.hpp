@@ -22,6 +22,14 @@ template <class Real>
   return std::clamp(step_safety * double{std::pow(error, power)}, least, most);
 }
 
+// Returns z with (z/2)^s / s! = tolerance. Over a step of 2 z radians of a sinusoid, the s-th
+// Legendre coefficient has just fallen to the tolerance.
+[[nodiscard]] inline double resolved(int stages, double tolerance) {
+  double factorial = 1;
+  for (int i = 2; i <= stages; ++i) factorial *= i;
+  return 2 * std::pow(tolerance * factorial, 1.0 / stages);
+}
+
 // A step towards an instant at which a step has to end.
 struct Stride {
   double length;  // s

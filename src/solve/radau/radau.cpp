@@ -49,14 +49,6 @@ double tempo(const model::Model& model) {
       model.system);
 }
 
-// Returns z with (z/2)^s / s! = tolerance. Over a step of 2 z radians of a sinusoid, the s-th
-// Legendre coefficient has just fallen to the tolerance.
-double resolved(int stages, double tolerance) {
-  double factorial = 1;
-  for (int i = 2; i <= stages; ++i) factorial *= i;
-  return 2 * std::pow(tolerance * factorial, 1.0 / stages);
-}
-
 // For rigs beyond the paper's, the entry for 16 stages has the kernel for 12 (kernels.hpp).
 const Kernel& find_kernel(const StepKernels& kernels, int stages, const model::Model& model) {
   const std::size_t order = stages == 8 ? 0 : stages == 12 ? 1 : 2;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Newton's iteration for the accelerations at the nodes of a step, with one loop in each lane.
+// Newton's iteration for the accelerations at the nodes of a step, with one case in each lane.
 //
 // The eigenvectors of Radau IIA's matrix split the system for all nodes into complex systems of
 // four unknowns, one for each pair of eigenvalues.
@@ -10,15 +10,19 @@
 #pragma once
 
 #include "solve/collocation/node_rows.hpp"
-#include "solve/loop/lane_loops.hpp"
+#include "solve/ensemble/equations.hpp"
 
-namespace bbsim::solve::loop {
+namespace bbsim::solve::ensemble {
 
-template <class Isa, Drives drives, int s>
-struct Newton : LaneLoops<Isa, drives> {
-  using Base = LaneLoops<Isa, drives>;
-  using Base::nq, Base::nv, Base::x, Base::y, Base::phi, Base::theta;
-  using typename Base::P, typename Base::Jacobian;
+template <class Isa, Actuation actuation, int nodes>
+struct Newton : Equations<Isa, actuation> {
+  using Base = Equations<Isa, actuation>;
+  using Base::nq, Base::nv, Base::x, Base::y, Base::phi, Base::theta, Base::spin;
+  using typename Base::P, typename Base::Jacobian, typename Base::Signals;
+  static constexpr int s = nodes;
+  // The velocities whose accelerations are unknown, and how many of them have a position.
+  static constexpr int unknown[] = {x, y, phi, theta, spin};
+  static constexpr int with_position = 4;
   using Rule = radau::RadauTable<s>;
   static constexpr int pairs = s / 2;
 
@@ -51,8 +55,10 @@ struct Newton : LaneLoops<Isa, drives> {
       return {a.re - b.re, a.im - b.im};
     }
   };
-  struct Matrices {
+  struct Memory {
     Complex lu[pairs][nq][nq], transformed[pairs][nq];
+    P residual[s][nq];
+    Signals reference[s];
   };
 
   // Elimination starts with the servo's axes, which are the stiffest, and does not pivot.
@@ -60,7 +66,7 @@ struct Newton : LaneLoops<Isa, drives> {
 
   // Makes I - Jk - h l Jv - h^2 l^2 Jq for each eigenvalue l, with rows and columns in `order`, and
   // factors it in place (LU). The diagonal holds its own inverse.
-  BBSIM_INLINE static void factor(const Jacobian& at, P h, Matrices& of) {
+  BBSIM_INLINE static void factor(const Jacobian& at, P h, Memory& of) {
 #pragma GCC unroll 1
     for (int k = 0; k < pairs; ++k) {
       const P re1 = h * P(rows.lambda_re[k]), im1 = h * P(rows.lambda_im[k]);
@@ -105,7 +111,7 @@ struct Newton : LaneLoops<Isa, drives> {
   }
 
   // Adds Newton's correction for the residuals to k.
-  BBSIM_INLINE static void correct(Matrices& of, const P (&residual)[s][nq],
+  BBSIM_INLINE static void correct(Memory& of, const P (&residual)[s][nq],
                                    P (&accelerations)[s][nv]) {
     constexpr int together = 2;
     static_assert(pairs % together == 0 && s % together == 0);
@@ -165,4 +171,4 @@ struct Newton : LaneLoops<Isa, drives> {
   }
 };
 
-}  // namespace bbsim::solve::loop
+}  // namespace bbsim::solve::ensemble

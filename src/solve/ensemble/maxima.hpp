@@ -1,29 +1,44 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Maxima of a group of closed loops over a step, at the nodes and between them.
+// Maxima of a group of cases over a step, at the nodes and between them.
 //
 // Included only by the kernels. See simd/pack.hpp for why everything is inlined or tagged.
 #pragma once
 
 #include "simd/peaks.hpp"
-#include "solve/loop/workspace.hpp"
+#include "solve/ensemble/workspace.hpp"
 
-namespace bbsim::solve::loop {
+namespace bbsim::solve::ensemble {
 
 using simd::Looked;
 
 template <class Of>
-struct Looking : Of {
+struct Maxima : Of {
   using Of::angles, Of::phi, Of::places, Of::theta, Of::x, Of::y;
   using Of::lanes, Of::nq, Of::nv, Of::packs, Of::rows, Of::s;
-  using typename Of::Courses, typename Of::Half, typename Of::Loop, typename Of::Mask,
-      typename Of::P, typename Of::Pack, typename Of::Reference, typename Of::Workspace;
+  using typename Of::Courses, typename Of::Half, typename Of::Mask, typename Of::P,
+      typename Of::Pack, typename Of::Scene, typename Of::Signals, typename Of::Workspace;
+  static constexpr bool given = Of::actuation == Actuation::given;
+
+  static constexpr bool of_plate(int which) { return which == versine || which == rate_squared; }
+
+  // The reference at a node. A gimbal whose angles are given has none.
+  BBSIM_INLINE static Signals reference_at(const Pack& of, int node) {
+    if constexpr (given)
+      return no_reference();
+    else
+      return of.method.reference[node];
+  }
+  BBSIM_INLINE static Signals no_reference() {
+    const model::Jet<P> zero{P(0.0), P(0.0), P(0.0)};
+    return {zero, zero};
+  }
 
   // One of the Look quantities and its slope, for a pack's states at an instant. Slopes are with
   // respect to the fraction of the step.
   template <int which>
-  BBSIM_INLINE static void look_at(const P* q, const P* v, const P* k, const Reference& reference,
+  BBSIM_INLINE static void look_at(const P* q, const P* v, const P* k, const Signals& reference,
                                    P h, P& size, P& slope) {
     if constexpr (which == versine) {
       // Angles beyond 10^5 rad, which have no practical use, lose the last digits.
@@ -52,42 +67,55 @@ struct Looking : Of {
   }
 
   template <int which>
-  BBSIM_INLINE static void between(Workspace& w, int p, const Loop& loop, P part, P& size,
+  BBSIM_INLINE static void between(Workspace& w, int p, const Scene& scene, P part, P& size,
                                    P& slope) {
-    constexpr Half half = which == versine || which == rate_squared ? angles : places;
-    Of::template make_courses<half>(w);
-    const Courses& courses = w.of[p].courses[half];
-    const P h = Of::length(w, p);
+    constexpr Half half = of_plate(which) ? angles : places;
+    const P h = Of::length(w, p), t = Of::from(w, p) + h * part;
     P q[nq], v[nv], k[nv], first[2], second[2];
-    Reference reference{};
-    if constexpr (which == rate_squared) {
-      courses.rates_at(part, first, second);
-      v[phi] = first[0];
-      v[theta] = first[1];
-      k[phi] = second[0] / h;
-      k[theta] = second[1] / h;
+    Signals reference{};
+    if constexpr (given && half == angles) {
+      const Signals at = Of::angles_at(w, p, scene, t);
+#pragma GCC unroll 2
+      for (int i = 0; i < 2; ++i) {
+        q[phi + i] = at[i].value;
+        v[phi + i] = at[i].rate;
+        k[phi + i] = at[i].acceleration;
+      }
     } else {
-      courses.at(part, first, second);
-      q[2 * half] = first[0];
-      q[2 * half + 1] = first[1];
-      v[2 * half] = second[0];
-      v[2 * half + 1] = second[1];
-      if constexpr (which == error_squared) reference = loop.reference(Of::from(w, p) + h * part);
+      Of::template make_courses<half>(w);
+      const Courses& courses = w.of[p].courses[half];
+      if constexpr (which == rate_squared) {
+        courses.rates_at(part, first, second);
+        v[phi] = first[0];
+        v[theta] = first[1];
+        k[phi] = second[0] / h;
+        k[theta] = second[1] / h;
+      } else {
+        courses.at(part, first, second);
+        q[2 * half] = first[0];
+        q[2 * half + 1] = first[1];
+        v[2 * half] = second[0];
+        v[2 * half + 1] = second[1];
+      }
+      if constexpr (which == error_squared) reference = scene.signals(t);
     }
     look_at<which>(q, v, k, reference, h, size, slope);
   }
 
   template <int which>
   [[gnu::flatten]] static void look_pack(Workspace& w, int p, Mask wanted, double* greatest) {
-    const Loop loop(w.loops, p);
+    const Scene scene = Of::scene(w, p);
     Pack& of = w.of[p];
     const P h = Of::length(w, p);
     Looked<P> places[s + 1];
-    Reference reference{};
-    if constexpr (which == error_squared) reference = loop.reference(Of::from(w, p));
+    Signals reference{};
+    if constexpr (which == error_squared) reference = scene.signals(Of::from(w, p));
     places[0].at = P(0.0);
     P k[nv];
-    if constexpr (which == rate_squared) {
+    if constexpr (given) {
+#pragma GCC unroll 2
+      for (int i = phi; i <= theta; ++i) k[i] = of.k_end[i];
+    } else if constexpr (which == rate_squared) {
       // The slope of the polynomial itself, which has no node at its start.
       Of::template make_courses<angles>(w);
 #pragma GCC unroll 2
@@ -103,13 +131,13 @@ struct Looking : Of {
 #pragma GCC unroll 1
     for (int j = 0; j < s; ++j) {
       places[j + 1].at = P(rows.c[j]);
-      look_at<which>(of.q_at[j], of.v_at[j], of.k[j], of.reference[j], h, places[j + 1].value,
+      look_at<which>(of.q_at[j], of.v_at[j], of.k[j], reference_at(of, j), h, places[j + 1].value,
                      places[j + 1].slope);
     }
     const P before = P::load(greatest + p * lanes);
     P most = before;
     simd::raise_to_peak<s>(places, s + 1, most, [&](P part, P& size, P& slope) {
-      between<which>(w, p, loop, part, size, slope);
+      between<which>(w, p, scene, part, size, slope);
     });
     choose(wanted, most, before).store(greatest + p * lanes);
   }
@@ -117,12 +145,12 @@ struct Looking : Of {
   // Upper bounds of all Look quantities over the step, as in simd::promise_between, with squares of
   // angles in place of sines.
   [[gnu::flatten]] static void bound(const Workspace& w, int p, P (&bounds)[looks]) {
-    const Loop loop(w.loops, p);
+    const Scene scene = Of::scene(w, p);
     const Pack& of = w.of[p];
     const P h = Of::length(w, p);
     P before[looks], rise_before[looks];
     const auto take = [&](const P(&q)[nq], const P(&v)[nv], const P(&k)[nv],
-                          const Reference& reference, P width, bool first)
+                          const Signals& reference, P width, bool first)
         __attribute__((always_inline)) {
       P sizes[looks], slopes[looks];  // half the derivatives by time
       sizes[versine] = P(0.5) * (q[phi] * q[phi] + q[theta] * q[theta]);
@@ -136,7 +164,7 @@ struct Looking : Of {
       slopes[error_squared] =
           from_x * (v[x] - reference[0].rate) + from_y * (v[y] - reference[1].rate);
 #pragma GCC unroll 4
-      for (int i = 0; i < looks; ++i) {
+      for (int i = 0; i < (given ? error_squared : looks); ++i) {
         if (first) {
           bounds[i] = sizes[i];
         } else {
@@ -147,12 +175,13 @@ struct Looking : Of {
         rise_before[i] = larger_of(slopes[i], P(0.0));
       }
     };
-    take(of.q, of.v, of.k_end, loop.reference(Of::from(w, p)), P(0.0), true);
+    take(of.q, of.v, of.k_end, given ? no_reference() : scene.signals(Of::from(w, p)), P(0.0),
+         true);
     constexpr double beyond = 2 * 0.25;  // 2, because the slopes are halved
 #pragma GCC unroll 1
     for (int j = 0; j < s; ++j) {
       const P width = P(beyond * (rows.c[j] - (j > 0 ? rows.c[j - 1] : 0))) * h;
-      take(of.q_at[j], of.v_at[j], of.k[j], of.reference[j], width, false);
+      take(of.q_at[j], of.v_at[j], of.k[j], reference_at(of, j), width, false);
     }
   }
 
@@ -163,19 +192,20 @@ struct Looking : Of {
     if (simd::any_of<P>(wanted)) look_pack<which>(w, p, wanted, greatest.of[which]);
   }
 
-  static void look(void* workspace, const Lanes& taken, Greatest& greatest) {
+  static void look(void* workspace, const Lanes& taken, const Lanes& turning, Greatest& greatest) {
     Workspace& w = *static_cast<Workspace*>(workspace);
     for (int p = 0; p < packs; ++p) {
       const Mask of = Of::mask(taken, p);
       if (!simd::any_of<P>(of)) continue;
       P bounds[looks];
       bound(w, p, bounds);
-      look_if_worth<versine>(w, p, of, bounds, greatest);
-      look_if_worth<rate_squared>(w, p, of, bounds, greatest);
+      const Mask plate = of & Of::mask(turning, p);
+      look_if_worth<versine>(w, p, plate, bounds, greatest);
+      look_if_worth<rate_squared>(w, p, plate, bounds, greatest);
       look_if_worth<distance_squared>(w, p, of, bounds, greatest);
-      look_if_worth<error_squared>(w, p, of, bounds, greatest);
+      if constexpr (!given) look_if_worth<error_squared>(w, p, of, bounds, greatest);
     }
   }
 };
 
-}  // namespace bbsim::solve::loop
+}  // namespace bbsim::solve::ensemble

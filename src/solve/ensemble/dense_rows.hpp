@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Output rows within a step of one of a group's closed loops, on the step's polynomials.
+// Output rows within a step of one of a group's cases, on the step's polynomials.
 //
 // Included only by the kernels. See simd/pack.hpp for why everything is inlined or tagged.
 #pragma once
 
-#include "solve/loop/workspace.hpp"
+#include "solve/ensemble/workspace.hpp"
 
-namespace bbsim::solve::loop {
+namespace bbsim::solve::ensemble {
 
 template <class Of>
-struct RowsWithin : Of {
+struct DenseRows : Of {
   using Of::lanes, Of::packs, Of::places, Of::s;
   using typename Of::Courses, typename Of::P, typename Of::Workspace;
 
@@ -121,4 +121,4 @@ struct RowsWithin : Of {
   }
 };
 
-}  // namespace bbsim::solve::loop
+}  // namespace bbsim::solve::ensemble

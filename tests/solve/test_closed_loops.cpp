@@ -14,31 +14,24 @@
 
 #include "catch.hpp"
 #include "simd/instruction_set.hpp"
+#include "solve/ensemble_runs.hpp"
 #include "solve/integrate.hpp"
-#include "solve/loop/loop_lanes.hpp"
 #include "solve/radau/radau.hpp"
 #include "support/run_in_memory.hpp"
 
 using namespace bbsim;
 using namespace bbsim_test;
-using solve::loop::group;
-using solve::loop::looks;
-using solve::loop::LoopCase;
-using solve::loop::LoopEnding;
-using solve::loop::LoopLanes;
-using solve::loop::LoopRun;
-using solve::loop::LoopStudy;
-using solve::loop::states;
+using namespace bbsim::solve::ensemble;
 
 namespace {
 
 template <Drives drives>
-LoopCase loop_case(const Scenario& scene) {
+Case loop_case(const Scenario& scene) {
   using Loop = model::ClosedLoop<model::Shape::full, drives>;
   const model::Model model = model::assemble(scene, false);
   const model::SignalView path = std::get<Loop>(model.system).reference().view();
   REQUIRE(path.harmonic_count <= 1);
-  LoopCase one{};
+  Case one{};
   one.radius = scene.ball.radius;
   one.gravity = scene.gravity;
   if (scene.gimbal.servo) {
@@ -52,19 +45,21 @@ LoopCase loop_case(const Scenario& scene) {
     }
     one.start[i] = path.start[i];
     one.rate[i] = path.rate[i];
-    if (path.harmonic_count == 1) {
-      one.frequency = path.harmonics->frequency;
-      one.sine[i] = path.harmonics->sine[i];
-      one.cosine[i] = path.harmonics->cosine[i];
-    }
   }
+  one.harmonic_count = static_cast<int>(path.harmonic_count);
+  std::copy_n(path.harmonics, path.harmonic_count, one.harmonics);
   std::copy(model.initial.begin(), model.initial.end(), one.initial);
   return one;
 }
 
-LoopCase case_of(const Scenario& scene) {
+Case case_of(const Scenario& scene) {
   return scene.controller->drives == Drives::angle ? loop_case<Drives::angle>(scene)
                                                    : loop_case<Drives::acceleration>(scene);
+}
+
+Actuation actuation_of(const Scenario& scene) {
+  return scene.controller->drives == Drives::angle ? Actuation::by_servo
+                                                   : Actuation::by_acceleration;
 }
 
 // Scenes whose gains are within 30 % of the given one's.
@@ -82,8 +77,8 @@ std::vector<Scenario> with_other_gains(const Scenario& scene, std::size_t count)
   return scenes;
 }
 
-std::vector<LoopCase> cases_of(const std::vector<Scenario>& scenes) {
-  std::vector<LoopCase> cases;
+std::vector<Case> cases_of(const std::vector<Scenario>& scenes) {
+  std::vector<Case> cases;
   for (const Scenario& scene : scenes) cases.push_back(case_of(scene));
   return cases;
 }
@@ -95,57 +90,6 @@ solve::Trajectory truth(const Scenario& scene) {
   REQUIRE(solve::integrate(model, Method::radau, {1e-12, 1e-14}, grid, rows, {}).ending ==
           solve::Ending::done);
   return rows;
-}
-
-// What became of a loop.
-struct Course {
-  LoopEnding ending = LoopEnding::given_up;
-  double reached = 0;
-  std::vector<double> x, y, state, greatest;
-
-  bool operator==(const Course&) const = default;
-};
-
-class Study : public LoopStudy {
- public:
-  explicit Study(const std::vector<LoopCase>& cases) : cases_(cases), runs(cases.size()) {}
-
-  std::optional<std::size_t> begin(LoopCase& loop) override {
-    if (begun_ == cases_.size()) return {};
-    loop = cases_[begun_];
-    return begun_++;
-  }
-  void end(std::size_t number, const LoopRun& run) override {
-    runs[number] = {run.ending,
-                    run.reached,
-                    {run.x, run.x + run.rows},
-                    {run.y, run.y + run.rows},
-                    {run.state, run.state + states},
-                    {run.greatest, run.greatest + looks}};
-    ++ended;
-  }
-
- private:
-  const std::vector<LoopCase>& cases_;
-  std::size_t begun_ = 0;
-
- public:
-  std::vector<Course> runs;
-  std::size_t ended = 0;
-};
-
-const std::atomic<bool> goes_on{false};
-
-std::vector<Course> carry(LoopLanes& lanes, const std::vector<LoopCase>& cases) {
-  Study study(cases);
-  lanes.carry(study, goes_on);
-  CHECK(study.ended == cases.size());
-  return study.runs;
-}
-
-bool are_done(const std::vector<Course>& runs) {
-  return std::all_of(runs.begin(), runs.end(),
-                     [](const Course& run) { return run.ending == LoopEnding::done; });
 }
 
 // The error of the ball's place, over all rows, m.
@@ -184,7 +128,7 @@ TEST_CASE("loops in lanes follow collocation at every tolerance") {
   const std::vector<Scenario> scenes = with_other_gains(scene, group);
   const int nodes = GENERATE(8, 12);
   const solve::Tolerances tolerances{rtol, rtol / 100};
-  LoopLanes lanes(scene.controller->drives, nodes, tolerances, solve::OutputGrid(scene.time));
+  Ensemble lanes({actuation_of(scene), solve::OutputGrid(scene.time)}, nodes, tolerances);
   const auto runs = carry(lanes, cases_of(scenes));
   CHECK(are_done(runs));
   for (std::size_t i = 0; i < group; ++i) {
@@ -200,19 +144,19 @@ TEST_CASE("a step's error falls with the order of the method") {
     Scenario scene = base;
     scene.time = {2, 2};
     scene.gimbal.start = {0.05, -0.03, 0, 0};
-    const LoopCase one = case_of(scene);
-    const solve::loop::Kernel& kernel = solve::loop::kernels<simd::Baseline>().angle.few;
+    const Case one = case_of(scene);
+    const Kernel& kernel = kernel_of(kernels<simd::Baseline>(), Actuation::by_servo, 8);
     std::vector<double> memory(kernel.workspace / sizeof(double) + 8);
     void* place = memory.data();
     std::size_t space = memory.size() * sizeof(double);
     void* const workspace = std::align(64, kernel.workspace, place, space);
-    solve::loop::LoopState state{one, {}, {}, 0, {}};
+    Progress state{one, {}, {}, 0, {}};
     std::copy_n(one.initial, states, state.state);
-    kernel.start(workspace, 1e-6, 1e-8);
+    kernel.start(workspace, {1e-6, 1e-8, nullptr, 0});
     for (int lane = 0; lane < group; ++lane) kernel.load(workspace, lane, state);
-    solve::loop::Attempt attempt;
-    solve::loop::Spans spans;
-    solve::loop::Lanes all;
+    Attempt attempt;
+    Spans spans;
+    Lanes all;
     std::fill(std::begin(all.of), std::end(all.of), -1);
     const int steps = static_cast<int>(std::lround(2 / h));
     for (int i = 0; i < steps; ++i) {
@@ -231,9 +175,9 @@ TEST_CASE("a step's error falls with the order of the method") {
 
 TEST_CASE("a stiff servo costs loops in lanes no order") {
   const Scenario scene = scenario_named("stiff-servo");
-  const std::vector<LoopCase> cases = cases_of(with_other_gains(scene, group));
+  const std::vector<Case> cases = cases_of(with_other_gains(scene, group));
   const auto steps_at = [&](double rtol) {
-    LoopLanes lanes(Drives::angle, 8, {rtol, rtol / 100}, solve::OutputGrid(scene.time));
+    Ensemble lanes({Actuation::by_servo, solve::OutputGrid(scene.time)}, 8, {rtol, rtol / 100});
     CHECK(are_done(carry(lanes, cases)));
     // A Jacobian that is not near all nodes' takes ten turns.
     CHECK(static_cast<double>(lanes.statistics().nonlinear_iterations) <
@@ -256,16 +200,17 @@ TEST_CASE("what becomes of a loop depends neither on its companions nor on what 
   std::vector<Scenario> scenes = with_other_gains(scene, 40);
   for (std::size_t i = 0; i < scenes.size(); i += 3) scenes[i].controller->kv[0][0] *= -0.3;
   for (std::size_t i = 1; i < scenes.size(); i += 9) scenes[i].controller->kv[0][0] *= -8;
-  std::vector<LoopCase> cases = cases_of(scenes);
-  cases[11].frequency = 3e4;
+  std::vector<Case> cases = cases_of(scenes);
+  cases[11].harmonic_count = 1;
+  cases[11].harmonics[0].frequency = 3e4;
   const double rtol = GENERATE(1e-5, 1e-8);
   CAPTURE(set, name, rtol);
-  LoopLanes lanes(Drives::angle, solve::loop::choose_nodes(rtol), {rtol, rtol / 100},
-                  solve::OutputGrid(scene.time));
+  Ensemble lanes({Actuation::by_servo, solve::OutputGrid(scene.time)},
+                 choose_nodes(Actuation::by_servo, rtol), {rtol, rtol / 100});
   unsetenv("BBSIM_SIMD");
   const std::vector<Course> together = carry(lanes, cases);
   CHECK(carry(lanes, cases) == together);
-  std::vector<LoopCase> reversed = cases;
+  std::vector<Case> reversed = cases;
   std::reverse(reversed.begin(), reversed.end());
   std::vector<Course> backwards = carry(lanes, reversed);
   std::reverse(backwards.begin(), backwards.end());
@@ -274,7 +219,7 @@ TEST_CASE("what becomes of a loop depends neither on its companions nor on what 
   for (std::size_t i = 0; i < cases.size(); ++i) {
     CAPTURE(i);
     CHECK(carry(lanes, {cases[i]}).front() == together[i]);
-    if (together[i].ending == LoopEnding::unbounded) ++unbounded;
+    if (together[i].ending == Ending::unbounded) ++unbounded;
   }
   if (name == "fig2b") CHECK(unbounded > 8);
   CHECK(unbounded < 25);
@@ -292,7 +237,7 @@ TEST_CASE("a loop that grows without bound ends where a single run does, and oth
   if (alone) scenes.assign(1, literal);
   const solve::Tolerances tolerances{1e-8, 1e-10};
   const solve::OutputGrid grid(literal.time);
-  LoopLanes lanes(Drives::acceleration, 12, tolerances, grid);
+  Ensemble lanes({Actuation::by_acceleration, grid}, 12, tolerances);
   const auto runs = carry(lanes, cases_of(scenes));
   solve::Trajectory single(model::assemble(literal, false).row_size());
   const solve::Outcome outcome = solve::integrate(model::assemble(literal, false), Method::radau,
@@ -301,11 +246,11 @@ TEST_CASE("a loop that grows without bound ends where a single run does, and oth
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     CAPTURE(i);
     if (!alone && std::count(bad.begin(), bad.end(), i) == 0) {
-      REQUIRE(runs[i].ending == LoopEnding::done);
+      REQUIRE(runs[i].ending == Ending::done);
       CHECK(error_of(runs[i], scenes[i]) < 10 * local_error(tolerances));
       continue;
     }
-    CHECK(runs[i].ending == LoopEnding::unbounded);
+    CHECK(runs[i].ending == Ending::unbounded);
     // Both end when a step is a hundred thousandth of the time.
     CHECK(runs[i].reached == Approx(outcome.reached).epsilon(1e-4));
     REQUIRE(runs[i].x.size() == single.rows());
@@ -318,19 +263,19 @@ TEST_CASE("a loop that grows without bound ends where a single run does, and oth
 
 TEST_CASE("loops end where they are told to stop") {
   const Scenario scene = scenario_named("fig2b");
-  const std::vector<LoopCase> cases = cases_of(with_other_gains(scene, 3 * group));
+  const std::vector<Case> cases = cases_of(with_other_gains(scene, 3 * group));
   // Becomes true when the first loop has ended.
-  class Stopping : public Study {
+  class Stopping : public Cases {
    public:
-    using Study::Study;
-    void end(std::size_t number, const LoopRun& run) override {
-      Study::end(number, run);
+    using Cases::Cases;
+    void end(std::size_t number, const Result& run) override {
+      Cases::end(number, run);
       stop = true;
     }
     std::atomic<bool> stop{false};
   };
   Stopping study(cases);
-  LoopLanes lanes(Drives::angle, 8, {1e-6, 1e-8}, solve::OutputGrid(scene.time));
+  Ensemble lanes({Actuation::by_servo, solve::OutputGrid(scene.time)}, 8, {1e-6, 1e-8});
   lanes.carry(study, study.stop);
   CHECK(study.ended > 0);
   CHECK(study.ended <= group);
@@ -343,24 +288,24 @@ TEST_CASE("a loop that explodes ends long before its steps are nothing") {
   const double gain = GENERATE(-10.0, -1.0, -0.1);
   Scenario scene = scenario_named("fig2b");
   scene.controller->kv[0][0] = gain;
-  LoopLanes lanes(Drives::angle, 8, {1e-6, 1e-9}, solve::OutputGrid(scene.time));
+  Ensemble lanes({Actuation::by_servo, solve::OutputGrid(scene.time)}, 8, {1e-6, 1e-9});
   const auto runs = carry(lanes, {case_of(scene)});
-  CHECK(runs[0].ending == LoopEnding::unbounded);
+  CHECK(runs[0].ending == Ending::unbounded);
   CHECK(lanes.statistics().steps < 200);
 }
 
 TEST_CASE("a loop of no numbers is given up, and the others are not") {
   const Scenario scene = scenario_named("fig2b");
   const std::vector<Scenario> scenes = with_other_gains(scene, group);
-  std::vector<LoopCase> cases = cases_of(scenes);
+  std::vector<Case> cases = cases_of(scenes);
   const double bad =
       GENERATE(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity());
   cases[3].kv[0][0] = bad;
   const solve::Tolerances tolerances{1e-6, 1e-8};
-  LoopLanes lanes(Drives::angle, 8, tolerances, solve::OutputGrid(scene.time));
+  Ensemble lanes({Actuation::by_servo, solve::OutputGrid(scene.time)}, 8, tolerances);
   const auto runs = carry(lanes, cases);
   for (std::size_t i = 0; i < group; ++i) {
-    CHECK(runs[i].ending == (i == 3 ? LoopEnding::given_up : LoopEnding::done));
+    CHECK(runs[i].ending == (i == 3 ? Ending::given_up : Ending::done));
     if (i != 3) CHECK(error_of(runs[i], scenes[i]) < 10 * local_error(tolerances));
   }
 }
@@ -368,16 +313,16 @@ TEST_CASE("a loop of no numbers is given up, and the others are not") {
 TEST_CASE("loops in lanes follow BBSIM_SIMD, and agree to the tolerance") {
   const Scenario scene = scenario_named("stiff-servo");
   const std::vector<Scenario> scenes = with_other_gains(scene, group);
-  const std::vector<LoopCase> cases = cases_of(scenes);
-  const int chosen = solve::loop::choose_kernels().width;
+  const std::vector<Case> cases = cases_of(scenes);
+  const int chosen = choose_kernels().width;
   CHECK((chosen == 2 || chosen == 4 || chosen == 8));
   for (const auto& [name, width] : {std::pair("sse2", 2), {"avx2", 4}, {"avx512", 8}}) {
     if (!simd::find_instruction_set(name)) continue;
     CAPTURE(name);
     setenv("BBSIM_SIMD", name, 1);
-    CHECK(solve::loop::choose_kernels().width == width);
+    CHECK(choose_kernels().width == width);
     const solve::Tolerances tolerances{1e-6, 1e-8};
-    LoopLanes lanes(Drives::angle, 8, tolerances, solve::OutputGrid(scene.time));
+    Ensemble lanes({Actuation::by_servo, solve::OutputGrid(scene.time)}, 8, tolerances);
     const auto runs = carry(lanes, cases);
     CHECK(are_done(runs));
     CHECK(error_of(runs[0], scenes[0]) < 10 * local_error(tolerances));
@@ -389,7 +334,7 @@ TEST_CASE("loops whose gains cross from axis to axis are no harder") {
   Scenario scene = scenario_named("fig2b");
   scene.controller->kv = {{{0.8, 0.5}, {0.4, -0.9}}};
   const solve::Tolerances tolerances{1e-9, 1e-11};
-  LoopLanes lanes(Drives::angle, 12, tolerances, solve::OutputGrid(scene.time));
+  Ensemble lanes({Actuation::by_servo, solve::OutputGrid(scene.time)}, 12, tolerances);
   const auto runs = carry(lanes, cases_of({scene}));
   CHECK(are_done(runs));
   CHECK(error_of(runs[0], scene) < 10 * local_error(tolerances));
@@ -403,7 +348,7 @@ TEST_CASE("loops in lanes know what they were greatest at, between rows") {
   if (std::string(name) == "stiff-servo") scene.time.end = 0.2;
   scene.time.step = scene.time.end;
   const std::vector<Scenario> scenes = with_other_gains(scene, group);
-  LoopLanes lanes(scene.controller->drives, 12, {1e-10, 1e-12}, solve::OutputGrid(scene.time));
+  Ensemble lanes({actuation_of(scene), solve::OutputGrid(scene.time)}, 12, {1e-10, 1e-12});
   const auto runs = carry(lanes, cases_of(scenes));
   REQUIRE(are_done(runs));
   for (std::size_t i = 0; i < group; ++i) {
@@ -411,25 +356,27 @@ TEST_CASE("loops in lanes know what they were greatest at, between rows") {
     close.time.step = close.time.end / 20000;
     const solve::OutputGrid grid(close.time);
     const solve::Trajectory rows = truth(close);
-    const LoopCase one = case_of(close);
+    const Case one = case_of(close);
     double most[looks] = {};
     for (std::size_t row = 0; row < grid.size(); ++row) {
       const auto state = [&](std::size_t k) { return rows.row(row)[k]; };
-      const auto raise = [&](solve::loop::Look look, double size) {
-        most[look] = std::max(most[look], size);
-      };
+      const auto raise = [&](Look look, double size) { most[look] = std::max(most[look], size); };
       const double a = std::pow(std::sin(state(5) / 2), 2), b = std::pow(std::sin(state(6) / 2), 2);
-      raise(solve::loop::versine, 2 * (a + b) - 4 * a * b);
-      raise(solve::loop::rate_squared, state(7) * state(7) + state(8) * state(8));
-      raise(solve::loop::distance_squared, state(0) * state(0) + state(1) * state(1));
+      raise(versine, 2 * (a + b) - 4 * a * b);
+      raise(rate_squared, state(7) * state(7) + state(8) * state(8));
+      raise(distance_squared, state(0) * state(0) + state(1) * state(1));
       double error = 0;
       for (std::size_t k = 0; k < 2; ++k) {
-        const double angle = one.frequency * grid[row];
-        const double from = state(k) - one.start[k] - one.rate[k] * grid[row] -
-                            one.sine[k] * std::sin(angle) - one.cosine[k] * std::cos(angle);
+        double path = one.start[k] + one.rate[k] * grid[row];
+        for (int i = 0; i < one.harmonic_count; ++i) {
+          const model::Harmonic& of = one.harmonics[i];
+          const double angle = of.frequency * grid[row];
+          path += of.sine[k] * std::sin(angle) + of.cosine[k] * std::cos(angle);
+        }
+        const double from = state(k) - path;
         error += from * from;
       }
-      raise(solve::loop::error_squared, error);
+      raise(error_squared, error);
     }
     for (std::size_t look = 0; look < looks; ++look) {
       CAPTURE(name, i, look);
@@ -444,7 +391,7 @@ TEST_CASE("loops in lanes know what they were greatest at, between rows") {
 TEST_CASE("the last row of a loop in lanes is its last state") {
   const Scenario scene = scenario_named("fig2b");
   const std::vector<Scenario> scenes = with_other_gains(scene, group);
-  LoopLanes lanes(Drives::angle, 12, {1e-9, 1e-11}, solve::OutputGrid(scene.time));
+  Ensemble lanes({Actuation::by_servo, solve::OutputGrid(scene.time)}, 12, {1e-9, 1e-11});
   const auto runs = carry(lanes, cases_of(scenes));
   for (std::size_t i = 0; i < group; ++i) {
     // The polynomial's end and the last node are the same but for rounding.

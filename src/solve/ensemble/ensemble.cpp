@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "solve/loop/loop_lanes.hpp"
+#include "solve/ensemble/ensemble.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <new>
@@ -13,56 +12,31 @@
 #include "simd/instruction_set.hpp"
 #include "solve/collocation/step_length.hpp"
 
-namespace bbsim::solve::loop {
+namespace bbsim::solve::ensemble {
 
 namespace {
 
 constexpr std::align_val_t alignment{64};
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// A loop that takes more attempts is left to another integrator.
+// A case that takes more attempts is left to another integrator.
 constexpr std::size_t most_attempts = 100'000;
-// A loop is given up if its step is below this fraction of the time. If the loop went to infinity,
-// Shrinking would have detected that before.
+// A case is given up if its step is below this fraction of the time. If the motion went to
+// infinity, Shrinking would have detected that before.
 constexpr double least_part = 1e-8;
-// The factor of the step if Newton's iteration does not converge.
+// The factor of the step if the iteration does not converge.
 constexpr double unsolved = 0.4;
 
 // Lanes are refilled when at most this many are at work.
 constexpr int few = group / 2;
-// So many shrinking steps mostly mean that a loop goes to infinity.
+// So many shrinking steps mostly mean that a motion goes to infinity.
 constexpr int long_since = 3;
-// A loop that is this many steps from its end stays in its lane.
+// A case that is this many steps from its end stays in its lane.
 constexpr double soon = 2;
 
-void put(Loops& loops, int lane, const LoopCase& loop) {
-  constexpr std::size_t count = sizeof(LoopCase) / sizeof(double);
-  const auto numbers = std::bit_cast<std::array<double, count>>(loop);
-  auto* row = reinterpret_cast<double*>(&loops) + lane;
-  for (const double number : numbers) {
-    *row = number;
-    row += group;
-  }
-}
-
-const Kernel& kernel_of(Drives drives, int nodes) {
-  const Kernels& all = choose_kernels();
-  const Kernels::Nodes& of = drives == Drives::angle ? all.angle : all.acceleration;
-  return of.few.nodes == nodes ? of.few : of.many;
-}
-
-// The fastest rate of a lane's loop, 1/s. Each path leads from an acceleration back to itself. Its
-// rate is the n-th root of the product of its couplings, where n is the number of integrations on
-// the path.
-double fastest_of(const Couplings& of, int lane) {
-  const auto at = [lane](const double(&values)[group]) { return values[lane]; };
-  const double by_velocity = at(of.servo_by_velocity), by_place = at(of.servo_by_place);
-  return std::max(
-      {at(of.ball_by_velocity), std::sqrt(at(of.ball_by_place)), at(of.servo_by_rate),
-       std::sqrt(at(of.servo_by_angle)), at(of.ball_by_turning) * by_velocity,
-       std::sqrt(at(of.ball_by_turning) * by_place), std::sqrt(at(of.ball_by_rate) * by_velocity),
-       std::cbrt(at(of.ball_by_rate) * by_place), std::cbrt(at(of.ball_by_angle) * by_velocity),
-       std::sqrt(std::sqrt(at(of.ball_by_angle) * by_place))});
+// The first step times the fastest rate of the motion.
+double first_reach(Actuation actuation, int nodes, double rtol) {
+  return actuation == Actuation::given ? resolved(nodes, rtol) : 5 * std::pow(rtol, 1.0 / nodes);
 }
 
 }  // namespace
@@ -71,32 +45,42 @@ const Kernels& choose_kernels() {
   return simd::kernels_by([](auto isa) -> const auto& { return kernels<decltype(isa)>(); });
 }
 
-int choose_nodes(double rtol) {
+const Kernel& kernel_of(const Kernels& kernels, Actuation actuation, int nodes) {
+  return *std::find_if(std::begin(kernels.of), std::end(kernels.of), [&](const Kernel& one) {
+    return one.actuation == actuation && one.nodes == nodes;
+  });
+}
+
+int choose_nodes(Actuation actuation, double rtol) {
+  if (actuation == Actuation::given) return rtol > 3e-6 ? 8 : rtol > 1e-6 ? 12 : 16;
   constexpr double for_many = 3e-7;
   return rtol < for_many ? 12 : 8;
 }
 
-void LoopLanes::Free::operator()(void* memory) const {
+void Ensemble::Free::operator()(void* memory) const {
   ::operator delete(memory, alignment);
 }
 
-LoopLanes::LoopLanes(Drives drives, int nodes, Tolerances tolerances, const OutputGrid& grid)
-    : kernel_(&kernel_of(drives, nodes)),
-      end_(grid.end()),
-      reach_(5 * std::pow(tolerances.rtol, 1.0 / nodes)),
-      times_(grid.size() + spare_rows, grid.end()),
-      rows_(grid.size()),
+Ensemble::Ensemble(Problem problem, int nodes, Tolerances tolerances)
+    : kernel_(&kernel_of(choose_kernels(), problem.actuation, nodes)),
+      stops_(std::move(problem.stops)),
+      end_(problem.grid.end()),
+      reach_(first_reach(problem.actuation, nodes, tolerances.rtol)),
+      rows_(problem.rows ? problem.grid.size() : 0),
       workspace_(::operator new(kernel_->workspace, alignment)) {
-  for (std::size_t i = 0; i < rows_; ++i) times_[i] = grid[i];
-  kernel_->start(workspace_.get(), tolerances.rtol, tolerances.atol);
+  stops_.push_back(end_);
+  if (rows_ > 0) times_.assign(rows_ + spare_rows, end_);
+  for (std::size_t i = 0; i < rows_; ++i) times_[i] = problem.grid[i];
+  kernel_->start(workspace_.get(),
+                 {tolerances.rtol, tolerances.atol, problem.tables, problem.table_count});
 }
 
-int LoopLanes::live() const {
+int Ensemble::live() const {
   return static_cast<int>(
       std::count_if(ways_.begin(), ways_.end(), [](const auto& way) { return way.has_value(); }));
 }
 
-void LoopLanes::take_columns(Way& way) {
+void Ensemble::take_columns(Way& way) {
   for (std::vector<double>* const column : {&way.x, &way.y}) {
     if (spare_.empty()) {
       column->resize(times_.size());
@@ -107,54 +91,51 @@ void LoopLanes::take_columns(Way& way) {
   }
 }
 
-// Starts the next loops in the lanes, all of which are free.
-void LoopLanes::begin(LoopStudy& study) {
-  std::array<LoopState, group> begun{};
-  std::array<std::size_t, group> numbers{};
+// Starts the next cases in the lanes, all of which are free.
+void Ensemble::begin(Study& study) {
+  std::array<std::size_t, group> numbers;
   int count = 0;
   while (count < group && !exhausted_) {
-    const auto at = static_cast<std::size_t>(count);
-    if (const auto number = study.begin(begun[at].loop)) {
-      numbers[at] = *number;
-      ++count;
+    Progress& one = begun_[static_cast<std::size_t>(count)];
+    if (const auto number = study.begin(one.of)) {
+      std::copy_n(one.of.initial, states, one.state);
+      std::fill_n(one.acceleration, velocities, 0.0);
+      one.last_step = 0;
+      kernel_->load(workspace_.get(), count, one);
+      numbers[static_cast<std::size_t>(count++)] = *number;
     } else {
       exhausted_ = true;
     }
   }
   if (count == 0) return;
-  Loops loops;
-  for (int lane = 0; lane < group; ++lane) {
-    put(loops, lane, begun[static_cast<std::size_t>(std::min(lane, count - 1))].loop);
-  }
-  Couplings couplings;
-  kernel_->couplings(loops, couplings);
+  alignas(64) double rates[group];
+  kernel_->rates(workspace_.get(), rates);
   for (int lane = 0; lane < count; ++lane) {
-    LoopState& state = begun[static_cast<std::size_t>(lane)];
-    std::copy_n(state.loop.initial, states, state.state);
-    kernel_->load(workspace_.get(), lane, state);
+    const Case& one = begun_[static_cast<std::size_t>(lane)].of;
     for (auto& greatest : greatest_.of) greatest[lane] = 0;
-    const double rate = fastest_of(couplings, lane) + std::abs(state.loop.frequency);
     Way& way = way_of(lane).emplace();
     way.number = numbers[static_cast<std::size_t>(lane)];
-    way.next = rate > 0 ? reach_ / rate : end_;
-    // A loop that is not finite is given up when no step of it is finite.
+    way.repeats_after = one.repeats_after;
+    way.next = rates[lane] > 0 ? reach_ / rates[lane] : end_;
+    // A case that is not finite is given up when no step of it is finite.
     if (!(way.next > 0)) way.next = end_ * 1e-6;
+    if (rows_ == 0) continue;
     take_columns(way);
-    way.x[0] = state.loop.initial[0];
-    way.y[0] = state.loop.initial[1];
+    way.x[0] = one.initial[0];
+    way.y[0] = one.initial[1];
   }
 }
 
-void LoopLanes::set_aside(int lane) {
+void Ensemble::set_aside(int lane) {
   Aside& aside = aside_.emplace_back(Aside{std::move(*way_of(lane)), {}, {}});
   way_of(lane).reset();
-  kernel_->store(workspace_.get(), lane, aside.state);
+  kernel_->store(workspace_.get(), lane, aside.progress);
   for (int i = 0; i < looks; ++i) aside.greatest[i] = greatest_.of[i][lane];
 }
 
-void LoopLanes::resume(int lane) {
+void Ensemble::resume(int lane) {
   Aside& aside = aside_.back();
-  kernel_->load(workspace_.get(), lane, aside.state);
+  kernel_->load(workspace_.get(), lane, aside.progress);
   for (int i = 0; i < looks; ++i) greatest_.of[i][lane] = aside.greatest[i];
   way_of(lane) = std::move(aside.way);
   aside_.pop_back();
@@ -162,7 +143,7 @@ void LoopLanes::resume(int lane) {
 
 // Makes room when few lanes are at work, and sets aside lanes that hold up the others: on the way
 // to infinity Newton's iteration takes many iterations.
-void LoopLanes::set_laggards_aside() {
+void Ensemble::set_laggards_aside() {
   if (exhausted_ || (laggards_ && !aside_.empty())) return;
   const bool are_few = live() <= few;
   for (int lane = 0; lane < group; ++lane) {
@@ -174,9 +155,9 @@ void LoopLanes::set_laggards_aside() {
   }
 }
 
-// Fills free lanes. New loops all begin together, in empty lanes. Loops set aside resume in any
+// Fills free lanes. New cases all begin together, in empty lanes. Cases set aside resume in any
 // lane.
-void LoopLanes::fill(LoopStudy& study) {
+void Ensemble::fill(Study& study) {
   if (live() == 0) {
     laggards_ = exhausted_ || aside_.size() >= group;
     if (!laggards_) begin(study);
@@ -186,16 +167,16 @@ void LoopLanes::fill(LoopStudy& study) {
   }
 }
 
-// A lane without a loop repeats an attempt of another lane, if possible of one whose steps do not
+// A lane without a case repeats an attempt of another lane, if possible of one whose steps do not
 // shrink. Its numbers stay finite and cost next to nothing.
-void LoopLanes::idle(int lane) {
+void Ensemble::idle(int lane) {
   auto of = std::find_if(ways_.begin(), ways_.end(), [](const auto& way) {
     return way.has_value() && way->shrinking.count() == 0;
   });
   if (of == ways_.end()) {
     of = std::find_if(ways_.begin(), ways_.end(), [](const auto& way) { return way.has_value(); });
   }
-  LoopState state;
+  Progress state;
   kernel_->store(workspace_.get(), static_cast<int>(of - ways_.begin()), state);
   state.last_step = 0;
   kernel_->load(workspace_.get(), lane, state);
@@ -203,8 +184,8 @@ void LoopLanes::idle(int lane) {
   spans_.length[lane] = (*of)->next / 2;
 }
 
-double LoopLanes::size(int lane) const {
-  LoopState now;
+double Ensemble::size(int lane) const {
+  Progress now;
   kernel_->store(workspace_.get(), lane, now);
   double size = 0;
   for (const double value : now.state) {
@@ -214,17 +195,16 @@ double LoopLanes::size(int lane) const {
   return size;
 }
 
-void LoopLanes::plan(int lane, Way& way) {
-  const Stride next = stride(end_ - way.t, way.next);
+void Ensemble::plan(int lane, Way& way) {
+  const Stride next = stride(stops_[way.stop] - way.t, way.next);
   way.arrives = next.arrives;
   spans_.from[lane] = way.t;
   spans_.length[lane] = next.length;
 }
 
-// Returns whether the lane's attempt is accepted. Sets `ending` if this is the loop's last attempt,
+// Returns whether the lane's attempt is accepted. Sets `ending` if this is the case's last attempt,
 // accepted or not.
-bool LoopLanes::judge(int lane, const Attempt& attempt, Way& way,
-                      std::optional<LoopEnding>& ending) {
+bool Ensemble::judge(int lane, const Attempt& attempt, Way& way, std::optional<Ending>& ending) {
   const double h = spans_.length[lane];
   const double error = std::sqrt(attempt.error_squared[lane]);
   // The first step is a guess, so early steps may grow more.
@@ -232,7 +212,7 @@ bool LoopLanes::judge(int lane, const Attempt& attempt, Way& way,
       step_growth(static_cast<float>(error), kernel_->nodes, way.steps < 3 ? 30 : 8);
   ++way.attempts;
   if (way.attempts > most_attempts || !(h > least_part * way.t)) {
-    ending = LoopEnding::given_up;
+    ending = Ending::given_up;
     return false;
   }
   if (!attempt.converged[lane] || !(error <= 1)) {
@@ -242,22 +222,28 @@ bool LoopLanes::judge(int lane, const Attempt& attempt, Way& way,
     return false;
   }
   if (!way.arrives && way.shrinking.diverges(h, way.t, [&] { return size(lane); })) {
-    ending = LoopEnding::unbounded;
+    ending = Ending::unbounded;
     return false;
   }
-  if (way.arrives) ending = LoopEnding::done;
+  // A step that a stop cut short says little about the length of the next.
+  const bool is_cut = way.arrives && !way.rejected && h < way.next;
   const double next = h * (way.rejected ? std::min(growth, 1.0) : growth);
-  way.next =
+  const double bound =
       std::min(next, way.shrinking.bound(error, h * growth, kernel_->nodes, Shrinking::Sign::jump));
+  way.next = is_cut ? std::max(way.next, bound) : bound;
   way.rejected = false;
-  way.t = way.arrives ? end_ : way.t + h;
+  way.t = way.arrives ? stops_[way.stop] : way.t + h;
+  if (way.arrives) {
+    way.shrinking.interrupt();
+    if (++way.stop == stops_.size()) ending = Ending::done;
+  }
   ++way.steps;
   ++statistics_.steps;
   return true;
 }
 
 // Evaluates the rows up to the end of the last attempt.
-void LoopLanes::record(int lane, Way& way) {
+void Ensemble::record(int lane, Way& way) {
   const std::size_t first = way.rows;
   while (way.rows < rows_ && times_[way.rows] <= way.t) ++way.rows;
   if (way.rows == first) return;
@@ -265,18 +251,19 @@ void LoopLanes::record(int lane, Way& way) {
                     &way.y[first]);
 }
 
-void LoopLanes::end(int lane, LoopEnding ending, LoopStudy& study) {
+void Ensemble::end(int lane, Ending ending, Study& study) {
   Way way = std::move(*way_of(lane));
   way_of(lane).reset();
-  LoopState now;
+  Progress now;
   kernel_->store(workspace_.get(), lane, now);
-  LoopRun run{ending, way.t, way.rows, way.x.data(), way.y.data(), now.state, {}};
+  Result run{ending, way.t, std::min(way.rows, rows_), way.x.data(), way.y.data(), now.state, {}};
   for (int i = 0; i < looks; ++i) run.greatest[i] = greatest_.of[i][lane];
   study.end(way.number, run);
+  if (rows_ == 0) return;
   for (std::vector<double>* const column : {&way.x, &way.y}) spare_.push_back(std::move(*column));
 }
 
-void LoopLanes::carry(LoopStudy& study, const std::atomic<bool>& stop) {
+void Ensemble::carry(Study& study, const std::atomic<bool>& stop) {
   statistics_ = {};
   ways_ = {};
   aside_.clear();
@@ -286,7 +273,7 @@ void LoopLanes::carry(LoopStudy& study, const std::atomic<bool>& stop) {
       if (auto& way = way_of(lane)) use(lane, *way);
     }
   };
-  std::array<bool, group> worked;  // had a loop in the last attempt
+  std::array<bool, group> worked;  // had a case in the last attempt
   worked.fill(true);
   while (!stop.load(std::memory_order_relaxed)) {
     fill(study);
@@ -297,20 +284,23 @@ void LoopLanes::carry(LoopStudy& study, const std::atomic<bool>& stop) {
       worked[at] = ways_[at].has_value();
     }
 
-    for_each_way([&](int lane, Way& way) { plan(lane, way); });
+    Lanes taken{}, kept{}, turning{};
+    for_each_way([&](int lane, Way& way) {
+      plan(lane, way);
+      if (way.t < way.repeats_after) turning.of[lane] = -1;
+    });
     Attempt attempt;
     kernel_->attempt(workspace_.get(), spans_, attempt);
     ++statistics_.jacobian_evaluations;
     statistics_.nonlinear_iterations += static_cast<std::size_t>(attempt.turns);
-    Lanes taken{}, kept{};
-    std::array<std::optional<LoopEnding>, group> endings;
+    std::array<std::optional<Ending>, group> endings;
     for_each_way([&](int lane, Way& way) {
       if (!judge(lane, attempt, way, endings[static_cast<std::size_t>(lane)])) return;
       taken.of[lane] = -1;
       if (way.shrinking.count() > 0) kept.of[lane] = -1;
       record(lane, way);
     });
-    kernel_->look(workspace_.get(), taken, greatest_);
+    kernel_->look(workspace_.get(), taken, turning, greatest_);
     kernel_->accept(workspace_.get(), taken, kept);
     for (int lane = 0; lane < group; ++lane) {
       if (const auto ending = endings[static_cast<std::size_t>(lane)]) end(lane, *ending, study);
@@ -319,4 +309,4 @@ void LoopLanes::carry(LoopStudy& study, const std::atomic<bool>& stop) {
   }
 }
 
-}  // namespace bbsim::solve::loop
+}  // namespace bbsim::solve::ensemble

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Integrates many balls on the paper's rig at once, with one case in each SIMD lane: under a given
+// motion of the gimbal, or in a closed loop.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "solve/collocation/shrinking.hpp"
+#include "solve/ensemble/kernel.hpp"
+#include "solve/outcome.hpp"
+#include "solve/output_grid.hpp"
+
+namespace bbsim::solve::ensemble {
+
+// The number of nodes for a relative tolerance: 8 or 12, and for given motions up to 16.
+[[nodiscard]] int choose_nodes(Actuation actuation, double rtol);
+
+enum class Ending {
+  done,
+  unbounded,  // the motion grows without bound, as for a single run (Shrinking)
+  given_up,   // left to another integrator
+};
+
+// The result of a case. Its pointers are valid only during Study::end().
+struct Result {
+  Ending ending;
+  double reached;          // s
+  std::size_t rows;        // of the grid, up to there; 0 if no rows are wanted
+  const double *x, *y;     // of each row
+  const double* state;     // at `reached`, as the loop packs its states
+  double greatest[looks];  // over the motion up to there, rows and between
+};
+
+// The source of cases and the sink of their results.
+class Study {
+ public:
+  virtual ~Study() = default;
+  // Fills in the next case and returns its number; empty if there are no more. A few dozen cases
+  // are in progress at a time.
+  virtual std::optional<std::size_t> begin(Case& one) = 0;
+  virtual void end(std::size_t number, const Result& run) = 0;
+};
+
+// What all cases have in common.
+struct Problem {
+  Actuation actuation;
+  OutputGrid grid;
+  bool rows = true;                          // whether rows are wanted
+  std::vector<double> stops{};               // ordered times in (0, end) at which steps end, s
+  const model::Tabulated* tables = nullptr;  // of given angles; their knots are stops
+  std::size_t table_count = 0;
+};
+
+// A case in progress.
+struct Way {
+  std::size_t number = 0;  // in the study
+  double t = 0, next = 0;  // present time and longest next step, s
+  std::size_t stop = 0;    // the next one
+  bool arrives = false;    // whether this attempt reaches it
+  bool rejected = false;   // whether the last attempt was rejected
+  std::size_t attempts = 0, steps = 0, rows = 1;
+  double repeats_after;  // Case
+  Shrinking shrinking;
+  std::vector<double> x{}, y{};  // of rows
+};
+
+// Integrates cases from t = 0 over an output grid, by collocation at Radau IIA's nodes (step.hpp).
+// Each lane has its own time and steps. Cases that need similar numbers of steps run together.
+// Cases that fall behind or go to infinity are set aside until they fill the lanes. Stiff servos
+// cost no more steps than the motion does.
+//
+// The tolerances bound each step's error in each state, with one exception. If omega_n is above 1
+// rad/s, the absolute tolerance of a servo's rates is atol omega_n, and that of the ball's velocity
+// is this value times the radius. Positions and angles keep atol.
+//
+// A case's results depend on nothing else, to the bit: neither on cases beside it nor on earlier
+// ones. Use one object per thread.
+class Ensemble {
+ public:
+  // `nodes` comes from choose_nodes(). The tables must outlive the object. Throws
+  // InputError as choose_kernels() does.
+  Ensemble(Problem problem, int nodes, Tolerances tolerances);
+
+  // Integrates all cases of the study. When `stop` becomes true, gives up the cases in progress;
+  // end() is not called for these, nor for any later ones.
+  void carry(Study& study, const std::atomic<bool>& stop);
+
+  // Of the last study. A Jacobian and its iterations count once for all lanes of an attempt.
+  [[nodiscard]] Statistics statistics() const { return statistics_; }
+
+ private:
+  struct Free {
+    void operator()(void* memory) const;
+  };
+  struct Aside {
+    Way way;
+    Progress progress;
+    double greatest[looks];
+  };
+
+  void fill(Study& study);
+  void begin(Study& study);
+  void resume(int lane);
+  void set_aside(int lane);
+  void set_laggards_aside();
+  void idle(int lane);
+  void plan(int lane, Way& way);
+  bool judge(int lane, const Attempt& attempt, Way& way, std::optional<Ending>& ending);
+  void record(int lane, Way& way);
+  void end(int lane, Ending ending, Study& study);
+  [[nodiscard]] std::optional<Way>& way_of(int lane) {
+    return ways_[static_cast<std::size_t>(lane)];
+  }
+  [[nodiscard]] int live() const;
+  [[nodiscard]] double size(int lane) const;
+  void take_columns(Way& way);
+
+  const Kernel* kernel_;
+  std::vector<double> stops_;  // with the end, s
+  double end_, reach_;         // s; the first step as a multiple of the motion's fastest time
+  std::vector<double> times_;  // of the rows, s, padded at the end; empty without rows
+  std::size_t rows_;
+  std::unique_ptr<void, Free> workspace_;
+  bool exhausted_ = false;  // there are no more cases
+  bool laggards_ = false;   // the lanes hold cases that were set aside before
+  Greatest greatest_{};
+  std::array<std::optional<Way>, group> ways_;
+  std::vector<Aside> aside_;
+  std::vector<std::vector<double>> spare_;  // unused columns
+  std::array<Progress, group> begun_;       // room for begin()
+  Spans spans_{};
+  Statistics statistics_;
+};
+
+}  // namespace bbsim::solve::ensemble
