@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "record/track/gimbal_extremes.hpp"
-#include "solve/sampled/sides.hpp"
+#include "solve/sampled/monitor_ranges.hpp"
 
 namespace bbsim::sweep {
 namespace {

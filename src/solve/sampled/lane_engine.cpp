@@ -8,7 +8,7 @@
 #include "model/model.hpp"
 #include "simd/instruction_set.hpp"
 #include "solve/collocation/step_length.hpp"
-#include "solve/sampled/sides.hpp"
+#include "solve/sampled/monitor_ranges.hpp"
 
 namespace bbsim::solve::sampled {
 namespace {
@@ -96,7 +96,7 @@ void LaneEngine::take_monitors(std::size_t l, const model::Model& model) {
       scene_.most[look][l] = std::min(scene_.most[look][l], most);
     };
     // No value is within this range, so the lane is given up.
-    if (!for_each_side(monitor, model.events->plate, stays)) {
+    if (!for_each_range(monitor, model.events->plate, stays)) {
       stays(Look::x, model::unlimited, -model::unlimited);
     }
   }

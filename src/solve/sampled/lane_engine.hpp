@@ -76,6 +76,17 @@ class LaneEngine {
   void judge();
   void go_on(std::size_t lane);
 
+  // The next instant of each lane within its piece, and the ball there: x, y, x', y', u.
+  struct alignas(64) Instant {
+    double after[group], ball[5][group];  // s after the start of the piece
+    double when[group];                   // s
+    bool is_event[group];                 // of the run; otherwise it is the caller's
+  };
+  // Finds the next instants: events, or times of the caller, such as rows, which other(lane) gives.
+  // A lane without one up to the end of its piece is settled. Returns false if all are.
+  template <class Other>
+  bool find_instants(const Other& other, Instant& next);
+
   void take_commands(std::size_t lane);
   void take_mode(std::size_t lane);
   void put_start(std::size_t lane);
@@ -132,6 +143,33 @@ bool LaneEngine::plan(const Limit& limit_of) {
     plan_lane(l, std::min(limit_of(lane), lane.crossing.time));
   }
   for (std::size_t i = 0; i < 2; ++i) load_tables(i);
+  return any;
+}
+
+template <class Other>
+bool LaneEngine::find_instants(const Other& other, Instant& next) {
+  bool any = false, within = false;
+  for (std::size_t l = 0; l < group; ++l) {
+    Lane& lane = lanes_[l];
+    next.after[l] = 0;
+    if (!lane.moved || lane.settled) continue;
+    const double due = lane.run->next_time_event(), others = other(l);
+    const bool is_event = !(others < due - lane.run->rounding(due));
+    double when = is_event ? due : others;
+    // A sample and a command at one instant may differ by rounding. The command's time counts.
+    if (is_event && lane.run->changes_at(due)) when = lane.run->next_change();
+    next.when[l] = when;
+    next.is_event[l] = is_event;
+    if (when > lane.until + (is_event ? 0 : lane.run->rounding(lane.until))) {
+      lane.settled = true;
+      continue;
+    }
+    any = true;
+    if (when >= lane.until) continue;
+    next.after[l] = when - lane.time;
+    within = true;
+  }
+  if (within) kernels_.evaluate(*pieces_, next.after, next.ball);
   return any;
 }
 

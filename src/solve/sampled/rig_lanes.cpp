@@ -100,39 +100,16 @@ void RigLanes::end_lane(std::size_t l, double t, LaneSink& sink) {
 // Takes samples, applies commands and hands on rows, each at its time, up to the ends of the
 // pieces.
 void RigLanes::pass_instants(LaneSink& sink) {
-  alignas(64) double after[group], ball[5][group];
-  double when[group];
-  bool is_event[group];
-  for (;;) {
-    bool any = false, within = false;
-    for (std::size_t l = 0; l < group; ++l) {
-      Lane& lane = lanes_[l];
-      after[l] = 0;
-      if (!lane.moved || lane.settled) continue;
-      const double due = lane.run->next_time_event(), row = grid_[next_row_[l]];
-      is_event[l] = !(row < due - lane.run->rounding(due));
-      when[l] = is_event[l] ? due : row;
-      // A sample and a command at one instant may differ by rounding. The command's time counts.
-      if (is_event[l] && lane.run->changes_at(due)) when[l] = lane.run->next_change();
-      const double last = lane.until + (is_event[l] ? 0 : lane.run->rounding(lane.until));
-      if (when[l] > last) {
-        lane.settled = true;
-        continue;
-      }
-      any = true;
-      if (when[l] >= lane.until) continue;
-      after[l] = when[l] - lane.time;
-      within = true;
-    }
-    if (!any) return;
-    if (within) kernels_.evaluate(*pieces_, after, ball);
+  const auto other = [this](std::size_t l) { return grid_[next_row_[l]]; };
+  Instant next;
+  while (find_instants(other, next)) {
     for (std::size_t l = 0; l < group; ++l) {
       Lane& lane = lanes_[l];
       if (!lane.moved || lane.settled) continue;
-      const double t = when[l];
+      const double t = next.when[l];
       const bool last = grid_.end() - t <= lane.run->rounding(t);
-      state_at(l, t, ball, (is_event[l] && feeds_servos_back_[l]) || last);
-      if (!is_event[l]) continue;
+      state_at(l, t, next.ball, (next.is_event[l] && feeds_servos_back_[l]) || last);
+      if (!next.is_event[l]) continue;
       lane.run->observe(t, lane.z.data());
       if (lane.run->samples_at(t)) controllers_.sample(l, *lane.run, t, lane.z.data());
     }
@@ -140,14 +117,14 @@ void RigLanes::pass_instants(LaneSink& sink) {
     for (std::size_t l = 0; l < group; ++l) {
       Lane& lane = lanes_[l];
       if (!lane.moved || lane.settled) continue;
-      const double t = when[l];
-      if (is_event[l]) {
+      const double t = next.when[l];
+      if (next.is_event[l]) {
         lane.run->act(t, lane.z.data());
         lane.restarts = lane.settled = lane.run->touched();
         lane.switched = lane.switched || !lane.run->only_commanded();
       }
       while (next_row_[l] < grid_.size() &&
-             grid_[next_row_[l]] - t <= (is_event[l] ? lane.run->rounding(t) : 0)) {
+             grid_[next_row_[l]] - t <= (next.is_event[l] ? lane.run->rounding(t) : 0)) {
         sink.accept_row(l, next_row_[l]++, lane.z[0], lane.z[1]);
       }
       if (next_row_[l] == grid_.size()) {

@@ -10,7 +10,7 @@
 #include "base/instant.hpp"
 #include "simd/instruction_set.hpp"
 #include "solve/collocation/step_length.hpp"
-#include "solve/sampled/sides.hpp"
+#include "solve/sampled/monitor_ranges.hpp"
 
 namespace bbsim::solve::sampled {
 namespace {
@@ -274,7 +274,7 @@ bool HeldStepper::no_monitor_changes(const std::vector<char>& occurring) {
   if (!attempted_) return false;
   for (std::size_t m = 0; m < occurring.size(); ++m) {
     const auto range_of = [this](Look look) { return range(look); };
-    if (!keeps_its_side(model_->events->monitors[m], model_->events->plate, occurring[m] != 0,
+    if (!stays_in_range(model_->events->monitors[m], model_->events->plate, occurring[m] != 0,
                         range_of)) {
       return false;
     }

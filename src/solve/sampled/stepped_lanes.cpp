@@ -176,42 +176,20 @@ void SteppedLanes::search(std::size_t l) {
 
 // Exposes, and applies commands, each at its time, up to samples or the ends of the pieces.
 void SteppedLanes::pass_instants() {
-  alignas(64) double after[group], ball[5][group];
-  double when[group];
-  bool is_event[group];
-  for (;;) {
-    bool any = false, within = false;
-    for (std::size_t l = 0; l < group; ++l) {
-      Lane& lane = lanes_[l];
-      after[l] = 0;
-      if (!lane.moved || lane.settled) continue;
-      const double due = lane.run->next_time_event();
-      is_event[l] = !(lane.end < due - lane.run->rounding(due));
-      when[l] = is_event[l] ? due : lane.end;
-      if (is_event[l] && lane.run->changes_at(due)) when[l] = lane.run->next_change();
-      const double last = lane.until + (is_event[l] ? 0 : lane.run->rounding(lane.until));
-      if (when[l] > last) {
-        lane.settled = true;
-        continue;
-      }
-      any = true;
-      if (when[l] >= lane.until) continue;
-      after[l] = when[l] - lane.time;
-      within = true;
-    }
-    if (!any) return;
-    if (within) kernels_.evaluate(*pieces_, after, ball);
+  const auto other = [this](std::size_t l) { return lanes_[l].end; };
+  Instant next;
+  while (find_instants(other, next)) {
     for (std::size_t l = 0; l < group; ++l) {
       Lane& lane = lanes_[l];
       if (!lane.moved || lane.settled) continue;
-      const double t = when[l];
-      if (is_event[l] && lane.run->samples_at(t)) {
+      const double t = next.when[l];
+      if (next.is_event[l] && lane.run->samples_at(t)) {
         asks_[l] = lane.settled = true;
         continue;
       }
       const bool over = lane.end - t <= lane.run->rounding(t);
-      state_at(l, t, ball, over);
-      if (is_event[l]) {
+      state_at(l, t, next.ball, over);
+      if (next.is_event[l]) {
         lane.run->observe(t, lane.z.data());
         lane.run->act(t, lane.z.data());
         lane.restarts = lane.settled = lane.run->touched();

@@ -20,7 +20,7 @@ namespace bbsim::solve::sampled {
 // Calls use(Look, least, most) for each quantity of a monitor, with the range in which nothing
 // happens. Returns false if these quantities cannot decide this monitor.
 template <class Use>
-[[nodiscard]] bool for_each_side(const model::Monitor& monitor, const Plate& plate, Use use) {
+[[nodiscard]] bool for_each_range(const model::Monitor& monitor, const Plate& plate, Use use) {
   constexpr double unlimited = model::unlimited;
   using Kind = model::Monitor::Kind;
   switch (monitor.kind) {
@@ -55,10 +55,10 @@ template <class Use>
 
 // `range(Look)` is the range at the start and the nodes. Returns false if the ranges cannot decide.
 template <class RangeOf>
-[[nodiscard]] bool keeps_its_side(const model::Monitor& monitor, const Plate& plate, bool occurring,
+[[nodiscard]] bool stays_in_range(const model::Monitor& monitor, const Plate& plate, bool occurring,
                                   RangeOf range) {
   bool within = true, beyond = false, presses = true;
-  const bool told = for_each_side(monitor, plate, [&](Look look, double least, double most) {
+  const bool told = for_each_range(monitor, plate, [&](Look look, double least, double most) {
     const Range of = widened(range(look));
     within = within && of.least > least && of.most < most;
     if (occurring && look == Look::normal && monitor.kind == model::Monitor::Kind::slip) {
