@@ -84,8 +84,8 @@ struct Way {
 // ones. Use one object per thread.
 class Ensemble {
  public:
-  // `nodes` comes from choose_nodes(). The tables must outlive the object. Throws
-  // InputError as choose_kernels() does.
+  // `nodes` comes from choose_nodes(). The tables must outlive the object. Throws InputError as
+  // choose_kernels() does.
   Ensemble(Problem problem, int nodes, Tolerances tolerances);
 
   // Integrates all cases of the study. When `stop` becomes true, gives up the cases in progress;

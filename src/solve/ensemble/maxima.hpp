@@ -25,10 +25,11 @@ struct Maxima : Of {
 
   // The reference at a node. A gimbal whose angles are given has none.
   BBSIM_INLINE static Signals reference_at(const Pack& of, int node) {
-    if constexpr (given)
+    if constexpr (given) {
       return no_reference();
-    else
+    } else {
       return of.method.reference[node];
+    }
   }
   BBSIM_INLINE static Signals no_reference() {
     const model::Jet<P> zero{P(0.0), P(0.0), P(0.0)};
