@@ -148,7 +148,8 @@ class LaneCarrier : public GroupCarrier, private ensemble::Study {
         lanes_({actuation_of(first), grid_, !given_,
                 given_ ? model_of(first).stops : std::vector<double>(), motion_.view().tables,
                 motion_.view().table_count},
-               ensemble::choose_nodes(actuation_of(first), first.solver.rtol),
+               ensemble::choose_nodes(actuation_of(first), first.solver.rtol,
+                                      motion_.highest_frequency() * first.time.end),
                {first.solver.rtol, first.solver.atol}),
         same_signals_(task.plan.shares_signals()) {
     for (const scenario::Measure& measure : task.measures) known_.push_back(known(measure));

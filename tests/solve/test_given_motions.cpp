@@ -94,7 +94,7 @@ TEST_CASE("under a given motion, hardly any step is taken twice") {
     cases.push_back(fig2a(motion));
   }
   const double rtol = GENERATE(1e-5, 1e-9, 1e-12);
-  Ensemble lanes = lanes_of(choose_nodes(Actuation::given, rtol), rtol);
+  Ensemble lanes = lanes_of(choose_nodes(Actuation::given, rtol, 2 * end), rtol);
   REQUIRE(are_done(carry(lanes, cases)));
   const solve::Statistics statistics = lanes.statistics();
   CAPTURE(rtol, statistics.steps, statistics.error_test_failures);

@@ -19,8 +19,10 @@
 
 namespace bbsim::solve::ensemble {
 
-// The number of nodes for a relative tolerance: 8 or 12, and for given motions up to 16.
-[[nodiscard]] int choose_nodes(Actuation actuation, double rtol);
+// The number of nodes for a relative tolerance: 8 or 12 for loops, and 8, 12 or 16 for given
+// motions. For these it depends on the angle through which the motion's fastest sinusoid goes, rad.
+// A poor choice only costs time.
+[[nodiscard]] int choose_nodes(Actuation actuation, double rtol, double angle = 0);
 
 enum class Ending {
   done,
