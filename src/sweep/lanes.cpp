@@ -61,7 +61,7 @@ void set_loop(ensemble::Case& loop, const Scenario& scenario, const model::Model
   std::copy(model.initial.begin(), model.initial.end(), loop.initial);
 }
 
-// Adds a profile's terms but its tables to a case. Sinusoids of one frequency share one, as in
+// Adds a profile's terms but the shared ones to a case. Sinusoids of one frequency share one, as in
 // model::SignalPair, which would take longer to make.
 struct CaseSignals {
   ensemble::Case& to;
@@ -85,25 +85,24 @@ struct CaseSignals {
 };
 
 // Converts a given motion to the numbers of a lane.
-void set_given(ensemble::Case& one, const Scenario& scenario, bool has_tables) {
+void set_given(ensemble::Case& one, const Scenario& scenario, bool has_shared_terms) {
   const Ball& ball = scenario.ball;
   const double initial[] = {ball.position[0], ball.position[1], ball.velocity[0], ball.velocity[1],
                             ball.radius * ball.spin};
   std::copy(std::begin(initial), std::end(initial), one.initial);
   const Gimbal& gimbal = scenario.gimbal;
   CaseSignals signals{one};
-  const auto no_spline = [](const auto&) {};
-  model::add_profile(gimbal.motion->phi, 0, signals, no_spline);
-  model::add_profile(gimbal.motion->theta, 1, signals, no_spline);
+  const auto is_shared = [](const auto&) {};
+  model::add_profile(gimbal.motion->phi, 0, signals, is_shared);
+  model::add_profile(gimbal.motion->theta, 1, signals, is_shared);
   signals.add_constant(0, gimbal.mounting.phi_offset);
   signals.add_constant(1, gimbal.mounting.theta_offset);
-  if (!has_tables) {
+  if (!has_shared_terms) {
     one.repeats_after = record::repeats_after({{one.start[0], one.start[1]},
                                                {one.rate[0], one.rate[1]},
                                                one.harmonics,
                                                static_cast<std::size_t>(one.harmonic_count),
-                                               nullptr,
-                                               0});
+                                               {}});
   }
 }
 
@@ -146,8 +145,7 @@ class LaneCarrier : public GroupCarrier, private ensemble::Study {
         given_(actuation_of(first) == Actuation::given),
         motion_(given_ ? model::given_motion(first) : model::SignalPair()),
         lanes_({actuation_of(first), grid_, !given_,
-                given_ ? model_of(first).stops : std::vector<double>(), motion_.view().tables,
-                motion_.view().table_count},
+                given_ ? model_of(first).stops : std::vector<double>(), motion_.view().shared},
                ensemble::choose_nodes(actuation_of(first), first.solver.rtol,
                                       motion_.highest_frequency() * first.time.end),
                {first.solver.rtol, first.solver.atol}),
@@ -183,7 +181,7 @@ class LaneCarrier : public GroupCarrier, private ensemble::Study {
     if (needs_model_)
       models_[begun_].emplace(Scene{model_of(scenario), model::constants_of(scenario)});
     if (given_) {
-      set_given(one, scenario, motion_.view().table_count > 0);
+      set_given(one, scenario, motion_.view().shared.any());
     } else {
       set_loop(one, scenario, models_[begun_]->model);
     }
@@ -269,6 +267,7 @@ bool can_use_open_lanes(const SweepTask& task) {
   return scenario.gimbal.motion && is_by_collocation(scenario) &&
          sinusoids(scenario.gimbal.motion->phi) + sinusoids(scenario.gimbal.motion->theta) <=
              ensemble::most_harmonics &&
+         model::given_motion(scenario).view().shared.highest_frequency == 0 &&  // no formulas
          record::has_track(model_of(scenario));
 }
 

@@ -56,8 +56,7 @@ struct Problem {
   OutputGrid grid;
   bool rows = true;                          // whether rows are wanted
   std::vector<double> stops{};               // ordered times in (0, end) at which steps end, s
-  const model::Tabulated* tables = nullptr;  // of given angles; their knots are stops
-  std::size_t table_count = 0;
+  model::SharedTerms terms{};                // of given angles: splines, whose knots are stops
 };
 
 // A case in progress.

@@ -45,8 +45,8 @@ struct GivenStep : Base {
         (j < 0 ? of.k_end : of.k[j])[phi + i] = to[i].acceleration;
       }
     }
-    for (std::size_t n = 0; n < w.shared.table_count; ++n) {
-      const model::Tabulated& table = w.shared.tables[n];
+    for (std::size_t n = 0; n < w.shared.terms.table_count; ++n) {
+      const model::Tabulated& table = w.shared.terms.tables[n];
       const auto i = phi + table.component;
       const auto piece = Base::piece_at(table.spline, from + P(0.5) * h);
 #pragma GCC unroll 1
@@ -192,8 +192,8 @@ struct GivenStep : Base {
   BBSIM_INLINE static Signals angles_at(const Workspace& w, int p, const Scene& scene, P t) {
     Signals at = scene.signals(t);
     const P middle = Base::from(w, p) + P(0.5) * Base::length(w, p);
-    for (std::size_t n = 0; n < w.shared.table_count; ++n) {
-      const model::Tabulated& table = w.shared.tables[n];
+    for (std::size_t n = 0; n < w.shared.terms.table_count; ++n) {
+      const model::Tabulated& table = w.shared.terms.tables[n];
       const model::Jet<P> jet = Base::piece_at(table.spline, middle).at(t);
       model::Jet<P>& sum = at[table.component];
       sum.value += jet.value;

@@ -58,8 +58,7 @@ struct Progress {
 // What all cases share.
 struct Shared {
   double rtol, atol;
-  const model::Tabulated* tables;
-  std::size_t table_count;
+  model::SharedTerms terms;  // of given angles: splines
 };
 
 // Selects lanes: -1 (all bits) or 0.
