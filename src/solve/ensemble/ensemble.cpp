@@ -77,8 +77,7 @@ Ensemble::Ensemble(Problem problem, int nodes, Tolerances tolerances)
   stops_.push_back(end_);
   if (rows_ > 0) times_.assign(rows_ + spare_rows, end_);
   for (std::size_t i = 0; i < rows_; ++i) times_[i] = problem.grid[i];
-  kernel_->start(workspace_.get(),
-                 {tolerances.rtol, tolerances.atol, problem.terms});
+  kernel_->start(workspace_.get(), {tolerances.rtol, tolerances.atol, problem.terms});
 }
 
 int Ensemble::live() const {

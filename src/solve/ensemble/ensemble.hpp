@@ -54,9 +54,9 @@ class Study {
 struct Problem {
   Actuation actuation;
   OutputGrid grid;
-  bool rows = true;                          // whether rows are wanted
-  std::vector<double> stops{};               // ordered times in (0, end) at which steps end, s
-  model::SharedTerms terms{};                // of given angles: splines, whose knots are stops
+  bool rows = true;             // whether rows are wanted
+  std::vector<double> stops{};  // ordered times in (0, end) at which steps end, s
+  model::SharedTerms terms{};   // of given angles: splines, whose knots are stops
 };
 
 // A case in progress.
