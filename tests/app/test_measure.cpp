@@ -385,10 +385,9 @@ TEST_CASE("run writes derivatives by keys beside its columns, and gradients of m
   CHECK(run_to("by-key.h5", "incline.yaml").exit_code == 0);
   CHECK(bbsim({"compare", "by-key.h5", "by-key.h5"}, folder.path()).exit_code == 0);
 
-  const Result refused = run_to("none.csv", "three-servos.yaml");
+  const Result refused = run_to("none.csv", "pushrod.yaml");
   CHECK(refused.exit_code == 2);
-  CHECK(refused.err.find("--sensitivity: found with samples of the controller") !=
-        std::string::npos);
+  CHECK(refused.err.find("--sensitivity: found with backlash") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(folder.path() / "none.csv"));
 }
 
