@@ -98,7 +98,7 @@ void Ensemble::take_columns(Way& way) {
 
 // Starts the next cases in the lanes, all of which are free.
 void Ensemble::begin(Study& study) {
-  std::array<std::size_t, group> numbers;
+  std::array<std::size_t, group> which;
   int count = 0;
   while (count < group && !exhausted_) {
     Progress& one = begun_[static_cast<std::size_t>(count)];
@@ -107,7 +107,7 @@ void Ensemble::begin(Study& study) {
       std::fill_n(one.acceleration, velocities, 0.0);
       one.last_step = 0;
       kernel_->load(workspace_.get(), count, one);
-      numbers[static_cast<std::size_t>(count++)] = *number;
+      which[static_cast<std::size_t>(count++)] = *number;
     } else {
       exhausted_ = true;
     }
@@ -119,7 +119,7 @@ void Ensemble::begin(Study& study) {
     const Case& one = begun_[static_cast<std::size_t>(lane)].of;
     for (auto& greatest : greatest_.of) greatest[lane] = 0;
     Way& way = way_of(lane).emplace();
-    way.number = numbers[static_cast<std::size_t>(lane)];
+    way.number = which[static_cast<std::size_t>(lane)];
     way.repeats_after = one.repeats_after;
     way.next = rates[lane] > 0 ? reach_ / rates[lane] : end_;
     // A case that is not finite is given up when no step of it is finite.
