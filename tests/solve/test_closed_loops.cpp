@@ -152,7 +152,7 @@ TEST_CASE("a step's error falls with the order of the method") {
     void* const workspace = std::align(64, kernel.workspace, place, space);
     Progress state{one, {}, {}, 0, {}};
     std::copy_n(one.initial, states, state.state);
-    kernel.start(workspace, {1e-6, 1e-8, nullptr, 0});
+    kernel.start(workspace, {1e-6, 1e-8, {}});
     for (int lane = 0; lane < group; ++lane) kernel.load(workspace, lane, state);
     Attempt attempt;
     Spans spans;
@@ -368,8 +368,8 @@ TEST_CASE("loops in lanes know what they were greatest at, between rows") {
       double error = 0;
       for (std::size_t k = 0; k < 2; ++k) {
         double path = one.start[k] + one.rate[k] * grid[row];
-        for (int i = 0; i < one.harmonic_count; ++i) {
-          const model::Harmonic& of = one.harmonics[i];
+        for (int harmonic = 0; harmonic < one.harmonic_count; ++harmonic) {
+          const model::Harmonic& of = one.harmonics[harmonic];
           const double angle = of.frequency * grid[row];
           path += of.sine[k] * std::sin(angle) + of.cosine[k] * std::cos(angle);
         }
