@@ -27,6 +27,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* unexpected =
+    "the HDF5 reader printed something unexpected: the file is damaged";
 constexpr std::size_t numbers_at_once = 32768;  // taken before there is memory for more
 
 [[noreturn]] void refuse_file(const std::string& file, std::string_view reason) {
@@ -45,7 +47,7 @@ auto guarded(const std::string& file, Action action) {
   } catch (const Hdf5Trouble& trouble) {
     refuse_file(file, trouble.what());
   } catch (const Json::exception&) {
-    refuse_file(file, "the HDF5 reader printed something unexpected: the file is damaged");
+    refuse_file(file, unexpected);
   }
 }
 
@@ -63,14 +65,23 @@ Hdf5Kind kind_named(const std::string& text) {
                                      : Hdf5Kind::number;
 }
 
+// The conversion of other numbers is undefined where they are out of range.
+std::size_t count_of(const Json& json) {
+  if (!json.is_number_unsigned()) throw Hdf5Trouble(unexpected);
+  return json.get<std::size_t>();
+}
+
 Hdf5Column column_of(const Json& json) {
   return {json.at("name"), json.at("unit"), json.at("meaning"), kind_named(json.at("kind")),
-          json.at("width")};
+          count_of(json.at("width"))};
 }
 
 AttributeValue value_of(const Json& json) {
   if (json.contains("text")) return json["text"].get<std::string>();
-  if (json.contains("integer")) return json["integer"].get<std::int64_t>();
+  if (json.contains("integer")) {
+    if (!json["integer"].is_number_integer()) throw Hdf5Trouble(unexpected);
+    return json["integer"].get<std::int64_t>();
+  }
   const std::string text = json.at("real");
   double number = 0;
   std::from_chars(text.data(), text.data() + text.size(), number);
@@ -137,11 +148,12 @@ void Hdf5TableReader::fail(std::string_view reason) const {
 
 void Hdf5TableReader::read_head() {
   const Json head = parse_json(process_->line());
-  if (!head.is_object() || head.value(hdf5::table_key, 0) != hdf5::table_version) {
+  const bool is_table = head.is_object() && head.contains(hdf5::table_key);
+  if (!is_table || count_of(head[hdf5::table_key]) != hdf5::table_version) {
     throw Hdf5Trouble(
         "the HDF5 reader belongs to another version of bbsim; install the two together");
   }
-  rows_ = head.at("rows");
+  rows_ = count_of(head.at("rows"));
   for (const Json& column : head.at("columns")) columns_.push_back(column_of(column));
   for (const Json& axis : head.at("axes")) {
     axes_.emplace_back(column_of(axis), std::vector<double>());
@@ -150,7 +162,7 @@ void Hdf5TableReader::read_head() {
     attributes_.emplace_back(attribute.at("name").get<std::string>(), value_of(attribute));
   }
   for (const Json& input : head.at("inputs")) {
-    inputs_.push_back({input.at("file"), input.at("columns"), input.at("rows")});
+    inputs_.push_back({input.at("file"), input.at("columns"), count_of(input.at("rows"))});
   }
 }
 

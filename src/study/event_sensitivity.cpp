@@ -124,7 +124,7 @@ VectorXd EventSensitivity::pass(const Instant& now, Eigen::MatrixXd& slopes) {
   const auto switches = std::span(now.run.latest_switches()).last(missed);
   const auto n = static_cast<Index>(model_.size());
   constexpr double rounding = 1e-9;
-  const double moved = (now.after - now.before).head(n).cwiseAbs().maxCoeff();
+  const double moved = (now.after.head(n) - now.before.head(n)).cwiseAbs().maxCoeff();
   const bool starts = now.t == 0;
   const bool jumps = starts || moved > rounding * now.before.head(n).cwiseAbs().maxCoeff();
   const model::Modes before = model::modes_of(last_mode_);
