@@ -23,14 +23,8 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using model::HybridSystem;
 
-// Of the states, without the integral of the spin.
-VectorXd rates(const model::Model& model, const model::System& of, double t, const VectorXd& z) {
-  VectorXd rates(static_cast<Index>(model.size()));
-  std::visit([&](const auto& system) { system.derivative(t, z.data(), rates.data()); }, of);
-  return rates;
-}
 VectorXd rates(const HybridSystem& run, double t, const VectorXd& z) {
-  return rates(run.model(), run.model().system, t, z);
+  return rates_of(run.model().system, run.model().size(), t, z.data());
 }
 
 double guard_at(const HybridSystem& run, std::size_t guard, double t, const VectorXd& z) {
@@ -129,8 +123,10 @@ VectorXd EventSensitivity::pass(const Instant& now, Eigen::MatrixXd& slopes) {
   const bool jumps = starts || moved > rounding * now.before.head(n).cwiseAbs().maxCoeff();
   const model::Modes before = model::modes_of(last_mode_);
   const model::Modes after = model::modes_of(now.run.model().system);
-  // A guard may cross several times by rounding before anything switches.
-  if (!jumps && before == after) return moves;
+  // A guard may cross several times by rounding before anything switches. The piece of a linkage's
+  // curve is no part of the modes.
+  const bool has_pieces = model_.rig && model_.rig->between.has_pieces();
+  if (!jumps && before == after && !has_pieces) return moves;
   // Near rest, a moved velocity would have any direction. Where one is held, nothing jumps.
   const bool only_holds = !jumps && without_directions(before) == without_directions(after);
   if (only_holds) note_alignment(now);
@@ -225,14 +221,10 @@ double EventSensitivity::jump(std::size_t k, const Instant& now, const std::vect
 
 VectorXd EventSensitivity::extras(std::size_t k, double t, const VectorXd& z,
                                   const VectorXd& slope) const {
-  const Neighbors& neighbors = keys_[k];
-  const Index count = static_cast<Index>(beside_[k].front()->model().extras());
-  return neighbors.slope([&](std::size_t j) {
-    const VectorXd moved = z + Neighbors::offsets[j] * neighbors.key.step * slope;
-    VectorXd its(count);
-    beside_[k][j]->write_extras(t, moved.data(), its.data());
-    return its;
-  });
+  VectorXd found = slope_of_extras(keys_[k], t, z, slope);
+  // Without samples, the ball is seen where it is.
+  if (model_.rig) found.segment(measured_extras, 2) = slope.head(2);
+  return found;
 }
 
 }  // namespace bbsim::study

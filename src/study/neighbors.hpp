@@ -4,12 +4,14 @@
 // A scene at values of a key beside the present one, and differences between such values.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <functional>
 #include <span>
 #include <string>
 #include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "base/error.hpp"
@@ -67,6 +69,23 @@ struct Neighbors {
     return difference(eighth_order, offsets.size() / 2, key.step, value);
   }
 };
+
+// The rates of `size` states z of a system at t (s).
+[[nodiscard]] inline Eigen::VectorXd rates_of(const model::System& system, std::size_t size,
+                                              double t, const double* z) {
+  Eigen::VectorXd rates(static_cast<Eigen::Index>(size));
+  std::visit([&](const auto& any) { any.derivative(t, z, rates.data()); }, system);
+  return rates;
+}
+
+// The derivatives by the key of a row's extras, without the measurement of the ball, where the
+// states z at t change by `slope`. The models are in the present mode.
+[[nodiscard]] Eigen::VectorXd slope_of_extras(const Neighbors& neighbors, double t,
+                                              const Eigen::VectorXd& z,
+                                              const Eigen::VectorXd& slope);
+
+// The place of that measurement among the extras.
+inline constexpr Eigen::Index measured_extras = model::RigExtras::size - 2;
 
 [[noreturn]] inline void no_sensitivity(const std::string& what) {
   throw InputError("--sensitivity: " + what);

@@ -435,24 +435,8 @@ void RigSensitivity::put(const model::RigMode& mode) {
 
 Eigen::VectorXd RigSensitivity::extras(std::size_t k, double t, const Eigen::VectorXd& z,
                                        const Eigen::VectorXd& slope) const {
-  const Neighbors& neighbors = keys_[k];
-  const auto count = static_cast<Eigen::Index>(model_.extras());
-  Eigen::VectorXd found = neighbors.slope([&](std::size_t i) -> Eigen::VectorXd {
-    const Eigen::VectorXd moved = z + Neighbors::offsets[i] * neighbors.key.step * slope;
-    Eigen::VectorXd its(count);
-    std::visit(
-        [&](const auto& any) {
-          using Any = std::decay_t<decltype(any)>;
-          if constexpr (model::is_rig<Any> || model::is_coupled<Any>) {
-            any.extras(t, moved.data()).pack(its.data());
-          }
-        },
-        neighbors.models[i].system);
-    return its;
-  });
-  // The measurement is the last of a rig's extras, which are the first.
-  constexpr Eigen::Index measured = model::RigExtras::size - 2;
-  found.segment(measured, 2) = memory_slopes_.col(static_cast<Eigen::Index>(k)).head(2);
+  Eigen::VectorXd found = slope_of_extras(keys_[k], t, z, slope);
+  found.segment(measured_extras, 2) = memory_slopes_.col(static_cast<Eigen::Index>(k)).head(2);
   return found;
 }
 

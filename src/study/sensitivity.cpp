@@ -80,13 +80,8 @@ const Tables& tables_of(const Eigen::MatrixXd& values) {
   return tables(static_cast<std::size_t>(at - StageChoice::counts.begin()));
 }
 
-Eigen::VectorXd rates(const model::System& of, std::size_t size, double t, const double* z) {
-  Eigen::VectorXd rates(static_cast<Eigen::Index>(size));
-  std::visit([&](const auto& system) { system.derivative(t, z, rates.data()); }, of);
-  return rates;
-}
 Eigen::VectorXd rates(const model::Model& model, double t, const double* z) {
-  return rates(model.system, model.size(), t, z);
+  return rates_of(model.system, model.size(), t, z);
 }
 
 double power_of_two_below(double value) {
@@ -330,7 +325,7 @@ const model::System& Sensitivity::system() const {
 Eigen::VectorXd Sensitivity::state_rates(double t, const Eigen::VectorXd& row) const {
   Eigen::VectorXd all(size_);
   all.head(static_cast<Eigen::Index>(model_.size())) =
-      rates(system(), model_.size(), t, row.data());
+      rates_of(system(), model_.size(), t, row.data());
   if (model_.gamma) all[size_ - 1] = row[spin_];
   return all;
 }
@@ -420,7 +415,7 @@ bool Sensitivity::step(const solve::Piece& piece, double from, double to, std::s
   }
   Eigen::VectorXd noise(keys);  // rounding of df/dp
   const double size =
-      rates(system(), model_.size(), to, z.col(stages).data()).cwiseAbs().maxCoeff();
+      rates_of(system(), model_.size(), to, z.col(stages).data()).cwiseAbs().maxCoeff();
   for (Eigen::Index k = 0; k < keys; ++k) {
     noise[k] = epsilon * h * size / keys_[static_cast<std::size_t>(k)].key.step;
   }

@@ -287,6 +287,22 @@ void require_runs_beside(const Beside& one) {
   CHECK(largest > 0);
 }
 
+// Compares the gradients of measures with differences of runs beside.
+void require_gradients_beside(const Beside& one, const Overrides& measures) {
+  const Overrides overrides = one.overrides + Overrides{tight_rtol, tight_atol};
+  const auto made = run(one.scene, overrides, {one.key}, measures);
+  const auto beside = runs_beside(one, overrides, measures);
+  for (std::size_t m = 0; m < measures.size(); ++m) {
+    const auto& [name, value] = made.summary.measures[m];
+    CAPTURE(one.key, name, one.overrides);
+    const auto at = [&](std::size_t i) { return beside[i].summary.measures[m].second; };
+    CHECK(gradient(made, name, one.key) ==
+          Approx(fourth_order_difference(at(0), at(1), at(2), at(3), one.change))
+              .epsilon(1e-6)
+              .margin(1e-11 * std::abs(value) / one.change));
+  }
+}
+
 }  // namespace
 
 TEST_CASE("derivatives through a sampled controller are those of runs beside", "[sensitivity]") {
@@ -398,20 +414,9 @@ TEST_CASE("derivatives pass switches as runs beside do", "[sensitivity]") {
 }
 
 TEST_CASE("gradients of measures pass switches as runs beside do", "[sensitivity]") {
-  const Overrides measures = {"rms_x", "max_x", "end_y", "max_friction_demand"};
-  const Beside one{"configs/slides", {"events.rest=note", "time.end=5"}, "gravity", 9.81, 0x1p-11};
-  const Overrides overrides = one.overrides + Overrides{tight_rtol, tight_atol};
-  const auto made = run(one.scene, overrides, {one.key}, measures);
-  const auto beside = runs_beside(one, overrides, measures);
-  for (std::size_t m = 0; m < measures.size(); ++m) {
-    const auto& [name, value] = made.summary.measures[m];
-    CAPTURE(name);
-    const auto at = [&](std::size_t i) { return beside[i].summary.measures[m].second; };
-    CHECK(gradient(made, name, one.key) ==
-          Approx(fourth_order_difference(at(0), at(1), at(2), at(3), one.change))
-              .epsilon(1e-6)
-              .margin(1e-11 * std::abs(value) / one.change));
-  }
+  require_gradients_beside(
+      {"configs/slides", {"events.rest=note", "time.end=5"}, "gravity", 9.81, 0x1p-11},
+      {"rms_x", "max_x", "end_y", "max_friction_demand"});
 }
 
 TEST_CASE("gradients of measures of a sampled rig are those of runs beside", "[sensitivity]") {
@@ -419,23 +424,12 @@ TEST_CASE("gradients of measures of a sampled rig are those of runs beside", "[s
                               "x.Peak",   "end_vy", "rms_tracking_error from 1"};
   // Whatever moves the instants of commands, also where the servos' rates jump with them.
   for (const Overrides& servo : {Overrides{}, Overrides{"gimbal.servo={time_constant: 0.04}"}}) {
+    const Overrides rig = plain_rig + servo + Overrides{"time.end=3.01"};
     for (const Beside& one :
-         {Beside{"configs/rig", plain_rig + servo, "ball.radius", 0.02, 0x1p-16},
-          Beside{"configs/rig", plain_rig + servo, "controller.sampling.delay", 0.0069, 0x1p-17},
-          Beside{"configs/rig", plain_rig + servo, "controller.sampling.period", 0.02, 0x1p-23}}) {
-      const Overrides overrides =
-          one.overrides + Overrides{tight_rtol, tight_atol, "time.end=3.01"};
-      const auto made = run(one.scene, overrides, {one.key}, measures);
-      const auto beside = runs_beside(one, overrides, measures);
-      for (std::size_t m = 0; m < measures.size(); ++m) {
-        const auto& [name, value] = made.summary.measures[m];
-        CAPTURE(one.key, name, servo);
-        const auto at = [&](std::size_t i) { return beside[i].summary.measures[m].second; };
-        CHECK(gradient(made, name, one.key) ==
-              Approx(fourth_order_difference(at(0), at(1), at(2), at(3), one.change))
-                  .epsilon(1e-6)
-                  .margin(1e-11 * std::abs(value) / one.change));
-      }
+         {Beside{"configs/rig", rig, "ball.radius", 0.02, 0x1p-16},
+          Beside{"configs/rig", rig, "controller.sampling.delay", 0.0069, 0x1p-17},
+          Beside{"configs/rig", rig, "controller.sampling.period", 0.02, 0x1p-23}}) {
+      require_gradients_beside(one, measures);
     }
   }
 }

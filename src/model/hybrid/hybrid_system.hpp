@@ -125,7 +125,7 @@ class HybridSystem {
   // Writes Model::extras() numbers for an output row: its part that depends on the mode.
   void write_extras(double t, const double* z, double* out) const;
 
-  // What the resolution is, m/s.
+  // The smallest velocity that the integrator distinguishes from rest, m/s.
   [[nodiscard]] double resolution() const { return resolution_; }
 
   // A switch of the mode, or of the input: the guard that crossed, or a time event.
@@ -137,7 +137,7 @@ class HybridSystem {
   [[nodiscard]] std::size_t switches() const { return switches_; }
   [[nodiscard]] const std::vector<Switch>& latest_switches() const { return latest_switches_; }
 
-  // Lets dry friction do what it does in another run of the scene.
+  // Takes what rests and what moves from another run of the scene.
   void follow_friction(const Modes& modes) { model::follow_friction(modes, model_.get().system); }
 
   // The events since the start. note_turned() sets the rotation of the ball in the latest ones.
