@@ -383,6 +383,9 @@ TEST_CASE("derivatives pass switches as runs beside do", "[sensitivity]") {
   const Overrides stop = circle(", angle_limit: 0.02"), gap = circle(", backlash: 0.01"),
                   slow = circle(", rate_limit: 0.1, acceleration_limit: 4"),
                   limit = circle("", ", limit: 0.02");
+  const Overrides curve =
+      circle("") + Overrides{"gimbal.linkage={table: {file: " + bbsim_test::data_file("curve.csv") +
+                             ", servo: alpha, plate: beta, unit: deg}}"};
   const std::string law = "controller.gravity_compensation.", slip = "events.slip.";
   const std::vector<Beside> cases = {
       // Pivoting friction, sliding, rolling, and rest.
@@ -409,6 +412,8 @@ TEST_CASE("derivatives pass switches as runs beside do", "[sensitivity]") {
       {"fig2b", gap, "gimbal.servo.backlash", 0.01, 0x1p-21},
       {"fig2b", gap, law + "kp", 6, 0x1p-12},
       {"fig2b", limit, "controller.limit", 0.02, 0x1p-20},
+      // From piece to piece of a measured curve.
+      {"fig2b", curve, "ball.radius", 0.01, 0x1p-21},
   };
   for (const Beside& one : cases) require_runs_beside(one);
 }
