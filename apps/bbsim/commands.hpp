@@ -55,7 +55,7 @@ ExitCode with_error_option(const std::string& error, const What& what) {
 void add_overrides(Command& command, std::vector<std::string>& overrides);
 
 // --map, --header, --period and --time-offset of a log.
-void add_log_options(Command& command, plot::LogChoice& choice);
+void add_log_options(Command& command, results::LogChoice& choice);
 
 // Where the result goes if nothing else is said: the scenario's name with the suffix, in the
 // current folder; what came from standard input goes to standard output.

@@ -44,7 +44,7 @@ class FitPage {
 struct FitArguments {
   ScenarioArguments scenario;
   std::vector<std::string> logs, free;
-  plot::LogChoice choice;
+  results::LogChoice choice;
   std::string window;
   FoundFiles files;
   std::optional<double> hold_out;

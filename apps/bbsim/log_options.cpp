@@ -3,11 +3,11 @@
 
 // The options that say what the columns and the clock of a log are.
 #include "commands.hpp"
-#include "plot/log.hpp"
+#include "results/log.hpp"
 
 namespace bbsim::app {
 
-void add_log_options(Command& command, plot::LogChoice& choice) {
+void add_log_options(Command& command, results::LogChoice& choice) {
   command
       .option("--map", choice.maps,
               "COLUMN=[FACTOR*]NAME[+OFFSET][:UNIT],...: bbsim's COLUMN is FACTOR times the log's "

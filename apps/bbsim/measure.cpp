@@ -11,7 +11,7 @@
 #include "api/inputs.hpp"
 #include "base/number_text.hpp"
 #include "commands.hpp"
-#include "plot/read_result.hpp"
+#include "results/read_result.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -20,14 +20,14 @@ namespace {
 struct MeasureArguments {
   std::string file;
   std::vector<std::string> measures;
-  plot::LogChoice log;
+  results::LogChoice log;
 };
 
 ExitCode measure(const MeasureArguments& arguments, const Options& options) {
   say_if_waiting(arguments.file, "a CSV", options.quiet);
-  plot::refuse_auto(arguments.log);
+  results::refuse_auto(arguments.log);
   std::vector<std::string> notes;
-  plot::Result result = plot::read_result(arguments.file, {}, arguments.log, &notes);
+  results::Result result = results::read_result(arguments.file, {}, arguments.log, &notes);
   file::Outputs outputs;
   outputs.reads(arguments.file, "FILE");
   api::reads_with_result(outputs, result);

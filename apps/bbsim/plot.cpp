@@ -16,10 +16,10 @@
 #include "file/outputs.hpp"
 #include "fonts.hpp"
 #include "gnuplot.hpp"
-#include "plot/read_result.hpp"
 #include "plot/run_picture.hpp"
 #include "plot/script.hpp"
 #include "plot/sweep_picture.hpp"
+#include "results/read_result.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -32,8 +32,8 @@ struct PlotArguments {
   std::string output, format;
   bool overlay = false, force = false;
   std::vector<std::string> columns, over;
-  plot::Beside beside;
-  plot::LogChoice log;
+  results::Beside beside;
+  results::LogChoice log;
 };
 
 struct NamedFormat {
@@ -82,9 +82,10 @@ plot::Asked asked_columns(const std::vector<std::string>& given) {
   return asked;
 }
 
-plot::Picture picture_of(const std::vector<plot::Result>& results, const PlotArguments& arguments) {
+plot::Picture picture_of(const std::vector<results::Result>& results,
+                         const PlotArguments& arguments) {
   const plot::Asked asked = asked_columns(arguments.columns);
-  const auto is_sweep = [](const plot::Result& result) { return result.is_sweep(); };
+  const auto is_sweep = [](const results::Result& result) { return result.is_sweep(); };
   if (std::ranges::none_of(results, is_sweep)) {
     if (!arguments.over.empty()) {
       throw InputError("--over: " + results.front().file +
@@ -140,7 +141,7 @@ void declare_files(const std::vector<Task>& tasks, const PlotArguments& argument
   file::Outputs outputs;
   for (const std::string& file : arguments.files) {
     outputs.reads(file, "what is drawn");
-    const std::string summary = plot::summary_beside(file);
+    const std::string summary = results::summary_beside(file);
     if (!summary.empty()) outputs.reads(summary, "the summary of " + file);
   }
   if (!arguments.beside.summary.empty()) outputs.reads(arguments.beside.summary, "--summary");
@@ -150,18 +151,18 @@ void declare_files(const std::vector<Task>& tasks, const PlotArguments& argument
 
 void draw(const Task& task, plot::Format format, const PlotArguments& arguments,
           const Options& options) {
-  std::vector<plot::Result> results;
+  std::vector<results::Result> results;
   file::Outputs outputs;
   for (const std::string& file : task.files) {
     say_if_waiting(file, "a CSV", options.quiet);
     std::vector<std::string> notes;
-    results.push_back(plot::read_result(file, arguments.beside, arguments.log, &notes));
+    results.push_back(results::read_result(file, arguments.beside, arguments.log, &notes));
     for (const std::string& note : notes) {
       if (!options.quiet) say(note);
     }
     api::reads_with_result(outputs, results.back());
     if (!options.quiet && !results.back().left_out.empty()) say(results.back().left_out);
-    plot::add_end_row(results.back());
+    results::add_end_row(results.back());
   }
   outputs.writes(task.output, option_of(task, arguments));
   if (arguments.output.empty() && !arguments.force) {
@@ -172,7 +173,7 @@ void draw(const Task& task, plot::Format format, const PlotArguments& arguments,
   file::write_file(task.output, plot::marked(plot::mended(drawn, format), format));
   if (options.quiet || task.output == "-") return;
   std::size_t rows = 0;
-  for (const plot::Result& result : results) rows += result.rows - (result.has_end_row ? 1 : 0);
+  for (const results::Result& result : results) rows += result.rows - (result.has_end_row ? 1 : 0);
   const std::size_t panels = picture.panels.size();
   say(task.output + ": " + std::to_string(rows) +
       (results.front().is_sweep() ? " cases, " : " rows, ") + std::to_string(panels) +
@@ -189,7 +190,7 @@ ExitCode plot_files(const PlotArguments& arguments, const Options& options) {
   if (!arguments.beside.overrides.empty() && arguments.beside.scenario.empty()) {
     throw InputError("--set: allowed with --scenario, in which it sets a key");
   }
-  plot::refuse_auto(arguments.log);
+  results::refuse_auto(arguments.log);
   declare_files(tasks, arguments);
   require_gnuplot();
   // What can be drawn is drawn, whatever is wrong with other files.

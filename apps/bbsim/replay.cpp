@@ -16,12 +16,12 @@
 #include "api/run.hpp"
 #include "commands.hpp"
 #include "file/default_name.hpp"
-#include "plot/read_result.hpp"
 #include "progress.hpp"
 #include "replay/log.hpp"
 #include "replay/page.hpp"
 #include "replay/sources.hpp"
 #include "replay_file.hpp"
+#include "results/read_result.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -32,15 +32,15 @@ struct ReplayArguments {
   std::string output, title;
   bool force = false;
   std::vector<std::string> logs;
-  plot::LogChoice log;
-  plot::Beside beside;
+  results::LogChoice log;
+  results::Beside beside;
 };
 
 // One of the files, read; a scenario is yet to be run.
 struct Replayed {
   std::string name;
   std::optional<Scenario> scenario{};
-  std::optional<plot::Result> result{};
+  std::optional<results::Result> result{};
   std::optional<replay::Run> log{};
 };
 
@@ -123,10 +123,10 @@ std::vector<Replayed> read_all(const ReplayArguments& arguments, const Options& 
       if (i >= arguments.files.size()) {
         outputs.reads(files[i], "--data");
         const std::size_t log = i - arguments.files.size();
-        plot::LogChoice choice = arguments.log;
+        results::LogChoice choice = arguments.log;
         if (arguments.logs.size() > 1 && choice.maps.size() > 1) choice.maps = {choice.maps[log]};
         std::vector<std::string> notes;
-        plot::Result read = plot::read_csv_columns(files[i], choice.header, notes);
+        results::Result read = results::read_csv_columns(files[i], choice.header, notes);
         source.log = replay::run_of_log(std::move(read), choice, names[i], notes);
         say_all(notes, options);
       } else if (is_scenario(files[i])) {
@@ -134,7 +134,7 @@ std::vector<Replayed> read_all(const ReplayArguments& arguments, const Options& 
       } else {
         outputs.reads(files[i], "what is shown");
         std::vector<std::string> notes;
-        source.result = plot::read_result(files[i], arguments.beside, {}, &notes);
+        source.result = results::read_result(files[i], arguments.beside, {}, &notes);
         say_all(notes, options);
         api::reads_with_result(outputs, *source.result);
       }

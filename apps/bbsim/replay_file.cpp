@@ -72,7 +72,7 @@ void ReplayFile::write(const replay::Scene& scene, bool quiet) {
   say(target_ + ": " + content_text(scene) + ", " + size_text(content.size()));
 }
 
-replay::Run run_of(plot::Result result, const std::string& name) {
+replay::Run run_of(results::Result result, const std::string& name) {
   const std::optional<Scenario> scenario = result.scenario;
   const std::string title = result.title;
   replay::Run run = replay::run_of_result(std::move(result), name);

@@ -8,8 +8,8 @@
 
 #include "file/atomic_file.hpp"
 #include "file/outputs.hpp"
-#include "plot/result.hpp"
 #include "replay/scene.hpp"
+#include "results/result.hpp"
 
 namespace bbsim::app {
 
@@ -37,7 +37,7 @@ class ReplayFile {
 
 // A result with what is known of its scenario: all of it where it and its tables can be read as
 // they were, else what is sound in it.
-[[nodiscard]] replay::Run run_of(plot::Result result, const std::string& name);
+[[nodiscard]] replay::Run run_of(results::Result result, const std::string& name);
 
 // The scene of one run, called by the title of the run, or its name.
 [[nodiscard]] replay::Scene scene_of(replay::Run run);

@@ -16,10 +16,10 @@
 #include "base/number_text.hpp"
 #include "base/shown.hpp"
 #include "file/cell_table.hpp"
-#include "plot/read_result.hpp"
 #include "record/log_distance.hpp"
 #include "record/solver_allowance.hpp"
 #include "record/summarise.hpp"
+#include "results/read_result.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/measures.hpp"
 #include "scenario/unit_doubts.hpp"
@@ -65,9 +65,9 @@ void warn_of_units(const file::CellTable& table, const std::string& name,
   }
 }
 
-file::TableData numbers_of(plot::Result result) {
+file::TableData numbers_of(results::Result result) {
   file::TableData table;
-  for (plot::Column& column : result.columns) {
+  for (results::Column& column : result.columns) {
     if (column.is_text()) continue;
     table.names.push_back(std::move(column.name));
     table.columns.push_back(std::move(column.numbers));
@@ -119,14 +119,14 @@ file::TableData run_for(const Scenario& scenario, const file::TableData& log, Wa
 }
 
 file::TableData rows_of_result(const std::string& file) {
-  plot::Result result = plot::read_result(file, {});
+  results::Result result = results::read_result(file, {});
   if (result.is_sweep()) throw InputError(file + ": is a sweep; allowed: the result of a run");
   return numbers_of(std::move(result));
 }
 
 Compared compare_log(const CompareRequest& request, Watch& watch) {
   Compared made;
-  file::TableData log = numbers_of(plot::read_log(request.a, request.log, made.warnings));
+  file::TableData log = numbers_of(results::read_log(request.a, request.log, made.warnings));
   const file::TableData run =
       request.run ? run_for(*request.run, log, watch, made) : rows_of_result(request.b);
   if (made.code == ExitCode::interrupted) return made;

@@ -17,7 +17,7 @@
 #include "base/number_text.hpp"
 #include "base/shown.hpp"
 #include "base/text.hpp"
-#include "plot/read_result.hpp"
+#include "results/read_result.hpp"
 #include "scenario/unit_doubts.hpp"
 #include "scenario/value_in.hpp"
 
@@ -35,7 +35,7 @@ bool is_of_gimbal(std::string_view name) {
 }
 
 // The names that the user maps, without the time.
-std::vector<std::string> mapped_names(const plot::LogChoice& choice) {
+std::vector<std::string> mapped_names(const results::LogChoice& choice) {
   std::vector<std::string> names;
   for (const std::string& map : choice.maps) {
     for (std::size_t start = 0; start <= map.size();) {
@@ -50,7 +50,8 @@ std::vector<std::string> mapped_names(const plot::LogChoice& choice) {
 }
 
 std::vector<const Column*> columns_of(const FitRequest& request, const Scenario& scenario,
-                                      const plot::Result& log, std::vector<std::string>& warnings) {
+                                      const results::Result& log,
+                                      std::vector<std::string>& warnings) {
   std::vector<std::string> names = mapped_names(request.choice);
   if (names.empty()) {
     names.assign(ball_columns.begin(), ball_columns.end());
@@ -82,10 +83,10 @@ std::vector<const Column*> columns_of(const FitRequest& request, const Scenario&
   return columns;
 }
 
-fit::Log log_of(const plot::Result& read, const std::string& file,
+fit::Log log_of(const results::Result& read, const std::string& file,
                 const std::vector<const Column*>& columns, std::vector<std::string>& warnings) {
-  const auto require = [&](std::string_view name, const char* hint) -> const plot::Column& {
-    const plot::Column* const column = read.find(name);
+  const auto require = [&](std::string_view name, const char* hint) -> const results::Column& {
+    const results::Column* const column = read.find(name);
     if (column != nullptr && !column->is_text()) return *column;
     if (column != nullptr) {
       for (std::size_t row = 0; row < column->texts.size(); ++row) {
@@ -97,7 +98,7 @@ fit::Log log_of(const plot::Result& read, const std::string& file,
       return *column;
     }
     std::string names;
-    for (const plot::Column& one : read.columns)
+    for (const results::Column& one : read.columns)
       names += (names.empty() ? "" : ", ") + shown(one.name);
     throw InputError(file + ": has no column " + std::string(name) + "; it has " + names + hint);
   };
@@ -174,7 +175,7 @@ FitResult fit(const FitRequest& request, bool with_scenario, Watch& watch) {
                      "; allowed: squares or huber");
   }
   if (request.starts < 1) throw InputError("--starts: found 0; allowed: 1 or more");
-  plot::refuse_auto(request.choice);
+  results::refuse_auto(request.choice);
   const Scenario scenario = request.family.read({});
   if (scenario.controller && scenario.controller->own) {
     throw InputError(
@@ -196,7 +197,7 @@ FitResult fit(const FitRequest& request, bool with_scenario, Watch& watch) {
     if (of_log.empty()) of_log = tables_of(scenario, folder, file);
   }
   for (const std::string& file : request.logs) {
-    const plot::Result read = plot::read_log(file, request.choice, made.warnings);
+    const results::Result read = results::read_log(file, request.choice, made.warnings);
     if (task.columns.empty()) task.columns = columns_of(request, scenario, read, made.warnings);
     task.logs.push_back(log_of(read, file, task.columns, made.warnings));
     if (request.logs.size() == 1) continue;

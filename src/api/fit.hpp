@@ -12,7 +12,7 @@
 #include "api/watch.hpp"
 #include "base/error.hpp"
 #include "fit/fit.hpp"
-#include "plot/log.hpp"
+#include "results/log.hpp"
 #include "scenario/family.hpp"
 
 namespace bbsim::api {
@@ -20,7 +20,7 @@ namespace bbsim::api {
 struct FitRequest {
   const ScenarioFamily& family;
   std::vector<std::string> logs;  // files
-  plot::LogChoice choice{};       // what their columns are
+  results::LogChoice choice{};    // what their columns are
   std::vector<std::string> free;  // KEY or KEY=FROM:TO
   std::string window{};           // a time; empty: what suits the scene
   double hold_out = 0;            // a share of the windows, from 0 to below 1

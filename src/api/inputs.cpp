@@ -26,7 +26,7 @@ void reads_scenario(file::Outputs& outputs, const std::string& file, const Scena
   reads_parts(outputs, scenario);
 }
 
-void reads_with_result(file::Outputs& outputs, const plot::Result& result) {
+void reads_with_result(file::Outputs& outputs, const results::Result& result) {
   if (!result.beside.empty()) outputs.reads(result.beside, "the summary of " + result.file);
   if (result.scenario) reads_parts(outputs, *result.scenario);
 }

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "file/outputs.hpp"
-#include "plot/result.hpp"
+#include "results/result.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim::api {
@@ -16,6 +16,6 @@ namespace bbsim::api {
 void reads_scenario(file::Outputs& outputs, const std::string& file, const Scenario& scenario);
 
 // The same of what was read with a result: its summary, and what its scenario names.
-void reads_with_result(file::Outputs& outputs, const plot::Result& result);
+void reads_with_result(file::Outputs& outputs, const results::Result& result);
 
 }  // namespace bbsim::api

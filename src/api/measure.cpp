@@ -25,7 +25,7 @@ struct Words {
 };
 
 // The columns of numbers; of the others, what is there in place of one.
-file::TableData numbers_of(plot::Result result, std::vector<Words>& others) {
+file::TableData numbers_of(results::Result result, std::vector<Words>& others) {
   if (result.is_sweep()) {
     throw InputError(result.file +
                      ": is a sweep; allowed: the result of a run. Measures of a sweep "
@@ -33,7 +33,7 @@ file::TableData numbers_of(plot::Result result, std::vector<Words>& others) {
                      result.file);
   }
   file::TableData table;
-  for (plot::Column& column : result.columns) {
+  for (results::Column& column : result.columns) {
     if (column.is_text()) {
       const auto is_word = [&](std::size_t row) {
         const bool number = row < column.numbers.size() && !std::isnan(column.numbers[row]);
@@ -111,7 +111,7 @@ void tell_of_references(const record::StoredRun& run,
 
 }  // namespace
 
-Measured measure(plot::Result result, const std::string& file,
+Measured measure(results::Result result, const std::string& file,
                  const std::vector<std::string>& lists) {
   const std::vector<std::string> asked = scenario::split_measures(lists);
   std::vector<Words> others;

@@ -11,8 +11,8 @@
 
 #include "api/watch.hpp"
 #include "base/error.hpp"
-#include "plot/log.hpp"
-#include "plot/result.hpp"
+#include "results/log.hpp"
+#include "results/result.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim::api {
@@ -25,14 +25,14 @@ struct Measured {
 
 // Measures of a run's result, which is called `file`; `lists` are those of
 // scenario::split_measures(). Throws InputError.
-[[nodiscard]] Measured measure(plot::Result result, const std::string& file,
+[[nodiscard]] Measured measure(results::Result result, const std::string& file,
                                const std::vector<std::string>& lists);
 
 struct CompareRequest {
   std::string a{}, b{};
   std::optional<double> rtol{}, atol{};  // without either, by the settings of the files' solvers
   std::vector<std::string> columns{};    // none: all
-  plot::LogChoice log{};                 // if given, `a` is the log of a rig, and `b` a run
+  results::LogChoice log{};              // if given, `a` is the log of a rig, and `b` a run
   std::optional<Scenario> run{};         // of `b`, if that is not a result; `a` is then a log
 };
 

@@ -29,4 +29,14 @@ namespace bbsim {
   return lines;
 }
 
+// The texts in one line, with ", " between them.
+[[nodiscard]] inline std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) {
+    if (&text != texts.data()) all += ", ";
+    all += text;
+  }
+  return all;
+}
+
 }  // namespace bbsim

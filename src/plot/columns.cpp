@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "plot/text.hpp"
 #include "scenario/columns.hpp"
 #include "yaml/nearest.hpp"

@@ -9,10 +9,13 @@
 #include <vector>
 
 #include "plot/axis.hpp"
-#include "plot/result.hpp"
+#include "results/result.hpp"
 #include "scenario/columns.hpp"
 
 namespace bbsim::plot {
+
+using results::Column;
+using results::Result;
 
 using scenario::Role;
 

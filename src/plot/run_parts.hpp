@@ -10,9 +10,12 @@
 #include "plot/axis.hpp"
 #include "plot/columns.hpp"
 #include "plot/picture.hpp"
-#include "plot/result.hpp"
+#include "results/result.hpp"
 
 namespace bbsim::plot {
+
+using results::Event;
+using results::Result;
 
 // The time that runs are drawn over; row numbers where one of them has no t.
 struct Abscissa {

@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "plot/picture.hpp"
-#include "plot/result.hpp"
+#include "results/result.hpp"
 
 namespace bbsim::plot {
+
+using results::Result;
 
 // What to draw: the columns of each panel, and the path if a list is the one word `path`. Empty:
 // all that the runs have.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/quantile.hpp"
 #include "plot/sweep_parts.hpp"
 #include "plot/text.hpp"
 
@@ -12,9 +13,9 @@ namespace bbsim::plot {
 namespace {
 
 // The width as Freedman and Diaconis choose it, from the quartiles, within what can be seen.
-std::size_t bin_count(std::vector<double>& values, double width) {
-  const double between = quantile(values, 0.75) - quantile(values, 0.25);
-  const double bin = 2 * between / std::cbrt(static_cast<double>(values.size()));
+std::size_t bin_count(const std::vector<double>& sorted, double width) {
+  const double between = quantile(sorted, 0.75) - quantile(sorted, 0.25);
+  const double bin = 2 * between / std::cbrt(static_cast<double>(sorted.size()));
   const double count = bin > 0 ? width / bin : 10;
   return static_cast<std::size_t>(std::clamp(std::ceil(count), 5.0, 60.0));
 }

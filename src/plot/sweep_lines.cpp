@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Measures over one key, as lines or as points.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "base/quantile.hpp"
 #include "plot/sweep_parts.hpp"
 #include "plot/text.hpp"
 
@@ -89,6 +91,7 @@ Panel line_panel(const SweepPanel& of, const Key& over, const Key* group) {
     bool several = false;
     for (auto& [value, bundle] : done) {
       several = several || bundle.size() > 1;
+      std::ranges::sort(bundle);
       line.add(along.place(value), quantile(bundle, 0.5));
       band.add(along.place(value), quantile(bundle, 0.05));
       band.y_high.push_back(quantile(bundle, 0.95));

@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "base/quantile.hpp"
 #include "plot/sweep_parts.hpp"
 #include "plot/text.hpp"
 
@@ -77,6 +78,7 @@ Panel map_panel(const SweepPanel& of, const Key& over, const Key& against) {
   std::map<std::string, Curve> others;
   for (auto& [place, cases] : cells) {
     const std::size_t column = place.first, row = place.second;
+    std::ranges::sort(cases.done);
     Cell cell{columns.edges[column], columns.edges[column + 1], rows.edges[row],
               rows.edges[row + 1], quantile(cases.done, 0.5)};
     if (!cases.other.empty()) {

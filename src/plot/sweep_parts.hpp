@@ -10,9 +10,14 @@
 
 #include "plot/axis.hpp"
 #include "plot/picture.hpp"
-#include "plot/sweep_table.hpp"
+#include "results/sweep_table.hpp"
 
 namespace bbsim::plot {
+
+using results::Column;
+using results::Key;
+using results::Result;
+using results::SweepTable;
 
 // How each way to end but `done` is marked.
 [[nodiscard]] Stroke stroke_of_status(const SweepTable& table, const std::string& status);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "plot/sweep_parts.hpp"
 #include "plot/text.hpp"
 

@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "plot/picture.hpp"
-#include "plot/result.hpp"
+#include "results/result.hpp"
 
 namespace bbsim::plot {
+
+using results::Result;
 
 struct SweepChoice {
   std::vector<std::string> measures;  // empty: all that vary

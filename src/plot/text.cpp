@@ -122,15 +122,6 @@ std::string cut(const std::string& text, double width, double size, double narro
   return "…";
 }
 
-std::string joined(const std::vector<std::string>& texts) {
-  std::string all;
-  for (const std::string& text : texts) {
-    if (&text != texts.data()) all += ", ";
-    all += text;
-  }
-  return all;
-}
-
 std::string number(double value, int digits) {
   char plain[40];
   std::snprintf(plain, sizeof plain, "%.*g", digits, value);

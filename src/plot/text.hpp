@@ -29,9 +29,6 @@ namespace bbsim::plot {
 [[nodiscard]] std::string cut(const std::string& text, double width, double size,
                               double narrowest = 0);
 
-// The texts in one, with ", " between them.
-[[nodiscard]] std::string joined(const std::vector<std::string>& texts);
-
 // A number as a person reads it: up to `digits` of them, with a minus sign rather than a hyphen.
 [[nodiscard]] std::string number(double value, int digits = 4);
 

@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/real.hpp"
+#include "base/text.hpp"
 
 namespace bbsim::record {
 namespace {
@@ -79,12 +80,6 @@ ColumnComparison compare_column(const std::string& name, const file::CellColumn&
     result.text_b = as_text(b, worst);
   }
   return result;
-}
-
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 void require_column(const file::CellTable& table, const char* which, const std::string& name) {

@@ -9,7 +9,9 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
+#include "base/quantile.hpp"
 #include "base/real.hpp"
+#include "base/text.hpp"
 
 namespace bbsim::record {
 namespace {
@@ -17,18 +19,12 @@ namespace {
 using file::CellColumn;
 using file::CellTable;
 
-std::string names_text(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 const CellColumn& column_of(const CellTable& table, const std::string& file,
                             const std::string& name, const std::string& option) {
   const auto found = std::ranges::find(table.names, name);
   if (found == table.names.end()) {
     throw InputError(option + ": found " + name + "; " + file + " has the columns " +
-                     names_text(table.names));
+                     joined(table.names));
   }
   return table.columns[static_cast<std::size_t>(found - table.names.begin())];
 }
@@ -47,14 +43,6 @@ std::vector<std::string> all_measures(const CellTable& table) {
     }
   }
   return names;
-}
-
-double quantile(const std::vector<double>& sorted, double part) {
-  if (sorted.empty()) return no_number;
-  const double place = part * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
 }
 
 GroupFigures figures_of(const std::string& measure, std::vector<double> values,
@@ -98,7 +86,7 @@ std::vector<Group> summarise(const CellTable& table, const std::string& name,
     if (!column.texts.empty() || column.width != 1) {
       throw InputError(
           "--measure: found " + measure +
-          ", which is not a column of numbers; allowed: " + names_text(all_measures(table)));
+          ", which is not a column of numbers; allowed: " + joined(all_measures(table)));
     }
     columns.push_back(&column);
   }

@@ -9,9 +9,9 @@
 
 namespace bbsim::replay {
 
-Run run_of_log(plot::Result log, const plot::LogChoice& choice, const std::string& name,
+Run run_of_log(results::Result log, const results::LogChoice& choice, const std::string& name,
                std::vector<std::string>& notes) {
-  plot::make_log(log, choice, true, notes);
+  results::make_log(log, choice, true, notes);
   log.units_known = true;  // as --data or the map states
   Run run = run_of_result(std::move(log), name);
   if (!choice.maps.empty()) run.rolls = false;

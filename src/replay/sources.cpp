@@ -14,8 +14,8 @@
 #include "model/model.hpp"
 #include "model/signals/reference_path.hpp"
 #include "model/spectrum.hpp"
-#include "plot/sweep_table.hpp"
 #include "replay/rotation.hpp"
+#include "results/sweep_table.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/loop_measures.hpp"
 
@@ -127,15 +127,15 @@ void take_orientation(Run& run) {
   });
 }
 
-SweepColumn sweep_column(plot::Column column) {
+SweepColumn sweep_column(results::Column column) {
   return {column.name, column.unit, column.is_text() ? std::vector<double>{} : column.numbers,
           column.texts};
 }
 
 // Notes which keys were drawn, and which are tied to another key.
-void relate(std::vector<SweepColumn>& keys, const plot::SweepTable& table) {
+void relate(std::vector<SweepColumn>& keys, const results::SweepTable& table) {
   for (SweepColumn& key : keys) {
-    const auto of = std::ranges::find(table.keys, key.name, &plot::Key::name);
+    const auto of = std::ranges::find(table.keys, key.name, &results::Key::name);
     if (of == table.keys.end()) continue;
     key.drawn = of->drawn;
     const std::string& leader = table.keys[of->leader].name;
@@ -191,8 +191,8 @@ void describe(Run& run, const Scenario& scenario) {
   run.poles = poles_of(model::assemble(scenario, false));
 }
 
-Run run_of_result(plot::Result result, const std::string& name) {
-  plot::add_end_row(result);
+Run run_of_result(results::Result result, const std::string& name) {
+  results::add_end_row(result);
   Run run;
   run.name = name;
   run.has_end_row = result.has_end_row;
@@ -207,10 +207,10 @@ Run run_of_result(plot::Result result, const std::string& name) {
   run.rolls =
       result.scenario && (result.find("gamma") != nullptr || result.find("spin") != nullptr ||
                           result.find("x") == nullptr || result.find("y") == nullptr);
-  for (const plot::Event& event : result.events) {
+  for (const results::Event& event : result.events) {
     run.events.push_back({event.t, event.name, event.stopped ? "stop" : "note", event.x, event.y});
   }
-  for (plot::Column& column : result.columns) {
+  for (results::Column& column : result.columns) {
     if (column.is_text()) continue;
     run.columns.push_back(series_of(column.name, std::move(column.numbers), run.units_known));
     if (!column.unit.empty()) run.columns.back().unit = std::move(column.unit);
@@ -219,7 +219,7 @@ Run run_of_result(plot::Result result, const std::string& name) {
   return run;
 }
 
-Sweep sweep_of_result(plot::Result result, const std::string& name) {
+Sweep sweep_of_result(results::Result result, const std::string& name) {
   Sweep sweep;
   sweep.name = name;
   sweep.title = std::move(result.title);
@@ -228,12 +228,12 @@ Sweep sweep_of_result(plot::Result result, const std::string& name) {
     sweep.scenario_text = result.scenario->source.text;
     sweep.overrides = result.scenario->source.overrides;
   }
-  const plot::SweepTable table = plot::sweep_table(result);
-  const plot::Column* const reason = result.find("reason");
+  const results::SweepTable table = results::sweep_table(result);
+  const results::Column* const reason = result.find("reason");
   std::vector<std::string> reasons;
   if (reason != nullptr) reasons = reason->texts;
   bool before_status = true;
-  for (plot::Column& column : result.columns) {
+  for (results::Column& column : result.columns) {
     if (column.name == "case") {
       sweep.cases = std::move(column.numbers);
     } else if (column.name == "status") {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "file/table_writer.hpp"
-#include "plot/result.hpp"
 #include "replay/scene.hpp"
+#include "results/result.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim::replay {
@@ -20,10 +20,10 @@ namespace bbsim::replay {
 
 // Makes a run of a result in the same way, with the content of its file or summary. Does not use
 // the result's scenario; describe() does. Leaves out columns of texts.
-[[nodiscard]] Run run_of_result(plot::Result result, const std::string& name);
+[[nodiscard]] Run run_of_result(results::Result result, const std::string& name);
 
-// Makes a sweep of a result of `bbsim sweep` (plot::Result::is_sweep()).
-[[nodiscard]] Sweep sweep_of_result(plot::Result result, const std::string& name);
+// Makes a sweep of a result of `bbsim sweep` (results::Result::is_sweep()).
+[[nodiscard]] Sweep sweep_of_result(results::Result result, const std::string& name);
 
 // Adds the scenario's part of a run: title, text, plate, ball, mounting, reference path, poles.
 // Throws KeyError if the loop cannot be assembled.

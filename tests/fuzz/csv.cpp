@@ -15,8 +15,8 @@
 #include "file/cell_table.hpp"
 #include "file/table_writer.hpp"
 #include "fuzz.hpp"
-#include "plot/log.hpp"
 #include "record/compare.hpp"
+#include "results/log.hpp"
 
 namespace {
 
@@ -74,8 +74,8 @@ void must_be_like_itself(const file::CellTable& table) {
 // A log has as many numbers in each column, and increasing times.
 void must_be_a_log(const std::string& name) {
   std::vector<std::string> notes;
-  const bbsim::plot::Result log =
-      bbsim::plot::read_log(name, {{"x=-2*x+1:mm", "y=y"}, {}, "", "start"}, notes);
+  const bbsim::results::Result log =
+      bbsim::results::read_log(name, {{"x=-2*x+1:mm", "y=y"}, {}, "", "start"}, notes);
   for (const auto& column : log.columns) must(column.numbers.size() == log.rows);
   const auto* t = log.find("t");
   must(t != nullptr);

@@ -14,8 +14,8 @@
 
 #include "file/external.hpp"
 #include "plot/picture.hpp"
-#include "plot/result.hpp"
 #include "plot/script.hpp"
+#include "results/result.hpp"
 #include "support/svg_texts.hpp"
 
 namespace bbsim_test {
@@ -23,9 +23,9 @@ namespace bbsim_test {
 using Function = std::function<double(double)>;
 
 // A run over `rows` rows from 0 to `end`, a column a function of time.
-inline bbsim::plot::Result run_of(const std::vector<std::pair<std::string, Function>>& columns,
-                                  double end = 10, std::size_t rows = 101) {
-  bbsim::plot::Result run;
+inline bbsim::results::Result run_of(const std::vector<std::pair<std::string, Function>>& columns,
+                                     double end = 10, std::size_t rows = 101) {
+  bbsim::results::Result run;
   run.file = "run.csv";
   run.rows = rows;
   run.columns.push_back({"t", {}});

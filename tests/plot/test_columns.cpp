@@ -28,7 +28,7 @@ double wave(double t) {
   return std::sin(t);
 }
 
-plot::Result run_with(const std::vector<std::string>& names) {
+results::Result run_with(const std::vector<std::string>& names) {
   std::vector<std::pair<std::string, Function>> columns;
   columns.reserve(names.size());
   for (const std::string& name : names) columns.emplace_back(name, wave);
@@ -68,25 +68,25 @@ TEST_CASE("a run without y, or without any column that is known, is drawn") {
 }
 
 TEST_CASE("lines of very different size get panels of their own") {
-  const plot::Result run = run_of({{"x", wave}, {"y", [](double t) { return 1e-4 * wave(t); }}});
+  const results::Result run = run_of({{"x", wave}, {"y", [](double t) { return 1e-4 * wave(t); }}});
   CHECK(text_of(plot::plan_panels({run})) == "x: x | y: y");
   // One that does not move is as flat anywhere.
-  const plot::Result still = run_of({{"x", wave}, {"y", [](double) { return 0.0; }}});
+  const results::Result still = run_of({{"x", wave}, {"y", [](double) { return 0.0; }}});
   CHECK(text_of(plot::plan_panels({still})) == "x, y: x y");
 }
 
 TEST_CASE("commands stand beside what they command: angles, or accelerations") {
   const Function angle = [](double t) { return 0.1 * std::sin(3 * t); };
   const Function acceleration = [](double t) { return -0.9 * std::sin(3 * t); };
-  const plot::Result driven =
+  const results::Result driven =
       run_of({{"phi", angle}, {"phi_command", acceleration}, {"phi_acceleration", acceleration}});
   CHECK(plot::driven_quantity(driven) == Drives::acceleration);
   CHECK(text_of(plot::plan_panels({driven})) == "φ: phi | φ'': phi_acceleration phi_command");
-  const plot::Result servo = run_of({{"phi", angle}, {"phi_command", angle}});
+  const results::Result servo = run_of({{"phi", angle}, {"phi_command", angle}});
   CHECK(plot::driven_quantity(servo) == Drives::angle);
 
   // The scenario knows.
-  plot::Result told = servo;
+  results::Result told = servo;
   told.scenario.emplace();
   told.scenario->controller.emplace().drives = Drives::acceleration;
   CHECK(plot::driven_quantity(told) == Drives::acceleration);
@@ -95,31 +95,31 @@ TEST_CASE("commands stand beside what they command: angles, or accelerations") {
   CHECK(text_of(panels) == "φ: phi | φ command: phi_command");
   CHECK(panels[1].unit == plot::unit_of("phi_torque"));
 
-  const plot::Result both = run_of({{"phi_acceleration", acceleration},
-                                    {"theta_acceleration", acceleration},
-                                    {"phi", angle},
-                                    {"theta", angle},
-                                    {"phi_command", acceleration},
-                                    {"theta_command", acceleration}});
+  const results::Result both = run_of({{"phi_acceleration", acceleration},
+                                       {"theta_acceleration", acceleration},
+                                       {"phi", angle},
+                                       {"theta", angle},
+                                       {"phi_command", acceleration},
+                                       {"theta_command", acceleration}});
   CHECK(text_of(plot::plan_panels({both})) ==
         "φ, θ: phi theta | φ'': phi_acceleration phi_command | "
         "θ'': theta_acceleration theta_command");
 }
 
 TEST_CASE("in a comparison each panel has one quantity") {
-  const plot::Result run = run_with({"x", "y", "x_reference", "vx", "vy", "phi", "phi_command"});
+  const results::Result run = run_with({"x", "y", "x_reference", "vx", "vy", "phi", "phi_command"});
   CHECK(text_of(plot::plan_panels({run, run})) ==
         "x: x x_reference | y: y | vx: vx | vy: vy | φ: phi | φ command: phi_command");
 }
 
 TEST_CASE("columns are drawn as asked, or the reason is told") {
-  const plot::Result run = run_with({"x", "y", "phi", "theta", "vx"});
+  const results::Result run = run_with({"x", "y", "phi", "theta", "vx"});
   CHECK(text_of(plot::plan_panels({run}, {{"y", "x"}, {"theta"}})) == "y, x: y x | θ: theta");
   CHECK_THROWS_WITH(plot::plan_panels({run}, {{"x", "phi"}}), Contains("has another unit"));
   CHECK_THROWS_WITH(plot::plan_panels({run}, {{"thta"}}), Contains("did you mean theta?"));
   CHECK_THROWS_WITH(plot::plan_panels({run}, {{""}}), Contains("found nothing"));
   CHECK_THROWS_WITH(plot::plan_panels({run}, {{"t"}}), Contains("over which"));
-  const plot::Result empty = run_of({{"x", wave}, {"z", [](double) { return NAN; }}});
+  const results::Result empty = run_of({{"x", wave}, {"z", [](double) { return NAN; }}});
   CHECK_THROWS_WITH(plot::plan_panels({empty}, {{"z"}}), Contains("no finite number"));
   CHECK(text_of(plot::plan_panels({empty})) == "x: x");
 }
@@ -135,7 +135,7 @@ TEST_CASE("angles are drawn in degrees, turns of the ball in radians") {
 }
 
 TEST_CASE("of a table that nobody tells of no unit is known, whatever its names are") {
-  std::vector<plot::Result> runs{run_with({"t", "x", "phi"})};
+  std::vector<results::Result> runs{run_with({"t", "x", "phi"})};
   CHECK(plot::unit_of(runs, "x").text == "m");
   runs.push_back(runs.front());
   runs.back().units_known = false;
@@ -146,7 +146,7 @@ TEST_CASE("of a table that nobody tells of no unit is known, whatever its names 
 }
 
 TEST_CASE("a column that only a file knows has the unit that the file tells") {
-  plot::Result run = run_with({"x", "position_error", "angle"});
+  results::Result run = run_with({"x", "position_error", "angle"});
   run.columns[2].unit = "m";
   run.columns[3].unit = "rad";
   const auto panels = plot::plan_panels({run});

@@ -6,8 +6,8 @@
 #include "base/error.hpp"
 #include "catch.hpp"
 #include "plot/sweep_picture.hpp"
-#include "plot/sweep_table.hpp"
 #include "results.hpp"
+#include "results/sweep_table.hpp"
 
 using namespace bbsim;
 using namespace bbsim_test;

@@ -11,8 +11,8 @@
 #include <stdexcept>
 
 #include "file/table_writer.hpp"
-#include "plot/read_result.hpp"
 #include "replay/sources.hpp"
+#include "results/read_result.hpp"
 #include "scenario/reader.hpp"
 
 using bbsim::replay::Run;
@@ -62,7 +62,7 @@ Run run_of(const std::string& files) {
 }
 
 Sweep sweep_of(const std::string& table, const std::string& scenario) {
-  Sweep sweep = bbsim::replay::sweep_of_result(bbsim::plot::read_result(table, {}), table);
+  Sweep sweep = bbsim::replay::sweep_of_result(bbsim::results::read_result(table, {}), table);
   sweep.name = table.substr(table.rfind('/') + 1);
   sweep.title = bbsim::read_scenario(scenario).title;
   sweep.scenario_file = scenario;

@@ -8,9 +8,9 @@
 
 #include "base/error.hpp"
 #include "catch.hpp"
-#include "plot/read_result.hpp"
 #include "replay/rotation.hpp"
 #include "replay/sources.hpp"
+#include "results/read_result.hpp"
 #include "scenario/reader.hpp"
 #include "support/folder.hpp"
 
@@ -71,13 +71,13 @@ TEST_CASE("a table's columns have their units") {
 TEST_CASE("of a table that nobody tells of neither units nor turns are known") {
   const Folder folder;
   const std::string file = folder.put("log.csv", "t,x,y,gamma\n0,-12,3,0\n1,-11,3,0\n");
-  const Run run = run_of_result(plot::read_result(file, {}), "log.csv");
+  const Run run = run_of_result(results::read_result(file, {}), "log.csv");
   CHECK_FALSE(run.units_known);
   for (const Series& series : run.columns) CHECK(series.unit.empty());
   CHECK_FALSE(run.rolls);
   CHECK(orientation_of(run, 0.01).empty());
   // Its scenario tells both.
-  plot::Result told = plot::read_result(file, {"", config("fig2a"), {}});
+  results::Result told = results::read_result(file, {"", config("fig2a"), {}});
   const Scenario scenario = *told.scenario;
   Run known = run_of_result(std::move(told), "log.csv");
   describe(known, scenario);
@@ -90,7 +90,8 @@ TEST_CASE("of a table that nobody tells of neither units nor turns are known") {
   CHECK_FALSE(sliding.rolls);
   CHECK(orientation_of(sliding, 0.01).empty());
   const std::string bare = folder.put("bare.csv", "t,x,y\n0,0,0\n1,1,0\n");
-  CHECK_FALSE(run_of_result(plot::read_result(bare, {"", config("fig2a"), {}}), "bare.csv").rolls);
+  CHECK_FALSE(
+      run_of_result(results::read_result(bare, {"", config("fig2a"), {}}), "bare.csv").rolls);
 }
 
 TEST_CASE("commands have the unit of what they command") {
@@ -114,7 +115,7 @@ TEST_CASE(
              R"({"version": "7", "title": "", "status": "stopped", "reason": "", "end_time": 1.5,
                  "rows": 2, "output": "r.csv", "scenario_text": "", "events":
                  [{"t": 1.5, "event": "edge", "action": "stop", "x": 0.11, "y": 0.0, "phi": 0.3}]})");
-  plot::Result result = plot::read_result(file, {"", config("fig2a"), {}});
+  results::Result result = results::read_result(file, {"", config("fig2a"), {}});
   const Scenario scenario = *result.scenario;
   Run run = run_of_result(std::move(result), "r.csv");
   CHECK(run.has_end_row);
@@ -137,7 +138,7 @@ TEST_CASE("a sweep's table: keys, status and measures") {
                  "case,ball.radius,solver.method,status,reason,end_time,max_tilt,x_end\n"
                  "0,0.01,radau,done,,10,0.1,0.5\n"
                  "1,0.02,bdf,failed,\"it grew, \"\"fast\"\"\",0.7,nan,1\n");
-  const replay::Sweep sweep = sweep_of_result(plot::read_result(file, {}), "s.csv");
+  const replay::Sweep sweep = sweep_of_result(results::read_result(file, {}), "s.csv");
   CHECK(sweep.name == "s.csv");
   CHECK(sweep.cases == std::vector<double>{0, 1});
   REQUIRE(sweep.keys.size() == 2);
@@ -164,7 +165,7 @@ TEST_CASE("a sweep's keys: which go along with another, and which were drawn") {
     table << i << ',' << a << ',' << -2 * a << ',' << drawn[i] << ",done,1\n";
   }
   const replay::Sweep sweep =
-      sweep_of_result(plot::read_result(folder.put("s.csv", table.str()), {}), "s.csv");
+      sweep_of_result(results::read_result(folder.put("s.csv", table.str()), {}), "s.csv");
   REQUIRE(sweep.keys.size() == 3);
   CHECK(sweep.keys[0].along.empty());
   CHECK(sweep.keys[1].along == "a");
@@ -182,7 +183,7 @@ TEST_CASE("a result brings what its summary tells, and the ball's orientation") 
              R"({"version": "7", "title": "A title", "status": "stopped", "reason": "it fell",
                  "end_time": 1, "rows": 3, "output": "r.csv", "scenario_text": "", "events":
                  [{"t": 0.5, "event": "edge", "action": "stop", "x": 0.1, "y": 0.2}]})");
-  const Run run = run_of_result(plot::read_result(file, {}), "r.csv");
+  const Run run = run_of_result(results::read_result(file, {}), "r.csv");
   CHECK(run.title == "A title");
   CHECK(run.status == "stopped");
   CHECK(run.reason == "it fell");

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "plot/read_result.hpp"
+#include "results/read_result.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@
 #include "scenario/reader.hpp"
 #include "scenario/variation.hpp"
 
-namespace bbsim::plot {
+namespace bbsim::results {
 namespace {
 
 namespace fs = std::filesystem;
@@ -221,4 +221,4 @@ Result read_result(const std::string& file, const Beside& beside, const LogChoic
   return result;
 }
 
-}  // namespace bbsim::plot
+}  // namespace bbsim::results

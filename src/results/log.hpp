@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "plot/result.hpp"
+#include "results/result.hpp"
 
-namespace bbsim::plot {
+namespace bbsim::results {
 
 // What the user says of a log.
 struct LogChoice {
@@ -40,4 +40,4 @@ void make_log(Result& log, const LogChoice& choice, bool only_mapped,
 // Throws InputError if "auto" is asked for where there is no run to align with.
 void refuse_auto(const LogChoice& choice);
 
-}  // namespace bbsim::plot
+}  // namespace bbsim::results

@@ -1,16 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "plot/sweep_table.hpp"
+#include "results/sweep_table.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
-namespace bbsim::plot {
+namespace bbsim::results {
 namespace {
 
 // Fewer cases tell nothing of how their values were found.
@@ -121,13 +120,4 @@ SweepTable sweep_table(const Result& sweep) {
   return table;
 }
 
-double quantile(std::vector<double>& values, double part) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::ranges::sort(values);
-  const double place = part * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, values.size() - 1);
-  return std::lerp(values[below], values[above], place - static_cast<double>(below));
-}
-
-}  // namespace bbsim::plot
+}  // namespace bbsim::results

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "plot/result.hpp"
+#include "results/result.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 
-namespace bbsim::plot {
+namespace bbsim::results {
 
 const Column* Result::find(std::string_view name) const {
   const auto found = std::ranges::find(columns, name, &Column::name);
@@ -49,4 +49,4 @@ void add_end_row(Result& result) {
   result.has_end_row = true;
 }
 
-}  // namespace bbsim::plot
+}  // namespace bbsim::results

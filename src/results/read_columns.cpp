@@ -12,10 +12,10 @@
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "file/cell_table.hpp"
-#include "plot/read_result.hpp"
+#include "results/read_result.hpp"
 #include "scenario/columns.hpp"
 
-namespace bbsim::plot {
+namespace bbsim::results {
 namespace {
 
 bool has_digits_of_doubles(const Result& table) {
@@ -77,4 +77,4 @@ Result read_csv_columns(const std::string& file, const std::vector<std::string>&
   return result_of(file::read_cells(file, {{}, header}), file, notes);
 }
 
-}  // namespace bbsim::plot
+}  // namespace bbsim::results

@@ -13,7 +13,7 @@
 
 #include "scenario/scenario.hpp"
 
-namespace bbsim::plot {
+namespace bbsim::results {
 
 // Numbers in SI units. A field that is no number is NaN; where one of them is not empty, all
 // fields are in `texts` as well.
@@ -66,4 +66,4 @@ struct Result {
 // event tells, and NaN, or an empty text, in all other columns.
 void add_end_row(Result& result);
 
-}  // namespace bbsim::plot
+}  // namespace bbsim::results

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "plot/result.hpp"
+#include "results/result.hpp"
 
-namespace bbsim::plot {
+namespace bbsim::results {
 
 // A key that has more than one value.
 struct Key {
@@ -43,8 +43,4 @@ struct SweepTable {
 // was if more than half of many cases have values of their own, in no order.
 [[nodiscard]] SweepTable sweep_table(const Result& sweep);
 
-// The value below which that part of them lies, by linear interpolation; NaN if there are none.
-// Sorts them.
-[[nodiscard]] double quantile(std::vector<double>& values, double part);
-
-}  // namespace bbsim::plot
+}  // namespace bbsim::results

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "plot/log.hpp"
+#include "results/log.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -14,15 +14,14 @@
 #include "base/number_text.hpp"
 #include "base/shown.hpp"
 #include "base/text.hpp"
-#include "plot/read_result.hpp"
-#include "plot/text.hpp"
+#include "results/read_result.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/log_clock.hpp"
 #include "scenario/log_names.hpp"
 #include "yaml/nearest.hpp"
 #include "yaml/quantity.hpp"
 
-namespace bbsim::plot {
+namespace bbsim::results {
 namespace {
 
 // FACTOR * COLUMN + OFFSET, a number in a unit.
@@ -320,4 +319,4 @@ void refuse_auto(const LogChoice& choice) {
       "in `bbsim compare` and `bbsim replay`");
 }
 
-}  // namespace bbsim::plot
+}  // namespace bbsim::results

@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "catch.hpp"
-#include "plot/read_result.hpp"
+#include "results/read_result.hpp"
 #include "support/folder.hpp"
 
 using namespace bbsim;
@@ -22,15 +22,15 @@ const std::string summary_of_two_rows =
         "events": [{"t": 0.25, "event": "edge", "action": "stop", "x": 0.1, "y": -0.2}],
         "scenario_text": "ball: {radius: 0.01}\nplate: {size: [0.3, 0.2]}\ngimbal: {motion: {phi: {table: {file: gone.csv, time: t, value: p}}}}\nevents: {slip: {friction: 0.3}}\ntime: {end: 1, step: 0.1}\n"})";
 
-plot::Result read(const std::string& file, const plot::Beside& beside = {}) {
-  return plot::read_result(file, beside);
+results::Result read(const std::string& file, const results::Beside& beside = {}) {
+  return results::read_result(file, beside);
 }
 
 }  // namespace
 
 TEST_CASE("CSV of any origin: gaps, quotes, marks of other systems, text") {
   const Folder folder;
-  const plot::Result result = read(folder.put(
+  const results::Result result = read(folder.put(
       "a.csv",
       "\xEF\xBB\xBFt, x ,\"a name, quoted\",note\r\n0,1,2,\r\n1,,+3,late\r\n\r\n2,nan,-4e3,x\r\n"));
   CHECK(result.rows == 3);
@@ -72,7 +72,7 @@ TEST_CASE("a summary beside a CSV tells of its scene, if it is of that very run"
   const std::string csv = folder.put("run.csv", "t,x\n0,1\n0.25,2\n");
   CHECK(read(csv).title.empty());
   folder.put("run.json", summary_of_two_rows);
-  const plot::Result result = read(csv);
+  const results::Result result = read(csv);
   CHECK(result.title == "A title");
   CHECK(result.status == "stopped");
   REQUIRE(result.events.size() == 1);
@@ -136,11 +136,11 @@ TEST_CASE("an event that stopped a run tells of its state") {
              R"({"status": "stopped", "rows": 2, "output": "run.csv", "events":
                  [{"t": 0.3, "event": "edge", "action": "stop", "x": 0.1, "y": -0.2, "phi": 0.5,
                    "what": 3}]})");
-  plot::Result result = read(csv);
+  results::Result result = read(csv);
   CHECK(result.events.at(0).state ==
         std::map<std::string, double>{{"t", 0.3}, {"x", 0.1}, {"y", -0.2}, {"phi", 0.5}});
   CHECK(result.rows == 2);  // as the file has them, until asked
-  plot::add_end_row(result);
+  results::add_end_row(result);
   CHECK(result.find("x")->numbers == std::vector<double>{1, 2, 0.1});
 }
 
@@ -152,7 +152,7 @@ TEST_CASE("a scenario that is named comes before what is beside") {
       "scene.yaml",
       "title: Another\nball: {radius: 0.01}\nplate: {diameter: 0.5}\ngimbal: {motion: {phi: 0}}\n"
       "time: {end: 1, step: 0.1}\n");
-  const plot::Result result = read(csv, {"", scene, {"plate.diameter=0.6"}});
+  const results::Result result = read(csv, {"", scene, {"plate.diameter=0.6"}});
   CHECK(result.title == "Another");
   CHECK(result.scenario->plate.diameter == 0.6);
   CHECK(result.events.size() == 1);

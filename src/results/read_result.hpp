@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "file/cell_table.hpp"
-#include "plot/log.hpp"
-#include "plot/result.hpp"
+#include "results/log.hpp"
+#include "results/result.hpp"
 
-namespace bbsim::plot {
+namespace bbsim::results {
 
 // Where to look for what a CSV file has no place for. Both may be empty.
 struct Beside {
@@ -43,4 +43,4 @@ struct Beside {
                                       const std::vector<std::string>& header,
                                       std::vector<std::string>& notes);
 
-}  // namespace bbsim::plot
+}  // namespace bbsim::results

@@ -8,12 +8,12 @@
 
 #include "base/error.hpp"
 #include "catch.hpp"
-#include "plot/log.hpp"
+#include "results/log.hpp"
 #include "support/folder.hpp"
 
 using namespace bbsim;
 using Catch::Matchers::Contains;
-using plot::LogChoice;
+using results::LogChoice;
 
 namespace {
 
@@ -36,8 +36,8 @@ bool same(const std::vector<double>& a, const std::vector<double>& b) {
   return true;
 }
 
-std::vector<double> numbers(const plot::Result& log, const char* name) {
-  const plot::Column* const column = log.find(name);
+std::vector<double> numbers(const results::Result& log, const char* name) {
+  const results::Column* const column = log.find(name);
   return column == nullptr ? std::vector<double>{} : column->numbers;
 }
 
@@ -132,7 +132,7 @@ TEST_CASE("logs of many styles are read, or refused with row and cure") {
     std::vector<std::string> notes;
     std::string said;
     try {
-      const plot::Result read = plot::read_log(file, log.choice, notes);
+      const results::Result read = results::read_log(file, log.choice, notes);
       CHECK(same(numbers(read, "t"), log.t));
       CHECK(same(numbers(read, "x"), log.x));
       for (const std::string& note : notes) said += note + '\n';
@@ -152,7 +152,7 @@ TEST_CASE("a map is refused where its place is wrong") {
   const auto refused = [&](const LogChoice& choice) {
     std::vector<std::string> notes;
     try {
-      static_cast<void>(plot::read_log(file, choice, notes));
+      static_cast<void>(results::read_log(file, choice, notes));
     } catch (const InputError& error) {
       return std::string(error.what());
     }
