@@ -48,8 +48,8 @@ void read_motor(yaml::Keys& keys, Motor& motor) {
   const yaml::Number at_least_none{yaml::Dimension::number, {.at_least = 0}, "1e-3"};
   keys.optional("rotor_inertia", at_least_none, motor.rotor_inertia);
   keys.optional("viscous", at_least_none, motor.viscous);
-  keys.optional("friction", at_least_none, motor.friction);
-  keys.optional("torque_limit", yaml::Number{yaml::Dimension::number, {.above = 0}, "0.2"},
+  keys.optional("friction", yaml::Number{yaml::Dimension::torque, {.at_least = 0}}, motor.friction);
+  keys.optional("torque_limit", yaml::Number{yaml::Dimension::torque, {.above = 0}},
                 motor.torque_limit);
   keys.optional("dc", yaml::MappingOf(read_dc), motor.dc);
   keys.optional("position_loop", yaml::MappingOf(read_position_loop), motor.position_loop);
