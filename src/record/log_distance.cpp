@@ -165,7 +165,7 @@ LogDistance log_distance(const file::TableData& log, const std::string& log_name
   made.rows_of_log = log_clock.times().size();
   bool any = false;
   for (const double t : log_clock.times()) {
-    if (t < run_clock.first() || t > run_clock.last()) continue;
+    if (run_clock.empty() || t < run_clock.first() || t > run_clock.last()) continue;
     if (!any) made.from = t;
     any = true;
     made.to = t;

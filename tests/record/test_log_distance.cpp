@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "base/error.hpp"
@@ -68,6 +69,9 @@ TEST_CASE("what cannot be compared is refused with the cure") {
   const TableData run = rows(0, 1, 0.1, 0, 0);
   CHECK_THROWS_WITH(log_distance(rows(0, 1, 0.1, 100, 0), "log", run, "run"),
                     Contains("no time in common") && Contains("--time-offset"));
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_WITH(log_distance(run, "log", {{"t", "x"}, {{none}, {none}}}, "run"),
+                    Contains(" s and nothing"));
   CHECK_THROWS_WITH(log_distance({{"ms", "x"}, {{0}, {0}}}, "log", run, "run"),
                     Contains("--map t=NAME:UNIT"));
   CHECK_THROWS_WITH(log_distance({{"t", "px"}, {{0}, {0}}}, "log", run, "run"),
