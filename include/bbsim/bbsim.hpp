@@ -10,8 +10,8 @@
 //   bbsim::Result result = bbsim::run(scene);
 //   result.column("x").back();  // m
 //
-// All numbers are in SI units and radians. Several threads may use objects of their own at once,
-// and a Scenario that none of them changes.
+// All numbers are in SI units and radians. Threads may run at the same time, each with its own
+// objects or with a shared Scenario that none of them changes.
 #pragma once
 
 #include <array>
@@ -35,30 +35,30 @@
 namespace bbsim {
 inline namespace v0 {
 
-// The version of the library: "0.3.0".
+// Version of the library, such as "0.3.0".
 [[nodiscard]] BBSIM_API std::string_view library_version() noexcept;
 
-// Any error of bbsim.
+// Base class of the exceptions of bbsim.
 class BBSIM_API Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
   ~Error() override;
 };
 
-// A fault of a scenario or an argument.
+// One mistake in a scenario or an argument.
 struct Fault {
-  std::string place;    // "file:line:column", or the setting; may be empty
+  std::string place;    // "file:line:column", or the setting at fault; may be empty
   std::string message;  // the key, what was found, and what is allowed
   std::string key;      // such as ball.radius; empty if no key is at fault
   std::string hint;     // what to write instead; may be empty
 };
 
-// The scenario or an argument is wrong. what() has a line for each fault.
+// The scenario or an argument is wrong. what() has one line per fault.
 class BBSIM_API ScenarioError : public Error {
  public:
   ScenarioError(const std::string& text, std::vector<Fault> faults);
   ~ScenarioError() override;
-  // At least one, in the order of the scenario.
+  // At least one fault, in the order of the scenario.
   [[nodiscard]] const std::vector<Fault>& faults() const noexcept { return faults_; }
 
  private:
@@ -72,31 +72,31 @@ class BBSIM_API FileError : public Error {
   ~FileError() override;
 };
 
-// A controller that is not built in does not begin.
+// The scenario's own controller (a program or a library) did not start.
 class BBSIM_API ControllerError : public Error {
  public:
   using Error::Error;
   ~ControllerError() override;
 };
 
-// Commands for phi and theta, in the unit that the scenario drives.
+// Commands for phi and theta: rad, rad/s^2, N m or V, depending on controller.drives.
 using Command = std::array<double, 2>;
 
-// What a controller is told at a sample.
+// Input of the controller at a sample, in SI units. Pairs are (x, y) or (phi, theta).
 struct Sample {
   std::size_t number = 0;
   double t = 0;                               // s
-  std::optional<std::array<double, 2>> ball;  // m; nothing if the sensor missed it
+  std::optional<std::array<double, 2>> ball;  // m; empty if the sensor missed it
   std::array<double, 2> reference{}, reference_rate{}, reference_acceleration{};
   std::array<double, 2> servo{}, servo_rate{};
 };
 
-// A scenario's text and the keys set in it. Reading and checking comes with its use.
+// A scenario's text and the keys set in it. The functions that use it check its values.
 class BBSIM_API Scenario {
  public:
-  // Throws ScenarioError if the file cannot be read or is no tree of keys.
+  // Throws ScenarioError if the file cannot be read or is not a YAML tree of keys.
   [[nodiscard]] static Scenario from_file(const std::string& file);
-  // YAML text; `name` is the file's name in messages, and its folder has the table files.
+  // Takes YAML text. Messages call it `name`; table files are relative to the folder of `name`.
   [[nodiscard]] static Scenario from_text(const std::string& text,
                                           const std::string& name = "scenario");
   Scenario(const Scenario&);
@@ -105,11 +105,11 @@ class BBSIM_API Scenario {
   Scenario& operator=(Scenario&&) noexcept;
   ~Scenario();
 
-  // Sets a key, as --set KEY=VALUE does: "2 cm", "[0, 0.05]"; "null" removes it.
+  // Sets a key like --set KEY=VALUE, with values such as "2 cm" or "[0, 0.05]". "null" removes it.
   Scenario& set(const std::string& key, const std::string& value);
   Scenario& set(const std::string& key, double value);
 
-  // What is modelled and why: the text of `bbsim check`. Throws ScenarioError.
+  // Returns the text of `bbsim check`: what is modeled and why. Throws ScenarioError.
   [[nodiscard]] std::string check() const;
 
   struct State;
@@ -122,11 +122,11 @@ class BBSIM_API Scenario {
 
 struct RunOptions {
   std::vector<std::string> measures{};  // names, such as "max_tilt" or "rms_x from 5 s"
-  std::string file{};                   // .csv or .h5, which gets the rows; empty: none
-  bool keep_rows = true;                // in the result
-  // Called with each row, in the order of the columns.
+  std::string file{};                   // .csv or .h5 file for the rows; empty: none
+  bool keep_rows = true;                // keep the rows in the result
+  // Called with each row. Its values are in the order of Result::columns.
   std::function<void(std::span<const double> row)> sink{};
-  // Called now and then with the fraction done; false ends the run soon.
+  // Called occasionally with the fraction done. Returning false ends the run soon.
   std::function<bool(double fraction)> goes_on{};
 };
 
@@ -134,34 +134,35 @@ enum class Status { done, stopped, failed, interrupted };
 
 struct Result {
   Status status = Status::done;
-  std::string reason;  // why the run ended early; empty if it did not
+  std::string reason;  // why the run ended early; empty otherwise
   std::vector<std::string> columns, units;
-  std::vector<std::vector<double>> values;  // a vector for each column, if rows are kept
+  std::vector<std::vector<double>> values;  // one vector per column, if rows are kept
   std::vector<std::pair<std::string, double>> measures;
   std::vector<std::string> warnings;
   std::string summary;  // JSON, as `bbsim run --summary` writes it
 
-  // Throws ScenarioError if there is no such column, or if rows are not kept.
+  // Throws ScenarioError if the column does not exist or rows are not kept.
   [[nodiscard]] BBSIM_API const std::vector<double>& column(std::string_view name) const;
 };
 
-// Throws ScenarioError, FileError, ControllerError, and what the options' functions throw.
+// Throws ScenarioError, FileError, ControllerError, and whatever options.sink or goes_on throws.
 [[nodiscard]] BBSIM_API Result run(const Scenario& scenario, const RunOptions& options = {});
 
-// A run that waits at each sample for its commands, which take the place of the scenario's law.
+// A run that waits at each sample for your commands. They replace the scenario's control law.
 class BBSIM_API Stepper {
  public:
-  // Goes to the first sample. Throws as run() does, and ScenarioError without controller.sampling.
+  // Runs to the first sample. Throws like run(). The scenario must have controller.sampling and
+  // must not drive legs.
   explicit Stepper(const Scenario& scenario, const RunOptions& options = {});
   ~Stepper();
   Stepper(Stepper&&) noexcept;
   Stepper& operator=(Stepper&&) noexcept;
 
   [[nodiscard]] bool is_over() const;
-  // The sample that waits for commands; of a run that is over, the last one.
+  // The sample that waits for commands, or the last one if the run is over.
   [[nodiscard]] const Sample& sample() const;
-  // Goes to the next sample, or to the end. Throws ScenarioError for commands that are not finite,
-  // and if the run is over.
+  // Runs to the next sample or to the end. Throws like run(). Throws ScenarioError if a command is
+  // not finite or the run is over.
   void step(const Command& command);
   // Throws ScenarioError if the run is not over.
   [[nodiscard]] Result result() const;
@@ -172,42 +173,43 @@ class BBSIM_API Stepper {
 };
 
 struct SweepOptions {
-  // KEY and SPEC of `bbsim sweep --vary KEY=SPEC`; none: the scenario's own sweep.
+  // KEY and SPEC of `bbsim sweep --vary KEY=SPEC`; empty: the scenario's own sweep.
   std::vector<std::pair<std::string, std::string>> vary{};
-  std::vector<std::string> measures{};  // none: the usual ones
-  bool zip = false;                     // first values together, then second ones; else a grid
+  std::vector<std::string> measures{};  // empty: those of the scenario's sweep
+  bool zip = false;                     // for `vary`: pair the values by position; false: a grid
   std::optional<std::size_t> samples{}, seed{};
-  std::size_t threads = 0;  // 0: as many as there are processors
+  std::size_t threads = 0;  // 0: one per processor
   std::function<bool(double fraction)> goes_on{};
 };
 
-// A row for each case: case, the keys, status, reason, end_time, the measures.
+// One row per case. Columns: case, the keys, status, reason, end_time, the measures.
 struct Table {
   struct Column {
     std::string name, unit;
-    std::vector<double> numbers;     // of a column of numbers
-    std::vector<std::string> texts;  // of a column of texts
+    std::vector<double> numbers;     // empty in a text column
+    std::vector<std::string> texts;  // empty in a column of numbers
   };
   std::vector<Column> columns;
-  bool complete = true;  // false if it was ended
+  bool complete = true;  // false if `goes_on` ended the sweep
 
-  // Throws ScenarioError if there is no such column.
+  // Throws ScenarioError if the column does not exist.
   [[nodiscard]] BBSIM_API const Column& column(std::string_view name) const;
 };
 
-// Throws as run() does.
+// Throws like run().
 [[nodiscard]] BBSIM_API Table sweep(const Scenario& scenario, const SweepOptions& options = {});
 
-// dz = A z + B u, y = C z + D u; dz is z', or with a period z a period later. Matrices by rows.
+// dz = A z + B u, y = C z + D u. dz is z', or z one period later if there is a period. Matrices
+// are lists of rows.
 struct LinearSystem {
   std::vector<std::string> states, inputs, outputs;
   std::vector<std::vector<double>> a, b, c, d;
   std::optional<double> period;  // s
-  std::string json;              // all that `bbsim linearize -o FILE.json` writes
+  std::string json;              // what `bbsim linearize -o FILE.json` writes
 };
 
-// `kind`: "plant", "loop", "sampled", or empty for what is usual; `at`: "home", "equilibrium" or a
-// time. Throws ScenarioError.
+// `kind`: "plant", "loop", "sampled", or empty for the default. `at`: "home", "equilibrium" or a
+// time such as "2 s". Throws ScenarioError.
 [[nodiscard]] BBSIM_API LinearSystem linearize(const Scenario& scenario,
                                                const std::string& kind = "",
                                                const std::string& at = "home");

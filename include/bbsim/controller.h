@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 the bbsim authors
  * SPDX-License-Identifier: BSD-3-Clause */
 
-/* One's own controller of bbsim, as a shared library.
+/* Your own controller for bbsim, as a shared library.
  *
  * A scenario names the library (docs/reference/controllers.md):
  *
@@ -11,22 +11,20 @@
  *       reference: {point: ["3 cm", 0]}
  *       sampling: {period: "20 ms"}
  *
- * bbsim opens it, asks for its version, creates a controller, and has it step once a sample: time
- * stands still meanwhile. A library defines the functions below, three of which may be left out;
- * C99 is enough.
- * Build it with, say,
+ * bbsim opens the library, checks its version, creates a controller and calls its step function
+ * once per sample. Simulated time stands still during the calls. A library defines the functions
+ * below, in C99 or later; reset, save and restore are optional. Build it like this:
  *
  *     cc -std=c99 -O2 -fPIC -shared -I PREFIX/include pid.c -o libpid.so
  *
- * All numbers are in SI units and radians. Rows and pairs are (x, y) of the ball, in the plane's
- * frame, and (phi, theta) of the gimbal.
+ * All numbers are in SI units and radians. Pairs are (x, y) of the ball in the plane's frame, and
+ * (phi, theta) of the gimbal.
  *
- * A function that calls exit() is left there, and has failed: what it had on its stack is not
- * destroyed.
+ * A function that calls exit() fails and is abandoned: objects on its stack are not destroyed.
  *
- * In a sweep each thread creates a controller of its own, and threads call at the same time, each
- * with its own controller: what a library remembers belongs into what create() returns, not into
- * global variables. Calls with one controller never overlap. */
+ * In a sweep, each thread creates its own controller, and threads call the library at the same
+ * time. Keep state in what create() returns, not in global variables. Calls for one controller
+ * never overlap. */
 #ifndef BBSIM_CONTROLLER_H
 #define BBSIM_CONTROLLER_H
 
@@ -37,104 +35,103 @@
 extern "C" {
 #endif
 
-/* The version of all that stands here. It grows when a library that was compiled with an older
- * header would no longer work; bbsim refuses a library of another version. */
+/* Version of this interface. It increases when libraries compiled with an older header no longer
+ * work. bbsim refuses a library of another version. */
 #define BBSIM_CONTROLLER_ABI 1u
 
-/* How many commands there are. A library for three legs, under drives: legs, defines it as 3 before
- * it includes this file. */
+/* Number of commands. A library for three legs (drives: legs) defines it as 3 before it includes
+ * this file. */
 #ifndef BBSIM_CONTROLLER_COMMANDS
 #define BBSIM_CONTROLLER_COMMANDS 2
 #endif
 
-/* Before a function that bbsim has to find, for compilers that hide what is not marked. */
+/* Exports a function, so that bbsim finds it even if the compiler hides functions by default. */
 #if defined(__GNUC__) || defined(__clang__)
 #define BBSIM_CONTROLLER_EXPORT __attribute__((visibility("default")))
 #else
 #define BBSIM_CONTROLLER_EXPORT
 #endif
 
-/* One of controller.library.parameters, in the order of the scenario. */
+/* An entry of controller.library.parameters, in the order of the scenario. */
 typedef struct bbsim_parameter {
-  const char *name; /* ends with a zero */
+  const char *name; /* zero-terminated */
   double value;     /* finite */
 } bbsim_parameter;
 
-/* What a run is like. Pointers in it hold for the call alone: copy what they point to. */
+/* Settings of a run. Its pointers are valid during the call only: copy what they point to. */
 typedef struct bbsim_setup {
   uint32_t abi;                      /* BBSIM_CONTROLLER_ABI of bbsim */
   uint32_t drives_acceleration;      /* commands are 0: angles, rad; 1: accelerations, rad/s^2;
-                                      * 2: torques, N m; 3: voltages, V; 4: angles of the servos
-                                      * of three legs, rad */
-  double period;                     /* from sample to sample, s, > 0 */
-  double delay;                      /* from a sample to its command, s: sampling.delay */
-  double resolution;                 /* that commands are rounded to; 0: none */
-  double derivative_filter;          /* sampling.derivative_filter, s: yours to use, or not */
-  double limit;                      /* commands are kept within it; infinite: none */
-  double end;                        /* of the run, s */
-  size_t parameter_count;            /* of the next */
-  const bbsim_parameter *parameters; /* a null pointer if there are none */
-  size_t column_count;               /* of the next */
-  const char *const *columns; /* names, in output.columns, of numbers that you are to give at each
-                                 step; a null pointer if there are none */
+                                      * 2: torques, N m; 3: voltages, V; 4: servo angles of three
+                                      * legs, rad */
+  double period;                     /* time between samples, s, > 0 */
+  double delay;                      /* from a sample to its command (sampling.delay), s */
+  double resolution;                 /* step to which bbsim rounds commands; 0: none */
+  double derivative_filter;          /* sampling.derivative_filter, s; bbsim does not apply it */
+  double limit;                      /* largest command that both axes allow; infinite: none */
+  double end;                        /* end of the run, s */
+  size_t parameter_count;            /* number of parameters */
+  const bbsim_parameter *parameters; /* null if there are none */
+  size_t column_count;               /* number of columns */
+  const char *const *columns; /* names in output.columns of the numbers that each step writes; null
+                                 if there are none */
 } bbsim_setup;
 
-/* What is known at a sample. */
+/* Input of the controller at a sample. */
 typedef struct bbsim_sample {
   uint64_t number;                  /* 0, 1, 2, ... */
   double t;                         /* number * period, s */
   double seen;                      /* 1: the sensor saw the ball; 0: it did not */
-  double ball[2];                   /* x, y as the sensor saw them, m; 0, 0 if it did not */
-  double reference[2];              /* where the ball is to be, m */
+  double ball[2];                   /* measured x, y, m; 0, 0 if the sensor missed the ball */
+  double reference[2];              /* where the ball should be, m */
   double reference_rate[2];         /* its first derivative, m/s */
   double reference_acceleration[2]; /* its second derivative, m/s^2 */
-  double servo[2];                  /* angles of the servos (of the gimbal, without them), rad */
+  double servo[2];                  /* servo angles (gimbal angles without servos), rad */
   double servo_rate[2];             /* their rates, rad/s */
-  double third_servo;               /* where the commands are those of three servos, the third's */
-  double third_servo_rate;          /* angle and rate; 0 otherwise */
+  double third_servo;               /* angle of the third servo (drives: legs), rad; or 0 */
+  double third_servo_rate;          /* its rate, rad/s; or 0 */
 } bbsim_sample;
 
-/* Returns BBSIM_CONTROLLER_ABI, of the header that the library was compiled with. */
+/* Returns the BBSIM_CONTROLLER_ABI of the header that the library was compiled with. */
 BBSIM_CONTROLLER_EXPORT uint32_t bbsim_controller_abi(void);
 
-/* Makes a controller for a run. Returns what the other functions are given, or a null pointer if
- * there can be none: bbsim then says what bbsim_controller_last_error(NULL) returns, and ends with
- * exit code 2. Refuse parameters and columns that you do not know: they may be misspelt. */
+/* Creates a controller for a run. Returns the pointer that the other functions receive, or null on
+ * failure: bbsim then prints bbsim_controller_last_error(NULL) and ends with exit code 2. Refuse
+ * unknown parameters and columns: they may be misspelled. */
 BBSIM_CONTROLLER_EXPORT void *bbsim_controller_create(const bbsim_setup *setup);
 
-/* A sample. Writes the commands for phi and theta, which have to be finite, and, of each of
- * setup->columns, a number into `columns`, in their order. Where drives_acceleration is 4, there are
- * three commands: one for each servo. Returns 0; any other number ends the run with exit code 1, and
- * bbsim says what bbsim_controller_last_error() returns. */
+/* Computes a sample. Writes finite commands for phi and theta (or for three servos, if
+ * drives_acceleration is 4) to `command`, and a number for each of setup->columns, in order, to
+ * `columns`. Returns 0. Any other number ends the run with exit code 1, and bbsim prints
+ * bbsim_controller_last_error(). */
 BBSIM_CONTROLLER_EXPORT int bbsim_controller_step(void *controller, const bbsim_sample *sample,
                                                   double command[BBSIM_CONTROLLER_COMMANDS],
                                                   double *columns);
 
-/* Another run begins, perhaps with another setup: the controller is to be as if it had just been
- * created. Returns 0 if it is; otherwise bbsim destroys it and creates another. This function may
- * be left out, and then is as if it never could. */
+/* Returns the controller to the state after create(), for another run, perhaps with another setup.
+ * Returns 0 on success; otherwise bbsim destroys the controller and creates another. Optional: if
+ * it is missing, bbsim always does so. */
 BBSIM_CONTROLLER_EXPORT int bbsim_controller_reset(void *controller, const bbsim_setup *setup);
 
-/* Writes what the controller remembers into `bytes`, if there is room for it, and returns how many
- * bytes it takes; 0: that cannot be said, as bbsim_controller_last_error() tells. A call with a room
- * of 0 only asks how many. For `bbsim run --save-state`; may be left out, with the next. */
+/* Writes the controller's state to `bytes` if it fits into `room` bytes. Returns its size, at most
+ * 64 MiB, or 0 on failure. A call with `room` 0 only asks for the size. For `bbsim run
+ * --save-state`; optional, together with restore(). */
 BBSIM_CONTROLLER_EXPORT size_t bbsim_controller_save(const void *controller, void *bytes,
                                                      size_t room);
 
-/* A run goes on: the controller, just created or reset, is to remember what another one of the same
- * setup has written so. Returns 0; any other number ends the run, as it does for a step. */
+/* Restores a state that save() wrote under the same setup. The controller was just created or
+ * reset. Returns 0; any other number ends the run, as for a step. */
 BBSIM_CONTROLLER_EXPORT int bbsim_controller_restore(void *controller, const void *bytes,
                                                      size_t size);
 
-/* The controller is no longer needed. */
+/* Frees the controller. */
 BBSIM_CONTROLLER_EXPORT void bbsim_controller_destroy(void *controller);
 
-/* What went wrong with the last call for this controller, or, for a null pointer, with the last
- * create() of this thread; a text that stays until the next call. A null pointer says nothing. */
+/* Returns why the last call for this controller failed or, for a null pointer, the last create() of
+ * this thread. The text stays valid until the next call. May return null. */
 BBSIM_CONTROLLER_EXPORT const char *bbsim_controller_last_error(const void *controller);
 
-/* The value of the parameter of that name; `otherwise` if there is none. For create() and reset().
- */
+/* Value of the parameter `name`, or `otherwise` if it is not given. For create() and reset(). */
 static inline double bbsim_parameter_or(const bbsim_setup *setup, const char *name,
                                         double otherwise) {
   size_t i, k;

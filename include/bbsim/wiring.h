@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 the bbsim authors
  * SPDX-License-Identifier: BSD-3-Clause */
 
-/* The wiring of a sketch's board, as read from controller.library.wiring (docs/reference/wiring.md).
- * A library that defines bbsim_controller_create_wired() is created with it in place of
+/* The wiring of a sketch's board, read from controller.library.wiring (docs/reference/wiring.md).
+ * If a scenario names a wiring, bbsim calls bbsim_controller_create_wired() in place of
  * bbsim_controller_create(); the rest is as in controller.h. `bbsim sketch` makes such libraries.
  *
  * SI units and radians. Pin -1 means no pin. Pointers are valid during the call only. */
@@ -18,7 +18,7 @@ extern "C" {
 /* Increases when anything below changes. */
 #define BBSIM_WIRING_VERSION 3u
 
-/* counts = counts[0] + (position - position[0]) (counts[1] - counts[0]) / (position[1] - position[0]) */
+/* Linear map through two points: position[i] gives counts[i]. It also extrapolates. */
 typedef struct bbsim_count_map {
   double counts[2];
   double position[2]; /* m */
@@ -26,10 +26,10 @@ typedef struct bbsim_count_map {
 
 /* angle = scale * (pulse - level) */
 typedef struct bbsim_wired_servo {
-  int32_t pin;     /* of the board; or ... */
-  int32_t channel; /* ... of the PCA9685 */
+  int32_t pin;     /* of the board, or -1 */
+  int32_t channel; /* of the PCA9685, or -1 */
   double level;    /* s */
-  double scale;    /* rad/s of the pulse, with the direction's sign */
+  double scale;    /* rad per second of pulse; negative if the direction is -1 */
 } bbsim_wired_servo;
 
 enum bbsim_screen_kind {
@@ -37,30 +37,30 @@ enum bbsim_screen_kind {
   bbsim_four_wires = 1, /* pins: x plus, x minus, y plus, y minus */
   bbsim_five_wires = 2, /* pins: upper left, upper right, lower left, lower right, sense */
   bbsim_voltages = 3,   /* pins: x, y */
-  bbsim_stmpe610 = 4    /* a chip: counts are its own */
+  bbsim_stmpe610 = 4    /* a touch controller; counts of 12 bits */
 };
 
 typedef struct bbsim_wired_screen {
   uint32_t kind;
   int32_t pins[5];
   bbsim_count_map x, y;
-  double untouched;       /* counts of a pin that floats */
-  double resistance[2];   /* of the x and the y plate, ohm */
+  double untouched;       /* counts of a floating pin */
+  double resistance[2];   /* of the x plate and the y plate, ohm */
   double contact;         /* resistance of the touch, ohm */
-  double interval;        /* of the chip's points, s */
+  double interval;        /* time between points of the chip, s */
 } bbsim_wired_screen;
 
 typedef struct bbsim_wired_camera {
   int32_t port;      /* 0: Serial, 1 to 3: Serial1 to Serial3, 4: SerialUSB; -1: no camera */
-  uint32_t decimals; /* of the numbers */
-  double period;     /* from frame to frame, s */
-  double delay;      /* from a frame to its first byte, s */
+  uint32_t decimals; /* of x and y in the text */
+  double period;     /* time between frames, s */
+  double delay;      /* time from a frame to its first byte, s */
   bbsim_count_map x, y;
-  const char *frame; /* {x} and {y} stand for the numbers */
-  const char *lost;  /* sent while the ball is not seen; empty: nothing is */
+  const char *frame; /* text of a frame; {x} and {y} stand for the numbers */
+  const char *lost;  /* text while the ball is not seen; empty: none */
 } bbsim_wired_camera;
 
-/* An analog pin's counts of 10 bits, or a digital pin's level, 0 or 1. */
+/* A constant input: 10-bit counts of an analog pin, or 0 or 1 of a digital pin. */
 typedef struct bbsim_wired_input {
   int32_t pin;
   double value;
@@ -71,33 +71,33 @@ typedef struct bbsim_call_costs {
   double clock;        /* millis, micros */
   double digital;      /* pinMode, digitalRead, digitalWrite, analogWrite */
   double analog;       /* analogRead */
-  double servo;        /* of Servo, each */
-  double serial;       /* of Serial, each byte; the line's own time comes on top */
-  double wire;         /* each transaction on I2C; its bits come on top */
-  double spi;          /* each byte on SPI; its bits come on top */
-  double eeprom_write; /* each byte that is written */
-  double loop;         /* each loop(), for what it computes */
+  double servo;        /* each call of Servo */
+  double serial;       /* each byte on Serial, in addition to the line's own time */
+  double wire;         /* each transaction on I2C, in addition to its bits */
+  double spi;          /* each byte on SPI, in addition to its bits */
+  double eeprom_write; /* each byte written */
+  double loop;         /* each loop(), for its computation */
 } bbsim_call_costs;
 
 typedef struct bbsim_wiring {
   uint32_t version;             /* BBSIM_WIRING_VERSION */
-  uint32_t setup_before;        /* 1: setup() has returned at t = 0; 0: the board starts then */
+  uint32_t setup_before;        /* 1: setup() has returned at t = 0; 0: the board starts at t = 0 */
   uint32_t print;               /* 1: what the sketch prints goes to standard error */
-  bbsim_wired_servo servos[3];  /* phi, theta and none; or those of three legs */
-  double oscillator;            /* of the PCA9685, Hz */
-  uint32_t ignored_channels;    /* bit n: channel n of the PCA9685 drives a servo that is not in the scene */
+  bbsim_wired_servo servos[3];  /* phi, theta and an unused one; or three legs */
+  double oscillator;            /* frequency of the PCA9685, Hz */
+  uint32_t ignored_channels;    /* bit n: channel n of the PCA9685 has a servo outside the scene */
   bbsim_wired_screen screen;
   bbsim_wired_camera camera;
   size_t input_count;
   const bbsim_wired_input *inputs;
   size_t ignored_count;
-  const int32_t *ignored; /* pins of servos that are not in the scene */
+  const int32_t *ignored; /* pins of servos outside the scene */
   size_t eeprom_size;     /* bytes */
   const unsigned char *eeprom;
   bbsim_call_costs costs;
 } bbsim_wiring;
 
-/* Like bbsim_controller_create(), which such a library also has, and which refuses. */
+/* Like bbsim_controller_create(), which such a library also defines, but only to refuse. */
 BBSIM_CONTROLLER_EXPORT void *bbsim_controller_create_wired(const bbsim_setup *setup,
                                                             const bbsim_wiring *wiring);
 
