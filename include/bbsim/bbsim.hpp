@@ -175,7 +175,7 @@ class BBSIM_API Stepper {
 struct SweepOptions {
   // KEY and SPEC of `bbsim sweep --vary KEY=SPEC`; empty: the scenario's own sweep.
   std::vector<std::pair<std::string, std::string>> vary{};
-  std::vector<std::string> measures{};  // empty: those of the scenario's sweep
+  std::vector<std::string> measures{};  // empty: the scenario's or the default ones
   bool zip = false;                     // for `vary`: pair the values by position; false: a grid
   std::optional<std::size_t> samples{}, seed{};
   std::size_t threads = 0;  // 0: one per processor

@@ -47,7 +47,7 @@ inline constexpr bool is_optional = false;
 template <class T>
 inline constexpr bool is_optional<std::optional<T>> = true;
 
-// The bytes are no state of this run. what() ends a sentence: "is damaged: it is truncated".
+// The bytes are not a state of this run. what() ends a sentence: "is damaged: it is truncated".
 class StateFault : public InputError {
   using InputError::InputError;
 };
@@ -72,7 +72,6 @@ class StateWriter {
   }
   // A condition that the state of every run meets. The reader checks it.
   static void require(bool /*sound*/) {}
-  // Raw bytes without a type.
   void bytes(void* data, std::size_t size) { bytes_.append(static_cast<const char*>(data), size); }
   [[nodiscard]] const std::string& bytes() const { return bytes_; }
 

@@ -11,8 +11,8 @@ namespace bbsim {
 
 // The Chebyshev points on [0, 1], ends included, and the polynomial through values at them, by the
 // barycentric formula (Berrut and Trefethen, SIAM Review 46:501, 2004). For a smooth function the
-// error is within a small factor of the best polynomial's of this degree. The points lie closer
-// together near the ends.
+// error is within a small factor of that of the best polynomial of this degree. The points are
+// denser near the ends.
 class ChebyshevPoints {
  public:
   explicit ChebyshevPoints(std::size_t intervals);  // at least 2
@@ -30,8 +30,8 @@ class ChebyshevPoints {
   // The polynomial between points i and i + 1, at the Chebyshev point that lies there when the
   // number of intervals is doubled.
   [[nodiscard]] double between(const double* values, std::size_t i) const;
-  // How far the polynomial may go beyond its values at the points, as a fraction of their range: (L
-  // - 1) / 2 with the Lebesgue constant L <= 1 + 2 / pi log(n + 1) for n intervals.
+  // How far the polynomial may go beyond its values at the points, as a fraction of their range:
+  // (L - 1) / 2 with the Lebesgue constant L <= 1 + 2 / pi log(n + 1) for n intervals.
   [[nodiscard]] double overshoot() const;
   // The sum of the absolute values of the last two Chebyshev coefficients. It estimates how much
   // more points would change the polynomial, if the coefficients decay.

@@ -10,8 +10,7 @@
 namespace bbsim {
 
 // Acts like _exit(). bbsim overrides _exit() to catch calls from foreign libraries
-// (controller/foreign_exit.cpp), so it needs this function for itself. A signal handler may call
-// it.
+// (controller/foreign_exit.cpp), so it needs this function. A signal handler may call it.
 [[noreturn]] inline void end_process(int status) {
   for (;;) syscall(SYS_exit_group, status);
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The hash FNV-1a of Fowler, Noll and Vo, 64 bits: of bytes, or of numbers a word at a time:
-// against damage, not against malice.
+// The 64-bit hash FNV-1a of Fowler, Noll and Vo, for bytes, or for numbers one word at a time. It
+// detects damage, not malice.
 #pragma once
 
 #include <bit>

@@ -34,8 +34,8 @@ struct Bracket {
 enum class Between { smooth, kinks };
 
 // Computes values at the points of twice as many intervals, for coarse points that may hide a
-// maximum between them. A new value is the polynomial's where it may exceed `best`. Elsewhere it is
-// the lower one of its two neighbors. If the maximum may lie at an end, all new values are the
+// maximum between them. A new value is the polynomial's where that may exceed `best`. Elsewhere it
+// is the lower one of its two neighbors. If the maximum may lie at an end, all new values are the
 // polynomial's, because for_each_bracket takes the slope at the end from all of them.
 inline void refine(const ChebyshevPoints& points, const double* values, double best,
                    std::vector<double>& finer) {
@@ -99,7 +99,7 @@ void for_each_bracket(const ChebyshevPoints& points, const double* values, const
       if (promises(values[inner] + chord * width)) look_within(width / 2);
       continue;
     }
-    // A maximum lies within if the slope at the end points inwards. The slope takes all values;
+    // A maximum lies within if the slope at the end points inward. The slope takes all values;
     // this check takes three values and skips most ends that cannot hold a maximum above `best`.
     if (!promises(here + 4 * (change + std::abs(values[inner] - values[next])))) continue;
     const double slope = i == 0 ? points.slope_at_start(values) : -points.slope_at_end(values);

@@ -13,7 +13,7 @@ namespace bbsim {
 // The deepest nesting that is accepted. Comparing, copying and writing a value recurse.
 inline constexpr std::size_t deepest_json = 100;
 
-// How deep JSON text nests. Meaningless for other text.
+// The nesting depth of JSON text. Meaningless for other text.
 [[nodiscard]] inline std::size_t json_depth(std::string_view text) {
   std::size_t depth = 0, deepest = 0;
   bool in_string = false;

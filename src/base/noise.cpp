@@ -17,8 +17,8 @@ struct OddParts {
 };
 constexpr OddParts odd_parts;
 
-// -log(p) from sums and products alone, because C libraries round log() differently. With p = m
-// 2^e, log m = 2 artanh((m - 1) / (m + 1)).
+// -log(p) from sums and products only, because C libraries round log() differently. With
+// p = m 2^e, log m = 2 artanh((m - 1) / (m + 1)).
 double minus_log(double p) {
   constexpr double ln_2 = 0.693147180559945309;
   int exponent = 0;

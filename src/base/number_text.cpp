@@ -23,7 +23,7 @@ char* write_word(char* to, std::string_view word) {
   return to + word.copy(to, word.size());
 }
 
-// Every double's shortest form fits.
+// The most digits in the shortest form of a double.
 constexpr int most_digits = 17;
 
 constexpr auto powers_of_ten = [] {

@@ -3,9 +3,9 @@
 
 // A 113-bit floating-point number for reference solutions.
 //
-// On x86-64 with glibc it is __float128; glibc has had its sine and cosine since 2.26. (libquadmath
-// would be one more library to load at the start of the program.) Elsewhere it is long double,
-// which has 113 bits on AArch64 and fewer on some other machines.
+// On x86-64 with glibc 2.26 or later it is __float128, with glibc's sine and cosine. (libquadmath
+// would be one more library to load when the program starts.) Elsewhere it is long double, which
+// has 113 bits on AArch64 and fewer on some other machines.
 #pragma once
 
 #include <cmath>
@@ -27,7 +27,7 @@ namespace quad_detail {
 __extension__ using Storage = __float128;
 inline constexpr int digits = 113;
 // glibc declares the function only for some compilers, and not always with this type. This
-// declaration gives the same symbol a name of ours.
+// declaration gives the symbol a name of our own.
 extern "C" void bbsim_sincosf128(Storage angle, Storage* sin, Storage* cos) noexcept
     __asm__("sincosf128");
 inline void sin_cos(Storage angle, Storage* sin, Storage* cos) {

@@ -11,7 +11,7 @@ namespace bbsim {
 // (w, x, y, z).
 using Quaternion = std::array<double, 4>;
 
-// The rotation about `vector` by its length (rad).
+// The rotation about `vector` by an angle equal to its length (rad).
 [[nodiscard]] Quaternion rotation_by(const std::array<double, 3>& vector);
 
 // The rotation b followed by the rotation a.

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The functions that templates on a number type need, for doubles. Other number types overload
-// them.
+// Functions that templates on a number type need, for doubles. Other number types overload them.
 #pragma once
 
 #include <cmath>
@@ -27,7 +26,7 @@ template <class Real>
 }
 
 // The square root of `square` with the sign of `along`. A vector's length with this sign is a
-// coordinate that stays smooth where the vector passes zero and reverses.
+// coordinate that stays smooth when the vector passes through zero and reverses.
 [[nodiscard]] inline double root_along(double square, double along) {
   return std::copysign(std::sqrt(square), along);
 }
@@ -40,7 +39,7 @@ template <class Real>
   return which ? yes : no;
 }
 
-// The larger number; NaN if one of them is NaN, which std::max() may ignore.
+// The larger number, or NaN if either is NaN. std::max() may ignore a NaN.
 [[nodiscard]] inline double larger(double a, double b) {
   return a > b || std::isnan(a) ? a : b;
 }
@@ -53,7 +52,7 @@ template <class Real>
   return std::copysign((value + spaced_by_one) - spaced_by_one, value);
 }
 
-// The time as a plain double, to choose an interval. Overloaded for other number types.
+// The time as a plain double, to choose an interval.
 [[nodiscard]] inline double plain(double t) {
   return t;
 }

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Numbers as text for people.
+// Numbers as text for readers.
 #pragma once
 
 #include <string>
 
 namespace bbsim {
 
-// A number in the shortest form that a person reads with pleasure: up to six digits.
+// The number with up to six significant digits.
 [[nodiscard]] std::string short_number(double value);
 
-// A number to so many digits, without an exponent where it is 1 or more: 12.3, 1230000.
+// The number with `digits` digits; from 1 to 1e15 without an exponent: 12.3, 1230000.
 [[nodiscard]] std::string rounded(double value, int digits);
 
 }  // namespace bbsim

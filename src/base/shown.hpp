@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Shows foreign text within our messages.
+// Foreign text for use within messages.
 #pragma once
 
 #include <cstddef>

@@ -10,15 +10,14 @@
 
 namespace bbsim {
 
-// The text without blanks and tabs at its ends. Blank text gives an empty view at its end.
+// The text without blanks and tabs at both ends. Blank text gives an empty view at its end.
 [[nodiscard]] inline std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return text.substr(text.size());
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-// The lines of the text without line breaks. Text after the last break is a line if it is not
-// empty.
+// The lines of the text without line breaks. Text after the last break, if any, is a line too.
 [[nodiscard]] inline std::vector<std::string> lines_of(std::string_view text) {
   std::vector<std::string> lines;
   while (!text.empty()) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reads UTF-8 text that may be none.
+// Reads text that may be invalid UTF-8.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +12,10 @@ namespace bbsim {
 
 struct Utf8Character {
   std::uint32_t code = 0;
-  std::size_t length = 0;  // 0: none begins here
+  std::size_t length = 0;  // 0: no valid character
 };
 
-// The character at the beginning of a text that is not empty.
+// The first character of a nonempty text.
 [[nodiscard]] Utf8Character first_character(std::string_view text);
 
 }  // namespace bbsim

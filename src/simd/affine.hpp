@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A number that is affine in a few variables: its value where they are zero, and its coefficient of
-// each.
+// A number that is affine in a few variables: its value at zero, and a coefficient per variable.
 //
-// Used in place of the state in an equation that is linear in the state, it extracts the equation's
-// coefficients from the one place that has the equation. It has only operations that keep it
-// affine: factors are plain numbers.
+// Evaluated with this type in place of the state, an equation that is linear in the state yields
+// its own coefficients, so that they need no second formula. Only operations that keep the number
+// affine exist: factors are plain numbers.
 #pragma once
 
 #include "simd/pack.hpp"

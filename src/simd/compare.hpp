@@ -49,7 +49,7 @@ BBSIM_INLINE double size_of(double a) {
   return __builtin_fabs(a);
 }
 
-// As for doubles (base/real.hpp), but for the sign of a zero.
+// Like the function for doubles (base/real.hpp), except for the sign of a zero.
 template <class P>
 BBSIM_INLINE P nearest_integer(P a) {
   const P spaced_by_one = choose(exceeds(P(0.0), a), P(-0x1p52), P(0x1p52));

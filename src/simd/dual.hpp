@@ -14,8 +14,8 @@ namespace bbsim::simd {
 // tolerates that at the cost of some steps, and it saves a branch.
 enum class Angles { any, moderate };
 
-// value + slope * epsilon, epsilon^2 = 0. The lanes hold different directions of the state, for one
-// column of the Jacobian per lane; or different loops, for one column of each.
+// value + slope * epsilon, epsilon^2 = 0. The lanes hold different directions of the state, one
+// column of the Jacobian per lane; or different loops, one column of each.
 //
 // If the compiler knows the variables' slopes (0 or 1), it drops all terms that do not depend on
 // the direction. Without branches it also computes the values only once for all directions.

@@ -65,12 +65,12 @@ struct WithGradient {
     return {quotient, (a.gradient - quotient * b.gradient) / b.value};
   }
 
-  // Comparisons are of the values: a choice has the derivatives of what it chose.
+  // Compares values. A choice has the derivatives of the chosen number.
   friend bool exceeds(const WithGradient& a, const WithGradient& b) { return a.value > b.value; }
   friend WithGradient choose(bool which, const WithGradient& yes, const WithGradient& no) {
     return which ? yes : no;
   }
-  // The derivatives are those without rounding, which has none of use.
+  // Keeps the derivatives of `a`, because those of rounding are useless (0 almost everywhere).
   friend WithGradient nearest_integer(const WithGradient& a) {
     return {bbsim::nearest_integer(a.value), a.gradient};
   }

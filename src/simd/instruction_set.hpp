@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The choice of an instruction set, for all code that is compiled once for each.
+// Chooses an instruction set for code that is compiled once for each set.
 #pragma once
 
 #include <optional>
@@ -17,8 +17,7 @@ enum class InstructionSet { baseline, avx2, avx512 };
 
 [[nodiscard]] const char* name_of(InstructionSet set);
 
-// The set of that name; empty if this build has no code for it or this processor does not support
-// it.
+// The set of that name; empty if this build or this processor does not support it.
 [[nodiscard]] std::optional<InstructionSet> find_instruction_set(std::string_view name);
 
 // The set that the environment variable BBSIM_SIMD names, otherwise the best of this processor.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Instruction sets as tags of types. Code for one set is a template of its tag, so that the linker
+// Instruction sets as tag types. Code for one set is a template on its tag, so that the linker
 // cannot use it in place of code for another.
 #pragma once
 

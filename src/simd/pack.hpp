@@ -104,7 +104,7 @@ struct Pack {
   }
 };
 
-// For angles within pi/4: the polynomials alone.
+// For angles within pi/4: the polynomials only.
 template <class Isa, int lanes>
 BBSIM_INLINE SinCos<Pack<Isa, lanes>> sin_cos_of_small(Pack<Isa, lanes> angle) {
   using P = Pack<Isa, lanes>;
@@ -120,7 +120,7 @@ BBSIM_INLINE SinCos<Pack<Isa, lanes>> sin_cos_of_small(Pack<Isa, lanes> angle) {
 }
 
 // Within about 1 ulp of the true value up to 10^5 rad: Cody and Waite's reduction by multiples of
-// pi/2, then minimax polynomials. The reduction loses digits beyond.
+// pi/2, then minimax polynomials. Beyond that, the reduction loses digits.
 template <class Isa, int lanes>
 BBSIM_INLINE SinCos<Pack<Isa, lanes>> sin_cos_of_moderate(Pack<Isa, lanes> angle) {
   using P = Pack<Isa, lanes>;
@@ -146,7 +146,7 @@ BBSIM_INLINE SinCos<Pack<Isa, lanes>> sin_cos_of_moderate(Pack<Isa, lanes> angle
   return result;
 }
 
-// The same up to 10^5 rad. Beyond, uses the C library, in the lanes concerned alone.
+// The same up to 10^5 rad. Beyond that, uses the C library, in the affected lanes only.
 template <class Isa, int lanes>
 BBSIM_INLINE SinCos<Pack<Isa, lanes>> sin_cos(Pack<Isa, lanes> angle) {
   using P = Pack<Isa, lanes>;

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The maximum of a function of one variable, with another function in each lane.
+// The maximum of a function of one variable, with a different function in each lane.
 #pragma once
 
 #include "simd/compare.hpp"
 
 namespace bbsim::simd {
 
-// A function's value and slope at a place.
+// Value and slope of a function at a place.
 template <class P>
 struct Looked {
   P at, value, slope;
@@ -81,7 +81,7 @@ BBSIM_INLINE void raise_to_peak(const Looked<P>* places, int count, P& greatest,
     greatest = larger_of(greatest, places[i + 1].value);
     promise[i] = promise_between(places[i], places[i + 1]);
   }
-  // Mostly there are few such intervals, if any.
+  // Usually few intervals remain, if any.
   int promising[most], left = 0;
   const P enough = P(worth) * greatest;
 #pragma GCC unroll 1

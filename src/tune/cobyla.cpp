@@ -18,7 +18,7 @@
 namespace bbsim::tune {
 namespace {
 
-// The functions of NLopt that are called.
+// The functions of NLopt that are used.
 struct Library {
   decltype(&nlopt_create) create;
   decltype(&nlopt_destroy) destroy;
@@ -35,7 +35,7 @@ struct Library {
 
 Library load() {
   constexpr const char* file = BBSIM_NLOPT_LIBRARY;
-  // Never closed: the process may tune again.
+  // Never closed, because the process may tune again.
   void* const library = dlopen(file, RTLD_NOW | RTLD_LOCAL);
   const auto fail = [&] {
     throw InputError(std::string("the optimizer NLopt does not open: ") + dlerror() +
@@ -66,7 +66,7 @@ const Library& library() {
   return loaded;
 }
 
-// NLopt asks for value and constraints one after the other. It is C: no exception may pass it.
+// NLopt asks for value and constraints in separate calls. No exception may pass through its C code.
 struct Calls {
   const Cobyla& search;
   nlopt_opt of = nullptr;
@@ -123,7 +123,7 @@ void minimize(const Cobyla& search, std::vector<double> x) {
   nlopt.set_tolerance(of, search.tolerance);
   nlopt.set_most(of, static_cast<int>(search.most));
   double least = 0;
-  // Its result says why it ended, which is no matter: the function remembers what was best.
+  // Ignores the result, which is the reason for ending: search.function remembers the best point.
   static_cast<void>(nlopt.optimize(of, x.data(), &least));
   if (calls.failure) std::rethrow_exception(calls.failure);
 }

@@ -16,19 +16,19 @@
 namespace bbsim::tune {
 namespace {
 
-// Cases are run in groups of this size.
+// The number of cases that run together.
 constexpr std::size_t group = 8;
-// With few cases, all of them are always looked at.
+// The numbers of cases in a search. With up to first_cases cases, each search runs all of them.
 constexpr std::size_t first_cases = 2 * group, most_cases = 4 * group;
-// Rounds with further cases, and what a search is given in each, in multiples of the numbers
-// plus 1.
+// Limits on rounds. Evaluations of a scan and of a search, in multiples of the number of
+// parameters plus 1.
 constexpr std::size_t most_rounds = 8, most_stalled = 2;
 constexpr std::size_t scanned = 8, first_search = 16, later_search = 8;
 constexpr double first_step = 0.15, later_step = 0.04;
-// Requirements are aimed at with this margin: a search ends on either side of them.
+// Tightens the requirements, because a search may end on either side of them.
 constexpr double margin = 1e-3;
 
-// Number `i` of the sequence of van der Corput.
+// Number `i` of the van der Corput sequence.
 double reversed(std::size_t i, std::size_t base) {
   double result = 0, digit = 1;
   for (; i > 0; i /= base) {
@@ -38,8 +38,8 @@ double reversed(std::size_t i, std::size_t base) {
   return result;
 }
 
-// Point `i`, from 1, of those that fill the cube evenly: Halton's, and in further directions those
-// of multiples of irrational numbers.
+// Point `i`, from 1, of a sequence that fills the unit cube evenly: Halton's in the first ten
+// dimensions, multiples of irrational numbers in the others.
 Point spread(std::size_t i, std::size_t size) {
   constexpr std::array<std::size_t, 10> primes{2, 3, 5, 7, 11, 13, 17, 19, 23, 29};
   Point point(size);
@@ -72,7 +72,7 @@ class Search {
     Merit merit;
   };
 
-  // False if it was interrupted.
+  // Returns false if interrupted.
   bool search() {
     if (!try_in_all(problem_.start)) return false;
     found_.at_start = found_.scores;
@@ -97,7 +97,7 @@ class Search {
     }
   }
 
-  // Whether a round has gained next to nothing.
+  // Whether a round gained almost nothing.
   static bool has_come_down(const Merit& before, const Merit& now) {
     constexpr double little = 1e-3;
     return now.unsettled >= (1 - little) * before.unsettled &&
@@ -105,7 +105,7 @@ class Search {
            before.objective - now.objective <= little * std::abs(now.objective);
   }
 
-  // By more than rounding, which depends on what is run beside a case.
+  // Worse by more than rounding, which depends on the cases that run together.
   static bool is_worse(const Merit& in_all, const Merit& expected) {
     constexpr double rounding = 1e-6;
     if (expected.unsettled > 0 || in_all.unsettled > 0)
@@ -124,7 +124,7 @@ class Search {
     return true;
   }
 
-  // Tries a point in all cases, and remembers the best one.
+  // Tries a point in all cases and remembers the best point.
   bool try_in_all(const Point& point) {
     if (!evaluate({point}, all_)) return false;
     last_ = merit_of(scores_, problem_.share);
@@ -136,7 +136,7 @@ class Search {
     return true;
   }
 
-  // Those of all cases that one has to look at: the worst ones.
+  // Chooses the cases for the searches: the worst ones, and a spread over all cases.
   void choose_cases() {
     cases_ = all_;
     if (all_.size() <= first_cases || problem_.share < 1) return;
@@ -149,7 +149,7 @@ class Search {
     std::ranges::sort(cases_);
   }
 
-  // The worst of all cases join, and the least of those looked at so far make room.
+  // Adds the worst of all cases and drops the mildest of the previous ones.
   void add_cases() {
     const std::vector<std::size_t> before = std::exchange(cases_, {});
     add_worst(last_scores_, all_, group);
@@ -162,7 +162,7 @@ class Search {
     if (one < all_.size() && std::ranges::find(cases_, one) == cases_.end()) cases_.push_back(one);
   }
 
-  // Adds up to `count` of `cases`: the worst of the objective and of each requirement in turn.
+  // Adds up to `count` of `cases`: the worst by the objective and by each requirement, in turn.
   void add_worst(const std::vector<CaseScore>& scores, const std::vector<std::size_t>& cases,
                  std::size_t count) {
     std::vector<std::vector<std::size_t>> orders;
@@ -186,7 +186,7 @@ class Search {
     }
   }
 
-  // The start, and the best of the points that are spread over all there are.
+  // Finds the starting points: the given one, and the best of the points that fill the cube.
   bool scan(std::vector<Candidate>& starts) {
     std::vector<Point> points{problem_.start};
     for (std::size_t i = 1; i <= scanned * size_; ++i) {
@@ -206,9 +206,9 @@ class Search {
     return true;
   }
 
-  // Goes down from a point, looking at the chosen cases only. The greatest of many values has
-  // kinks, which linear models do not follow. So the search has one number more, a bound, which it
-  // makes small, and in each case the value shall be below it: these values are smooth.
+  // Minimizes from a point, over the chosen cases only. The maximum over the cases has kinks, which
+  // linear models cannot follow. Therefore the search minimizes an additional variable, a bound on
+  // the value of each case; these values are smooth.
   bool go_down(const Point& from, double step, std::size_t most, std::optional<Candidate>& best) {
     if (!evaluate({from}, cases_)) return false;
     Point at = from;
@@ -216,7 +216,7 @@ class Search {
     const bool settled = merit.unsettled == 0;
     const double scale = settled && merit.objective != 0 ? std::abs(merit.objective) : 1;
     const double first = settled ? merit.objective / scale : 1;
-    // What is infinite is as bad as the worst there was.
+    // An infinite value counts as the largest finite one so far.
     double greatest = 1;
     const auto bounded = [&](double value) {
       return std::isfinite(value) ? std::min(value / scale, 10 * greatest) : greatest;
@@ -239,7 +239,7 @@ class Search {
     search.step = step;
     search.most = most;
     search.function = [&](const Point& x, double& value, double* constraints) {
-      if (!std::equal(at.begin(), at.end(), x.begin())) {  // not only another bound
+      if (!std::equal(at.begin(), at.end(), x.begin())) {  // not only the bound changed
         at.assign(x.begin(), x.end() - 1);
         interrupted = !evaluate({at}, cases_);
         if (interrupted) return false;
@@ -247,7 +247,7 @@ class Search {
         remember();
       }
       value = x.back();
-      if (problem_.share < 1) {  // the cases that count depend on x
+      if (problem_.share < 1) {  // the cases that matter depend on x
         *constraints++ = bounded(merit.objective) - value;
         for (const double one : merit.excesses) *constraints++ = excess(one);
       } else {
@@ -314,7 +314,7 @@ Merit merit_of(const std::vector<CaseScore>& scores, double share) {
     if (!score.settled())
       merit.unsettled += (1 + score.missed) / static_cast<double>(scores.size());
   }
-  // Infinite numbers are not compared.
+  // Excesses may be infinite here; do not compare them.
   merit.excess = 0;
   return merit;
 }
