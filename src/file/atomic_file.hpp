@@ -23,7 +23,7 @@ enum class Durable { no, yes };
 // at a signal. commit() keeps a symbolic link and replaces the file that it points to. A new file
 // gets its permissions from the umask; a replaced file keeps its own.
 //
-// Data for anything but a regular file goes there directly: a device, a FIFO, "-" for standard
+// A target that is not a regular file is written directly: a device, a FIFO, "-" for standard
 // output, /dev/stdout and other names of open descriptors.
 //
 // Every function throws OutputError with the target's name, the reason, and the remedy.
@@ -76,7 +76,7 @@ class AtomicFile {
   std::string temporary_;  // the hidden temporary's name; empty if there is none
   Descriptor descriptor_;
   std::unique_ptr<char[]> buffer_;
-  char* end_;  // of the bytes in the buffer
+  char* end_;  // end of the bytes in the buffer
 };
 
 // Writes a whole file; "-" is standard output. Throws OutputError.

@@ -28,7 +28,7 @@ class AttributeValue {
 
   [[nodiscard]] const Variant& value() const { return value_; }
 
-  // Numbers in their shortest form.
+  // The value as text, with numbers in their shortest form.
   [[nodiscard]] std::string text() const {
     if (const auto* real = std::get_if<double>(&value_)) return number_text(*real);
     if (const auto* whole = std::get_if<std::int64_t>(&value_)) return std::to_string(*whole);

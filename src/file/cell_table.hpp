@@ -17,13 +17,13 @@
 
 namespace bbsim::file {
 
-// A place in a file, from 1; line 0 is none.
+// A place in a file, counted from 1; line 0 means none.
 struct Place {
   std::size_t line = 0, column = 0;
   friend auto operator<=>(const Place&, const Place&) = default;
 };
 
-// A number or a text for each row. In the trajectories of a sweep, each row has `width` numbers,
+// A number or a text per row. In the trajectories of a sweep, each row has `width` numbers,
 // stored row after row.
 struct CellColumn {
   CellColumn() = default;
@@ -36,7 +36,7 @@ struct CellColumn {
   // Both are empty in a column without text.
   std::vector<std::string> texts{};
   std::vector<bool> is_text{};
-  // In a CSV, the first empty field, and the first other text.
+  // In a CSV, the places of the first missing value and of the first other text.
   Place first_gap{}, first_text{};
 
   void add_number(double number);
@@ -50,28 +50,28 @@ struct CellTable {
   std::vector<std::string> names;
   std::vector<CellColumn> columns;
   std::size_t rows = columns.empty() ? 0 : columns.front().size();
-  Attributes attributes{};           // of an HDF5 file's root
-  std::vector<std::string> units{};  // of an HDF5 file's columns
-  std::string file{};                // its name in messages, of a CSV
-  std::vector<std::string> notes{};  // what was left out: "warning: ..." or "note: ..."
+  Attributes attributes{};           // root attributes of an HDF5 file
+  std::vector<std::string> units{};  // per column, in an HDF5 file
+  std::string file{};                // name of a CSV in messages
+  std::vector<std::string> notes{};  // skipped parts: "warning: ..." or "note: ..."
 
   // The column with this name, or null.
   [[nodiscard]] const CellColumn* find(std::string_view name) const;
 };
 
-// What to read of a CSV.
+// Options for reading a CSV.
 struct CsvChoice {
-  std::vector<std::string> wanted{};  // only these columns and t; none: all
-  std::vector<std::string> header{};  // the columns' names, if the file does not have them
+  std::vector<std::string> wanted{};  // reads only these columns and t; empty: all
+  std::vector<std::string> header{};  // the columns' names, if the file lacks them
 };
 
 // Reads an HDF5 file (by its ending) or a CSV; "-" is CSV on standard input. Commas, semicolons or
-// tabs separate the fields of a CSV, which may be quoted; numbers may have decimal commas. Lines
-// before the header, blank lines and lines that start with # are left out. A field that is not a
-// number is text; of a missing value, an empty one. Throws InputError: where, found, allowed.
+// tabs separate the fields of a CSV. Fields may be quoted; numbers may have decimal commas. Skips
+// lines before the header, blank lines and lines that start with #. A field that is not a number is
+// text; a missing value is empty text. Throws InputError: where, found, allowed.
 [[nodiscard]] CellTable read_cells(const std::string& file, const CsvChoice& choice = {});
 
-// Throws read_table()'s InputError for a text in a column, at first_gap or first_text.
+// Throws read_table()'s InputError for text in a column, at first_gap or first_text.
 [[noreturn]] void refuse_text(const CellTable& table, std::size_t column, const Place& place);
 
 }  // namespace bbsim::file

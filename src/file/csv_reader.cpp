@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reads CSV as bbsim, loggers, spreadsheets and other programs write it. All commands read it here.
+// Reads CSV from bbsim, loggers, spreadsheets and other programs, for all commands.
 #include <unistd.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ std::string what_was_found(std::string_view text) {
 // Reads the whole text as a number, rounded to the nearest double.
 enum class Reading { number, no_number, too_large };
 Reading read_number(std::string_view text, double& value) {
-  // std::from_chars refuses a plus sign.
+  // std::from_chars() refuses a plus sign.
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value);
@@ -57,13 +57,13 @@ Reading read_number(std::string_view text, double& value) {
   return Reading::number;
 }
 
-// What loggers write where there is no value.
+// Whether the field is one of the words that loggers write for a missing value.
 bool is_gap(std::string_view field) {
   constexpr std::array<std::string_view, 6> words = {"NA", "N/A", "#N/A", "null", "NULL", "None"};
   return std::ranges::find(words, field) != words.end();
 }
 
-// Also reads a decimal comma, where it is no delimiter.
+// Also reads a decimal comma that is not a delimiter.
 Reading read_field(std::string_view field, double& value) {
   const Reading reading = read_number(field, value);
   const std::size_t comma = field.find(',');
@@ -81,7 +81,7 @@ bool is_number(std::string_view field) {
   return read_field(field, ignored) != Reading::no_number;
 }
 
-// Whether a field below a name is its unit, as some loggers write them in a second line.
+// Whether a field may be a unit. Some loggers write units below the names, in a second line.
 bool is_unit(std::string_view field) {
   constexpr std::array<std::string_view, 16> units = {"",      "-",   "s",   "ms", "us",  "m",
                                                       "cm",    "mm",  "deg", "°",  "rad", "deg/s",
@@ -97,13 +97,13 @@ std::size_t for_each_field(std::string_view line, char delimiter, Use use) {
   std::size_t count = 0;
   for (std::size_t start = 0;;) {
     const std::size_t end = line.find(delimiter, start);
-    use(trimmed(line.substr(start, end - start)), count++);  // npos - start reaches to the end
+    use(trimmed(line.substr(start, end - start)), count++);  // for npos: to the end
     if (end == std::string_view::npos) return count;
     start = end + 1;
   }
 }
 
-// The fields without quotation marks; nothing if one stays open.
+// The fields without quotation marks; nothing if a quote stays open.
 std::optional<std::vector<std::string>> fields_of(std::string_view line, char delimiter) {
   std::vector<std::string> fields;
   if (!split_fields(line, fields, delimiter)) return {};
@@ -111,13 +111,13 @@ std::optional<std::vector<std::string>> fields_of(std::string_view line, char de
   return fields;
 }
 
-// How well a line names the columns of the row below it with this delimiter: the number of numbers
-// in the row; 0 if it does not.
+// How well a line fits as the header of the row below it with this delimiter: the count of numbers
+// in the row; 0 if it cannot be its header.
 std::size_t fit(std::string_view header, std::string_view row, char delimiter) {
   const auto names = fields_of(header, delimiter), fields = fields_of(row, delimiter);
   if (!names || !fields || fields->size() < names->size()) return 0;
   if (names->size() == 1 && fields->size() > 1) return 0;
-  // One column of decimal commas, but not a row of names between commas.
+  // A single column may hold decimal commas, but its header must not contain commas.
   if (names->size() == 1 && delimiter != ',' && header.find(',') != std::string_view::npos)
     return 0;
   for (std::size_t c = 0; c < names->size(); ++c) {
@@ -154,7 +154,7 @@ class Parser {
                        std::ranges::find(choice.wanted, name) != choice.wanted.end());
     }
     const std::size_t columns = cells_.names.size();
-    // A guess of the number of rows that avoids most reallocations.
+    // Guesses the number of rows, to avoid most reallocations.
     const std::size_t rows = lines_.size().value_or(0) / (2 * columns) + 1;
     constexpr std::size_t most = 4096;
     for (CellColumn& column : cells_.columns) column.numbers.reserve(std::min(rows, most));
@@ -173,7 +173,7 @@ class Parser {
     std::size_t number = 0;
   };
 
-  // A file may have any number of rows. An endless input is limited by this machine's memory.
+  // The most rows to read. A file has no limit; this machine's memory limits an endless input.
   [[nodiscard]] std::size_t room_for_rows() const {
     return lines_.size() ? std::numeric_limits<std::size_t>::max()
                          : most_bytes() / (sizeof(double) * cells_.names.size());
@@ -192,8 +192,7 @@ class Parser {
     return line.has_value();
   }
 
-  // The next line that is neither blank nor a remark: of those that were looked at, then of the
-  // file.
+  // Goes to the next line that is neither blank nor a remark: first in ahead_, then in the file.
   bool next_row() {
     if (next_ahead_ < ahead_.size()) {
       text_ = ahead_[next_ahead_].text;
@@ -208,7 +207,7 @@ class Parser {
     return false;
   }
 
-  // Looks at the row with this index. Returns whether there is one.
+  // Looks ahead to the row with this index. Returns whether it exists.
   bool look(std::size_t index) {
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     while (ahead_.size() <= index) {
@@ -225,7 +224,7 @@ class Parser {
     return true;
   }
 
-  // Takes a row that was looked at; next_row() goes on after it.
+  // Goes to a row of ahead_; next_row() continues after it.
   void take(std::size_t index) {
     text_ = ahead_[index].text;
     number_ = ahead_[index].number;
@@ -245,7 +244,7 @@ class Parser {
       if (found.numbers == 0) continue;
       delimiter_ = found.delimiter;
       const auto names = fields_of(ahead_[i].text, delimiter_);
-      // Lines above it with as many fields are no banner: the first of them is the header.
+      // Lines just above with as many fields belong to the table. The first of them is the header.
       std::size_t header = i;
       while (header > 0 && names->size() > 1) {
         const auto above = fields_of(ahead_[header - 1].text, delimiter_);
@@ -261,7 +260,7 @@ class Parser {
       }
       return;
     }
-    // A remark may name the columns, as numpy.savetxt writes it.
+    // A remark may name the columns: numpy.savetxt writes its header so.
     if (remark.number != 0) {
       const Fit found = best_fit(remark.text, ahead_[0].text);
       if (found.numbers > 0) {
@@ -296,7 +295,7 @@ class Parser {
                            "; the lines before it are left out");
   }
 
-  // The user names the columns, in place of a header if there is one.
+  // Uses the names that the user gave, and skips lines before the first row.
   void take_given(const std::vector<std::string>& given) {
     cells_.names = given;
     std::size_t numbers = 0, first = 0;
@@ -346,8 +345,8 @@ class Parser {
     name_the_nameless();
   }
 
-  // The first column without a name is the index of pandas, the last one what follows a delimiter
-  // at the end of each line.
+  // A first column without a name is the index from pandas. A last one is the empty text after a
+  // delimiter at the end of each line.
   void name_the_nameless() {
     const bool has_rows = next_ahead_ < ahead_.size();
     std::size_t at = 0;
@@ -452,7 +451,7 @@ class Parser {
     }
   }
 
-  // Where a part of the line begins, from 1; 1 if it is no part of it.
+  // The column where a part of the current line begins, from 1; 1 for any other text.
   [[nodiscard]] std::size_t column_of(std::string_view part) const {
     const std::less_equal<> not_after;
     const bool within = part.data() != nullptr && not_after(text_.data(), part.data()) &&
@@ -460,7 +459,7 @@ class Parser {
     return within ? static_cast<std::size_t>(part.data() - text_.data()) + 1 : 1;
   }
 
-  // `at` is a part of the line; the message gives its column.
+  // `at` is a part of the current line. The error gives its column.
   [[noreturn]] void fail(std::string_view at, const std::string& message) const {
     throw InputError({Problem{
         lines_.name() + ":" + std::to_string(number_) + ":" + std::to_string(column_of(at)),
@@ -469,15 +468,15 @@ class Parser {
 
   LineReader lines_;
   std::string_view text_;    // the current line without its end
-  std::size_t number_ = 1;   // of the current line
-  std::vector<Line> ahead_;  // the rows that were looked at in search of the header
+  std::size_t number_ = 1;   // number of the current line
+  std::vector<Line> ahead_;  // rows read in search of the header
   std::size_t next_ahead_ = 0;
-  Line remark_{};  // the last one
+  Line remark_{};  // the last remark
   char delimiter_ = ',';
   std::string header_;
   CellTable cells_;
-  std::vector<bool> reads_;          // for each column
-  std::vector<std::string> fields_;  // of a line with quotation marks
+  std::vector<bool> reads_;          // per column: whether to read it
+  std::vector<std::string> fields_;  // fields of a line with quotation marks
   bool beyond_ = false;              // the row has a field beyond the columns
   std::size_t rows_beyond_ = 0, headers_again_ = 0;
   std::string first_beyond_;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Writes CSV: a header of bare names, then numbers in the shortest form that reads back to the same
-// double. Each row ends in "\n". There are no comments.
+// double. Each row ends in "\n".
 #include "base/number_text.hpp"
 #include "file/atomic_file.hpp"
 #include "file/formats.hpp"
@@ -27,7 +27,7 @@ class CsvWriter final : public TableWriter {
     }
   }
 
-  void finish(const Attributes& /*CSV has no place for them*/) override { file_.commit(); }
+  void finish(const Attributes& /*CSV cannot hold them*/) override { file_.commit(); }
 
  private:
   AtomicFile file_;

@@ -20,7 +20,7 @@
 namespace bbsim::file {
 namespace {
 
-constexpr std::size_t looked_at = 4096;  // bytes, from either end
+constexpr std::size_t looked_at = 4096;  // bytes read at each end
 
 constexpr const char* remedy = ". Name another file with -o, or replace this one with --force";
 
@@ -30,7 +30,7 @@ constexpr const char* remedy = ". Name another file with -o, or replace this one
                    likeness.what + remedy);
 }
 
-// Whether it is a file that would be replaced.
+// Whether the target is a regular file, which would be replaced.
 bool is_file(const std::string& target, struct stat& status) {
   return !is_written_directly(target) && stat(target.c_str(), &status) == 0 &&
          S_ISREG(status.st_mode);

@@ -24,7 +24,7 @@ struct Likeness {
 // and folders, which fail when the file is opened.
 void require_like(const std::string& target, const Likeness& likeness);
 
-// The same, of a file that must be new, or have `content`, which may be null.
+// Throws InputError if a regular file exists, unless it has `content`, which may be null.
 void require_new(const std::string& target, const std::string_view* content);
 
 }  // namespace bbsim::file

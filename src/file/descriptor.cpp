@@ -72,7 +72,7 @@ int sync_content(int descriptor) {
 
 int sync_folder(const std::string& folder) {
   const Descriptor opened(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!opened.is_open()) return errno == EACCES ? 0 : errno;  // writable, not readable
+  if (!opened.is_open()) return errno == EACCES ? 0 : errno;  // it may still be writable
   while (fsync(opened.get()) != 0) {
     if (errno != EINTR) return cannot_sync(errno) ? 0 : errno;
   }

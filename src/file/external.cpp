@@ -18,8 +18,8 @@
 namespace bbsim::file {
 namespace {
 
-// Files without a name, which go when they are closed: with them on both sides of the process
-// nobody waits for a full pipe.
+// Unnamed temporary files, which vanish when they are closed. With files in place of pipes, neither
+// process can block on a full pipe.
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 struct Purpose {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Another program, run to its end.
+// Runs another program to its end.
 #pragma once
 
 #include <optional>
@@ -11,13 +11,13 @@
 namespace bbsim::file {
 
 struct Finished {
-  int status = 0;  // as of waitpid
+  int status = 0;  // from waitpid()
   std::string output, complaint;
-  [[nodiscard]] bool well() const;  // it ended by itself, with exit code 0
+  [[nodiscard]] bool well() const;  // it exited with code 0
 };
 
-// Runs words[0], looked for on the PATH, with `input` at its standard input; nothing if there is no
-// such program. Throws OutputError: "cannot `purpose`: why".
+// Runs the program words[0], from the PATH, with `input` as its standard input. Returns nothing if
+// the program does not exist. Throws OutputError: "cannot `purpose`: why".
 [[nodiscard]] std::optional<Finished> run_program(const std::vector<std::string>& words,
                                                   const std::string& input,
                                                   const std::string& purpose);

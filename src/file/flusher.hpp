@@ -11,8 +11,8 @@
 namespace bbsim::file {
 
 // A power cut loses at most the last few seconds of work. The disk starts to write in the
-// background once enough data has accumulated. This keeps the waits short, every few seconds and at
-// the end.
+// background once enough data has accumulated, so that the syncs every few seconds and at the end
+// are short.
 class Flusher {
  public:
   using Clock = std::chrono::steady_clock;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The format of a file, by its name.
+// The format of a file from its name.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace bbsim::file {
 
 enum class Format { csv, hdf5, other };
 
-// By the ending, in upper or lower case: .csv, .h5, .hdf5.
+// Decides by the ending, in upper or lower case: .csv, .h5, .hdf5.
 [[nodiscard]] Format format_of(const std::string& file);
 
 // The ending in lower case: ".svg" for "a.SVG".

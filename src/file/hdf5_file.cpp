@@ -41,7 +41,7 @@ bbsim_hdf5_attribute described(const std::string& name, const AttributeValue& va
   return attribute;
 }
 
-// A name like `wanted` that HDF5 can give to something, which none of `taken` has.
+// A name like `wanted` that HDF5 accepts and that is not in `taken`. Adds it to `taken`.
 std::string free_name(std::string wanted, std::set<std::string>& taken) {
   std::replace(wanted.begin(), wanted.end(), '/', '_');
   if (wanted.empty() || wanted == ".") wanted += '_';
@@ -50,9 +50,9 @@ std::string free_name(std::string wanted, std::set<std::string>& taken) {
   return name;
 }
 
-// "motion.csv" of "../tables/motion.csv".
+// "motion.csv" from "../tables/motion.csv".
 std::string last_part(const std::string& file) {
-  return file.substr(file.rfind('/') + 1);  // npos + 1: all of it
+  return file.substr(file.rfind('/') + 1);  // npos + 1 = 0: everything
 }
 
 }  // namespace
@@ -144,7 +144,7 @@ void Hdf5Output::check_open() const {
 }
 
 void Hdf5Output::fail(const bbsim_hdf5_error& error) {
-  writer_.reset();  // with rows missing, the file must not get its name
+  writer_.reset();  // an incomplete file must not get its final name
   if (error.system_error != 0) file_.fail(error.system_error);
   throw OutputError("cannot write " + target_ + ": " + error.text);
 }

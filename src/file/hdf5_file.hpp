@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// HDF5 files that the program writes: the module behind them, its errors as ours.
+// Writes HDF5 files through the HDF5 module, with its errors as OutputError.
 #pragma once
 
 #include <cstddef>
@@ -16,29 +16,29 @@
 
 namespace bbsim::file {
 
-// A file on its way to its final name. What these take is as the module's interface says. Every
-// function throws OutputError; after that, only destruction may follow. Where the HDF5 library
-// crashes, the program ends as if nobody had caught that error.
+// An HDF5 file that gets its final name when it is complete. Arguments are as in the module's
+// interface (hdf5/interface.h). Every function throws OutputError; the object may then only be
+// destroyed. If the HDF5 library crashes, the program ends as if nobody had caught that error.
 class Hdf5Output {
  public:
   Hdf5Output(const Hdf5Output&) = delete;
   Hdf5Output& operator=(const Hdf5Output&) = delete;
 
-  // Throws here, before any work is done, if the target cannot be written to.
+  // Throws before any work is done if the target cannot be written.
   Hdf5Output(const std::string& target, std::span<const bbsim_hdf5_column> columns,
              Durable durable = Durable::no);
 
   void write_axis(const bbsim_hdf5_column& axis, const double* values);
   void append(const bbsim_hdf5_values* columns, std::size_t rows);
-  // The column has as many rows as there are by now.
+  // Writes a column with as many values as rows have been appended.
   void write_column(const bbsim_hdf5_column& column, const double* values);
   void write_inputs(const std::vector<InputTable>& inputs);
-  // Completes the file and puts it under its final name. Without this call nothing stays.
+  // Completes the file and puts it under its final name. Without this call no file remains.
   void finish(const Attributes& attributes);
 
  private:
   void check_open() const;
-  // Calls a function of the module, with where it says why it failed.
+  // Calls a function of the module with a place for its error. Throws if the function fails.
   template <class Function>
   void call(const Function& function);
   [[noreturn]] void fail(const bbsim_hdf5_error& error);

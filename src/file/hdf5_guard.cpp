@@ -20,10 +20,10 @@ namespace bbsim::file {
 namespace {
 
 constexpr std::array<int, 4> crashes{SIGSEGV, SIGBUS, SIGFPE, SIGABRT};
-std::mutex one_thread;  // within HDF5: the signals' actions are the process's, as HDF5 may be
+std::mutex one_thread;  // within HDF5, because signal actions belong to the process
 std::array<struct sigaction, crashes.size()> actions_before;
 
-// What to say of a crash of this thread; none outside HDF5.
+// The message for a crash of this thread; null outside HDF5.
 thread_local const char* message_of_crash = nullptr;
 
 // Ends the program with the message if this thread is within HDF5.
@@ -36,17 +36,17 @@ void end_if_within() {
 }
 
 void crashed(int /*signal*/) {
-  // A crash of another thread happens again once we return, and is then dealt with as without us.
+  // A crash of another thread recurs after the return and then meets the previous actions.
   end_if_within();
   for (std::size_t i = 0; i < crashes.size(); ++i) {
     sigaction(crashes[i], &actions_before[i], nullptr);
   }
 }
 
-// Where signals are dealt with when the stack is full: HDF5 reports errors of reporting an error,
-// and so on, without an end.
+// Handles signals on a separate stack, because HDF5 may fill the stack: it reports errors in
+// reporting errors, in endless recursion.
 void have_a_stack_for_signals() {
-  // A frame has 11 kB where there is AMX.
+  // With AMX, a signal frame takes 11 kB.
   alignas(std::max_align_t) static std::array<char, 65536> bytes;
   stack_t before{};
   if (sigaltstack(nullptr, &before) != 0 || (before.ss_flags & SS_DISABLE) == 0) return;
@@ -65,7 +65,7 @@ void watch_for_crashes() {
   for (std::size_t i = 0; i < crashes.size(); ++i) {
     sigaction(crashes[i], &action, &actions_before[i]);
   }
-  // Some of its functions call exit(-1).
+  // Some HDF5 functions call exit(-1).
   [[maybe_unused]] static const int registered = std::atexit(end_if_within);
 }
 

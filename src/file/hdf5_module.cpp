@@ -19,7 +19,7 @@ constexpr const char* module_name = "libbbsim_hdf5.so";
 constexpr const char* reader_name = "bbsim-hdf5-reader";
 constexpr const char* way_out = "; write or read .csv instead, ";
 
-// The file of that name in the first of these folders that has it.
+// Finds the file in the first of these folders that contains it.
 ModuleFile find_file(const std::string& what, const char* name,
                      const std::vector<std::string>& folders) {
   std::string looked_in;
@@ -32,18 +32,18 @@ ModuleFile find_file(const std::string& what, const char* name,
                   "or install bbsim whole, or set BBSIM_MODULE_PATH to the module's folder"};
 }
 
-// The shared library that this code is a part of; empty if it is a part of the program.
+// The path of the shared library that contains this code; empty if the program contains it.
 std::filesystem::path own_library() {
   Dl_info found{};
   if (dladdr(&module_name, &found) == 0 || found.dli_fname == nullptr) return {};
-  const std::filesystem::path file(found.dli_fname);  // a program's is as it was called
+  const std::filesystem::path file(found.dli_fname);  // for a program: the name it was called by
   if (file.filename().string().find(".so") == std::string::npos) return {};
   std::error_code error;
   std::filesystem::path whole = std::filesystem::canonical(file, error);
   return error ? std::filesystem::path() : whole;
 }
 
-// For a library in PREFIX/lib, or a Python module in PREFIX/lib/python3/dist-packages/bbsim.
+// Covers a library in PREFIX/lib and a Python module in PREFIX/lib/python3/dist-packages/bbsim.
 std::vector<std::string> folders_above(const std::filesystem::path& library) {
   std::vector<std::string> result;
   std::filesystem::path folder = library.parent_path();

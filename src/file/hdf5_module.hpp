@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Finds the HDF5 module, which writes, and the reader's program, and opens the module.
+// Finds and opens the HDF5 module, which writes files, and finds the program that reads them.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@
 
 namespace bbsim::file {
 
-// The module, or why there is none and what to do about it, as a sentence's end.
+// The module; or, in `trouble`, why it is missing and the remedy, as the end of a sentence.
 struct Hdf5Module {
   const bbsim_hdf5_module* functions = nullptr;
   std::string trouble;
 };
 
-// A program beside the module; without a path, why there is none.
+// The path of a file; if it is empty, `trouble` says why.
 struct ModuleFile {
   std::string path, trouble;
 };
@@ -28,11 +28,11 @@ struct ModuleFile {
 // Looks for the module in these folders, in order, and opens it; it is never closed.
 [[nodiscard]] Hdf5Module open_hdf5_module(const std::vector<std::string>& folders);
 
-// Where to look for both: the folder BBSIM_MODULE_PATH if the environment has it, otherwise beside
-// the running program: ../lib/bbsim, or what the system calls lib.
+// The folders to search for both: BBSIM_MODULE_PATH alone, if it is set; otherwise those above the
+// shared library with this code, or ../lib/bbsim (or the system's name for lib) of the program.
 [[nodiscard]] std::vector<std::string> hdf5_module_folders();
 
-// The module, opened at the first call.
+// The module, which is opened at the first call.
 [[nodiscard]] const Hdf5Module& hdf5_module();
 
 }  // namespace bbsim::file

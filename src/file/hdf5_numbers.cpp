@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// HDF5 tables of numbers, as runs write them.
+// Writes and reads HDF5 tables of numbers, for runs.
 #include <algorithm>
 #include <utility>
 
@@ -12,14 +12,13 @@
 namespace bbsim::file {
 namespace {
 
-// A slash in a name would make groups: d(x)/d(ball.radius) becomes d(x)_d(ball.radius).
+// A slash in a name would create groups: d(x)/d(ball.radius) becomes d(x)_d(ball.radius).
 Hdf5Column column_of(const ColumnHeader& header) {
   std::string name(header.name);
   std::ranges::replace(name, '/', '_');
   return {std::move(name), std::string(header.unit), std::string(header.meaning)};
 }
 
-// A table of numbers alone.
 class Hdf5Writer final : public TableWriter {
  public:
   Hdf5Writer(const std::string& target, const std::vector<Hdf5Column>& columns)

@@ -25,10 +25,10 @@
 namespace bbsim::file {
 namespace {
 
-constexpr int pipe_bytes = 1 << 20;           // as much as the system lets any user have
-constexpr std::size_t bytes_at_once = 65536;  // of what is not numbers
+constexpr int pipe_bytes = 1 << 20;           // the most that the system lets any user have
+constexpr std::size_t bytes_at_once = 65536;  // for everything but large arrays
 
-// Exit codes: what it said why, and what could not be started.
+// Exit codes of the reader: it gave a reason; it could not be started.
 constexpr int told_why = 1, no_program = 127;
 constexpr std::size_t longest_reason = 65536;  // bytes
 
@@ -39,7 +39,7 @@ constexpr std::size_t longest_reason = 65536;  // bytes
 constexpr const char* damaged = ": the file is damaged, or not valid HDF5";
 
 std::string signal_text(int number) {
-  // What the reader's own timer sends.
+  // The reader's own timer sends this signal.
   if (number == SIGPROF)
     return std::string("the HDF5 library does not finish reading it") + damaged;
   const std::string which = " (signal " + std::to_string(number) + ", " + strsignal(number) + ")";
@@ -55,7 +55,7 @@ std::string exit_text(int code) {
   return "the HDF5 reader ended with code " + std::to_string(code) + damaged;
 }
 
-// What it said, from its beginning.
+// The text that the reader wrote, from its beginning.
 std::string content_of(const Descriptor& error) {
   std::string text(longest_reason, '\0');
   const ssize_t size = read_at(error.get(), text.data(), text.size(), 0);
@@ -72,11 +72,11 @@ Hdf5Process::Hdf5Process(const std::vector<std::string>& files, const Hdf5Rows& 
   reader.words.insert(reader.words.end(), files.begin(), files.end());
   std::array<int, 2> ends{-1, -1};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) no_process(errno);
-  // Above those of standard input, output and error, which the child gets others for.
+  // Above the standard streams, because the child replaces those.
   output_ = above_standard_streams(ends[0]);
   const Descriptor its_output = above_standard_streams(ends[1]);
-  fcntl(output_.get(), F_SETPIPE_SZ, pipe_bytes);  // it does with less
-  // A file: however much it says there, it waits for nobody to read that.
+  fcntl(output_.get(), F_SETPIPE_SZ, pipe_bytes);  // on failure, a smaller pipe works too
+  // A file in place of a pipe, so that the reader never blocks on its messages.
   error_ = above_standard_streams(memfd_create("bbsim-hdf5-reader", MFD_CLOEXEC));
   const Descriptor nothing(open("/dev/null", O_RDONLY | O_CLOEXEC));
   if (!error_.is_open() || !nothing.is_open()) no_process(errno);

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Tables in HDF5, of numbers, texts and series: a run, a number a column at each time; or a sweep,
-// what each case gave.
+// Writes and reads HDF5 tables of numbers, texts and series: a run with one row per time, or a
+// sweep with one row per case.
 //
-// Neither side keeps more than a block of rows, so that parts of a sweep, read block by block, can
-// be appended to one table however long it gets.
+// Reader and writer hold at most one block of rows in memory, so that parts of a sweep can be
+// merged into one table of any length.
 #pragma once
 
 #include <cstddef>
@@ -27,16 +27,16 @@ enum class Hdf5Kind { number, text, series };
 struct Hdf5Column {
   std::string name, unit, meaning;
   Hdf5Kind kind = Hdf5Kind::number;
-  // Numbers a row, of a series; of a text, the most bytes of each, or 1: any number of them.
+  // Series: numbers per row. Text: largest length in bytes; 1 means any length.
   std::size_t width = 1;
 
   bool operator==(const Hdf5Column&) const = default;
 };
 
-// Numbers that go along every row's series, such as its times; not a column.
+// Numbers that belong to the series of every row, such as their times. Not a column.
 using Hdf5Axis = std::pair<Hdf5Column, std::vector<double>>;
 
-// Some rows, column by column. values[c] is empty for a text, texts[c] for all others. Of a
+// Some rows, column by column. values[c] is empty in a text column, texts[c] in all others. For a
 // series, values[c] holds rows * width numbers, row after row. Texts are UTF-8 without NUL.
 struct Hdf5Block {
   std::size_t rows = 0;
@@ -44,38 +44,37 @@ struct Hdf5Block {
   std::vector<std::vector<std::string>> texts;
 };
 
-// Writes HDF5, whole under its final name or not at all. A number is a dataset of one dimension, a
-// text one of strings, a series one of rows x width; all grow with the rows. Those of cases are
-// compressed, where HDF5 can. The bytes depend on the rows alone, not on the blocks that they came
-// in.
+// Writes an HDF5 file that appears whole under its final name, or not at all. Each column is an
+// extendible dataset: 1-D numbers, 1-D strings, or rows x width for a series. Tables of cases are
+// compressed if the HDF5 library can. The bytes depend on the rows only, not on the blocks.
 //
-// Every function throws OutputError; after that, only destruction may follow.
+// Every function throws OutputError; the object may then only be destroyed.
 class Hdf5TableWriter {
  public:
-  // `target` is a regular file or none yet, whatever its name ends in. Of a column, unit and
-  // meaning become attributes of its dataset; so they do of an axis, whose kind and width do not
-  // count. No two may have the same name. A number called `case`, kept as a whole one, is the
-  // dimension scale of all rows, or one called `t` where there are no cases; an axis is that of the
-  // series of its length. `durable`: it survives a power cut once it is finished.
+  // `target` is a regular file or does not exist; its ending is arbitrary. Unit and meaning become
+  // attributes of the dataset. The kind and width of an axis are ignored. All names must differ.
+  // The number column `case` (stored as integers), or `t` without one, is the dimension scale of
+  // the rows. An axis is the scale of all series of its length. `durable`: whether the finished
+  // file survives a power cut.
   Hdf5TableWriter(const std::string& target, const std::vector<Hdf5Column>& columns,
                   const std::vector<Hdf5Axis>& axes = {}, Durable durable = Durable::yes);
   ~Hdf5TableWriter();
   Hdf5TableWriter(Hdf5TableWriter&&) noexcept;
   Hdf5TableWriter& operator=(Hdf5TableWriter&&) noexcept;
 
-  // Appends rows, of which some stay in memory until there are enough to write. A block of
-  // another shape than the columns' is an error.
+  // Appends rows. Some stay in memory until there are enough to write. The block must have the
+  // shape of the columns.
   void append(const Hdf5Block& block);
-  // The same of a table of numbers alone: columns[c][row].
+  // The same for a table of numbers only: columns[c][row].
   void append(std::span<const double* const> columns, std::size_t rows);
 
-  // Adds a column of numbers that is known only once all rows are there.
+  // Adds a column of numbers after the last row.
   void add_column(const Hdf5Column& column, const std::vector<double>& values);
-  // Keeps what the scenario read.
+  // Stores the tables that the scenario read.
   void keep(const std::vector<InputTable>& inputs);
 
-  // Completes the file, with attributes of its root, and puts it under its final name. Without
-  // this call nothing stays.
+  // Sets root attributes, completes the file and puts it under its final name. Without this call no
+  // file remains.
   void finish(const Attributes& attributes);
 
  private:
@@ -83,24 +82,23 @@ class Hdf5TableWriter {
   std::unique_ptr<State> state_;
 };
 
-// Reads such a table, or any other HDF5 file whose root's datasets have one number, string or row
-// of numbers a row, from front to back. Every function throws InputError: what was found, what is
-// allowed.
+// Reads such a table from front to back, or any other HDF5 file whose root datasets have one
+// number, string or row of numbers per row. Every function throws InputError: found, allowed.
 class Hdf5TableReader {
  public:
   explicit Hdf5TableReader(const std::string& file, const Hdf5Rows& rows = {});
 
-  // In the file's order.
+  // The columns, in the file's order.
   [[nodiscard]] const std::vector<Hdf5Column>& columns() const { return columns_; }
-  // Their kind is number, their width 1.
+  // The axes, with kind number and width 1.
   [[nodiscard]] const std::vector<Hdf5Axis>& axes() const { return axes_; }
-  // The root's, those that are a text or a number.
+  // The root attributes that are a text or a number.
   [[nodiscard]] const Attributes& attributes() const { return attributes_; }
-  [[nodiscard]] std::size_t rows() const { return rows_; }  // cases, read or not
+  [[nodiscard]] std::size_t rows() const { return rows_; }  // all rows, read or not
 
-  // The next block of rows. False, and none, after the last.
+  // Reads the next block of rows. Returns false, with no rows, after the last.
   bool read(Hdf5Block& into);
-  // What the scenario had read: to be asked for once. Skips the rows that are left.
+  // Returns the tables that the scenario read. Call it once. Skips the remaining rows.
   [[nodiscard]] std::vector<InputTable> read_inputs();
 
   [[noreturn]] void fail(std::string_view reason) const;
@@ -129,12 +127,12 @@ class Hdf5TableReader {
   std::size_t rows_ = 0, left_ = 0;
 };
 
-// Reads many files by one process, which takes less time than a process for each.
+// Reads many files with one process, which is faster than a process for each.
 class Hdf5TableReaders {
  public:
   explicit Hdf5TableReaders(std::vector<std::string> files, const Hdf5Rows& rows = {});
 
-  // The next file's, once the inputs of the one before were read.
+  // Returns the reader of the next file. Read the inputs of the previous file first.
   [[nodiscard]] Hdf5TableReader next();
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Tables as the process that reads HDF5 prints them: hdf5/table_text.hpp.
+// Reads tables from the output of the HDF5 reader process (hdf5/table_text.hpp).
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -29,13 +29,13 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* unexpected =
     "the HDF5 reader printed something unexpected: the file is damaged";
-constexpr std::size_t numbers_at_once = 32768;  // taken before there is memory for more
+constexpr std::size_t numbers_at_once = 32768;  // read before allocating more
 
 [[noreturn]] void refuse_file(const std::string& file, std::string_view reason) {
   throw InputError("cannot read " + shown(file, uncut) + ": " + std::string(reason));
 }
 
-// Runs `action`, with all that can go wrong in it as an InputError about the file.
+// Runs `action`. Turns its exceptions into an InputError about the file.
 template <class Action>
 auto guarded(const std::string& file, Action action) {
   try {
@@ -65,7 +65,7 @@ Hdf5Kind kind_named(const std::string& text) {
                                      : Hdf5Kind::number;
 }
 
-// The conversion of other numbers is undefined where they are out of range.
+// Refuses other numbers, because their conversion is undefined if they are out of range.
 std::size_t count_of(const Json& json) {
   if (!json.is_number_unsigned()) throw Hdf5Trouble(unexpected);
   return json.get<std::size_t>();

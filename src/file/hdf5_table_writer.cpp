@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Rows on their way to an HDF5 file.
+// Collects rows and writes them to an HDF5 file.
 #include <algorithm>
 #include <set>
 #include <string_view>
@@ -13,13 +13,13 @@
 namespace bbsim::file {
 namespace {
 
-// Rows are handed to HDF5 so many at a time, fewer if they are wide, always a power of two: that
-// makes the file's bytes independent of the caller's blocks.
+// Rows per call of HDF5: fewer if rows are wide, and always a power of two. This makes the file's
+// bytes independent of the caller's blocks.
 constexpr std::size_t most_rows_at_once = 1024;
 constexpr std::size_t most_bytes_at_once = std::size_t{8} * 1024 * 1024;
 
 std::size_t rows_at_once(const std::vector<Hdf5Column>& columns) {
-  std::size_t bytes = 0;  // of a row, strings not counted
+  std::size_t bytes = 0;  // of a row, without the text of strings
   for (const Hdf5Column& column : columns) {
     bytes += column.kind == Hdf5Kind::series
                  ? std::min(column.width, most_bytes_at_once) * sizeof(double)
@@ -31,12 +31,12 @@ std::size_t rows_at_once(const std::vector<Hdf5Column>& columns) {
   return rows;
 }
 
-// The number of a case: a whole one.
+// Whether the column holds case numbers, which are stored as integers.
 bool is_case(const Hdf5Column& column) {
   return column.name == "case" && column.kind == Hdf5Kind::number;
 }
 
-// The column that the rows of all others are called by, or the end.
+// The column that serves as the scale of the rows, or the end.
 auto find_scale(const std::vector<Hdf5Column>& columns) {
   const auto number = std::ranges::find_if(columns, is_case);
   if (number != columns.end()) return number;
@@ -90,7 +90,7 @@ void check_layout(const std::string& target, const std::vector<Hdf5Column>& colu
   }
 }
 
-// After the checks that come before any file is touched.
+// Checks everything before it touches a file.
 Hdf5Output open_output(const std::string& target, const std::vector<Hdf5Column>& columns,
                        const std::vector<Hdf5Axis>& axes, Durable durable) {
   check_layout(target, columns, axes);
@@ -176,7 +176,7 @@ class Hdf5TableWriter::State {
     return columns_[c].kind == Hdf5Kind::series ? columns_[c].width : 1;
   }
 
-  // numbers(c) and texts(c) are where the rows of a column begin.
+  // numbers(c) and texts(c) point to the first row of column c.
   template <class Numbers, class Texts>
   void append(std::size_t rows, Numbers numbers, Texts texts) {
     for (std::size_t first = 0; first < rows;) {

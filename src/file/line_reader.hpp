@@ -42,7 +42,7 @@ class LineReader {
   int descriptor_ = -1;
   std::optional<std::size_t> size_;
   std::vector<char> buffer_;
-  std::size_t begin_ = 0, end_ = 0;  // of the unread bytes in the buffer
+  std::size_t begin_ = 0, end_ = 0;  // the unread bytes in the buffer
   std::size_t number_ = 0;
   bool at_end_ = false;
 };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Detects conflicts between all files of a command: no output may be another output or an input.
+// Detects conflicts between a command's files: no output may be another output or an input.
 #pragma once
 
 #include <sys/types.h>

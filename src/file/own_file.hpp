@@ -26,11 +26,11 @@ struct OwnFile {
 // Removes the name if it refers to the file behind the descriptor.
 void remove_own_file(const std::string& name, int descriptor);
 
-// The whole content of the file, if it exists. Throws OutputError.
 struct OwnText {
   std::string text;
   bool there = false;
 };
+// The whole content of the file, if it exists. Throws OutputError.
 [[nodiscard]] OwnText read_own_file(const std::string& name);
 
 }  // namespace bbsim::file

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where the files are that come with the program, beside it.
+// Finds the files that are installed with the program.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace bbsim::file {
 
-// The folders that share/bbsim may be, in order; BBSIM_SHARE_PATH alone, if it is set.
+// The candidates for share/bbsim, in order; BBSIM_SHARE_PATH alone, if it is set.
 [[nodiscard]] std::vector<std::string> share_folders();
 
 }  // namespace bbsim::file

@@ -32,7 +32,7 @@ struct Spawning {
   posix_spawnattr_t attributes{};
 };
 
-// Signals wait while there is one.
+// Blocks all signals while an object exists.
 class SignalsWait {
  public:
   SignalsWait() {
@@ -48,7 +48,7 @@ class SignalsWait {
   sigset_t before_{};
 };
 
-// As C wants them, until the strings change.
+// A null-terminated array for C, valid until the strings change.
 std::vector<char*> pointers_to(std::vector<std::string>& words) {
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
@@ -56,7 +56,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& words) {
   return pointers;
 }
 
-// This process's own, but for the mark.
+// This process's environment, with the mark, if any, in place of its own.
 std::vector<std::string> environment_with(const std::string& mark) {
   const std::string_view name = std::string_view(mark).substr(0, mark.find('=') + 1);
   std::vector<std::string> entries;
@@ -95,7 +95,7 @@ pid_t start_process(const NewProcess& process, int& error) {
 
   std::vector<std::string> words = process.words, entries = environment_with(process.mark);
   const std::vector<char*> arguments = pointers_to(words), environment = pointers_to(entries);
-  // One that ended this program here would leave the new process running.
+  // A signal that ended this program here would leave the new process running.
   const SignalsWait until_it_is_remembered;
   const auto starting = while_starting_child();
   if (leads_group) adopt_orphans();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The one way to start a process.
+// Starts processes. No other code does.
 #pragma once
 
 #include <sys/types.h>
@@ -11,19 +11,19 @@
 
 namespace bbsim::file {
 
-// What a process begins with, beside all signals as at a login. It has no descriptors but its
-// standard streams.
+// The start of a process. It gets default signal actions, an empty signal mask, and no descriptors
+// except its standard streams.
 struct NewProcess {
-  std::vector<std::string> words;  // the first is looked for on PATH if it has no slash
-  int input = -1, output = -1;     // its standard streams: descriptors of ours
-  int error = -1;                  // -1: what it says there is lost
-  std::string folder{};            // that it runs in; empty: this one
-  // NAME=VALUE in its environment (new_mark()). One that has a mark leads a process group, and what
-  // it starts and leaves behind comes to this process.
+  std::vector<std::string> words;  // the program, from PATH if it has no slash, and arguments
+  int input = -1, output = -1;     // descriptors for its standard streams
+  int error = -1;                  // likewise; -1: /dev/null
+  std::string folder{};            // working folder; empty: this process's own
+  // NAME=VALUE for its environment (new_mark()). A process with a mark leads a process group, and
+  // this process adopts its orphaned descendants.
   std::string mark{};
 };
 
-// Starts and remembers it (file/children.hpp). Its id; or 0, and why in `error`, an errno.
+// Starts and remembers a process (file/children.hpp). Returns its id, or 0 with errno in `error`.
 [[nodiscard]] pid_t start_process(const NewProcess& process, int& error);
 
 }  // namespace bbsim::file

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Chooses the format of a table by its file's name.
+// Chooses the format of a table by the name of its file.
 #include "base/error.hpp"
 #include "file/atomic_file.hpp"
 #include "file/format.hpp"

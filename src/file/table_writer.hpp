@@ -51,8 +51,7 @@ class TableWriter {
 
 // Opens `target`. "-" is CSV on standard output. Otherwise the ending picks the format: .csv, .h5
 // or .hdf5 (other endings: InputError). A device or pipe (/dev/full, /dev/stdout, a FIFO) is
-// written directly, as CSV whatever its name. Throws OutputError if the folder cannot be written
-// to.
+// written directly, as CSV whatever its name. Throws OutputError if the folder is not writable.
 [[nodiscard]] std::unique_ptr<TableWriter> open_table(const std::string& target,
                                                       const std::vector<ColumnHeader>& headers);
 

@@ -121,7 +121,7 @@ int take_after(int descriptor, const struct stat& replaced) {
     [[maybe_unused]] const int ignored = fchown(descriptor, replaced.st_uid, replaced.st_gid);
   }
   constexpr mode_t all_permissions = 07777;
-  // After fchown(), which clears some of the permission bits.
+  // Must follow fchown(), which clears some permission bits.
   return fchmod(descriptor, replaced.st_mode & all_permissions) == 0 ? 0 : errno;
 }
 

@@ -19,8 +19,8 @@ struct Target {
   std::optional<int> descriptor{};
   std::optional<struct stat> found{};  // the existing file's status; empty for a descriptor
 
-  // Bytes for anything but a regular file (a device, a FIFO, a descriptor) go there directly.
-  // Renaming a file over it would destroy it.
+  // Whether to write directly, because the target is a device, a FIFO or a descriptor. Renaming a
+  // file over it would destroy it.
   [[nodiscard]] bool written_directly() const {
     return descriptor || (found && !S_ISREG(found->st_mode));
   }

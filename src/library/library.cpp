@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The public library, on the front door. Its names stand in an inline namespace of their own.
+// The public library, include/bbsim/bbsim.hpp, on top of api/, in the inline namespace v0.
 #include <Eigen/Core>
 #include <algorithm>
 #include <utility>
@@ -41,7 +41,7 @@ ScenarioError::~ScenarioError() = default;
 
 namespace {
 
-// Does the work; what the house throws is thrown as the public errors.
+// Does the work and turns internal exceptions into public ones.
 template <class Work>
 auto guarded(const Work& work) {
   try {
@@ -135,7 +135,7 @@ std::string Scenario::check() const {
 
 namespace {
 
-// The sink's functions and a row of its own.
+// Passes rows to the sink one by one.
 struct RowSink {
   std::function<void(std::span<const double>)> sink;
   std::vector<double> row{};

@@ -23,7 +23,7 @@ std::string read_string(hid_t attribute, const Datatype& type) {
   if (check(H5Tis_variable_str(type), reading) > 0) {
     char* text = nullptr;
     check(H5Aread(attribute, type, static_cast<void*>(&text)), reading);
-    std::string value = text == nullptr ? "" : text;  // HDF5 keeps nothing of an empty string
+    std::string value = text == nullptr ? "" : text;  // null for an empty string
     H5free_memory(text);
     return value;
   }

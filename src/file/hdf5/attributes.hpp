@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Attributes, and the strings in them.
+// Reads and writes attributes and their strings.
 #pragma once
 
 #include <cstddef>
@@ -13,23 +13,23 @@
 
 namespace bbsim::hdf5 {
 
-// What an attribute of a single value holds.
+// The value of a scalar attribute.
 using Value = std::variant<std::string, double, std::int64_t>;
 
-// Strings of any length in UTF-8, as h5py writes them. Throws Failure, as all here.
+// UTF-8 strings of any length, as h5py writes them. Throws Failure, like all functions here.
 [[nodiscard]] Datatype string_type();
-// Strings of at most so many bytes.
+// Strings of at most `size` bytes.
 [[nodiscard]] Datatype string_type_of(std::size_t size);
 
-// The text has the file's own, fixed length: what is not in the global heap of a damaged file
-// cannot lead HDF5 astray, and headers have checksums.
+// Text is stored with a fixed length in the object's header, which has a checksum. A damaged global
+// heap, where HDF5 keeps strings of variable length, then cannot harm the reader.
 void set_attribute(hid_t object, const char* name, const char* text);
 void set_attribute(hid_t object, const char* name, double number);
 void set_attribute(hid_t object, const char* name, std::int64_t number);
 
-// The text of a scalar string attribute; "" if there is none of that name or kind.
+// The text of a scalar string attribute; "" if no attribute has this name or it is not a string.
 [[nodiscard]] std::string attribute_of(hid_t object, const char* name);
-// The value of an open attribute; false if it is no single string or number.
+// Reads the value of an open attribute. Returns false unless it is a single string or number.
 [[nodiscard]] bool read_attribute(hid_t attribute, Value& value);
 
 }  // namespace bbsim::hdf5

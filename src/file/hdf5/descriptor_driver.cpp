@@ -20,8 +20,8 @@ namespace {
 
 struct OpenFile : H5FD_t {  // HDF5 owns and fills the base
   DescriptorTarget target;
-  haddr_t allocated = 0;  // end of the addresses that HDF5 has given out
-  haddr_t size = 0;       // end of what has been written
+  haddr_t allocated = 0;  // end of the addresses that HDF5 has allocated
+  haddr_t size = 0;       // end of the written bytes
 };
 
 OpenFile& self(H5FD_t* file) {
@@ -44,7 +44,7 @@ H5FD_t* open_file(const char* /*name*/, unsigned /*flags*/, hid_t access, haddr_
 }
 
 herr_t close_file(H5FD_t* file) {
-  delete &self(file);  // the descriptor stays open: it is the caller's
+  delete &self(file);  // the caller keeps the descriptor open
   return 0;
 }
 
@@ -74,7 +74,7 @@ herr_t read_bytes(H5FD_t* base, H5FD_mem_t /*type*/, hid_t /*transfer*/, haddr_t
     const ssize_t got = pread(self(base).target.descriptor, to, size, static_cast<off_t>(address));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) note_error(self(base));
-    if (got <= 0) {  // beyond the end, or failed: as zeros
+    if (got <= 0) {  // end of file or failure: reads as zeros
       std::memset(to, 0, size);
       return 0;
     }
@@ -117,7 +117,7 @@ hid_t driver() {
     H5FD_class_t driver_class{};
 #if H5_VERSION_GE(1, 13, 0)
     driver_class.version = H5FD_CLASS_VERSION;
-    driver_class.value = 600;  // of the range that HDF5 leaves to drivers of one's own
+    driver_class.value = 600;  // from the range that HDF5 reserves for users' drivers
 #endif
     driver_class.name = "bbsim-descriptor";
     driver_class.maxaddr = INT64_MAX;

@@ -13,18 +13,18 @@
 
 namespace bbsim::hdf5 {
 
-// A call of HDF5 failed. Caught before it leaves the module or the reader.
+// A call of HDF5 failed. The module and the reader catch this exception.
 class Failure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Throws Failure with the most specific entry of HDF5's own error stack.
+// Throws Failure with the most specific entry of HDF5's error stack.
 [[noreturn]] void fail(std::string_view doing);
 
-// Keeps HDF5 from writing to standard error when something fails.
+// Keeps HDF5 from writing errors to standard error.
 void keep_errors_to_ourselves();
 
-// Passes a result on; HDF5 marks failure by a negative one.
+// Returns the result; throws Failure if it is negative, which is HDF5's mark of failure.
 template <class Result>
 Result check(Result result, std::string_view doing) {
   if (result < 0) fail(doing);
@@ -46,7 +46,7 @@ class Handle {
   }
   operator hid_t() const { return id_; }
 
-  // Closes now, for the errors that only closing brings to light.
+  // Closes now, to report errors that only closing reveals.
   void close_checked(std::string_view doing) { check(close(std::exchange(id_, -1)), doing); }
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The module's functions for the program: the C++ inside, with every exception turned into a
-// bbsim_hdf5_error at the border.
+// The module's C functions. They call the C++ code and turn every exception into a
+// bbsim_hdf5_error.
 #include <hdf5.h>
 
 #include <exception>
@@ -20,18 +20,18 @@ namespace bbsim::hdf5 {
 
 namespace {
 
-// Copies what fits; error.text is always terminated.
+// Cuts text that does not fit. error.text is always terminated.
 void set_error(bbsim_hdf5_error& error, int system_error, std::string_view text) {
   error.system_error = system_error;
   error.text[text.copy(error.text, sizeof error.text - 1)] = '\0';
 }
 
-// Runs `action`; returns 0, or 1 with *error filled in.
+// Runs `action`. Returns 0, or 1 with *error filled in.
 template <class Action>
 int guarded(bbsim_hdf5_error* error, Action action) noexcept {
   try {
-    // All files are closed by then, and after a call that got no memory the library may crash
-    // there. Of no effect where HDF5 is in use already, by whoever else.
+    // HDF5's cleanup at exit may crash if memory ran out earlier, and all files are closed by then.
+    // This call has no effect if other code already uses HDF5.
     [[maybe_unused]] static const herr_t ignored = H5dont_atexit();
     keep_errors_to_ourselves();
     action();
@@ -44,7 +44,7 @@ int guarded(bbsim_hdf5_error* error, Action action) noexcept {
   return 1;
 }
 
-// The system's error, if there is one, is the cause of whatever HDF5 says.
+// Reports the system's error, if any, because it is the cause of any error of HDF5.
 int with_system_error(int result, const Writer& writer, bbsim_hdf5_error* error) {
   if (writer.system_error() == 0) return result;
   set_error(*error, writer.system_error(), "");

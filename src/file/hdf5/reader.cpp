@@ -14,18 +14,18 @@
 namespace bbsim::hdf5 {
 namespace {
 
-// The chunks that are kept of a dataset while it is read: at least so many bytes, and all of one
-// that is larger, but no more than this of all datasets together.
+// The chunk cache of a dataset: at least least_cache bytes, enough for one chunk, and about
+// most_cache for all datasets together.
 constexpr std::size_t cache_slots = 31;
 constexpr std::size_t least_cache = std::size_t{256} * 1024;
 constexpr std::size_t most_cache = std::size_t{256} * 1024 * 1024;
 
-// What a dataset says that it holds over what the file has of it: deflate packs 1032 bytes into one
-// at the very most. A little may be declared that was never written.
+// The largest ratio of the declared to the stored size of a dataset: deflate packs at most 1032
+// bytes into one. `slack` allows for some declared data that was never written.
 constexpr std::uint64_t most_expansion = 1100;
 constexpr std::uint64_t slack = 65536;  // bytes
 
-// HDF5 takes memory for so many texts at a time, whatever length a damaged file gives them.
+// Texts per read. It limits HDF5's memory, because a damaged file may declare any length.
 constexpr std::size_t rows_at_once = 256;
 
 File open_file(const char* path) {
@@ -33,7 +33,7 @@ File open_file(const char* path) {
   const Properties access(H5Pcreate(H5P_FILE_ACCESS), "opening the file");
   check(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG), "opening the file");
 #if H5_VERSION_GE(1, 12, 1) || (H5_VERSION_GE(1, 10, 7) && !H5_VERSION_GE(1, 12, 0))
-  // Results do not change once they are there, and many network file systems know no locks.
+  // Results do not change once they exist, and many network file systems have no locks.
   check(H5Pset_file_locking(access, false, true), "opening the file");
 #endif
   return {H5Fopen(path, H5F_ACC_RDONLY, access), "opening the file"};
@@ -45,7 +45,7 @@ std::uint64_t size_of(hid_t file) {
   return bytes;
 }
 
-// In the order in which they were created, where the file tells: of links or of attributes.
+// The order of links or attributes: by creation if the file records it, otherwise by name.
 H5_index_t order_of(hid_t group, herr_t (*get_order)(hid_t, unsigned*)) {
   const Properties creation(H5Gget_create_plist(group), "opening the file");
   unsigned flags = 0;
@@ -53,7 +53,7 @@ H5_index_t order_of(hid_t group, herr_t (*get_order)(hid_t, unsigned*)) {
   return (flags & H5P_CRT_ORDER_TRACKED) != 0 ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME;
 }
 
-// HDF5 copies a name, or tells its length: call(buffer, size) for one or the other.
+// Gets a name with two calls of call(buffer, size): for its length, then for the name.
 template <class Call>
 std::string name_from(Call call, const char* doing) {
   std::string name(static_cast<std::size_t>(check(call(nullptr, 0), doing)), '\0');
@@ -61,7 +61,7 @@ std::string name_from(Call call, const char* doing) {
   return name;
 }
 
-// For opening what a link leads to, but nothing in another file, however it gets there.
+// Access properties that follow links within the file but never into another file.
 Properties within_file() {
   Properties access(H5Pcreate(H5P_LINK_ACCESS), "opening the file");
   const auto refuse_all = [](const char*, const char*, const char*, const char*, unsigned*, hid_t,
@@ -70,8 +70,8 @@ Properties within_file() {
   return access;
 }
 
-// The names of what is in a group. What lies in another file is none of this one's: it is not
-// opened because this one says so.
+// The names of the links in a group. Throws Failure for a link to another file: this file must not
+// make bbsim open others.
 std::vector<std::string> links_of(hid_t group, const std::string& path) {
   constexpr const char* doing = "listing the datasets";
   const H5_index_t order = order_of(group, H5Pget_link_creation_order);
@@ -104,7 +104,7 @@ bbsim_hdf5_kind kind_of(hid_t dataset, H5T_class_t held, int rank) {
   return held == H5T_INTEGER ? BBSIM_HDF5_INTEGER : BBSIM_HDF5_NUMBER;
 }
 
-// Strings of one length are told as such up to this: whoever copies longer ones gives each its own.
+// The longest fixed length that is reported. Longer strings count as strings of any length.
 constexpr std::size_t longest_to_copy = 1024;
 
 DatasetInfo info_of(hid_t dataset, const std::string& name, const std::string& path) {
@@ -142,16 +142,16 @@ std::uint64_t sum(std::uint64_t a, std::uint64_t b) {
   return __builtin_add_overflow(a, b, &result) ? std::numeric_limits<std::uint64_t>::max() : result;
 }
 
-// Bytes of a chunk; 0 of what is not in chunks.
+// Bytes of a chunk; 0 if the dataset is not chunked.
 std::uint64_t chunk_bytes(hid_t dataset, hid_t creation, const char* doing) {
   if (H5Pget_layout(creation) != H5D_CHUNKED) return 0;
-  std::array<hsize_t, 2> chunk{1, 1};  // no dataset that info_of() lets pass has more dimensions
+  std::array<hsize_t, 2> chunk{1, 1};  // info_of() refuses more dimensions
   check(H5Pget_chunk(creation, static_cast<int>(chunk.size()), chunk.data()), doing);
   const Datatype type(H5Dget_type(dataset), doing);
   return product(product(chunk[0], chunk[1]), H5Tget_size(type));
 }
 
-// Rows of a dataset, whole, in the file and in memory.
+// Whole rows of a dataset, in the file and in memory.
 struct Selection {
   Dataspace file, memory;
 };
@@ -188,7 +188,7 @@ class Strings {
   std::vector<char*> texts_;
 };
 
-// Each string may have any length. Returns the bytes of all.
+// Reads strings of any length. Returns their total bytes.
 std::uint64_t add_strings(hid_t dataset, const Datatype& type, const Selection& selected,
                           std::size_t rows, const std::string& doing,
                           std::vector<std::string>& texts) {
@@ -196,13 +196,13 @@ std::uint64_t add_strings(hid_t dataset, const Datatype& type, const Selection& 
   check(H5Dread(dataset, type, selected.memory, selected.file, H5P_DEFAULT, strings.data()), doing);
   std::uint64_t bytes = 0;
   for (const char* text : strings.texts()) {
-    texts.emplace_back(text == nullptr ? "" : text);  // nothing is kept of an empty one
+    texts.emplace_back(text == nullptr ? "" : text);  // null for an empty string
     bytes += texts.back().size();
   }
   return bytes;
 }
 
-// All strings have one length, as the type says.
+// Reads strings of the type's fixed length.
 void add_fixed_strings(hid_t dataset, const Datatype& type, const Selection& selected,
                        std::size_t rows, const std::string& doing,
                        std::vector<std::string>& texts) {
@@ -242,8 +242,8 @@ void Reader::find_datasets(hid_t group, const std::string& path) {
     }
     got_on_();
 
-    // Rows are mostly read front to back: there is no need for HDF5's MiB a dataset, but a chunk
-    // that is not kept whole is read, and unpacked, again and again.
+    // Rows are mostly read front to back, so HDF5's default of 1 MiB per dataset is not needed. But
+    // HDF5 reads and unpacks a chunk again for each access if the cache cannot hold all of it.
     const Properties creation(H5Dget_create_plist(object), doing);
     const auto chunk = static_cast<std::size_t>(chunk_bytes(object, creation, "opening the file"));
     const Properties access(H5Pcreate(H5P_DATASET_ACCESS), doing);
@@ -276,7 +276,7 @@ void Reader::find_inputs(hid_t root) {
   constexpr const char* doing = "listing the input tables";
   if (check(H5Lexists(root, inputs_group, H5P_DEFAULT), doing) == 0) return;
   const Object inputs(H5Oopen(root, inputs_group, within_file()), doing);
-  if (H5Iget_type(inputs) != H5I_GROUP) return;  // a column that is called so
+  if (H5Iget_type(inputs) != H5I_GROUP) return;  // a column with this name
   const std::string path = std::string(inputs_group) + "/";
   for (const std::string& name : links_of(inputs, path)) {
     const Object table(H5Oopen(inputs, name.c_str(), within_file()), doing);
@@ -320,7 +320,7 @@ void Reader::read_numbers(std::size_t dataset, std::size_t first, std::size_t ro
   const auto& [info, path, from] = datasets_.at(dataset);
   const std::string doing = "reading dataset " + shown(path);
   const Selection selected = select(from, first, rows, doing);
-  if (check(H5Sget_select_npoints(selected.file), doing) == 0) return;  // no width
+  if (check(H5Sget_select_npoints(selected.file), doing) == 0) return;  // width 0
   check(H5Dread(from, H5T_NATIVE_DOUBLE, selected.memory, selected.file, H5P_DEFAULT, to), doing);
 }
 
@@ -328,7 +328,7 @@ std::vector<std::string> Reader::read_texts(std::size_t dataset, std::size_t fir
                                             std::size_t rows) const {
   const auto& [info, path, from] = datasets_.at(dataset);
   const std::string doing = "reading dataset " + shown(path);
-  const Datatype type(H5Dget_type(from), doing);  // HDF5 converts no character sets
+  const Datatype type(H5Dget_type(from), doing);  // HDF5 cannot convert character sets
   std::vector<std::string> texts;
   if (check(H5Tis_variable_str(type), doing) == 0) {
     add_fixed_strings(from, type, select(from, first, rows, doing), rows, doing, texts);

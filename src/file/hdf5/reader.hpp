@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reads the datasets of a file's root group, and of the tables within it, some rows at a time.
+// Reads the datasets of a file's root group and of its input tables, some rows at a time.
 //
-// What a file says of itself is not believed: a dataset that would be larger than what the file
-// can hold is refused before any memory is taken for it, and so is what lies in other files.
+// The reader does not trust the file. It refuses data in other files. It refuses a dataset that
+// declares more than the file can hold, before it allocates memory.
 #pragma once
 
 #include <cstddef>
@@ -34,23 +34,23 @@ struct InputInfo {
 // Every function may throw Failure.
 class Reader {
  public:
-  // Calls `got_on` after each dataset and attribute that it finds.
+  // Calls `got_on`, as a sign of progress, after each dataset and attribute.
   Reader(const char* path, void (*got_on)());
 
-  // Datasets are counted in the file's order, those of the root first, then those of the inputs.
+  // Datasets are numbered in the file's order: first those of the root, then those of the inputs.
   [[nodiscard]] std::size_t root_datasets() const { return root_datasets_; }
   [[nodiscard]] const DatasetInfo& info(std::size_t dataset) const {
     return datasets_.at(dataset).info;
   }
   [[nodiscard]] const std::vector<InputInfo>& inputs() const { return inputs_; }
-  // The root's, those that are a text or a number.
+  // The root attributes that are a text or a number.
   [[nodiscard]] const std::vector<std::pair<std::string, Value>>& attributes() const {
     return attributes_;
   }
-  // Rows [first, first + rows), within what there is, of what is no text; an axis has `width` rows
-  // of one number.
+  // Reads rows [first, first + rows) of a dataset that is not a text. The rows must exist. An axis
+  // has `width` rows of one number.
   void read_numbers(std::size_t dataset, std::size_t first, std::size_t rows, double* to) const;
-  // Reads the same rows of a dataset that is a text.
+  // Reads rows of a text dataset likewise.
   [[nodiscard]] std::vector<std::string> read_texts(std::size_t dataset, std::size_t first,
                                                     std::size_t rows) const;
 
@@ -68,8 +68,8 @@ class Reader {
 
   void (*got_on_)();
   File file_;
-  std::uint64_t bytes_;         // of the file
-  std::uint64_t declared_ = 0;  // bytes of all datasets so far, as they say
+  std::uint64_t bytes_;         // size of the file
+  std::uint64_t declared_ = 0;  // bytes that all datasets so far declare
   std::vector<Open> datasets_;
   std::size_t root_datasets_ = 0;
   std::vector<InputInfo> inputs_;

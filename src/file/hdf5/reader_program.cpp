@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // bbsim-hdf5-reader ROWS_A_BLOCK MOST_ROWS FILE...: prints the tables of HDF5 files, one after the
-// other, as table_text.hpp says. Why one cannot be read goes to standard error, with exit code 1.
+// other, in the format of table_text.hpp. If a file cannot be read, writes the reason to standard
+// error and exits with code 1.
 //
-// bbsim starts it as a process of its own, because a damaged file may crash the HDF5 library or
-// make it go in circles. So it is bounded in memory, and in time without progress.
+// bbsim runs this program as a separate process, because a damaged file may crash the HDF5 library
+// or make it loop forever. Memory, and time without progress, are therefore bounded.
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -36,17 +37,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Processor time without progress after which HDF5 is taken to go in circles: so much, and a second
-// for so many bytes of the file. What is spent waiting for a disk does not count.
+// Processor time without progress after which HDF5 counts as stuck: `patience`, plus a second per
+// bytes_a_second of the file. Time spent waiting for a disk does not count.
 constexpr rlim_t patience = 2;  // s
 constexpr rlim_t bytes_a_second = rlim_t{1} << 27U;
-// Memory that HDF5 may take for a file, beside four times the file's size.
+// Memory that HDF5 may use for a file, in addition to four times the file's size.
 constexpr rlim_t most_memory = rlim_t{1} << 30U;
 
 constexpr std::size_t numbers_at_once = 32768;  // 256 KiB
 constexpr std::size_t texts_at_once = 1024;
 
-// Ends the process unless it is set again in time.
+// Ends the process by SIGPROF unless it is set again in time.
 class Timer {
  public:
   void allow_for(rlim_t bytes) {
@@ -64,12 +65,12 @@ class Timer {
 Timer timer;
 
 void prepare() {
-  // Where we die there is nothing to look into: the file is what is wrong.
+  // No core dumps: after a crash, the file is at fault, not this program.
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
   prctl(PR_SET_DUMPABLE, 0);
-  // Ctrl-C goes to all of a terminal's processes; the program decides what comes of it, and ends us
-  // with itself.
+  // Ctrl-C reaches all processes of the terminal. bbsim handles it, and ends this process with
+  // itself.
   for (const int one : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(one, SIG_IGN);
   keep_errors_to_ourselves();
 }
@@ -88,7 +89,7 @@ rlim_t size_of(const char* path) {
   return stat(path, &status) == 0 ? static_cast<rlim_t>(status.st_size) : 0;
 }
 
-// What a damaged file makes HDF5 ask for beyond this fails.
+// Makes larger allocations fail, which a damaged file may cause.
 void limit_memory(rlim_t file_size) {
   rlimit limit{};
   getrlimit(RLIMIT_AS, &limit);
@@ -98,7 +99,7 @@ void limit_memory(rlim_t file_size) {
 }
 
 void print(std::string_view bytes) {
-  if (file::write_all(STDOUT_FILENO, bytes) != 0) _exit(0);  // the program wants no more
+  if (file::write_all(STDOUT_FILENO, bytes) != 0) _exit(0);  // bbsim reads no more
   timer.set();
 }
 
@@ -116,7 +117,7 @@ Json described(const DatasetInfo& info) {
           {"width", info.width}};
 }
 
-// The shortest that reads back as the same.
+// The shortest text that reads back as the same number.
 std::string real_text(double number) {
   std::array<char, 32> text{};
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
@@ -260,7 +261,7 @@ std::size_t number_of(std::string_view text) {
   return number;
 }
 
-// What the program makes of it: hdf5_process.cpp.
+// hdf5_process.cpp turns the text into an error message.
 [[noreturn]] void give_up(std::string_view why) {
   [[maybe_unused]] const int ignored = file::write_all(STDERR_FILENO, why);
   _exit(1);
@@ -284,5 +285,5 @@ int main(int argc, char** argv) {
   } catch (const std::exception& failure) {
     give_up(failure.what());
   }
-  _exit(0);  // not by way of what HDF5 does at exit, after files that may be damaged
+  _exit(0);  // skips HDF5's cleanup at exit, which a damaged file may make crash
 }

@@ -1,31 +1,31 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How the reader, a process of its own, prints the table of an HDF5 file. Both sides are of one
-// build on one machine, so numbers are as in memory.
+// The format in which the reader process prints the table of an HDF5 file. Both sides come from one
+// build and run on one machine, so numbers are in their binary form.
 //
 //     a line of JSON: {"bbsim_table", "rows", "columns", "axes", "attributes", "inputs"}
-//     each axis: its numbers
-//     blocks of rows: each column's of these rows, one column after the other
-//     each table that the scenario read: its columns, one after the other
+//     the numbers of each axis
+//     blocks of rows: the values of these rows, column by column
+//     each table that the scenario read, column by column
 //
-// A number is a double; a series has `width` of them a row; a text is its length, of 64 bits, and
-// its bytes. Names, units and attributes are UTF-8; bytes that are not are replaced by U+FFFD.
+// A number is a double. A series has `width` doubles per row. A text is its length, in 64 bits, and
+// its bytes. Names, units and attributes are UTF-8; U+FFFD replaces invalid bytes.
 #pragma once
 
 #include <cstddef>
 
 namespace bbsim::hdf5 {
 
-// Grows with every change of the above.
+// The version increases with every change of this format.
 inline constexpr const char* table_key = "bbsim_table";
 inline constexpr int table_version = 1;
 
-// What a column holds.
+// Kinds of columns.
 inline constexpr const char* number_kind = "number";
 inline constexpr const char* text_kind = "text";
 inline constexpr const char* series_kind = "series";
 
-inline constexpr std::size_t longest_text = std::size_t{1} << 26U;  // bytes; of a head, too
+inline constexpr std::size_t longest_text = std::size_t{1} << 26U;  // bytes; also for the JSON line
 
 }  // namespace bbsim::hdf5

@@ -16,12 +16,12 @@
 namespace bbsim::hdf5 {
 namespace {
 
-// 8 KiB of numbers: small enough for the common run of a thousand rows, large enough for long ones.
+// 8 KiB of numbers: small enough for a common run of a thousand rows, large enough for long runs.
 constexpr hsize_t rows_a_chunk = 1024;
-// A chunk of a series has as many rows, a power of two, as fit into this; at least one.
+// A chunk of a series has as many rows as fit into this: a power of two, at least one.
 constexpr hsize_t bytes_a_series_chunk = hsize_t{128} * 1024;
-// Chunks are written once and front to back: a dataset needs to keep no more than the last one,
-// and none that is larger than this, as it is written whole.
+// The largest chunk cache. Chunks are written once, from front to back, so it holds the last one
+// only. Larger chunks than this need no cache, because they are written whole.
 constexpr std::size_t largest_cache = std::size_t{1024} * 1024;
 
 constexpr const char* making_scale = "making a dimension scale";
@@ -35,7 +35,7 @@ File create_file(int descriptor, int* system_error) {
   const Properties creation(H5Pcreate(H5P_FILE_CREATE), "preparing the file");
   check(H5Pset_link_creation_order(creation, in_order), "preparing the file");
   check(H5Pset_attr_creation_order(creation, in_order), "preparing the file");
-  // No times of day, here and below: the same run is to give the same bytes.
+  // No timestamps, here and below, so that the same run gives the same bytes.
   check(H5Pset_obj_track_times(creation, false), "preparing the file");
   return {H5Fcreate("bbsim", H5F_ACC_TRUNC, creation, access), "creating the file"};
 }
@@ -50,7 +50,7 @@ hsize_t rows_of_a_chunk(const bbsim_hdf5_column& column) {
 
 void describe(hid_t dataset, const bbsim_hdf5_column& column) {
   set_attribute(dataset, "unit", column.unit);
-  // The name under which netCDF's tools look for it.
+  // netCDF tools expect this name.
   if (*column.unit != '\0') set_attribute(dataset, "units", column.unit);
   set_attribute(dataset, "description", column.description);
 }
@@ -63,10 +63,10 @@ bool is_of_fixed_length(bbsim_hdf5_kind kind, std::size_t width) {
   return kind == BBSIM_HDF5_TEXT && width > 1;
 }
 
-// The least that deflate can do: more takes longer and gains little on numbers that were computed.
+// The lowest level of deflate: higher ones take longer and gain little on computed numbers.
 constexpr unsigned least_deflation = 1;
 
-// Shuffled, the bytes that numbers of one size have in common stand together.
+// Shuffling puts equal bytes of similar numbers together, so that they compress better.
 void pack(hid_t creation, const bbsim_hdf5_column& column, const char* doing) {
   if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) <= 0) return;
   if (!is_of_fixed_length(column.kind, column.width)) check(H5Pset_shuffle(creation), doing);
@@ -87,7 +87,7 @@ Dataset create_dataset(hid_t file, const bbsim_hdf5_column& column) {
   check(H5Pset_obj_track_times(creation, false), doing);
   if (column.is_packed != 0) pack(creation, column, doing);
 
-  constexpr std::size_t bytes_of_a_reference = 16;  // to a string
+  constexpr std::size_t bytes_of_a_reference = 16;  // to a string of any length
   const std::size_t bytes = is_fixed  ? column.width
                             : is_text ? bytes_of_a_reference
                                       : sizeof(double) * column.width;
@@ -124,7 +124,7 @@ std::vector<char> side_by_side(const char* const* texts, std::size_t rows, std::
   return strings;
 }
 
-// Numbers that are there as a whole.
+// Writes a dataset of fixed size at once.
 Dataset write_numbers(hid_t place, const char* name, const double* values, std::size_t count,
                       const char* doing) {
   const hsize_t size = count;
@@ -173,7 +173,7 @@ void Writer::write_axis(const bbsim_hdf5_column& axis, const double* values) {
   constexpr const char* doing = "writing an axis";
   Dataset dataset = write_numbers(file_, axis.name, values, axis.width, doing);
   describe(dataset, axis);
-  set_attribute(dataset, axis_mark, "series");  // what tells it from a column
+  set_attribute(dataset, axis_mark, "series");  // distinguishes it from a column
   check(H5DSset_scale(dataset, axis.name), making_scale);
   for (const Column& column : columns_) {
     if (column.kind != BBSIM_HDF5_SERIES || column.width != axis.width) continue;

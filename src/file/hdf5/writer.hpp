@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Writes a table as one extendible dataset a column.
+// Writes a table as one extendible dataset per column.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,11 @@
 
 namespace bbsim::hdf5 {
 
-// Every function may throw Failure. A failure of the system, such as a full disk, is noted in
-// system_error() instead and is the one to report.
+// Every function may throw Failure. A system error, such as a full disk, is recorded in
+// system_error() and takes precedence in reports.
 class Writer {
  public:
-  void start(int descriptor, std::span<const bbsim_hdf5_column> columns);  // first of all
+  void start(int descriptor, std::span<const bbsim_hdf5_column> columns);  // call it first
   void write_axis(const bbsim_hdf5_column& axis, const double* values);
   void append(const bbsim_hdf5_values* columns, std::size_t rows);
   void write_column(const bbsim_hdf5_column& column, const double* values);
@@ -39,9 +39,9 @@ class Writer {
 
   std::unique_ptr<int> system_error_ = std::make_unique<int>(0);  // outlives file_
   File file_;
-  Group inputs_;  // once there is one
+  Group inputs_;  // created for the first input
   std::vector<Column> columns_;
-  hid_t scale_ = -1;  // of the rows: the dataset of one of the columns
+  hid_t scale_ = -1;  // scale of the rows: a column's dataset, or -1
   hsize_t rows_ = 0;
 };
 
