@@ -126,7 +126,7 @@ struct RunOptions {
   bool keep_rows = true;                // keep the rows in the result
   // Called with each row. Its values are in the order of Result::columns.
   std::function<void(std::span<const double> row)> sink{};
-  // Called occasionally with the fraction done. Returning false ends the run soon.
+  // run() calls it occasionally with the fraction done. Returning false ends the run soon.
   std::function<bool(double fraction)> goes_on{};
 };
 

@@ -70,9 +70,9 @@ typedef struct bbsim_setup {
   double derivative_filter;          /* sampling.derivative_filter, s; bbsim does not apply it */
   double limit;                      /* largest command that both axes allow; infinite: none */
   double end;                        /* end of the run, s */
-  size_t parameter_count;            /* number of parameters */
+  size_t parameter_count;
   const bbsim_parameter *parameters; /* null if there are none */
-  size_t column_count;               /* number of columns */
+  size_t column_count;
   const char *const *columns; /* names in output.columns of the numbers that each step writes; null
                                  if there are none */
 } bbsim_setup;
@@ -88,8 +88,8 @@ typedef struct bbsim_sample {
   double reference_acceleration[2]; /* its second derivative, m/s^2 */
   double servo[2];                  /* servo angles (gimbal angles without servos), rad */
   double servo_rate[2];             /* their rates, rad/s */
-  double third_servo;               /* angle of the third servo (drives: legs), rad; or 0 */
-  double third_servo_rate;          /* its rate, rad/s; or 0 */
+  double third_servo;               /* angle of the third servo under drives: legs, rad */
+  double third_servo_rate;          /* its rate, rad/s; both are 0 otherwise */
 } bbsim_sample;
 
 /* Returns the BBSIM_CONTROLLER_ABI of the header that the library was compiled with. */

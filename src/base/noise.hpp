@@ -47,7 +47,7 @@ class Noise {
 
   std::mt19937_64 generator_;
   std::array<double, together> uniforms_{}, normals_{};
-  std::size_t drawn_ = together;  // numbers used of the current batch
+  std::size_t drawn_ = together;  // numbers used from the current batch
 };
 
 }  // namespace bbsim

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Numbers as text for readers.
+// Numbers as text for people to read.
 #pragma once
 
 #include <string>

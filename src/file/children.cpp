@@ -31,7 +31,7 @@ bool is_remembered(pid_t process) {
                              [=](const auto& place) { return place.load() == process; });
 }
 
-// The variable that holds the mark. Its value is this process's id, a point, and a number.
+// The variable that holds the mark. Its value is this process's id, a dot, and a number.
 constexpr const char* marks = "BBSIM_CONTROLLER=";
 
 // All functions from here to bury_children() are safe in a signal handler.

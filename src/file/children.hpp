@@ -13,7 +13,7 @@
 
 namespace bbsim::file {
 
-// end_children() ends this process and its group until forget_child(). Call forget_child() before
+// Until forget_child(), end_children() ends `process` and its group. Call forget_child() before
 // waiting for the process, because its id may be reused afterwards. There is room for 1100
 // processes, more than a sweep has threads; further ones are not ended.
 void remember_child(pid_t process);

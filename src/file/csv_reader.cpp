@@ -260,7 +260,7 @@ class Parser {
       }
       return;
     }
-    // A remark may name the columns: numpy.savetxt writes its header so.
+    // A remark may name the columns, as from numpy.savetxt.
     if (remark.number != 0) {
       const Fit found = best_fit(remark.text, ahead_[0].text);
       if (found.numbers > 0) {

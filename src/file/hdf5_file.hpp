@@ -18,7 +18,7 @@ namespace bbsim::file {
 
 // An HDF5 file that gets its final name when it is complete. Arguments are as in the module's
 // interface (hdf5/interface.h). Every function throws OutputError; the object may then only be
-// destroyed. If the HDF5 library crashes, the program ends as if nobody had caught that error.
+// destroyed. If the HDF5 library crashes, the program ends as for an uncaught error.
 class Hdf5Output {
  public:
   Hdf5Output(const Hdf5Output&) = delete;

@@ -93,7 +93,7 @@ template <int n>
   return t.value;
 }
 
-// The derivatives by variables first ... first + count - 1, one row for each number.
+// The derivatives with respect to variables first ... first + count - 1, one row per number.
 template <int rows, int n>
 [[nodiscard]] Eigen::MatrixXd gradients(const WithGradient<n> (&of)[rows], int first, int count) {
   Eigen::MatrixXd found(rows, count);

@@ -15,8 +15,8 @@ struct Cobyla {
   std::vector<double> lower, upper;  // bounds of x; may be infinite
   std::size_t constraints = 0;
   double step = 0.1;        // size of the first models
-  double tolerance = 1e-4;  // of each number of x
-  std::size_t most = 100;   // calls of the function
+  double tolerance = 1e-4;  // on each number of x, to end the search
+  std::size_t most = 100;   // largest number of calls of the function
   // Computes the value at x and the constraints, which should become 0 or less. All must be finite.
   // Returning false ends the search.
   std::function<bool(const std::vector<double>& x, double& value, double* constraints)> function;

@@ -42,7 +42,7 @@ struct Merit {
 struct Problem {
   Point start;
   std::size_t cases = 1, requirements = 0;
-  double share = 1;  // of the cases, in which each requirement must hold
+  double share = 1;  // fraction of the cases in which each requirement must hold
   // Scores each point in each of these cases, all cases of the first point first. Returns false if
   // interrupted.
   std::function<bool(const std::vector<Point>& points, const std::vector<std::size_t>& cases,
@@ -56,7 +56,7 @@ struct Found {
   Point best;                               // empty if interrupted before the first evaluation
   std::vector<CaseScore> at_start, scores;  // of `start` and `best`, in all cases
   Merit merit;
-  std::size_t tried = 0;  // points
+  std::size_t tried = 0;  // number of points
   bool interrupted = false;
 };
 
