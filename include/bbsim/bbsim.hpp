@@ -199,8 +199,7 @@ struct Table {
 // Throws like run().
 [[nodiscard]] BBSIM_API Table sweep(const Scenario& scenario, const SweepOptions& options = {});
 
-// dz = A z + B u, y = C z + D u. dz is z', or z one period later if there is a period. Matrices
-// are lists of rows.
+// dz = A z + B u, y = C z + D u; dz is z', or z one `period` later. Matrices are lists of rows.
 struct LinearSystem {
   std::vector<std::string> states, inputs, outputs;
   std::vector<std::vector<double>> a, b, c, d;

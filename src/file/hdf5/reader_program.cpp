@@ -69,8 +69,7 @@ void prepare() {
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
   prctl(PR_SET_DUMPABLE, 0);
-  // Ctrl-C reaches all processes of the terminal. bbsim handles it, and ends this process with
-  // itself.
+  // Ctrl-C reaches all processes of the terminal; bbsim handles it and ends this process.
   for (const int one : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(one, SIG_IGN);
   keep_errors_to_ourselves();
 }
