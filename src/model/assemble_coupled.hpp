@@ -16,7 +16,7 @@ namespace bbsim::model {
 struct CoupledScene {
   System system;
   std::optional<Rig> rig{};       // with a controller
-  std::optional<DryParts> dry{};  // if it has dry friction, sliding or torque limits
+  std::optional<DryParts> dry{};  // with dry friction, sliding or torque limits
 };
 
 // The scene must satisfy scenario::is_coupled() or scenario::is_linked(). `input` is the prescribed

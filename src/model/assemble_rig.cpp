@@ -96,7 +96,7 @@ Rig build_rig(const Scenario& scene, const ControlLaw& law) {
   for (int i = 0; i < rig.servos; ++i) {
     RigServo& servo = rig.servo[i];
     if (scene.gimbal.servo) servo = rig_servo(scene.gimbal.servo_of(static_cast<std::size_t>(i)));
-    // With a linkage, the linkage includes the plane's offset.
+    // A linkage includes the plane's offset.
     if (rig.between.none()) servo.offset = i == 0 ? mounting.phi_offset : mounting.theta_offset;
   }
   CommandRange limits[2];
@@ -106,7 +106,7 @@ Rig build_rig(const Scenario& scene, const ControlLaw& law) {
         command_limit(controller, static_cast<std::size_t>(i)).value_or(unlimited));
     limits[i] = {std::max(limits[i].low, reach.low), std::min(limits[i].high, reach.high)};
   }
-  // In a groove the ball needs one axis only, and the plate has no other.
+  // A ball in a groove needs one axis only, so the other gets no command.
   if (controller.sampling && scene.ball.groove) limits[1 - scene.ball.groove->axis] = {0, 0};
   if (controller.sampling) {
     rig.sampled.emplace(SampledLoop{*controller.sampling,

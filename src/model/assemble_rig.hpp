@@ -32,8 +32,8 @@ using PlantOf = std::function<LinearPlant(const ServoResponses&)>;
 
 // Builds the loop and the rig; the scene must have a controller. Link is the mechanism between
 // servos and plane; Linkages also covers a direct drive. `plant` gives the plant for LQR, by
-// default a RigLoop's. Throws InputError if no LQR gain stabilizes the plant, or a linkage does not
-// close.
+// default a RigLoop's. Throws InputError if no LQR gain stabilizes the plant, or if a linkage does
+// not close.
 template <bool integrates, class Link = Direct>
 [[nodiscard]] AssembledRig<integrates, Link> assemble_rig(const Scenario& scene,
                                                           SignalPair reference,

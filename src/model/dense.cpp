@@ -12,7 +12,7 @@ namespace bbsim::model {
 using Eigen::MatrixXd;
 
 MatrixXd product(const MatrixXd& a, const MatrixXd& b) {
-  return a.operator*(b);  // Eigen's own
+  return a.operator*(b);  // Eigen's operator
 }
 
 MatrixXd transposed(const MatrixXd& a) {
@@ -45,8 +45,8 @@ MatrixXd exponential(const MatrixXd& a) {
   int halvings = 0;
   while (std::ldexp(size, -halvings) > 0.5) ++halvings;
   const MatrixXd part = std::ldexp(1.0, -halvings) * a, identity = MatrixXd::Identity(n, n);
-  // Without the identity, beside which rounding would lose what is slow where much else is fast:
-  // e^a - 1 of a small part, by its series, then (e^2a - 1) = (e^a - 1)^2 + 2 (e^a - 1).
+  // Leave out the identity until the end: rounding beside it would lose slow parts next to fast
+  // ones. Take e^a - 1 of a small part by its series, then (e^2a - 1) = (e^a - 1)^2 + 2 (e^a - 1).
   constexpr int terms = 18;  // 0.5^18 / 18! is below rounding
   MatrixXd series = identity;
   for (int k = terms; k > 1; --k) series = identity + part * series / k;

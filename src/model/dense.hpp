@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The algebra of matrices that are small, and whose sizes only the scene tells. Eigen makes code of
-// its own for every expression, of which compilers take seconds each: products of products,
-// transposes and blocks all become one here. In this namespace a b of two matrices is that, too.
+// Algebra of small matrices whose sizes depend on the scene. Eigen instantiates code for every
+// expression, which costs compilers seconds each, so all operands here are plain matrices. In this
+// namespace a b of two matrices calls product().
 #pragma once
 
 #include <Eigen/Core>
@@ -11,22 +11,22 @@
 
 namespace bbsim::model {
 
-// a b; the shapes have to fit.
+// Returns a b; the shapes must match.
 [[nodiscard]] Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 [[nodiscard]] inline Eigen::MatrixXd operator*(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return product(a, b);
 }
 
-// The transposed matrix, as one and not as an expression.
+// Returns the transpose as a matrix, not an expression.
 [[nodiscard]] Eigen::MatrixXd transposed(const Eigen::MatrixXd& a);
 
-// Of a square matrix; not finite if it is singular.
+// Inverse of a square matrix; not finite if it is singular.
 [[nodiscard]] Eigen::MatrixXd inverse(const Eigen::MatrixXd& a);
 
-// x of a x = b, by elimination with pivots of rows; not finite if `a` is singular.
+// Solves a x = b by elimination with row pivoting; not finite if `a` is singular.
 [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
-// By pivots of rows and columns; nothing if `a` is singular, or anything not finite.
+// The same with full pivoting; empty if `a` is singular or a number is not finite.
 [[nodiscard]] std::optional<Eigen::MatrixXd> solve_if_regular(const Eigen::MatrixXd& a,
                                                               const Eigen::MatrixXd& b);
 

@@ -10,7 +10,7 @@ namespace bbsim::model {
 
 std::vector<std::complex<double>> eigenvalues_of(const Eigen::MatrixXd& matrix) {
   if (!matrix.allFinite()) return {};
-  // Eigen's solver does not balance: rounding of a stiff servo's entries would be in all others.
+  // Eigen's solver does not balance: rounding of a stiff servo's entries would reach all others.
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(balanced(matrix), false);
   if (solver.info() != Eigen::Success) return {};
   return {solver.eigenvalues().begin(), solver.eigenvalues().end()};

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Eigenvalues of a dense matrix: in one place, since Eigen's solver takes a compiler longer
-// than all that makes use of it.
+// Eigenvalues of a dense matrix, compiled once: Eigen's solver takes longer to compile than all its
+// callers.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,13 +11,12 @@
 
 namespace bbsim::model {
 
-// In no order. Nothing where the matrix is not finite or the iteration does not converge. Each is
-// known to the rounding of the balanced matrix's largest entry.
+// Returns them in no order; empty if the matrix is not finite or the iteration does not converge.
+// Each is accurate to the rounding of the balanced matrix's largest entry.
 [[nodiscard]] std::vector<std::complex<double>> eigenvalues_of(const Eigen::MatrixXd& matrix);
 
-// d^-1 matrix d, with the diagonal d of powers of 2 that makes a row and the column of its number
-// alike in size. Parlett and Reinsch, Numerische Mathematik 13 (1969).
-// `scale` gets the diagonal.
+// Returns d^-1 matrix d. The diagonal d of powers of 2 makes each row and its column similar in
+// size. `scale` receives d. Parlett and Reinsch, Numerische Mathematik 13 (1969).
 [[nodiscard]] Eigen::MatrixXd balanced(const Eigen::MatrixXd& matrix,
                                        Eigen::VectorXd* scale = nullptr);
 

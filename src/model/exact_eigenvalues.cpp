@@ -14,7 +14,7 @@ namespace {
 
 using Values = std::vector<std::complex<double>>;
 
-// A square matrix of quads, and reflections of its rows and columns.
+// A square matrix of quads, with Householder reflections of its rows and columns.
 class QuadMatrix {
  public:
   explicit QuadMatrix(const Eigen::MatrixXd& of)
@@ -27,15 +27,15 @@ class QuadMatrix {
   [[nodiscard]] int size() const { return n_; }
   Quad& operator()(int i, int j) { return entries_[static_cast<std::size_t>(i * n_ + j)]; }
 
-  // With the reflection p that makes a multiple of (1, 0, ...) of `vector`: p M p, of the rows and
-  // columns from `first` on, within rows and columns low to high.
+  // Replaces M by p M p within rows and columns low to high. The reflection p acts from `first` on
+  // and maps `vector` to a multiple of (1, 0, ...).
   void reflect(std::vector<Quad> vector, int first, int low, int high) {
     Quad square(0.0);
     for (const Quad& one : vector) square += one * one;
     const Quad length = root_along(square, vector[0]);
     if (length == Quad(0.0)) return;
     vector[0] += length;
-    const Quad scale = length * vector[0];  // half the square of the new vector
+    const Quad scale = length * vector[0];  // half the new vector's squared length
     const auto count = static_cast<int>(vector.size());
     const auto apply = [&](const auto& entry) {
       Quad along(0.0);
@@ -65,7 +65,7 @@ void make_hessenberg(QuadMatrix& m) {
   }
 }
 
-// Of [a, b; c, d].
+// Appends the eigenvalues of [a, b; c, d].
 void add_pair(Quad a, Quad b, Quad c, Quad d, Values& values) {
   const Quad half = (a - d) / Quad(2.0), middle = (a + d) / Quad(2.0), square = half * half + b * c;
   if (square < Quad(0.0)) {
@@ -74,15 +74,15 @@ void add_pair(Quad a, Quad b, Quad c, Quad d, Values& values) {
     values.emplace_back(plain(middle), -apart);
     return;
   }
-  // The one farther from 0 first, the other one from the product, which does not cancel.
+  // First the value farther from 0, then the other from the product, which does not cancel.
   const Quad far = middle + root_along(square, middle);
   values.emplace_back(plain(far), 0);
   const Quad product = a * d - b * c;
   values.emplace_back(far == Quad(0.0) ? 0 : plain(product / far), 0);
 }
 
-// A step of Francis's implicit QR with both shifts at once, in rows and columns low to high:
-// Golub and Van Loan, Matrix Computations, algorithm 7.5.1.
+// A double-shift step of Francis's implicit QR, in rows and columns low to high: Golub and Van
+// Loan, Matrix Computations, algorithm 7.5.1.
 void step(QuadMatrix& m, int low, int high, Quad sum, Quad product) {
   std::vector<Quad> bulge{
       m(low, low) * m(low, low) + m(low, low + 1) * m(low + 1, low) - sum * m(low, low) + product,
@@ -128,7 +128,7 @@ Values eigenvalues_of_hessenberg(QuadMatrix& m) {
       if (++passes > most) return {};
       const Quad a = m(high - 1, high - 1), b = m(high - 1, high), c = m(high, high - 1),
                  d = m(high, high);
-      // Now and then other shifts, where those of the corner lead nowhere.
+      // Use other shifts from time to time, in case the corner's do not converge.
       const Quad jolt = abs(c) + abs(m(high - 1, high - 2));
       if (passes % another == 0) {
         step(m, low, high, Quad(1.5) * jolt, jolt * jolt);
@@ -147,7 +147,7 @@ Values exact_eigenvalues(const Eigen::MatrixXd& matrix) {
   const Eigen::MatrixXd even = balanced(matrix);
   const double largest = even.size() == 0 ? 0 : even.cwiseAbs().maxCoeff();
   if (!(largest > 0)) return Values(static_cast<std::size_t>(matrix.rows()));
-  // Roots are taken by way of doubles, which squares of entries must not leave.
+  // Square roots go through doubles, so scale squares of entries into their range.
   const double unit = std::exp2(std::round(std::log2(largest)));
   QuadMatrix m(even / unit);
   make_hessenberg(m);

@@ -18,7 +18,7 @@
 namespace bbsim::model {
 namespace {
 
-// In the smaller unit, unless that overflows.
+// Formats in the smaller unit unless that overflows.
 std::string in_unit(double value, double units, const char* unit, const char* si) {
   return std::isfinite(value * units) ? short_number(value * units) + unit
                                       : short_number(value) + si;
@@ -142,7 +142,7 @@ std::string limits_note(const Gimbal& gimbal) {
   return text;
 }
 
-// The tilt that the plate has where the controller wants it level.
+// The plate's tilt when the controller commands it level.
 std::string believed_level(const Scenario& scene) {
   const Between between = between_of(scene);
   const Pair tilt = between.tilt(between.told({0, 0}));
@@ -169,7 +169,7 @@ std::string beyond_note(const Linkage& linkage, const Servo& servo) {
   return "; WARNING: its stops at " + degrees(stop) + " lie beyond that";
 }
 
-// What only unequal legs, and controllers that command legs, need to know.
+// Notes for unequal legs and for controllers that command legs.
 std::string legs_note(const Scenario& scene, const Between& between) {
   const ThreeServos& three = *between.three;
   std::string text;
@@ -387,7 +387,7 @@ std::string events_note(const Scenario& scene) {
   return list.text();
 }
 
-// The optional parts that this scene does not have.
+// The optional parts that this scene lacks.
 std::string without(const Scenario& scene) {
   List list;
   const Servo* servo = scene.gimbal.servo ? &*scene.gimbal.servo : nullptr;

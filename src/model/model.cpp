@@ -20,8 +20,8 @@ bool Model::jumps_at(double t) const {
 
 double Model::just_before(double t) const {
   if (!jumps_at(t)) return std::nextafter(t, -std::numeric_limits<double>::infinity());
-  // A jump begins a rounding before its time, and its time may be a rounding before t. The third
-  // is for sums of times.
+  // A jump starts one rounding error before its time, which may lie one before t. The third is for
+  // sums of times.
   return t - 3 * rounding_of(t);
 }
 

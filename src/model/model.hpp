@@ -55,8 +55,8 @@ struct Model {
 
   // Whether the reference jumps at the instant t, s.
   [[nodiscard]] bool jumps_at(double t) const;
-  // The last time before t (s); where the reference jumps, the last that is clearly before the
-  // jump. A sum of times that ends there may be rounded.
+  // The last time before t (s). If the reference jumps at t, a time clearly before the jump,
+  // because a sum of times that ends there may be rounded.
   [[nodiscard]] double just_before(double t) const;
 
   [[nodiscard]] std::size_t size() const { return initial.size(); }
@@ -81,9 +81,9 @@ struct Model {
   [[nodiscard]] bool closed_loop() const;
 };
 
-// `reduced`: the least system that the scene needs, for one axis if symmetry keeps the ball on it.
-// `full`: without these reductions. `general`: also with the equations for any mounting and
-// inertia of the ball. Motions agree to the tolerance; the later ones are one system for more
+// `reduced`: the smallest system that the scene needs, with one axis if symmetry keeps the ball on
+// it. `full`: without these reductions. `general`: also with the equations for any mounting and
+// inertia of the ball. Motions agree to the tolerance. The later forms use one system for more
 // scenes.
 enum class Form { reduced, full, general };
 

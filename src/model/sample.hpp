@@ -25,8 +25,8 @@ struct GimbalState {
   double phi_ddot = 0, theta_ddot = 0;
 };
 
-// The parts of a sample to fill, each with those before: the ball; the gimbal's angles and rates;
-// its accelerations; commands and measurements; the reference. Other parts may stay unset.
+// Parts of a sample to fill; each includes those before it: the ball; the gimbal's angles and
+// rates; its accelerations; commands and measurements; the reference. Other parts may stay unset.
 enum class Detail { ball, gimbal, motion, loop, all };
 
 // The additional quantities of a coupled scene. All are doubles.

@@ -34,8 +34,8 @@ double size_of(const std::complex<double>& value) {
   return std::abs(value);
 }
 
-// The exact eigenvalues of a matrix whose entries are rounded, by falling measure, and how far
-// entries that are `rounding` of themselves away move each one's measure.
+// Eigenvalues of a matrix with rounded entries, by falling measure. `moved` estimates how far
+// relative errors of the entries change each one's measure.
 struct RoundedValues {
   Eigenvalues values;
   std::vector<double> moved;
@@ -51,7 +51,7 @@ RoundedValues rounded_values(const Eigen::MatrixXd& matrix, double rounding,
     Eigen::MatrixXd other = matrix;
     for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
       for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-        // Any numbers between -1 and 1 that have nothing to do with each other.
+        // Arbitrary, unrelated numbers between -1 and 1.
         const double part = std::sin(static_cast<double>(way * (1 + 37 * i + 101 * j)));
         other(i, j) += matrix(i, j) * rounding * part;
       }
@@ -60,7 +60,7 @@ RoundedValues rounded_values(const Eigen::MatrixXd& matrix, double rounding,
     if (values.size() != known.values.size()) return {};
     sort_by(values, measure);
     for (std::size_t i = 0; i < values.size(); ++i) {
-      // Two ways alone show less than the worst one does.
+      // Two trials show less than the worst case.
       const double change = 10 * std::abs(measure(values[i]) - measure(known.values[i]));
       known.moved[i] = std::max(known.moved[i], change);
     }
@@ -74,7 +74,7 @@ Eigenvalues sorted_eigenvalues(const Eigen::MatrixXd& matrix) {
   Eigenvalues values = eigenvalues_of(matrix);
   sort_by(values, real_part);
   if (values.empty()) return values;
-  // Of three poles that are one, rounding moves each by its third root.
+  // Rounding splits a triple pole by its cube root.
   const double doubtful = 1e-5 * balanced(matrix).cwiseAbs().maxCoeff();
   if (std::ranges::all_of(values, [&](const auto& one) { return std::abs(one.real()) > doubtful; }))
     return values;
@@ -92,14 +92,14 @@ Eigenvalues sorted_eigenvalues(const Eigen::MatrixXd& matrix) {
 Eigenvalues poles_of_period(const Eigen::MatrixXd& map) {
   Eigenvalues values = eigenvalues_of(map);
   sort_by(values, size_of);
-  // A double pole is off by the root of rounding.
+  // Rounding splits a double pole by its square root.
   const auto near = [&](double distance) {
     return std::ranges::any_of(
         values, [&](const auto& one) { return std::abs(std::abs(one) - 1) < distance; });
   };
   if (!near(1e-6)) return values;
   RoundedValues known{values, std::vector<double>(values.size(), 1e-9)};
-  // An exponential's entries have more than their own rounding.
+  // The entries of an exponential carry more than their own rounding.
   if (map.rows() <= most_exact) known = rounded_values(map, 50 * epsilon, size_of);
   if (known.values.empty()) return values;
   for (std::size_t i = 0; i < known.values.size(); ++i) {
@@ -120,7 +120,7 @@ Eigenvalues eigenvalues(const Model& model, double t, const double* z) {
 
 namespace {
 
-// Whether a law moves the gimbal in continuous time, or given torques do.
+// Whether a continuous law or given torques move the gimbal.
 template <class System>
 bool has_loop(const System& system) {
   if constexpr (is_coupled_loop<System>) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How a scene behaves near a state: eigenvalues of the exact Jacobian.
+// Eigenvalues of the exact Jacobian: how a scene behaves near a state.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,31 +17,31 @@ using Eigenvalues = std::vector<std::complex<double>>;  // 1/s, by falling real 
 // The eigenvalues of the whole right-hand side, linearized at (t, z).
 [[nodiscard]] Eigenvalues eigenvalues(const Model& model, double t, const double* z);
 
-// About home (all angles, positions and rates zero), without what is dry, and without the spin,
-// which no controller acts on and which adds a pole at exactly zero.
+// Poles about home (all angles, positions and rates zero), without dry parts and without the spin:
+// no controller acts on it, and it adds a pole at exactly zero.
 //
-// The closed loop's poles, 1/s. Of a gimbal moved by given torques they are the plant's. Empty of a
-// given motion, and of a sampled loop.
+// Poles of the closed loop, 1/s; for a gimbal moved by given torques, of the plant. Empty for a
+// given motion and for a sampled loop.
 [[nodiscard]] Eigenvalues closed_loop_poles(const Model& model);
-// The plant's under a constant command, 1/s; of three servos without their heave.
+// Poles of the plant under a constant command, 1/s; for three servos without their heave.
 [[nodiscard]] Eigenvalues plant_poles(const Model& model);
-// A sampled loop's: eigenvalues of what a cycle (sampled_cycle.hpp) does to the plant, to what is
-// on its way through the delays, and to what the controller remembers. By falling size; empty if
-// the gains are too large for numbers, or if the law is not for the model to know.
+// Poles of a sampled loop, by falling size: eigenvalues of the map of a cycle (sampled_cycle.hpp)
+// on the plant, the signals in the delays, and the controller's memory. Empty if the gains
+// overflow, or if bbsim knows no law that feeds back.
 [[nodiscard]] Eigenvalues sampled_poles(const Model& model);
 
-// Those of a matrix, in that order; nothing where it is not finite. A real part whose sign the
-// rounding of the matrix's entries would change is 0.
+// Eigenvalues of a matrix, by falling real part; empty if it is not finite. A real part is 0 if
+// rounding of the matrix's entries could change its sign.
 [[nodiscard]] Eigenvalues sorted_eigenvalues(const Eigen::MatrixXd& matrix);
 
-// Those of a map from period to period, by falling size. One whose size rounding of the entries
-// would bring from one side of 1 to the other is on the unit circle, to the last digit of a double.
+// Eigenvalues of a map from period to period, by falling size. One that rounding of the entries
+// could move across the unit circle is put on it, to the last digit of a double.
 [[nodiscard]] Eigenvalues poles_of_period(const Eigen::MatrixXd& map);
 
-// All poles are within the border of stability; on it, as far as rounding can tell, is not.
+// Whether all poles lie inside the border of stability; a pole on it, up to rounding, does not.
 [[nodiscard]] bool stable(const Eigenvalues& poles);
 [[nodiscard]] bool stable_by_period(const Eigenvalues& poles);
-// How many are beyond it.
+// Number of poles beyond the border.
 [[nodiscard]] int growing(const Eigenvalues& poles);
 [[nodiscard]] int growing_by_period(const Eigenvalues& poles);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The time after which samples and a camera's frames meet again as they did.
+// The cycle after which the pattern of samples and camera frames repeats.
 #pragma once
 
 #include "scenario/scenario.hpp"
@@ -9,16 +9,15 @@
 namespace bbsim::model {
 
 struct CommonCycle {
-  double samples = 1, frames = 1;  // that it has: whole numbers
-  // Without frames there is nothing to know. Of frames that never meet the samples again, or not
-  // within 500 of them, or whose samples' clock is uneven, nothing is.
+  double samples = 1, frames = 1;  // in a cycle: whole numbers
+  // True without frames. False if frames and samples do not coincide again within 500 samples, or
+  // if the samples' clock is uneven.
   bool known = true;
 };
 
 [[nodiscard]] CommonCycle common_cycle(const Sampling& sampling, const Sensor& sensor);
 
-// Instants of different clocks that are nearer than this, relative to the period of the samples,
-// are one.
+// Instants of different clocks closer than this, relative to the sampling period, count as equal.
 inline constexpr double one_instant = 1e-9;
 
 }  // namespace bbsim::model

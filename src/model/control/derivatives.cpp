@@ -23,12 +23,12 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// A number that knows how a loop's states and six more variables change it. Where there are fewer
-// it is all the same: compilers take ten seconds over right-hand sides with another number.
+// A number with derivatives by a loop's states and six more variables. Smaller loops use it too:
+// right-hand sides with another number type would take compilers ten seconds.
 constexpr int most_states = 19;
 using Varied = simd::WithGradient<most_states + 6>;
 
-// The gimbal's part of a loop: its law, its servos and what links them to the plane.
+// The gimbal's part of a loop: its law, its servos and its linkage.
 template <class Loop>
 auto& gimbal_of(Loop& loop) {
   if constexpr (is_coupled_loop<std::remove_const_t<Loop>>) {
@@ -40,7 +40,7 @@ auto& gimbal_of(Loop& loop) {
 template <class Loop>
 using LinkOf = std::decay_t<decltype(gimbal_of(std::declval<Loop&>()).link)>;
 
-// A linkage under a plane that is level at home, where the servo's own angle may not be 0.
+// Offsets a linkage so that the plane is level at home, where a servo's own angle may not be 0.
 Linkages levelled(Linkages link) {
   for (LinkCurve& one : link.of) {
     const Turn<double> home = one.plain_turn(0.0);
@@ -49,7 +49,7 @@ Linkages levelled(Linkages link) {
   return link;
 }
 
-// Measured curves are of the pieces that hold at a point.
+// Linkages at home, with the pieces of measured curves that hold at a point.
 Linkages linkages_at(const Between& between, const LinearPoint& at) {
   Linkages link = between.at_home();
   for (std::size_t i = 0; i < between.linkages.size(); ++i) {
@@ -64,7 +64,7 @@ Linkages linkages_at(const Between& between, const LinearPoint& at) {
   return link;
 }
 
-// A loop of motors and servos that are within their limits, of a ball that rolls; level at home.
+// The loop with motors and servos within their limits and a rolling ball; level if at home.
 template <class Loop>
 Loop placed(Loop loop, const Model& model, const LinearPoint& at) {
   if constexpr (is_coupled_loop<Loop>) {
@@ -91,7 +91,7 @@ Loop placed(Loop loop, const Model& model, const LinearPoint& at) {
   return loop;
 }
 
-// Each system as a loop that knows all states and has integrals.
+// Converts each system to a loop with all states and integrals.
 template <bool integrates>
 RigLoop<true> whole_loop(const RigLoop<integrates>& of) {
   return {of.radius(), of.gravity(),   of.rolling(), of.law(),
@@ -142,7 +142,7 @@ auto with_loop_at(const Model& model, const LinearPoint& at, Heave heave, const 
           const CoupledBall& ball = any.parts.ball;
           Push<SignalPair> push;
           if constexpr (requires { any.push.on; }) push.on = any.push.on;
-          // The plane's offsets are in its angles.
+          // The plane's angles include its offsets.
           const CoupledLoop<SignalPair, Linkages> loop(
               any.parts, GimbalBy::servos, {}, {ball.r, ball.g, ball.rolling, {}, {}, {}}, push);
           return use(placed(loop, model, at));
@@ -153,8 +153,7 @@ auto with_loop_at(const Model& model, const LinearPoint& at, Heave heave, const 
       model.system);
 }
 
-// The same loop with another law and other servos. What moves a gimbal under given torques are then
-// its motors.
+// The same loop with another law and other servos. Motors then move a gimbal under given torques.
 template <class Loop>
 Loop under(const Loop& of, const ControlLaw& law, const ServoResponses& servo,
            const LinkOf<Loop>& link) {
@@ -171,8 +170,8 @@ Loop under(const Loop& of, const ControlLaw& law, const ServoResponses& servo,
   }
 }
 
-// The plant: under a law whose commands are their integral parts, which are then commanded.
-// Linkages are told what their servos are.
+// The plant: a loop whose law commands its integral parts, which thus become the input. Commands to
+// linkages are servo angles.
 template <class Loop>
 Loop without_law(const Loop& loop) {
   ControlLaw law;
@@ -200,7 +199,7 @@ void vary_states(const LinearPoint& at, Varied (&z)[Loop::size]) {
   for (int i = 0; i < Loop::size; ++i) z[i] = Varied::variable(values[i], i);
 }
 
-// A reference whose values, rates and accelerations are variables from number `first` on.
+// Makes values, rates and accelerations of a reference variables from number `first` on.
 std::array<Jet<Varied>, 2> varied(const std::array<Jet<double>, 2>& reference, int first) {
   std::array<Jet<Varied>, 2> jets;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -212,7 +211,7 @@ std::array<Jet<Varied>, 2> varied(const std::array<Jet<double>, 2>& reference, i
   return jets;
 }
 
-// Rates under a reference, and the push of that time.
+// Rates under a reference, with the push at that time.
 template <class Loop, class Number>
 void rates_under(const Loop& loop, const std::array<Jet<Number>, 2>& reference, double time,
                  const Number* z, Number* dz) {
@@ -225,7 +224,7 @@ void rates_under(const Loop& loop, const std::array<Jet<Number>, 2>& reference, 
   }
 }
 
-// What the law says of an axis: to its servo; where there are three, of the plane.
+// The law's command for an axis: to its servo, or to the plane if there are three servos.
 template <class Loop, class Axes>
 auto command_of(const Axes& axes, int i) {
   if constexpr (Loop::servos == 2) {
@@ -245,7 +244,7 @@ StatePlaces places_of(const Loop& loop) {
   return places;
 }
 
-// The rates, and what states and commands add to them.
+// The rates, and their derivatives by states and commands.
 template <class Loop>
 PlantDerivatives differentiate_plant(const Loop& loop, const LinearPoint& at) {
   constexpr int n = Loop::size;
@@ -294,7 +293,7 @@ MatrixXd kick_of(const Loop& loop, const VectorXd& z) {
   return kick;
 }
 
-// What the controller knows of the servos, and what it tells them.
+// Derivatives of what the controller knows of the servos and of what it tells them.
 template <class Loop>
 void differentiate_link(const Loop& loop, const LinearPoint& at, PlantDerivatives& plant) {
   constexpr int servos = Loop::servos, angle = Loop::Layout::angle, n = Loop::size;
@@ -308,7 +307,7 @@ void differentiate_link(const Loop& loop, const LinearPoint& at, PlantDerivative
   const Varied command[2] = {Varied::variable(at.command[0], 0),
                              Varied::variable(at.command[1], 1)};
   if constexpr (servos == 2) {
-    // The command is the servos' own: what it would mean to the plane tells what was asked.
+    // The command is in servo angles, so invert the map from these to the plane's angles.
     for (LinkCurve& one : link.of) one.piece = one.command_piece;
     const Varied resting[2];
     link.believed(command, resting, known, known_rate);
@@ -320,7 +319,7 @@ void differentiate_link(const Loop& loop, const LinearPoint& at, PlantDerivative
   }
 }
 
-// What is fed back at a point, as the controller knows it.
+// The feedback at a point, as the controller knows it.
 Feedback<double> feedback_at(const Rig& rig, const StatePlaces& places, const LinearPoint& at,
                              const VectorXd& z) {
   Feedback<double> fed{};
@@ -409,7 +408,7 @@ std::vector<int> linear_states(const StatePlaces& places, const MatrixXd& of_sta
     for (const int servo : places.servos == 3 ? three : axes) states.push_back(first + servo);
   }
   if (places.motor_integrates) states.insert(states.end(), {places.motor, places.motor + 1});
-  // Where symmetry leaves an axis out, the spin may still act on that one.
+  // The spin may act on an axis that symmetry leaves out.
   const VectorXd acts = of_state.col(spin_state).head(places.integral);
   if ((acts.array() != 0).count() > (acts[spin_state] != 0 ? 1 : 0)) {
     states.insert(spin == SpinStands::last ? states.end() : states.begin() + after_velocities,
@@ -460,7 +459,7 @@ namespace {
 template <class Loop>
 LinearPlant at_home(const Loop& loop) {
   const PlantDerivatives plant = differentiate_plant(loop, home_point());
-  // Where everything rests, the spin acts on nothing.
+  // At rest, the spin acts on nothing.
   const std::vector<int> states =
       linear_states(plant.places, plant.of_state, {0, 1}, SpinStands::last);
   return {plant.of_state(states, states), plant.of_command(states, Eigen::all)};
@@ -485,14 +484,14 @@ Eigen::Matrix2d seen_matrix(const Sensor& sensor) {
 
 namespace {
 
-// What an equilibrium is looked for among, and what has to vanish there.
+// The unknowns of an equilibrium, and the rates that must vanish there.
 struct Rest {
-  std::vector<int> states;     // unknown, of a loop
+  std::vector<int> states;     // unknown states of a loop
   std::vector<int> vanishing;  // rates
-  bool commands = false;       // unknown too: there is no law that gives them
+  bool commands = false;       // unknown too, if no law gives them
 };
 
-// Where nothing pulls the ball to a side, angles are as good as any others: they stay.
+// Without a sideways pull on the ball, all angles are in equilibrium and stay.
 Rest rest_of(const StatePlaces& places, const ControlLaw& law, bool has_law, bool angles_stay) {
   Rest rest;
   if (has_law) rest.states = {0, 1};
@@ -513,8 +512,8 @@ Rest rest_of(const StatePlaces& places, const ControlLaw& law, bool has_law, boo
   return rest;
 }
 
-// Laws ask for reference - seen, and are given reference - position: moves the reference by what
-// the sensor, if there is one, sees otherwise.
+// Laws need reference - seen, but compute reference - position. Shifts the reference by the
+// difference, if there is a sensor.
 template <class Number>
 void see_by(const Sensor* sensor, const Number* z, std::array<Jet<Number>, 2>& reference) {
   if (sensor == nullptr || sensor->is_aligned()) return;
@@ -524,7 +523,7 @@ void see_by(const Sensor* sensor, const Number* z, std::array<Jet<Number>, 2>& r
   }
 }
 
-// Rates of a loop whose controller sees the ball by its sensor, and what states add to them.
+// Rates of a loop whose controller sees the ball by its sensor, and their derivatives by states.
 template <class Loop>
 PlantDerivatives differentiate_seen(const Loop& loop, const Sensor* sensor, const LinearPoint& at) {
   constexpr int n = Loop::size;
@@ -540,7 +539,7 @@ PlantDerivatives differentiate_seen(const Loop& loop, const Sensor* sensor, cons
   return seen;
 }
 
-// The law's command at a point: to the servos or of the plane, and before what links them.
+// The law's commands at a point: to the servos or the plane, and before the linkage.
 template <class Loop>
 std::pair<Pair, Pair> commands_at(const Loop& loop, const Sensor* sensor, const LinearPoint& at) {
   const VectorXd z = states_at<Loop>(at);
@@ -573,7 +572,7 @@ void require_linear(const Scenario& scene) {
 
 namespace {
 
-// What a plate that torques move or three servos carry rests under depends on where the ball is.
+// With torques or three servos, the plate's equilibrium depends on where the ball is.
 bool is_plain(const Scenario& scene) {
   return !scenario::is_coupled(scene) && !scene.gimbal.three_servos;
 }
@@ -615,7 +614,7 @@ class EquilibriumSearch {
                !scenario::moved_by_torques(scene) && places_.servos == 2;
   }
 
-  // Nothing if there is no such point, or more than one.
+  // Returns nothing if there is no such point, or more than one.
   [[nodiscard]] std::optional<LinearPoint> find(bool under_law) {
     const Rest rest = rest_of(places_, law_, under_law, angles_stay_);
     const auto of_states = std::ssize(rest.states);
@@ -637,10 +636,10 @@ class EquilibriumSearch {
         point_.command[static_cast<std::size_t>(k)] += change[of_states + k];
       }
       for (const double one : point_.state) size = std::hypot(size, one);
-      // Newton's last step: what it leaves is rounding.
+      // After this step of Newton's method only rounding is left.
       if (change.norm() > 1e-9 * (1 + size)) continue;
       if (under_law) point_.command = commands().first;
-      // To the bit, so that nothing turns by its rounding.
+      // Equal bit for bit, so that rounding turns no servo.
       if (follows_) std::copy_n(&point_.state[RigLayout::angle], 2, point_.command.begin());
       return point_;
     }
@@ -651,7 +650,7 @@ class EquilibriumSearch {
     return feeds_back(law_.kind) && law_.kind != LawKind::feedback_linearisation;
   }
 
-  // To the servos or of the plane, and as the law has it.
+  // To the servos or the plane, and as the law computes them.
   [[nodiscard]] std::pair<Pair, Pair> commands() const {
     return with_law([&](const auto& loop) { return commands_at(loop, sensor_, point_); });
   }
@@ -671,7 +670,7 @@ class EquilibriumSearch {
   const Sensor* sensor_ = nullptr;
   ServoResponses at_rest_;
   bool angles_stay_ = false;
-  bool follows_ = false;  // servos are where they are told to be
+  bool follows_ = false;  // servos rest at their commands
 };
 
 [[noreturn]] void throw_no_equilibrium(const std::string& why) {

@@ -21,7 +21,7 @@ using Real = std::function<double(double)>;
 
 constexpr double pi = std::numbers::pi;
 
-// The zero of f in [low, high], at whose ends it has different signs: by halves, to rounding.
+// Zero of f in [low, high] by bisection, to rounding; f has different signs at the ends.
 double zero_between(const Real& f, double low, double high) {
   const bool rises = f(low) < 0;
   for (;;) {
@@ -31,7 +31,7 @@ double zero_between(const Real& f, double low, double high) {
   }
 }
 
-// A function, quickly; and carefully, with how far rounding may move it; and its values at the
+// A function in a fast version, a careful one with a bound on its rounding, and its values at the
 // frequencies.
 struct Rounded {
   struct Value {
@@ -43,7 +43,7 @@ struct Rounded {
   std::vector<double> known;
 };
 
-// Where f is least in size between a and b, by golden sections.
+// Minimizes |f| between a and b, by golden sections.
 double lowest_between(const Real& f, double a, double b) {
   constexpr double golden = 0.6180339887498949;
   for (int k = 0; k < 80 && b - a > 1e-15 * b; ++k) {
@@ -57,8 +57,8 @@ double lowest_between(const Real& f, double a, double b) {
   return a + (b - a) / 2;
 }
 
-// All zeros of f that its values at the points, and the dips between them, show, and that rounding
-// does not make.
+// Zeros of f that show in its values at the points or in dips between them, without those that
+// rounding makes.
 std::vector<double> zeros_of(const Rounded& f, const std::vector<double>& points) {
   std::vector<double> at, values;
   const auto add = [&](double w, double value) {
@@ -85,7 +85,7 @@ std::vector<double> zeros_of(const Rounded& f, const std::vector<double>& points
   std::vector<double> zeros;
   for (std::size_t i = 0; i + 1 < at.size(); ++i) {
     if ((values[i] < 0) == (values[i + 1] < 0)) continue;
-    // From the last point before it to the first one after it whose signs are certain.
+    // From the last point before it to the first one after it at which the sign is certain.
     std::size_t low = i, high = i + 1;
     Rounded::Value at_low = f.careful(at[low]), at_high = f.careful(at[high]);
     while (low > 0 && !at_low.certain()) at_low = f.careful(at[--low]);
@@ -98,8 +98,8 @@ std::vector<double> zeros_of(const Rounded& f, const std::vector<double>& points
   return zeros;
 }
 
-// In place of A, B and C those of other states, A zero below the diagonal next to its own: by
-// elimination, which leaves what is small beside large entries as exact as it was.
+// Transforms the states so that A is upper Hessenberg. Elimination keeps small entries beside large
+// ones accurate.
 void make_hessenberg(Eigen::MatrixXd& a, Eigen::MatrixXd& b, Eigen::MatrixXd& c) {
   const Index n = a.rows();
   for (Index k = 1; k + 1 < n; ++k) {
@@ -157,9 +157,9 @@ Complex FrequencyResponse::at(double w, Index i, Index j) const {
   Eigen::MatrixXcd m = (-a_).cast<Complex>();
   m.diagonal().array() += point(w);
   Eigen::VectorXcd x = b_.col(j).cast<Complex>();
-  // As LAPACK chooses pivots: a root for each would take a quarter of the time.
+  // Compare pivots as LAPACK does: a root for each would take a quarter of the time.
   const auto size = [](const Complex& z) { return std::abs(z.real()) + std::abs(z.imag()); };
-  // Only what is next to the diagonal has to go, by rows in either order.
+  // Eliminate the subdiagonal, swapping rows if needed.
   for (Index k = 0; k + 1 < n; ++k) {
     if (size(m(k + 1, k)) > size(m(k, k))) {
       m.row(k).tail(n - k).swap(m.row(k + 1).tail(n - k));
@@ -175,8 +175,8 @@ Complex FrequencyResponse::at(double w, Index i, Index j) const {
 }
 
 FrequencyResponse::Careful FrequencyResponse::carefully_at(double w, Index i, Index j) const {
-  // |c (sI - A)^-1| |what is rounded| |(sI - A)^-1 b|, of entries as they were given: those of the
-  // Hessenberg form no longer say of which terms they are the sum.
+  // |c (sI - A)^-1| |what is rounded| |(sI - A)^-1 b|, with the entries as given: those of the
+  // Hessenberg form hide the terms that they sum.
   const Index n = balanced_a_.rows();
   Eigen::MatrixXcd m = (-balanced_a_).cast<Complex>();
   m.diagonal().array() += point(w);
@@ -190,7 +190,7 @@ FrequencyResponse::Careful FrequencyResponse::carefully_at(double w, Index i, In
     sum += left * std::abs(point(w)) * right + left * std::abs(b[p]) + std::abs(c[p]) * right;
     for (Index q = 0; q < n; ++q) sum += left * std::abs(balanced_a_(p, q)) * std::abs(x[q]);
   }
-  // Of a period they are those of an exponential.
+  // With a period, the entries are those of an exponential.
   const double rounding = (period_ > 0 ? 50 : 10) * std::numeric_limits<double>::epsilon() * sum;
   Complex value = d_(i, j);
   for (Index p = 0; p < n; ++p) value += c[p] * x[p];
@@ -199,7 +199,7 @@ FrequencyResponse::Careful FrequencyResponse::carefully_at(double w, Index i, In
 
 std::vector<double> frequencies_to_look_at(const std::vector<Complex>& open,
                                            const std::vector<Complex>& closed, double period) {
-  // As rates, of samples too: z = exp(s T).
+  // Poles as rates; with a period, from z = exp(s T).
   std::vector<Complex> rates;
   double slowest = Margins::none, fastest = 0;
   const auto add = [&](const std::vector<Complex>& poles, double least) {
@@ -211,14 +211,14 @@ std::vector<double> frequencies_to_look_at(const std::vector<Complex>& open,
       if (std::abs(rate) > least) slowest = std::min(slowest, std::abs(rate));
     }
   };
-  // A double pole of the open loop at 0 is rounded to one that is not.
+  // Rounding moves a double pole of the open loop off 0.
   add(open, 1e-6);
   add(closed, period > 0 ? 1e-9 / period : 0);
   if (!(fastest > 0)) fastest = 1;
   slowest = std::min(slowest, fastest);
   const double low = 1e-3 * slowest;
   const double high = period > 0 ? pi / period : 1e3 * fastest;
-  // Delays of a hundred periods make a hundred states, whose squares each point costs.
+  // Delays of a hundred periods add a hundred states, and each point costs their square.
   const double size = static_cast<double>(rates.size());
   const double a_decade = std::clamp(200 * 2500 / (size * size), 20.0, 200.0);
   std::vector<double> points;
@@ -227,7 +227,7 @@ std::vector<double> frequencies_to_look_at(const std::vector<Complex>& open,
     points.push_back(low *
                      std::pow(high / low, static_cast<double>(i) / static_cast<double>(count)));
   }
-  // A resonance is as narrow as its pole is near to the axis.
+  // A resonance is as narrow as its pole is close to the axis.
   for (const Complex& rate : rates) {
     for (const double away : {-4.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 4.0}) {
       points.push_back(std::abs(rate.imag()) + away * std::abs(rate.real()));
@@ -241,7 +241,7 @@ std::vector<double> frequencies_to_look_at(const std::vector<Complex>& open,
 
 namespace {
 
-// Of gain, from the imaginary part of the response.
+// Adds gain margins, from the imaginary part of the response.
 void add_gains(Margins& margins, const FrequencyResponse& open_loop,
                const std::vector<double>& frequencies, const std::vector<Complex>& responses,
                double slowest) {
@@ -266,23 +266,23 @@ void add_gains(Margins& margins, const FrequencyResponse& open_loop,
   for (const double w : zeros_of(imaginary, frequencies)) {
     if (w < slowest) continue;
     const Complex l = loop(w).value;
-    // The imaginary part changes its sign at a pole on the axis too.
+    // The imaginary part also changes sign at a pole on the axis.
     if (l.real() < 0 && std::abs(l.imag()) < 1e-6 * std::abs(l.real())) cross(w, l.real());
   }
-  // At its ends the response is real without a change of sign.
+  // At both ends of the range the response is real without a change of sign.
   for (const double w : {0.0, open_loop.last()}) {
     if (!std::isfinite(w)) continue;
     const FrequencyResponse::Careful end = loop(w);
     const double l = end.value.real();
-    // At 0 it has to be what it is up to the slowest frequency that counts: between that and a pole
-    // at 0 that rounding has moved it is not.
+    // The response at 0 counts only if it holds up to the slowest frequency that counts. It does
+    // not beside a pole that rounding has moved off 0.
     const double first = std::max(slowest, frequencies.front());
     const bool counts = w > 0 || std::abs(loop(first).value - l) < 0.5 * std::abs(l);
     if (l < 0 && counts && end.rounding < 1e-3 * std::abs(l)) cross(w, l);
   }
 }
 
-// Of phase and delay, from its size.
+// Adds margins of phase and delay, from the size of the response.
 void add_phases(Margins& margins, const FrequencyResponse& open_loop,
                 const std::vector<double>& frequencies, const std::vector<Complex>& responses) {
   const auto loop = [&](double w) { return open_loop.carefully_at(w, 0, 0); };

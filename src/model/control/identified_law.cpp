@@ -15,7 +15,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-// Of the response from sample `first` on: block (i, j) is that of sample first + i + j.
+// Hankel matrix of the response: block (i, j) is that of sample first + i + j.
 MatrixXd hankel(const PulseResponse& response, Index first, Index blocks) {
   const Index rows = response.front().rows(), columns = response.front().cols();
   MatrixXd of(rows * blocks, columns * blocks);
@@ -41,7 +41,7 @@ std::optional<LinearSystem> law_of(const PulseResponse& response, double noise) 
   const MatrixXd now = hankel(response, 1, blocks), next = hankel(response, 2, blocks);
   const Eigen::JacobiSVD<MatrixXd> svd(now, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const Eigen::VectorXd& sizes = svd.singularValues();
-  // Noise of that size has singular values up to so many times it.
+  // Noise alone gives singular values up to its size times the larger dimension.
   const double least =
       std::max(1e-11 * sizes[0], noise * static_cast<double>(std::max(now.rows(), now.cols())));
   Index states = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The control law, once: what a controller commands at a state, for every number type.
+// The control law: what a controller commands at a state, for every number type.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 namespace bbsim::model {
 
 // Proportional and derivative gains, rows phi, theta; columns x, y: equation (31). Scalar is that
-// of rolling.hpp: a pack of doubles holds another loop in each lane.
+// of rolling.hpp: a pack of doubles holds one loop per lane.
 template <class Scalar>
 struct BasicGains {
   Scalar kv[2][2], kp[2][2];
@@ -39,10 +39,10 @@ enum class LawKind { held, played, linear, gravity_compensation, feedback_linear
 }
 
 // How a command u follows from the error e = reference - (x, y), rows phi, theta.
-//   held                    is none: the command is what it was
-//   played                  is none: the command is the reference, a known function of time
+//   held                    no law: the command stays
+//   played                  no law: the command is the reference, a known function of time
 //   linear                  u = gain (e, e', -q, -q') + i, i' = integral e; q: the servos' angles
-//   gravity_compensation    angles on which gravity gives the ball x_d'' + kv e' + kp e
+//   gravity_compensation    angles at which gravity gives the ball x_d'' + kv e' + kp e
 //   feedback_linearisation  accelerations of the gimbal that give the ball the same
 template <class Scalar>
 struct BasicControlLaw {
@@ -69,8 +69,8 @@ struct BasicControlLaw {
 };
 using ControlLaw = BasicControlLaw<double>;
 
-// Calls use(to, from) with each number of a law and the same number of another one, which may be of
-// another type: lanes, and derivatives by keys, take all numbers from here.
+// Calls use(to, from) for each number of two laws, which may differ in type. Lanes and derivatives
+// by keys take all numbers from here.
 template <class To, class From, class Use>
 void for_each_number(To& to, From& from, const Use& use) {
   for (std::size_t i = 0; i < 2; ++i) {
@@ -84,30 +84,30 @@ void for_each_number(To& to, From& from, const Use& use) {
   use(to.scale, from.scale);
 }
 
-// What a law feeds back, SI. Integral is Zero where nothing is integrated.
+// Signals that a law feeds back, SI. Integral is Zero if nothing is integrated.
 template <class Real, class Integral = Real>
 struct Feedback {
   Real position[2], velocity[2];  // of the ball, as the controller knows them
   Real angle[2], rate[2];         // of the servos
-  Integral integral[2];           // the part of each command that integrates the error
+  Integral integral[2];           // integral part of each command
 };
 
 template <class Real>
 struct Command {
-  Real raw[2];    // before its limit; sine of the angle in gravity compensation
-  Real value[2];  // behind its limit, rad, or rad/s^2 where accelerations are driven
+  Real raw[2];    // before the limit; sine of the angle in gravity compensation
+  Real value[2];  // after the limit, rad, or rad/s^2 if accelerations are driven
 };
 
 [[nodiscard]] inline double arcsine(double s) {
   return std::asin(s);
 }
 
-// asin(s) for |s| below 0.99, of any other number type, with its derivatives: Newton's iteration.
+// asin(s) for |s| below 0.99 with derivatives, for any other number type. Newton's method.
 template <class Real>
 [[nodiscard]] Real arcsine(const Real& s) {
   const Real s2 = s * s;
   Real angle = s * (Real(1.0) + s2 * (Real(1.0 / 6) + s2 * (Real(3.0 / 40) + (15.0 / 336) * s2)));
-  // Six suffice up to |s| = 0.99.
+  // Six iterations suffice up to |s| = 0.99.
   for (int i = 0; i < 6; ++i) {
     const SinCos<Real> at = sin_cos(angle);
     angle = angle - (at.sin - s) / at.cos;
@@ -115,8 +115,8 @@ template <class Real>
   return angle;
 }
 
-// How fast the integral part of command i grows where no limit stops it: K_I e, in the command's
-// unit per second.
+// Growth of the integral part of command i without a limit: K_I e, in the command's unit per
+// second.
 template <class Scalar, class Real, class Time>
 [[nodiscard]] Real integral_rate(const BasicControlLaw<Scalar>& law, std::size_t i,
                                  const Real* position, const std::array<Jet<Time>, 2>& reference) {
@@ -124,7 +124,7 @@ template <class Scalar, class Real, class Time>
          law.integral[i][1] * (reference[1].value - position[1]);
 }
 
-// The acceleration that the last two laws want of the ball in coordinate i, m/s^2.
+// The acceleration of the ball that the last two laws ask for in coordinate i, m/s^2.
 template <class Scalar, class Real, class Integral, class Time>
 [[nodiscard]] Real wanted_acceleration(const BasicControlLaw<Scalar>& law, std::size_t i,
                                        const Feedback<Real, Integral>& state,
@@ -137,8 +137,8 @@ template <class Scalar, class Real, class Integral, class Time>
   return wanted;
 }
 
-// `limited(i, raw)` is what the limit leaves of a command, and of a sine in gravity compensation.
-// Not for feedback linearisation, which asks for the plant's equations, nor for a held command.
+// `limited(i, raw)` limits a command, or a sine in gravity compensation. Not for feedback
+// linearization, which needs the plant's equations, nor for a held command.
 template <class Scalar, class Real, class Integral, class Time, class Limited>
 [[nodiscard]] Command<Real> command(const BasicControlLaw<Scalar>& law,
                                     const Feedback<Real, Integral>& state,

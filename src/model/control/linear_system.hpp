@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A linear system with the names of what it is about.
+// A linear system with named signals.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@
 
 namespace bbsim::model {
 
-// z' = A z + B u; or, with a period, z a period later.
+// z' = A z + B u; with a period, z one period later replaces z'.
 struct LinearPlant {
   Eigen::MatrixXd a, b;
 };
@@ -20,8 +20,8 @@ struct LinearSignal {
   std::string name, unit;
 };
 
-// dz = A z + B u, y = C z + D u, where dz is z', or, with a period, z a period later. All are
-// deviations from the point about which the system is linear.
+// dz = A z + B u, y = C z + D u, where dz is z', or, with a period, z one period later. All are
+// deviations from the point of linearization.
 struct LinearSystem {
   std::vector<LinearSignal> states, inputs, outputs;
   Eigen::MatrixXd a, b, c, d;

@@ -64,8 +64,8 @@ std::vector<LinearSignal> signals_of_positions(const std::vector<int>& axes, con
   return signals;
 }
 
-// Which of the reference's inputs there are, of values, rates and accelerations: the values, and
-// what else the loop feels.
+// Columns of the reference that are inputs: its values, and those rates and accelerations that the
+// loop feels.
 std::vector<int> reference_inputs(const MatrixXd& of_reference, const std::vector<int>& axes,
                                   std::vector<LinearSignal>& signals) {
   constexpr const char* suffixes[] = {"_reference", "_reference_rate", "_reference_acceleration"};
@@ -81,7 +81,7 @@ std::vector<int> reference_inputs(const MatrixXd& of_reference, const std::vecto
   return columns;
 }
 
-// Whose outputs are the positions, which are the first states.
+// A system whose outputs are the positions, its first states.
 LinearSystem system_of(std::vector<LinearSignal> states, std::vector<LinearSignal> inputs,
                        const std::vector<int>& axes, const MatrixXd& a, const MatrixXd& b) {
   const Eigen::Index outputs = std::ssize(axes);
@@ -95,8 +95,7 @@ LinearSystem system_of(std::vector<LinearSignal> states, std::vector<LinearSigna
           {}};
 }
 
-// At home three servos are two ideal ones, unless losses or a push are to be seen beside them, or
-// the servos differ.
+// At home three servos act as two ideal ones, unless they differ or the scene has losses or a push.
 Heave heave_of(const Scenario& scene, const LinearPoint& at) {
   const auto& three = scene.gimbal.three_servos;
   const bool differ =
@@ -127,7 +126,7 @@ Linearization plant_about(const Scenario& scene, const Model& model, const Linea
   return made;
 }
 
-// From where the reference is, with the rates that it then has, to where the ball is.
+// Response of the ball's position to the reference, including the reference's derivatives.
 std::function<std::complex<double>(double)> tracking(const FrequencyResponse& response,
                                                      const std::vector<int>& columns,
                                                      const std::vector<int>& axes, int axis) {
@@ -143,20 +142,20 @@ std::function<std::complex<double>(double)> tracking(const FrequencyResponse& re
   };
 }
 
-// A closed loop as its margins and bandwidth are taken from: without the spin, whose pole no
-// command moves. Off home it is next to 0, so that what a response is at rest, on which side of the
-// border the pole is, and by which factor it changes that, say nothing.
+// A closed loop for margins and bandwidth: without the spin, whose pole no command moves. Off home
+// that pole is next to 0, so the response at rest, the pole's side of the border, and the factor
+// that changes that side mean nothing.
 struct PlainLoop {
-  std::vector<int> states;  // of the system's
+  std::vector<int> states;  // indices in the system
   MatrixXd a;
   Eigenvalues poles;
-  // Gain margins slower than this say nothing either, rad/s: where the gimbal moves, the point has
+  // Gain margins slower than this mean nothing either, rad/s: on a moving gimbal, the point has
   // moved on by then.
   double slowest;
 };
 
-// Below which frequency a point has moved on before anything happens, rad/s: four times the rates
-// at which the plane turns, and at which it throws the ball as its turn quickens.
+// Frequency below which a point has moved on before anything happens, rad/s: four times the rate at
+// which the plane turns, or at which its quickening turn throws the ball.
 double slowest_at(const PlantDerivatives& plant) {
   const int angle = spin_state + 1, servos = plant.places.servos;
   const auto largest = [servos](const VectorXd& of, int first) {
@@ -189,8 +188,8 @@ void add_bandwidths(Linearization& made, const PlainLoop& plain, const std::vect
   const FrequencyResponse response(plain.a, system.b(plain.states, Eigen::all),
                                    system.c(Eigen::all, plain.states), system.d, period);
   const std::vector<double> frequencies = frequencies_to_look_at({}, plain.poles, period);
-  // A law that is told the reference's accelerations may follow it at any frequency, by the plant's
-  // own inverse: what its feedback does is seen without them.
+  // A law that is told the reference's accelerations may follow it at any frequency, by inverting
+  // the plant. Its feedback shows without them.
   std::vector<int> fed_back;
   std::ranges::copy_if(columns, std::back_inserter(fed_back), [](int j) { return j / 2 < 2; });
   for (const int axis : axes) {
@@ -204,13 +203,13 @@ void add_bandwidths(Linearization& made, const PlainLoop& plain, const std::vect
   }
 }
 
-// The loop of one command: with what A, B and C it goes once round, open there.
+// Adds the margins of one command's loop. A, B and C take it once round, open at the command.
 void add_margins(Linearization& made, const PlainLoop& plain, int axis, const MatrixXd& a,
                  const VectorXd& b, const Eigen::RowVectorXd& c, MarginParts parts = {}) {
   const double period = made.system.period.value_or(0);
   const std::vector<int>& of = plain.states;
   const MatrixXd open = a(of, of);
-  // What comes back is taken from the reference: 1 + L.
+  // Negative feedback from the reference gives 1 + L.
   const FrequencyResponse response(open, b(of), -c(of), MatrixXd::Zero(1, 1), period);
   made.margins.push_back(
       {std::string(angle_name(axis)) + "_command",
@@ -218,22 +217,22 @@ void add_margins(Linearization& made, const PlainLoop& plain, int axis, const Ma
                   plain.slowest, parts)});
 }
 
-// Whether anything is looked for of an axis' command.
+// Whether any margin of an axis' command is asked for.
 bool looks_for(const LoopParts& parts, int axis) {
   const MarginParts& margins = parts.margins[static_cast<std::size_t>(axis)];
   return margins.gains || margins.phases;
 }
 
-// What is left of a where b is taken from it, without what only rounding leaves.
+// Returns a - b, with 0 for what only rounding leaves.
 MatrixXd without(const MatrixXd& a, const MatrixXd& b) {
   constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
   return a.binaryExpr(
       b, [](double p, double q) { return std::abs(p - q) <= rounding * std::abs(q) ? 0 : p - q; });
 }
 
-// Zeros of C (sI - A)^-1 (B0 + s B1 + s^2 B2): those of the system whose states are the
-// reference and its rate too, and whose input is its acceleration. (The powers of s could be had by
-// multiples of A, whose entries would cancel.)
+// Zeros of C (sI - A)^-1 (B0 + s B1 + s^2 B2): those of the system with the reference and its lower
+// derivatives as further states and the highest as input. (Multiples of A could replace the powers
+// of s, but their entries would cancel.)
 Eigenvalues tracking_zeros(const MatrixXd& a, const MatrixXd& of_reference, const MatrixXd& c,
                            const std::vector<int>& axes) {
   const Eigen::Index n = a.rows(), m = std::ssize(axes);
@@ -286,7 +285,7 @@ Linearization continuous_loop_about(const Scenario& scene, const Model& model,
   return made;
 }
 
-// From sample to sample: the plant there, a cycle with one sample, and the names of its states.
+// The model from sample to sample: the plant, a cycle of one sample, and the states' names.
 struct SampledModel {
   PlantDerivatives plant;
   SampledCycle cycle;
@@ -297,7 +296,7 @@ SampledModel sampled_about(const Scenario& scene, const Model& model, const Line
   PlantDerivatives plant = plant_derivatives(model, at, heave_of(scene, at));
   std::vector<int> states;
   CycleParts parts = cycle_parts(plant, *model.rig, at, states);
-  // There is one system only if each sample looks at a frame of the same age.
+  // There is one system only if all samples see frames of the same age.
   if (common_cycle(parts.sampling, parts.sensor).samples > 1) parts.sensor.period.reset();
   SampledCycle cycle(std::move(parts));
   const std::string unit = command_unit(scene);
@@ -343,7 +342,7 @@ Linearization sampled_plant_about(const Scenario& scene, const Model& model,
   }
   const auto [plant, cycle, signals] = sampled_about(scene, model, at);
   const int n = cycle.size(), first = cycle.controller_at();
-  // What the controller remembers is no part of the plant.
+  // The controller's memory is not part of the plant.
   std::vector<int> kept;
   for (int i = 0; i < n; ++i) {
     if (i < first || i >= first + cycle.controller_size()) kept.push_back(i);
@@ -370,10 +369,10 @@ Linearization loop_with(const Linearization& plant, const LinearSystem& law,
                         const std::vector<int>& axes) {
   const LinearSystem& of = plant.system;
   const Eigen::Index n = of.a.rows(), m = law.a.rows();
-  // Commands of what is seen, and of the law's memory.
+  // Commands by what is seen and by the law's memory.
   MatrixXd commands(2, n + m);
   commands << product(law.d, of.c), law.c;
-  // With the loops closed whose commands are given.
+  // Closes the loops of the given commands.
   const auto round = [&](const MatrixXd& given) {
     MatrixXd a(n + m, n + m);
     a << of.a, MatrixXd::Zero(n, m), product(law.b, of.c), law.a;
@@ -438,7 +437,7 @@ Linearization linearize_as(const Scenario& scene, const Model& model, LinearKind
   return plant_about(scene, model, at);
 }
 
-// -0 is what symmetry makes of 0.
+// Symmetry makes -0 of 0.
 MatrixXd with_plain_zeros(const MatrixXd& matrix) {
   return matrix.unaryExpr([](double value) { return value == 0 ? 0.0 : value; });
 }

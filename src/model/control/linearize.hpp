@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A scene as a linear system about a point of its motion: the plant, the loop, or the plant as a
-// sampled controller sees it. Exact: by differentiating the right-hand side and the law.
+// sampled controller sees it. Differentiates the right-hand side and the law exactly.
 #pragma once
 
 #include <array>
@@ -18,54 +18,54 @@
 namespace bbsim::model {
 
 // plant    from the gimbal's commands to the ball's position, in continuous time
-// loop     from the reference to the position; of a sampled controller, from sample to sample
-// sampled  the plant under a command that is held, from sample to sample, with all delays
+//   loop     from the reference to the position; with a sampled controller, from sample to sample
+//   sampled  the plant under a held command, from sample to sample, with all delays
 enum class LinearKind { plant, loop, sampled };
 
-// What one command's loop bears, the other one closed.
+// Margins of one command's loop, with the other loop closed.
 struct LoopMargins {
-  std::string command;  // phi_command
+  std::string command;  // such as phi_command
   Margins margins;
 };
 
 struct Bandwidth {
-  std::string output;  // x, of the response to x_reference
-  double value;        // rad/s, where the response is 1 / sqrt(2) of that at 0; or infinite
-  double of_feedback;  // of a controller that is not told the reference's accelerations
+  std::string output;  // such as x, of the response to x_reference
+  double value;        // rad/s, at which the response is 1 / sqrt(2) of that at 0; or infinite
+  double of_feedback;  // without the reference's accelerations as an input
 };
 
 struct Linearization {
   LinearSystem system;
-  Eigenvalues poles, zeros;          // of a loop, from where the reference is to where the ball is
+  Eigenvalues poles, zeros;          // of a loop, from the reference to the ball's position
   std::vector<LoopMargins> margins;  // of a loop
-  // Of a loop without its spin; of an unstable one, margins say where poles cross the border and
-  // not what it bears.
+  // Stability of a loop without its spin. Margins of an unstable loop say where poles cross the
+  // border, not what the loop bears.
   bool stable = false;
   std::vector<Bandwidth> bandwidths;  // of a loop
 };
 
-// What of a closed loop is worked out beside its matrices and poles: each part takes longer than
-// these do. What is left out is not in the result.
+// Optional results for a closed loop, each of which takes longer than matrices and poles. The
+// result lacks what is left out.
 struct LoopParts {
   bool zeros = true;
   std::array<MarginParts, 2> margins{};        // of phi's and theta's command
   std::array<bool, 2> bandwidths{true, true};  // of x and y
 };
 
-// Without limits, dead band, backlash, rounding and noise; without the frames of a sensor of which
-// each sample sees one of another age (common_cycle.hpp), as if it looked for each. The spin is a
-// state where it acts on others, and an integral where the law has it. The scene is one of `model`,
-// which says what symmetry leaves out. Throws InputError where the scene has nothing of that kind.
+// Linearizes without limits, dead band, backlash, rounding and noise. If samples see a sensor's
+// frames at different ages (common_cycle.hpp), each sample gets a frame of its own instead. The
+// spin is a state if it acts on others, and so are the law's integrals. `model` is that of the
+// scene and says what symmetry leaves out. Throws InputError if the scene has nothing of that kind.
 [[nodiscard]] Linearization linearize(const Scenario& scene, const Model& model, LinearKind kind,
                                       const LinearPoint& at, const LoopParts& parts = {});
 
-// The loop of a sampled plant (LinearKind::sampled) and a law that is known by its equations from
-// sample to sample, from the positions that it sees to both commands: poles, stability, and the
+// Closes the loop of a sampled plant (LinearKind::sampled) with a law given by its equations from
+// sample to sample, from measured positions to both commands. Gives poles, stability, and the
 // margins of these axes' commands.
 [[nodiscard]] Linearization loop_with(const Linearization& plant, const LinearSystem& law,
                                       const std::vector<int>& axes);
 
-// What `bbsim linearize` shows of a scene unless it is told.
+// The kind that `bbsim linearize` shows by default.
 [[nodiscard]] LinearKind usual_kind(const Scenario& scene);
 
 }  // namespace bbsim::model

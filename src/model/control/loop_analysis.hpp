@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The measures of the loop (scenario/loop_measures.hpp): the numbers of `bbsim check` and `bbsim
-// linearize`, about home.
+// Measures of the loop about home (scenario/loop_measures.hpp), for `bbsim check` and `bbsim
+// linearize`.
 #pragma once
 
 #include <optional>
@@ -15,24 +15,24 @@
 
 namespace bbsim::model {
 
-// What measures of the loop need; others in the list do not matter.
+// What the measures of the loop in a list need; other measures are ignored.
 [[nodiscard]] LoopParts parts_of(const std::vector<scenario::Measure>& measures);
 
-// Computes margins when one is first asked for: poles are much cheaper.
+// Computes margins on first use, because poles are much cheaper.
 class LoopAnalysis {
  public:
-  // `model` is the one of `scene`; `parts` are the parts_of() what will be asked. The first two
-  // must outlive this.
+  // `model` is that of `scene`; `parts` is parts_of() the measures that will be asked for. The
+  // scene and the model must outlive this object.
   LoopAnalysis(const Scenario& scene, const Model& model, const LoopParts& parts)
       : scene_(scene), model_(model), parts_(parts) {}
 
-  // In the measure's unit. An infinite margin is one that any change leaves; a bandwidth is
-  // infinite where the response does not fall. NaN, and why, where there is none.
+  // In the measure's unit. A margin is infinite if no change uses it up, a bandwidth if the
+  // response does not fall. NaN, with the reason, if there is no value.
   struct Value {
     double value;
     const char* why = nullptr;
   };
-  // Requires that the scene does not lack the measure (scenario::missing).
+  // The scene must not lack the measure (scenario::missing).
   [[nodiscard]] Value value_of(const scenario::LoopMeasure& measure);
 
  private:

@@ -13,12 +13,12 @@ namespace bbsim::model {
 
 // Both solvers:
 //   A is n x n, B n x m, Q n x n and symmetric positive semidefinite, R m x m and symmetric
-//   positive definite; units are those of the caller. None of this is checked but by what comes of
-//   it. (A, B) has to be stabilizable and (A, Q) to have no unobservable mode that does not decay;
-//   otherwise there is no stabilizing solution, and they throw a KeyError of controller.lqr.
+//   positive definite, in the caller's units. Only the result is checked. (A, B) must be
+//   stabilizable, and (A, Q) must have no unobservable mode that does not decay. Otherwise no
+//   stabilizing solution exists, and they throw a KeyError of controller.lqr.
 struct RiccatiSolution {
   Eigen::MatrixXd cost;  // X, n x n: z^T X z is the cost from z on
-  Eigen::MatrixXd gain;  // K, m x n, of u = -K z, under which the loop is stable
+  Eigen::MatrixXd gain;  // K, m x n, of u = -K z, which stabilizes the loop
 };
 
 // A^T X A - X - A^T X B (R + B^T X B)^-1 B^T X A + Q = 0 and K = (R + B^T X B)^-1 B^T X A, which
@@ -38,9 +38,9 @@ struct RiccatiSolution {
                                                        const Eigen::MatrixXd& q,
                                                        const Eigen::MatrixXd& r);
 
-// The gain K of Law::lqr, u = K (reference - z) with z as plant_at_home() has it: rows phi, theta.
+// The gain K of Law::lqr, u = K (reference - z), rows phi, theta, with z as in plant_at_home().
 // Weights are the diagonals of Q and R. `period` (s) > 0 is that of a sampled loop, whose delays
-// the gain does not know; 0 is continuous time. Throws InputError where no gain stabilizes.
+// the gain ignores; 0 is continuous time. Throws InputError if no gain stabilizes the plant.
 [[nodiscard]] Eigen::Matrix<double, 2, 8> lqr_gain(const LinearPlant& plant,
                                                    const LqrWeights& weights, double period);
 

@@ -14,7 +14,7 @@ namespace bbsim::model {
 struct Occurrence {
   double t = 0;               // s
   std::string name;           // the key in the scenario's events
-  bool stopped = false;       // it stopped the run
+  bool stopped = false;       // whether it stopped the run
   Sample sample;              // without Sample::own; see `own`
   std::vector<double> own{};  // numbers of an external controller
 };
