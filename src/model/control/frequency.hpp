@@ -67,10 +67,9 @@ struct MarginParts {
   bool gains = true, phases = true;  // phases: and delays
 };
 
-// Margins of a response L with one input and one output, within frequencies_to_look_at(), at least
-// one. Crossings that rounding of the entries could make or remove are left out, as are gain
-// factors at frequencies below `slowest` (rad/s). For an unstable loop, margins say where poles
-// cross the border.
+// Margins of a response L with one input and one output, within frequencies_to_look_at(). Leaves
+// out crossings that rounding of the entries could make or remove, and gain factors at frequencies
+// below `slowest` (rad/s). Margins of an unstable loop say where poles cross the border.
 [[nodiscard]] Margins margins_of(const FrequencyResponse& open_loop,
                                  const std::vector<double>& frequencies, double slowest = 0,
                                  MarginParts parts = {});

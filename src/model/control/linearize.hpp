@@ -18,8 +18,8 @@
 namespace bbsim::model {
 
 // plant    from the gimbal's commands to the ball's position, in continuous time
-//   loop     from the reference to the position; with a sampled controller, from sample to sample
-//   sampled  the plant under a held command, from sample to sample, with all delays
+// loop     from the reference to the position; with a sampled controller, from sample to sample
+// sampled  the plant under a held command, from sample to sample, with all delays
 enum class LinearKind { plant, loop, sampled };
 
 // Margins of one command's loop, with the other loop closed.

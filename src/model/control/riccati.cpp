@@ -22,8 +22,8 @@ using Eigen::MatrixXd;
                  "every mode, and gravity greater than 0");
 }
 
-// Structured doubling: (A, G, H) of twice as many steps in each pass, and H tends to the solution.
-// Chu, Fan, Lin and Wang (2004), algorithm SDA.
+// Structured doubling: each pass doubles the number of steps of (A, G, H), and H tends to the
+// solution. Chu, Fan, Lin and Wang (2004), algorithm SDA.
 MatrixXd doubled(MatrixXd a, MatrixXd g, MatrixXd h) {
   const MatrixXd identity = MatrixXd::Identity(a.rows(), a.cols());
   for (int pass = 0; pass < 60; ++pass) {
@@ -33,7 +33,7 @@ MatrixXd doubled(MatrixXd a, MatrixXd g, MatrixXd h) {
     h += change;
     a = a * wa;
     if (!h.allFinite() || !g.allFinite()) break;
-    // By now a is the closed loop over 2^pass steps: it has to have died away.
+    // By now a is the closed loop over 2^pass steps, which must have died away.
     if (change.norm() <= 1e-15 * h.norm() && a.norm() <= 1e-6) return (h + h.transpose()) / 2;
   }
   throw_no_solution();
@@ -52,7 +52,7 @@ RiccatiSolution solve_continuous_riccati(const MatrixXd& a, const MatrixXd& b, c
                                          const MatrixXd& r) {
   const MatrixXd identity = MatrixXd::Identity(a.rows(), a.cols());
   const MatrixXd g = b * inverse(r) * transposed(b);
-  // Any shift beyond the eigenvalues' sizes does.
+  // Any shift larger than the eigenvalues works.
   double largest = 1;
   for (const std::complex<double>& value : eigenvalues_of(a)) {
     largest = std::max(largest, std::abs(value));

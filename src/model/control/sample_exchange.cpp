@@ -21,7 +21,7 @@ SampleExchange::SampleExchange(const SampledLoop& loop)
       legs_(loop.legs),
       sensor_(loop.sensor),
       times_(loop.sampling, loop.sensor.seed) {
-  // The last frame that has come at t = 0, or the one before.
+  // Start from the last frame that has arrived at t = 0, or the one before.
   if (frames_) expose_.number = std::floor((-sensor_delay_ - expose_.shift) / *frames_) - 2;
   if (since_ > 0) skip_past();
   go_on_exposing();
@@ -29,7 +29,7 @@ SampleExchange::SampleExchange(const SampledLoop& loop)
   go_on(apply_);
 }
 
-// Leaves out samples before t = 0, and their commands, up to the one in effect at t = 0.
+// Skips samples before t = 0 and their commands, up to the one in effect at t = 0.
 void SampleExchange::skip_past() {
   while (time_of(apply_.number + 2) + apply_.shift <= one_instant_) ++apply_.number;
   while (time_of(sample_.number + 1) < -one_instant_) ++sample_.number;
@@ -62,14 +62,14 @@ bool SampleExchange::is_sound(double first_exposure) const {
                   (frames_ || times_.knows(expose_.number)))) {
     return false;
   }
-  // What is on its way.
+  // The queues must match the numbers.
   const bool frame_sound = !frame_ || is_finite(*frame_);
   return frame_sound && static_cast<double>(commands_.size()) == sample_.number - apply_.number &&
          (!legs_ || thirds_.size() == commands_.size()) &&
          (frames_ || static_cast<double>(seen_.size()) == expose_.number - sample_.number);
 }
 
-// Of samples that nobody asks for any more.
+// Forgets the times of samples that no clock needs any more.
 void SampleExchange::forget_times() {
   const double last = std::min(sample_.number, apply_.number);
   times_.forget_before(frames_ ? last : std::min(last, expose_.number));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What goes between a rig and its sampled controller, and when: what the sensor sees of the ball,
-// and the controller's commands, either of them on its way for some time.
+// The exchange between a rig and its sampled controller: measurements of the ball and commands,
+// both with their delays.
 #pragma once
 
 #include <algorithm>
@@ -16,42 +16,42 @@
 
 namespace bbsim::model {
 
-// Instants of its three clocks, each known by its number: exposures, of a sample or of a camera's
-// frame; samples; and when a sample's command arrives. Each is asked for in turn.
+// Keeps three clocks with numbered instants: exposures, for a sample or of a camera's frame;
+// samples; and arrivals of commands.
 class SampleExchange {
  public:
   explicit SampleExchange(const SampledLoop& loop);
 
-  // The first instant that is left, the first one at which a command arrives, and the next sample,
-  // s.
+  // Times of the next instant of any clock, of the next arrival of a command, and of the next
+  // sample, s.
   [[nodiscard]] double next() const { return std::min({expose_.next, sample_.next, apply_.next}); }
   [[nodiscard]] double next_command() const { return apply_.next; }
   [[nodiscard]] double next_sample() const { return sample_.next; }
 
-  // Times nearer to t than this (s) are one with it but for their rounding: what the sensor sees at
-  // t is of the sample at t + delay.
+  // Times closer to t than this (s) equal t up to rounding. It is that of t + delay, the sample for
+  // which the sensor measures at t.
   [[nodiscard]] double rounding(double t) const { return rounding_of(t + sensor_delay_); }
-  // Until when instants are one with t: a run of no length between them is none.
+  // End of the instant t: times up to it count as t, and nothing runs between them.
   [[nodiscard]] double instant_end(double t) const {
     return t + std::max(rounding(t), one_instant_);
   }
 
-  // Whether one is left up to `now`, which is due then; and what is to be done about it.
+  // Whether an exposure, a sample or a command is due by `now`, and the actions then.
   [[nodiscard]] bool exposes_by(double now) const { return expose_.next <= now; }
-  void expose(double x, double y);  // of a ball there, m
+  void expose(double x, double y);  // the ball's position, m
   [[nodiscard]] bool samples_by(double now) const { return sample_.next <= now; }
   [[nodiscard]] double sample_number() const { return sample_.number; }
-  // Of the next exposure, sample and command.
+  // Numbers of the next exposure, sample and command.
   struct Numbers {
     double exposure, sample, command;
   };
   [[nodiscard]] Numbers numbers() const { return {expose_.number, sample_.number, apply_.number}; }
-  // The time of a sample, s. Of a clock that jitters, none before the last one that is forgotten.
+  // The time of a sample, s. With jitter, not of samples that have been forgotten.
   [[nodiscard]] double time_of(double sample) {
     return (even_ ? sample * period_ : times_.at(sample)) - since_;
   }
-  // What the sensor has to say at the sample: of the exposure for it, or the last frame that has
-  // come by `now`; nothing if it missed the ball.
+  // The sensor's reading for the sample: of its exposure, or of the last frame that has arrived by
+  // `now`. Empty if the sensor missed the ball.
   [[nodiscard]] std::optional<Pair> begin_sample(double now) {
     go_on(sample_);
     if (!frames_) return seen_.pop().what();
@@ -65,11 +65,11 @@ class SampleExchange {
     if (!even_) forget_times();
     return commands_.pop();
   }
-  // Of three servos, a third command goes with each of these.
+  // With three servos, a third command accompanies each pair.
   void push_third(double command) { thirds_.push() = command; }
   [[nodiscard]] double take_third() { return thirds_.pop(); }
 
-  // What changes over a run (base/archive.hpp).
+  // State that changes over a run (base/archive.hpp).
   template <class Archive>
   void archive(Archive& archive) {
     const double first_exposure = Archive::reads ? expose_.number : 0;
@@ -89,14 +89,14 @@ class SampleExchange {
   }
 
  private:
-  // An instant that recurs: of the sample of that number, or of a frame, and so much later.
+  // A recurring instant: `shift` after the sample or frame of that number.
   struct Clock {
     double shift;
     double number = -1;
     double next = 0;  // s
   };
   struct Seen {
-    double at = 0;  // when, of frames, s
+    double at = 0;  // of the exposure, s
     Pair position{};
     bool sees = false;
 
@@ -114,24 +114,24 @@ class SampleExchange {
     ++clock.number;
     put(clock);
   }
-  // At the instant of its number.
+  // Sets the time of the present number.
   void put(Clock& clock) { clock.next = time_of(clock.number) + clock.shift; }
   [[nodiscard]] double frame_time() const { return expose_.number * *frames_ + expose_.shift; }
-  // Whether numbers and queues, just read, are such as a run leaves.
+  // Whether the numbers and queues just read could come from a run.
   [[nodiscard]] bool is_sound(double first_exposure) const;
   void go_on_exposing();
   void skip_past();
   void forget_times();
 
-  // What every instant looks at is together.
+  // Members used at every instant are together.
   bool even_;
   double period_, since_, sensor_delay_, one_instant_;
   Clock expose_, sample_, apply_;
-  std::optional<double> frames_;  // the period of a camera's, s
+  std::optional<double> frames_;  // period of a camera's frames, s
   Queue<Seen> seen_;              // exposed, not yet sampled
-  std::optional<Pair> frame_;     // the last one that has come
+  std::optional<Pair> frame_;     // the last one that has arrived
   Queue<Pair> commands_;          // computed, not yet applied
-  bool legs_;                     // whether there are thirds
+  bool legs_;                     // whether there are third commands
   Queue<double> thirds_;
   BallSensor sensor_;
   SampleTimes times_;

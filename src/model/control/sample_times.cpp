@@ -9,9 +9,9 @@
 namespace bbsim::model {
 namespace {
 
-// A sequence of its own for each seed: what noise and dropouts draw is what it was without jitter.
+// Jitter has its own sequence for each seed, so that noise and dropouts draw as without it.
 constexpr unsigned long other_sequence = 0x9e3779b97f4a7c15UL;
-// No period is shorter than this part of the nominal one.
+// The shortest period, as a fraction of the nominal one.
 constexpr double shortest = 0.1;
 
 }  // namespace

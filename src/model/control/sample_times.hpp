@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// When a sampled controller samples: every period, or as its clock jitters.
+// Times at which a controller samples: every period, or with the jitter of its clock.
 #pragma once
 
 #include <cmath>
@@ -15,21 +15,21 @@ namespace bbsim::model {
 
 class SampleTimes {
  public:
-  // `seed` is that of the sensor's noise, of which this one's is another sequence.
+  // `seed` is that of the sensor's noise; jitter uses another sequence.
   SampleTimes(const Sampling& sampling, unsigned long seed);
 
-  // The time of the n-th sample, s, n = 0, 1, ...: of none before those that have been forgotten.
+  // The time of sample n = 0, 1, ..., s; not of samples that have been forgotten.
   [[nodiscard]] double at(double n);
 
-  // Whether it is known without being drawn, as those are that have been asked for.
+  // Whether the time is known without drawing it.
   [[nodiscard]] bool knows(double n) const {
     return n >= first_ && n < first_ + static_cast<double>(times_.size());
   }
 
-  // Nobody asks for samples before the n-th any more.
+  // Forgets the samples before the n-th.
   void forget_before(double n);
 
-  // How far they are drawn (base/archive.hpp).
+  // The times drawn so far (base/archive.hpp).
   template <class Archive>
   void archive(Archive& archive) {
     archive(noise_, times_, first_);
@@ -43,7 +43,7 @@ class SampleTimes {
  private:
   Sampling sampling_;
   Noise noise_;
-  std::deque<double> times_{0.0};  // from the `first_` sample on; of a clock that jitters
+  std::deque<double> times_{0.0};  // from sample `first_` on, for an uneven clock
   double first_ = 0;
 };
 

@@ -9,7 +9,7 @@
 namespace bbsim::model {
 
 BallSensor::BallSensor(const Sensor& sensor) : sensor_(sensor), noise_(sensor.seed) {
-  // Another sequence than those of noise and jitter (sample_times.cpp), of the same seed.
+  // The seed of noise and jitter (sample_times.cpp), but another sequence.
   constexpr unsigned long other_sequence = 0x3c6ef372fe94f82aUL;
   if (sensor.dropout > 0) dropouts_.emplace(sensor.seed + other_sequence);
 }
@@ -21,7 +21,7 @@ bool BallSensor::read(double x, double y, Pair& seen) {
     for (std::size_t i = 0; i < 2; ++i) says[i] += sensor_.offset[i];
   }
   bool missed = false;
-  // Each sample draws alike, whatever it sees, so that runs with one seed have one noise.
+  // Draw for every sample, whatever it sees, so that runs with one seed have the same noise.
   if (sensor_.noise > 0) {
     for (double& coordinate : says) coordinate += sensor_.noise * noise_.normal();
   }
@@ -36,7 +36,7 @@ bool BallSensor::read(double x, double y, Pair& seen) {
 
 namespace {
 
-// The greatest multiple of a step that is not beyond the limit but for rounding.
+// The greatest multiple of a step within the limit, up to rounding.
 double inward(double limit, double step) {
   return step > 0 && limit < unlimited ? std::floor(limit / step * (1 + 1e-12)) * step : limit;
 }
@@ -48,7 +48,7 @@ SampledController::SampledController(const SampledLoop& loop)
   law_.law = loop.law;
   law_.integrates = loop.law.integrates();
   law_.filter = loop.sampling.derivative_filter;
-  // What is between the servos and the plane makes steps of its own.
+  // With a linkage, the servos' angles are rounded instead.
   const double step = loop.between.none() || loop.legs ? loop.sampling.resolution : 0;
   law_.resolution = step;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -62,7 +62,7 @@ SampledController::SampledController(const SampledLoop& loop)
   }
   if (loop.between.linkages.empty() || !(resolution_ > 0)) return;
   for (std::size_t i = 0; i < 2; ++i) {
-    // Of what a servo is told, which may fall as the plane rises.
+    // Limits of a servo's angle, which may fall as the plane rises.
     const CommandRange& limit = loop.limit[i];
     const auto of = [&](double angle) {
       return std::isfinite(angle) ? loop.between.linkages[i].told(angle) : angle;

@@ -22,11 +22,11 @@ struct SampledCycle::Parts {
   Pairs position, velocity, integral, held;
 };
 
-// What comes in from outside in every cycle.
+// Inputs that stay constant over a cycle.
 struct SampledCycle::Inputs {
   Eigen::Matrix<double, 6, Eigen::Dynamic> reference;
-  Pairs command;   // in place of the law's,
-  bool open[2]{};  // where the loop is open
+  Pairs command;   // in place of the law's
+  bool open[2]{};  // whether that loop is open
 };
 
 CycleParts cycle_parts(const PlantDerivatives& plant, const Rig& rig, const LinearPoint& at,
@@ -43,7 +43,7 @@ CycleParts cycle_parts(const PlantDerivatives& plant, const Rig& rig, const Line
   parts.of_reference = law.of_reference;
   if (plant.believed.size() > 0) parts.fed = plant.believed(Eigen::all, states);
   if (plant.told.size() > 0 && parts.servos == 2) {
-    // Commands that wait are the servos' own.
+    // Commands in the queue are servo angles.
     parts.of_feedback = product(plant.told, law.of_feedback);
     parts.of_reference = product(plant.told, law.of_reference);
   } else {
@@ -59,13 +59,13 @@ CycleParts cycle_parts(const PlantDerivatives& plant, const Rig& rig, const Line
 
 namespace {
 
-// The frames that samples of a cycle look at, by their numbers, and when they are exposed.
+// The frames that a cycle's samples use, by number, and their times of exposure.
 struct Frames {
   double period, phase, delay;  // s
   double sampling;              // the period of the samples, s
-  double first_seen;            // by the sample at the cycle's start
-  double first;                 // that is exposed in the cycle
-  double count;                 // that are exposed in a cycle
+  double first_seen;            // seen by the sample at the cycle's start
+  double first;                 // of those exposed in the cycle
+  double count;                 // of frames exposed in a cycle
 
   [[nodiscard]] double seen_by(double sample) const {
     return std::floor(((sample + one_instant) * sampling - delay - phase) / period);
@@ -107,7 +107,7 @@ void SampledCycle::plan() {
     Act act;
   };
   std::vector<Event> events;
-  // Numbers of frames that are looked at, as in the cycle in which they are exposed.
+  // Numbers of the frames in use, as of the cycle in which they are exposed.
   std::vector<double> seen;
   for (int i = 0; i < samples; ++i) {
     const double number = frames.seen_by(i);
@@ -121,7 +121,7 @@ void SampledCycle::plan() {
     if (std::abs(time - at_sample) <= near) time = at_sample;
     events.push_back({time, Act::expose});
   }
-  // All of them in their order, from the one that the first sample looks at.
+  // All of them in order, from the one that the first sample uses.
   std::vector<double> queue;
   for (double back = std::ceil((frames.first - frames.first_seen) / frames.count); back >= 0;
        --back) {
@@ -151,7 +151,7 @@ void SampledCycle::plan() {
     events.push_back({i * period + application, Act::apply});
   }
   events.push_back({samples * period, Act::end});
-  // What is seen, sampled and commanded at one instant happens in that order.
+  // At one instant, exposures precede samples, and samples precede commands.
   std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
     return a.time != b.time ? a.time < b.time : a.act < b.act;
   });
@@ -185,7 +185,7 @@ int SampledCycle::controller_size() const {
 }
 
 int SampledCycle::size() const {
-  // A command that is applied at once is none of the period's start.
+  // A command that is applied at once is not a state at the cycle's start.
   return controller_at() + controller_size() + 2 * static_cast<int>(commands_) +
          (begins_held_ ? 2 : 0);
 }
@@ -285,7 +285,7 @@ SampledCycle::Pairs SampledCycle::sample(Parts& of, const Inputs& inputs) const 
 }
 
 SampledMap SampledCycle::map(bool phi_open, bool theta_open) const {
-  // A column for each state, and for each input.
+  // One column for each state and each input.
   const int n = size();
   const Eigen::Index columns = n + 8;
   Parts of = unpacked(MatrixXd::Identity(n, columns));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The arithmetic of a sampled controller, once, for every number type: a pack of doubles holds
-// another rig in each lane.
+// The arithmetic of a sampled controller, for every number type: a pack of doubles holds one rig
+// per lane.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace bbsim::model {
 
-// What stays the same over a run.
+// Constants of a run.
 template <class Scalar>
 struct SampledLaw {
   struct Range {
@@ -25,11 +25,11 @@ struct SampledLaw {
   Range limit[2];           // of the command of phi and of theta, rad, or rad/s^2
   Range sine[2];            // of the limit, for gravity compensation
   Scalar resolution;        // of the command; 0: none
-  Range reached[2];         // by multiples of the resolution, within the limit
-  Scalar filter;            // time constant of the velocity's, s
+  Range reached[2];         // by multiples of the resolution within the limit
+  Scalar filter;            // time constant of the velocity filter, s
 };
 
-// Calls `use` with each number of a law but those that round.
+// Calls `use` with each number of a law except those for rounding.
 template <class Law, class Use>
 void for_each_number(Law& of, const Use& use) {
   for_each_number(of.law, of.law, [&use](auto& number, auto&) { use(number); });
@@ -42,19 +42,19 @@ void for_each_number(Law& of, const Use& use) {
   use(of.filter);
 }
 
-// What it remembers from sample to sample: the ball's position as it saw it (m), its velocity, and
-// the integral parts of the commands.
+// Memory from sample to sample: the ball's measured position (m), its velocity, and the integral
+// parts of the commands.
 template <class Real>
 struct SampledMemory {
   Real position[2], velocity[2], integral[2];
 };
 
-// How long ago it saw the ball.
+// Time since the controller last saw the ball.
 struct SinceSeen {
   bool any = false;  // whether it ever did
-  int unseen = 0;    // samples since then
+  int unseen = 0;    // samples missed since then
 
-  // From that sample to the present one, s; a period for the first one.
+  // From that sample to the present one, s; one period at the first sample.
   [[nodiscard]] double elapsed(double period) const { return (any ? 1 + unseen : 1) * period; }
   void miss() { ++unseen; }
   void see() { *this = {true, 0}; }
@@ -65,7 +65,7 @@ template <class Real>
   return choose(exceeds(low, value), low, choose(exceeds(value, high), high, value));
 }
 
-// The nearest multiple of the resolution, if there is one.
+// The nearest multiple of the resolution; the value itself if the resolution is 0.
 template <class Real>
 [[nodiscard]] Real in_steps(const Real& value, const Real& resolution) {
   const auto steps = exceeds(resolution, Real(0.0));
@@ -73,8 +73,8 @@ template <class Real>
   return choose(steps, nearest_integer(value / step) * step, value);
 }
 
-// What is left of a command within its limit: the nearest multiple of the resolution; the largest
-// one that the limit lets through, where that is beyond.
+// Limits a command and rounds it: to the nearest multiple of the resolution, or to the last
+// multiple within the limit.
 template <class Real>
 void keep_within_limits(const SampledLaw<Real>& of, Real (&command)[2]) {
   const auto steps = exceeds(of.resolution, Real(0.0));
@@ -85,10 +85,10 @@ void keep_within_limits(const SampledLaw<Real>& of, Real (&command)[2]) {
   }
 }
 
-// A sample that saw the ball at `seen`, `elapsed` (s) after the last one that did; `first`: there
-// was none. `servo` are the servos' angles (rad) and rates (rad/s), for laws that feed them back.
-// Conditional integration: the integral part of a command waits while the command, before this
-// sample's error is added to it, is at its limit and the error drives it outward.
+// Processes a sample that saw the ball at `seen`, `elapsed` (s) after the last one that did;
+// `first`: there was none. `servo` holds the servos' angles (rad) and rates (rad/s), for laws that
+// feed them back. Conditional integration: a command's integral part waits if the command, before
+// this sample's error is added to it, is at its limit and the error drives it outward.
 template <class Real, class Mask>
 void take_sample(const SampledLaw<Real>& of, SampledMemory<Real>& memory, const Real (&seen)[2],
                  const Real& elapsed, const Mask& first, const Real (&servo)[4],

@@ -19,16 +19,16 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-// A sum, and how large its terms were: what is left of terms that cancel is 0.
+// A sum with the size of its largest term: a remainder of terms that cancel counts as 0.
 struct Sum {
   double value = 0, of = 0;
 
   [[nodiscard]] bool is_zero() const {
-    // Entries have the rounding of an exponential, and of what eliminated them.
+    // Entries carry the rounding of an exponential and of the elimination.
     constexpr double rounding = 1e-12;
     return !(std::abs(value) > rounding * of);
   }
-  // Not even a digit of it is known.
+  // Whether no digit of the value is known.
   [[nodiscard]] bool is_rounding() const {
     return !(std::abs(value) > 32 * std::numeric_limits<double>::epsilon() * of);
   }
@@ -43,8 +43,8 @@ Sum ratio(const Sum& a, const Sum& b) {
   return {value, std::max(a.of, std::abs(value) * b.of) / std::abs(b.value)};
 }
 
-// [A, B; C, D], of so many states: rows are those of the states and the outputs, columns those of
-// the states and the inputs.
+// [A, B; C, D] with this many states. Rows are states, then outputs; columns are states, then
+// inputs.
 struct Pencil {
   Index states = 0;
   std::vector<std::vector<Sum>> rows;
@@ -68,7 +68,7 @@ struct Place {
   Index row, column;
 };
 
-// The largest entry that is not 0, of such rows and columns.
+// The largest nonzero entry in these rows and columns.
 std::optional<Place> largest_of(const Pencil& of, const std::vector<Index>& rows,
                                 const std::vector<Index>& columns) {
   std::optional<Place> place;
@@ -90,7 +90,7 @@ std::vector<Index> range(Index from, Index to) {
   return all;
 }
 
-// Takes multiples of the pivot's row from another, so that it has 0 in the pivot's column.
+// Subtracts a multiple of the pivot's row from `row`, which becomes 0 in the pivot's column.
 void eliminate(Pencil& of, const Place& pivot, Index row) {
   if (of.at(row, pivot.column).value == 0) return;
   const Sum factor = ratio(of.at(row, pivot.column), of.at(pivot.row, pivot.column));
@@ -100,7 +100,7 @@ void eliminate(Pencil& of, const Place& pivot, Index row) {
   of.at(row, pivot.column) = {};
 }
 
-// Rows of outputs that D has a pivot in; in the columns of inputs all others are 0 after it.
+// Returns D's pivots. The other rows of outputs, `without`, become 0 in the columns of inputs.
 std::vector<Place> compress_inputs(Pencil& of, std::vector<Index>& without) {
   without = range(of.states, of.row_count());
   std::vector<Index> columns = range(of.states, of.column_count());
@@ -117,7 +117,7 @@ std::vector<Place> compress_inputs(Pencil& of, std::vector<Index>& without) {
   return pivots;
 }
 
-// Other states, of which such rows of outputs see these alone.
+// Changes states so that these rows of outputs depend on the returned states alone.
 std::vector<Index> compress_states(Pencil& of, std::vector<Index> outputs,
                                    std::vector<Index>& unseen) {
   unseen = range(0, of.states);
@@ -128,7 +128,7 @@ std::vector<Index> compress_states(Pencil& of, std::vector<Index> outputs,
     const Index k = pivot->column;
     for (const Index j : unseen) {
       if (of.at(pivot->row, j).value == 0) continue;
-      // x_k + f x_j is a state in place of x_k.
+      // x_k + f x_j replaces x_k as a state.
       const Sum f = ratio(of.at(pivot->row, j), of.at(pivot->row, k));
       for (Index i = 0; i < of.row_count(); ++i) add(of.at(i, j), f, of.at(i, k), -1);
       for (Index i = 0; i < of.column_count(); ++i) add(of.at(k, i), f, of.at(j, i), 1);
@@ -140,14 +140,14 @@ std::vector<Index> compress_states(Pencil& of, std::vector<Index> outputs,
   return seen;
 }
 
-// Takes away what of the state no zero sees, until D has full row rank.
+// Removes states that zeros do not depend on, until D has full row rank.
 Pencil reduced(Pencil of) {
   while (of.states > 0) {
     std::vector<Index> without, unseen;
     const std::vector<Place> pivots = compress_inputs(of, without);
     if (without.empty()) break;
     const std::vector<Index> seen = compress_states(of, without, unseen);
-    // Where outputs see nothing any more they are left out.
+    // Leave out outputs that see nothing any more.
     std::vector<Index> kept = unseen, columns = unseen;
     kept.insert(kept.end(), seen.begin(), seen.end());
     for (const Place& pivot : pivots) kept.push_back(pivot.row);
@@ -174,7 +174,7 @@ Pencil transposed(const Pencil& of) {
   return other;
 }
 
-// In other units, by powers of 2: of states, so that a row and its column are alike in size; of
+// Changes units by powers of 2: of states, so that a row and its column are similar in size; of
 // inputs and outputs, so that their largest entry is about 1.
 void balance(MatrixXd& all, Index states) {
   constexpr int enough = 100;

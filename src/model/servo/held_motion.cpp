@@ -31,8 +31,8 @@ ImpulseAnswer sum_of(double t, Term term) {
   return {t * t * integral, t * value, slope};
 }
 
-// The series needs no sine and no exponential, and has no cancellation. It suits times that are
-// short for the law.
+// The series needs no sine or exponential and has no cancellation. It suits times that are short
+// for the law.
 ImpulseAnswer by_series(const HeldLaw& law, double t) {
   const double d = law.damping * t, k = law.stiffness * t * t;
   double last = 1, before = 0;

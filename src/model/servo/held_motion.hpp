@@ -32,8 +32,8 @@ struct ImpulseAnswer {
   double integral = 0, value = 0, slope = 1;  // s^2, s, 1
 };
 
-// Whether the power series of the response has at most about twenty terms at `time` (s), and none
-// that is much larger than the sum.
+// Whether the power series of the response has at most about twenty terms at `time` (s), none of
+// them much larger than the sum.
 [[nodiscard]] inline bool suits_series(const HeldLaw& law, double time) {
   return law.damping * time <= 1.5 && law.stiffness * time * time <= 1;
 }

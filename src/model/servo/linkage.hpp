@@ -63,8 +63,8 @@ struct RangeMiddle {
   }
 };
 
-// Two bars on axes of their own, joined by a rod between their ends. Lengths in m; the servo's axis
-// is at (0, 0). arm_side and horn_side select one of the two solutions.
+// Two bars on separate axes, joined by a rod between their ends. Lengths in m; the servo's axis is
+// at (0, 0). arm_side and horn_side select one of the two solutions.
 struct Rods {
   double horn = 0, arm = 0, rod = 0;
   double x = 0, z = 0;  // of the arm's axis

@@ -220,7 +220,7 @@ Linkage make_linkage(const RodLinkage& of, Assumed assumed) {
 
 namespace {
 
-// Where an interpolant of the curve turns back or stands still.
+// A point at which an interpolant of the curve turns back or stands still.
 struct TurnsBack {
   std::size_t piece;
   double servo;  // rad
@@ -240,7 +240,7 @@ std::optional<TurnsBack> first_turn(const CurveLinkage& of, const SplineView& vi
   return {};
 }
 
-// One row in place of the two next to a piece, or of an end's neighbor.
+// Replaces the two rows next to a piece by their mean, or at an end by the end's row.
 void merge_rows(CurveLinkage& of, std::size_t piece) {
   const auto at = static_cast<std::ptrdiff_t>(piece);
   const bool first = piece == 0, last = piece + 2 == of.servo.size();
@@ -272,7 +272,7 @@ Linkage make_linkage(const CurveLinkage& given, Assumed assumed) {
     curve.piece = curve.command_piece = view.pieces[home];
     double value = 0;
     curve.slope = LinkCurve::along(curve.piece, 0.0, &value).slope;
-    // What is left of noise in rows that rise is what an interpolant overshoots by.
+    // Smoothed rows are monotonic, but an interpolant may overshoot by their remaining noise.
     const double rise = of.plate.back() - of.plate.front();
     const std::optional<TurnsBack> turn = first_turn(of, view, of.smoothed ? rise : curve.slope);
     if (!turn) break;
@@ -443,7 +443,7 @@ Between between_of(const Scenario& scene) {
   Between between;
   if (!scenario::is_linked(scene) || !scene.controller) return between;
   const Controller& controller = *scene.controller;
-  // Your own code commands linked servos itself; three of them only as it drives legs.
+  // Your own controller commands linked servos itself; three servos only if it drives legs.
   const bool itself =
       controller.own && (!scene.gimbal.three_servos || controller.drives == Drives::legs);
   const Assumed assumed = itself                                ? Assumed::none
@@ -461,7 +461,7 @@ Between between_of(const Scenario& scene) {
     between.three = three;
     if (controller.assumed_legs) {
       between.assumed = make_three_servos(*controller.assumed_legs, assumed, "controller.assumes");
-      // Both mean the same elevation of a horn, and count from their own homes.
+      // Both mean the same elevation of a horn, but each counts from its own home.
       for (std::size_t i = 0; i < 3; ++i) {
         const ThreeServos::Leg& leg = between.assumed->leg[i];
         between.zero[i] = leg.turns * (leg.home - three.leg[i].home);
@@ -516,7 +516,7 @@ ThreeServos::Leg make_leg(const ServoLeg& of, const std::string& key, const std:
                             " and less than " + metres(most) +
                             ", horn and rod folded and stretched");
   }
-  // Of the two positions of the knee, the outer one.
+  // Take the outer of the knee's two positions.
   leg.side = of.height > 0 ? -1 : 1;
   const double k = (to_joint * to_joint + of.horn * of.horn - of.rod * of.rod) / (2 * of.horn);
   const double root = leg.side * std::sqrt(to_joint * to_joint - k * k);
@@ -525,7 +525,7 @@ ThreeServos::Leg make_leg(const ServoLeg& of, const std::string& key, const std:
   return leg;
 }
 
-// What twist and shift of the plate the planes of unequal legs require.
+// Sets the twist and shift of the plate that the planes of unequal legs require.
 void set_planes(ThreeServos::Leg (&leg)[3], const std::string& key) {
   // The planes' normals are (-ey, ex).
   double xx = 0, xy = 0, yy = 0, free = 0, size = 0;
@@ -596,7 +596,7 @@ ThreeServos make_three_servos(const ThreeServoPlate& of, Assumed assumed, const 
                         three.leg[1].slope[0] * three.leg[1].slope[0] +
                         three.leg[2].slope[0] * three.leg[2].slope[0];
   for (int i = 0; i < 3; ++i) {
-    // Of equal legs, the two columns of slopes are orthogonal and of equal length.
+    // For equal legs, the two columns of slopes are orthogonal and of equal length.
     for (int j = 0; j < 2; ++j) three.inferred[j][i] = three.leg[i].slope[j] / length;
     if (three.equal) continue;
     double right[3] = {0, 0, 0}, pose[3];

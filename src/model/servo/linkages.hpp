@@ -54,7 +54,7 @@ struct Linkage {
 struct Between {
   std::vector<Linkage> linkages{};  // empty, or two
   std::optional<ThreeServos> three{};
-  // What the controller takes them for, and the angles of the servos where it takes them to be at
+  // The controller's assumption about the three servos, and the servo angles that it takes for
   // zero, rad.
   std::optional<ThreeServos> assumed{};
   std::array<double, 3> zero{};
@@ -64,8 +64,8 @@ struct Between {
   [[nodiscard]] bool has_pieces() const;
   // The commands to two or three servos for the angles that a law wants.
   [[nodiscard]] std::array<double, 3> told(Pair wanted) const;
-  // The tilt that three servos at these angles give the plate, without its offsets; NaN where no
-  // tilt does.
+  // The tilt that three servos at these angles give the plate, without its offsets; NaN if no tilt
+  // fits them.
   [[nodiscard]] Pair tilt(const std::array<double, 3>& servo) const;
   // What the controller infers from the servos' angles and rates: phi, theta, and their rates.
   void believed(const double* servo, const double* rate, double (&into)[4]) const;
@@ -75,12 +75,12 @@ struct Between {
   [[nodiscard]] Linkages at_home() const;
 };
 
-// Throws InputError for a linkage that does not close at home or has a dead point there, and for a
-// measured curve that is not monotonic. Of a smoothed curve, rows between which an interpolant
-// turns back are merged.
+// Throws InputError if a linkage does not close at home or has a dead point there, or if a measured
+// curve is not monotonic. Rows of a smoothed curve are merged if an interpolant turns back between
+// them.
 [[nodiscard]] Linkage make_linkage(const RodLinkage& of, Assumed assumed);
 [[nodiscard]] Linkage make_linkage(const CurveLinkage& given, Assumed assumed);
-// `key`: of the plate, in messages.
+// `key` names the plate in messages.
 [[nodiscard]] ThreeServos make_three_servos(const ThreeServoPlate& of, Assumed assumed,
                                             const std::string& key = "gimbal.three_servos");
 
@@ -90,8 +90,7 @@ struct Between {
 
 [[nodiscard]] Between between_of(const Scenario& scene);
 
-// The greatest twist about the normal that this tilt gives, in any direction, rad; equal legs have
-// none.
+// The greatest twist about the normal that this tilt gives in any direction, rad; 0 for equal legs.
 [[nodiscard]] double greatest_twist(const ThreeServos& three, double tilt);
 
 // The greatest tilt that all three legs reach in every direction at the height of home, rad.

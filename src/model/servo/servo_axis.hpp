@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The switches of one servo: its limits, stops, backlash and dead band. Between two switches an
-// AxisMode describes its motion; a switch occurs where a guard crosses zero.
+// AxisMode describes its motion; a switch occurs when a guard crosses zero.
 #pragma once
 
 #include <cmath>
@@ -32,8 +32,8 @@ struct AxisMargin {
 
 class ServoAxis {
  public:
-  // The guards: limits in both directions, which at a limit are what leaves it; and backlash, where
-  // the first one alone is the end of contact.
+  // Guards of the limits in both directions; at a limit, they watch for leaving it. For backlash,
+  // the first one alone watches for the end of contact.
   enum Guard {
     acceleration_up,
     acceleration_down,
@@ -127,15 +127,15 @@ class ServoAxis {
   [[nodiscard]] Motion choose(AxisState& state) const;
   void settle_backlash(const AxisState& state, AxisMode& mode);
   [[nodiscard]] double drive(const AxisState& state) const;
-  // What drives a servo at its rate limit further outward: an acceleration; for first order, the
-  // excess of the rate by its law over the present rate.
+  // Drive of a servo further outward at its rate limit: an acceleration; for first order, the rate
+  // by its law minus the present rate.
   [[nodiscard]] AxisMargin push() const;
-  // What presses a servo against a stop: an acceleration; for first order, command minus angle.
+  // Drive of a servo against a stop: an acceleration; for first order, command minus angle.
   [[nodiscard]] AxisMargin push_at_stop() const;
 
   // Guards below this fraction of their scale count as zero.
   static constexpr double guard_rounding = 1e-12;
-  // At a limit: within this factor, because guards are found at zero only to rounding.
+  // Fraction of a limit that counts as at it, because guards are zero only to rounding.
   static constexpr double at_limit = 1 - 1e-11;
 
   double target_ = 0;                      // the followed command

@@ -6,8 +6,8 @@
 // joint, a rod, and a ball joint under the plate. The servos' angles determine two tilts and a
 // height.
 //
-// Each joint stays in its plane. The plate's center therefore shifts, and legs that are not alike
-// twist the plate. The leg equations include both effects; the ball's motion ignores them.
+// Each joint stays in its plane. The plate's center therefore shifts, and unequal legs twist the
+// plate. The leg equations include both effects; the ball's motion ignores them.
 #pragma once
 
 #include <cmath>
@@ -76,15 +76,14 @@ struct ThreeServos {
     double base = 0, plate = 0;         // radii of the servo's axis and of the joint, m
     double horn = 0, rod = 0;           // m
     double height = 0;                  // of the joint above the servo's axis, at home, m
-    double cos_zero = 1, sin_zero = 0;  // of the horn's elevation where the servo is at zero
+    double cos_zero = 1, sin_zero = 0;  // of the horn's elevation at the servo's zero
     double home = 0;                    // the horn's elevation at home, rad
     double turns = 1;                   // -1: the horn falls as the servo's angle grows
-    double side = 1;                    // of the leg on which the knee is
-    // Of unequal legs: the azimuth's cosine and sine, and the joint's height in the plate, m.
+    double side = 1;                    // of the leg on which the knee lies
+    // For unequal legs: the azimuth's cosine and sine, and the joint's height in the plate, m.
     double ex = 1, ey = 0, joint = 0;
-    // Sums with the joints' distances from their planes as they would be without shift and twist:
-    // the shift along the leg is the one with these factors, and the twist makes the sum with the
-    // second one vanish.
+    // Factors of the joints' distances from their planes without shift and twist. The sum with
+    // `shift` is the shift along the leg; the twist makes the sum with `twist` vanish.
     double shift[3] = {}, twist = 0;
     double slope[2] = {};  // derivatives of the servo's angle by phi and theta, at home
   };
@@ -95,8 +94,7 @@ struct ThreeServos {
   double cos_offset[2] = {1, 1}, sin_offset[2] = {0, 0}, offset[2] = {0, 0};  // of the plane, rad
   double determinant = 1;                                                     // at home
 
-  // The plate's pose: its normal is (p, q, sqrt(1 - p^2 - q^2)), and the center of its joints is at
-  // z.
+  // The plate's pose: its normal is (p, q, sqrt(1 - p^2 - q^2)), and its joints' center is at z.
   template <class T>
   struct Pose {
     T p, q, z;
@@ -127,11 +125,11 @@ struct ThreeServos {
     }
   }
 
-  // How unequal legs twist the plate about its normal, and what that takes.
+  // The twist of the plate about its normal by unequal legs, with intermediate results.
   template <class T>
   struct Twist {
     T n, w;        // the normal's third component, and 1/(1 + n)
-    T e[3], f[3];  // its components along and across the legs' planes
+    T e[3], f[3];  // the normal's components along and across the legs' planes
     T cosine, sine;
   };
   template <class T, class Number>
