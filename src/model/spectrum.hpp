@@ -18,7 +18,7 @@ using Eigenvalues = std::vector<std::complex<double>>;  // 1/s, by falling real 
 [[nodiscard]] Eigenvalues eigenvalues(const Model& model, double t, const double* z);
 
 // Poles about home (all angles, positions and rates zero), without dry parts and without the spin:
-// no controller acts on it, and it adds a pole at exactly zero.
+// no controller acts on the spin, and it adds a pole at exactly zero.
 //
 // Poles of the closed loop, 1/s; for a gimbal moved by given torques, of the plant. Empty for a
 // given motion and for a sampled loop.

@@ -523,7 +523,7 @@ void see_by(const Sensor* sensor, const Number* z, std::array<Jet<Number>, 2>& r
   }
 }
 
-// Rates of a loop whose controller sees the ball by its sensor, and their derivatives by states.
+// Rates of a loop whose controller uses its sensor, and their derivatives by states.
 template <class Loop>
 PlantDerivatives differentiate_seen(const Loop& loop, const Sensor* sensor, const LinearPoint& at) {
   constexpr int n = Loop::size;

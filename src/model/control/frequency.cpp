@@ -85,7 +85,7 @@ std::vector<double> zeros_of(const Rounded& f, const std::vector<double>& points
   std::vector<double> zeros;
   for (std::size_t i = 0; i + 1 < at.size(); ++i) {
     if ((values[i] < 0) == (values[i + 1] < 0)) continue;
-    // From the last point before it to the first one after it at which the sign is certain.
+    // Bracket it between the nearest points before and after it whose signs are certain.
     std::size_t low = i, high = i + 1;
     Rounded::Value at_low = f.careful(at[low]), at_high = f.careful(at[high]);
     while (low > 0 && !at_low.certain()) at_low = f.careful(at[--low]);

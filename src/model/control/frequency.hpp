@@ -12,8 +12,8 @@
 
 namespace bbsim::model {
 
-// C (s I - A)^-1 B + D at s = i w, or, with a period T (s) > 0, at exp(i w T); w in rad/s. A is n x
-// n, B n x m, C p x n, D p x m, and all are finite.
+// C (s I - A)^-1 B + D at s = i w, or, with a period T (s) > 0, at exp(i w T); w in rad/s.
+// A is n x n, B n x m, C p x n, D p x m, and all are finite.
 // Method: A balanced and in Hessenberg form, so that each frequency takes n^2 operations; Laub,
 // IEEE Trans. Automatic Control 26 (1981).
 class FrequencyResponse {
@@ -44,8 +44,8 @@ class FrequencyResponse {
 };
 
 // Rising frequencies, dense enough for a system with these open-loop and closed-loop poles, from
-// well below the slowest to well above the fastest, or to half the sampling rate. Poles at 0 (or z
-// = 1) do not set the slowest.
+// well below the slowest to well above the fastest, or to half the sampling rate. Poles of
+// rate 0 do not set the slowest.
 [[nodiscard]] std::vector<double> frequencies_to_look_at(
     const std::vector<std::complex<double>>& open, const std::vector<std::complex<double>>& closed,
     double period);
@@ -67,8 +67,8 @@ struct MarginParts {
   bool gains = true, phases = true;  // phases: and delays
 };
 
-// Margins of a response L with one input and one output, within frequencies_to_look_at(). Leaves
-// out crossings that rounding of the entries could make or remove, and gain factors at frequencies
+// Margins of a response L with one input and one output, over frequencies_to_look_at(), at least
+// one. Leaves out crossings that rounding of the entries could make or remove, and gain factors
 // below `slowest` (rad/s). Margins of an unstable loop say where poles cross the border.
 [[nodiscard]] Margins margins_of(const FrequencyResponse& open_loop,
                                  const std::vector<double>& frequencies, double slowest = 0,

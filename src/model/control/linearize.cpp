@@ -155,7 +155,7 @@ struct PlainLoop {
 };
 
 // Frequency below which a point has moved on before anything happens, rad/s: four times the rate at
-// which the plane turns, or at which its quickening turn throws the ball.
+// which the plane turns, or at which its acceleration throws the ball.
 double slowest_at(const PlantDerivatives& plant) {
   const int angle = spin_state + 1, servos = plant.places.servos;
   const auto largest = [servos](const VectorXd& of, int first) {
@@ -203,13 +203,13 @@ void add_bandwidths(Linearization& made, const PlainLoop& plain, const std::vect
   }
 }
 
-// Adds the margins of one command's loop. A, B and C take it once round, open at the command.
+// Adds the margins of one command's loop. A, B and C are those of the loop opened there.
 void add_margins(Linearization& made, const PlainLoop& plain, int axis, const MatrixXd& a,
                  const VectorXd& b, const Eigen::RowVectorXd& c, MarginParts parts = {}) {
   const double period = made.system.period.value_or(0);
   const std::vector<int>& of = plain.states;
   const MatrixXd open = a(of, of);
-  // Negative feedback from the reference gives 1 + L.
+  // The sign makes L that of 1 + L = 0.
   const FrequencyResponse response(open, b(of), -c(of), MatrixXd::Zero(1, 1), period);
   made.margins.push_back(
       {std::string(angle_name(axis)) + "_command",
@@ -369,7 +369,7 @@ Linearization loop_with(const Linearization& plant, const LinearSystem& law,
                         const std::vector<int>& axes) {
   const LinearSystem& of = plant.system;
   const Eigen::Index n = of.a.rows(), m = law.a.rows();
-  // Commands by what is seen and by the law's memory.
+  // Commands from measurements and from the law's memory.
   MatrixXd commands(2, n + m);
   commands << product(law.d, of.c), law.c;
   // Closes the loops of the given commands.

@@ -15,7 +15,7 @@
 
 namespace bbsim::model {
 
-// What the measures of the loop in a list need; other measures are ignored.
+// The parts that a list's measures of the loop need; other measures are ignored.
 [[nodiscard]] LoopParts parts_of(const std::vector<scenario::Measure>& measures);
 
 // Computes margins on first use, because poles are much cheaper.

@@ -28,8 +28,8 @@ class SampleExchange {
   [[nodiscard]] double next_command() const { return apply_.next; }
   [[nodiscard]] double next_sample() const { return sample_.next; }
 
-  // Times closer to t than this (s) equal t up to rounding. It is that of t + delay, the sample for
-  // which the sensor measures at t.
+  // Times closer to t than this (s) equal t up to rounding: that of t + delay, the time of the
+  // sample for which the sensor measures at t.
   [[nodiscard]] double rounding(double t) const { return rounding_of(t + sensor_delay_); }
   // End of the instant t: times up to it count as t, and nothing runs between them.
   [[nodiscard]] double instant_end(double t) const {

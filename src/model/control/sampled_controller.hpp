@@ -51,7 +51,7 @@ class SampledController {
 
   // The command after a sample: rad, or rad/s^2 if accelerations are driven. `servo` holds the
   // servos' angles (rad) and rates (rad/s), for laws that feed them back. A sample that missed the
-  // ball changes nothing.
+  // ball keeps the last command.
   [[nodiscard]] Pair command(const std::optional<Pair>& seen, const double (&servo)[4],
                              const std::array<Jet<double>, 2>& reference);
 
