@@ -52,9 +52,8 @@ template <class Real>
   return motion;
 }
 
-// The contact force over the ball's mass, m/s^2: (M5). x_ddot and y_ddot are the ball's
-// acceleration in the plane; `height` is that of the plane above the gimbal's center, r the ball's
-// radius (m).
+// Contact force per mass of the ball, m/s^2: (M5). x_ddot, y_ddot: acceleration of the ball in the
+// plane; height: of the plane above the gimbal's center, m; r: radius of the ball, m.
 template <class Real, class Ball, class Scalar>
 [[nodiscard]] inline Vector3<Real> force_by_mass(const MovingPlane<Real>& plane, const Ball& ball,
                                                  const Real& x_ddot, const Real& y_ddot,

@@ -44,8 +44,8 @@ struct Dynamics {
   [[nodiscard]] double energy() const { return kinetic_energy + potential_energy; }
   [[nodiscard]] double normal_force() const { return force.z(); }
   [[nodiscard]] double friction_force() const { return force.head<2>().norm(); }
-  // While the ball slides, the ratio is the coefficient of sliding friction, even as both forces
-  // vanish at lift-off.
+  // While the ball slides this is the coefficient of sliding friction, which stays defined at
+  // lift-off, where both forces vanish.
   [[nodiscard]] double friction_demand() const {
     return std::isnan(coupled.sliding) ? friction_force() / normal_force() : coupled.sliding;
   }
@@ -54,7 +54,6 @@ struct Dynamics {
 // The force of the plane on the ball in the plane's frame, N; z is the normal force.
 [[nodiscard]] Eigen::Vector3d contact_force(const Sample& sample, const BallConstants& constants);
 
-// All quantities, from the state and the gimbal's motion.
 [[nodiscard]] Dynamics dynamics(const Sample& sample, const BallConstants& constants);
 
 // The angle between the plane's normal and the vertical, rad. Needs only the gimbal's angles.
@@ -63,8 +62,8 @@ struct Dynamics {
 // The magnitude of the plane's angular velocity, rad/s. Needs only the gimbal's angles and rates.
 [[nodiscard]] double tilt_rate(const Sample& sample, const BallConstants& constants);
 
-// det M| / r^2 with M the derivative of (x'', y'') with respect to (phi'', theta''): (M32). On the
-// paper's rig |7 r cos theta + 5 y sin theta| / (7 r): (28), (29). At 0, M is singular.
+// |det M| / r^2, where M is the derivative of (x'', y'') with respect to (phi'', theta''): (M32).
+// On the paper's rig |7 r cos theta + 5 y sin theta| / (7 r): (28), (29). At 0, M is singular.
 [[nodiscard]] double singularity_distance(const Sample& sample, const BallConstants& constants);
 
 }  // namespace bbsim::model

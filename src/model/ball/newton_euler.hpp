@@ -5,8 +5,8 @@
 // moments for ball and plate about the gimbal (docs/explanation/losses-and-torques.md).
 //
 // All results are linear in a Cause. One function therefore gives the accelerations on a prescribed
-// gimbal, the columns of the inertia H of (M47), and the contact's force and couple. Dry friction
-// acts along fixed or moving directions here; DryFriction decides when they change.
+// gimbal, the columns of the inertia matrix H of (M47), and the force and couple at the contact.
+// Dry friction acts along fixed or moving directions; DryFriction decides when they change.
 //
 // Couples and rotations along the plane are stored rotated by a quarter turn, so that they are
 // parallel to the velocities: p = (r omega_y, -r omega_x) is the velocity at which the ball would
@@ -28,9 +28,9 @@ struct ContactLaw {
   friend bool operator==(const ContactLaw&, const ContactLaw&) = default;
 };
 
-// The direction that dry friction opposes: that of the velocity, or a fixed one while the velocity
-// is too small to have a direction. `along` is close to the velocity's direction and gives its
-// sign. A motion that comes to rest thus continues smoothly past zero until its end is located.
+// Direction that dry friction opposes: the velocity's or, while the velocity is too small to have
+// one, a fixed direction. `along` is close to the velocity's direction and sets its sign, so that a
+// motion that comes to rest continues smoothly past zero until its end is located.
 struct DryDirection {
   double moving = 0;  // 1: use the velocity's direction; 0: use `along`
   double along[2] = {0, 0};
@@ -77,7 +77,7 @@ struct PlaneMotion {
   Real omega[3], omega_dot[3];
 };
 
-// The terms that determine the accelerations linearly.
+// Terms in which the accelerations are linear.
 template <class Real>
 struct Cause {
   Real omega_dot[3];  // of the plane, rad/s^2
@@ -86,7 +86,7 @@ struct Cause {
   Real drag[2];       // of the viscous couple, m/s^2
 };
 
-// The results. Forces and couples are divided by the ball's mass.
+// Accelerations, and force and couple at the contact divided by the ball's mass.
 template <class Real>
 struct Answer {
   Real x, y, u;    // x'', y'' and u' = r gamma'', m/s^2
@@ -95,7 +95,7 @@ struct Answer {
   Real couple[3];  // (C_y, -C_x, C_n) / (m r), m/s^2
 };
 
-// The constants of a scene, and its equations.
+// Constants and equations of a scene.
 struct CoupledBall {
   double r = 0, m = 1, g = 0;
   GeneralRolling rolling{};

@@ -37,10 +37,9 @@ struct RollingState {
 
 // The three rows of equation (27), solved for x'', y'' and u' = r gamma'' (m/s^2).
 //
-// r is the ball's radius (m) and g gravity (m/s^2). Their type Scalar is double, or a pack with
-// another ball in each lane. Real is the type of the result: double, a dual number, a pack of
-// lanes, or a 128-bit float. The arguments may have any types that combine to it, including Zero
-// and One.
+// r is the ball's radius (m) and g gravity (m/s^2). Scalar is double, or a pack with one ball per
+// lane. Real is the type of the result: double, a dual number, a pack of lanes, or a 128-bit float.
+// The other arguments may have any types that combine to Real, including Zero and One.
 template <class Real, class Phi, class Theta, class Ball, class Scalar>
 [[nodiscard]] inline Real x_acceleration(const Phi& phi, const Theta& theta, const Ball& ball,
                                          const Scalar& r, const Scalar& g) {

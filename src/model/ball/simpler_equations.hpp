@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Simpler equations for the ball than (27), for measuring the effect of the full equation.
+// Simpler equations of motion than (27), to measure what the full equation adds.
 //
 // Each is a policy for the systems of model/systems/system.hpp and replaces Equation27. In both,
 // the spin stays constant.
@@ -11,7 +11,7 @@
 
 namespace bbsim::model {
 
-// A ball that rolls down the present slope as if the plane stood still.
+// The ball rolls down the current slope as if the plane stood still.
 struct SlopeOnly {
   template <class Real, class Phi, class Theta, class Ball>
   static Real x(const Phi& phi, const Theta&, const Ball&, double, double g) {

@@ -27,8 +27,8 @@ concept Known = std::is_same_v<T, Zero> || std::is_same_v<T, One>;
 template <class T>
 concept Number = !Known<T>;
 
-// Always inlined. These functions have no number type in their names; otherwise the linker could
-// use a copy compiled for one instruction set in code for another.
+// Always inlined: their mangled names may contain no number type, so the linker could use a copy
+// compiled for one instruction set in code for another.
 [[gnu::always_inline]] constexpr Zero operator*(Zero, Zero) {
   return {};
 }

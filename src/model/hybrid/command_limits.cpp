@@ -16,8 +16,8 @@ void CommandLimits::append_scales(std::vector<double>& scales) const {
   }
 }
 
-// The rate that the error adds to a command while its integral part does not wait, in its unit per
-// second.
+// Rate at which the integral part adds to a command while it does not wait, in the command's unit
+// per second.
 double CommandLimits::push(std::size_t i, double t, const double* z) const {
   return model_.with_loop(
       [&](const auto& loop) { return integral_rate(loop.law(), i, z, loop.inputs(t)); });
@@ -37,8 +37,8 @@ void CommandLimits::evaluate(const GuardContext& now, double* values) const {
       values[0] = outward.within();
       values[1] = -outward.beyond();
     } else {
-      // Only the present limit needs a guard: the command can reach the other only through the
-      // range between.
+      // Only this limit needs a guard: to reach the other, the command must first return to
+      // the range between.
       const std::size_t own = axis.side > 0 ? Guard::high : Guard::low;
       values[own] = axis.side * (raw - axis.set_command);
       const double drives = axis.side * push(i, now.t, now.z);
@@ -87,7 +87,7 @@ bool CommandLimits::reset(double t, double* z) {
   return false;
 }
 
-// The rates do not depend on the present mode, because all modes give the same command there.
+// The present mode does not affect the rates: at a limit, all modes give the same command.
 void CommandLimits::reset_at_limits(double t, const double* z) {
   const GuardContext now(model_, t, z);
   for (std::size_t i = 0; i < 2; ++i) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The limits of a continuous law's commands, with the integral parts that wait there
+// Limits of the commands of a continuous law, and integral parts that wait at a limit
 // (control/integral_limit.hpp).
 #pragma once
 
@@ -19,17 +19,17 @@ class CommandLimits : public Part {
   void evaluate(const GuardContext& now, double* values) const;
   // Records the limit that a command reached.
   void cross(std::size_t guard);
-  // While a command moves along its limit, its integral part is not a state; the limit determines
-  // it.
+  // Sets integral parts that are not states: while a command moves along its limit, the limit
+  // determines its integral part.
   void leave_mode(double t, double* z);
   // Determines whether each command is at its limit, and whether its integral part waits.
   [[nodiscard]] bool reset(double t, double* z);
-  // The rates of the commands have changed.
+  // A jump changes the commands: none is known to be exactly at its limit.
   void after_jump(double /*t*/, const double* /*z*/) { reached_[0] = reached_[1] = 0; }
   void reset_at_limits(double t, const double* z);
 
  private:
-  // Of each command: its limits. At a limit, one of them is the behavior of its integral part.
+  // Guards per command: its two limits. At one limit, the other's guard watches the integral part.
   struct Guard {
     enum : std::size_t { high, low, count };
   };

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The pieces of measured curves between servos and plane. The system holds one piece of a curve at
-// a time, so that the right-hand side is smooth.
+// Pieces of measured curves between servos and plane. The system holds one piece of each curve at
+// a time, to keep the right-hand side smooth.
 #pragma once
 
 #include "model/hybrid/part.hpp"
@@ -37,7 +37,7 @@ class CurvePieces : public Part {
   }
 
  private:
-  // Of each axis: the ends of the piece that the horn is on, and of the command's.
+  // Guards per axis: the ends of the horn's piece and of the command's piece.
   struct Guard {
     enum : std::size_t { high, low, command_high, command_low, count };
   };
@@ -45,7 +45,7 @@ class CurvePieces : public Part {
   [[nodiscard]] const Linkage& linkage(std::size_t axis) const {
     return model_.rig().between.linkages[axis];
   }
-  // Whether a continuous law's command goes through the curve, too.
+  // Whether the commands of a continuous law also go through the curve.
   [[nodiscard]] bool converts_commands(const Linkage& linkage) const {
     return !model_.rig().sampled && linkage.curve.assumed == Assumed::exact;
   }

@@ -14,8 +14,8 @@
 namespace bbsim::model {
 namespace {
 
-// A held direction is released at this multiple of the speed at which it was taken, so that it is
-// not taken again at once.
+// Ratio of the speed at which a held direction is released to the speed at which it is held. The
+// gap prevents immediate switching back.
 constexpr double faster = 2;
 
 double dot(const double (&a)[2], const double (&b)[2]) {
@@ -33,7 +33,7 @@ DryDirection against(const double* v) {
   return {0, {-v[0] / length, -v[1] / length}};
 }
 
-// Chooses whether the direction of a motion with velocity v follows it, or is held.
+// Decides whether the direction of a motion follows its velocity v or is held.
 void settle_direction(DryDirection& of, double slow, const double (&v)[2], bool was_still) {
   const double speed = size(v);
   const bool fast = speed > (of.moving != 0 ? slow * (1 + 1e-9) : slow * faster * (1 - 1e-9)) ||
@@ -54,9 +54,8 @@ void DryFriction::append_scales(std::vector<double>& scales) const {
 }
 
 double DryFriction::slow(double t) const {
-  // Integrator steps approach zero velocity by a fraction of the rest each, and the last one needs
-  // some roundings of the time. Friction reduces slip by its force, and by the rotation that it
-  // causes.
+  // Each integrator step removes a fraction of the remaining velocity, and the last step needs some
+  // roundings of the time. Friction reduces slip by its force and by the rotation that it causes.
   constexpr double roundings = 64;
   const CoupledBall& ball = *scene_.ball;
   const double turns = parts_.slides ? 1 / ball.rolling.k : 0;
@@ -101,8 +100,8 @@ void DryFriction::evaluate(const GuardContext& at, double* values) const {
   }
 }
 
-// A motion from rest starts along its acceleration. The acceleration depends on that direction,
-// because the plane yields to the contact's force. Sets the directions to match.
+// Makes the directions of motions that start from rest parallel to their accelerations. These
+// depend on the directions, because the plane yields to the contact force.
 void DryFriction::start(double t, const double* z, bool slip, bool roll) {
   ContactMode& contact = *scene_.contact;
   const auto turn = [&](DryDirection& of, const auto& acceleration) {
@@ -113,7 +112,7 @@ void DryFriction::start(double t, const double* z, bool slip, bool roll) {
       return std::atan2(of.along[0] * a[1] - of.along[1] * a[0], dot(of.along, a));
     };
     const double turned = present();
-    if (std::abs(turned) <= equal_angles) return 0.0;  // keep the direction to the bit
+    if (std::abs(turned) <= equal_angles) return 0.0;  // keep the direction bit for bit
     const auto put = [&](double angle) {
       of.along[0] = std::cos(angle);
       of.along[1] = std::sin(angle);
@@ -147,7 +146,7 @@ void DryFriction::start(double t, const double* z, bool slip, bool roll) {
   }
 }
 
-// The number of violated conditions if the parts at zero continue in this mode.
+// Counts the conditions that are violated if the parts at zero continue in this mode.
 int DryFriction::faults(double t, const double* z, const AtZero& zero, bool slide, bool rest) {
   ContactMode& contact = *scene_.contact;
   if (zero.slip) contact.slides = false;
@@ -192,7 +191,7 @@ int DryFriction::faults(double t, const double* z, const AtZero& zero, bool slid
   return faults;
 }
 
-// Sets velocities that have reached zero to exactly zero. Chooses the modes of what moves.
+// Sets velocities that have reached zero to exactly zero. Chooses the modes of moving parts.
 DryFriction::AtZero DryFriction::stop_parts(double t, double* z) {
   ContactMode& contact = *scene_.contact;
   AtZero zero;
@@ -216,7 +215,7 @@ DryFriction::AtZero DryFriction::stop_parts(double t, double* z) {
       p[0] = p[1] = 0;
       if (zero.slip || !parts_.slides) {
         z[2] = z[3] = 0;
-      } else {  // slides on without rotation
+      } else {  // keeps sliding without rotation
         slip[0] = z[2];
         slip[1] = z[3];
       }

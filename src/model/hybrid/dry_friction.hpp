@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The switches of dry friction and sliding contacts: what rests, what moves, and which way
+// Switches of dry friction and of sliding contacts: what rests, what moves, in which direction
 // (docs/explanation/losses-and-torques.md).
 //
 // A dry force keeps a part at rest while rest needs less than its limit; otherwise it opposes the
@@ -33,8 +33,8 @@ class DryFriction : public Part {
   // Sets velocities that have reached zero to exactly zero.
   [[nodiscard]] bool reset(double t, double* z);
 
-  // Notes the starts and ends of sliding since the last call, and those rests that are events of
-  // the scene.
+  // Logs the starts and ends of sliding since the last call, and rests that are events of the
+  // scene.
   Effect note_events(double t, const double* z);
 
   // The parts of the mode that may be events.
@@ -45,16 +45,16 @@ class DryFriction : public Part {
   [[nodiscard]] State state() const;
 
  private:
-  // The end of a rest, or of a motion; and the speed at which a direction is held or released.
+  // Ends of rests and of motions, and speeds at which a direction is held or released.
   struct Guard {
     enum : std::size_t { roll, roll_speed, slip, slip_speed, spin, phi, theta, count };
   };
-  // The parts with zero velocity, for which reset() decides whether they start to move.
+  // Parts with zero velocity. reset() decides whether they start to move.
   struct AtZero {
     bool slip = false, roll = false, spin = false, axis[2] = {false, false};
   };
 
-  // The speed limit for near rest, m/s. It grows with t, because the rounding of t does.
+  // Speed below which a motion is near rest, m/s. It grows with the rounding of t.
   [[nodiscard]] double slow(double t) const;
   [[nodiscard]] AtZero stop_parts(double t, double* z);
   void choose(double t, const double* z, const AtZero& zero);
@@ -66,7 +66,7 @@ class DryFriction : public Part {
   DryScene scene_;
   double resolution_;
   EventLog& log_;
-  State noted_;  // known to the log
+  State noted_;  // at the last note_events()
 };
 
 }  // namespace bbsim::model

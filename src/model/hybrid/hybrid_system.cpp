@@ -66,8 +66,8 @@ void HybridSystem::act(double t, double* z) {
 }
 
 void HybridSystem::reset(double t, double* z) {
-  // The impulse of a stop may take the command to its limit, and this the servo from its stop. The
-  // second round usually finds no change.
+  // The impulse at a stop may take the command to its limit, which may release the servo from the
+  // stop. The second round usually finds no change.
   constexpr int most_rounds = 8;
   const auto any_jumps = [&](auto&... part) { return ((part && part->reset(t, z)) || ...); };
   int round = 0;

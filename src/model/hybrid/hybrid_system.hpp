@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A run of a scene with switches: the model in its present mode, the next event, and its effect.
-// The integrator needs no other knowledge of a rig.
+// The integrator needs to know nothing else about a rig.
 //
-// Every kind of switch is a Part (part.hpp) in its own file of this folder. HybridSystem has
-// those that the scene needs, puts their guards one after another, and resets all of them together.
+// Each kind of switch is a Part (part.hpp) in a file of this folder. HybridSystem holds the parts
+// that the scene needs, concatenates their guards, and resets all of them together.
 #pragma once
 
 #include <algorithm>
@@ -27,14 +27,14 @@
 
 namespace bbsim::model {
 
-// The part of a type in a tuple of optional ones; null if there is none.
+// Part of a given type in a tuple of optional parts; null if absent.
 template <class Part, class Parts>
 [[nodiscard]] auto* part_of(Parts& parts) {
   auto& part = std::get<std::optional<Part>>(parts);
   return part ? &*part : nullptr;
 }
 
-// Calls `use` with each part that there is.
+// Calls `use` with each part that is present.
 template <class Parts, class Use>
 void for_each(Parts& parts, Use use) {
   std::apply([&](auto&... part) { ((part ? use(*part) : void()), ...); }, parts);
@@ -45,19 +45,19 @@ class HybridSystem {
   // `resolution`: the smallest velocity that the integrator distinguishes from rest, m/s.
   HybridSystem(const Model& model, double resolution);
 
-  // The model in the present mode. Only handle_time_event(), act() and handle_state_event() change
-  // its right-hand side.
+  // The model in the present mode. Only handle_time_event(), act(), handle_state_event() and
+  // follow_friction() change its right-hand side.
   [[nodiscard]] const Model& model() const { return model_.get(); }
 
-  // The next time (s) of an event that does not depend on the state; infinite if there is none.
+  // Time (s) of the next event that does not depend on the state; infinite if there is none.
   [[nodiscard]] double next_time_event() const {
     return first_of([](const auto& part) { return part.next_time(); });
   }
-  // The next of these times at which the motion may change; other events only observe it.
+  // Time (s) of the next such event that may change the motion; others only observe it.
   [[nodiscard]] double next_change() const {
     return first_of([](const auto& part) { return part.next_change(); });
   }
-  // Whether t equals next_time_event(), or next_change(), up to rounding.
+  // Whether t has reached next_time_event() or next_change(), up to rounding.
   [[nodiscard]] bool is_due(double t) const { return next_time_event() <= instant_end(t); }
   [[nodiscard]] bool changes_at(double t) const { return next_change() <= instant_end(t); }
 
@@ -66,8 +66,8 @@ class HybridSystem {
     return sampling() != nullptr ? sampling()->rounding(t) : rounding_of(t);
   }
 
-  // Handles all events due at t, the start or next_time_event(). May change the states z. Throws
-  // ControllerFault if an external controller fails.
+  // Handles all events due at t, which is the start or next_time_event(). May change the states z.
+  // Throws ControllerFault if an external controller fails.
   void handle_time_event(double t, double* z);
 
   // The steps of handle_time_event(), for integrators that compute the laws of several runs
@@ -77,7 +77,7 @@ class HybridSystem {
     return sampling() != nullptr && sampling()->samples_by(instant_end(t));
   }
   void act(double t, double* z);
-  // Of a sampled rig; otherwise null.
+  // Null unless the rig is sampled.
   [[nodiscard]] Sampling* sampling() { return part_of<Sampling>(parts_); }
   [[nodiscard]] const Sampling* sampling() const { return part_of<Sampling>(parts_); }
   // The end of the instant t, s.
@@ -87,14 +87,14 @@ class HybridSystem {
 
   // Whether the last act() or handle_time_event() may have changed the motion.
   [[nodiscard]] bool touched() const { return touched_; }
-  // Whether the servos, their stops and the limits of commands have no consistent mode. The run
-  // cannot continue then.
+  // Whether a reset found no consistent mode of servos, their stops and command limits. The run
+  // then cannot continue.
   [[nodiscard]] bool unsettled() const { return unsettled_; }
   // Whether the last act() changed only the commands that the servos follow. Call it right
   // afterwards.
   [[nodiscard]] bool only_commanded() const { return !touched_ || !servos()->chose(); }
 
-  // The guards. Each is positive until its event occurs. Those of the monitors are the last.
+  // Guards, each positive until its event occurs. Those of the monitors come last.
   [[nodiscard]] std::size_t guards() const { return first_guard_.back(); }
   [[nodiscard]] std::size_t first_monitor() const { return first_guard_[monitors_at]; }
   [[nodiscard]] const std::vector<double>& guard_scales() const { return guard_scales_; }
@@ -112,32 +112,32 @@ class HybridSystem {
     return i >= first_monitor() && part_of<Monitors>(parts_)->stops(i - first_monitor());
   }
 
-  // The servos of a rig; otherwise null. Their guards are the first of a sampled rig.
+  // The servos of a rig; otherwise null. In a sampled rig, their guards come first.
   [[nodiscard]] Servos* servos() { return part_of<Servos>(parts_); }
   [[nodiscard]] const Servos* servos() const { return part_of<Servos>(parts_); }
 
   // Handles the crossing of guard i at t. May change z.
   Effect handle_state_event(std::size_t i, double t, double* z);
 
-  // Checks for events that a jump has passed. Call it after every jump and at the start.
+  // Checks for events that a jump skipped. Call it after every jump and at the start.
   Effect check_events(double t, const double* z);
 
-  // Writes Model::extras() numbers for an output row: its part that depends on the mode.
+  // Writes the Model::extras() numbers of an output row, the part that depends on the mode.
   void write_extras(double t, const double* z, double* out) const;
 
   // The smallest velocity that the integrator distinguishes from rest, m/s.
   [[nodiscard]] double resolution() const { return resolution_; }
 
-  // A switch of the mode, or of the input: the guard that crossed, or a time event.
+  // A switch of the mode or of the input.
   struct Switch {
     double t;  // s
-    std::optional<std::size_t> guard;
+    std::optional<std::size_t> guard;  // that crossed; none for a time event
   };
-  // How many there were, without those of samples, and those of the latest instant.
+  // Number of switches, and those of the latest instant. Samples do not count.
   [[nodiscard]] std::size_t switches() const { return switches_; }
   [[nodiscard]] const std::vector<Switch>& latest_switches() const { return latest_switches_; }
 
-  // Takes what rests and what moves from another run of the scene.
+  // Copies what rests and what moves from another run of the scene.
   void follow_friction(const Modes& modes) { model::follow_friction(modes, model_.get().system); }
 
   // The events since the start. note_turned() sets the rotation of the ball in the latest ones.
@@ -156,21 +156,21 @@ class HybridSystem {
   }
 
  private:
-  // In the order of their guards, and in which they reset.
+  // The order is that of the guards and of the resets.
   using Parts =
       std::tuple<std::optional<Stops>, std::optional<Sampling>, std::optional<CommandLimits>,
                  std::optional<CurvePieces>, std::optional<Servos>, std::optional<MotorLimits>,
                  std::optional<DryFriction>, std::optional<Monitors>>;
   static constexpr std::size_t monitors_at = std::tuple_size_v<Parts> - 1;
 
-  // The least of a time of each part, s.
+  // Earliest of the times that `time` gives for the parts, s.
   template <class Time>
   [[nodiscard]] double first_of(Time time) const {
     double first = unlimited;
     for_each(parts_, [&](const auto& part) { first = std::min(first, time(part)); });
     return first;
   }
-  // Calls `use` with the part of guard i, and the guard's place in it.
+  // Calls `use` with the part that owns the guard, and the guard's index in that part.
   template <class Use>
   void with_part_of(std::size_t guard, Use use);
   void reset(double t, double* z);
@@ -180,13 +180,13 @@ class HybridSystem {
   SwitchedModel model_;
   Parts parts_;
   EventLog log_;
-  // An instant changes the motion only through commands.
+  // Time events change the motion only through commands.
   bool only_commands_change_ = false;
   bool touched_ = true, unsettled_ = false;
   double resolution_;
   std::size_t switches_ = 0;
   std::vector<Switch> latest_switches_;
-  // Of each part, and the number of guards.
+  // Index of each part's first guard; last, the number of guards.
   std::array<std::size_t, std::tuple_size_v<Parts> + 1> first_guard_{};
   std::vector<double> guard_scales_;
 };

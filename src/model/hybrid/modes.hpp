@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The present mode of a model, of all that switches.
+// The present modes of all switching parts of a model.
 #pragma once
 
 #include <array>
@@ -18,10 +18,10 @@ struct Modes {
   bool operator==(const Modes&) const = default;
 };
 
-// Of what `system` lacks, the defaults.
+// Modes that `system` lacks keep their defaults.
 [[nodiscard]] Modes modes_of(const System& system);
 
-// Takes over what rests and what moves, and which way; limits keep their own values.
+// Copies what rests and what moves, and in which direction. The modes of limits stay unchanged.
 void follow_friction(const Modes& modes, System& system);
 
 }  // namespace bbsim::model

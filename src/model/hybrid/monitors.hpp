@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The events of a run: which occurred, and the monitors that look for those that only observe the
-// motion, or end the run.
+// The events of a run: a log of those that occurred, and monitors for those that only observe the
+// motion or end the run.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,6 @@
 
 namespace bbsim::model {
 
-// The events that occurred.
 class EventLog {
  public:
   EventLog(const SwitchedModel& model, const std::optional<Sampling>& sampling)
@@ -33,8 +32,8 @@ class EventLog {
     return stops ? Effect::stop : Effect::none;
   }
 
-  // Sets the rotation of the ball in the occurrences since the last call. `integral` is that of
-  // u = r gamma' until now, m.
+  // Sets the rotation of the ball in the occurrences since the last call. `integral` is the
+  // integral of u = r gamma' from the start until now, m.
   void note_turned(double integral) {
     const Model& model = model_.get();
     for (; with_gamma_ < occurrences_.size(); ++with_gamma_) {
@@ -56,7 +55,7 @@ class Monitors : public Part {
   Monitors(const SwitchedModel& model, EventLog& log)
       : model_(model), log_(log), occurring_(of().size(), 0) {}
 
-  // One guard each. While the event holds, it has the opposite sign.
+  // One guard per monitor, with the opposite sign while the event holds.
   [[nodiscard]] std::size_t guards() const { return occurring_.size(); }
   void append_scales(std::vector<double>& scales) const {
     model_.get().events->append_scales(scales);
@@ -67,13 +66,13 @@ class Monitors : public Part {
       if (occurring_[m] != 0) values[m] = -values[m];
     }
   }
-  // Guard m crosses: its event begins or ends.
+  // Handles a crossing of guard m: its event begins or ends.
   Effect change(std::size_t m, double t, const double* z) {
     if (occurring_[m] == 0) return begin(m, t, z);
     occurring_[m] = 0;
     return Effect::none;
   }
-  // Checks for events that a jump has passed.
+  // Checks for events that a jump skipped.
   Effect check(double t, const double* z) {
     std::vector<double> values(occurring_.size());
     margins(t, z, values.data());

@@ -7,7 +7,7 @@
 
 namespace bbsim::model {
 
-// The rate at which the integral adds to the torque asked of motor i while it does not wait, N m/s.
+// Rate at which the integral adds to the torque asked of motor i while it does not wait, N m/s.
 double MotorLimits::push(std::size_t i, const GuardContext& now) const {
   const double command = parts_.integrates ? now.demands().command[i] : 0;
   return scene_.law.from_integral * (command - now.z[scene_.angle + i]);
@@ -144,7 +144,7 @@ void MotorLimits::reset_at_limits(double t, const double* z) {
     const AtLimit place = outward.at_limit(overrun ? outward.beyond_other() : outward.within());
     const bool by_voltage = range.is_by_voltage(side);
     const bool within = place == AtLimit::within && !overrun;
-    // Beyond the same value on the other side.
+    // Beyond the other limit, which has the same value.
     const bool other = place == AtLimit::within && overrun;
     motor.factor = within ? 1 : 0;
     motor.side = within ? 0 : other ? -side : side;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The limits of the motors' torques, with the integrals that wait there
+// Limits of the motors' torques, and integrals that wait at a limit
 // (docs/explanation/losses-and-torques.md).
 #pragma once
 
@@ -27,9 +27,9 @@ class MotorLimits : public Part {
   void evaluate(const GuardContext& now, double* values) const;
   // Records that the torque asked of a motor reached a limit.
   void cross(std::size_t guard);
-  // While a torque moves along its limit, its integral is not a state; the limit determines it.
+  // Sets integrals that are not states: a torque that moves along its limit determines its own.
   void leave_mode(double t, double* z);
-  // The torque asked of the motor leaves the limit.
+  // The jump takes the torque asked of the motor off its limit.
   void jump_command(std::size_t motor) {
     if (motor < 2) reached_[motor] = 0;
   }
@@ -37,8 +37,8 @@ class MotorLimits : public Part {
   void reset_at_limits(double t, const double* z);
 
  private:
-  // Of each motor: the limits by its voltage and by its torque. At a limit, the spare ones are the
-  // behavior of the integral and the change to the other kind of limit.
+  // Guards per motor: its limits by voltage and by torque. At a limit, the spare ones watch the
+  // integral and the change to the other kind of limit.
   struct Guard {
     enum : std::size_t { voltage_up, voltage_down, torque_up, torque_down, count };
   };
@@ -53,13 +53,13 @@ class MotorLimits : public Part {
     [[nodiscard]] double at(double side) const {
       return std::clamp(by_voltage(side), -torque, torque);
     }
-    // Whether the voltage's limit on a side is within the torque's.
+    // Whether the voltage limit on a side is tighter than the torque limit.
     [[nodiscard]] bool is_by_voltage(double side) const {
       return std::abs(by_voltage(side)) < torque;
     }
-    // Whether the axis turns so fast that its motor brakes with its full torque at every command,
-    // because no voltage within the limit reduces it. Both limits of the torque asked of the motor
-    // are then equal. The voltage's limit is on the side that asks for less braking.
+    // Whether the axis turns so fast that its motor brakes with full torque at every command,
+    // because no voltage within the limit reduces the braking. Both limits of the torque are then
+    // equal. The voltage limit is on the side that asks for less braking.
     [[nodiscard]] bool overruns() const { return up < -torque || down > torque; }
   };
   [[nodiscard]] Range range(std::size_t i, const double* z) const {

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The interface of all parts of a scene that switch: what HybridSystem asks of each.
+// Interface of the switching parts of a scene to HybridSystem.
 //
-// A part hides the functions that concern it. Calls are resolved when compiled, so the rest cost
-// nothing. All functions take the time t (s) and the states z.
+// A part hides the functions that it needs with its own. Calls are resolved at compile time, so the
+// others cost nothing. t is the time (s), z the states.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace bbsim::model {
 
-// What the guards of several parts need at an instant, each computed at most once.
+// Values at an instant that the guards of several parts need, each computed at most once.
 class GuardContext {
  public:
   GuardContext(const SwitchedModel& model, double time, const double* states)
@@ -32,7 +32,7 @@ class GuardContext {
     if (!rates_) rates_ = model_.command_rates(t, z);
     return *rates_;
   }
-  // Of a coupled scene.
+  // For coupled scenes only.
   [[nodiscard]] const Balance<double>& balance() const {
     if (!balance_) balance_ = model_.balance(t, z);
     return *balance_;
@@ -49,30 +49,30 @@ class GuardContext {
 enum class Effect { none, restart, stop };
 
 struct Part {
-  // The next time event, s. Then the next one that may change the motion.
+  // Time of the next time event, and of the next one that may change the motion, s.
   [[nodiscard]] static double next_time() { return unlimited; }
   [[nodiscard]] static double next_change() { return unlimited; }
-  // Handles what is due by t and does not change the motion.
+  // Handles events due by t that do not change the motion.
   static void observe(double /*t*/, const double* /*z*/) {}
 
-  // The guards, each positive until its event: how many, the scale of each, and their values.
+  // The guards, each positive until its event: their number, scales and values.
   [[nodiscard]] static std::size_t guards() { return 0; }
   static void append_scales(std::vector<double>& /*scales*/) {}
   static void evaluate(const GuardContext& /*now*/, double* /*values*/) {}
-  // A guard of this part, counted from 0, fell through zero. reset() follows.
+  // Called when a guard of this part, counted from 0, falls through zero. reset() follows.
   static void cross(std::size_t /*guard*/) {}
 
-  // A switch calls the following, in this order, for all parts each.
+  // A switch calls each of the following for all parts, in this order.
   //
   // Restores states that the present mode determines, before anything changes.
   static void leave_mode(double /*t*/, double* /*z*/) {}
-  // The command to a servo jumps.
+  // Called when the command to a servo jumps.
   static void jump_command(std::size_t /*servo*/) {}
-  // The reset map: chooses the mode from here on, and may change z. If it returns true, states
-  // jumped: all parts hear of it by after_jump(), and the first part begins again.
+  // The reset map: chooses the next mode, and may change z. Returns whether states jumped. If so,
+  // after_jump() is called for all parts, and the resets start again with the first part.
   [[nodiscard]] static bool reset(double /*t*/, double* /*z*/) { return false; }
   static void after_jump(double /*t*/, const double* /*z*/) {}
-  // Chooses how a quantity exactly at its limit continues, by its rate. The other modes are known.
+  // Chooses by its rate how a quantity exactly at its limit continues. All other modes are known.
   static void reset_at_limits(double /*t*/, const double* /*z*/) {}
 
   // Saves or restores the state (base/archive.hpp).

@@ -20,7 +20,7 @@ Sampling::Sampling(const SwitchedModel& model)
   if (loop.law.kind == LawKind::held && !loop.external) {
     throw std::logic_error("a run of a scene whose controller nobody has attached");
   }
-  // Known commands of samples before t = 0, which are on their way.
+  // Commands of samples before t = 0 that have not arrived yet.
   const SampleExchange::Numbers next = exchange_.numbers();
   for (double sample = next.command; sample < next.sample; ++sample) {
     const double t = exchange_.time_of(sample);

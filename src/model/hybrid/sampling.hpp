@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A sampled controller in a run: its sensor, its law or program, and its commands on their way.
+// A sampled controller in a run: its sensor, its law or program, and its delayed commands.
 #pragma once
 
 #include <array>
@@ -44,7 +44,7 @@ class Sampling : public Part {
   [[nodiscard]] double next_time() const { return exchange_.next(); }
   [[nodiscard]] double next_change() const { return exchange_.next_command(); }
   [[nodiscard]] double next_sample() const { return exchange_.next_sample(); }
-  // Exposes what is due by t.
+  // Takes the exposures due by t.
   void observe(double t, const double* z) {
     while (exchange_.exposes_by(t)) exchange_.expose(z[0], z[1]);
   }
@@ -52,8 +52,8 @@ class Sampling : public Part {
   [[nodiscard]] double rounding(double t) const { return exchange_.rounding(t); }
   [[nodiscard]] double instant_end(double t) const { return exchange_.instant_end(t); }
 
-  // A sample at t, whose instant ends at `end`: begin(), then end() with the command of the law. Or
-  // take(), which computes the law.
+  // A sample at t, whose instant ends at `end`: either begin(), then end() with the command of the
+  // law; or take(), which computes the law.
   [[nodiscard]] bool samples_by(double end) const { return exchange_.samples_by(end); }
   [[nodiscard]] std::optional<Pair> begin(double end) { return exchange_.begin_sample(end); }
   void end(const Pair& command, const Pair& measured) {

@@ -94,7 +94,7 @@ void Servos::kick_ball(double* z, const std::array<double, 5>& before,
                         plane.rate[1] - plane_before.rate[1]);
   });
   for (std::size_t i = 0; i < 3; ++i) z[2 + i] += kick[i];
-  // The servos apply any impulse that this takes. Its energy counts as their work.
+  // The servos apply the impulse that this takes. Its energy counts as their work.
   std::visit(
       [&](const auto& any) {
         using Any = std::decay_t<decltype(any)>;

@@ -28,7 +28,7 @@ class Servos : public Part {
   void evaluate(const GuardContext& now, double* values) const;
   [[nodiscard]] bool reset(double t, double* z);
 
-  // Takes a command to each servo. Returns whether servo i follows it, by its jump.
+  // Gives each servo its command. Returns for each whether the command that it follows jumps.
   [[nodiscard]] std::array<bool, most_servos> follow(const std::array<double, most_servos>& told);
   // Whether the last reset() may have changed a mode.
   [[nodiscard]] bool chose() const { return chose_; }

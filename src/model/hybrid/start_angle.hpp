@@ -10,11 +10,11 @@
 
 namespace bbsim::model {
 
-// Angles closer than this are equal: rounding is 1e-16 of the accelerations that cancel.
+// Angles closer than this count as equal: rounding is 1e-16 of the accelerations that cancel.
 inline constexpr double equal_angles = 1e-14;
 
-// The angle of a motion from rest that is parallel to its acceleration, rad. `turned` gives the
-// angle from a motion to its acceleration; it is `f_last` at the angle `last`.
+// Angle of a motion from rest that is parallel to its acceleration, rad; `last` if none is found.
+// turned(a) is the angle from a motion at angle a to its acceleration; turned(last) is f_last.
 template <class Turned>
 double start_angle(const Turned& turned, double last, double f_last) {
   constexpr double half_turn = std::numbers::pi;
@@ -28,7 +28,7 @@ double start_angle(const Turned& turned, double last, double f_last) {
     if (!(std::abs(next - last) < half_turn)) break;
   }
   if (std::abs(f_last) <= equal_angles || std::abs(next - last) <= equal_angles) return last;
-  // Otherwise searches the whole circle for a sign change that is not a jump by half a turn.
+  // Otherwise searches the whole circle for a sign change. A change by half a turn is a jump.
   constexpr int parts = 32;
   double from = at, f_from = turned(from);
   for (int i = 1; i <= parts; ++i) {

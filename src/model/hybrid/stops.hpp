@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The stops of the input: times at which it or a derivative of it jumps.
+// The stops of the input: times at which the input or one of its derivatives jumps.
 #pragma once
 
 #include "model/hybrid/part.hpp"

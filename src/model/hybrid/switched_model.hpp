@@ -17,7 +17,7 @@
 
 namespace bbsim::model {
 
-// The demands of law and servos.
+// Demands of the law and of the servos.
 struct Demands {
   Pair raw, command;                                       // of the law, before and after its limit
   double servo_command[most_servos], demand[most_servos];  // rad, rad/s^2
@@ -25,7 +25,7 @@ struct Demands {
 
 // The rates of the law's commands, in their unit per second.
 struct CommandRates {
-  Pair raw, shown;  // before the limit with waiting integrals; and at the motors
+  Pair raw, shown;  // before the limit, while the integrals wait; and at the motors
 };
 
 class SwitchedModel {
@@ -39,7 +39,7 @@ class SwitchedModel {
 
   [[nodiscard]] Model& get() { return model_; }
   [[nodiscard]] const Model& get() const { return model_; }
-  // Of a scene with a rig.
+  // For scenes with a rig only.
   [[nodiscard]] const Rig& rig() const { return *model_.rig; }
   [[nodiscard]] RigMode& mode() { return *mode_; }
   [[nodiscard]] const RigMode& mode() const { return *mode_; }
@@ -77,7 +77,7 @@ class SwitchedModel {
                       model_.system);
   }
 
-  // The mode of a rig, and nothing else.
+  // Saves or restores only the mode of a rig.
   template <class Archive>
   void archive(Archive& archive) {
     if (mode_ == nullptr) return;
@@ -92,15 +92,15 @@ class SwitchedModel {
   mutable std::vector<double> rates_;  // of the states
 };
 
-// The modes of contact and motors in a coupled scene, and the places of its states.
+// Modes of the contact and the motors in a coupled scene, and indices of its states.
 struct DryScene {
   ContactMode* contact;
   const CoupledBall* ball;
   MotorMode* motors = nullptr;  // null if no torques move the gimbal
   MotorLaw law{};
-  std::size_t slip = 0, angle = 0, rate = 0, integral = 0;  // of states; the motors' integrals
+  std::size_t slip = 0, angle = 0, rate = 0, integral = 0;  // integral: the motors'
 
-  // Points into `model`.
+  // The result points into `model`.
   [[nodiscard]] static DryScene of(SwitchedModel& model) {
     return std::visit(
         [](auto& any) -> DryScene {
