@@ -39,7 +39,7 @@ std::string board_folder() {
                     looked_in + "; install bbsim whole, or set BBSIM_SHARE_PATH to share/bbsim");
 }
 
-// Removed at the end, with all files in it.
+// A folder that is removed at the end, with all files in it.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -65,7 +65,7 @@ class TemporaryFolder {
   std::string path_, library_;
 };
 
-// The first compiler that runs, of $CXX or of c++ and g++.
+// $CXX or, if it is not set, the first of c++ and g++ that runs.
 class Compiler {
  public:
   Compiler() {

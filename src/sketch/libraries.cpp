@@ -21,7 +21,7 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
-// The entries of a folder, sorted, because the order of a file system is arbitrary.
+// The entries of a folder, sorted, because a file system lists them in arbitrary order.
 std::vector<fs::path> entries(const fs::path& folder) {
   std::vector<fs::path> found;
   std::error_code error;

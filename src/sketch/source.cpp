@@ -16,10 +16,10 @@ namespace {
 
 using Tokens = std::vector<Token>;
 
-// Tokens [begin, end): up to its semicolon, or to the closing brace of its body.
+// Tokens [begin, end): through its semicolon, or through the closing brace of its body.
 struct Declaration {
   std::size_t begin, end;
-  std::size_t head;  // its first brace, or its end
+  std::size_t head;  // its first brace, or else what ends it
   int conditions;    // number of #if around it
 };
 
@@ -78,7 +78,7 @@ std::optional<Function> function_of(const Tokens& tokens, const Declaration& one
     if (tokens[open].is(")")) ++depth;
     if (tokens[open].is("(") && --depth == 0) break;
   }
-  if (open < one.begin + 2) return {};  // has no type
+  if (open < one.begin + 2) return {};  // has no return type
   for (std::size_t i = one.begin; i < open; ++i) {
     if (std::ranges::find(others, tokens[i].text) != std::end(others)) return {};
   }
@@ -127,7 +127,7 @@ std::string line_directive(std::size_t line, std::string_view file) {
   return text + "\"\n";
 }
 
-// The files as one text, with the place of each line.
+// The files as one text. place() gives the file and line of an offset.
 class Joined {
  public:
   explicit Joined(const std::vector<SketchFile>& files) : files_(files) {

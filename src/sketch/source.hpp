@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Makes one C++ source of the files of a sketch, as the Arduino IDE does.
+// Joins the files of a sketch into one C++ source, as the Arduino IDE does.
 #pragma once
 
 #include <string>
@@ -14,12 +14,12 @@ struct SketchFile {
   std::string text;
 };
 
-// Joins the files in their order, below #include <Arduino.h>. A function that is used above its
+// Joins the files in order, below #include <Arduino.h>. A function that is used above its
 // definition gets a prototype directly above the declaration that uses it first, where its types
-// are known. The compiler's messages name the files' own lines (#line).
+// are known. #line directives let the compiler's messages name the lines of the files.
 [[nodiscard]] std::string joined(const std::vector<SketchFile>& files);
 
-// The names between <> or "" of all #include in the text.
+// The names between <> or "" of all #include directives in the text.
 [[nodiscard]] std::vector<std::string> includes_of(const std::string& text);
 
 }  // namespace bbsim::sketch

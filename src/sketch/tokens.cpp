@@ -68,12 +68,12 @@ class Scanner {
   [[nodiscard]] bool next_is(std::string_view what) const {
     return source_.substr(at_).starts_with(what);
   }
-  // Behind the next `what`, or the end of the text.
+  // The offset after the next `what`, or the end of the text.
   [[nodiscard]] std::size_t after(std::string_view what, std::size_t from) const {
     const std::size_t found = source_.find(what, from);
     return found == std::string_view::npos ? source_.size() : found + what.size();
   }
-  // The end of the line, with the lines that a backslash joins to it.
+  // The end of the line, including the lines that a backslash joins to it.
   [[nodiscard]] std::size_t end_of_line(std::size_t from) const {
     while (true) {
       const std::size_t end = std::min(source_.find('\n', from), source_.size());
@@ -82,7 +82,7 @@ class Scanner {
       from = end + 1;
     }
   }
-  // A comment of several lines may begin in a directive.
+  // A comment that begins in a directive may span several lines.
   [[nodiscard]] std::size_t end_of_directive() const {
     std::size_t end = end_of_line(at_);
     for (std::size_t from = at_; (from = source_.find("/*", from)) < end;) {
@@ -91,7 +91,7 @@ class Scanner {
     }
     return end;
   }
-  // Numbers have points and, between digits, apostrophes.
+  // Numbers may contain points and, between digits, apostrophes.
   [[nodiscard]] std::size_t end_of_word(std::size_t from, bool number) const {
     while (from < source_.size() && (begins_name(source_[from]) || is_digit(source_[from]) ||
                                      (number && (source_[from] == '.' || source_[from] == '\'')))) {

@@ -18,8 +18,8 @@ struct Token {
   [[nodiscard]] bool is(std::string_view what) const { return text == what; }
 };
 
-// The source must outlive the tokens. A number or a string is one token; so is each other
-// character, but for "::" and "->".
+// The source must outlive the tokens. A name, number, string, directive, "::" or "->" is one
+// token, and so is every other character.
 [[nodiscard]] std::vector<Token> tokens_of(std::string_view source);
 
 }  // namespace bbsim::sketch

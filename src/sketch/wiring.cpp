@@ -24,7 +24,7 @@ using yaml::Number;
 
 constexpr double degree = 3.14159265358979323846 / 180;
 
-// The values read. Pointers of `c` are not set yet.
+// The values read. The pointers in `c` are not set yet.
 struct Read {
   bbsim_wiring c{};
   std::string frame, lost;
@@ -36,7 +36,7 @@ struct Read {
   bool has_size = false;
 };
 
-// The pulse that Servo.h gives for 90 degrees, and its degrees per pulse.
+// Servo.h's pulse for 90 degrees, in s, and its angle per duration of the pulse, in rad/s.
 constexpr bbsim_wired_servo usual_servo{-1, -1, 1472e-6, 180 * degree / 1856e-6};
 
 bbsim_wiring by_default() {
@@ -100,7 +100,7 @@ void read_servos(Keys& keys, Read& read) {
   keys.optional("oscillator", Number{Dimension::number, {.above = 0}, "25e6"}, read.c.oscillator);
 }
 
-// The screen's pins, by the names of its electrodes.
+// Reads the screen's pins by the names of its electrodes. Returns whether the key is given.
 template <std::size_t count>
 bool read_pins(Keys& keys, const char* key, const std::string_view (&names)[count],
                bbsim_screen_kind kind, bbsim_wired_screen& screen) {
@@ -177,7 +177,7 @@ void read_eeprom(Keys& keys, Read& read) {
 
 void read_costs(Keys& keys, bbsim_call_costs& costs) {
   const Number time{Dimension::time, {.at_least = 0, .at_most = 1}, "\"100 us\""};
-  // Above 0: time must pass for a sketch that only asks for it.
+  // Above 0, so that time passes for a sketch that only asks for the time.
   const Number some{Dimension::time, {.at_least = 1e-7, .at_most = 1}, "\"2 us\""};
   keys.optional("clock", some, costs.clock);
   keys.optional("digital", time, costs.digital);
@@ -245,7 +245,7 @@ Wiring::Wiring(const std::string& file) : files_{file} {
     eeprom_ = file::read_whole(files_.back(), {}, most);
     if (!read.has_size) read.eeprom_size = std::max(static_cast<int>(eeprom_.size()), 1);
   }
-  eeprom_.resize(static_cast<std::size_t>(read.eeprom_size), '\xFF');  // as a new chip
+  eeprom_.resize(static_cast<std::size_t>(read.eeprom_size), '\xFF');  // as in a new chip
   c_ = read.c;
   c_.camera.frame = frame_.c_str();
   c_.camera.lost = lost_.c_str();

@@ -19,8 +19,7 @@ class CommandLimits : public Part {
   void evaluate(const GuardContext& now, double* values) const;
   // Records the limit that a command reached.
   void cross(std::size_t guard);
-  // Sets integral parts that are not states: while a command moves along its limit, the limit
-  // determines its integral part.
+  // Sets the integral parts of commands that move along a limit: the limit determines them.
   void leave_mode(double t, double* z);
   // Determines whether each command is at its limit, and whether its integral part waits.
   [[nodiscard]] bool reset(double t, double* z);

@@ -130,7 +130,7 @@ class HybridSystem {
 
   // A switch of the mode or of the input.
   struct Switch {
-    double t;  // s
+    double t;                          // s
     std::optional<std::size_t> guard;  // that crossed; none for a time event
   };
   // Number of switches, and those of the latest instant. Samples do not count.

@@ -27,7 +27,7 @@ class MotorLimits : public Part {
   void evaluate(const GuardContext& now, double* values) const;
   // Records that the torque asked of a motor reached a limit.
   void cross(std::size_t guard);
-  // Sets integrals that are not states: a torque that moves along its limit determines its own.
+  // Sets the integrals of torques that move along a limit: the limit determines them.
   void leave_mode(double t, double* z);
   // The jump takes the torque asked of the motor off its limit.
   void jump_command(std::size_t motor) {

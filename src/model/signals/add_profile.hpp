@@ -11,8 +11,8 @@
 
 namespace bbsim::model {
 
-// Gives a profile's constants, sinusoids and ramps to add_constant(component, ...) and its like of
-// `to`, and all other terms, which lanes share (SharedTerms), to add_shared(part).
+// Adds a profile's constants, sinusoids and ramps to `to`, with add_constant(component, ...) and so
+// on. Passes all other terms, which lanes share (SharedTerms), to add_shared(part).
 template <class Signals, class Component, class AddShared>
 void add_profile(const Profile& profile, Component component, Signals& to, AddShared add_shared) {
   for (const ProfileTerm& term : profile) {

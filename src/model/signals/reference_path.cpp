@@ -16,8 +16,8 @@ namespace {
 
 constexpr double quarter_turn = std::numbers::pi / 2;  // a cosine is a sine with this phase
 
-// Holds values[i + 1] from jumps[i] on. A jump to the same value is none, and a jump at the end of
-// the run has no time to act.
+// Holds values[i + 1] from jumps[i] on. Drops jumps to the same value, and jumps at the end of the
+// run, which have no time to act.
 void add_steps(SignalPair& path, std::size_t component, const std::vector<double>& values,
                const std::vector<double>& jumps, double end) {
   std::vector<double> held{values.front()}, times;
@@ -95,7 +95,7 @@ struct Path {
       const double high = square.centre[i] + square.amplitude[i];
       const double low = square.centre[i] - square.amplitude[i];
       const double shift = square.phase[i] / (2 * std::numbers::pi);  // in periods
-      // Jumps up at (k - shift) periods, and down after `duty` of the period.
+      // Jumps up at (k - shift) periods, and down `duty` periods later.
       const double first = std::floor(shift) - 1;
       std::vector<double> values{low}, jumps;
       for (std::size_t n = 0; jumps.size() < most_jumps + 4; ++n) {

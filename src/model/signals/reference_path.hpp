@@ -9,8 +9,8 @@
 
 namespace bbsim::model {
 
-// x and y (m) of the reference at time t (s), with their derivatives, for a run to t = `end`,
-// with the jumps before the end; of a square wave no more than most_jumps.
+// x and y (m), or phi and theta (rad), of the reference as functions of time (s) for a run until
+// `end`, with the jumps before the end. A square wave jumps at most most_jumps times in a run.
 [[nodiscard]] SignalPair reference_path(const Reference& reference, double end);
 
 }  // namespace bbsim::model

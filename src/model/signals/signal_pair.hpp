@@ -15,7 +15,7 @@
 namespace bbsim::model {
 
 // A sinusoid in both components: sine[i] sin(frequency t) + cosine[i] cos(frequency t). Here and
-// below, Scalar is double, or a pack with other signals in each lane.
+// below, Scalar is double, or a pack with one signal per lane.
 template <class Scalar>
 struct BasicHarmonic {
   Scalar frequency;  // rad/s
@@ -29,12 +29,12 @@ struct Tabulated {
   SplineView spline;
 };
 
-// The terms beside constants, ramps and sinusoids, which all lanes of a group share: splines. A
-// term with a formula of its own, which is neither a sum of sinusoids nor a spline, belongs here.
+// Terms other than constants, ramps and sinusoids, which all lanes of a group share. So far these
+// are splines; a term with another formula belongs here, too.
 struct SharedTerms {
   const Tabulated* tables = nullptr;
   std::size_t table_count = 0;
-  double highest_frequency = 0;  // of formulas, rad/s; at knots of splines, integrators stop
+  double highest_frequency = 0;  // of other formulas, rad/s; integrators stop at splines' knots
 
   [[nodiscard]] bool any() const { return table_count > 0; }
 
@@ -88,9 +88,9 @@ using SignalView = BasicSignalView<double>;
 
 // A sum of constants, ramps, sinusoids and splines in each of two components.
 //
-// A sine costs more than the rest of the right-hand side. Sinusoids of the same frequency, in
-// either component and of any phase, therefore share one: a sin(wt + p) = a cos p sin wt + a sin p
-// cos wt.
+// A sine costs more than the rest of the right-hand side. Sinusoids of one frequency therefore
+// share it, in either component and with any phase:
+// a sin(wt + p) = a cos p sin wt + a sin p cos wt.
 class SignalPair {
  public:
   void add_constant(std::size_t component, double value) { start_[component] += value; }
@@ -104,15 +104,15 @@ class SignalPair {
 
   // Times at which a derivative or a value jumps: the knots of the splines, sorted.
   [[nodiscard]] std::vector<double> knots() const;
-  // Those of them at which a value jumps.
+  // The knots at which a value jumps.
   [[nodiscard]] std::vector<double> jumps() const;
 
-  // The highest frequency of a sinusoid or a formula, rad/s; 0 without them.
+  // The highest frequency of a sinusoid or another formula, rad/s; 0 if there are none.
   [[nodiscard]] double highest_frequency() const;
 
-  // A bound on how fast sines of the components vary between two times without a knot in between,
-  // rad/s. It adds the bandwidth of the fastest sinusoid to the rates of the angles: cos(phi)
-  // cos(theta) is the mean of cos(phi + theta) and cos(phi - theta).
+  // Bound on the bandwidth of sines of the components between two times with no knot between them,
+  // rad/s. It is the bandwidth of the fastest sinusoid plus the rates of both components, because
+  // cos(phi) cos(theta) is the mean of cos(phi + theta) and cos(phi - theta).
   [[nodiscard]] double bandwidth(double from, double to) const;
 
   // Both components at time t (s).
@@ -121,7 +121,7 @@ class SignalPair {
     return view().at(t);
   }
 
-  // Valid until this pair changes or ends.
+  // The view is valid until this pair changes or is destroyed.
   [[nodiscard]] SignalView view() const {
     return {{start_[0], start_[1]},
             {rate_[0], rate_[1]},

@@ -19,10 +19,10 @@ struct Jet {
   Real value, rate, acceleration;
 };
 
-// A polynomial. Scalar is double, or a pack with another polynomial in each lane.
+// A polynomial. Scalar is double, or a pack with one polynomial per lane.
 template <class Scalar>
 struct SplinePiece {
-  // Of powers of t - start.
+  // start, and the coefficients of powers of t - start.
   Scalar start, c0, c1 = 0, c2 = 0, c3 = 0, c4 = 0, c5 = 0;
 
   template <class Time>
@@ -59,14 +59,14 @@ struct SplineView {
   }
 };
 
-// Pieces of degree 0, 3 or 5 between knots. The highest derivative jumps at the knots; of degree 0,
-// the value.
+// Pieces of degree 0, 3 or 5 between knots. At a knot, a derivative jumps; for degree 0, the value
+// itself.
 class Spline {
  public:
   // Cubic spline with not-a-knot ends (de Boor, A Practical Guide to Splines, IV). It reproduces
   // cubics, and its second derivative, the gimbal's acceleration, is continuous. Needs strictly
-  // increasing `times`, as many `values`, and at least four of them that are finite. Between a
-  // first time of -infinity and a last one of infinity, it holds the values of the other ends.
+  // increasing `times`, as many `values`, and at least four finite times. If the first and last
+  // times are -infinity and infinity, it holds the end values of the finite times beyond them.
   Spline(const std::vector<double>& times, const std::vector<double>& values);
 
   // Cubic spline that starts and ends at rest and holds the end values outside the knots. Its
@@ -82,8 +82,8 @@ class Spline {
                                                const std::vector<double>& values);
 
   // Holds values[i + 1] from times[i] on, and the first value before. At an instant that differs
-  // from a time by rounding only, it has jumped. Needs at least one time, strictly increasing
-  // `times`, and one more of `values`.
+  // from a time only by rounding, the value has jumped. Needs strictly increasing `times`, at
+  // least one, and one more value than times.
   [[nodiscard]] static Spline held_between_knots(std::vector<double> times,
                                                  const std::vector<double>& values);
 
@@ -92,10 +92,10 @@ class Spline {
     return view().at(t);
   }
 
-  // Valid while this spline or a copy exists.
+  // The view is valid while this spline or a copy exists.
   [[nodiscard]] SplineView view() const { return {pieces_->data(), pieces_->size()}; }
 
-  // The times at which the highest derivative jumps.
+  // The times at which a derivative or the value jumps.
   [[nodiscard]] const std::vector<double>& knots() const { return times_; }
   // Whether the value jumps at the knots.
   [[nodiscard]] bool jumps() const { return jumps_; }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The exact Jacobian of any system, in one source file: its instantiation for all systems takes the
-// compiler longer than all its callers.
+// The exact Jacobian of any system, in one source file, because its instantiation for all systems
+// takes longer to compile than all its callers.
 #pragma once
 
 #include "model/systems/list.hpp"

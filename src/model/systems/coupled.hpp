@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Systems for scenes with couples on the ball, sliding, pushes, linkages, or a gimbal moved by
-// torques (docs/explanation/losses-and-torques.md). Each has all states of its kind; unused states
-// stay zero.
+// torques (docs/explanation/losses-and-torques.md). Each system has all states of its kind; unused
+// states stay zero.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +41,7 @@ struct Balance {
   Real acceleration[most_servos];  // of the axes or servos, rad/s^2
   Answer<Real> answer;
   Real p[2], slip[2];           // velocities, m/s
-  Real asked[2], given[2];      // motor torques, N m; those for the motion if prescribed
+  Real asked[2], given[2];      // motor torques, N m; for prescribed motion, those that it takes
   Real needed[2];               // torque that friction must supply to hold each axis, N m
   Real lost_power, work_power;  // W
 };
@@ -114,7 +114,7 @@ void put_rates(const Balance<Real>& now, const Real* z, Real* dz) {
   dz[Layout::work] = now.work_power;
 }
 
-// The inputs with a push on the ball: the gimbal's inputs, and the push, N.
+// The gimbal's inputs, and the push on the ball, N.
 template <class Time>
 struct PushedInputs {
   std::array<Jet<Time>, 2> of;
@@ -295,8 +295,8 @@ enum class GimbalBy {
   given_torques  // prescribed motor torques
 };
 
-// A coupled scene whose gimbal is moved by a controller or by torques. The variants with a Link
-// have both a linkage and a push.
+// A coupled scene whose gimbal is moved by a controller or by torques. Variants with a linkage also
+// have a push.
 template <class Signals = SignalPair, class Link = Direct>
 class CoupledLoop {
  public:
@@ -328,7 +328,7 @@ class CoupledLoop {
   GimbalBy by;
   MotorLaw motor;
   MotorMode motors[2]{};
-  RigLoop<true, Signals, Link> loop;  // the law and the servos; prescribed torques as its reference
+  RigLoop<true, Signals, Link> loop;  // law and servos; its reference holds prescribed torques
   [[no_unique_address]] PushOf<Signals> push;
 
   template <class Time>
@@ -380,7 +380,7 @@ class CoupledLoop {
     return balance(in, z, command);
   }
 
-  // The inertia H of (M47) that the motors feel in the present mode, kg m^2.
+  // The inertia matrix H of (M47) that the motors feel in the present mode, kg m^2.
   [[nodiscard]] std::array<std::array<double, 2>, 2> inertia(const double* z) const {
     const double none[servos] = {};
     Axis<double> axes[2];
@@ -408,7 +408,7 @@ class CoupledLoop {
     }
     extras.motion = coupled_motion(now, parts, z[Layout::lost], z[Layout::work]);
     for (int i = 0; i < 2; ++i) {
-      // A torque that moves along a limit equals the limit; its integral is not a state meanwhile.
+      // A torque that moves along a limit equals the limit. Its integral is then not a state.
       if (motors[i].along != 0) extras.motion.asked[i] = now.given[i];
     }
     return extras;
@@ -445,7 +445,7 @@ class CoupledLoop {
     }
   }
 
-  // The columns of H: the moments for the acceleration of one axis alone.
+  // The columns of H: the moments for a unit acceleration of one axis alone.
   template <class Real, class Ball, class Put>
   void felt(const PlaneMotion<Real>& plane, const Ball& ball, const Directions<Real>& along,
             const Put& put) const {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The data of a rig beside its right-hand side: switches and sampling.
+// The data of a rig that its right-hand side does not hold: switches and sampling.
 #pragma once
 
 #include <limits>
@@ -25,9 +25,9 @@ struct SampledLoop {
   ControlLaw law;         // computed at each sample; `held` for an external controller
   CommandRange limit[2];  // phi, theta: limits of the law's commands
   Between between;        // converts commands for the servos
-  bool legs = false;      // commands are angles of three servos: nothing converts them
-  // With a held law: the external controller (control/external_controller.hpp), which the caller
-  // must attach before a run; and the names of the columns that it returns.
+  bool legs = false;      // commands are angles of three servos and need no conversion
+  // For a held law: the external controller (control/external_controller.hpp), which the caller
+  // must attach before a run, and the names of the columns that it returns.
   std::shared_ptr<ExternalController> external{};
   std::vector<std::string> own_columns{};
 };
@@ -49,7 +49,7 @@ struct RigServo {
 
 // The deviations of the servos and the controller of a closed loop from ideal ones.
 struct Rig {
-  int servos = 2;  // of phi and theta; or three
+  int servos = 2;  // for phi and theta, or three
   RigServo servo[most_servos];
   // Limits of a continuous law's command; for gravity compensation, of the command's sine.
   CommandRange command_limit[2];

@@ -25,7 +25,7 @@ inline constexpr int most_servos = 3;
 struct AxisMode {
   // Servo acceleration = demand_factor * demand + set_acceleration, rad/s^2.
   double demand_factor = 1, set_acceleration = 0;
-  // Angle of the plane, or of the horn that moves it = ratio * servo angle + offset, rad.
+  // Angle of the plane, or of the horn that moves it: ratio * servo angle + offset, rad.
   double ratio = 1, offset = 0;
   // Limited command = command_factor * command + set_command.
   double command_factor = 1, set_command = 0;
@@ -48,14 +48,13 @@ struct RigMode {
 struct ServoResponse {
   double from_command = 1, from_angle = 0, from_rate = 0;
 
-  // One that comes to rest at the same angle. A servo without stiffness, which takes its rate from
-  // its command, rests at that command.
+  // A response that comes to rest at the same angle. A servo without stiffness sets its rate from
+  // its command and rests at the command.
   [[nodiscard]] ServoResponse at_rest() const {
     return {from_angle > 0 ? from_command / from_angle : 1, 1, 0};
   }
 };
 
-// The responses of all servos.
 struct ServoResponses {
   ServoResponse of[most_servos];
 
@@ -80,7 +79,7 @@ struct ServoLayout : BallLayout<Shape::full> {
 using RigLayout = ServoLayout<2>;
 
 // The part of an output row that depends on the mode: the plane's motion (phi, theta), the
-// commands, and the last measurement of the ball of a sampled loop.
+// commands, and in a sampled loop the last measurement of the ball.
 struct RigExtras {
   double angle[2], rate[2], acceleration[2], command[2], measured[2];
 
@@ -214,7 +213,7 @@ class RigLoop {
     }
   }
 
-  // The plane's axes for these servo accelerations, rad/s^2.
+  // Computes the plane's axes from the servos' accelerations, rad/s^2.
   template <class Real>
   void planes(const Real* z, const Real (&acceleration)[servos], Axis<Real> (&axis)[2]) const {
     if constexpr (Link::direct) {
@@ -278,7 +277,7 @@ class RigLoop {
     return extras;
   }
 
-  // The plane's motion for these servo accelerations.
+  // Computes the plane's motion from the servos' accelerations.
   void fill(const double* z, const double (&acceleration)[servos], RigExtras& extras) const {
     if constexpr (Link::direct) {
       for (int i = 0; i < 2; ++i) {
@@ -300,7 +299,7 @@ class RigLoop {
     }
   }
 
-  // The command of an axis: its servo's; with three servos, the plane's.
+  // The command to report for an axis: its servo's or, with three servos, the plane's.
   template <class Real>
   [[nodiscard]] Real shown(const Axes<Real>& loop, int i) const {
     if constexpr (servos == 2) {
@@ -342,7 +341,7 @@ class RigLoop {
   [[nodiscard]] double gravity() const { return g_; }
 
  private:
-  // The ball's accelerations without gimbal acceleration, and their derivatives by it.
+  // The ball's accelerations at zero gimbal acceleration, and their derivatives with respect to it.
   template <class Real>
   struct Inertial {
     GeneralRolling::Rates<Real> rest;
@@ -401,7 +400,7 @@ class RigLoop {
     return state;
   }
 
-  // Solves (27) for (phi'', theta'') by Cramer's rule: (M30).
+  // Solves (M18) and (M19) for (phi'', theta'') by Cramer's rule: (M30).
   template <class Time, class Real>
   [[nodiscard]] Command<Real> linearize(const std::array<Jet<Time>, 2>& reference,
                                         const Real* z) const {

@@ -8,10 +8,10 @@
 //     derivative(t, z, dz)          z' = f(t, z), for any number types of time and state
 //     inputs(t)                     the part of f that depends only on time
 //     derivative_of(inputs, z, dz)  the rest: f(t, z) = derivative_of(inputs(t), z)
-//     motions                       which states are velocities, and of which other states
+//     motions                       which states are the velocities of which other states
 //     view()                        the system in plain memory, for code of one instruction set
 //     sample(t, z, detail)          the instant in the paper's symbols
-// A system knows nothing of its integrator. assemble() chooses the system of a scene.
+// A system does not depend on its integrator. assemble() chooses the system of a scene.
 #pragma once
 
 #include <array>
@@ -26,17 +26,17 @@
 
 namespace bbsim::model {
 
-// The freedom of the ball: anywhere on the plane, or along one axis, where symmetry keeps the other
+// The freedom of the ball: anywhere on the plane, or along one axis if symmetry keeps the other
 // coordinate, the spin and the other gimbal angle at zero.
 enum class Shape { full, along_x, along_y };
 
-// A velocity among the states, and the state whose rate it is; -1 if that is not a state.
+// Indices of a velocity among the states and of its position; -1 if the position is not a state.
 struct Motion {
   int position, velocity;
 };
 
-// All velocities of a system, those with a position first. Velocities and positions are the whole
-// state.
+// All velocities of a system, those with a position first. Together with their positions, they are
+// the whole state.
 template <int velocities>
 struct Motions {
   static constexpr int count = velocities;
@@ -62,7 +62,7 @@ struct Equation27 {
   }
 };
 
-// Packs the ball's fields into a solver's vector, and back.
+// Converts between a solver's state vector and the ball's fields.
 template <Shape shape>
 struct BallLayout;
 
@@ -142,7 +142,7 @@ template <Shape shape, class Ball>
   return {ball.x, ball.y, ball.x_dot, ball.y_dot, static_cast<double>(ball.u) / r};
 }
 
-// The gimbal has a prescribed motion: its angles are functions of time, not states.
+// The motion of the gimbal is prescribed: its angles are functions of time, not states.
 template <Shape shape, class Signals = SignalPair, class Equation = Equation27>
 class OpenLoop {
  public:
@@ -305,9 +305,9 @@ class ClosedLoop {
     put_axes(phi, theta, angles, dz);
   }
 
-  // The same, except that the ball's accelerations use `turning`, the axes' accelerations
-  // (rad/s^2), in place of the servos' own. For integrators with these accelerations as unknowns: a
-  // stiff servo's acceleration at a state is a difference of large numbers.
+  // The same, except that the ball's accelerations use `turning`, the accelerations of the axes
+  // (rad/s^2), instead of the servos' own. For integrators in which these are unknowns: computed
+  // from a state, a stiff servo's acceleration is a difference of large numbers.
   template <class Time, class Real>
   void derivative_of(const std::array<Jet<Time>, 2>& reference, const Real* z, const Real* turning,
                      Real* dz) const {

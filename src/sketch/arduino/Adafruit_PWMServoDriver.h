@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Adafruit_PWMServoDriver.h: a PCA9685 that makes the pulses of servos.
+// Adafruit_PWMServoDriver.h: a PCA9685, which generates the pulses for servos.
 #pragma once
 
 #include "Wire.h"
@@ -29,5 +29,5 @@ class Adafruit_PWMServoDriver {
  private:
   uint8_t address_;
   uint8_t prescale_ = 30;
-  double oscillator_ = 25e6;  // Hz, as the sketch believes
+  double oscillator_ = 25e6;  // Hz, as the sketch assumes
 };

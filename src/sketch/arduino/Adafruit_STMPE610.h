@@ -41,6 +41,6 @@ class Adafruit_STMPE610 {
   void access(int registers) const;
   void require_chip() const;
   bool over_wire_ = false;
-  long long read_ = 0;  // up to when points were read, ns
+  long long read_ = 0;  // points up to this time have been read, ns
   TS_Point last_;
 };

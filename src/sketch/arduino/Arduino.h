@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Arduino.h for a board within bbsim (docs/how-to/arduino.md): pins are numbered as on a Mega, int
-// has 32 bits and double 64.
+// Arduino.h for bbsim's board (docs/how-to/arduino.md): pins are numbered as on a Mega, int has 32
+// bits and double has 64.
 #pragma once
 
 #include <ctype.h>
@@ -19,7 +19,7 @@
 
 #include "bbsim_board.h"
 
-// The C library of boards lacks these names, and sketches use them for their own variables.
+// The C library of boards lacks most of these names, and sketches use them for variables.
 #define y0 sketch_y0
 #define y1 sketch_y1
 #define yn sketch_yn

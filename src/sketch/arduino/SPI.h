@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The SPI bus. The parts of the wiring have headers of their own that use it.
+// The SPI bus. Parts of the wiring that use it have their own headers.
 #pragma once
 
 #include "Arduino.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// String, over std::string.
+// String, built on std::string.
 #pragma once
 
 #include <stdio.h>

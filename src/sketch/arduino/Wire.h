@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The I2C bus. The parts of the wiring have headers of their own that use it. Nothing answers other
-// bytes.
+// The I2C bus. Parts of the wiring that use it have their own headers; nothing else answers.
 #pragma once
 
 #include "Arduino.h"

@@ -20,7 +20,7 @@ inline constexpr bool never = false;
 
 }  // namespace bbsim_board
 
-// A function that the board lacks. A call is an error of the compiler, with this hint.
+// Declares a function that the board lacks. A call does not compile, and the error gives the hint.
 #define BBSIM_LACKS(name, hint)                                      \
   template <class... Arguments>                                      \
   int name(Arguments&&...) {                                         \

@@ -21,7 +21,7 @@ inline Nanoseconds nanoseconds(double seconds) {
 constexpr int pins = 70;  // as on a Mega: A0 is pin 54
 constexpr int first_analog = 54;
 
-// The duration of calls.
+// The durations of calls.
 struct Costs {
   Nanoseconds clock, digital, analog, servo, serial, wire, spi, eeprom_write, loop;
 };
@@ -57,7 +57,7 @@ struct Functions {
   void (*end)();
 };
 extern const Functions functions;
-constexpr int patience = 5;  // most processor time of a step, s
+constexpr int patience = 5;  // limit of processor time for a step, s
 
 // screen.cpp: the level (0 to 1) of a pin of the screen. Returns false for other pins.
 bool screen_reads(int pin, double& level);
@@ -68,13 +68,13 @@ enum class Drive { none, pull_up, low, high };
 Drive drive_of(int pin);
 const char* pin_name(int pin);
 
-// core.cpp: the time of a transaction of this many bytes on a bus, without its address.
+// core.cpp: spends the time of a bus transaction. `bytes` does not count the bus address.
 void over_wire(int bytes);
 void over_spi(int bytes);
 
-// serial.cpp: sends the camera's frames up to the present sample.
+// serial.cpp: sends the camera's frames up to now.
 void send_frames();
-// The last number that was printed after `name` and a colon.
+// column(i) is the last number that was printed after names[i] and a colon.
 void watch_columns(const char* const* names, size_t count);
 double column(size_t index);
 

@@ -14,7 +14,7 @@ Nanoseconds switched_on_before = 0;  // time of t = 0 on the board's clock
 double period = 0;                   // s
 size_t column_count = 0;
 
-// The data that board.wiring points to. They end with the copy of the library.
+// The data that board.wiring points to. They live as long as this copy of the library.
 std::vector<bbsim_wired_input> inputs;
 std::vector<int32_t> ignored;
 std::vector<unsigned char> eeprom;
@@ -92,7 +92,7 @@ int step(const bbsim_sample* sample, double* command, double* columns) {
     if (board.now < board.horizon) run_sketch();
   }
   if (board.said[0] != '\0') return 1;
-  // A third one only where there is room for it.
+  // `command` has room for a third number only if three servos are wired.
   for (int i = 0; i < (is_wired(board.wiring.servos[2]) ? 3 : 2); ++i) {
     command[i] = board.command[i];
   }

@@ -65,7 +65,7 @@ pthread_key_t key() {
   return made;
 }
 
-// Stops a sketch in an endless loop, such as while (1);, by the processor time of a step.
+// Sets up a limit on the processor time of a step, to stop endless loops such as while (1);.
 void watch(Thread& thread) {
   struct sigaction action {};
   action.sa_flags = SA_RESTART;

@@ -10,7 +10,7 @@ namespace {
 
 struct Pin {
   bool output;
-  bool high;  // of an input: has its pull-up
+  bool high;  // for an input: its pull-up is on
 } state[pins];
 
 int analog_bits = 10;
@@ -84,7 +84,7 @@ int analogRead(int number) {
   }
   const double most = static_cast<double>((1L << analog_bits) - 1);
   const double counts = level_of(number, "analogRead") * most;
-  spend(board.costs.analog);  // the converter samples at its start
+  spend(board.costs.analog);  // the converter samples before it converts
   return static_cast<int>(lround(counts < 0 ? 0 : counts > most ? most : counts));
 }
 

@@ -124,7 +124,7 @@ bool screen_reads(int pin, double& level) {
 
 using namespace bbsim_board;
 
-// A register takes a byte for its address, and one or two for its value.
+// Reading a register takes a byte for its address, and one or two for its value.
 void Adafruit_STMPE610::access(int registers) const {
   for (int i = 0; i < registers; ++i) {
     if (!over_wire_) {

@@ -35,8 +35,8 @@ void read_numbers(const char* line) {
   }
 }
 
-// One call, so that the lines of threads do not mix. Control characters are replaced, because a
-// terminal would obey them.
+// Writes with one call, so that lines of different threads do not mix. Replaces control characters,
+// which a terminal would obey.
 void say(const char* line) {
   char text[4 * 256 + 16];
   int used = snprintf(text, sizeof text, "controller: ");
@@ -51,7 +51,7 @@ void say(const char* line) {
   static_cast<void>(written);
 }
 
-// Bytes that are being sent to the board, with their times of arrival.
+// Bytes that have been sent to the board, with their times of arrival.
 struct Byte {
   Nanoseconds arrives;
   char value;
@@ -141,7 +141,7 @@ void HardwareSerial::end() {
   begun_ = false;
 }
 
-// Bytes that have arrived go into the buffer. Bytes that do not fit are lost.
+// Moves bytes that have arrived into the buffer. Bytes that do not fit are lost.
 void HardwareSerial::receive() {
   if (camera_port() != this) return;
   send_frames();
@@ -174,7 +174,7 @@ int HardwareSerial::read() {
   return letter;
 }
 
-// Output is written a line at a time.
+// Handles output one line at a time.
 void HardwareSerial::add_to_line(char c) {
   if (c == '\n' || line_length_ == static_cast<int>(sizeof line_) - 1) {
     line_[line_length_] = '\0';
