@@ -102,7 +102,7 @@ struct Instant {
   const GimbalState& gimbal;
   const BallMotion& ball;
   Vector3d push;                 // on the ball's center, N
-  const CoupledMotion* coupled;  // null if the ball rolls without losses
+  const CoupledMotion* coupled;  // null unless the scene is coupled
   Axis<double> phi, theta;
   MovingPlane<double> plane;
   Vector3d theta_axis, phi_axis, up;   // up: the upward vertical

@@ -39,7 +39,7 @@ struct Dynamics {
   double plate_torque_theta = 0;                    // N m
   double gimbal_energy = 0;           // of plate, ring and rotors, kinetic and potential, J
   double push_power = 0;              // of the push on the ball, W
-  CoupledMotion coupled{};            // all 0 without losses and sliding
+  CoupledMotion coupled{};            // set only in coupled scenes
   Pair current{0, 0}, voltage{0, 0};  // of the motors, A and V
   [[nodiscard]] double energy() const { return kinetic_energy + potential_energy; }
   [[nodiscard]] double normal_force() const { return force.z(); }

@@ -21,7 +21,7 @@ class EventLog {
   EventLog(const SwitchedModel& model, const std::optional<Sampling>& sampling)
       : model_(model), sampling_(sampling) {}
 
-  // Notes an event at t with states z.
+  // Logs an event at t with states z.
   Effect note(std::string name, OnEvent action, double t, const double* z) {
     Sample now = model_.sample(t, z, Detail::all);
     now.gamma = model_.get().gamma_not_integrated();

@@ -28,7 +28,7 @@ double start_angle(const Turned& turned, double last, double f_last) {
     if (!(std::abs(next - last) < half_turn)) break;
   }
   if (std::abs(f_last) <= equal_angles || std::abs(next - last) <= equal_angles) return last;
-  // Otherwise searches the whole circle for a sign change that is not a jump of half a turn or more.
+  // Otherwise searches the whole circle for a sign change by less than half a turn (no jump).
   constexpr int parts = 32;
   double from = at, f_from = turned(from);
   for (int i = 1; i <= parts; ++i) {

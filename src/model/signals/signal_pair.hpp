@@ -29,8 +29,8 @@ struct Tabulated {
   SplineView spline;
 };
 
-// Terms other than constants, ramps and sinusoids, which all lanes of a group share. So far these
-// are splines; a term with another formula belongs here, too.
+// Terms other than constants, ramps and sinusoids. All lanes of a group share them. So far these
+// are splines. Terms with other formulas belong here, too.
 struct SharedTerms {
   const Tabulated* tables = nullptr;
   std::size_t table_count = 0;
@@ -88,8 +88,8 @@ using SignalView = BasicSignalView<double>;
 
 // A sum of constants, ramps, sinusoids and splines in each of two components.
 //
-// A sine costs more than the rest of the right-hand side. Sinusoids of one frequency therefore
-// share it, in either component and with any phase:
+// A sine costs more than the rest of the right-hand side. Sinusoids of the same frequency, in
+// either component and with any phase, therefore share one:
 // a sin(wt + p) = a cos p sin wt + a sin p cos wt.
 class SignalPair {
  public:

@@ -288,7 +288,7 @@ struct CoupledLayout : ServoLayout<servos> {
 };
 using CoupledLoopLayout = CoupledLayout<2>;
 
-// What moves the gimbal of a CoupledLoop.
+// The drive of a CoupledLoop's gimbal.
 enum class GimbalBy {
   servos,        // servos, as in RigLoop
   torques,       // motors under a controller's commands

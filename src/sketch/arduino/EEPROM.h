@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// EEPROM.h: cells of one byte. A run starts with the content of the wiring's file. What it writes
-// is lost at its end.
+// EEPROM.h: cells of one byte. A run starts with the content of the wiring's file and does not save
+// its writes.
 #pragma once
 
 #include "Arduino.h"

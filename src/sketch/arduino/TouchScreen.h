@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// TouchScreen.h: reads a resistive screen with four wires by driving its electrodes. A coordinate is
-// 1023 minus the reading, as in Adafruit's library.
+// TouchScreen.h: reads a resistive four-wire screen by driving its electrodes. A coordinate is 1023
+// minus the reading, as in Adafruit's library.
 #pragma once
 
 #include "Arduino.h"
