@@ -12,7 +12,7 @@
 namespace bbsim::solve {
 namespace {
 
-// Radau that also ends a step at the end of each part of the interval between two stops.
+// Cuts each interval between two stops into equal parts, and ends a step at each cut.
 class DividedStepper : public radau::RadauStepper {
  public:
   DividedStepper(const model::Model& model, CheckRun how, Tolerances tolerances, double end)

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Check runs: runs with other stages and other steps, from which `run --error` estimates its error
-// (docs/explanation/error-control.md).
+// Check runs: the same run with other stages and steps, from which `run --error` estimates its
+// error (docs/explanation/error-control.md).
 #pragma once
 
 #include "model/model.hpp"
@@ -12,14 +12,14 @@
 namespace bbsim::solve {
 
 struct CheckRun {
-  int stages;  // of radau: 8, 12 or 16
-  // Each interval between two stops (an input derivative jumps, a sample is taken) is cut into this
-  // many parts. Stops fix the steps of every method at every tolerance. Without the cuts, a run and
-  // its check run would share these steps.
+  int stages;  // 8, 12 or 16
+  // The number of parts that each interval between two stops (jumps of an input derivative,
+  // samples) is cut into. Stops end steps of every method at every tolerance. Without the cuts, a
+  // run and its check run would share these steps.
   int parts;
 };
 
-// Integrates by radau. Every part of an interval ends a step. Returns a failed Outcome where the
+// Integrates with radau and ends a step at the end of each part. Returns a failed Outcome if the
 // run cannot go on. Throws what `sink` throws, and InputError as radau::choose_kernels() does.
 [[nodiscard]] Outcome integrate_check_run(const model::Model& model, CheckRun how,
                                           Tolerances tolerances, const OutputGrid& grid,

@@ -12,7 +12,7 @@
 
 namespace bbsim::solve {
 
-// The method as the scenario names it: "bdf".
+// Name of the method in scenarios, such as "bdf". Empty if it has none.
 [[nodiscard]] std::string_view method_name(Method method);
 
 // Returns radau for automatic, and any other method unchanged.
@@ -22,7 +22,7 @@ namespace bbsim::solve {
 // steps. Only its number of stages depends on the tolerance, and radau chooses that itself.
 [[nodiscard]] Method choose_method(Method asked);
 
-// The decay rate of the fastest mode times `end` (s): the number of times that the mode decays by a
+// Decay rate of the fastest mode times `end` (s): the number of times that the mode decays by a
 // factor of e over the scene. Above about 100, stability limits the steps of an explicit method.
 [[nodiscard]] double decays_over_scene(const model::Model& model, double end);
 

@@ -18,8 +18,8 @@ namespace {
 
 using model::Effect;
 
-// A velocity below this multiple of the absolute tolerance is near rest: the integrator hardly
-// knows its direction.
+// A velocity below this multiple of the absolute tolerance counts as near rest: the error of the
+// integrator hides its direction.
 constexpr double near_rest = 10;
 
 class HybridIntegration {
@@ -60,10 +60,10 @@ class HybridIntegration {
     step,    // make a step of the integrator
     search,  // find what happens first in the rest of the step
     jump,    // handle the switch at at_, and restart the integrator
-    advance  // go on from at_
+    advance  // continue from at_
   };
 
-  // All transitions. An action that ends the run returns false.
+  // All transitions. Actions return false if they end the run.
   [[nodiscard]] State after(State state) const {
     switch (state) {
       case State::step:
@@ -99,7 +99,7 @@ class HybridIntegration {
     return std::move(outcome_);
   }
 
-  // Handles what is due at t = 0. Returns false if the run ends there.
+  // Handles events due at t = 0. Returns false if the run ends there.
   bool start() {
     run_.handle_time_event(0, z_.data());
     if (run_.unsettled()) return fail_unsettled(0);
@@ -114,10 +114,10 @@ class HybridIntegration {
     return true;
   }
 
-  // Makes a step, up to the next event that is known.
+  // Makes a step, at most to the next known event.
   bool step() {
-    // With closed-form servos, a step ends where the motion changes. It ends neither at a sample
-    // nor at the run's end, so a longer run has the same steps.
+    // With closed-form servos, a step ends only where the motion changes, not at a sample or at the
+    // run's end. A longer run therefore has the same steps.
     const double due = run_.next_time_event();
     limit_ = in_closed_form_ ? std::min(run_.next_change(), crossing_.time)
                              : std::min(due, end_before(due));
@@ -133,7 +133,7 @@ class HybridIntegration {
     return fail(from_, failure->why, failure->text);
   }
 
-  // The end of the run. An event due there may lie a rounding after it.
+  // The end of the run, or the time of an event that is due there but rounded to just after it.
   [[nodiscard]] double end_before(double due) const {
     return due > last_ && due - last_ <= slack(last_) ? due : last_;
   }
@@ -175,7 +175,6 @@ class HybridIntegration {
     return Effect::none;
   }
 
-  // Handles the crossing of a guard.
   Effect cross(double t, std::size_t guard) {
     rows_.write_to(t, false);  // in the mode before the switch
     publish(t, true);
@@ -185,7 +184,7 @@ class HybridIntegration {
     return effect;
   }
 
-  // Handles time events at at_ and restarts the integrator.
+  // Handles time events at at_. Restarts the integrator if the motion changed.
   bool jump() {
     if (effect_ == Effect::none) integral_ = guards_.state_at(at_, z_);
     asked_at_ = at_;
@@ -200,7 +199,7 @@ class HybridIntegration {
       return fail_at_switch(at_, "the rig switches endlessly at one instant");
     }
     if (!goes_on) {
-      // Without rig and dry friction, only an input derivative jumps. A run with monitors then
+      // Without a rig or dry friction, only an input derivative jumps. A run with monitors then
       // takes the same steps as one without.
       if (run_.model().rig || run_.model().dry) {
         stepper_->start(at_, z_.data());
@@ -209,7 +208,7 @@ class HybridIntegration {
       }
     }
     rows_.write_at(at_, z_, integral_);
-    if (rows_.part_ends()) {  // the row at a switch includes what the switch did
+    if (rows_.part_ends()) {  // the row at a switch has the state after it
       const bool stops = !goes_on && check_events(at_, integral_) == Effect::stop;
       return stops ? end(Ending::stopped, at_) : end(Ending::done, rows_.end());
     }
@@ -225,11 +224,11 @@ class HybridIntegration {
     return true;
   }
 
-  // Goes on from at_, unless the run hardly proceeds.
+  // Continues from at_, unless the run is too slow.
   bool advance() {
     from_ = at_;
-    // A step or state event short of `limit_` counts as work. A sample or a stop says nothing about
-    // the pace.
+    // Count only steps and state events before limit_. Samples and stops say nothing about the
+    // pace.
     if (at_ < limit_ && pace_.creeps(at_, [&] { return guards_.predicted_stop(at_); })) {
       fail(at_, Why::too_slow, pace_.reason());
       if (at_ >= stepper_->time()) guards_.state_at(at_, outcome_.last_state);
@@ -242,8 +241,8 @@ class HybridIntegration {
     return true;
   }
 
-  // Predicts when the next guard of a servo in closed form crosses, from z_ at t. A rig that does
-  // not switch has no such guards.
+  // Predicts the next crossing of a closed-form servo's guard, from z_ at t. A rig that does not
+  // switch has no such guards.
   void predict_crossing(double t, bool switched) {
     predicted_to_ = run_.next_change();
     crossing_ = {};
@@ -289,14 +288,14 @@ class HybridIntegration {
     }
     stepper_->restore(from);
     rows_.skip(part_->first_row);
-    // The time lies before the next row, and nothing due earlier was left undone.
+    // The time must be before the next row, and no event before that time may be pending.
     const double t = stepper_->time(), next = grid_[part_->first_row];
     StateReader::require(from.at_end() && t >= 0 && t <= next + slack(next) &&
                          run_.next_time_event() >= t - slack(t) && crossing_.time >= t - slack(t));
   }
 
   // Saves the state before a step up to limit_. Asks an external controller for its memory only if
-  // the part may end within this step, or ends now.
+  // the part may end within this step, or if the run is being stopped.
   void keep_state() {
     part_->state.clear();
     StateWriter into;
@@ -328,8 +327,8 @@ class HybridIntegration {
     outcome.statistics = stepper_->statistics();
     outcome.occurrences = run_.log().occurrences();
     if (part_ != nullptr) {
-      // Two adjacent parts both make the step across their border. Keep only what happens within
-      // this part.
+      // Two adjacent parts both make the step across their border. Keep only the events within this
+      // part.
       std::erase_if(outcome.occurrences, [&](const model::Occurrence& one) {
         return one.t > rows_.end() || (!part_->from.empty() && one.t <= rows_.begin());
       });
@@ -350,8 +349,8 @@ class HybridIntegration {
     outcome_.worst_state = stepper_->worst_state();
     return false;
   }
-  // A failure at a switch. The outcome has no states, because the stepper's are from before the
-  // switch.
+  // Ends the run as failed at a switch. Reports no states, because the stepper's are from before
+  // the switch.
   bool fail_at_switch(double reached, std::string reason) {
     end(Ending::failed, reached);
     outcome_.why = Why::singular;
@@ -375,17 +374,17 @@ class HybridIntegration {
   HybridRows rows_;
   GuardSearch guards_;
   std::vector<double> z_;
-  // Times, s: of the search; of what it found; the step's limit; the next time event and the end.
+  // Times, s: the search's start and result, the step's limit, the next time event and the end.
   double from_ = 0, at_ = 0, limit_ = 0, due_ = 0, end_ = 0;
-  Effect effect_ = Effect::none;  // of what the search found
+  Effect effect_ = Effect::none;  // result of the search
   bool switches_ = false;         // the search ended at a switch
-  double integral_ = 0;           // of u at at_, m
-  double switch_integral_ = 0;    // of u at the last switch, for a late check of monitors, m
-  model::Crossing crossing_;      // of the next guard of a servo
+  double integral_ = 0;           // integral of u at at_, m
+  double switch_integral_ = 0;    // the same at the last switch, for a late check of monitors
+  model::Crossing crossing_;      // the next one of a servo's guard
   double predicted_to_ = 0;       // crossings are predicted up to here, s
-  double published_ = 0;          // the motion is handed on up to here, s
+  double published_ = 0;          // the motion is published up to here, s
   Standstill standstill_;
-  double asked_at_ = 0;  // the last time event, s
+  double asked_at_ = 0;  // when a controller may last have been asked, s
   std::size_t advances_ = 0;
   Outcome outcome_;
 };

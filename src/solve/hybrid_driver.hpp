@@ -14,10 +14,9 @@ namespace bbsim::solve {
 
 using MakeStepper = std::function<std::unique_ptr<Stepper>(const model::Model& model)>;
 
-// Integrates from one switch to the next. `make_stepper` is called once, with the model that the
-// run changes from mode to mode; `tolerances` are the stepper's. A time event is a stop of the
-// integrator. A state event is the root of a guard on the step's own polynomial, to the rounding of
-// the time.
+// Integrates from one switch to the next. Calls `make_stepper` once, with the model whose mode the
+// run changes. `tolerances` are those of the stepper. The integrator stops at time events. A state
+// event is the root of a guard on the step's polynomial, accurate to the rounding of the time.
 //
 // Rows have Model::row_size() numbers. A row exactly at a switch has the state after it. Returns
 // Ending::stopped if an event stops the scene. Throws what `sink` throws, and InputError if `part`

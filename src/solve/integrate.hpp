@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Integrates a model with the method asked for, or with the one that suits.
+// Integrates a model with a given method, or with one that bbsim chooses.
 #pragma once
 
 #include "model/model.hpp"
@@ -11,7 +11,7 @@
 
 namespace bbsim::solve {
 
-// Integrates from t = 0 to the end of the grid and hands each output row to `sink`.
+// Integrates from t = 0 to the end of the grid and passes each output row to `sink`.
 //
 // `method` may be automatic. `part`, if not null, selects a part of the run (solve/part.hpp). Only
 // radau can save a state; other methods leave the part's state empty.

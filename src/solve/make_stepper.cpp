@@ -18,8 +18,8 @@ namespace {
 
 // Tightens the tolerance of each step in coupled scenes. The error over the run then stays near the
 // tolerance for every column. The hardest column is u = r gamma': it is hundreds of times smaller
-// than other speeds if the ball hardly spins. BDF and Adams take many more steps, and the errors of
-// their steps have one sign. Other scenes keep their steps and so their results.
+// than other speeds if the ball hardly spins. BDF and Adams need more, because they take many more
+// steps, whose errors have one sign. Other scenes keep their tolerances, steps and results.
 Tolerances of_each_step(const model::Model& model, Method method, Tolerances asked) {
   const bool coupled = std::visit(
       [](const auto& system) { return model::is_coupled<std::decay_t<decltype(system)>>; },

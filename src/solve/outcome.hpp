@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What goes into an integration, its rows, and how it ended.
+// The tolerances of an integration, the receivers of its rows, and its outcome.
 #pragma once
 
 #include <atomic>
@@ -17,7 +17,7 @@ namespace bbsim::solve {
 
 struct Tolerances {
   double rtol = 1e-8;
-  double atol = 1e-10;  // in each state's own unit
+  double atol = 1e-10;  // in each state's unit
 };
 
 class PieceSink;
@@ -28,10 +28,10 @@ class PieceSink;
 class StateSink {
  public:
   virtual ~StateSink() = default;
-  // Takes rows first ... first + count - 1, row-major and without gaps. May throw; the run then
-  // ends.
+  // Takes rows first ... first + count - 1, row-major and without gaps. May throw, which ends the
+  // run.
   virtual void accept(std::size_t first, std::size_t count, const double* values) = 0;
-  // Receives the motion between rows (solve/piece.hpp); null if nobody needs it.
+  // Returns the receiver of the motion between rows (solve/piece.hpp); null if none is needed.
   [[nodiscard]] virtual PieceSink* pieces() { return nullptr; }
   // If false, the run may skip the rows and only count them.
   [[nodiscard]] virtual bool wants_rows() const { return true; }
@@ -41,7 +41,7 @@ class StateSink {
 struct Watch {
   const std::atomic<bool>* stop = nullptr;      // ends the run soon after it becomes true
   std::function<void(double time)> progress{};  // called every few hundred steps
-  // Called at most once, at `time` (s), when a run turns out to be slow: it takes `pace` steps per
+  // Called at most once, when a run turns out to be slow. At `time` (s) it takes `pace` steps per
   // second of motion, and needs `steps` more to its end at that pace.
   std::function<void(double time, double pace, double steps)> slow{};
 };
@@ -54,7 +54,7 @@ struct Statistics {
   std::size_t error_test_failures = 0;
 };
 
-// Why a run is not whole, as a word that scripts can test.
+// Why a run is incomplete. Scripts can test the word that name_of() returns.
 enum class Why {
   none,
   event,               // an event stops the scene
@@ -62,13 +62,13 @@ enum class Why {
   singular,            // there is no motion beyond this instant
   too_slow,            // the run would take too many steps
   controller,          // an external controller failed
-  not_finite,          // the motion, or a number asked for, is not finite
+  not_finite,          // the motion, or a requested number, is not finite
   error_out_of_reach,  // double precision cannot reach solver.error, or rtol
   interrupted
 };
 [[nodiscard]] const char* name_of(Why why);
 
-// Why there is no further step, with a sentence for users: "the linear system is singular".
+// Why a stepper cannot go on, with a sentence for users: "the linear system is singular".
 struct Failure {
   Why why = Why::singular;
   const char* text = "";
@@ -84,20 +84,20 @@ struct Outcome {
   Ending ending = Ending::done;
   Method method = Method::automatic;  // the one that ran
   double reached = 0;                 // s
-  std::size_t rows = 0;               // handed to the sink
+  std::size_t rows = 0;               // passed to the sink
   Statistics statistics;
   // Details of a failed run: the integrator's reason, the state with the largest error estimate,
-  // and all states at the time reached. There are no states if the motion is not the cause.
+  // and all states at the time reached. last_state is empty if the motion is not the cause.
   std::string reason;
   Why why = Why::none;
   std::size_t worst_state = 0;
   std::vector<double> last_state;
-  // Events that occurred, in order. The last one stopped a stopped run.
+  // Events that occurred, in order. If an event stopped the run, it is the last one.
   std::vector<model::Occurrence> occurrences{};
 };
 
-// Returns the outcome, but as failed if it is done without all `rows` of its grid. A file that lost
-// rows, for whatever cause, must not pass for whole.
+// Returns the outcome, changed to failed if it is done but lacks some of the `rows` of its grid. A
+// file that lost rows, for whatever cause, must not look complete.
 [[nodiscard]] Outcome with_all_rows(Outcome outcome, std::size_t rows);
 
 // Collects a whole run in memory.

@@ -16,7 +16,7 @@ namespace bbsim::solve {
 class OutputGrid {
  public:
   explicit OutputGrid(const OutputTimes& times) : step_(times.step), end_(times.end) {
-    // The last multiple of the step counts as the end if it is within rounding of it.
+    // A multiple of the step within rounding of the end counts as the end.
     const double intervals = end_ / step_;
     const double whole = std::floor(intervals);
     const double slack = std::max(1e-9, rounding_of(intervals));
@@ -31,14 +31,14 @@ class OutputGrid {
 
   // The time of row i < size(), s.
   [[nodiscard]] double operator[](std::size_t i) const {
-    // Processors convert signed integers faster.
+    // Signed integers convert faster.
     return i < before_end_ ? static_cast<double>(static_cast<std::ptrdiff_t>(i)) * step_ : end_;
   }
 
   // The number of rows at or before `time` >= 0, s.
   [[nodiscard]] std::size_t rows_until(double time) const {
     if (time >= end_) return size();
-    std::size_t rows = static_cast<std::size_t>(time / step_) + 1;  // rounding: +-1
+    std::size_t rows = static_cast<std::size_t>(time / step_) + 1;  // within one, by rounding
     while (rows > 0 && (*this)[rows - 1] > time) --rows;
     while ((*this)[rows] <= time) ++rows;
     return rows;

@@ -17,7 +17,7 @@ bool Pace::judge(double time, double event) {
   const bool out_of_reach = !(needed <= most_steps);
   shrinking_ = out_of_reach && advance_ < 0.9 * before ? shrinking_ + 1 : 0;
   before = advance_;
-  // Steps near the rounding of the time are no transient. Their windows count eight times.
+  // Steps near the rounding of the time are not a transient. Their windows count eight times.
   const bool near_rounding = advance_ < 1e-12 * of_window * time;
   slow_ = out_of_reach ? slow_ + (near_rounding ? 8 : 1) : 0;
   if (taken > most_steps) return true;

@@ -5,8 +5,8 @@
 //
 // Near a singular point, or where the error test sees only rounding, steps become so short that a
 // run goes on for days without progress. The step length alone says little: steps are short for a
-// while in a transient, or before an event that ends the run. Pace therefore extrapolates again and
-// again how many steps remain at the present pace.
+// while in a transient, or before an event that ends the run. Pace therefore extrapolates
+// repeatedly how many steps remain at the present pace.
 #pragma once
 
 #include <array>
@@ -22,10 +22,10 @@ class Pace {
   // `end`: the end of the run, s.
   explicit Pace(double end) : end_(end) {}
 
-  // Returns whether to give up. Call it after each step that ends short of its limit. A step that
-  // ends at a stop, a sample or the end says nothing. `time`: the present time, s. `event` returns
-  // the time (s) at which an event will end the run, extrapolated from its last call; it is called
-  // once per window of steps.
+  // Returns whether to give up. Call it after each step that ends before its limit. Steps that end
+  // at a stop, a sample or the run's end say nothing about the pace. `time`: the present time, s.
+  // `event` returns the time (s) at which an event will end the run, extrapolated from its last
+  // call. It is called once per window of steps.
   template <class Event>
   [[nodiscard]] bool creeps(double time, Event event) {
     return ++steps_ % window == 0 && judge(time, event());
@@ -51,8 +51,8 @@ class Pace {
   [[nodiscard]] double steps_per_second() const { return static_cast<double>(window) / advance_; }
   [[nodiscard]] double steps_left() const { return (end_ - from_) * steps_per_second(); }
 
-  // Whether to report a slow run now. True once, if a second of motion takes over a million steps
-  // and the rest takes over a second or so of work. Call it after completed_window().
+  // Whether to report a slow run now: a second of motion takes over a million steps, and the rest
+  // of the run over a second or so of work. True at most once. Call it after completed_window().
   [[nodiscard]] bool is_news() {
     constexpr double a_million = 1e6, some_work = 1e5;
     const bool slow = steps_ > 0 && steps_per_second() > a_million && steps_left() > some_work;
@@ -64,10 +64,10 @@ class Pace {
 
  private:
   static constexpr std::size_t window = 4096;
-  // A run with more steps is given up. They take the fastest integrator hours.
+  // A run with more steps is given up. So many take the fastest integrator hours.
   static constexpr double most_steps = 1e10;
-  // The run is given up after this many windows in a row that leave the end out of reach: with
-  // shrinking advances, and with any. A transient passes in half a million steps.
+  // The run is given up after this many consecutive windows that leave the end out of reach: with
+  // shrinking advances, or with any. A transient passes in half a million steps.
   static constexpr int most_shrinking = 6, most_slow = 128;
   // Waits for an event that is at most `soon` windows away, and for at most `most_awaited` windows.
   static constexpr int soon = 64, most_awaited = 128;

@@ -10,17 +10,16 @@
 
 namespace bbsim::solve {
 
-// Consecutive parts hand on the rows of one whole run, to the bit. A part ends within a step and
-// keeps the state before it. The next part makes the same step again. The grid is that of the whole
-// run.
+// Consecutive parts give the same rows as one whole run, bit for bit. A part ends within a step and
+// keeps the state before that step, which the next part repeats. The grid is that of the whole run.
 struct Part {
-  // The rows of this part: first_row up to but not including end_row.
+  // Rows of this part: first_row up to but not including end_row.
   std::size_t first_row = 0, end_row = 0;
   // The state to continue from. If empty, the part starts the scene, and first_row is 0.
   std::string from{};
-  // Whether to keep a state at the end of the part, or where it is interrupted.
+  // Whether to keep a state at the end of the part, or at an interruption.
   bool keeps_state = false;
-  // The end of the run is not known: steps are made as if it never came.
+  // Whether the end of the run is unknown. Steps are then made as if there were none.
   bool endless = false;
 
   // Results: the state before row next_row (empty if the part cannot be continued), and the

@@ -44,8 +44,8 @@ class Piece {
                                                      bool /*closely*/) const {
     return {};
   }
-  // The run that the piece is of, in the mode of the piece; null if its model is not hybrid(), and
-  // in a part of another piece. It lives until the run ends.
+  // The run that the piece belongs to, in the piece's mode. Null if its model is not hybrid(), or
+  // if the piece is a part of another piece. Valid until the run ends.
   [[nodiscard]] virtual const model::HybridSystem* run() const { return nullptr; }
 
  private:
@@ -57,7 +57,7 @@ class Piece {
 class PieceSink {
  public:
   virtual ~PieceSink() = default;
-  // A run begins. Pieces of an earlier attempt, which was given up, no longer count.
+  // Begins a run. Pieces of an earlier attempt, which was given up, no longer count.
   virtual void begin_run() = 0;
   virtual void accept(const Piece& piece) = 0;
 };

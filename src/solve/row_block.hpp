@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Gathers rows and hands them to a sink in blocks.
+// Gathers rows and passes them to a sink in blocks.
 #pragma once
 
 #include <algorithm>

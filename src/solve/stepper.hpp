@@ -29,16 +29,16 @@ class Stepper {
   // may have changed.
   virtual void start(double t, const double* z) = 0;
 
-  // Makes one step that passes its error test, up to `limit` (s) at most. The last step before
-  // `limit` ends exactly there. Returns the failure if there is no step.
+  // Makes one step that passes its error test, at most to `limit` (s). The last step before `limit`
+  // ends exactly there. Returns a Failure if no step is possible.
   [[nodiscard]] virtual std::optional<Failure> step(double limit) = 0;
 
-  // Evaluates the states at times within the last step, ends included, on the step's own
-  // polynomial. Writes `count` rows without gaps. Call it before the next step.
+  // Evaluates the states at times within the last step, ends included, on the step's polynomial.
+  // Writes `count` rows without gaps. Call it before the next step.
   virtual void evaluate(const double* times, std::size_t count, double* rows) = 0;
 
-  // The input or a derivative of it jumps at the end of the last step, whose states are those just
-  // before.
+  // Announces that the input or one of its derivatives jumps at the end of the last step. The
+  // step's states are those just before the jump.
   virtual void jump() = 0;
 
   // The end of the last step, s.
@@ -54,11 +54,10 @@ class Stepper {
   [[nodiscard]] virtual std::size_t parts() const = 0;
 
   // The servos' motion since start(), if the stepper moves servos in closed form; otherwise null.
-  // HybridSystem then predicts their switches, and no step crosses one.
+  // If not null, HybridSystem predicts the servos' switches, and no step crosses one.
   [[nodiscard]] virtual const std::array<model::HeldMotion, 2>* servos() const { return nullptr; }
-  // Whether no monitor of the scene's events changes sides within the last step, ends included.
-  // False if that is not certain. `occurring` has the present side of each monitor. Call it before
-  // the next step.
+  // Whether it is certain that no monitor of the scene's events changes sides within the last step,
+  // ends included. `occurring` has the present side of each monitor. Call it before the next step.
   [[nodiscard]] virtual bool no_monitor_changes(const std::vector<char>& /*occurring*/) {
     return false;
   }
@@ -70,7 +69,7 @@ class Stepper {
   }
 
   // Saves the whole state. Another stepper of this model, method and tolerances continues from it
-  // with the same steps, to the bit. Returns false if the integrator cannot save its state.
+  // with the same steps, bit for bit. Returns false if the integrator cannot save its state.
   [[nodiscard]] virtual bool save(StateWriter& /*into*/) { return false; }
   // Replaces start(). Throws InputError if the bytes are not the state of a stepper like this one.
   virtual void restore(StateReader& /*from*/) {}
@@ -78,8 +77,8 @@ class Stepper {
   [[nodiscard]] virtual double least_end() const { return 0; }
 };
 
-// Drives a stepper from the model's initial state to the end of the grid and hands on the rows. The
-// model must not be hybrid().
+// Drives a stepper from the model's initial state to the end of the grid and passes the rows to the
+// sink. The model must not be hybrid().
 [[nodiscard]] Outcome run_through(Stepper& stepper, const model::Model& model,
                                   const OutputGrid& grid, StateSink& sink, const Watch& watch,
                                   Part* part = nullptr);

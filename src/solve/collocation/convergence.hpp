@@ -18,8 +18,8 @@ struct StopTest {
   BBSIM_INLINE StopTest(double within, double rtol) : enough(within), floor(30 * 2.2e-16 / rtol) {}
 
   // Whether the last change is below the floor, or the sum of the changes to come is small enough.
-  // Each change is `contraction` times the one before, so they add up to change * contraction / (1
-  // - contraction).
+  // Each change is `contraction` times the one before, so they add up to
+  // change * contraction / (1 - contraction).
   BBSIM_INLINE bool passes(double change, double contraction) const {
     return change <= floor || change * contraction <= enough * (1 - contraction);
   }

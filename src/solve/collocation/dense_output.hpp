@@ -52,7 +52,7 @@ struct DenseOutput {
     }
   }
 
-  // `half` times the integral from -1 of a Legendre series of `length` terms, plus its value there.
+  // `half` times the integral from -1 of a Legendre series of `length` terms, plus `from`.
   template <int length>
   BBSIM_INLINE static void integrate(const P* k, P half, P from, P* out) {
     out[0] = from + half * (k[0] - k[1] * P(1.0 / 3));

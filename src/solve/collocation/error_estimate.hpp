@@ -34,7 +34,7 @@ struct LastCoefficients {
     }
   }
 
-  // The square of (weight times the first coefficient left out). The square saves a root.
+  // The square of `weight` times the first coefficient left out. The square saves a root.
   BBSIM_INLINE P left_out_squared(int i, P weight) const {
     const P before = simd::larger_of(simd::size_of(of[0][i]), simd::size_of(of[1][i]));
     const P tail = simd::larger_of(simd::size_of(of[2][i]), simd::size_of(of[3][i]));

@@ -53,7 +53,7 @@ def tables(s):
     a = integral * to_legendre
     values, vectors = mp.eig(a)
     inverse = vectors ** -1
-    # inverse * a * vectors = diag(values). Keep the eigenvalue above the real axis of each pair.
+    # inverse * a * vectors = diag(values). Of each pair, keep the eigenvalue above the real axis.
     kept = sorted((k for k in range(s) if mp.im(values[k]) > 0), key=lambda k: mp.im(values[k]))
     assert len(kept) == s // 2
     # Scale each eigenvector to unit maximum norm.

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Radau IIA's tables by rows: the weights that one node gives to all others. They are for kernels
-// that have cases in lanes and loop over the nodes. Each instruction set has its own copy, because
-// sets must not share data.
+// Radau IIA's tables by rows: a row has the weights of all nodes in the integral up to one node.
+// They are for kernels that have cases in lanes and loop over the nodes. Each instruction set has
+// its own copy, because sets must not share data.
 #pragma once
 
 #include "solve/collocation/radau_table.hpp"
@@ -13,7 +13,7 @@ namespace bbsim::solve {
 template <class Isa, int s>
 struct alignas(64) NodeRows {
   double c[s]{}, a[s][s]{}, a_squared[s][s]{};
-  double legendre[s][s]{};  // contribution of node j to coefficient m
+  double legendre[s][s]{};  // [j][m]: contribution of node j to coefficient m
   consteval NodeRows() {
     using Rule = radau::RadauTable<s>;
     for (int i = 0; i < s; ++i) {

@@ -13,18 +13,18 @@ namespace bbsim::solve {
 
 class Shrinking {
  public:
-  // Why a run ends there.
+  // The failure of a run that diverges().
   static constexpr Failure reason{Why::unbounded, "the motion grows without bound"};
 
-  // The next step has no predecessor that it can be compared with.
+  // Call it if the next step cannot be compared with the last one.
   void interrupt() { last_ = 0; }
 
-  // Takes a step at time t that is about to be accepted, both in s. Returns whether the motion goes
-  // to infinity in finite time: a dozen steps shrink, none of them is longer than the one before by
-  // a quarter, they shrink to less than 1e-5 of the first one and of t, and the states grow. A
-  // smooth motion that passes an obstacle does not shrink its steps like this. A run with a
-  // tolerance below its rounding errors may, but its states do not grow, and it continues. size()
-  // is the magnitude of the largest state at t, infinite if a state is not finite.
+  // Takes a step (s) from time t (s) that is about to be accepted. Returns whether the motion goes
+  // to infinity in finite time: a dozen steps have shrunk since one grew by a quarter, the last one
+  // is below 1e-5 of that one and of t, and the states have grown meanwhile. A smooth motion that
+  // passes an obstacle does not shrink its steps like this. A tolerance below the rounding errors
+  // may do so, but the states do not grow, and the run continues. size() is the magnitude of the
+  // largest state at t, infinite if a state is not finite.
   template <class Size>
   [[nodiscard]] bool diverges(double step, double t, Size size) {
     constexpr int for_a_while = 4, long_since = 12;
@@ -49,9 +49,9 @@ class Shrinking {
   // Call it after each accepted step. `error`: its error relative to the tolerance. `next`: the
   // next step by this error alone, s. Returns the longest next step, s. Where steps shrink, the
   // error grows from step to step by more than the step lengths explain, and will again. Predicting
-  // this growth saves rejections (Gustafsson's predictive control; Hairer and Wanner, IV.8). It
-  // takes two shorter steps in a row. With Sign::jump, one is enough if its error is far above the
-  // last one.
+  // this growth saves rejections (Gustafsson's predictive control; Hairer and Wanner, IV.8). The
+  // bound needs two shorter steps in a row. With Sign::jump, one is enough if its error is far
+  // above the last one.
   enum class Sign { steps, jump };
   [[nodiscard]] double bound(double error, double next, int stages, Sign sign = Sign::steps) {
     constexpr double by_far = 10;
@@ -74,7 +74,7 @@ class Shrinking {
   }
 
  private:
-  // The number of shorter steps since the last longer one, and the number of them in a row at
+  // The number of shorter steps since the last longer one, and how many of them are consecutive at
   // present.
   int count_ = 0, in_a_row_ = 0;
   // The step before count_ began, the last step, and its ratio to the one before.

@@ -22,7 +22,7 @@ using sundials::data;
 // CVODE's code for "try again with a smaller step".
 constexpr int recoverable = 1;
 
-// A system as CVODE's callbacks need it, without its type.
+// A type-erased system for CVODE's callbacks.
 struct Equations {
   const model::System& any;
   const void* system;  // the system within `any`
@@ -115,7 +115,8 @@ class CvodeStepper : public Stepper {
     } else {
       use_fixed_point();
     }
-    // Near rest the step shrinks by more than the seven failures that CVODE allows by default.
+    // Near rest the step must shrink more often than the seven failures that CVODE allows by
+    // default.
     if (model.dry) check(CVodeSetMaxErrTestFails(memory(), 40), "CVodeSetMaxErrTestFails");
     if (model.gamma) integrate_spin();
   }
@@ -135,7 +136,7 @@ class CvodeStepper : public Stepper {
 
   [[nodiscard]] std::optional<Failure> step(double limit) override {
     const double before = time_;
-    // The last step before a jump of the input must not see it.
+    // The last step before a jump of the input must not see the input after it.
     double to = model_.jumps_at(limit) ? model_.just_before(limit) : limit;
     if (to <= before) to = limit;
     check(CVodeSetStopTime(memory(), to), "CVodeSetStopTime");
@@ -204,7 +205,8 @@ class CvodeStepper : public Stepper {
     check(CVodeSetJacFn(memory(), jacobian), "CVodeSetJacFn");
     if (equations_.coupled) {
       // The direction of friction turns faster as the velocity gets smaller. Near rest an old
-      // Jacobian is wrong by decades, and CVODE takes the small corrections for convergence.
+      // Jacobian is wrong by orders of magnitude, and CVODE mistakes small corrections for
+      // convergence.
       check(CVodeSetJacEvalFrequency(memory(), 1), "CVodeSetJacEvalFrequency");
       check(CVodeSetLSetupFrequency(memory(), 1), "CVodeSetLSetupFrequency");
     }
@@ -220,8 +222,8 @@ class CvodeStepper : public Stepper {
     turned_ = sundials::make_vector(1, context_.get());
     data(turned_)[0] = 0;
     check(CVodeQuadInit(memory(), equations_.quadrature, turned_.get()), "CVodeQuadInit");
-    // No separate error control: this is the integral of a state that already has it. With it,
-    // CVODES 6 takes 45,000 steps instead of 600 over a stiff servo.
+    // No separate error control: the integrated state already has it. With it, CVODES 6 takes
+    // 45,000 steps instead of 600 for a stiff servo.
     check(CVodeSetQuadErrCon(memory(), 0), "CVodeSetQuadErrCon");
   }
 

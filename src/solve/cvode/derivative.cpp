@@ -15,7 +15,7 @@ using sundials::check;
 
 namespace {
 
-// CVODE's own limit is 500 steps between output times, too few for a fast servo.
+// CVODE's default limit is 500 steps between output times, too few for a fast servo.
 constexpr long most_steps = 1'000'000;
 
 int call(sunrealtype t, N_Vector z, N_Vector dz, void* user_data) {

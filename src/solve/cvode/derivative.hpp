@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Integrates any function of time and states with CVODE, for equations that are no model::System.
+// Integrates any function of time and states with CVODE, for equations that are not a
+// model::System.
 #pragma once
 
 #include <functional>
@@ -12,7 +13,7 @@
 
 namespace bbsim::solve {
 
-// z' = f(t, z), without its type.
+// z' = f(t, z), type-erased.
 using Derivative = std::function<void(double t, const double* z, double* dz)>;
 
 // Returns rows at the output times, as many as the solution reaches. Uses BDF with CVODE's

@@ -20,7 +20,7 @@
 
 namespace bbsim::solve::sundials {
 
-// For calls that fail only by a mistake in bbsim or lack of memory. Throws std::runtime_error.
+// Throws std::runtime_error. For calls that fail only through a mistake in bbsim or lack of memory.
 inline void check(int flag, const char* call) {
   if (flag < 0) {
     throw std::runtime_error(std::string(call) + " failed with SUNDIALS code " +
@@ -83,7 +83,7 @@ inline Context make_context() {
   return Context(context);
 }
 
-// Keeps SUNDIALS' messages off the terminal. Return codes say what happened.
+// Keeps SUNDIALS' messages off the terminal. The return codes are enough.
 inline void silence([[maybe_unused]] void* cvode) {
 #if SUNDIALS_VERSION_MAJOR < 7
   check(CVodeSetErrFile(cvode, nullptr), "CVodeSetErrFile");

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Output rows within a step of one of a group's cases, on the step's polynomials.
+// Output rows of one case of a group within a step, from the step's polynomials.
 //
 // Included only by the kernels. See simd/pack.hpp for why everything is inlined or tagged.
 #pragma once
@@ -15,8 +15,8 @@ struct DenseRows : Of {
   using Of::lanes, Of::packs, Of::places, Of::s;
   using typename Of::Courses, typename Of::P, typename Of::Workspace;
 
-  // One lane's step: its start, inverse length, and the Chebyshev coefficients of x and y. The
-  // recurrence T_(m+1) = 2 x T_m - T_(m-1) is the shortest.
+  // One lane's step: its start, inverse length, and the Chebyshev coefficients of x and y.
+  // Chebyshev series have the shortest recurrence, T_(m+1) = 2 x T_m - T_(m-1).
   struct Series {
     double from, per_length, of[s + 2][2];
   };

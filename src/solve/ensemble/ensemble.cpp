@@ -21,22 +21,21 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // A case that takes more attempts is left to another integrator.
 constexpr std::size_t most_attempts = 100'000;
-// A case is given up if its step is below this fraction of the time. If the motion went to
-// infinity, Shrinking would have detected that before.
+// A case is given up if its step is below this fraction of the time. Shrinking detects motions that
+// go to infinity before that.
 constexpr double least_part = 1e-8;
-// The factor of the step if the iteration does not converge.
+// The factor of the step after an iteration that does not converge.
 constexpr double unsolved = 0.4;
 
 // Lanes are refilled when at most this many are at work.
 constexpr int few = group / 2;
-// So many shrinking steps mostly mean that a motion goes to infinity.
+// This many shrinking steps usually mean that a motion goes to infinity.
 constexpr int long_since = 3;
-// A case that is this many steps from its end stays in its lane.
+// A case that is at most this many steps from its end stays in its lane.
 constexpr double soon = 2;
 
-// The first step times the fastest rate of the motion. Under a given motion of small angles it may
-// be longer than what resolves a sinusoid: 1.25 to 1.6 times with up to 12 nodes, 1.1 to 1.25 times
-// with 16.
+// The first step times the fastest rate of the motion. For a given motion with small angles it may
+// be longer than resolved(): 1.25 to 1.6 times with up to 12 nodes, 1.1 to 1.25 times with 16.
 double first_reach(Actuation actuation, int nodes, double rtol) {
   if (actuation != Actuation::given) return 5 * std::pow(rtol, 1.0 / nodes);
   return (nodes < 16 ? 1.25 : 1.08) * resolved(nodes, rtol);
@@ -96,7 +95,7 @@ void Ensemble::take_columns(Way& way) {
   }
 }
 
-// Starts the next cases in the lanes, all of which are free.
+// Starts the next cases in the lanes. All lanes must be free.
 void Ensemble::begin(Study& study) {
   std::array<std::size_t, group> which;
   int count = 0;
@@ -122,7 +121,7 @@ void Ensemble::begin(Study& study) {
     way.number = which[static_cast<std::size_t>(lane)];
     way.repeats_after = one.repeats_after;
     way.next = rates[lane] > 0 ? reach_ / rates[lane] : end_;
-    // A case that is not finite is given up when no step of it is finite.
+    // The rate is infinite. The case is given up later if none of its steps is finite.
     if (!(way.next > 0)) way.next = end_ * 1e-6;
     if (rows_ == 0) continue;
     take_columns(way);
@@ -146,8 +145,8 @@ void Ensemble::resume(int lane) {
   aside_.pop_back();
 }
 
-// Makes room when few lanes are at work, and sets aside lanes that hold up the others: on the way
-// to infinity Newton's iteration takes many iterations.
+// Sets cases aside: all that are far from their end when few lanes are at work, and those that hold
+// up the others. On the way to infinity Newton's iteration takes many iterations.
 void Ensemble::set_laggards_aside() {
   if (exhausted_ || (laggards_ && !aside_.empty())) return;
   const bool are_few = live() <= few;
@@ -172,8 +171,8 @@ void Ensemble::fill(Study& study) {
   }
 }
 
-// A lane without a case repeats an attempt of another lane, if possible of one whose steps do not
-// shrink. Its numbers stay finite and cost next to nothing.
+// Lets a lane without a case repeat an attempt of another lane, if possible of one whose steps do
+// not shrink. Its numbers then stay finite and cost next to nothing.
 void Ensemble::idle(int lane) {
   auto of = std::find_if(ways_.begin(), ways_.end(), [](const auto& way) {
     return way.has_value() && way->shrinking.count() == 0;

@@ -20,13 +20,13 @@
 namespace bbsim::solve::ensemble {
 
 // The number of nodes for a relative tolerance: 8 or 12 for loops, and 8, 12 or 16 for given
-// motions. For these it depends on the angle through which the motion's fastest sinusoid goes, rad.
-// A poor choice only costs time.
+// motions. For these it also depends on `angle` (rad), through which the fastest sinusoid goes over
+// the run. A poor choice only costs time.
 [[nodiscard]] int choose_nodes(Actuation actuation, double rtol, double angle = 0);
 
 enum class Ending {
   done,
-  unbounded,  // the motion grows without bound, as for a single run (Shrinking)
+  unbounded,  // the motion grows without bound (Shrinking)
   given_up,   // left to another integrator
 };
 
@@ -34,10 +34,10 @@ enum class Ending {
 struct Result {
   Ending ending;
   double reached;          // s
-  std::size_t rows;        // of the grid, up to there; 0 if no rows are wanted
+  std::size_t rows;        // of the grid, up to `reached`; 0 if no rows are wanted
   const double *x, *y;     // of each row
-  const double* state;     // at `reached`, as the loop packs its states
-  double greatest[looks];  // over the motion up to there, rows and between
+  const double* state;     // at `reached`, packed as in the loop
+  double greatest[looks];  // over the motion up to `reached`, also between rows
 };
 
 // The source of cases and the sink of their results.
@@ -50,13 +50,13 @@ class Study {
   virtual void end(std::size_t number, const Result& run) = 0;
 };
 
-// What all cases have in common.
+// The data that all cases share.
 struct Problem {
   Actuation actuation;
   OutputGrid grid;
   bool rows = true;             // whether rows are wanted
   std::vector<double> stops{};  // ordered times in (0, end) at which steps end, s
-  model::SharedTerms terms{};   // of given angles: splines, whose knots are stops
+  model::SharedTerms terms{};   // splines of given angles; their knots are stops
 };
 
 // A case in progress.
@@ -67,7 +67,7 @@ struct Way {
   bool arrives = false;    // whether this attempt reaches it
   bool rejected = false;   // whether the last attempt was rejected
   std::size_t attempts = 0, steps = 0, rows = 1;
-  double repeats_after;  // Case
+  double repeats_after;  // see Case
   Shrinking shrinking;
   std::vector<double> x{}, y{};  // of rows
 };
@@ -75,25 +75,25 @@ struct Way {
 // Integrates cases from t = 0 over an output grid, by collocation at Radau IIA's nodes (step.hpp).
 // Each lane has its own time and steps. Cases that need similar numbers of steps run together.
 // Cases that fall behind or go to infinity are set aside until they fill the lanes. Stiff servos
-// cost no more steps than the motion does.
+// need no more steps than the motion does.
 //
 // The tolerances bound each step's error in each state, with one exception. If omega_n is above 1
 // rad/s, the absolute tolerance of a servo's rates is atol omega_n, and that of the ball's velocity
-// is this value times the radius. Positions and angles keep atol.
+// is this times the radius. Positions and angles keep atol.
 //
-// A case's results depend on nothing else, to the bit: neither on cases beside it nor on earlier
-// ones. Use one object per thread.
+// A case's results do not depend on the cases beside it or before it, bit for bit. Use one object
+// per thread.
 class Ensemble {
  public:
   // `nodes` comes from choose_nodes(). The tables must outlive the object. Throws InputError as
   // choose_kernels() does.
   Ensemble(Problem problem, int nodes, Tolerances tolerances);
 
-  // Integrates all cases of the study. When `stop` becomes true, gives up the cases in progress;
-  // end() is not called for these, nor for any later ones.
+  // Integrates all cases of the study. Once `stop` is true, gives up the cases in progress and
+  // starts no more. end() is not called for any of these.
   void carry(Study& study, const std::atomic<bool>& stop);
 
-  // Of the last study. A Jacobian and its iterations count once for all lanes of an attempt.
+  // Counts of the last study. A Jacobian and its iterations count once for all lanes of an attempt.
   [[nodiscard]] Statistics statistics() const { return statistics_; }
 
  private:
@@ -125,7 +125,7 @@ class Ensemble {
 
   const Kernel* kernel_;
   std::vector<double> stops_;  // with the end, s
-  double end_, reach_;         // s; the first step as a multiple of the motion's fastest time
+  double end_, reach_;         // s; the first step times the fastest rate
   std::vector<double> times_;  // of the rows, s, padded at the end; empty without rows
   std::size_t rows_;
   std::unique_ptr<void, Free> workspace_;
@@ -135,7 +135,7 @@ class Ensemble {
   std::array<std::optional<Way>, group> ways_;
   std::vector<Aside> aside_;
   std::vector<std::vector<double>> spare_;  // unused columns
-  std::array<Progress, group> begun_;       // room for begin()
+  std::array<Progress, group> begun_;       // a buffer for begin()
   Spans spans_{};
   Statistics statistics_;
 };

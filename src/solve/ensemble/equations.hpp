@@ -46,7 +46,7 @@ struct Equations {
   static constexpr int nv = System::motions.count;
   static constexpr int nq = System::size - nv;  // velocities with a position come first
   static_assert(System::size == states && nv == velocities);
-  // Among the velocities.
+  // Indices among the velocities.
   static constexpr int x = 0, y = 1, phi = 2, theta = 3, spin = 4;
   static_assert(motions.of[phi].position == 5 && motions.of[theta].position == 6);
   static_assert(nq == 4);
@@ -83,8 +83,8 @@ struct Equations {
       }
     }
 
-    // Whether the waves stay within 10^5 rad until t. Sines are then the same to the bit, and
-    // cheaper.
+    // Whether the waves' angles stay within 10^5 rad until t. Cheaper sines are then the same bit
+    // for bit.
     BBSIM_INLINE bool moderate_until(P t) const {
       Mask beyond{};
 #pragma GCC unroll 1
@@ -94,7 +94,7 @@ struct Equations {
       return !simd::any_of<P>(beyond);
     }
 
-    // The signals without tables.
+    // The signals at t, without tables.
     template <bool moderate = false>
     BBSIM_INLINE Signals signals(P t) const {
       Signals jets;
@@ -153,8 +153,8 @@ struct Equations {
     k[2] = model::u_acceleration<Real>(first, second, ball, scene.radius);
   }
 
-  // Derivatives of the accelerations, without those of the spin and by the spin: the gimbal's and
-  // the ball's by the states, and the ball's by the gimbal's accelerations.
+  // Derivatives of the accelerations: the gimbal's and the ball's by the states, and the ball's by
+  // the gimbal's accelerations. Leaves out derivatives of the spin and by the spin.
   struct Jacobian {
     P by_v[nq][nq], by_q[nq][nq], by_turning[2][2];
   };
@@ -200,7 +200,7 @@ struct Equations {
                   std::make_integer_sequence<int, 2 * nq + 2>());
   }
 
-  // Replaces velocities by those that the tolerances bound. It removes the ball's immediate
+  // Replaces the velocities with those that the tolerances bound. Removes the ball's immediate
   // response to the servo's own motion: by (27) near level, -r phi'' and r theta''.
   BBSIM_INLINE static void without_servos(const Scene& scene, P (&v)[nv]) {
     if constexpr (actuation == Actuation::by_servo) {

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The iteration of a step where the gimbal's angles are given, with one case in each lane.
+// The iteration of a step for given angles of the gimbal, with one case in each lane.
 //
 // The coefficients of the linear equation are computed once per step at the nodes of Radau IIA.
 // Substitution solves the remaining equations:
 //
 //     v = v(0) + h A k,    q = q(0) + c h v(0) + h^2 A A k
 //
-// It goes from node to node and uses new values at once. An integral mostly depends on earlier
-// nodes, so this contracts much faster than updating all nodes together: steps of some radians of
-// the motion take three or four iterations.
+// The iteration goes from node to node and uses new values immediately. An integral mostly depends
+// on earlier nodes, so this contracts much faster than updating all nodes together: steps of some
+// radians of the motion take three or four iterations.
 //
 // Included only by the kernels. See simd/pack.hpp for why everything is inlined or tagged.
 #pragma once
@@ -73,7 +73,7 @@ struct GivenStep : Base {
   }
 
   // Goes once through the nodes. Returns the greatest changes of the accelerations. Lanes that are
-  // not active keep their numbers. `all`: whether all are.
+  // not active keep their numbers. `all`: whether all lanes are active.
   template <bool all>
   BBSIM_INLINE static void improve(Pack& of, P h, Mask active, P (&change)[unknowns]) {
     constexpr int together = 2;
@@ -169,7 +169,7 @@ struct GivenStep : Base {
   }
 
   // The fastest rate at which the gimbal's action on the ball changes, 1/s. The action has
-  // sinusoids and, where angles are large, sinusoids of these.
+  // sinusoids and, for large angles, sinusoids of these.
   [[gnu::flatten]] static void rates(const void* workspace, double* rates) {
     const Workspace& w = *static_cast<const Workspace*>(workspace);
     for (int p = 0; p < Base::packs; ++p) {

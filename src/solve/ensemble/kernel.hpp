@@ -4,8 +4,8 @@
 // The driver's interface to one step of an ensemble of balls on the paper's rig, each at its own
 // time, for every instruction set.
 //
-// Has only plain data and pointers to functions. Code here could be compiled for one instruction
-// set and run on another.
+// Only plain data and pointers to functions: code here could be compiled for one instruction set
+// and run on another.
 #pragma once
 
 #include <cstddef>
@@ -24,13 +24,13 @@ inline constexpr int most_nodes = 16;
 inline constexpr int most_harmonics = 8;
 inline constexpr int spare_rows = 2 * group;  // beyond the rows of the grid
 
-// What sets the gimbal's angles: a given function of time, or a loop under equation (31), by
-// accelerations or by the angles of servos.
+// What moves the gimbal: a given function of time, or a loop under equation (31), by accelerations
+// or by the angles of servos.
 enum class Actuation { given, by_acceleration, by_servo };
 
 // One case, in SI units. The signals are the gimbal's angles (phi, theta) if these are given,
 // otherwise the loop's reference (x, y). They are start + rate t + sum of (sine sin(frequency t) +
-// cosine cos(frequency t)); given angles may have tables, too, which all cases share.
+// cosine cos(frequency t)). Given angles may also have tables, which all cases share.
 struct Case {
   double radius, gravity;
   double kv[2][2], kp[2][2];  // of a loop: rows phi, theta; columns x, y
@@ -38,8 +38,8 @@ struct Case {
   double start[2], rate[2];
   model::Harmonic harmonics[most_harmonics];
   int harmonic_count;      // the others must be zero
-  double initial[states];  // as the loop packs them; where angles are given, the ball's alone
-  // A given motion of the gimbal has shown all its tilts and rates by then, s.
+  double initial[states];  // packed as in the loop; only the ball's if angles are given
+  // When a given motion of the gimbal has shown all its tilts and rates, s.
   double repeats_after = std::numeric_limits<double>::infinity();
 };
 inline constexpr int numbers = offsetof(Case, harmonic_count) / sizeof(double);
@@ -49,16 +49,16 @@ inline constexpr int numbers_per_harmonic = sizeof(model::Harmonic) / sizeof(dou
 // nodes if they were kept.
 struct Progress {
   Case of;
-  double state[states];  // as the loop packs them
+  double state[states];  // packed as in the loop
   double acceleration[velocities];
   double last_step;  // s; 0 if it was not kept
   double last_accelerations[most_nodes][velocities];
 };
 
-// What all cases share.
+// The data that all cases share.
 struct Shared {
   double rtol, atol;
-  model::SharedTerms terms;  // of given angles: splines
+  model::SharedTerms terms;  // splines of given angles
 };
 
 // Selects lanes: -1 (all bits) or 0.
@@ -66,8 +66,9 @@ struct alignas(64) Lanes {
   long long of[group];
 };
 
-// Maxima, each in every lane: 1 - cos(tilt) of the plate, its squared angular velocity, and the
-// squared distances of the contact point from the plate's origin and from the reference.
+// Quantities whose maxima are taken, in each lane: 1 - cos(tilt) of the plate, its squared angular
+// velocity, and the squared distances of the contact point from the plate's origin and from the
+// reference.
 enum Look : int { versine, rate_squared, distance_squared, error_squared, looks };
 
 struct alignas(64) Greatest {
@@ -76,7 +77,7 @@ struct alignas(64) Greatest {
 
 struct alignas(64) Attempt {
   // Squares of the estimated local errors relative to the tolerance; a lane passes at 1 or below.
-  // NaN where the step is not finite.
+  // NaN if the step is not finite.
   double error_squared[group];
   bool converged[group];
   int turns;  // iterations of the slowest lane
@@ -87,7 +88,7 @@ struct alignas(64) Spans {
   double from[group], length[group];
 };
 
-// A lane's numbers depend only on its own case and steps, to the bit, whatever its companions are.
+// A lane's numbers depend only on its own case and steps, bit for bit, and not on its companions.
 //
 // All functions work on a workspace of `workspace` bytes, aligned to 64. start() must have prepared
 // it, and load() must have filled every lane. None allocates or throws.
@@ -108,8 +109,9 @@ struct Kernel {
   // three arrays must have that space.
   void (*evaluate)(void* workspace, int lane, const double* times, std::size_t count, double* x,
                    double* y);
-  // Updates the maxima of `lanes` with the start and the whole of the last attempt: those of the
-  // ball, and in `turning` those of the plate. Call it for each accepted attempt, before accept().
+  // Updates the maxima with the whole of the last attempt, its start included: the ball's in
+  // `lanes`, and the plate's in those that are also in `turning`. Call it for each accepted
+  // attempt, before accept().
   void (*look)(void* workspace, const Lanes& lanes, const Lanes& turning, Greatest& greatest);
   // Makes the end of the last attempt the present state of `lanes`. Lanes that are also in `kept`
   // keep the attempt's accelerations, from which a much shorter next step starts.
@@ -125,11 +127,11 @@ struct Kernels {
 template <class Isa>
 [[nodiscard]] const Kernels& kernels();
 
-// The kernel of that many nodes, which must exist.
+// The kernel for an actuation and a number of nodes, which must exist.
 [[nodiscard]] const Kernel& kernel_of(const Kernels& kernels, Actuation actuation, int nodes);
 
 // The kernels of the chosen instruction set. Throws InputError if the environment variable
-// BBSIM_SIMD names no instruction set of this processor.
+// BBSIM_SIMD is set, but not to an instruction set of this processor.
 [[nodiscard]] const Kernels& choose_kernels();
 
 }  // namespace bbsim::solve::ensemble

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The ball's equation where the gimbal's angles are given, with one case in each lane. Equation
-// (27) is then linear in the ball's five states:
+// The ball's equation for given angles of the gimbal, with one case in each lane. Equation (27) is
+// then linear in the ball's five states:
 //
 //     k = f + A (x, y, x', y', u)
 //
@@ -26,7 +26,7 @@ struct Linear : Equations<Isa, Actuation::given> {
   static constexpr int with_position = 2;
   static constexpr NodeRows<Isa, s> rows{};
 
-  // At a node. x'' does not depend on x', y'' not on y', and u' not on x, y or u.
+  // The coefficients at a node. x'' does not depend on x', y'' not on y', and u' not on x, y or u.
   struct Coefficients {
     P value[3], x_by[4], y_by[4], u_by[2];
 
@@ -46,7 +46,7 @@ struct Linear : Equations<Isa, Actuation::given> {
       y_by[0] = of_y.by[0], y_by[1] = of_y.by[1], y_by[2] = of_y.by[2], y_by[3] = of_y.by[4];
       u_by[0] = of_u.by[2], u_by[1] = of_u.by[3];
     }
-    // The accelerations of the unknown velocities at a state of these.
+    // The unknown accelerations at a state.
     BBSIM_INLINE void at(const P (&q)[2], const P (&v)[3], P (&k)[3]) const {
       k[0] = (value[0] + x_by[0] * q[0] + x_by[1] * q[1]) + (x_by[2] * v[1] + x_by[3] * v[2]);
       k[1] = (value[1] + y_by[0] * q[0] + y_by[1] * q[1]) + (y_by[2] * v[0] + y_by[3] * v[2]);
@@ -57,8 +57,8 @@ struct Linear : Equations<Isa, Actuation::given> {
     Coefficients at[s];
   };
 
-  // The piece of a table at each lane's time. The time's type keeps the search from being shared
-  // with other instruction sets.
+  // The piece of a table at each lane's time. The type of the time keeps compilers from sharing the
+  // search with other instruction sets.
   BBSIM_INLINE static model::SplinePiece<P> piece_at(const model::SplineView& table, P t) {
     model::SplinePiece<P> piece;
     for (int l = 0; l < Base::lanes; ++l) {

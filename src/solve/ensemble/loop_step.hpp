@@ -16,7 +16,7 @@
 //
 // The ball's accelerations are evaluated with the gimbal's unknown accelerations k, not with the
 // servos' response to the state. For a stiff servo that response is a difference of large numbers.
-// It has another factor at each node, so one Jacobian would fit no node well. With k, the stiff
+// Its factor differs from node to node, so one Jacobian would fit no node well. With k, the stiff
 // part is linear. For a nearly level plate the Jacobian is then nearly constant over the step, and
 // three corrections are enough.
 //
@@ -114,7 +114,7 @@ struct LoopStep : Base {
 
   // Sets k and the states at the nodes from the polynomials of the last step. For a step as long as
   // the last one they are useless. For a much shorter one, as on the way to infinity, they are
-  // right to a thousandth and save three iterations.
+  // accurate to a thousandth and save three iterations.
   [[gnu::noinline, gnu::flatten]] static void extrapolate(const Scene& scene, P h, Pack& of) {
     P series[s][nv];
 #pragma GCC unroll 1
@@ -208,9 +208,9 @@ struct LoopStep : Base {
     }
   }
 
-  // The fastest rate of each loop, 1/s. Each path leads from an acceleration back to itself. Its
-  // rate is the n-th root of the product of its couplings, where n is the number of integrations on
-  // the path. A coupling is the largest row sum of a block of the Jacobian, in SI units.
+  // The fastest rate of each loop, 1/s, over all paths from an acceleration back to itself. The
+  // rate of a path is the n-th root of the product of its couplings, where n is the number of
+  // integrations on it. A coupling is the largest row sum of a block of the Jacobian, in SI units.
   [[gnu::flatten]] static void rates(const void* workspace, double* rates) {
     const Workspace& w = *static_cast<const Workspace*>(workspace);
     for (int p = 0; p < packs; ++p) {

@@ -23,7 +23,7 @@ struct Maxima : Of {
 
   static constexpr bool of_plate(int which) { return which == versine || which == rate_squared; }
 
-  // The reference at a node. A gimbal whose angles are given has none.
+  // The reference at a node. Given angles have none.
   BBSIM_INLINE static Signals reference_at(const Pack& of, int node) {
     if constexpr (given) {
       return no_reference();
@@ -117,7 +117,7 @@ struct Maxima : Of {
 #pragma GCC unroll 2
       for (int i = phi; i <= theta; ++i) k[i] = of.k_end[i];
     } else if constexpr (which == rate_squared) {
-      // The slope of the polynomial itself, which has no node at its start.
+      // The polynomial's own acceleration at its start, where it has no node.
       Of::template make_courses<angles>(w);
 #pragma GCC unroll 2
       for (int i = 0; i < 2; ++i) {
@@ -144,7 +144,7 @@ struct Maxima : Of {
   }
 
   // Upper bounds of all Look quantities over the step, as in simd::promise_between, with squares of
-  // angles in place of sines.
+  // angles instead of sines.
   [[gnu::flatten]] static void bound(const Workspace& w, int p, P (&bounds)[looks]) {
     const Scene scene = Of::scene(w, p);
     const Pack& of = w.of[p];

@@ -65,7 +65,7 @@ struct Newton : Equations<Isa, actuation> {
   static constexpr int order[nq] = {phi, theta, x, y};
 
   // Makes I - Jk - h l Jv - h^2 l^2 Jq for each eigenvalue l, with rows and columns in `order`, and
-  // factors it in place (LU). The diagonal holds its own inverse.
+  // factors it in place (LU). The diagonal is stored inverted.
   BBSIM_INLINE static void factor(const Jacobian& at, P h, Memory& of) {
 #pragma GCC unroll 1
     for (int k = 0; k < pairs; ++k) {

@@ -25,8 +25,8 @@ struct Step : Iteration {
   using typename Base::Mask, typename Base::P, typename Base::Pack, typename Base::Scene,
       typename Base::Vector, typename Base::Workspace;
 
-  // The squares of the errors: the first coefficient left out, integrated once for a velocity and
-  // twice for a position.
+  // The squares of the estimated errors: the first coefficient left out, integrated once for a
+  // velocity and twice for a position.
   [[gnu::flatten]] static P estimate(const Workspace& w, int p) {
     const Pack& of = w.of[p];
     const Scene scene = Base::scene(w, p);

@@ -36,7 +36,7 @@ struct Work : Method {
 
   struct alignas(64) Workspace {
     Cases cases;
-    int harmonic_count;  // the most that a case had
+    int harmonic_count;  // the most of any case
     Shared shared;
     Spans spans;              // of the last attempt
     bool courses[2], series;  // whether they belong to the last attempt
@@ -58,8 +58,8 @@ struct Work : Method {
     return mask;
   }
 
-  // Integrates the unknown accelerations to the states at `count` nodes. The sums begin with node
-  // `oldest`.
+  // Integrates the unknown accelerations to the states at `count` nodes from `first` on. The sums
+  // begin with node `oldest`.
   template <int count>
   BBSIM_INLINE static void integrate(const Pack& of, P h, int first, int oldest,
                                      P (&q)[count][with_position], P (&v)[count][unknowns]) {
@@ -99,9 +99,9 @@ struct Work : Method {
     }
   }
 
-  // Sets the weights from the tolerances and the largest states over the step. A servo's start
-  // would take dozens of steps for motions that show neither in an angle nor in the ball's
-  // position. The absolute tolerance of its rate is therefore omega_n times that of an angle.
+  // Sets the weights from the tolerances and the largest states over the step. The absolute
+  // tolerance of a servo's rate is omega_n times that of an angle. Otherwise a servo's start would
+  // take dozens of steps for motions that show neither in an angle nor in the ball's position.
   BBSIM_INLINE static void weigh(const Workspace& w, const Scene& scene, Pack& of) {
     const P rtol(w.shared.rtol), atol(w.shared.atol);
 #pragma GCC unroll 8
@@ -121,8 +121,8 @@ struct Work : Method {
     }
   }
 
-  // Whether all angles stay within pi/4. The cheaper sines are the same to the bit there; otherwise
-  // a lane's result would depend on its companions.
+  // Whether all angles stay within pi/4. The cheaper sines must be the same there bit for bit, or a
+  // lane's result would depend on its companions.
   BBSIM_INLINE static bool are_small(const Pack& of) {
     P most(0.0);
 #pragma GCC unroll 1
