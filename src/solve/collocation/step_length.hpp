@@ -12,9 +12,8 @@ namespace bbsim::solve {
 
 inline constexpr double step_safety = 0.9;
 
-// The ratio of the next step's length to the last one's, for a method with `stages` stages. `error`
-// of the last step is relative to the tolerance. Hairer and Wanner, IV.8. Single precision is
-// enough, and faster.
+// The ratio of the next step's length to the last one's. `error`: of the last step, relative to the
+// tolerance. Hairer and Wanner, IV.8. Single precision is enough, and faster.
 template <class Real>
 [[nodiscard]] inline double step_growth(Real error, int stages, double most = 8) {
   constexpr double least = 0.1;

@@ -115,8 +115,7 @@ class CvodeStepper : public Stepper {
     } else {
       use_fixed_point();
     }
-    // Near rest the step must shrink more often than the seven failures that CVODE allows by
-    // default.
+    // Near rest the step shrinks more often than CVODE's default of seven failures allows.
     if (model.dry) check(CVodeSetMaxErrTestFails(memory(), 40), "CVodeSetMaxErrTestFails");
     if (model.gamma) integrate_spin();
   }
@@ -205,8 +204,7 @@ class CvodeStepper : public Stepper {
     check(CVodeSetJacFn(memory(), jacobian), "CVodeSetJacFn");
     if (equations_.coupled) {
       // The direction of friction turns faster as the velocity gets smaller. Near rest an old
-      // Jacobian is wrong by orders of magnitude, and CVODE mistakes small corrections for
-      // convergence.
+      // Jacobian is wrong by far, and CVODE mistakes small corrections for convergence.
       check(CVodeSetJacEvalFrequency(memory(), 1), "CVodeSetJacEvalFrequency");
       check(CVodeSetLSetupFrequency(memory(), 1), "CVodeSetLSetupFrequency");
     }

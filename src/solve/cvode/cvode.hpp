@@ -16,9 +16,8 @@ namespace bbsim::solve {
 // Jacobian, or Adams-Moulton (Method::adams, orders 1 to 12) with fixed-point iterations. `method`
 // must be one of these.
 //
-// Rows are interpolated with the method's own polynomial. gamma is a quadrature outside the
-// nonlinear system. Keeps a reference to the model. Throws std::runtime_error if CVODES refuses its
-// setup.
+// Rows come from the method's own polynomial. gamma is a quadrature outside the nonlinear system.
+// Keeps a reference to the model. Throws std::runtime_error if CVODES refuses its setup.
 [[nodiscard]] std::unique_ptr<Stepper> make_cvode_stepper(const model::Model& model, Method method,
                                                           Tolerances tolerances);
 

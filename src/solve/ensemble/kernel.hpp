@@ -66,9 +66,8 @@ struct alignas(64) Lanes {
   long long of[group];
 };
 
-// Quantities whose maxima are taken, in each lane: 1 - cos(tilt) of the plate, its squared angular
-// velocity, and the squared distances of the contact point from the plate's origin and from the
-// reference.
+// The maxima of each lane: 1 - cos(tilt) of the plate, its squared angular velocity, and the
+// squared distances of the contact point from the plate's origin and from the reference.
 enum Look : int { versine, rate_squared, distance_squared, error_squared, looks };
 
 struct alignas(64) Greatest {
@@ -109,9 +108,8 @@ struct Kernel {
   // three arrays must have that space.
   void (*evaluate)(void* workspace, int lane, const double* times, std::size_t count, double* x,
                    double* y);
-  // Updates the maxima with the whole of the last attempt, its start included: the ball's in
-  // `lanes`, and the plate's in those that are also in `turning`. Call it for each accepted
-  // attempt, before accept().
+  // Updates the maxima with the last attempt, its start included: the ball's in `lanes`, and the
+  // plate's in those also in `turning`. Call it for each accepted attempt, before accept().
   void (*look)(void* workspace, const Lanes& lanes, const Lanes& turning, Greatest& greatest);
   // Makes the end of the last attempt the present state of `lanes`. Lanes that are also in `kept`
   // keep the attempt's accelerations, from which a much shorter next step starts.

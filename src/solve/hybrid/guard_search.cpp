@@ -71,8 +71,8 @@ double GuardSearch::above(std::size_t i, double t) {
   return values_[i] - guards_[i].threshold;
 }
 
-// The first time in (from, to] at which guard i is not above its threshold. The guard is above it
-// at `from`, and not at `to`. Uses regula falsi, with a bisection after each step that does not
+// The first time in (from, to] at which guard i is not above its threshold. The guard must be above
+// it at `from`, and not at `to`. Uses regula falsi, with a bisection after each step that does not
 // halve the bracket.
 double GuardSearch::root(std::size_t i, double from, double to) {
   double f_from = above(i, from), f_to = above(i, to);
@@ -96,8 +96,8 @@ double GuardSearch::root(std::size_t i, double from, double to) {
   return to;
 }
 
-// Searches for the minimum of guard i within [from, to] by golden sections. Returns a time at
-// which the guard is not above its threshold, or `from` if it finds none.
+// Golden-section search for the minimum of guard i within [from, to]. Returns a time at which the
+// guard is not above its threshold, or `from` if it finds none.
 double GuardSearch::dip(std::size_t i, double from, double to) {
   constexpr double golden = 0.6180339887498949;
   double a = from, b = to;
@@ -123,7 +123,7 @@ double GuardSearch::dip(std::size_t i, double from, double to) {
   return from;
 }
 
-// Time of point p of the points at which the search evaluates the step.
+// Time of point p, one of the points at which the search evaluates the step.
 double GuardSearch::point(std::size_t p) const {
   if (p == points_) return to_;
   return from_ + (to_ - from_) * static_cast<double>(p) / static_cast<double>(points_);
@@ -144,7 +144,7 @@ void GuardSearch::evaluate_planned() {
   next_planned_ = 0;
 }
 
-// Values of all guards at t.
+// Evaluates all guards at t, from the planned rows if it can.
 void GuardSearch::evaluate(double t, std::vector<double>& values) {
   if (next_planned_ < planned_times_.size() && planned_times_[next_planned_] == t) {
     run_.evaluate_guards(t, &planned_rows_[next_planned_ * row_size_], values.data());
@@ -156,8 +156,8 @@ void GuardSearch::evaluate(double t, std::vector<double>& values) {
   run_.evaluate_guards(t, z_.data(), values.data());
 }
 
-// Bounds each guard by its values at Chebyshev points and by the most that a polynomial can
-// undershoot them. Leaves guards that are not finite to the search.
+// Returns whether all guards certainly stay positive. Bounds each by its values at Chebyshev points
+// and the most that a polynomial can undershoot these. False for guards that are not finite.
 bool GuardSearch::all_stay_positive(double from, double to) {
   const ChebyshevPoints& points = tables_.points(stepper_.parts());
   const std::size_t count = points.size();
@@ -190,7 +190,7 @@ model::Effect GuardSearch::begin(double from, double to) {
   from_ = last_ = from;
   to_ = to;
   points_ = 0;
-  point_ = 1;  // behind the last point, unless there is something to search
+  point_ = 1;  // after the last point: nothing to search yet
   if (knowledge_ == Knowledge::unwatched || knowledge_ == Knowledge::proven) {
     return model::Effect::none;
   }
@@ -225,8 +225,8 @@ static bool may_dip(const Guard& guard, double end_value, double end_slope, doub
   return guard.value + guard.slope * meet <= 0;
 }
 
-// The first crossing in (from, to], by values and slopes at both ends. Slopes are differences, good
-// to some parts in 1e4.
+// The first crossing in (from, to], from values and slopes at both ends. Slopes are differences,
+// accurate to some parts in 1e4.
 std::optional<model::Crossing> GuardSearch::first_crossing(double from, double to) {
   const double width = to - from, nudge = width * nudged;
   evaluate(from + nudge, near_);

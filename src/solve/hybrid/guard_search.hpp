@@ -16,31 +16,32 @@ namespace bbsim::solve {
 
 class GuardSearch {
  public:
-  // If the stepper moves servos in closed form, their crossings are predicted, and this searches
-  // the guards of monitors only.
+  // If the stepper moves servos in closed form, their crossings are predicted elsewhere, and only
+  // the guards of monitors are searched.
   GuardSearch(model::HybridSystem& run, Stepper& stepper);
 
-  // Writes the states at a time within the last step. Returns the integral of u = r gamma', m.
+  // Sets z to the states at t, within the last step. Returns the integral of u (m) with
+  // Model::gamma.
   double state_at(double t, std::vector<double>& z);
 
-  // What this knows of the guards at the start of the next search. Changes:
+  // The knowledge of the guards at the start of the next search. Transitions:
   //   arm(): any -> armed          begin_step(): proven -> unarmed
   //   forget(): armed -> unarmed   after_switch(): any -> unchecked
   //   begin(): all but unwatched -> proven, if the stepper proves it; otherwise -> armed
   enum class Knowledge {
     unwatched,  // there are no guards to search
     armed,      // the guards have values
-    unarmed,    // they have none
-    unchecked,  // nor were monitors checked since a switch
+    unarmed,    // the guards have no values
+    unchecked,  // unarmed, and no monitor was checked since a switch
     proven,     // the stepper proved that no monitor changes sides within its last step
   };
   [[nodiscard]] bool unchecked() const { return knowledge_ == Knowledge::unchecked; }
 
   // Sets the guards' values for the states z at t. A guard that starts at zero, where it last
-  // crossed, fires once it is clearly below.
+  // crossed, fires only once it is clearly below zero.
   void arm(double t, const double* z);
-  // For steppers with closed-form servos. The step's bounds usually settle what a switch did to the
-  // monitors, too; so they wait for it.
+  // For steppers with closed-form servos. Monitors are not checked at a switch, because the bounds
+  // of the next step usually cover it.
   void begin_step() {
     if (knowledge_ == Knowledge::proven) knowledge_ = Knowledge::unarmed;
   }
@@ -52,14 +53,14 @@ class GuardSearch {
   }
 
   // Begins the search of a part of the last step. next() then returns the first crossing that is
-  // left; resume() goes on behind it, with the states there. Returns Effect::stop if a monitor,
+  // left; resume() continues after it, with the states there. Returns Effect::stop if a monitor,
   // checked late, stops the run at `from`.
   model::Effect begin(double from, double to);
   [[nodiscard]] std::optional<model::Crossing> next();
   void resume(double t, const double* z);
 
-  // Predicts when an event stops the run, s. Extrapolates each guard linearly from its value at the
-  // last call.
+  // Predicts when an event stops the run, s; infinity if none does. Extrapolates each guard
+  // linearly from its value at the last call.
   double predicted_stop(double t);
 
   template <class Archive>
@@ -96,7 +97,7 @@ class GuardSearch {
   std::size_t first_;  // the first guard that is searched
   Knowledge knowledge_;
   std::vector<Guard> guards_;
-  // The search: from begin() on, the points of the step, and the last time evaluated.
+  // The search: start, end and last time evaluated (s), number of points, next point.
   double from_ = 0, to_ = 0, last_ = 0;
   std::size_t points_ = 0, point_ = 1;
   ChebyshevTables tables_;

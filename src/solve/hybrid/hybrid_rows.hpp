@@ -32,7 +32,7 @@ class HybridRows {
     if (pieces_ != nullptr) pieces_->begin_run();
   }
 
-  // Continues behind the rows of earlier parts.
+  // Continues after the rows of earlier parts.
   void skip(std::size_t first_row) {
     next_row_ = first_row;
     begin_ = grid_[first_row - 1];
@@ -50,7 +50,7 @@ class HybridRows {
   }
 
   // Writes the row at the instant of a switch, with the state after it. `integral`: that of u,
-  // which does not jump. There are several rows if rows are closer than rounding.
+  // which does not jump. Writes several rows if they are closer than rounding.
   void write_at(double at, const std::vector<double>& z, double integral) {
     for (; next_row_ < end_row_ && grid_[next_row_] - at <= run_.rounding(at); ++next_row_) {
       write(grid_[next_row_], z, integral);
@@ -58,8 +58,8 @@ class HybridRows {
   }
   void write_first(const std::vector<double>& z) { write(0, z, 0); }
 
-  // Hands on the motion from `from`, where the last call ended, to `to`. Call it before the mode
-  // changes. `switches`: up to but not including `to`.
+  // Publishes the motion from `from`, where the last call ended, to `to`. Call it before the mode
+  // changes. `switches`: `to` is excluded.
   void publish(double from, double to, bool switches) {
     if (pieces_ == nullptr) return;
     const double first = std::max(from, begin_);
@@ -71,9 +71,9 @@ class HybridRows {
   [[nodiscard]] std::size_t count() const { return rows_.rows(); }
   [[nodiscard]] std::size_t next_row() const { return next_row_; }
   [[nodiscard]] std::size_t end_row() const { return end_row_; }
-  // Whether all rows of this part are written, if it is not the last part.
+  // Whether this is not the last part, and all its rows are written.
   [[nodiscard]] bool part_ends() const { return next_row_ == end_row_ && end_row_ < grid_.size(); }
-  // The times of this part's last row, and of the last row before the part.
+  // The times (s) of this part's last row, and of the last row before the part.
   [[nodiscard]] double end() const { return end_; }
   [[nodiscard]] double begin() const { return begin_; }
 

@@ -3,8 +3,8 @@
 
 // The driver's interface to one step of Radau IIA collocation, for every instruction set.
 //
-// Has only plain data and pointers to functions. Code here could be compiled for one instruction
-// set and run on another.
+// Only plain data and pointers to functions: code here could be compiled for one instruction set
+// and run on another.
 #pragma once
 
 #include <cstddef>
@@ -36,8 +36,8 @@ struct WorkspaceHead {
   const void* system;  // not part of a saved state
   double rtol, atol;
   bool gamma;
-  bool positions_only;  // in rows
-  bool newton;          // whether to iterate by Newton; otherwise by substitution
+  bool positions_only;  // see Start
+  bool newton;          // whether to use Newton's iteration, not substitution
   bool has_guess;       // whether k has the values of the last attempt, over [t, t + h]
   bool accepted;        // whether that attempt was accepted
 };
@@ -49,8 +49,8 @@ struct Kernel {
   int states;
   std::size_t workspace;
   void (*start)(void* workspace, const Start& start);
-  // The rate of the linearized system about the present state, 1/s: the norm of its Jacobian, where
-  // the norm for positions counts by its square root.
+  // The rate of the system linearized about the present state, 1/s: the larger of its Jacobian's
+  // norm for velocities and the square root of that for positions.
   double (*rate)(void* workspace, double t);
   // Attempts a step of length h from the present state at t, both in s.
   void (*attempt)(void* workspace, double t, double h, Attempt* result);
@@ -66,7 +66,7 @@ struct Kernel {
 inline constexpr int system_count = 17;
 
 struct StepKernels {
-  // A system that only the baseline supports has a kernel without functions.
+  // If only the baseline supports a system, other sets have a kernel without functions.
   Kernel kernels[3][system_count];  // for 8, 12 and 16 stages
 };
 

@@ -35,7 +35,7 @@ bool is_open_loop(const model::Model& model) {
                     model.system);
 }
 
-// The fastest rate of the gimbal's sines of angles, or of a reference, rad/s.
+// The fastest rate of the sines of the gimbal's angles, or of a reference, rad/s.
 double tempo(const model::Model& model) {
   return std::visit(
       [&](const auto& system) {
@@ -78,7 +78,7 @@ const StepKernels& choose_kernels() {
 }
 
 int choose_stages(const model::Model& model, double rtol) {
-  // Substitution solves no linear systems, so more stages take hardly longer.
+  // Substitution solves no linear systems, so more stages cost little time.
   const double for_most = is_open_loop(model) ? 1e-6 : 3e-9;
   return rtol > 3e-6 ? 8 : rtol > for_most ? 12 : 16;
 }
@@ -108,7 +108,7 @@ void RadauStepper::renew(const model::Model& model, int stages, double end) {
     view_ = static_cast<std::byte*>(workspace_) + kernel_->workspace;
   }
   highest_frequency_ = highest_frequency(model);
-  // Nodes would alias a sinusoid shorter than their distance to a longer one.
+  // A sinusoid shorter than the distance of two nodes would look like a longer one.
   widest_ = highest_frequency_ > 0 ? 1.6 * kernel_->stages / highest_frequency_
                                    : std::numeric_limits<double>::max();
   tempo_ = tempo(model);
@@ -137,8 +137,8 @@ std::size_t RadauStepper::detail() const {
 
 // The Legendre coefficients of the accelerations fall geometrically, to the tolerance at the last
 // stage. Those of products of two states fall half as fast, so they need twice as many. Explicit
-// functions of time need not show in the error estimate: their coefficients fall only beyond as
-// many as the step has radians.
+// functions of time may not show in the error estimate. Their coefficients fall only beyond the
+// number of radians in the step.
 std::size_t RadauStepper::parts() const {
   constexpr double least = 8, of_products = 2, a_radian = 3, most = 128;
   const double parts = std::max(of_products * kernel_->stages * fill_,
@@ -189,7 +189,7 @@ std::optional<Failure> RadauStepper::step(double limit) {
   settle();
   const int stages = kernel_->stages;
   const double t = time_;
-  // A step has a stage at its end, and sees the input there.
+  // The last stage is at the end of the step, and sees the input there.
   const double to = model_->jumps_at(limit) ? model_->just_before(limit) : limit;
   const double left = (to > t ? to : limit) - t;
   bool rejected = false;
@@ -235,7 +235,7 @@ void RadauStepper::archive(Archive& archive) {
           least_end_, statistics_);
   archive.require(is_finite(time_, turned_, accepted_step_, fill_) && is_number(least_end_) &&
                   worst_state_ < model_->size());
-  // The kernel's memory: three flags of its head, and plain numbers after the head.
+  // The kernel's memory: three flags in its head, and plain numbers after it.
   auto& head = *static_cast<WorkspaceHead*>(workspace_);
   archive(head.newton, head.has_guess, head.accepted);
   archive.bytes(static_cast<std::byte*>(workspace_) + sizeof head,

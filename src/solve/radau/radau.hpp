@@ -19,24 +19,24 @@
 namespace bbsim::solve::radau {
 
 // The kernels of the chosen instruction set. Throws InputError if the environment variable
-// BBSIM_SIMD names no instruction set of this processor.
+// BBSIM_SIMD is set, but not to an instruction set of this processor.
 [[nodiscard]] const StepKernels& choose_kernels();
 
 // The number of stages for a model and a relative tolerance: 8, 12 or 16. Open loops take 16 at
 // looser tolerances. Rigs beyond the paper's have kernels of 8 and 12 stages only, and run with 12
-// for 16.
+// instead of 16.
 [[nodiscard]] int choose_stages(const model::Model& model, double rtol);
 
 // The number of stages that a model runs with if `stages` are asked for.
 [[nodiscard]] int stages_of(const model::Model& model, int stages);
 
 // The method is L-stable and superconvergent: a stiff servo costs no more steps than the motion
-// itself. Rows between steps are values of the collocation polynomial. gamma is the polynomial's
-// integral, under error control.
+// itself. Rows between steps are values of the collocation polynomial. gamma comes from the
+// polynomial's integral, under error control.
 //
 // Steps end at the model's stops if the driver passes these as limits. A step is short enough that
 // no sinusoid of the input passes unseen between two nodes. After construction the stepper
-// allocates only where steps shrink one after another. Keeps a reference to the model.
+// allocates only while steps keep shrinking. Keeps a reference to the model.
 class RadauStepper : public Stepper {
  public:
   // `end` (s): the length of the first step if nothing moves.
@@ -79,7 +79,7 @@ class RadauStepper : public Stepper {
   double end_ = 0, highest_frequency_ = 0, reach_ = 0, widest_ = 0;
   double tempo_ = 0;  // rate of explicit functions of time, rad/s
   bool positions_only_ = false;
-  std::unique_ptr<std::byte[]> memory_;  // of the two that follow
+  std::unique_ptr<std::byte[]> memory_;  // of the two below
   void* workspace_ = nullptr;
   void* view_ = nullptr;
   double time_ = 0;

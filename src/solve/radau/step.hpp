@@ -76,8 +76,8 @@ struct alignas(64) PackedTable {
 };
 
 // The parts of a step that depend on the layout of the states but not on the system. The long
-// functions are noinline: compilers would take twice as long to compile them again for each system.
-// Functions stay inline where that would change results: which of two products in a sum is fused
+// functions are noinline, because compiling them again for each system would take twice as long.
+// Functions stay inline if noinline would change results: which of two products in a sum is fused
 // may depend on the surrounding code.
 //
 // The accelerations first_turning to first_turning + turning - 1 are arguments of the system's own
@@ -179,7 +179,7 @@ struct Collocation {
   }
 
   // Makes the matrices I - Jk - h l Jv - h^2 l^2 Jq for all eigenvalues l, and factors them in
-  // place without pivoting (LU). The diagonal holds its own inverse.
+  // place without pivoting (LU). The diagonal is stored inverted.
   [[gnu::noinline]] static void factor(Workspace& w) {
     for (int e = 0; e < eigen_packs; ++e) {
       const E re = w.h * E::load(&table.lambda_re[e * E::size]);
@@ -279,7 +279,7 @@ struct Collocation {
                                        });
   }
 
-  // Sets the first values of k, and v and q at the stages, for the step at w.t of length w.h:
+  // Sets the first guess of k, and v and q at the stages, for the step at w.t of length w.h:
   // accelerations stay constant over the step.
   BBSIM_INLINE static void hold(Workspace& w, const double (&k)[nv]) {
     for (int p = 0; p < packs; ++p) {
@@ -320,7 +320,6 @@ struct Collocation {
     }
   }
 
-  // Begins from a state.
   static void prepare(Workspace& w, const Start& from) {
     w.rtol = from.rtol;
     w.atol = from.atol;
@@ -347,7 +346,7 @@ struct Collocation {
 
   // The rounding error of acceleration i, which a shorter step would not reduce. It is the smaller
   // of two bounds: the rounding of the right-hand side, and the rounding of the position
-  // differentiated twice. The second holds where a stiff equation ties the acceleration to the
+  // differentiated twice. The second holds if a stiff equation ties the acceleration to the
   // position.
   static double noise(const Workspace& w, int i) {
     if (!w.newton || i >= nq) return 0;
@@ -431,7 +430,7 @@ struct Collocation {
   template <bool of_scaled>
   static constexpr Integration<of_scaled> integration{};
 
-  // (h/2) times the integral of a series from -1, plus its value there.
+  // `half` times the integral of a series from -1, plus `from`.
   template <int length, bool of_scaled>
   BBSIM_INLINE static void integrate_series(const double* k, double half, double from,
                                             double* out) {
@@ -472,8 +471,8 @@ struct Collocation {
     }
   }
 
-  // Expands velocities and positions here for all callers, so that all of them get the same fused
-  // products.
+  // Expands velocities and positions into series. All callers share this function, so that all get
+  // the same fused products.
   [[gnu::noinline]] static void expand(Workspace& w) {
     const double half = w.h / 2;
     for (int i = 0; i < nv; ++i) {
@@ -484,7 +483,7 @@ struct Collocation {
     }
   }
 
-  // Positions are the same to the bit, with or without velocities and the integral of u, and for
+  // Positions are the same bit for bit, with or without velocities and the integral of u, and for
   // any number of times.
   template <bool velocities, bool turned>
   BBSIM_INLINE static void evaluate_rows(Workspace& w, const double* times, std::size_t count,
@@ -582,9 +581,9 @@ struct SystemRates {
   template <class Real>
   using Given = Real[turning + 1];
 
-  // Whether the Jacobian may change by decades close to a state: the direction of a friction force
-  // does so where the velocity is near zero. Newton's corrections can then be small although the
-  // error is not.
+  // Whether the Jacobian may change by orders of magnitude close to a state, as the direction of
+  // friction does near zero velocity. Newton's corrections can then be small although the error is
+  // not.
   static constexpr bool steep = requires { System::steep; };
 
   template <class Real>
@@ -666,7 +665,6 @@ struct Step
   static constexpr int n = System::size;
   static constexpr bool steep = Rates::steep;
 
-  // Starts with the workspace of Collocation.
   struct alignas(64) Workspace : Base::Workspace {
     typename Rates::Inputs inputs[packs];
   };
@@ -703,7 +701,7 @@ struct Step
     for (int i = 0; i < nv; ++i) k[i] = dz[motions.of[i].velocity].v[0];
   }
 
-  // Sets the first values of k, and v and q at the stages.
+  // Sets the first guess of k, and v and q at the stages.
   BBSIM_INLINE static void guess(Workspace& w, double t, double h) {
     const double last_t = w.t, last_h = w.h;
     w.t = t;
@@ -836,7 +834,7 @@ struct Step
       }
     }
     if constexpr (steep) {
-      // Stiff motors magnify the residual of Newton's iteration.
+      // Stiff motors magnify the residual of Newton's iteration, so test it, too.
       constexpr double hardly_solved = 30;
       a.right_hand_sides += s;
       if (!(residual(w) <= hardly_solved)) {

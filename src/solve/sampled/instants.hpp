@@ -12,15 +12,15 @@
 
 namespace bbsim::solve::sampled {
 
-// For a loop whose periods are all alike.
+// For loops with a constant period.
 class Instants {
  public:
   // `cut`: pieces end at samples, too.
   explicit Instants(const model::SampledLoop& loop, bool cut = false);
 
-  // The nominal length (s) of a piece that starts at `time`. Instants n * period differ by
-  // roundings of the time. With nominal lengths one table serves all pieces, and the lengths add up
-  // to the times themselves.
+  // The nominal length (s) of a piece that starts at `time`. Instants n * period have rounding
+  // errors, so lengths differ. With nominal lengths one table serves all pieces, and the lengths
+  // add up to the times themselves.
   [[nodiscard]] double nominal(double time, double length) const;
 
   // The exact recurring time that `after` stands for: both are in s from the start of a piece and
@@ -28,8 +28,8 @@ class Instants {
   // and ends near `time`.
   [[nodiscard]] std::optional<double> recurring(double time, double after, double length) const;
 
-  // The impulse response `after` seconds into a piece that ends near `time`. Kept for the instants
-  // of samples. Valid until the next call.
+  // The impulse response `after` seconds into a piece that ends near `time`. Responses at samples
+  // are cached. Valid until the next call.
   [[nodiscard]] const model::ImpulseAnswer& answer(const model::HeldLaw& law, double time,
                                                    double after);
 
@@ -40,7 +40,7 @@ class Instants {
     model::HeldLaw law{};
     model::ImpulseAnswer answer{};
   };
-  // Of pieces from command to command; and of those from a sample to a command and back, s.
+  // Lengths (s) of pieces from command to command, from sample to command, and back to a sample.
   std::array<double, 3> lengths_;
   std::array<Kept, 2> samples_;
   Kept other_;

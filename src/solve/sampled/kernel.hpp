@@ -4,8 +4,8 @@
 // The stepper's interface to one piece of a rig between two instants under a held command, for
 // every instruction set.
 //
-// Has only plain data and pointers to functions. Code here could be compiled for one instruction
-// set and run on another.
+// Only plain data and pointers to functions: code here could be compiled for one instruction set
+// and run on another.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +27,8 @@ struct alignas(64) MotionTable {
   // The initial acceleration of the polynomial through the nodes, minus the true one. A jump that
   // is over before the first node leaves no other trace.
   double missed_by_rate, missed_by_acceleration;
-  // The rate and angle at the end that integrating the nodal accelerations misses. A motion that is
-  // over between two nodes is missed completely. `lost`: whether this exceeds rounding.
+  // What integrating the nodal accelerations misses of the rate and angle at the end: all of a
+  // motion that is over between two nodes. `lost`: whether this exceeds rounding.
   bool lost;
   double lost_rate_by_rate, lost_rate_by_acceleration;
   double lost_angle_by_rate, lost_angle_by_acceleration;
@@ -76,7 +76,7 @@ struct Attempt {
   int iterations;
 };
 
-// Quantities that are evaluated for events and loads. They are smooth: squares in place of roots.
+// Quantities that are evaluated for events and loads. They are smooth: squares instead of roots.
 enum Look : int {
   x,
   y,
@@ -122,7 +122,7 @@ struct Kernels {
     // Computes the ranges over the start and nodes. Leaves ranges that are not wanted unchanged.
     void (*look)(const Piece& piece, const Scene& scene, Range* ranges, Loads& loads);
   } papers, general;
-  // Uses power series, so the length must suit these (model::suits_series()).
+  // Computes responses by power series, which the length must suit (model::suits_series()).
   void (*answers)(double damping, double stiffness, double length, NodeAnswers& answers);
   // The ranges of the three loads over the Chebyshev points.
   void (*look_closely)(const Loads& loads, Range* ranges);

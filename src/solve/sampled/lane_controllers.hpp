@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The sampled controllers of rigs in lanes. Those that sample in the same turn are computed
+// The sampled controllers of rigs in lanes. Those that sample in the same round are computed
 // together, whatever their times.
 #pragma once
 

@@ -167,7 +167,7 @@ void LaneEngine::predict_crossing(std::size_t l) {
       lane.time, {step_.servo(l, 0), step_.servo(l, 1)}, lane.predicted_to);
 }
 
-// Finds the motion of the servos of an axis over the pieces. Mostly all lanes share one table.
+// Finds the motion of the servos of an axis over the pieces. Usually all lanes share one table.
 void LaneEngine::load_tables(std::size_t i) {
   const LaneServo& servo = servos_->of[i];
   LaneAxis& axis = pieces_->axis[i];

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Moves many sampled rigs from instant to instant, with one rig in each SIMD lane: what RigLanes
-// and SteppedLanes share.
+// Moves many sampled rigs from instant to instant, with one rig in each SIMD lane: the base of
+// RigLanes and SteppedLanes.
 #pragma once
 
 #include <algorithm>
@@ -22,15 +22,15 @@
 
 namespace bbsim::solve::sampled {
 
-// Whether lanes can move the model: it passes knows(), and is the paper's rig but for its servos
-// and controller.
+// Whether lanes can move the model: it passes knows(), has no gamma, and is the paper's rig except
+// for its servos and controller.
 [[nodiscard]] bool moves(const model::Model& model);
 
 // Each rig keeps its HybridSystem with its own sensor, servos and limits. The balls are computed
 // together between switches, each as in HeldStepper. A switch in one lane cuts only that lane's
 // piece. The lane is then behind the others, and lanes do not wait for each other.
 //
-// Within the tolerance, a rig's motion depends on its companions, and on nothing else.
+// Within the tolerance, a rig's motion varies with its companions. It depends on nothing else.
 class LaneEngine {
  protected:
   explicit LaneEngine(Tolerances tolerances);
@@ -62,15 +62,15 @@ class LaneEngine {
     bool unpredicted = false;
   };
 
-  // Begins a run up to `end` s in a lane, with nothing done at t = 0. The caller handles what is
-  // due then, and start() follows. `cut`: pieces end at samples, too.
+  // Opens a run up to `end` s in a lane. The caller then handles what is due at t = 0 and calls
+  // start(). `cut`: pieces end at samples, too.
   void open(std::size_t lane, const model::Model& model, double end, bool cut);
   void start(std::size_t lane);
   void clear(std::size_t lane);
 
-  // A round: plan(), the kernels' attempt, judge(), what the caller does with the pieces, go_on()
-  // for each lane that moved. plan() asks for the limit of each piece, and returns false if no lane
-  // moves.
+  // A round: plan(), the kernels' attempt, judge(), the caller's work on the pieces, and go_on()
+  // for each lane that moved. plan() calls limit_of(lane) for the limit of each piece, and returns
+  // false if no lane moves.
   template <class Limit>
   bool plan(const Limit& limit_of);
   void judge();
@@ -80,10 +80,10 @@ class LaneEngine {
   struct alignas(64) Instant {
     double after[group], ball[5][group];  // s after the start of the piece
     double when[group];                   // s
-    bool is_event[group];                 // of the run; otherwise it is the caller's
+    bool is_event[group];                 // an event of the run; otherwise the caller's
   };
-  // Finds the next instants: events, or times of the caller, such as rows, which other(lane) gives.
-  // A lane without one up to the end of its piece is settled. Returns false if all are.
+  // Finds each lane's next instant: an event, or a time other(lane) of the caller, such as a row. A
+  // lane without one up to the end of its piece is settled. Returns false if all are.
   template <class Other>
   bool find_instants(const Other& other, Instant& next);
 
@@ -93,7 +93,7 @@ class LaneEngine {
   // Sets the state at t within a lane's piece, or at its end. `ball` must hold the balls at t. Sets
   // the servos' states if `servos`, and always at the end.
   void state_at(std::size_t lane, double t, const double (*ball)[group], bool servos);
-  // The motions of servos that were computed for other rigs are to be computed anew.
+  // Discards the servo motions that were computed for other rigs.
   void forget_tables();
 
   [[nodiscard]] static const Loop& loop_of(const model::Model& model) {
@@ -109,7 +109,7 @@ class LaneEngine {
   std::array<Lane, group> lanes_;
 
  private:
-  // The law and length of the table that an axis of pieces_ has in a lane, or in all.
+  // The law and length of the table that pieces_ has for an axis, in a lane or in all.
   struct Loaded {
     model::HeldLaw law{};
     double length = -1;

@@ -4,7 +4,7 @@
 // The driver's interface to sampled rigs between two instants, with one rig in each lane, for every
 // instruction set.
 //
-// Has only plain data and pointers to functions. Kernels must not call functions outside their own
+// Only plain data and pointers to functions. Kernels must not call functions outside their own
 // instruction set, so they call no function on doubles from the headers included here.
 #pragma once
 
@@ -31,13 +31,13 @@ struct alignas(64) LaneAxis {
   double by_rate[MotionTable::rows][nodes][group], by_acceleration[MotionTable::rows][nodes][group];
   double plane_sin[nodes][group], plane_cos[nodes][group];
   double plane_rate[nodes][group], plane_acceleration[nodes][group];
-  bool lost;  // whether any lane loses something; otherwise those four are zero
+  bool lost;  // whether any lane has a loss; otherwise the lost_* are zero
   // The table that all lanes use. If null, by_rate and by_acceleration have one for each lane.
   const MotionTable* shared;
 };
 
-// The last piece of each rig; Piece has the same for a single rig. A lane without a piece has zero
-// length, and its numbers mean nothing.
+// The last piece of each rig, like Piece for a single rig. A lane without a piece has zero length,
+// and its numbers mean nothing.
 struct alignas(64) LanePieces {
   double length[group];                           // s
   double position[2][group], velocity[3][group];  // at the start
@@ -49,7 +49,7 @@ struct alignas(64) LanePieces {
   double position_end[2][group], velocity_end[3][group];
   double contraction[group];  // of its iterations
   // Upper bounds of the error estimates relative to the tolerance; a lane passes at 1 or below.
-  // closer_error() gives the estimate itself. `hopeless` where substitution failed.
+  // closer_error() gives the estimate itself. `hopeless` if substitution failed.
   double error[group];
   int iterations;  // of the last attempt, in all packs
 };
@@ -61,27 +61,27 @@ inline constexpr double hopeless = 1e300;
 struct alignas(64) LaneServo {
   double push[group], by_command[group], stiffness[group], damping[group];
   double command[group];  // u
-  // Bounds within which no servo switches, the root of the stiffness, and its inverse
+  // Bounds within which no servo switches, the square root of the stiffness, and its inverse
   // (model::ServoAxis::Clearance).
   double angle_most[group], rate_most[group], acceleration_most[group];
   double root[group], inverse_root[group];
 };
 struct alignas(64) LaneServos {
   LaneServo of[2];
-  double clear[group];  // 1 where no servo switches while the commands are held; otherwise 0
+  double clear[group];  // 1 if no servo switches while the commands are held; otherwise 0
 };
 
 struct alignas(64) LaneScene {
   double radius[group], gravity[group], friction[group];
-  // The range of each Look up to the grip within which no event occurs.
+  // For each Look up to the grip, the range in which no event occurs.
   double least[Look::grip + 1][group], most[Look::grip + 1][group];
   double rtol, atol;
-  // What is evaluated: the contact force, the plate's tilt and rate, the distance from the
+  // Whether to evaluate the contact force, the plate's tilt and rate, and the distance from the
   // reference.
   bool force, gimbal, reference;
 };
 
-// Quantities whose maximum over a run is wanted. They are smooth: squares in place of roots.
+// Quantities whose maximum over a run is wanted. They are smooth: squares instead of roots.
 enum class Size : int {
   versine,           // 1 - cos(tilt)
   rate_squared,      // of the plate's angular velocity, (rad/s)^2
@@ -94,7 +94,7 @@ inline constexpr int sizes = 4;
 // occur.
 struct alignas(64) LaneLooks {
   double size[sizes][nodes][group], least_size[sizes][group], most_size[sizes][group];
-  double quiet[group];  // 1 where bounds exclude every event; otherwise 0
+  double quiet[group];  // 1 if bounds exclude every event; otherwise 0
 };
 // A reference (x, y) at the start and at all nodes but the first.
 struct alignas(64) LaneReference {
@@ -118,11 +118,10 @@ struct LaneControl {
 };
 
 struct LaneKernels {
-  // Fills the servo motions of an axis for pieces of the given lengths (s), one table per lane, as
-  // MotionTable has them. Uses power series, so the lengths must suit these
-  // (model::suits_series()).
+  // Fills the servo motions of an axis, a MotionTable for each lane, for pieces of `length` s. Uses
+  // power series, which the lengths must suit (model::suits_series()).
   void (*tables)(LaneAxis& axis, const LaneServo& servo, const double* length);
-  // At the start of pieces: computes the servos' accelerations and whether they clear their limits.
+  // Computes the servos' accelerations at the start of pieces, and whether they clear their limits.
   void (*start)(LanePieces& pieces, LaneServos& servos);
   // Solves for the balls over the pieces, from their starts, lengths and axes.
   void (*attempt)(LanePieces& pieces, const LaneScene& scene);
@@ -144,7 +143,7 @@ template <class Isa>
 [[nodiscard]] const LaneKernels& lane_kernels();
 
 // The kernels of the chosen instruction set. Throws InputError if the environment variable
-// BBSIM_SIMD names no instruction set of this processor.
+// BBSIM_SIMD is set, but not to an instruction set of this processor.
 [[nodiscard]] const LaneKernels& choose_lane_kernels();
 
 }  // namespace bbsim::solve::sampled

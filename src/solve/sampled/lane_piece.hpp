@@ -233,8 +233,8 @@ struct LaneKernel {
 
     constexpr int most_iterations = 25;
     const StopTest stop(1e-3, scene.rtol);
-    // Goes from node to node and uses new values at once: an integral mostly depends on earlier
-    // nodes. Each lane has its own contraction. It is done once its error is small enough or will
+    // Goes from node to node and uses new values immediately: an integral mostly depends on earlier
+    // nodes. Each lane has its own contraction, and is done once its error is small enough or will
     // not get there. A lane that diverges does not affect the others.
     P contraction = P::load(pieces.contraction + first), last(0.0);
     Mask solved{};
@@ -456,7 +456,7 @@ struct LaneKernel {
       const model::MovingPlane<P> plane = model::moving_plane(papers_rig, axis[0], axis[1]);
       take(Look::up, plane.up.z);
       if (scene.gimbal) {
-        // 1 - cos a cos b = A + B - A B of the versines, each sin^2 / (1 + cos).
+        // 1 - cos a cos b = A + B - A B, with the versines A and B, each sin^2 / (1 + cos).
         const P a = axis[0].sin * axis[0].sin / (P(1.0) + axis[0].cos);
         const P b = axis[1].sin * axis[1].sin / (P(1.0) + axis[1].cos);
         take_size(Size::versine, small ? a + b - a * b : P(1.0) - plane.up.z);
@@ -556,7 +556,7 @@ struct LaneKernel {
 #pragma GCC unroll 16
         for (int m = 0; m < nodes; ++m) k[m] = of(pieces.series[i][m]);
         k[nodes] = k[nodes + 1] = v[nodes + 1] = P(0.0);
-        // (1/2) times the integral from -1, plus the value there.
+        // (1/2) times the integral of k from -1, plus the velocity there.
         v[0] = of(pieces.velocity[i]) + P(0.5) * (k[0] - k[1] * P(One::odd_parts.of[1]));
         P sum = v[0];
 #pragma GCC unroll 16

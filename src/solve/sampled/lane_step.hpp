@@ -21,8 +21,8 @@ class LaneStep {
     double x, y, phi, theta, phi_rate, theta_rate;
   };
 
-  // Whether the lane has a piece, and its times, s. to() is at most the end of the run; if the
-  // piece goes on beyond, is_whole() is false and at_nodes() includes that part.
+  // Whether the lane has a piece, and its times, s. to() is at most the end of the run. If the
+  // piece extends beyond it, is_whole() is false, and at_nodes() includes the part beyond.
   [[nodiscard]] bool has(std::size_t lane) const { return has_[lane]; }
   [[nodiscard]] double from(std::size_t lane) const { return from_[lane]; }
   [[nodiscard]] double to(std::size_t lane) const { return to_[lane]; }
@@ -35,7 +35,7 @@ class LaneStep {
   }
   [[nodiscard]] Range bounds(Size size, std::size_t lane) const;
 
-  // Evaluates `count` times (s) within a lane's piece.
+  // Evaluates the motion at `count` times (s) within a lane's piece.
   void evaluate(std::size_t lane, const double* times, std::size_t count, Track* track) const;
   // The same as states, packed as in the system: rows of `states` numbers.
   static constexpr std::size_t states = model::RigLoop<false>::size;

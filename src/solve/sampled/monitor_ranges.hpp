@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Checks by ranges whether a monitor stays on its side over a whole piece.
+// Checks from ranges whether a monitor stays on its side over a whole piece.
 #pragma once
 
 #include <cmath>
@@ -53,7 +53,7 @@ template <class Use>
   return false;
 }
 
-// `range(Look)` is the range at the start and the nodes. Returns false if the ranges cannot decide.
+// Returns false if ranges cannot decide. range(look) is the range at the start and the nodes.
 template <class RangeOf>
 [[nodiscard]] bool stays_in_range(const model::Monitor& monitor, const Plate& plate, bool occurring,
                                   RangeOf range) {

@@ -35,7 +35,7 @@ double lost_of(double whole, double sum, double motion) {
   return std::abs(left) > rounding * motion ? left : 0;
 }
 
-// Compares the integrals of the nodal accelerations with the closed form. It is not needed where a
+// Compares the integrals of the nodal accelerations with the closed form. This is not needed if a
 // power series gives the motion: eight nodes are then exact to rounding.
 void find_lost(MotionTable& table, double h) {
   using Rule = radau::RadauTable<nodes>;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Keeps the motions of servos at the nodes of pieces, for piece lengths that recur.
+// Caches the motions of servos at the nodes of pieces, for piece lengths that recur.
 #pragma once
 
 #include <vector>

@@ -14,9 +14,9 @@
 //
 //     v = v(0) + h A1 k,    q = q(0) + c h v(0) + h^2 A2 k
 //
-// Pieces are so short that each iteration contracts the error by hundreds or thousands. The decay
-// of the Legendre coefficients of k gives the error estimate, as in radau/step.hpp. This is the
-// special case without a Jacobian, a linear system or servo states.
+// Pieces are so short that each iteration contracts the error by factors of hundreds or thousands.
+// The decay of the Legendre coefficients of k gives the error estimate, as in radau/step.hpp. This
+// is the special case without a Jacobian, a linear system or servo states.
 #pragma once
 
 #include "model/servo/impulse_series.hpp"
@@ -188,8 +188,8 @@ struct Kernel {
   }
 
   static constexpr int most_iterations = 25;
-  // A plate that stood still within backlash gives no contraction, but this says nothing about the
-  // next piece.
+  // A plate that stood still within backlash gives a contraction of zero, but this says nothing
+  // about the next piece.
   static constexpr double least_contraction = 1e-2;
 
   // With everything inlined the compiler sees which coefficients are zero.
@@ -246,7 +246,7 @@ struct Kernel {
       P changes[3] = {P(0.0), P(0.0), P(0.0)};
       P next[packs][3];
       for_each<packs>([&](auto p) __attribute__((always_inline)) {
-        // Two half sums are shorter chains of dependent additions.
+        // Two half sums make shorter chains of dependent additions.
         P v[3], q[2], half_v[2][3], half_q[2][2];
 #pragma GCC unroll 8
         for (int j = 0; j < nodes; ++j) {
@@ -331,10 +331,9 @@ struct Kernel {
     estimate(piece, scene, result);
   }
 
-  // An upper bound of the effect on the ball of a servo motion that is too fast for the nodes. A
-  // gimbal acceleration acts on the ball at its height above the axes, and at its distance times
-  // the sine of the tilt. A jump that is over by the first node has on average half of its initial
-  // value.
+  // An upper bound of the ball's error from servo motions that are too fast for the nodes. A gimbal
+  // acceleration acts on the ball at its height above the axes, and at its distance times the sine
+  // of the tilt. A jump that is over by the first node has on average half of its initial value.
   BBSIM_INLINE static double unseen(const Piece& piece, const Scene& scene) {
     double acceleration = 0, lost = 0, tilt = 0;
     for (int i = 0; i < 2; ++i) {
@@ -371,7 +370,7 @@ struct Kernel {
       const double* const k = piece.series[i];
       const double tail = larger_of(size_of(k[nodes - 1]), size_of(k[nodes - 2]));
       const bool moves = i < 2 || scene.gamma;
-      // Mostly this bound is far below the tolerance and decides alone.
+      // Usually this bound is far below the tolerance and decides alone.
       const double most = once * tail * (moves ? larger_of(1, once * piece.length) : 1.0);
       if (most <= 1e-3 * scene.atol) {
         result.error = larger_of(result.error, most / scene.atol);
@@ -407,7 +406,7 @@ struct Kernel {
 #pragma GCC unroll 16
     for (int i = 0; i < looks; ++i) least[i] = most[i] = P(0.0);
     const bool force = scene.force || scene.loads;
-    // At the start: from the polynomial of the accelerations and from the servos.
+    // Values at the start, from the polynomial of the accelerations and from the servos.
     double started[2];
     Vector angles{};
 #pragma GCC unroll 2

@@ -97,7 +97,7 @@ void RigLanes::end_lane(std::size_t l, double t, LaneSink& sink) {
   lane.alive = false;
 }
 
-// Takes samples, applies commands and hands on rows, each at its time, up to the ends of the
+// Takes samples, applies commands and passes rows on, each at its time, up to the ends of the
 // pieces.
 void RigLanes::pass_instants(LaneSink& sink) {
   const auto other = [this](std::size_t l) { return grid_[next_row_[l]]; };

@@ -34,7 +34,7 @@ class LaneSink {
   virtual void accept_end(std::size_t lane, double t, std::span<const double> row) = 0;
 };
 
-// What a sink needs beside the ball's position.
+// What a sink needs besides the ball's position.
 struct LaneAsked {
   bool gimbal = false, reference = false;  // the plate's tilt and rate; the tracking error
 };

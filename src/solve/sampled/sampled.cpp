@@ -103,7 +103,7 @@ void HeldStepper::prepare(double length) {
   for (std::size_t i = 0; i < 2; ++i) {
     const model::HeldMotion& servo = servo_[i];
     Axis& axis = piece_.axis[i];
-    // Both servos mostly have the same law.
+    // Both servos usually have the same law.
     axis.table = i == 1 && servo.law == servo_[0].law ? piece_.axis[0].table
                                                       : &tables_.of(servo.law, length);
     axis.angle = servo.angle;
@@ -203,7 +203,7 @@ const HeldStepper::Shares* HeldStepper::shares(double after) {
   made.length = piece_.length;
   for (int first = 0; first < nodes; first += 3) {
     const int count = std::min(3, nodes - first);
-    Piece one{};  // single polynomials as its series
+    Piece one{};  // each series is a single polynomial
     one.length = piece_.length;
     for (int i = 0; i < count; ++i) one.series[i][first + i] = 1;
     double ball[1][6];
@@ -231,7 +231,7 @@ void HeldStepper::evaluate_some(const double* times, std::size_t count, double* 
   if (others) kernels_.evaluate(piece_, after, count, ball);
   for (std::size_t i = 0; i < count; ++i) {
     double* const row = rows + i * (size + (model_->gamma ? 1 : 0));
-    if (is_end(i)) {  // rows at an instant are always the state there
+    if (is_end(i)) {  // a row at the end is exactly the state there
       std::copy(reached_.begin(), reached_.end(), row);
       if (model_->gamma) row[size] = turned_;
       continue;
@@ -256,7 +256,7 @@ std::vector<double> HeldStepper::state() const {
   return {reached_.begin(), reached_.end()};
 }
 
-// As for radau, for a motion that 8 nodes just resolve. Mostly half of them would do.
+// As for radau, if 8 nodes just resolve the motion. Usually half as many would do.
 std::size_t HeldStepper::parts() const {
   constexpr double least = 8, of_products = 2, a_radian = 3, most = 128;
   const double parts = std::max(last_error_ < 1e-3 ? least : of_products * nodes,

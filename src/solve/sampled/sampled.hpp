@@ -20,17 +20,17 @@
 namespace bbsim::solve::sampled {
 
 // The kernels of the chosen instruction set. Throws InputError if the environment variable
-// BBSIM_SIMD names no instruction set of this processor.
+// BBSIM_SIMD is set, but not to an instruction set of this processor.
 [[nodiscard]] const Kernels& choose_kernels();
 
 // Whether HeldStepper can run the model: its command is held between samples, and its servos move
 // in closed form in every mode.
 [[nodiscard]] bool knows(const model::Model& model);
 
-// A stepper for models that pass knows(). A step mostly reaches its limit, because pieces are
-// short. Steps get shorter where 8 nodes do not resolve the ball's motion, as after a jump of a
-// stiff servo. The stepper does not know when a servo switches: the caller must pass a limit no
-// later than the next switch. Once its tables are made it does not allocate.
+// A stepper for models that pass knows(). A step usually reaches its limit, because pieces are
+// short. Steps get shorter if 8 nodes do not resolve the ball's motion, as after a jump of a stiff
+// servo. The stepper does not know when a servo switches: the caller must pass a limit no later
+// than the next switch. Once its tables are made it does not allocate.
 class HeldStepper : public Stepper {
  public:
   HeldStepper(const model::Model& model, const Kernels& kernels, Tolerances tolerances);

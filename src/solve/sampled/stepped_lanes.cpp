@@ -10,7 +10,7 @@
 
 namespace bbsim::solve::sampled {
 
-// The last piece of a lane, as the search for events knows steps.
+// The last piece of a lane as a Stepper, for the search of events.
 class SteppedLanes::Motion : public Stepper {
  public:
   Motion(const LaneStep& step, std::size_t lane) : step_(step), lane_(lane) {}
@@ -20,12 +20,12 @@ class SteppedLanes::Motion : public Stepper {
   }
   [[nodiscard]] double time() const override { return step_.to(lane_); }
   [[nodiscard]] std::size_t detail() const override { return nodes; }
-  // For a motion that 8 nodes just resolve.
+  // Enough if 8 nodes just resolve the motion.
   [[nodiscard]] std::size_t parts() const override { return 2 * nodes; }
-  // It has some: only that counts here.
+  // GuardSearch only checks that this is not null.
   [[nodiscard]] const std::array<model::HeldMotion, 2>* servos() const override { return &servos_; }
 
-  // Nobody else steps it.
+  // Unused: no driver steps this object.
   void start(double, const double*) override {}
   [[nodiscard]] std::optional<Failure> step(double) override { return step_is_lost; }
   void jump() override {}
@@ -47,7 +47,7 @@ SteppedLanes::~SteppedLanes() = default;
 
 void SteppedLanes::begin(std::size_t l, const model::Model& model, double end) {
   drop(l);
-  // What rigs do that begin together does not depend on those before them.
+  // Rigs that begin together must not depend on earlier rigs.
   if (std::ranges::none_of(lanes_, &Lane::alive)) forget_tables();
   open(l, model, end, true);
   lanes_[l].alive = true;
@@ -139,7 +139,7 @@ void SteppedLanes::advance() {
 }
 
 void SteppedLanes::look() {
-  static const LaneReference none{};  // nobody asks for distances from it
+  static const LaneReference none{};  // unused: scene_.reference is false
   kernels_.look(*pieces_, scene_, none, step_.looks_);
   for (std::size_t l = 0; l < group; ++l) {
     if (!step_.has_[l]) continue;
@@ -174,7 +174,7 @@ void SteppedLanes::search(std::size_t l) {
   }
 }
 
-// Exposes, and applies commands, each at its time, up to samples or the ends of the pieces.
+// Handles exposures and commands, each at its time, up to samples or the ends of the pieces.
 void SteppedLanes::pass_instants() {
   const auto other = [this](std::size_t l) { return lanes_[l].end; };
   Instant next;

@@ -15,34 +15,34 @@
 
 namespace bbsim::solve::sampled {
 
-// What a controller is told at a sample; SI.
+// A controller's inputs at a sample, in SI units.
 struct LaneSample {
   std::optional<Pair> seen;
   std::array<model::Jet<double>, 2> reference{};
   Pair servo{}, servo_rate{};
 };
 
-// A group of rigs that begin, wait and end each at its own time. A piece ends at a sample, too, so
-// that a lane can wait there while others move. Events are found in the lanes.
+// A group of rigs, each of which begins, waits and ends at its own time. Pieces also end at
+// samples, so that a lane can wait there while others move. Events are found in the lanes.
 class SteppedLanes : private LaneEngine {
  public:
-  // `waits`: at a sample, for its command. `given_up`: the lane cannot go on; the rig must be run
-  // alone, from its beginning.
+  // `waits`: at a sample, for its command. `given_up`: the lane cannot go on; run the rig alone,
+  // from its start.
   enum class State { empty, waits, done, stopped, given_up };
 
   explicit SteppedLanes(Tolerances tolerances);
   ~SteppedLanes();
 
   // Begins a rig in a lane, up to `end` s. It then waits at t = 0. moves() must hold, and the
-  // controller must be external; it is not asked.
+  // controller must be external; it is not called.
   void begin(std::size_t lane, const model::Model& model, double end);
   void drop(std::size_t lane);
 
   [[nodiscard]] State state(std::size_t lane) const { return states_[lane]; }
-  // The sample that the lane waits at; of a lane that does not, its last one.
+  // The sample at which the lane waits; if it does not wait, its last one.
   [[nodiscard]] const LaneSample& sample(std::size_t lane) const { return samples_[lane]; }
 
-  // Gives the command to a lane that waits: finite numbers. It waits until advance().
+  // Gives a waiting lane its command, which must be finite. The lane moves at the next advance().
   void answer(std::size_t lane, const Pair& command);
   // Moves the lanes that were answered, each to its next sample or to its end.
   void advance();
@@ -59,7 +59,7 @@ class SteppedLanes : private LaneEngine {
   std::array<State, group> states_{};
   std::array<LaneSample, group> samples_{};
   std::array<bool, group> asks_{};    // the lane has come to a sample
-  std::array<double, group> kept_{};  // of a lane that waits: its contraction
+  std::array<double, group> kept_{};  // the contraction of a lane that waits
   std::array<std::unique_ptr<Motion>, group> motions_;
   std::array<std::optional<GuardSearch>, group> searches_;  // of a lane near an event
   std::vector<double> found_;                               // the states at an event
