@@ -14,8 +14,8 @@ namespace bbsim::solve {
 struct CheckRun {
   int stages;  // 8, 12 or 16
   // The number of parts that each interval between two stops (jumps of an input derivative,
-  // samples) is cut into. Stops end steps of every method at every tolerance. Without the cuts, a
-  // run and its check run would share these steps.
+  // samples) is cut into. A stop ends a step of every method at every tolerance. Without the cuts,
+  // a run and its check run would share these steps.
   int parts;
 };
 

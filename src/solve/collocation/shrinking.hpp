@@ -20,11 +20,11 @@ class Shrinking {
   void interrupt() { last_ = 0; }
 
   // Takes a step (s) from time t (s) that is about to be accepted. Returns whether the motion goes
-  // to infinity in finite time: a dozen steps have shrunk since one grew by a quarter, the last one
-  // is below 1e-5 of that one and of t, and the states have grown meanwhile. A smooth motion that
-  // passes an obstacle does not shrink its steps like this. A tolerance below the rounding errors
-  // may do so, but the states do not grow, and the run continues. size() is the magnitude of the
-  // largest state at t, infinite if a state is not finite.
+  // to infinity in finite time: a dozen steps have shrunk since one grew by a quarter, the last is
+  // below 1e-5 of that one and of t, and the states have grown meanwhile. A smooth motion that
+  // passes an obstacle does not shrink its steps like this. With a tolerance below the rounding
+  // errors they may shrink, but the states do not grow, and the run continues. size() is the
+  // magnitude of the largest state at t, infinite if a state is not finite.
   template <class Size>
   [[nodiscard]] bool diverges(double step, double t, Size size) {
     constexpr int for_a_while = 4, long_since = 12;

@@ -174,7 +174,7 @@ class CvodeStepper : public Stepper {
   // Orders are up to 5 (Adams 12), and steps are short compared with the motion.
   [[nodiscard]] std::size_t parts() const override { return 5; }
 
-  // The state with the largest local error estimate in the solver's own weights.
+  // The state with the largest local error estimate in CVODE's weights.
   [[nodiscard]] std::size_t worst_state() const override {
     const auto errors = sundials::make_vector(equations_.size, context_.get());
     const auto weights = sundials::make_vector(equations_.size, context_.get());

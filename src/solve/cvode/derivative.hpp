@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Integrates any function of time and states with CVODE, if it is not a model::System.
+// Integrates any function of time and states with CVODE. It need not be a model::System.
 #pragma once
 
 #include <functional>

@@ -81,12 +81,12 @@ struct Way {
 // rad/s, the absolute tolerance of a servo's rates is atol omega_n, and that of the ball's velocity
 // is this times the radius. Positions and angles keep atol.
 //
-// A case's results do not depend on the cases beside it or before it, bit for bit. Use one object
+// Bit for bit, a case's results do not depend on the cases beside it or before it. Use one object
 // per thread.
 class Ensemble {
  public:
-  // `nodes` comes from choose_nodes(). The tables must outlive the object. Throws InputError as
-  // choose_kernels() does.
+  // `nodes` comes from choose_nodes(). The tables of problem.terms must outlive the object. Throws
+  // InputError as choose_kernels() does.
   Ensemble(Problem problem, int nodes, Tolerances tolerances);
 
   // Integrates all cases of the study. Once `stop` is true, gives up the cases in progress and

@@ -51,7 +51,6 @@ struct Work : Method {
   BBSIM_INLINE static P length(const Workspace& w, int p) {
     return Method::lane(w.spans.length, p);
   }
-  // The mask of a pack's lanes.
   BBSIM_INLINE static Mask mask(const Lanes& of, int p) {
     Mask mask;
     __builtin_memcpy(&mask, of.of + p * lanes, sizeof(mask));

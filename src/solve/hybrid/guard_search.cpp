@@ -216,8 +216,8 @@ model::Effect GuardSearch::begin(double from, double to) {
   return model::Effect::none;
 }
 
-// Whether a guard that is positive at both ends of an interval may be negative between: it falls
-// at the start, rises at the end, and its end tangents meet below zero.
+// Whether a guard that is positive at both ends of an interval may be negative between: it falls at
+// the start, rises at the end, and its end tangents meet at zero or below.
 template <class Guard>
 static bool may_dip(const Guard& guard, double end_value, double end_slope, double width) {
   if (guard.threshold != 0 || !(guard.slope < 0) || !(end_slope > 0)) return false;
@@ -226,7 +226,7 @@ static bool may_dip(const Guard& guard, double end_value, double end_slope, doub
 }
 
 // The first crossing in (from, to], from values and slopes at both ends. Slopes are differences,
-// accurate to some parts in 1e4.
+// accurate to a few parts in 1e4.
 std::optional<model::Crossing> GuardSearch::first_crossing(double from, double to) {
   const double width = to - from, nudge = width * nudged;
   evaluate(from + nudge, near_);

@@ -79,7 +79,7 @@ class GuardSearch {
   struct Guard {
     double value = 0;      // at the last time evaluated
     double slope = 0;      // at the same time, 1/s
-    double threshold = 0;  // the guard fires below it; 0 once the guard was positive
+    double threshold = 0;  // the guard fires at or below it; 0 once it was positive
   };
 
   [[nodiscard]] double clearly(std::size_t i) const { return 1e-12 * run_.guard_scales()[i]; }

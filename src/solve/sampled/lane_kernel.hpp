@@ -102,11 +102,11 @@ struct alignas(64) LaneReference {
   bool shared;  // whether all lanes use `one`; otherwise each has its own
 };
 
-// The controllers at a sample. A controller that does not see the ball keeps its memory and
-// command.
 struct alignas(64) Lanes {
   double of[group];
 };
+// The controllers at a sample. A controller that does not see the ball keeps its memory and
+// command.
 struct LaneControl {
   model::SampledLaw<Lanes> law;
   model::SampledMemory<Lanes> memory;
@@ -114,7 +114,7 @@ struct LaneControl {
   Lanes elapsed;            // s
   Lanes seen[2], servo[4];  // m; rad and rad/s
   Lanes reference[2][3];    // value, rate and acceleration
-  Lanes command[2];         // the last one
+  Lanes command[2];         // in: the last one; out: the new one
 };
 
 struct LaneKernels {
@@ -132,7 +132,7 @@ struct LaneKernels {
   Range (*look_closely)(const LaneLooks& looks, Size size, int lane);
   // The values of a reference (x, y) at the start and at all nodes but the first of a piece.
   void (*reference)(const model::SignalView& of, double from, double length, double (*at)[nodes]);
-  // Takes a sample.
+  // Computes the controllers' commands at a sample.
   void (*control)(LaneControl& control);
   // Evaluates x, y, x', y' and u of each lane at its own time after the start of its piece, s.
   void (*evaluate)(const LanePieces& pieces, const double* times, double (*ball)[group]);

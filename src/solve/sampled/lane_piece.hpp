@@ -75,7 +75,7 @@ struct LaneKernel {
         const P acceleration = of(servo.push) + (of(servo.by_command) * of(servo.command) -
                                                  of(servo.stiffness) * angle - damped);
         acceleration.store(axis.acceleration + first);
-        // As model::reach_about(): an oscillator's energy does not grow.
+        // As in model::reach_about(), an oscillator's energy does not grow.
         const P inverse = of(servo.inverse_root);
         const P spring = (acceleration + damped) * inverse * inverse;
         const P most = size_of(spring) + size_of(rate) * inverse;

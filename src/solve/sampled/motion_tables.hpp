@@ -15,7 +15,7 @@ class MotionTables {
  public:
   explicit MotionTables(const Kernels& kernels) : kernels_(kernels) {}
 
-  // The table of a law for pieces of `length` s. Valid until two other tables are asked for.
+  // The table of a law for pieces of `length` s. Valid until two other tables are requested.
   [[nodiscard]] const MotionTable& of(const model::HeldLaw& law, double length);
 
  private:

@@ -526,7 +526,7 @@ struct Kernel {
   };
   static constexpr OddParts odd_parts{};
 
-  // `half` times the integral from -1 of a Legendre series of `length` terms, plus its value there.
+  // `half` times the integral from -1 of a Legendre series of `length` terms, plus `from`.
   template <int length>
   BBSIM_INLINE static void integrate(const double* k, double half, double from, double* out) {
     out[0] = from + half * (k[0] - k[1] * odd_parts.of[1]);

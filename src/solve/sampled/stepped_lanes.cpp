@@ -10,7 +10,7 @@
 
 namespace bbsim::solve::sampled {
 
-// The last piece of a lane as a Stepper, for the search of events.
+// The last piece of a lane as a Stepper, for GuardSearch.
 class SteppedLanes::Motion : public Stepper {
  public:
   Motion(const LaneStep& step, std::size_t lane) : step_(step), lane_(lane) {}
