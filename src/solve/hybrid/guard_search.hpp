@@ -20,8 +20,7 @@ class GuardSearch {
   // the guards of monitors are searched.
   GuardSearch(model::HybridSystem& run, Stepper& stepper);
 
-  // Sets z to the states at t, within the last step. Returns the integral of u (m) with
-  // Model::gamma.
+  // Sets z to the states at t in the last step. With Model::gamma, returns the integral of u, m.
   double state_at(double t, std::vector<double>& z);
 
   // The knowledge of the guards at the start of the next search. Transitions:
