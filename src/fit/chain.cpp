@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-// -(A^+ b), where a start that the residuals do not tell stays.
+// -(A^+ b); leaves a start unchanged if the residuals do not determine it.
 MatrixXd best(const MatrixXd& a, const MatrixXd& b) {
   if (a.cols() == 0) return MatrixXd::Zero(0, b.cols());
   const VectorXd sizes = a.colwise().norm().cwiseMax(1e-300);

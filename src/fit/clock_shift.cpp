@@ -16,11 +16,11 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-// A row changes the spline n rows away by a factor of 0.27^n: this many are rounding.
+// A row's effect on the spline decays by 0.27 per row: at this distance it is rounding.
 constexpr std::ptrdiff_t margin = 40;
 
 void shift_rows(Numbers& times, std::initializer_list<Numbers*> values, double begin, double end) {
-  // A table that holds its end values has a row more at either end, which stays.
+  // A table that holds its end values has an extra row at either end, which stays.
   const std::ptrdiff_t outside = std::isinf(times.front()) ? 1 : 0;
   const auto first = std::ranges::lower_bound(times, begin) - times.begin();
   const auto last = std::ranges::upper_bound(times, end) - times.begin();
@@ -95,7 +95,7 @@ Scenario from_time(const Scenario& scenario, double begin, double end) {
   const Shift shift{begin, end};
   for_each_profile(moved, shift);
   if (moved.controller) std::visit(shift, moved.controller->reference);
-  // Known commands need no measurement, so samples go on from before.
+  // Known commands need no measurement, so their samples continue from before.
   if (commands_of(moved) != nullptr && moved.controller->sampling) {
     moved.controller->sampling->since += begin;
   }

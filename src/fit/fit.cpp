@@ -41,12 +41,12 @@ std::vector<double> rms_of(const WindowsFit& windows, const VectorXd& residuals)
   return rms;
 }
 
-// A number from 0 to 1 that is the same with every library.
+// Uniform number from 0 to 1, the same with every standard library.
 double uniform(std::mt19937_64& random) {
   return std::ldexp(static_cast<double>(random() >> 11), -53);
 }
 
-// How much the numbers of a column vary: below 1e-9 of it, differences are rounding.
+// Standard deviation of each column; differences below 1e-9 of it are rounding.
 std::vector<double> spreads_of(const Task& task) {
   std::vector<double> spreads;
   for (std::size_t c = 0; c < task.columns.size(); ++c) {
@@ -75,7 +75,7 @@ class Fit {
         spreads_(spreads_of(task_)),
         u_(VectorXd::Zero(at(task_.keys.size()))) {}
 
-  // False if it is interrupted; what it has come to is then the best so far.
+  // Returns false if interrupted; the result is then the best so far.
   bool run() {
     windows_.set_noise(spreads_);
     residuals_ = windows_.residuals(u_, true);
@@ -89,10 +89,9 @@ class Fit {
     return settle_weights() && (!task_.continuity || join());
   }
 
-  // Whether a run that was interrupted has come to anything.
+  // Whether an interrupted run has any result.
   [[nodiscard]] bool has_begun() const { return !before_.empty(); }
 
-  // What the run has found.
   void tell() {
     windows_.finish();
     residuals_ = windows_.residuals(u_);
@@ -111,7 +110,7 @@ class Fit {
         one.outlier_time = outliers[c].time;
       }
       made_.columns.push_back(one);
-      // The starts take correlation away, so that white residuals rarely come to this.
+      // Fitting the starts reduces correlation, so white residuals rarely reach this.
       made_.white = made_.white && (is_exact || correlations[c] < 3 / std::sqrt(sizes[c].count));
     }
     const std::vector<double> ideal = ideal_rms(windows_.windows());
@@ -120,7 +119,7 @@ class Fit {
     if (!made_.white) made_.suggestion = suggestion(task_, windows_, u_);
   }
 
-  // Of windows that are out of the fit, at its values.
+  // Reports the held-out windows at the fitted values.
   void tell_held(std::vector<Window> held) {
     if (held.empty()) return;
     const std::vector<double> ideal = ideal_rms(held);
@@ -150,7 +149,7 @@ class Fit {
   [[nodiscard]] std::size_t size() const { return windows_.size(); }
 
  private:
-  // The residuals of an ideal rig; none if there is no such rig, or if it does not run.
+  // Residuals of an ideal rig; empty if there is no such rig or it does not run.
   [[nodiscard]] std::vector<double> ideal_rms(const std::vector<Window>& windows) const {
     const auto ideal = ideal_rig(task_.family.read(task_.logs.front().settings));
     const auto lacks = [&](const scenario::Column* column) {
@@ -182,7 +181,7 @@ class Fit {
     return keys;
   }
 
-  // Goes on from the best of some starts; the first is the scenario's. False if it is interrupted.
+  // Continues from the best of several starts; the first is the scenario's. False if interrupted.
   bool choose_start() {
     std::mt19937_64 random(1);
     const VectorXd first = u_;
@@ -194,7 +193,7 @@ class Fit {
         const FreeKey& key = task_.keys[static_cast<std::size_t>(k)];
         const bool bounded = std::isfinite(key.lower) && std::isfinite(key.upper) &&
                              !(key.logarithmic && key.lower == 0);
-        // Without bounds: by a factor of two, or by the key's scale.
+        // Without bounds: a factor of two, or the key's scale.
         const double reach = key.logarithmic ? std::log(2.0) : 1;
         const double from = bounded ? key.number(key.lower) : first[k] - reach;
         const double to = bounded ? key.number(key.upper) : first[k] + reach;
@@ -211,7 +210,7 @@ class Fit {
     return !is_stopped(task_);
   }
 
-  // From the optimum of free windows, which is near: one trajectory of each chain of windows.
+  // Joins each chain of windows to one trajectory, from the nearby optimum of free windows.
   bool join() {
     windows_.join();
     residuals_ = windows_.residuals(u_, true);
@@ -220,10 +219,10 @@ class Fit {
     return settle_weights();
   }
 
-  // The keys at their best with weights that follow the residuals. False if it is interrupted.
+  // Optimizes the keys with weights that follow the residuals. False if interrupted.
   bool settle_weights() {
     const int most_rounds = task_.robust ? 40 : 12;
-    // Changes of the weights move the keys little, but the last round is exact.
+    // Changes of the weights move the keys little, but the last round must be exact.
     bool exact = true;
     for (int round = 0; round < most_rounds; ++round) {
       if (exact || !follow(task_, windows_, u_)) {
@@ -241,15 +240,15 @@ class Fit {
   }
 
   void refuse_idle_keys() {
-    // With the noise at the columns' spreads.
+    // The noise is that of the columns' spreads here.
     const VectorXd changes = scale_keys(task_, windows_, u_);
     for (Index k = 0; k < changes.size(); ++k) {
       if (!(changes[k] > 1e-7)) refuse_idle(task_.keys[static_cast<std::size_t>(k)]);
     }
   }
 
-  // A log whose axis is mirrored is better begun with there: on the way from 1 to -1 the column's
-  // scale passes 0, where the log tells nothing of the other keys.
+  // Start a log with a mirrored axis mirrored: on the way from 1 to -1 the column's scale passes 0,
+  // where the log determines no other key.
   void mirror_axes() {
     double cost = residuals_.squaredNorm();
     bool tried = false;
@@ -283,7 +282,7 @@ class Fit {
   }
 
   // Estimates each column's noise from its residuals. Returns how much the columns' weights change
-  // against each other.
+  // relative to each other.
   double set_noise() {
     const double share = degrees_of_freedom() / static_cast<double>(windows_.size());
     std::vector<double> noise;
@@ -296,12 +295,12 @@ class Fit {
       least = std::min(least, change);
       most = std::max(most, change);
     }
-    // Their weights are of the noise that they were found with.
+    // The weights belong to the noise they were computed with.
     windows_.set_noise(std::move(noise));
     return most / least - 1;
   }
 
-  // Returns how much a weight changes.
+  // Returns the largest change of a weight.
   double set_weights() {
     const VectorXd weights = huber_weights(residuals_.cwiseQuotient(windows_.weights()));
     const double change = (weights - windows_.weights()).cwiseAbs().maxCoeff();
@@ -309,7 +308,7 @@ class Fit {
     return change;
   }
 
-  // The variance of a residual, in the units of the fit. With Huber's loss, that of its influence
+  // Variance of a residual in the units of the fit; with Huber's loss, that of its influence
   // (Huber, Robust Statistics, 1981, section 7.6).
   [[nodiscard]] double scatter() const {
     if (!task_.robust) return residuals_.squaredNorm() / degrees_of_freedom();
@@ -325,7 +324,7 @@ class Fit {
     const VectorXd sizes = derivatives.free_norms.cwiseMax(1e-300);
     const MatrixXd scaled = jacobian * sizes.cwiseInverse().asDiagonal();
     const Eigen::JacobiSVD<MatrixXd> svd(scaled.transpose() * scaled, Eigen::ComputeFullV);
-    // Of the square: singular values 1e-4 of the greatest are the error of the differences.
+    // Squares of J's singular values, which are difference errors below 1e-4 of the largest.
     const VectorXd values = svd.singularValues();
     const double least = 1e-8 * std::max(values[0], 1e-300);
     const Index keys = u_.size();
@@ -377,7 +376,7 @@ class Fit {
     }
   }
 
-  // "a and b are not told apart: a change of a by +1 % is undone by b by -1 %"
+  // "a and b are not told apart by the log: it stays the same with a +1 %, b -1 %"
   [[nodiscard]] std::string words_for(const VectorXd& change, const VectorXd& weight) const {
     std::vector<Index> members;
     for (Index k = 0; k < change.size(); ++k) {
@@ -388,7 +387,7 @@ class Fit {
              " is not told by the log: what it changes, another start of each window changes, too";
     }
     std::string names, changes;
-    // So that the first key changes by 1 %, or by a hundredth of its scale.
+    // Scales the first key's change to 1 %, or to a hundredth of its scale.
     const double unit = 0.01 / change[members[0]];
     for (const Index k : members) {
       const FreeKey& key = task_.keys[static_cast<std::size_t>(k)];
@@ -410,14 +409,14 @@ class Fit {
   VectorXd u_, residuals_;
 };
 
-// What a delayed sensor shows of the time before the window, no run of the window has.
+// Drops rows in which a delayed sensor shows times before the window, which no run covers.
 void drop_rows_before(double time, Window& window) {
   const auto kept = std::ranges::lower_bound(window.times, time) - window.times.begin();
   window.times.erase(window.times.begin(), window.times.begin() + kept);
   for (auto& column : window.values) column.erase(column.begin(), column.begin() + kept);
 }
 
-// A window's start has the states of ball and gimbal, and no others.
+// Refuses states that a window's start lacks: it has those of ball and gimbal only.
 void require_whole_starts(const Scenario& scenario) {
   const auto refuse = [](const std::string& found) {
     throw InputError("--continuity: found " + found +
@@ -435,7 +434,7 @@ void require_whole_starts(const Scenario& scenario) {
   }
 }
 
-// Tables of the scenario end where their splines would run away.
+// Refuses windows beyond the scenario's tables, where splines would run away.
 void require_tables(const Task& task, const std::vector<Window>& windows) {
   std::vector<Span> spans;
   for (const Log& log : task.logs) {
@@ -459,7 +458,7 @@ void require_tables(const Task& task, const std::vector<Window>& windows) {
 Fitted fit(const Task& task) {
   const Scenario scenario = task.family.read(task.logs.front().settings);
   Fitted made;
-  // A loop keeps errors small, and states that no log tells go on in it.
+  // Feedback keeps errors small over whole logs and carries on states that no log shows.
   const bool whole_logs = scenario.controller && commands_of(scenario) == nullptr && !task.window &&
                           task.hold_out == 0 && !task.continuity;
   made.window = whole_logs ? unlimited : task.window.value_or(usual_window);

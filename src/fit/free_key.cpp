@@ -22,10 +22,10 @@ namespace bbsim::fit {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
-constexpr double usual_delay = 0.2;  // s; a camera's is at most that
+constexpr double usual_delay = 0.2;  // s; a camera's delay is at most that
 
-// A usual size of what has this dimension, where nothing else tells one; none where sizes differ by
-// orders of magnitude, such as those of a friction torque.
+// Typical magnitude for a dimension; empty if magnitudes span orders of magnitude, such as those of
+// friction torques.
 std::optional<double> usual(yaml::Dimension dimension) {
   switch (dimension) {
     case yaml::Dimension::length:
@@ -39,7 +39,7 @@ std::optional<double> usual(yaml::Dimension dimension) {
   }
 }
 
-// A change of a key that is likely to show.
+// A change of a key that probably has a visible effect.
 double scale_from(double start, yaml::Dimension dimension) {
   constexpr double unknown = 0.1;
   const std::optional<double> size = usual(dimension);
@@ -51,7 +51,7 @@ double scale_from(double start, yaml::Dimension dimension) {
   throw InputError("--free: " + what);
 }
 
-// What follows the number that `text` begins with; nothing if it begins with none.
+// Text after the leading number of `text`; empty if there is no such number.
 std::optional<std::string_view> after_number(std::string_view text) {
   text = trimmed(text);
   double number = 0;
@@ -60,7 +60,7 @@ std::optional<std::string_view> after_number(std::string_view text) {
   return trimmed(text.substr(static_cast<std::size_t>(rest - text.data())));
 }
 
-// The bounds of FROM:TO. A unit of TO alone is also that of FROM.
+// Reads FROM:TO. If only TO has a unit, it applies to FROM, too.
 void read_bounds(std::string_view text, FreeKey& key) {
   const std::string name = shown(key.name);
   const std::size_t colon = text.find(':');
@@ -99,7 +99,7 @@ void refuse_starts(std::string_view text) {
 
 double FreeKey::value(double u) const {
   const double raw = logarithmic ? start * std::exp(u) : start + scale * u;
-  // number() of a bound leads to it within rounding.
+  // value(number(bound)) equals the bound only within rounding.
   constexpr double rounding = 1e-12;
   if (raw >= upper - rounding * std::abs(upper)) return upper;
   if (raw <= lower + rounding * std::abs(lower)) return lower;
@@ -136,7 +136,7 @@ FreeKey read_free_key(std::string_view text, const ScenarioFamily& family) {
     start = key.lower > 0 ? std::sqrt(key.lower * key.upper) : (key.lower + key.upper) / 2;
   }
   if (!start) {
-    // A key that another law has, or a misspelt one: its reader tells.
+    // The reader reports a misspelled key or a key of another law.
     static_cast<void>(family.read({key.setting(1)}));
     refuse(name + ": the scenario gives no value to begin with; allowed: " + name +
            "=FROM:TO, or a value in the scenario");
@@ -145,7 +145,7 @@ FreeKey read_free_key(std::string_view text, const ScenarioFamily& family) {
   key.logarithmic = key.start > 0 && (range.above >= 0.0 || key.lower > 0);
   const bool given = equals != std::string_view::npos && bounded;
   key.scale = given ? (key.upper - key.lower) / 10 : scale_from(key.start, number.key.dimension);
-  // Whether the scene takes the key at all.
+  // Throws if the scene does not take the key.
   static_cast<void>(family.read({key.setting(key.start)}));
   return key;
 }
@@ -174,7 +174,7 @@ FreeKey read_log_key(std::string_view text, const std::vector<const scenario::Co
     const std::string_view column = columns[c]->name;
     names += ", log." + std::string(column) + ".scale, log." + std::string(column) + ".offset";
     if (is(column, "scale")) {
-      key.of = FreeKey::Of::scale;  // below 0: a mirrored axis
+      key.of = FreeKey::Of::scale;  // negative: a mirrored axis
     } else if (is(column, "offset")) {
       key.of = FreeKey::Of::offset;
       key.unit = columns[c]->unit;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The simplest model of a rig, which a fitted one has to be better than.
+// The simplest model of a rig, as a baseline for fitted ones.
 #pragma once
 
 #include <optional>
@@ -10,9 +10,8 @@
 
 namespace bbsim::fit {
 
-// The scene with a solid ball that rolls without losses on a plate that is at once where
-// gimbal.motion or controller.commands want it, without errors of its mounting. Nothing for scenes
-// with feedback or torques.
+// The scene with a solid ball that rolls without losses on a perfectly mounted plate, which follows
+// gimbal.motion or controller.commands without lag. Empty for scenes with feedback or torques.
 [[nodiscard]] std::optional<Scenario> ideal_rig(const Scenario& scenario);
 
 }  // namespace bbsim::fit

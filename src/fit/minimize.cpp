@@ -20,7 +20,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// The problem as Eigen's minimizer sees it, in the keys that may move.
+// The problem for Eigen's minimizer, in the keys that may move.
 class Functor : public Eigen::DenseFunctor<double> {
  public:
   Functor(const Task& task, WindowsFit& windows, const VectorXd& u, std::vector<Index> moving,
@@ -125,7 +125,7 @@ bool follow(const Task& task, WindowsFit& windows, VectorXd& u) {
     sizes[i] = std::max(column.norm(), 1e-300);
     jacobian.col(i) = column / sizes[i];
   }
-  // Keys that are hardly told apart stay together.
+  // Directions that the residuals hardly determine stay fixed.
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
   solver.setThreshold(1e-4);
   solver.compute(jacobian);
@@ -137,7 +137,7 @@ bool follow(const Task& task, WindowsFit& windows, VectorXd& u) {
     const VectorXd step = solver.solve(residuals);
     const double gain = (jacobian * step).squaredNorm();
     if (gain <= 1e-12 * residuals.squaredNorm()) return true;
-    // Each step must leave much less to the next.
+    // Each step must be much smaller than the one before.
     if (gain > 0.1 * last) return false;
     last = gain;
     VectorXd to = u;

@@ -16,13 +16,13 @@
 namespace bbsim::fit {
 
 Scenario window_of(const Scenario& whole, double begin, double end) {
-  constexpr double lead = 1;  // s; servos forget what they did in less
+  constexpr double lead = 1;  // s; servos forget their past in less
   Scenario window = from_time(whole, begin, end);
   if (commands_of(whole) == nullptr) return window;
   const double before = std::min(begin, lead);
   Scenario run_up = from_time(whole, begin - before, begin);
   GimbalStart& start = run_up.gimbal.start;
-  // A run up from 0 begins as the scenario does.
+  // A run-up from 0 starts like the scenario.
   if (begin > before) {
     const auto commands = model::reference_path(run_up.controller->reference, 0).at(0.0);
     start = {commands[0].value, commands[1].value, 0, 0};

@@ -29,10 +29,10 @@ struct Profiles::Point {
 };
 
 struct Profiles::Step {
-  VectorXd by;               // of all keys
-  bool at_bound = false;     // the key comes to its bound
-  double reach = unlimited;  // how far the key would go without bound or limit
-  double slack = 0;          // what the other keys can still take from the sum of squares
+  VectorXd by;               // change of all keys
+  bool at_bound = false;     // the key reaches its bound
+  double reach = unlimited;  // change of the key without bound or limit
+  double slack = 0;          // decrease of the sum of squares that the other keys still allow
 };
 
 Profiles::Profiles(const Task& task, const WindowsFit& windows, const VectorXd& u,
@@ -53,8 +53,8 @@ Profiles::Profiles(const Task& task, const WindowsFit& windows, const VectorXd& 
   least_ = residuals_.squaredNorm();
 }
 
-// To where the linear residuals have the sum of squares `target`, with the other keys at their
-// best. The key goes no farther than `most` from the optimum.
+// Step to where the linearized residuals have the sum of squares `target`, with the other keys
+// optimal. The key moves at most `most` away from the optimum.
 Profiles::Step Profiles::step_from(const Point& from, Index k, double sign, double target,
                                    double most) const {
   Step step{VectorXd::Zero(u_.size())};
@@ -62,9 +62,9 @@ Profiles::Step Profiles::step_from(const Point& from, Index k, double sign, doub
   for (Index i = 0; i < u_.size(); ++i) {
     if (i != k) free.push_back(i);
   }
-  VectorXd residuals = from.residuals;  // with the keys that are at a bound where they are
+  VectorXd residuals = from.residuals;  // with the keys at a bound fixed
   for (;;) {
-    // Keys that are hardly told apart stay together, as in the covariance.
+    // Directions that are hardly determined stay fixed, as in the covariance.
     const VectorXd sizes = from.jacobian.colwise().norm().cwiseMax(1e-300);
     MatrixXd others(residuals.size(), static_cast<Index>(free.size()));
     for (std::size_t i = 0; i < free.size(); ++i) {
@@ -81,7 +81,7 @@ Profiles::Step Profiles::step_from(const Point& from, Index k, double sign, doub
       rest -= others * by_residuals;
       effect -= others * by_column;
     }
-    // |rest + effect d|^2 = target has the key's step d.
+    // The key's step d solves |rest + effect d|^2 = target.
     const double a = std::max(effect.squaredNorm(), 1e-300), b = effect.dot(rest);
     const double inside = b * b - a * (rest.squaredNorm() - target);
     const double key_step = (-b + sign * std::sqrt(std::max(inside, 0.0))) / a;
@@ -112,10 +112,10 @@ Profiles::Step Profiles::step_from(const Point& from, Index k, double sign, doub
   }
 }
 
-// How far the end is on the side of `sign`.
+// Distance of the end from the optimum, on the side of `sign`.
 double Profiles::distance(Index k, double growth, double sign) const {
   const double target = least_ + growth;
-  // How far a point is on the way to the end: to second order, the root of the growth.
+  // Fraction of the way to the end: to second order, the root of the growth.
   const auto ratio_at = [&](const VectorXd& residuals) {
     const double above = residuals.squaredNorm() - least_;
     return std::sqrt(std::max(above, 1e-6 * growth) / growth);
@@ -132,7 +132,7 @@ double Profiles::distance(Index k, double growth, double sign) const {
     gone = sign * (to[k] - u_[k]);
     const VectorXd residuals = windows.residuals(to);
     const double ratio = ratio_at(residuals);
-    // Where the residuals are far from linear, a whole step would go to and fro.
+    // A full step would oscillate if the residuals are far from linear.
     const double expected = (at.residuals + at.jacobian * step.by).squaredNorm();
     const double excess = residuals.squaredNorm() - expected;
     if (excess > std::max(growth, step.slack / 2)) {
@@ -140,7 +140,7 @@ double Profiles::distance(Index k, double growth, double sign) const {
       step.at_bound = false;
       continue;
     }
-    // Mostly the other keys are best where the linear problem has them.
+    // The other keys are mostly optimal where the linear problem puts them.
     Point next{to, residuals, at.jacobian};
     const bool is_bound = step.at_bound && ratio <= 1;
     if (is_bound || std::abs(ratio - 1) < (i == 0 ? 0.1 : 0.03)) {

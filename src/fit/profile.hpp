@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Intervals by profile likelihood: how far a key can go before the best sum of squares, with all
-// other keys free, has grown by what the confidence allows.
+// Intervals by profile likelihood: how far a key can move before the best sum of squares, with all
+// other keys free, grows by the amount that the confidence level allows.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,21 +12,21 @@
 namespace bbsim::fit {
 
 struct Ends {
-  double low, high;  // of the key's number; infinite where no value is refuted
+  double low, high;  // of the key's number u; infinite if no value is refuted
 };
 
-// Finds an end as the solution of a problem of its own: the farthest value of the key at which the
-// sum of squares has that growth, and is least by the other keys (Venzon and Moolgavkar, Applied
-// Statistics 37, 1988). Each step solves it exactly for residuals that are linear in the keys, so
-// that a few sets of derivatives are enough where a search along the profile needs one for
-// each step of many minimizations.
+// Finds an end as the solution of its own problem: the farthest value of the key at which the sum
+// of squares has that growth and is least in the other keys (Venzon and Moolgavkar, Applied
+// Statistics 37, 1988). Each step is exact for residuals that are linear in the keys. A few sets of
+// derivatives are therefore enough, whereas a search along the profile needs one per step of many
+// minimizations.
 class Profiles {
  public:
-  // At the optimum `u` and its derivatives. All references must outlive this.
+  // `u` is the optimum, with its derivatives. All references must outlive this.
   Profiles(const Task& task, const WindowsFit& windows, const Eigen::VectorXd& u,
            const WindowsFit::Derivatives& derivatives);
 
-  // Of key `k`. `growth` is the sum of squares that an end has more than the optimum has.
+  // Interval of key `k`. `growth`: sum of squares at an end minus that at the optimum.
   [[nodiscard]] Ends ends(Eigen::Index k, double growth) const;
 
  private:
@@ -40,7 +40,7 @@ class Profiles {
   const WindowsFit& windows_;
   const Eigen::VectorXd& u_;
   const Eigen::MatrixXd& jacobian_;
-  Eigen::VectorXd lower_, upper_;  // bounds of the numbers
+  Eigen::VectorXd lower_, upper_;  // bounds of the numbers u
   Eigen::VectorXd residuals_;
   double least_;
 };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Statistics of a fit's residuals, column by column.
+// Statistics of a fit's residuals by column.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,22 +12,22 @@
 
 namespace bbsim::fit {
 
-// Residuals of all windows in SI: model minus log.
+// Residuals of all windows in SI units: model minus log.
 [[nodiscard]] Eigen::VectorXd in_si(const WindowsFit& windows, const Eigen::VectorXd& residuals);
 
 struct ColumnSize {
   double count = 0;
   double rms = 0;    // SI
-  double usual = 0;  // SI; of residuals without outliers: 1.4826 times the median of their sizes
+  double usual = 0;  // SI; robust standard deviation: 1.4826 times the median size
 };
 [[nodiscard]] std::vector<ColumnSize> sizes_of(const WindowsFit& windows,
                                                const Eigen::VectorXd& residuals);
 
-// The correlation of neighboring residuals of each column within windows.
+// Correlation of neighboring residuals within windows, by column.
 [[nodiscard]] std::vector<double> correlations_of(const WindowsFit& windows,
                                                   const Eigen::VectorXd& residuals);
 
-// Of each column: residuals beyond five of its usual size. Gaussian noise has one in 1.7 million.
+// Residuals of a column beyond five times its usual size. Gaussian noise has one in 1.7 million.
 struct Outliers {
   std::size_t count = 0;
   std::size_t log = 0;  // of the first
@@ -38,9 +38,9 @@ struct Outliers {
                                                 const std::vector<ColumnSize>& sizes);
 
 // Huber's loss (Annals of Mathematical Statistics 35, 1964) is quadratic up to 1.345 standard
-// deviations, and linear beyond: Gaussian noise then costs 5 % of the efficiency.
+// deviations and linear beyond. It costs 5 % of the efficiency for Gaussian noise.
 inline constexpr double huber_limit = 1.345;
-// The roots of its weights, min(1, limit / size), for residuals over the noise.
+// Square roots of its weights, min(1, limit / size), for residuals divided by the noise.
 [[nodiscard]] Eigen::VectorXd huber_weights(const Eigen::VectorXd& over_noise);
 
 }  // namespace bbsim::fit

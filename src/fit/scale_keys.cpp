@@ -18,7 +18,7 @@ Eigen::VectorXd scale_keys(Task& task, WindowsFit& windows, const Eigen::VectorX
     bool are_scaled = true;
     for (Eigen::Index k = 0; k < changes.size(); ++k) {
       FreeKey& key = task.keys[static_cast<std::size_t>(k)];
-      // At u = 0 only, another scale leaves the key's value.
+      // Only at u = 0 does another scale leave the key's value unchanged.
       if (key.logarithmic || u[k] != 0 || !(changes[k] > much)) continue;
       key.scale /= changes[k];
       are_scaled = false;

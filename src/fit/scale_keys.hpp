@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Scales of keys, of which derivatives are differences.
+// Scales of keys, which set the step of difference quotients.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,9 +10,9 @@
 
 namespace bbsim::fit {
 
-// Makes a key's scale smaller by which the logs change by more than ten times their noise, as
-// `windows` has it: its differences would be those of another rig. `windows` must be of `task`.
-// Returns the root mean square change of the logs by each scale, in noise.
+// Reduces the scale of each key that changes the logs by more than ten times the noise of
+// `windows`: such differences would be those of another rig. `windows` must belong to `task`.
+// Returns the root mean square change of the logs per scale, relative to the noise.
 Eigen::VectorXd scale_keys(Task& task, WindowsFit& windows, const Eigen::VectorXd& u);
 
 }  // namespace bbsim::fit

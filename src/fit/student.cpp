@@ -9,8 +9,8 @@
 namespace bbsim::fit {
 namespace {
 
-// The integral of cos^(n - 1) from 0 to `angle`: with t = sqrt(n) tan(angle), the distribution but
-// for a factor. Simpson's rule.
+// Integral of cos^(n - 1) from 0 to `angle` by Simpson's rule: with t = sqrt(n) tan(angle), the
+// distribution up to a factor.
 double part(double n, double angle) {
   constexpr int intervals = 2000;
   const double h = angle / intervals;
@@ -27,7 +27,7 @@ double part(double n, double angle) {
 double student_95(double degrees_of_freedom) {
   constexpr double normal = 1.959963984540054;
   const double n = degrees_of_freedom;
-  // Cornish and Fisher's expansion is right to 1e-9 there.
+  // The Cornish-Fisher expansion is accurate to 1e-9 there.
   if (n > 500) {
     const double z = normal, z3 = z * z * z, z5 = z3 * z * z;
     return z + (z3 + z) / (4 * n) + (5 * z5 + 16 * z3 + 3 * z) / (96 * n * n);

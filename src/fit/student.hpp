@@ -5,7 +5,7 @@
 
 namespace bbsim::fit {
 
-// The t that a variable of Student's distribution exceeds, in size, with a probability of 1 in 20.
+// The t that |T| exceeds with probability 1/20, for a T with Student's distribution.
 [[nodiscard]] double student_95(double degrees_of_freedom);
 
 }  // namespace bbsim::fit

@@ -31,7 +31,7 @@ std::optional<Suggestion> suggestion(const Task& task, const WindowsFit& at, con
   const WindowsFit::Derivatives derivatives = windows.derivatives(all);
   const Eigen::MatrixXd& projected = derivatives.projected;
 
-  // What the keys themselves could still do is none of a candidate's merit.
+  // Remove what the keys themselves could still achieve: a candidate gets no credit for it.
   const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> keys(projected.leftCols(u.size()));
   const auto without_keys = [&](const VectorXd& column) -> VectorXd {
     return column - projected.leftCols(u.size()) * keys.solve(column);
@@ -42,14 +42,14 @@ std::optional<Suggestion> suggestion(const Task& task, const WindowsFit& at, con
     constexpr double least_part = 1e-3;
     const VectorXd column = without_keys(projected.col(k));
     if (!(column.norm() > least_part * derivatives.free_norms[k]))
-      continue;  // keys or starts do the same
+      continue;  // keys or starts have the same effect
     const double step = -column.dot(left) / column.squaredNorm();
     const FreeKey& key = wider.keys[static_cast<std::size_t>(k)];
     const double bound = step > 0 ? key.upper : key.lower;
     if (key.value(0) == bound) continue;
     const double less = step * step * column.squaredNorm() / left.squaredNorm();
     const double share = 1 - std::sqrt(std::max(1 - less, 0.0));
-    // Of two that do the same, the first.
+    // Of two with the same effect, the first wins.
     constexpr double more = 0.01;
     if (!best || share > best->share + more) best = Suggestion{key.name, share};
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which further key would make the residuals of a fit smaller.
+// Suggests a further key that would reduce the residuals of a fit.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,8 +11,8 @@
 
 namespace bbsim::fit {
 
-// The one of task.candidates that, free beside the keys, would take most of the residuals away, by
-// their linear model at u; none if each takes less than a twentieth of their root mean square.
+// The one of task.candidates that, free together with the keys, would reduce the residuals most in
+// their linear model at u; empty if each removes less than 5 % of their root mean square.
 [[nodiscard]] std::optional<Suggestion> suggestion(const Task& task, const WindowsFit& at,
                                                    const Eigen::VectorXd& u);
 

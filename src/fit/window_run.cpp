@@ -16,7 +16,7 @@
 namespace bbsim::fit {
 namespace {
 
-// Collects rows at any times of a run.
+// Collects rows of a run at given times.
 class RowsAtTimes : public solve::StateSink, public solve::PieceSink {
  public:
   RowsAtTimes(const std::vector<double>& times, std::size_t row_size)
@@ -94,7 +94,7 @@ std::vector<double> run_window(const Scenario& scene, const Start& start,
   }
   const model::Model& model = *assembled;
   RowsAtTimes sink(times, model.row_size());
-  // The last row is within the run, whatever its end is rounded to.
+  // End slightly beyond the last row, so that rounding keeps it within the run.
   const double end = times.back() * (1 + 1e-9) + 1e-9;
   const solve::OutputGrid grid({end, end});
   const solve::Outcome outcome = solve::integrate(

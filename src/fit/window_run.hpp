@@ -13,16 +13,16 @@
 
 namespace bbsim::fit {
 
-// The state at a window's start: x, y, vx, vy, phi, theta, phi_rate, theta_rate, spin (SI). The
-// gimbal's angles are those of gimbal.start, and matter only where a controller or torques move it.
+// State at a window's start: x, y, vx, vy, phi, theta, phi_rate, theta_rate, spin (SI). The angles
+// are those of gimbal.start; they matter only if a controller or torques move the gimbal.
 using Start = std::array<double, 9>;
 
-// The scenario without what ends a run early or only watches it, at tolerances for differences.
+// The scenario without events that end a run early or only observe it, with tight tolerances.
 [[nodiscard]] Scenario prepared(Scenario scenario);
 
-// The columns at `times` (s, increasing, from 0 on), one column after the other. `scene` is
-// from_time() of a prepared scenario. Empty, with the reason in `why`, if the run does not come to
-// the last of them.
+// The columns at `times` (s, increasing, from 0), one column after the other. `scene` is
+// from_time() of a prepared scenario. Empty, with the reason in `why`, if the run does not reach
+// the last time.
 [[nodiscard]] std::vector<double> run_window(const Scenario& scene, const Start& start,
                                              const std::vector<double>& times,
                                              const std::vector<const scenario::Column*>& columns,
@@ -30,7 +30,7 @@ using Start = std::array<double, 9>;
 
 [[nodiscard]] Start start_of(const Scenario& scenario);
 
-// Whether nothing but the loop says where the gimbal is when a window begins.
+// Whether the gimbal's state at a window's start is free: no given motion or commands set it.
 [[nodiscard]] bool begins_anywhere(const Scenario& scenario);
 
 }  // namespace bbsim::fit

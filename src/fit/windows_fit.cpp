@@ -23,8 +23,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Of u and of a start (m, m/s, rad, rad/s), for central differences: the error of the run over it,
-// and its square, are small.
+// Central difference steps of u and of a start (m, m/s, rad, rad/s): both the run's error over the
+// step and the step's square are small.
 constexpr double key_step = 1e-3, start_step = 1e-3;
 
 Index at(std::size_t i) {
@@ -63,7 +63,7 @@ WindowsFit::WindowsFit(const Task& task, std::vector<Window> windows)
   guess_starts();
 }
 
-// A window's start is its first measurement, at rest.
+// Guesses each window's start: its first measurement, at rest.
 void WindowsFit::guess_starts() {
   for (std::size_t w = 0; w < windows_.size(); ++w) {
     constexpr std::string_view names[] = {"x", "y", "", "", "phi", "theta", "", ""};
@@ -81,7 +81,7 @@ void WindowsFit::guess_starts() {
   }
 }
 
-// Other weights scale the rows of derivatives that are known.
+// Rescales the rows of known derivatives to new weights.
 void WindowsFit::scale_rows(const VectorXd& factors) {
   for (std::size_t w = 0; w < windows_.size(); ++w) {
     State& state = base_[w];
@@ -135,7 +135,7 @@ Variant WindowsFit::variant(const VectorXd& u, std::string* why) const {
   }
   try {
     for (const Log& log : task_.logs) {
-      // Logs without settings of their own share the scenario.
+      // Logs without their own settings share the scenario.
       if (!scenes.empty() && log.settings.empty()) {
         scenes.push_back(scenes.front());
         continue;
@@ -224,7 +224,7 @@ bool WindowsFit::residual_of(std::size_t w, const Scene& scene, const Start& sta
   for (std::size_t i = 0; i < states_.size(); ++i) {
     (*end)[states_[i]] = values[(task_.columns.size() + i + 1) * shown.size() - 1];
   }
-  if (begins_anywhere(scene.scenario)) {  // gimbal.start is before errors of the mounting
+  if (begins_anywhere(scene.scenario)) {  // gimbal.start excludes the mounting's errors
     (*end)[4] -= scene.scenario.gimbal.mounting.phi_offset;
     (*end)[5] -= scene.scenario.gimbal.mounting.theta_offset;
   }
@@ -253,8 +253,8 @@ bool WindowsFit::slopes(std::size_t w, const Scene& scene, State& state) const {
   return true;
 }
 
-// Newton's method for the best start, with the slopes that are there: the motion depends on its
-// start almost linearly.
+// Newton's method for the best start with the known slopes: the motion depends on its start almost
+// linearly.
 bool WindowsFit::settle(std::size_t w, const Scene& scene, State& state, std::string& why) const {
   if (!residual_of(w, scene, state.start, state.residual, why)) return false;
   const int fresh = std::exchange(state.fresh_rounds, 0);
@@ -267,7 +267,7 @@ bool WindowsFit::settle(std::size_t w, const Scene& scene, State& state, std::st
       }
     }
     const VectorXd step = state.start_solver.solve(state.residual);
-    // What the step can still bring is known before its run.
+    // The step's gain is known before its run.
     const double left = (state.by_start * step).squaredNorm();
     if (round >= fresh && left <= 1e-14 * state.residual.squaredNorm()) break;
     Start moved = state.start;
@@ -347,7 +347,7 @@ WindowsFit::Derivatives WindowsFit::derivatives(const VectorXd& u,
   return differences(u);
 }
 
-// At the starts of `base_`.
+// Derivatives at the starts of `base_`.
 WindowsFit::Derivatives WindowsFit::differences(const VectorXd& u) {
   const Index keys = u.size();
   std::string why;
@@ -396,7 +396,7 @@ WindowsFit::Derivatives WindowsFit::differences(const VectorXd& u) {
   return projected(keys);
 }
 
-// The starts follow the keys: what they undo is none of a key's effect.
+// The starts follow the keys: what they undo is no effect of a key.
 WindowsFit::Derivatives WindowsFit::projected(Index keys) const {
   Derivatives made{MatrixXd::Zero(at(size_), keys), VectorXd::Zero(keys)};
   VectorXd squares = VectorXd::Zero(keys);
@@ -420,7 +420,7 @@ WindowsFit::Derivatives WindowsFit::projected(Index keys) const {
 
 std::vector<WindowSeries> WindowsFit::series(const VectorXd& u) {
   if (trial_u_.size() != u.size() || trial_u_ != u) static_cast<void>(residuals(u));
-  // The residuals of logs of zeros are what the model says, also where a log lacks a number.
+  // With logs of zeros the residuals are the model's values, also where a log has no number.
   std::vector<Window> zeros = windows_;
   for (Window& window : zeros) {
     for (std::vector<double>& column : window.values) std::ranges::fill(column, 0.0);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The windows of a fit at some values of its keys: residuals and derivatives, with the best start
+// The windows of a fit at given values of its keys: residuals and derivatives, with the best start
 // of each window.
 #pragma once
 
@@ -17,13 +17,13 @@
 
 namespace bbsim::fit {
 
-// What the logs show of each compared column: offset + scale column(t - delay).
+// A log shows offset + scale column(t - delay) of each compared column.
 struct Sensors {
   std::vector<double> scales, offsets;
   double delay = 0;  // s
 };
 
-// Scenarios at one set of values, one for each log; none if the values are refused.
+// Scenarios at one set of values, one per log; none if the values are refused.
 struct Variant {
   std::vector<Scenario> scenes;
   Sensors sensors;
@@ -31,65 +31,65 @@ struct Variant {
 
 class WindowsFit {
  public:
-  // The residuals of a window that does not run, in standard deviations.
+  // Residual of a window that does not run, in standard deviations.
   static constexpr double far = 1e6;
 
   WindowsFit(const Task& task, std::vector<Window> windows);
 
   [[nodiscard]] const std::vector<Window>& windows() const { return windows_; }
-  // The numbers that are compared, and those of the starts.
+  // Number of compared values, and of free coordinates of starts.
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] std::size_t starts() const {
     return (joined_ ? chains_.size() : windows_.size()) * coordinates_.size();
   }
-  // The rows of a window, of the numbers of all windows.
+  // First row of a window among the numbers of all windows.
   [[nodiscard]] std::size_t first_row(std::size_t window) const { return first_rows_[window]; }
   [[nodiscard]] const std::vector<std::size_t>& columns_of_rows() const { return columns_; }
 
-  // The standard deviation of each column's noise, which its residuals are divided by.
+  // Standard deviation of each column's noise, by which its residuals are divided.
   void set_noise(std::vector<double> noise);
   [[nodiscard]] const std::vector<double>& noise() const { return noise_; }
-  // Factors of each residual, 1 at first.
+  // Factor of each residual, initially 1.
   void set_weights(Eigen::VectorXd weights);
   [[nodiscard]] const Eigen::VectorXd& weights() const { return weights_; }
 
-  // The residuals over the noise, times their weights, at the best starts. What does not run is far
-  // away; with `first`, it is an InputError.
+  // Residuals over the noise, times their weights, at the best starts. A window that does not run
+  // gets `far`; with `first`, it throws InputError.
   [[nodiscard]] Eigen::VectorXd residuals(const Eigen::VectorXd& u, bool first = false);
 
-  // What log and model show at u in each window.
+  // Values of log and model at u, by window.
   [[nodiscard]] std::vector<WindowSeries> series(const Eigen::VectorXd& u);
 
-  // The derivatives of the residuals by u, at u; residuals() may be asked before or not. `free`:
-  // with the starts as they are, without letting them follow. `known`: those that were computed
-  // last, with the noise and weights of now.
+  // Derivatives of the residuals by u, at u; residuals() need not be called before. `projected`
+  // lets the starts follow; `free_norms` are the columns' norms with fixed starts.
+  // known_derivatives() returns the last computed ones, with the present noise and weights.
   struct Derivatives {
     Eigen::MatrixXd projected;
     Eigen::VectorXd free_norms;
   };
   [[nodiscard]] Derivatives derivatives(const Eigen::VectorXd& u);
   [[nodiscard]] Derivatives known_derivatives() const { return projected(base_u_.size()); }
-  // The same where the windows' starts are known.
+  // The same with known starts of the windows.
   [[nodiscard]] Derivatives derivatives(const Eigen::VectorXd& u, const std::vector<Start>& starts);
 
-  // From now on, windows that go on are joined: each window begins where the one before ends. The
-  // starts begin at those of the last residuals().
+  // Joins windows that go on: from now on each one starts where the last ends. The initial starts
+  // are those of the last residuals().
   void join();
   [[nodiscard]] bool is_joined() const { return joined_; }
-  // Begins with the starts of `other`, of the same windows, and is joined if that is.
+  // Takes the starts of `other`, which has the same windows, and joins if `other` is joined.
   void begin_as(const WindowsFit& other);
 
-  // Begins again with guesses of the windows' starts.
+  // Starts again with guesses of the windows' starts.
   void restart();
-  // From now on, a task that is stopped is computed nevertheless.
+  // Ignores a stopped task from now on.
   void finish() { heeds_stop_ = false; }
 
  private:
-  // Derivatives are those where they were last computed.
+  // Derivatives are from the point where they were last computed.
   struct State : Link {
     Start start{}, end{};
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> start_solver;  // of by_start
-    int fresh_rounds = 3;  // for which slopes are still to be computed; the first start is a guess
+    int fresh_rounds = 3;  // rounds that still compute slopes; the first start is a guess
   };
 
   [[nodiscard]] Derivatives differences(const Eigen::VectorXd& u);
@@ -102,17 +102,17 @@ class WindowsFit {
     Scenario scenario;
     const Sensors& sensors;
   };
-  // `end`: where the next window begins; only if this one is joined to it.
+  // `end` receives the state at the next window's start, if this one is joined to it.
   bool residual_of(std::size_t w, const Scene& scene, const Start& start, Eigen::VectorXd& into,
                    std::string& why, Start* end = nullptr) const;
-  // The derivatives by the start; false, and none, if a run fails.
+  // Computes derivatives by the start; returns false and sets none if a run fails.
   bool slopes(std::size_t w, const Scene& scene, State& state) const;
   bool settle(std::size_t w, const Scene& scene, State& state, std::string& why) const;
   [[nodiscard]] Scene scene_of(std::size_t w, const Variant& variant) const;
   [[nodiscard]] bool is_stopped() const;
   void for_each_window(const std::function<void(std::size_t)>& work) const;
 
-  // Of joined windows.
+  // A range of joined windows.
   struct Chain {
     std::size_t first, last;
   };
@@ -129,9 +129,9 @@ class WindowsFit {
 
   const Task& task_;
   std::vector<Window> windows_;
-  std::vector<std::size_t> coordinates_;  // of a start that is free
+  std::vector<std::size_t> coordinates_;  // free coordinates of a start
   bool joined_ = false;
-  std::vector<std::size_t> states_;  // coordinates that pass from window to window
+  std::vector<std::size_t> states_;  // coordinates passed from window to window
   std::vector<Chain> chains_;
   std::vector<std::size_t> first_rows_, columns_;
   std::size_t size_ = 0;
@@ -139,7 +139,7 @@ class WindowsFit {
   Eigen::VectorXd weights_;
   bool heeds_stop_ = true;
   std::vector<State> base_, trial_;
-  Eigen::VectorXd base_u_;   // where the derivatives of base_ are from; empty if there are none
+  Eigen::VectorXd base_u_;   // the point of base_'s derivatives; empty if there are none
   Eigen::VectorXd trial_u_;  // of trial_
 };
 

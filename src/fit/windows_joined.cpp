@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The windows of a fit where they are joined: chains of windows in place of free ones.
+// Joined windows of a fit: chains in place of free windows.
 
 #include <algorithm>
 #include <cmath>
@@ -97,8 +97,8 @@ void WindowsFit::move(Start& start, const VectorXd& by) const {
   for (std::size_t i = 0; i < states_.size(); ++i) start[states_[i]] += by[at(i)];
 }
 
-// Newton's method for the starts of a chain: those that close all gaps and have the least
-// residuals. A step that makes both worse is halved.
+// Newton's method for the starts of a chain that close all gaps and minimize the residuals. A step
+// that makes both worse is halved.
 class WindowsFit::Closing {
  public:
   Closing(const WindowsFit& fit, const Chain& chain, std::vector<State>& states)
@@ -109,7 +109,7 @@ class WindowsFit::Closing {
   [[nodiscard]] bool wants_slopes() const { return is_accepted_; }
   void fail() { has_failed_ = true; }
 
-  // All windows have run from their starts, or one of them has not.
+  // `runs`: whether all windows ran from their starts.
   void judge(bool runs) {
     double cost = 0, gap = 0;
     for (std::size_t w = chain_.first; w <= chain_.last && runs; ++w) {
@@ -138,7 +138,7 @@ class WindowsFit::Closing {
     }
   }
 
-  // After a step that is accepted.
+  // Call after an accepted step.
   void step(bool fresh) {
     const Condensed linear = fit_.condensed(chain_, states_, 0);
     const VectorXd first = linear.best_first();
@@ -156,12 +156,12 @@ class WindowsFit::Closing {
   }
 
  private:
-  static constexpr double tight = 1e-11;  // m, m/s, rad, rad/s, or of the state's size
+  static constexpr double tight = 1e-11;  // m, m/s, rad, rad/s, or relative to the state
 
   const WindowsFit& fit_;
   const Chain& chain_;
   std::vector<State>& states_;
-  std::vector<VectorXd> steps_;  // those that led to the present starts
+  std::vector<VectorXd> steps_;  // steps to the present starts
   double cost_ = std::numeric_limits<double>::infinity(), gap_ = cost_;
   int halvings_ = 0;
   bool is_accepted_ = false, is_done_ = false, has_failed_ = false, settled_ = false;

@@ -9,13 +9,13 @@
 
 namespace bbsim::record {
 
-// Three digits suffice to judge an error.
+// Rounds to three digits, which suffice to judge an error.
 [[nodiscard]] std::string rounded(double value);
 
-// For a table's column of units: a number without one has the unit 1.
+// Unit for a table's column; 1 for a number without a unit.
 [[nodiscard]] std::string unit_or_one(const std::string& unit);
 
-// Lines of as many fields each: the first one to the left, the others to the right.
+// Aligns lines of equal length: the first field to the left, the others to the right.
 [[nodiscard]] std::string aligned(const std::vector<std::vector<std::string>>& lines);
 
 }  // namespace bbsim::record

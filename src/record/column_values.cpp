@@ -13,7 +13,6 @@
 namespace bbsim::record {
 namespace {
 
-// A single row.
 struct Row {
   const model::Sample& sample;
   const model::BallConstants& constants;
@@ -137,7 +136,7 @@ static_assert(in_order(), "each column has its value, in the catalogue's order")
 
 namespace {
 
-// A number that the user's controller gives, by its index.
+// Column that the user's controller returns at index `place`.
 template <std::size_t place>
 void fill_own(const RowBlock& rows, double* column) {
   for (std::size_t i = 0; i < rows.count; ++i) {

@@ -15,8 +15,8 @@
 
 namespace bbsim::record {
 
-// Some rows. `dynamics` and `orientations` (from the ball's frame to the plane's) are null if no
-// column needs them.
+// A block of rows. `dynamics` and `orientations` (from the ball's frame to the plane's) are null if
+// no column needs them.
 struct RowBlock {
   std::size_t count;
   const model::Sample* samples;
@@ -28,8 +28,8 @@ struct RowBlock {
 // Writes a column: one number for each row.
 using FillColumn = void (*)(const RowBlock& rows, double* column);
 
-// `own_columns` are the columns of the scene's controller, Model::own_columns(). A controller's
-// column that is not among them is NaN.
+// `own_columns`: columns of the scene's controller, Model::own_columns(). A controller column that
+// is not among them is NaN.
 [[nodiscard]] FillColumn fill_of(const scenario::Column& column,
                                  const std::vector<std::string>& own_columns);
 

@@ -169,7 +169,7 @@ bool Curve::ends_at_least(double sign, double level) const {
 std::optional<Curve::Place> Curve::crossing(double level, scenario::Instant::Way way,
                                             std::size_t number) const {
   using Way = scenario::Instant::Way;
-  std::optional<Place> last, reached;  // reached: where it came to the level and stayed
+  std::optional<Place> last, reached;  // reached: where the curve came to the level and stayed
   int side_before = 0;                 // the side of the level before
   std::size_t found = 0;
   const auto look = [&](int now, const Place& at) {

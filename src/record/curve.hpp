@@ -13,7 +13,7 @@
 
 namespace bbsim::record {
 
-// Consists of pieces in the order of time, with jumps allowed between them. A piece is a polynomial
+// Consists of pieces in order of time, possibly with jumps between them. A piece is a polynomial
 // through values at Chebyshev points, a straight line between rows of a file, or an instant.
 class Curve {
  public:
@@ -52,7 +52,7 @@ class Curve {
   // Whether sign * value >= level at the end.
   [[nodiscard]] bool ends_at_least(double sign, double level) const;
   // The instant at which the curve crosses the level for the number-th time, counted from 1; 0
-  // means the last time. A turn at the level is no crossing, nor is a start at it.
+  // means the last time. Neither a turn at the level nor a start at it is a crossing.
   [[nodiscard]] std::optional<Place> crossing(double level, scenario::Instant::Way way,
                                               std::size_t number) const;
   // The value for which sign * value is greatest, from `from` or the start on, and its first time.

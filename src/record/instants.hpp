@@ -11,10 +11,10 @@
 
 namespace bbsim::record {
 
-// The curve of a column.
+// Returns the curve of a column.
 using CurveOf = std::function<const Curve&(const scenario::Column&)>;
 
-// The value of a measure; if it is NaN, `why` says why in a few words.
+// The value of a measure; if it is NaN, `why` gives the reason in a few words.
 struct Measured {
   double value;
   const char* why = nullptr;
@@ -23,7 +23,7 @@ struct Measured {
 // The value of a measure of kind step, when or find.
 [[nodiscard]] Measured measured(const scenario::Measure& measure, const CurveOf& curve_of);
 
-// Whether the measure is of one of these kinds.
+// Whether the measure is of kind step, when or find.
 [[nodiscard]] inline bool is_of_curves(const scenario::Measure& measure) {
   using Kind = scenario::Measure::Kind;
   return measure.kind == Kind::step || measure.kind == Kind::when || measure.kind == Kind::find;

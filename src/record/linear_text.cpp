@@ -54,8 +54,8 @@ std::string title_of(const LinearReport& report) {
                      : ", in continuous time");
 }
 
-// The comment at the beginning of a program. What others named comes in the third line: Python and
-// Octave take a file's encoding from its first two, and an encoding can turn comments into code.
+// Opening comment of a program. The user's names come in the third line: Python and Octave read the
+// encoding of a file from the first two, and an encoding can turn comments into code.
 std::string opening(const LinearReport& report, const std::string& comment) {
   return comment + " Made by bbsim linearize.\n" + comment +
          " A, B, C and D of a linear system, and its names and units:\n" + comment + ' ' +
@@ -68,12 +68,12 @@ std::array<const Eigen::MatrixXd*, 4> matrices_of(const LinearSystem& system) {
   return {&system.a, &system.b, &system.c, &system.d};
 }
 
-// How a language writes what the system is made of.
+// Syntax of a language.
 struct Language {
-  const char *comment, *before;  // `before`: what it needs first
-  // A matrix, with what stands before, between and behind rows.
+  const char *comment, *before;  // `before`: code at the top
+  // Delimiters of a matrix, of its rows and of their numbers.
   const char *open, *open_row, *between, *close_row, *next_row, *close;
-  const char *open_list, *close_list, *end;  // `end`: of a statement
+  const char *open_list, *close_list, *end;  // `end`: ends a statement
 };
 
 std::string text_of(const Eigen::MatrixXd& matrix, const Language& in) {
@@ -90,7 +90,7 @@ std::string text_of(const Eigen::MatrixXd& matrix, const Language& in) {
   return text + in.close;
 }
 
-// Sets A, B, C, D, the names, the units and the period.
+// Statements that set A, B, C, D, the names, the units and the period.
 std::string definitions(const LinearReport& report, const Language& in) {
   const LinearSystem& system = report.linearization.system;
   std::string text = opening(report, in.comment) + in.before;

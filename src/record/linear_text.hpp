@@ -10,24 +10,24 @@
 
 namespace bbsim::record {
 
-// A linearization, and what it is of.
+// A linearization with its origin.
 struct LinearReport {
-  std::string scenario, kind, at;  // "loop", "home"
+  std::string scenario, kind, at;  // such as kind "loop", at "home"
   const model::Linearization& linearization;
 };
 
-// states, inputs, outputs, A, B, C, D, poles and period, which is null in continuous time; and
-// beside them units, zeros, margins and bandwidths, null where there is none. Doubles read back to
-// the bit.
+// An object with states, inputs, outputs, A, B, C, D, poles and period (null in continuous time),
+// and with units, zeros, margins and bandwidths (null if there is none). Doubles read back bit for
+// bit.
 [[nodiscard]] std::string to_json(const LinearReport& report);
 
-// A script for MATLAB and Octave that sets A, B, C, D, the names and, where ss() is known, `sys`.
+// A script for MATLAB and Octave that sets A, B, C, D, the names and, if ss() is known, `sys`.
 [[nodiscard]] std::string to_matlab(const LinearReport& report);
 
-// A module for Python that sets the same as numpy arrays and, where python-control is there, `sys`.
+// A Python module that sets the same as numpy arrays and, if python-control is installed, `sys`.
 [[nodiscard]] std::string to_python(const LinearReport& report);
 
-// The matrix [A, B; C, D] with the names of its columns and, first, of its rows.
+// The matrix [A, B; C, D] with column names, and with row names in the first column.
 [[nodiscard]] std::string to_csv(const LinearReport& report);
 
 }  // namespace bbsim::record

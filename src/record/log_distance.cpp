@@ -46,7 +46,7 @@ class Line {
   [[nodiscard]] const Numbers& times() const { return t_; }
   [[nodiscard]] const Numbers& values() const { return v_; }
 
-  // Nothing outside the rows.
+  // Interpolated value; empty outside the rows.
   [[nodiscard]] std::optional<double> at(double t) const {
     if (t_.empty() || !(t >= t_.front()) || !(t <= t_.back())) return {};
     const auto after = static_cast<std::size_t>(std::ranges::upper_bound(t_, t) - t_.begin());
@@ -107,8 +107,8 @@ std::vector<Pair> pairs_of(const file::TableData& log, const std::string& log_na
   return pairs;
 }
 
-// Pearson's correlation of the log, moved by `offset`, with the run, over all columns, each on its
-// own scale; nothing if too little is in common or nothing varies.
+// Pearson's correlation of the log, moved by `offset`, with the run: the mean over the columns.
+// Empty if the time in common is shorter than `least` or nothing varies.
 struct Sums {
   double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
 };
@@ -142,7 +142,7 @@ std::optional<double> correlation(const std::vector<Pair>& pairs, double offset,
   return total / count;
 }
 
-// Few enough rows to search with.
+// Thins the rows for a fast search.
 Line thinned(const Line& line, std::size_t most) {
   Numbers times, values;
   const std::size_t step = std::max<std::size_t>(1, line.times().size() / most);
@@ -232,7 +232,7 @@ double time_offset(const file::TableData& log, const std::string& log_name,
     throw InputError("--time-offset auto: " + log_name + " and " + run_name +
                      " have too little in common that varies; allowed: a time, or start");
   }
-  // Golden-section search about the best of them.
+  // Golden-section search around the best offset.
   constexpr double golden = 0.6180339887498949;
   double low = *best - step, high = *best + step;
   const auto value = [&](double offset) {

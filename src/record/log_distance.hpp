@@ -17,26 +17,26 @@ struct ColumnDistance {
   double rms = 0;
   double greatest = 0, at = 0;  // |log - run| and its time, s
   double log = 0, run = 0;      // the values there
-  std::size_t rows = 0;         // of the log that have a number
+  std::size_t rows = 0;         // compared rows
 };
 
 struct LogDistance {
   std::vector<ColumnDistance> columns;
   double from = 0, to = 0;                // the times in common, s
-  std::size_t rows = 0, rows_of_log = 0;  // compared, of all
+  std::size_t rows = 0, rows_of_log = 0;  // in common; of the log
 };
 
-// The distance at the log's rows. Between its rows, the run is a cubic with the slopes of vx, vy,
-// phi_rate and theta_rate where it has them, and a straight line elsewhere. Both tables need a
-// column t with increasing times. `columns` selects some; if it is empty, all columns in common are
-// compared. The names of the files are for messages. Throws InputError.
+// The distance at the log's rows. Between its rows, the run is a cubic if it has the slope (vx, vy,
+// phi_rate, theta_rate), and a straight line otherwise. Both tables need a column t with increasing
+// times. `columns` selects some; if it is empty, all columns in common are compared. The names of
+// the files are for messages. Throws InputError.
 [[nodiscard]] LogDistance log_distance(const file::TableData& log, const std::string& log_name,
                                        const file::TableData& run, const std::string& run_name,
                                        const std::vector<std::string>& columns = {});
 
-// The time (s) that, added to the log's times, gives the greatest correlation with the run, by
-// cross-correlation of all columns in common over at least half of the shorter one. Throws
-// InputError if nothing in common varies.
+// Returns the time (s) that, added to the log's times, gives the greatest correlation with the run,
+// over all columns in common and at least half of the shorter one. Throws InputError if nothing in
+// common varies.
 [[nodiscard]] double time_offset(const file::TableData& log, const std::string& log_name,
                                  const file::TableData& run, const std::string& run_name,
                                  const std::vector<std::string>& columns = {});

@@ -24,7 +24,7 @@ class StoredRun {
   StoredRun(const StoredRun&) = delete;  // columns_ refer to the names in table_
   StoredRun& operator=(const StoredRun&) = delete;
 
-  // The measures of these names. Throws InputError.
+  // The measures with these names. Throws InputError.
   [[nodiscard]] std::vector<scenario::Measure> measures_named(
       const std::vector<std::string>& names) const;
 
@@ -40,7 +40,7 @@ class StoredRun {
   [[nodiscard]] const std::vector<double>& values_of(const scenario::Column& column) const;
 
  private:
-  // The rows of a window, and its ends where there is no row.
+  // Rows of a window, and its ends if no row lies there.
   struct Cut {
     std::size_t first, last;              // rows within it: [first, last)
     std::optional<double> before, after;  // times of its ends, s, if interpolation is needed there

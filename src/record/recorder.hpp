@@ -34,12 +34,11 @@ struct Asked {
   bool peaks = false;
 };
 
-// How to record a run.
 struct Manner {
-  // Takes the usual measures of a smooth model by TrackMeasures, which evaluates many instants at a
-  // time. The numbers differ by rounding only.
+  // Takes the usual measures of a smooth model with TrackMeasures, which evaluates many instants at
+  // a time. The numbers differ by rounding only.
   bool quick = false;
-  // The motion or reference, and the grid, are those of the run before.
+  // The motion or reference, and the grid, are those of the previous run.
   bool same_signals = false;
 };
 

@@ -24,7 +24,7 @@ namespace {
 
 using yaml::Dimension;
 
-constexpr double growth = 100;  // of errors from one step to all
+constexpr double growth = 100;  // of errors from one step to the whole run
 
 std::optional<std::string> attribute(const file::CellTable& table, std::string_view name) {
   for (const auto& [key, value] : table.attributes) {

@@ -11,19 +11,19 @@
 namespace bbsim::record {
 
 // Reads HDF5 attributes: the tolerances rtol and atol, or the bound error_bound on the error of
-// positions. Empty if neither file has any; CSV cannot.
+// positions. Empty if neither file has any, as with CSV.
 //
 // Tolerances hold for a step. The errors of all steps together may be a hundred times as large, as
 // in the golden files. Each file may therefore be off, in a column, by
 //
 //     100 (rtol size + atol unit)
 //
-// and two files by the sum. `size` is the largest value in any column of the same kind: where x
-// goes, y may come, with the error of x. `unit` is the change of the column for a change of 1 in
-// the integrated state. It is 1 for most columns; 1/r for the spin, which is integrated as r spin;
-// 1/r times the length of the run for gamma, the integral of the spin; and omega_n^2 + 2 zeta
-// omega_n for the gimbal's accelerations behind a servo. Columns that are not computed from states,
-// like t, a sweep's keys and texts, have the standard tolerances.
+// and two files by the sum. `size` is the largest value in any column of the same kind, because an
+// error of x may pass to y. `unit` is the change of the column per unit of the integrated state: 1
+// for most columns; 1/r for the spin, which is integrated as r spin; 1/r times the length of the
+// run for gamma, the integral of the spin; and omega_n^2 + 2 zeta omega_n for the gimbal's
+// accelerations under a servo. Columns that are not computed from states, such as t, a sweep's keys
+// and texts, have the standard tolerances.
 [[nodiscard]] std::optional<Allowances> solver_allowances(const file::CellTable& a,
                                                           const file::CellTable& b);
 

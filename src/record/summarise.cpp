@@ -29,7 +29,7 @@ const CellColumn& column_of(const CellTable& table, const std::string& file,
   return table.columns[static_cast<std::size_t>(found - table.names.begin())];
 }
 
-// What is told of unless measures are named: the numbers behind the status, which keys are before.
+// Default measures: the numeric columns after the status; keys come before it.
 std::vector<std::string> all_measures(const CellTable& table) {
   std::vector<std::string> names;
   const auto status = std::ranges::find(table.names, "status");
@@ -54,7 +54,7 @@ GroupFigures figures_of(const std::string& measure, std::vector<double> values,
   figures.least = values.front();
   figures.greatest = values.back();
   const auto count = static_cast<double>(values.size());
-  // From the least on: large values that are alike keep their digits.
+  // Sums differences from the least value, so that nearly equal large values keep their digits.
   double sum = 0;
   for (const double value : values) sum += value - figures.least;
   figures.mean = figures.least + sum / count;
@@ -129,7 +129,7 @@ std::string to_csv(const std::vector<Group>& groups, const std::vector<std::stri
   std::string text;
   for (const std::string& key : keys) text += key + ',';
   text += "measure,cases,count,mean,deviation,min";
-  // 0.05 is q5, and 0.001 q0.1: hundredths are rounded as what they are meant to be.
+  // 0.05 becomes q5 and 0.001 becomes q0.1; rounding removes binary errors of the percentage.
   for (const double part : quantiles) {
     text += ",q" + number_text(std::round(part * 1e12) / 1e10);
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a sweep's cases come to, group by group: where noise or draws make many of one.
+// Statistics of a sweep's cases by group, for noise or draws that repeat a case.
 #pragma once
 
 #include <cstddef>
@@ -12,32 +12,32 @@
 
 namespace bbsim::record {
 
-// Of the finite values of one measure over the cases of a group that came to their end.
+// Statistics of one measure's finite values over the cases of a group that ran to their end.
 struct GroupFigures {
   std::string measure;
   std::size_t count = 0;
-  // Deviation: the sample's, over count - 1; no number of fewer than two values. All others are
-  // none where there is no value.
+  // The deviation is the sample's, over count - 1; NaN for fewer than two values. All others are
+  // NaN if there is no value.
   double mean = 0, deviation = 0, least = 0, greatest = 0;
-  std::vector<double> quantiles;  // between two values on the straight line, as numpy has them
+  std::vector<double> quantiles;  // interpolated linearly between two values, as in numpy
 };
 
 struct Group {
-  std::vector<std::string> values;  // of the keys that the groups are by
-  std::size_t cases = 0;            // all of them, however they ended
+  std::vector<std::string> values;  // values of the keys that define the group
+  std::size_t cases = 0;            // all cases, however they ended
   std::vector<GroupFigures> figures;
 };
 
-// Groups in the order in which they first appear. Without keys all cases are one. `measures` empty:
-// all columns of numbers that come after the status. Throws InputError for a column that the
-// table, of that name, does not have, or that has texts where numbers are wanted.
+// Groups appear in the order of their first case; without keys, all cases form one. If `measures`
+// is empty, all numeric columns after the status are used. Throws InputError if the table, named
+// `name`, lacks a column or has texts where numbers are needed.
 [[nodiscard]] std::vector<Group> summarise(const file::CellTable& table, const std::string& name,
                                            const std::vector<std::string>& keys,
                                            const std::vector<std::string>& measures,
                                            const std::vector<double>& quantiles);
 
-// CSV: the keys; measure, cases, count, mean, deviation, min, a column q5, q50, ... a quantile,
-// max.
+// CSV with the keys, measure, cases, count, mean, deviation, min, a column per quantile (q5, q50,
+// ...) and max.
 [[nodiscard]] std::string to_csv(const std::vector<Group>& groups,
                                  const std::vector<std::string>& keys,
                                  const std::vector<double>& quantiles);

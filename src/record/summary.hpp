@@ -43,7 +43,7 @@ struct ExpectationRecord {
 
 struct RunSummary {
   std::string version;
-  std::string instruction_set;  // of the kernels, like avx2
+  std::string instruction_set;  // of the kernels, such as avx2
   std::string scenario;         // its file, as the user named it
   std::string scenario_text;    // that file's content, for JSON only
   std::string title;
@@ -56,14 +56,14 @@ struct RunSummary {
   std::size_t rows = 0;
   std::string output;                    // file, "-" for standard output
   std::vector<std::string> states;       // names of the integrated states
-  std::vector<std::string> model_notes;  // of modelling, with reasons, one sentence each
+  std::vector<std::string> model_notes;  // on modeling, with reasons, one sentence each
   std::string method;
   double rtol = 0, atol = 0;
   std::vector<EventRecord> events;
   // The results of --measure, by name.
   using Numbers = std::vector<std::pair<std::string, double>>;
   Numbers measures;
-  // With --sensitivity: of each of these measures, its derivatives by keys.
+  // With --sensitivity: derivatives of each of these measures by keys.
   std::vector<std::pair<std::string, Numbers>> gradients;
   std::vector<ExpectationRecord> expectations;
   std::optional<MotorPeaks> peaks;  // if a column needs forces, or with plate.inertia
@@ -76,16 +76,16 @@ struct RunSummary {
   } statistics;
 };
 
-// A JSON object with the members' names as keys, indented, ended by a newline. Doubles read back to
-// the bit; those that are not finite are null. Bytes that are not UTF-8 become U+FFFD.
+// A JSON object with the members' names as keys, indented, ended by a newline. Doubles read back
+// bit for bit; those that are not finite are null. Bytes that are not UTF-8 become U+FFFD.
 [[nodiscard]] std::string to_json(const RunSummary& summary);
 
 // Writes to_json() whole or not at all; "-" is standard output. Throws OutputError.
 void write_summary(const std::string& file, const RunSummary& summary);
 
 // The same names and values as attributes, and `scenario_text`. Names of `statistics` have no
-// prefix. Numbers are numbers, and lists have one entry a line. `output` and `cpu_seconds` are left
-// out, because they differ between equal runs.
+// prefix. Numbers are numbers, and lists have one entry per line. `output` and `cpu_seconds` are
+// left out, because they differ between equal runs.
 [[nodiscard]] file::Attributes to_attributes(const RunSummary& summary,
                                              const std::string& scenario_text);
 

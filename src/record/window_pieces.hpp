@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Limits the motion that a sink gets to a window of time.
+// Limits the motion that a sink receives to a window of time.
 #pragma once
 
 #include "scenario/window.hpp"

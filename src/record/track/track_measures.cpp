@@ -46,7 +46,7 @@ bool is_track_measure(const scenario::Measure& measure) {
          (name == "tilt" || name == "tilt_rate" || name == "distance");
 }
 
-// Points of pieces that are searched in one call; a piece has fewer.
+// Number of points searched in one call; a piece has fewer.
 constexpr std::size_t points_together = 1024;
 
 void subtract(const SignalRows& signals, std::size_t count, PaddedRows& x, PaddedRows& y) {
@@ -318,7 +318,7 @@ void TrackMeasures::finish(double* results) {
   }
 }
 
-// The motion is given, and may be that of the run before.
+// A given motion may be that of the previous run.
 GimbalExtremes::Greatest TrackMeasures::motion_extremes() {
   if (!motion_ || motion_until_ != reached_) {
     motion_ = gimbal_.of(*signals_, reached_);
