@@ -38,7 +38,7 @@ struct Window {
 [[nodiscard]] std::vector<Window> cut(const std::vector<Log>& logs, double length, double share,
                                       std::size_t fewest);
 
-// Sets goes_on of each window: the pause to the next is at most five intervals between its rows.
+// Sets goes_on of each window: whether the pause to the next is at most five intervals of rows.
 void find_joints(std::vector<Window>& windows);
 
 // Coordinates of a window's start that the columns determine. Columns of the ball's position or

@@ -240,15 +240,15 @@ class Fit {
   }
 
   void refuse_idle_keys() {
-    // The noise is that of the columns' spreads here.
+    // The noise is still set to the columns' spreads.
     const VectorXd changes = scale_keys(task_, windows_, u_);
     for (Index k = 0; k < changes.size(); ++k) {
       if (!(changes[k] > 1e-7)) refuse_idle(task_.keys[static_cast<std::size_t>(k)]);
     }
   }
 
-  // Start a log with a mirrored axis mirrored: on the way from 1 to -1 the column's scale passes 0,
-  // where the log determines no other key.
+  // Mirrors the initial scale of a column if that fits better: on the way from 1 to -1 the scale
+  // would pass 0, where the log determines no other key.
   void mirror_axes() {
     double cost = residuals_.squaredNorm();
     bool tried = false;
@@ -324,7 +324,7 @@ class Fit {
     const VectorXd sizes = derivatives.free_norms.cwiseMax(1e-300);
     const MatrixXd scaled = jacobian * sizes.cwiseInverse().asDiagonal();
     const Eigen::JacobiSVD<MatrixXd> svd(scaled.transpose() * scaled, Eigen::ComputeFullV);
-    // Squares of J's singular values, which are difference errors below 1e-4 of the largest.
+    // Squares of J's singular values. Below 1e-4 of the largest, those are errors of differences.
     const VectorXd values = svd.singularValues();
     const double least = 1e-8 * std::max(values[0], 1e-300);
     const Index keys = u_.size();

@@ -33,7 +33,7 @@ struct Task {
   std::size_t threads = 0;         // 0: one per processor
   std::size_t starts = 1;          // number of sets of initial values; the best continues
   bool robust = false;             // Huber's loss instead of least squares
-  bool continuity = false;         // joins windows without a gap at the end
+  bool continuity = false;         // in the end joins windows that have no gap between them
   std::function<void(double fraction, const std::string& detail)> progress{};
   const std::atomic<bool>* stop = nullptr;
   bool with_series = false;                // fills Fitted::series
@@ -57,7 +57,7 @@ struct ColumnResidual {
   std::optional<double> held_before{},
       held{};  // the same for held-out windows; empty if one does not run
   std::optional<double> ideal{},
-      held_ideal{};        // of an ideal rig (ideal_rig.hpp), if there is one
+      held_ideal{};        // of an ideal rig (ideal_rig.hpp); empty if there is none
   double correlation = 0;  // between neighboring residuals
   // Count of numbers beyond five standard deviations, and where the first one is.
   std::size_t outliers = 0;
@@ -87,13 +87,13 @@ struct Fitted {
   bool interrupted = false;
   std::vector<Parameter> parameters;
   std::vector<ColumnResidual> columns;
-  // Keys that the logs do not tell apart, in sentences.
+  // Sentences on keys that the logs do not determine, alone or together.
   std::vector<std::string> untold;
   std::size_t windows = 0, held = 0, numbers = 0;
-  std::optional<std::size_t> joints{};  // with continuity
-  std::vector<WindowSeries> series;     // held-out ones last; only if requested
-  double window = 0;                    // s
-  bool white = true;                    // neighboring residuals are independent
+  std::optional<std::size_t> joints{};     // with continuity
+  std::vector<WindowSeries> series;        // held-out ones last; only if requested
+  double window = 0;                       // s
+  bool white = true;                       // neighboring residuals are independent
   std::optional<Suggestion> suggestion{};  // only if white is false
   std::size_t iterations = 0;
   // Per pair of parameters; NaN for those that the logs do not determine.

@@ -14,8 +14,8 @@
 
 namespace bbsim::fit {
 
-// The number u of a key is 0 at its value before the fit. A key that must be positive is value =
-// start exp(u); any other is start + scale u. Differences and covariances then have size 1.
+// The number u of a key is 0 at its value before the fit. The value is start exp(u) if it must be
+// positive, otherwise start + scale u. Differences and covariances then have size 1.
 struct FreeKey {
   // Owner of the key: the scenario, or a sensor, whose log shows offset + scale column(t - delay).
   enum class Of { scenario, scale, offset, delay };

@@ -137,7 +137,7 @@ bool follow(const Task& task, WindowsFit& windows, VectorXd& u) {
     const VectorXd step = solver.solve(residuals);
     const double gain = (jacobian * step).squaredNorm();
     if (gain <= 1e-12 * residuals.squaredNorm()) return true;
-    // Each step must be much smaller than the one before.
+    // Each step must gain much less than the one before.
     if (gain > 0.1 * last) return false;
     last = gain;
     VectorXd to = u;

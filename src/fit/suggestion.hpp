@@ -11,7 +11,7 @@
 
 namespace bbsim::fit {
 
-// The one of task.candidates that, free together with the keys, would reduce the residuals most in
+// The one of task.candidates that, free together with the keys, would reduce the residuals most by
 // their linear model at u; empty if each removes less than 5 % of their root mean square.
 [[nodiscard]] std::optional<Suggestion> suggestion(const Task& task, const WindowsFit& at,
                                                    const Eigen::VectorXd& u);

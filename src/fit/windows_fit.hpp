@@ -81,7 +81,7 @@ class WindowsFit {
 
   // Starts again with guesses of the windows' starts.
   void restart();
-  // Ignores a stopped task from now on.
+  // From now on, computes even if the task is stopped.
   void finish() { heeds_stop_ = false; }
 
  private:

@@ -18,7 +18,7 @@ namespace bbsim::study {
 
 // One method at one tolerance.
 struct AccuracyPoint {
-  Method method = Method::automatic;  // as asked for
+  Method method = Method::automatic;  // as requested
   solve::Tolerances tolerances;
   double error = 0;        // max |dx|, |dy| over the output times that both reached, m
   double cpu_seconds = 0;  // median of repeated runs
@@ -28,7 +28,7 @@ struct AccuracyPoint {
 };
 
 struct AccuracyStudy {
-  std::vector<AccuracyPoint> points;  // method by method, rtol by rtol, as asked for
+  std::vector<AccuracyPoint> points;  // method by method, rtol by rtol, as requested
   double reference_error = 0;         // the reference's estimate of its own error, m
   bool reference_complete = false;    // if not, errors are those up to its end
   double reference_reached = 0;       // s
@@ -41,8 +41,7 @@ struct AccuracyWatch {
   std::function<void(double fraction)> progress{};  // of the whole study, in [0, 1]
 };
 
-// The double nearest to the first ten digits of `value`: 1e-5 for 1e-3 / 100, which is a neighbor
-// of it.
+// `value` rounded to ten decimal digits: 1e-5 for 1e-3 / 100, which is a neighboring double.
 [[nodiscard]] double ten_digits(double value);
 
 // Runs every method at every rtol, with the rows kept in memory. atol is a hundredth of rtol, as in

@@ -27,7 +27,7 @@ inline constexpr double finest_rtol = 1e-14;
 // Whether a run reached the end of the scene, or an event that stops it.
 [[nodiscard]] bool came_to_its_end(const solve::Outcome& outcome);
 
-// The parts of a run that its error is measured by.
+// The part of a run that determines its error.
 struct Track {
   solve::Outcome outcome;
   std::vector<double> positions;  // of the ball, at one output time after another, m
@@ -56,7 +56,7 @@ class Checks {
   [[nodiscard]] double estimate(const Track& run, double rtol, bool confirm);
 
   // The estimate for each of the run's rows, from the `estimate` of the whole run. NaN for a row
-  // that no check has.
+  // that no check reached.
   [[nodiscard]] std::vector<double> row_estimates(const Track& run, double estimate) const;
 
   [[nodiscard]] bool interrupted() const { return interrupted_; }

@@ -33,8 +33,8 @@ double guard_at(const HybridSystem& run, std::size_t guard, double t, const Vect
   return values[guard];
 }
 
-// The time from t on after which a guard has crossed zero, if the states z change at these rates;
-// may be negative. NaN if it does not cross nearby, as where the run only touches a limit.
+// Returns how long after t a guard crosses zero if the states z change at these rates; may be
+// negative. NaN if it does not cross nearby, for example if the run only touches a limit.
 double time_of_crossing(const HybridSystem& run, std::size_t guard, double t, const VectorXd& z,
                         const VectorXd& rates) {
   constexpr int most = 30;
@@ -52,7 +52,7 @@ double time_of_crossing(const HybridSystem& run, std::size_t guard, double t, co
     value_before = std::exchange(value_after, value(after));
     if (std::abs(step) <= precision * std::abs(after)) break;
   }
-  // A little later it has crossed, whatever the rounding. This shifts all systems beside alike.
+  // Go slightly past the crossing, whatever the rounding. This shifts all neighbors alike.
   constexpr double roundings = 64;
   step = std::max(precision * std::abs(after), roundings * rounding_of(t));
   for (int i = 0; i < most; ++i, step *= 2) {
@@ -62,7 +62,7 @@ double time_of_crossing(const HybridSystem& run, std::size_t guard, double t, co
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-// Takes a system from the states z at t, which change at these rates, through the switches.
+// Takes a neighboring system through the switches, from the states z at t with these rates.
 EventSensitivity::Passed passed_switches(HybridSystem& beside,
                                          std::span<const HybridSystem::Switch> switches, double t,
                                          VectorXd z, VectorXd z_rates) {
@@ -123,11 +123,11 @@ VectorXd EventSensitivity::pass(const Instant& now, Eigen::MatrixXd& slopes) {
   const bool jumps = starts || moved > rounding * now.before.head(n).cwiseAbs().maxCoeff();
   const model::Modes before = model::modes_of(last_mode_);
   const model::Modes after = model::modes_of(now.run.model().system);
-  // A guard may cross several times by rounding before anything switches. The piece of a linkage's
-  // curve is no part of the modes.
+  // A guard may cross several times by rounding before anything switches. Modes do not include the
+  // piece of a linkage's curve.
   const bool has_pieces = model_.rig && model_.rig->between.has_pieces();
   if (!jumps && before == after && !has_pieces) return moves;
-  // Near rest, a moved velocity would have any direction. Where one is held, nothing jumps.
+  // Near rest, a tiny move turns a velocity arbitrarily. If a direction is held, nothing jumps.
   const bool only_holds = !jumps && without_directions(before) == without_directions(after);
   if (only_holds) note_alignment(now);
   for (std::size_t k = 0; k < keys_.size(); ++k) {
@@ -145,9 +145,9 @@ VectorXd EventSensitivity::pass(const Instant& now, Eigen::MatrixXd& slopes) {
   return moves;
 }
 
-// Where dry friction follows the direction of a velocity, it turns S into this direction, the
-// faster the slower. Before it holds the direction, the Jacobian has one eigenvalue -rate that is
-// far larger than all others, so that it is -rate times a projection, and its trace is -rate.
+// Dry friction along a velocity turns S into its direction, faster the slower the motion. Before
+// the direction is held, one eigenvalue -rate of the Jacobian dominates. The Jacobian is then -rate
+// times a projection, and its trace is -rate.
 void EventSensitivity::note_alignment(const Instant& now) {
   constexpr double least_rate = 1e6;  // 1/s
   const auto n = static_cast<Index>(model_.size());
@@ -157,7 +157,7 @@ void EventSensitivity::note_alignment(const Instant& now) {
   if (rate > least_rate) alignment_ = jacobian / -rate;
 }
 
-// Takes the systems beside of key k through the switches; `at_rest`: from the run's own states.
+// Takes the neighbors of key k through the switches; `at_rest`: from the run's own states.
 std::vector<EventSensitivity::Passed> EventSensitivity::pass_beside(
     std::size_t k, const Instant& now, std::span<const HybridSystem::Switch> switches, bool at_rest,
     const Eigen::Ref<const VectorXd>& slope) {
@@ -167,14 +167,14 @@ std::vector<EventSensitivity::Passed> EventSensitivity::pass_beside(
     HybridSystem& beside = *beside_[k][j];
     VectorXd z = now.before.head(n);
     if (!at_rest) z += Neighbors::offsets[j] * keys_[k].key.step * slope.head(n);
-    const bool moves = now.t > 0;  // nothing does before the start
+    const bool moves = now.t > 0;  // nothing moves before the start
     passed.push_back(passed_switches(beside, switches, now.t, z,
                                      moves ? rates(beside, now.t, z) : VectorXd::Zero(n)));
   }
   return passed;
 }
 
-// Sets the derivatives by key k after a switch. Returns how far the key moves its time.
+// Sets the derivatives by key k after a switch. Returns how far the key moves the switch in time.
 double EventSensitivity::jump(std::size_t k, const Instant& now, const std::vector<Passed>& passed,
                               Eigen::Ref<VectorXd> slope) const {
   const Neighbors& neighbors = keys_[k];
@@ -184,7 +184,7 @@ double EventSensitivity::jump(std::size_t k, const Instant& now, const std::vect
       return passed[j].*member;
     };
   };
-  // One that goes another way at its switch is far from the others.
+  // A neighbor that takes another branch at its switch is far from the others.
   const auto is_apart = [&](auto member, const VectorXd& own) {
     constexpr double close = 1e-3, rounding = 1e-10;
     constexpr std::size_t middle = Neighbors::offsets.size() / 2;
@@ -208,8 +208,8 @@ double EventSensitivity::jump(std::size_t k, const Instant& now, const std::vect
   const VectorXd before = slope.head(n);
   slope.head(n) = neighbors.slope(of(&Passed::moved));
   if (alignment_) {
-    // The held direction is that of a velocity near rounding. What S has across the direction in
-    // which the motion ends would have been turned into it. What is at rest stays there.
+    // The held direction is that of a velocity near rounding. Friction would have turned the part
+    // of S across the final direction into it, so remove this part. States at rest stay at rest.
     const VectorXd turned = *alignment_ * (before + later * now.rates_before.head(n));
     for (Index i = 0; i < n; ++i) {
       if (now.after[i] != 0 || slope[i] != 0) slope[i] -= turned[i];
@@ -222,7 +222,7 @@ double EventSensitivity::jump(std::size_t k, const Instant& now, const std::vect
 VectorXd EventSensitivity::extras(std::size_t k, double t, const VectorXd& z,
                                   const VectorXd& slope) const {
   VectorXd found = slope_of_extras(keys_[k], t, z, slope);
-  // Without samples, the ball is seen where it is.
+  // Without samples, the measured position is the ball's.
   if (model_.rig) found.segment(measured_extras, 2) = slope.head(2);
   return found;
 }

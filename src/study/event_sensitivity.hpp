@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The derivatives of a run by keys where it switches without samples: friction that begins or ends,
+// The derivatives by keys of a run that switches without samples: friction that begins or ends,
 // limits of servos and motors, stops, backlash (docs/explanation/sensitivity.md).
 #pragma once
 
@@ -17,13 +17,13 @@
 
 namespace bbsim::study {
 
-// Beside the run, a HybridSystem for each neighboring value of each key goes through the same
-// switches. At each switch it starts from the run's state, moved along S, and finds its own time of
-// the switch. The differences between them give the jump of S, which so has the derivatives of
-// guard and reset map in it: the saltation matrix and its extension by keys.
+// For each neighboring value of each key, a HybridSystem goes through the same switches as the run.
+// At each switch it starts from the run's state, moved along S, and finds its own switching time.
+// The differences between these systems give the jump of S. It includes the derivatives of guard
+// and reset map: the saltation matrix and its extension by keys.
 class EventSensitivity : public Switches {
  public:
-  // Of the usual step of a key: near enough that states moved along S stay close to the run's.
+  // Share of a key's usual step, small enough that states moved along S stay close to the run's.
   static constexpr double step_share = 0x1p-11;
 
   // `model` and `keys` must outlive this, which puts the present mode into the models of `keys`.
@@ -35,11 +35,11 @@ class EventSensitivity : public Switches {
   [[nodiscard]] Eigen::VectorXd extras(std::size_t k, double t, const Eigen::VectorXd& z,
                                        const Eigen::VectorXd& slope) const override;
 
-  // What a system beside is after the switches of an instant.
+  // A neighboring system after the switches of an instant.
   struct Passed {
-    double later = 0;       // than the run, s
+    double later = 0;       // delay relative to the run, s
     Eigen::VectorXd moved;  // the states at the run's time, after the switch
-    Eigen::VectorXd rates;  // after it
+    Eigen::VectorXd rates;  // after the switch
   };
 
  private:
@@ -55,11 +55,11 @@ class EventSensitivity : public Switches {
 
   const model::Model& model_;
   std::vector<Neighbors>& keys_;
-  std::vector<Beside> beside_;  // of each key, for each of its neighbors
-  model::System last_mode_;     // the run's before the present instant
-  // How S turns into the direction of a velocity near rest; set while that direction is held.
+  std::vector<Beside> beside_;  // for each key, one system per neighbor
+  model::System last_mode_;     // the run's, before the present instant
+  // The projection of note_alignment(); set while a direction is held near rest.
   std::optional<Eigen::MatrixXd> alignment_;
-  std::size_t passed_ = 0;  // switches of the run
+  std::size_t passed_ = 0;  // switches of the run so far
 };
 
 }  // namespace bbsim::study

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A scene at values of a key beside the present one, and differences between such values.
+// A scene at values of a key near the present one, and differences between such values.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,7 +29,7 @@ struct VariedKey {
   std::function<Scenario(double value)> scenario{};
 };
 
-// Central differences: the weight of (f(p + i h) - f(p - i h)) / h, i from 1.
+// Weights of (f(p + i h) - f(p - i h)) / h in central differences, i from 1.
 inline constexpr std::array eighth_order = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
 inline constexpr std::array sixth_order = {3.0 / 4, -3.0 / 20, 1.0 / 60};
 inline constexpr std::array fourth_order = {2.0 / 3, -1.0 / 12};
@@ -41,7 +41,7 @@ inline constexpr std::array second_order = {1.0 / 2};
   return all[pairs - 1];
 }
 
-// `value(i)` is f(p + offset h) for the i-th of 2 `neighbors` offsets without 0, in their order.
+// `value(i)` is f(p + offset h) at the i-th of 2 `neighbors` nonzero offsets, in increasing order.
 template <std::size_t n, class Value>
 auto difference(const std::array<double, n>& weights, std::size_t neighbors, double step,
                 const Value& value) {
@@ -60,10 +60,10 @@ struct Neighbors {
 
   VariedKey key;
   std::vector<model::Model> models{};
-  // The pairs of neighbors that differences of the right-hand side need; 0 if it has no such key.
+  // Pairs of neighbors for differences of the right-hand side; 0 if it does not depend on the key.
   std::size_t pairs = offsets.size() / 2;
 
-  // The derivative by the key of what `value(i)` is at the i-th model.
+  // The derivative by the key of a quantity that is `value(i)` for the i-th model.
   template <class Value>
   [[nodiscard]] auto slope(const Value& value) const {
     return difference(eighth_order, offsets.size() / 2, key.step, value);
@@ -78,13 +78,13 @@ struct Neighbors {
   return rates;
 }
 
-// The derivatives by the key of a row's extras, without the measurement of the ball, where the
-// states z at t change by `slope`. The models are in the present mode.
+// The derivatives by the key of a row's extras, without the measured ball position, if the states z
+// at t change by `slope`. The models must be in the present mode.
 [[nodiscard]] Eigen::VectorXd slope_of_extras(const Neighbors& neighbors, double t,
                                               const Eigen::VectorXd& z,
                                               const Eigen::VectorXd& slope);
 
-// The place of that measurement among the extras.
+// Index of the measured ball position among the extras.
 inline constexpr Eigen::Index measured_extras = model::RigExtras::size - 2;
 
 [[noreturn]] inline void no_sensitivity(const std::string& what) {

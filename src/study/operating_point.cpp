@@ -15,7 +15,7 @@
 namespace bbsim::study {
 namespace {
 
-// The row at the start, after all that happens at that instant.
+// The row at the start, after all switches at that instant.
 std::vector<double> first_row(const model::Model& model) {
   std::vector<double> row = model.initial;
   if (!model.hybrid()) {
@@ -53,7 +53,7 @@ model::LinearPoint point_of(const model::Model& model, double time, const double
         } else {
           point.reference = system.reference().at(time);
         }
-        // The states have the angles of the servos, not of the plate.
+        // The states contain the angles of the servos, not of the plate.
         if constexpr (model::is_rig<Any> || model::is_coupled_loop<Any>) {
           point.state.assign(row, row + Any::size);
         }

@@ -14,7 +14,7 @@
 namespace bbsim::study {
 
 struct PointInTime {
-  std::optional<model::LinearPoint> point;  // none if the run ended before
+  std::optional<model::LinearPoint> point;  // empty if the run ended before
   solve::Outcome outcome;
 };
 

@@ -24,7 +24,7 @@ class Equation {
   virtual void derivative(Quad t, const Quad* z, Quad* dz) const = 0;
   [[nodiscard]] virtual Eigen::MatrixXd jacobian(double t, const double* z) const = 0;
 
-  // f at later times is taken as at this one (s): a step that ends where f jumps does not see it.
+  // Later times count as this one (s), so that a step that ends at a jump of f does not see it.
   double latest = std::numeric_limits<double>::infinity();
 };
 

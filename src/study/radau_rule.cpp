@@ -94,8 +94,8 @@ RadauRule::RadauRule(int s) : stages(s), matrix_in_double(s, s) {
     barycentric.push_back(1 / product);
   }
   // The barycentric sum is the leading coefficient of the interpolant. The leading coefficient of
-  // P_k(2t - 1) is the binomial coefficient of 2k over k. Without the point 0, each weight gets
-  // back the factor of that point.
+  // P_k(2t - 1) is the binomial coefficient of 2k over k. Without the point 0, each weight regains
+  // the factor of that point.
   for (std::size_t i = 0; i < size; ++i) {
     last_coefficient.push_back(barycentric[i + 1] / central_binomial(s));
     previous_coefficient.push_back(barycentric[i + 1] * nodes[i] / central_binomial(s - 1));

@@ -91,7 +91,7 @@ class Run {
       const Quad left = target - time_;
       const bool to_target = left <= Quad(next_length);
       const Quad length = to_target ? left : Quad(next_length);
-      // Until it jumps, the reference is constant.
+      // The reference is constant until it jumps.
       const bool to_jump = to_target && model_.jumps_at(plain(target));
       equation_.latest =
           to_jump ? model_.just_before(plain(target)) : std::numeric_limits<double>::infinity();
@@ -126,7 +126,7 @@ class Run {
   [[nodiscard]] double root(double ratio) const { return std::pow(ratio, 1.0 / (stages_ + 1)); }
 
   // The next step if the error keeps changing as in the last step (Gustafsson's predictive
-  // control). It saves a rejection per step where the solution gets steeper.
+  // control). Saves a rejection per step when the solution gets steeper.
   [[nodiscard]] double predicted_length(double length, double error) const {
     if (!(last_error_ > 0) || !(error > 0)) return 5 * length;
     return length * change_of_step(error) * (length / last_length_) * root(last_error_ / error);

@@ -36,9 +36,9 @@ struct ReferenceSolution {
 // The number of leading states that are coordinates of the contact point in m: 2 (x and y) or 1.
 [[nodiscard]] int coordinates(const model::Model& model);
 
-// Solves by Radau IIA collocation of order 47, in steps as long as the solution is smooth. Shares
-// only the model with the integrators. Stiff models are no harder than others. Ends a step at each
-// of the model's stops and restarts there.
+// Solves by Radau IIA collocation of order 47, with steps as long as the solution's smoothness
+// allows. Shares only the model with the integrators. Stiff models are no harder than others. Ends
+// a step at each of the model's stops and restarts there.
 //
 // `tolerance` bounds the error of one step, relative to 1 + |z| in each state's unit. It is raised
 // to what the number type can resolve (1e-30 with 113 bits). The model is solved with the constants

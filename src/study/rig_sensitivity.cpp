@@ -45,7 +45,7 @@ model::SampledLaw<double> law_of(const model::Model& model) {
   return model::SampledController(*model.rig->sampled).law();
 }
 
-// Without limits that are infinite.
+// Replaces infinite limits by 0.
 Eigen::VectorXd numbers_of(model::SampledLaw<double> law) {
   std::vector<double> numbers;
   model::for_each_number(law, [&](double one) { numbers.push_back(std::isfinite(one) ? one : 0); });
@@ -128,7 +128,7 @@ RigSensitivity::RigSensitivity(const model::Model& model, std::vector<Neighbors>
       one = Moving(numbers[next], Moving::Gradient(slopes[next]));
       ++next;
     });
-    // A limit is reached by steps of the resolution: it moves as if it were not rounded.
+    // The gradient of a limit is that before rounding to the resolution.
     key.law.resolution = law.resolution;
     for (std::size_t i = 0; i < 2; ++i) {
       auto& limit = key.law.limit[i];
@@ -223,7 +223,7 @@ void RigSensitivity::expose(const Instant& now, const Eigen::MatrixXd& slopes) {
 }
 
 void RigSensitivity::sample(const Instant& now, const Eigen::MatrixXd& slopes) {
-  // Of the exposure for this sample, or the last frame that has come.
+  // Use the exposure for this sample or, with a frame period, the last frame that has arrived.
   const bool frames = loop_.sensor.period.has_value();
   const double end = now.run.instant_end(now.t);
   while (!seen_.empty() && (!frames || seen_.front().at + loop_.sensor.delay <= end)) {
@@ -240,7 +240,7 @@ void RigSensitivity::sample(const Instant& now, const Eigen::MatrixXd& slopes) {
   commands_.push_back(command_slopes_);
 }
 
-// The controller's arithmetic for one key, with the numbers of a sample that saw the ball.
+// Differentiates the controller's arithmetic by one key, for a sample that saw the ball.
 void RigSensitivity::compute(std::size_t k, const Instant& now, const Eigen::MatrixXd& slopes) {
   const auto column = static_cast<Eigen::Index>(k);
   const Key& key = by_key_[k];
@@ -290,7 +290,7 @@ void RigSensitivity::compute(std::size_t k, const Instant& now, const Eigen::Mat
   }
 }
 
-// The angles and rates that the law takes for the plane's, with their derivatives, of states that
+// The angles and rates that the law uses as the plane's, with their derivatives, if the states
 // change by `moves`.
 std::array<RigSensitivity::Moved, 4> RigSensitivity::servo_numbers(
     std::size_t k, const Instant& now, const Eigen::VectorXd& moves) const {
@@ -318,7 +318,7 @@ std::array<RigSensitivity::Moved, 4> RigSensitivity::servo_numbers(
   return moved;
 }
 
-// A dead band may leave a servo with the command that it had.
+// Within its dead band, a servo keeps its previous command.
 void RigSensitivity::take_command(const model::RigMode& mode) {
   wanted_slopes_ = commands_.front();
   commands_.pop_front();
@@ -356,8 +356,8 @@ void RigSensitivity::require_away_from_stops(const Instant& now, const model::Ri
   }
 }
 
-// How far each key moves the time at which a servo comes to its rate limit; 0 if none does. Other
-// switches between modes change no rate of the states.
+// How far each key moves the time at which a servo reaches its rate limit; 0 if none does. Other
+// switches between modes do not change the rates of the states.
 Eigen::VectorXd RigSensitivity::moves_at_rate_limit(const Instant& now, const model::RigMode& mode,
                                                     const Eigen::MatrixXd& slopes) const {
   Eigen::VectorXd moves = Eigen::VectorXd::Zero(slopes.cols());
@@ -374,8 +374,8 @@ Eigen::VectorXd RigSensitivity::moves_at_rate_limit(const Instant& now, const mo
   return moves;
 }
 
-// The rate of a first-order servo follows from its command at once, and the ball's velocity jumps
-// with the plane's rates.
+// The rate of a first-order servo jumps with its command, and the ball's velocity jumps with the
+// plane's rates.
 void RigSensitivity::turn_first_order(std::size_t k, const Instant& now, const model::RigMode& mode,
                                       Eigen::Ref<Eigen::VectorXd> slope) const {
   bool any = false;
@@ -408,7 +408,7 @@ void RigSensitivity::turn_first_order(std::size_t k, const Instant& now, const m
   });
 }
 
-// The models beside take the mode, with their own commands, limits and offsets in it.
+// Puts the neighboring models into the mode, with their own commands, limits and offsets.
 void RigSensitivity::put(const model::RigMode& mode) {
   mode_ = mode;
   for (std::size_t k = 0; k < keys_.size(); ++k) {

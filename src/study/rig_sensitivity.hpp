@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a sampled rig adds to the derivatives of a run by keys (docs/explanation/sensitivity.md):
-// those of the measurements, of the controller's memory and of the commands on their way, and the
-// jumps of S where the motion switches.
+// A sampled rig's part in the derivatives of a run by keys (docs/explanation/sensitivity.md): those
+// of the measurements, of the controller's memory and of pending commands, and the jumps of S where
+// the motion switches.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,16 +23,16 @@ class RigSensitivity : public Switches {
  public:
   // Throws InputError if a part of the rig has no derivatives.
   static void require_smooth_parts(const model::Model& model);
-  // Reference values at t, as far as the right-hand side does not have them; empty for rigs that
-  // are not sampled.
+  // Reference values at t that the right-hand side does not contain; empty for rigs without
+  // samples.
   [[nodiscard]] static Eigen::VectorXd reference(const model::Model& model, double t);
 
-  // `model` and `keys` must outlive this, which puts the run's present mode into the models of
-  // `keys`. Throws InputError for a key that acts on rounding, noise or decisions only.
+  // `model` and `keys` must outlive this object, which puts the run's present mode into the models
+  // of `keys`. Throws InputError for a key that acts on rounding, noise or decisions only.
   RigSensitivity(const model::Model& model, std::vector<Neighbors>& keys);
 
   void begin_run() override;
-  // Refuses runs in which a servo meets its stop, or one of first order its rate limit.
+  // Refuses runs in which a servo reaches its stop, or a first-order servo its rate limit.
   [[nodiscard]] Eigen::VectorXd pass(const Instant& now, Eigen::MatrixXd& slopes) override;
   [[nodiscard]] Eigen::VectorXd extras(std::size_t k, double t, const Eigen::VectorXd& z,
                                        const Eigen::VectorXd& slope) const override;
@@ -44,10 +44,10 @@ class RigSensitivity : public Switches {
 
   struct Key {
     model::SampledLaw<Moving> law;
-    double period = 0;                      // of the nominal period
-    std::vector<model::SampleTimes> times;  // of each model beside
+    double period = 0;                      // derivative of the nominal period
+    std::vector<model::SampleTimes> times;  // of each neighboring model
   };
-  // A measurement; the columns are those of the keys.
+  // A measurement; `slopes` has one column per key.
   struct Seen {
     double at = 0;  // s
     Eigen::MatrixXd slopes;
@@ -79,14 +79,14 @@ class RigSensitivity : public Switches {
   int servos_;
   Eigen::Index first_rate_;  // of the servos, among the states
   std::vector<Key> by_key_;
-  // As of the last instant.
+  // Values at the last instant.
   model::RigMode mode_;
   model::SampleExchange::Numbers numbers_{};
   model::SampleTimes times_;
   model::SinceSeen since_;
   model::SampledMemory<double> memory_{};
-  // Derivatives, a column for each key: of the memory, of the last command, of the command that
-  // acts, and of those that the servos follow.
+  // Derivatives, one column per key: of the memory, of the last command, of the command that acts,
+  // and of those that the servos follow.
   Eigen::MatrixXd memory_slopes_, command_slopes_, wanted_slopes_, followed_slopes_;
   Seen last_seen_;
   std::deque<Seen> seen_;                 // exposed, not yet sampled

@@ -25,12 +25,12 @@
 namespace bbsim::study {
 namespace {
 
-// Of the polynomial of S, relative to S. At the end of an arc S is far better: Radau IIA has order
-// 23 there.
+// Tolerance for the polynomial of S, relative to S. At the end of an arc, S is far more accurate:
+// Radau IIA has order 2s - 1 there.
 constexpr double precision = 1e-11;
 // A piece is halved up to this many times.
 constexpr int deepest = 6;
-// What is below this share of the key's largest effect may be rounding.
+// Effects below this share of the key's largest one may be rounding.
 constexpr double least_share = 1e-5;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
@@ -58,7 +58,7 @@ struct Tables {
     }
   }
 
-  // The shares of the values at the nodes in the polynomial's value at a fraction.
+  // Interpolation weights of the values at the nodes, at a fraction of the step.
   [[nodiscard]] Eigen::VectorXd shares(double fraction) const {
     Eigen::VectorXd shares(stages + 1);
     for (int i = 0; i <= stages; ++i) {
@@ -74,7 +74,7 @@ const Tables& tables(std::size_t choice) {
   static const std::vector<Tables> made(StageChoice::counts.begin(), StageChoice::counts.end());
   return made[choice];
 }
-// Of an arc with a column for each node.
+// Tables for an arc with one column per node.
 const Tables& tables_of(const Eigen::MatrixXd& values) {
   const auto at = std::ranges::find(StageChoice::counts, values.cols() - 1);
   return tables(static_cast<std::size_t>(at - StageChoice::counts.begin()));
@@ -88,13 +88,13 @@ double power_of_two_below(double value) {
   return std::exp2(std::floor(std::log2(value)));
 }
 
-// Whether it switches by its state, or at the stops of an input beside servos or forces. Events
-// alone only observe the motion, or end it.
+// Whether the model switches by its state, or at the stops of an input next to servos or forces.
+// Events alone only observe the motion, or end it.
 bool switches_without_samples(const model::Model& model) {
   return model.extras() > 0 && !(model.rig && model.rig->sampled);
 }
 
-// The polynomial of an arc from `start` on of length `length`, as a piece that may have other ends.
+// The polynomial of an arc that starts at `start`, as a piece whose ends may differ from the arc's.
 class ArcPiece : public solve::Piece {
  public:
   ArcPiece(double start, double length, double from, double to, Eigen::MatrixXd values)
@@ -147,7 +147,7 @@ Sensitivity::Sensitivity(const model::Model& model, model::Form form, const solv
     Neighbors& neighbors = keys_.emplace_back(Neighbors{std::move(key), {}});
     if (switches_without_samples(model)) neighbors.key.step *= EventSensitivity::step_share;
     choose_step(neighbors);
-    // In another mode, other keys matter. The neighbors of a scene that switches are close.
+    // Other keys may matter in another mode. The neighbors of a scene that switches are close.
     neighbors.pairs = switches_without_samples(model) ? 2 : least_pairs(neighbors);
     initial_.col(static_cast<Eigen::Index>(keys_.size()) - 1).head(size_ - (model.gamma ? 1 : 0)) =
         neighbors.slope([&](std::size_t i) -> Eigen::VectorXd {
@@ -160,8 +160,8 @@ Sensitivity::Sensitivity(const model::Model& model, model::Form form, const solv
   if (switches_without_samples(model)) switches_ = std::make_unique<EventSensitivity>(model, keys_);
 }
 
-// The widest step that is smooth has the least rounding. With time, the phase of a wave changes
-// much with its frequency. Where a narrower step is no smoother, there is only rounding.
+// The widest smooth step has the least rounding. A wave's phase changes more and more with its
+// frequency as time passes. If a narrower step is no smoother, only rounding is left.
 void Sensitivity::choose_step(Neighbors& neighbors) const {
   constexpr int most_halvings = 20;
   fill(neighbors);
@@ -205,8 +205,8 @@ void Sensitivity::require_alike(const model::Model& other, const std::string& ke
   }
 }
 
-// How far differences of order 6 are from being good enough, at instants all over the run: at most
-// 1 where they are. The one of order 8 is then far better.
+// The error of differences of order 6 over the allowed one, at instants throughout the run. If it
+// is at most 1, differences of order 8 are far better than needed.
 double Sensitivity::roughness(const Neighbors& neighbors) const {
   constexpr int instants = 32;
   constexpr double good = 1e-10;
@@ -232,8 +232,8 @@ double Sensitivity::roughness(const Neighbors& neighbors) const {
   return (apart > 0).select(apart / allowed, 0).maxCoeff();
 }
 
-// The pairs of neighbors of which a difference of f is as good as one of order 8, at states all
-// over; 0 if f does not depend on the key.
+// The least number of pairs of neighbors whose difference of f is as good as that of order 8, at
+// various states; 0 if f does not depend on the key.
 std::size_t Sensitivity::least_pairs(const Neighbors& neighbors) const {
   constexpr std::size_t most = Neighbors::offsets.size() / 2;
   constexpr int states = 8;
@@ -242,7 +242,7 @@ std::size_t Sensitivity::least_pairs(const Neighbors& neighbors) const {
   std::size_t pairs = 0;
   for (int k = 0; k < states; ++k) {
     const double t = grid_.end() * k / states;
-    // Spread evenly, and no two numbers alike.
+    // Evenly spread, with no two numbers alike.
     Eigen::VectorXd z(n);
     for (Eigen::Index i = 0; i < n; ++i) {
       const double turns = golden * static_cast<double>(k * n + i + 1);
@@ -265,7 +265,7 @@ std::size_t Sensitivity::least_pairs(const Neighbors& neighbors) const {
     const double allowed = good * best.cwiseAbs().maxCoeff() + epsilon * size;
     while (pairs < most && !((order(pairs) - best).cwiseAbs().maxCoeff() <= allowed)) ++pairs;
   }
-  // A command that moves with the key makes f, which is linear in it, of one degree more.
+  // f is linear in the command. If the command moves with the key, f has one degree more.
   return (model_.rig && model_.rig->sampled) ? std::min(pairs + 1, most) : pairs;
 }
 
@@ -280,7 +280,7 @@ void Sensitivity::begin(solve::StateSink& next, bool with_measures) {
 void Sensitivity::accept(std::size_t first, std::size_t count, const double* values) {
   const double* const end = values + count * static_cast<std::size_t>(row_);
   states_.insert(states_.end(), values, end);
-  // No piece follows the last row, which has what is due at its time in it.
+  // No piece follows the last row, which already includes all switches at its time.
   if (switches_ && run_ != nullptr && first + count == grid_.size()) {
     pass(grid_.end(), Eigen::Map<const Eigen::VectorXd>(end - row_, row_));
   }
@@ -330,8 +330,8 @@ Eigen::VectorXd Sensitivity::state_rates(double t, const Eigen::VectorXd& row) c
   return all;
 }
 
-// Takes S across an instant at which the scene may switch; `after` is the row after it. Rows at
-// the instant then have the derivatives from after it, as they have the commands.
+// Takes S across an instant at which the scene may switch; `after` is the row after it. Rows at the
+// instant get the derivatives after it, just as they have the commands after it.
 void Sensitivity::pass(double t, const Eigen::VectorXd& after) {
   const Eigen::VectorXd rates_after = state_rates(t, after);
   const Eigen::VectorXd moves =
@@ -351,7 +351,7 @@ void Sensitivity::pass(double t, const Eigen::VectorXd& after) {
   }
 }
 
-// Adds df/dp, which has nothing for the integral of u.
+// Adds df/dp, which is 0 for the integral of u.
 void Sensitivity::add_forcing(const Neighbors& neighbors, double t, const double* z,
                               double* into) const {
   if (neighbors.pairs == 0) return;
@@ -384,7 +384,7 @@ void Sensitivity::cross(const solve::Piece& piece, double from, double to, int d
   cross(piece, middle, to, depth + 1);
 }
 
-// Whether that many stages are precise enough, or it is the last try.
+// Integrates S over an arc. Changes nothing and returns false if imprecise, unless `last_try`.
 bool Sensitivity::step(const solve::Piece& piece, double from, double to, std::size_t choice,
                        bool last_try) {
   const Tables& rule = tables(choice);
@@ -421,8 +421,8 @@ bool Sensitivity::step(const solve::Piece& piece, double from, double to, std::s
   }
   solve_stages(jacobians, rule.matrix, h, slopes_, solved);
 
-  // The last Legendre coefficients bound the error of the polynomial. Where symmetry makes the last
-  // one vanish, a tenth of the one before stands for it.
+  // The last Legendre coefficients bound the error of the polynomial. If symmetry makes the last
+  // one vanish, a tenth of the one before replaces it.
   Eigen::MatrixXd largest = largest_;
   for (Eigen::Index j = 0; j < stages; ++j) {
     largest = largest.cwiseMax(solved.middleRows(j * size_, size_).cwiseAbs());
@@ -462,7 +462,7 @@ bool Sensitivity::step(const solve::Piece& piece, double from, double to, std::s
 }
 
 void Sensitivity::take_rows(double from, double to, const Eigen::MatrixXd& values) {
-  // A piece before a stop ends a rounding before it.
+  // A piece before a stop ends one rounding error early.
   const double until = to + 2 * epsilon * to;
   for (; next_row_ < grid_.size() && grid_[next_row_] <= until; ++next_row_) {
     const double fraction = std::min((grid_[next_row_] - from) / (to - from), 1.0);
@@ -480,14 +480,14 @@ void Sensitivity::take_rows(double from, double to, const Eigen::MatrixXd& value
   }
 }
 
-// Of a run that may have ended early.
+// Number of rows with derivatives; the run may have ended early.
 std::size_t Sensitivity::rows() const {
   const auto size = static_cast<std::size_t>(row_);
   return std::min(states_.size() / size, gradients_.size() / (size * keys_.size()));
 }
 
-// Changes of no more than a thousandth of the key, and of no state by more than a thousandth of its
-// range: differences of order 4 are then good to rounding.
+// Chooses a change of at most a thousandth of the key that moves no state by more than a thousandth
+// of its range. Differences of order 4 are then accurate to rounding.
 Sensitivity::Changed Sensitivity::changed(std::size_t key) const {
   constexpr double share = 1e-3, least_range = 1e-4;
   const VariedKey& varied = keys_[key].key;
@@ -507,7 +507,7 @@ Sensitivity::Changed Sensitivity::changed(std::size_t key) const {
   for (Eigen::Index i = 0; i < row_ && floor > 0; ++i) {
     if (effect[i] > 0) most = std::min(most, share * std::max(range[i], floor) / effect[i]);
   }
-  // Nor the time of a switch by more than a thousandth of the way to the next one.
+  // Do not move a switch by more than a thousandth of the shorter arc next to it.
   for (std::size_t i = 0; i < arcs_.size(); ++i) {
     const double moves = std::abs(switch_moves(i, key));
     if (moves > 0) most = std::min(most, share * room_at_end(i) / moves);
@@ -549,7 +549,7 @@ std::vector<double> Sensitivity::column_gradient(const scenario::Column& column,
     }
     return gradient;
   }
-  // A column that is a function of the states, and of the key.
+  // Otherwise the column is a function of the states and of the key.
   const Changed at = changed(key);
   std::vector<double> times;
   for (std::size_t row = 0; row < count; ++row) times.push_back(grid_[row]);
@@ -569,24 +569,24 @@ std::vector<double> Sensitivity::column_gradient(const scenario::Column& column,
   return gradient;
 }
 
-// The length of the shorter arc beside the end of an arc, s.
+// The length of the shorter arc next to the end of an arc, s; 0 for the last arc.
 double Sensitivity::room_at_end(std::size_t arc) const {
   const auto length = [this](std::size_t i) { return arcs_[i].to - arcs_[i].from; };
   return arc + 1 < arcs_.size() ? std::min(length(arc), length(arc + 1)) : 0;
 }
 
-// How far a key moves the switch at the end of an arc. Moving it matters to measures only where a
-// rate jumps; within the moment of a stick, it would carry the motion far beyond its arc.
+// Returns how far a key moves the switch at the end of an arc; measures need it only at jumps of
+// rates. Returns 0 next to a very short arc (sticking): a move would carry the motion far past it.
 double Sensitivity::switch_moves(std::size_t arc, std::size_t key) const {
-  constexpr double least_room = 1e-6;  // of the run
+  constexpr double least_room = 1e-6;  // share of the run
   const Eigen::VectorXd& moves = arcs_[arc].to_moves;
   if (moves.size() == 0 || room_at_end(arc) < least_room * grid_.end()) return 0;
   return moves[static_cast<Eigen::Index>(key)];
 }
 
-// The arc that has the motion at a time; past its end for a moment, as a moved motion may be.
+// The arc with the motion at a time, which may be slightly past its end, as in a moved motion.
 const Sensitivity::Arc* Sensitivity::arc_at(double t) const {
-  constexpr double past = 0.05;  // of the arc's length
+  constexpr double past = 0.05;  // share of the arc's length
   const auto later = std::ranges::find_if(arcs_.rbegin(), arcs_.rend(),
                                           [&](const Arc& arc) { return arc.from < t; });
   const auto found = std::find_if(later, arcs_.rend(), [&](const Arc& arc) {
@@ -595,8 +595,8 @@ const Sensitivity::Arc* Sensitivity::arc_at(double t) const {
   return found == arcs_.rend() ? nullptr : &*found;
 }
 
-// The outcome of the motion moved by a change of a key, which stops where the run's event occurs to
-// it: a zero of the event's margin, by the secant method. Nothing if that is nowhere near.
+// The outcome of the motion moved by a change of a key. It stops at its own zero of the event's
+// margin, found by the secant method. Empty if there is no such zero nearby.
 std::optional<solve::Outcome> Sensitivity::moved(const solve::Outcome& outcome, std::size_t key,
                                                  double change, const model::Model& changed) const {
   solve::Outcome moved = outcome;
@@ -631,7 +631,7 @@ std::optional<solve::Outcome> Sensitivity::moved(const solve::Outcome& outcome, 
     const double step = now == margin_before ? 0 : -now * (t - before) / (now - margin_before);
     before = std::exchange(t, t + step);
     margin_before = now;
-    // The error shrinks with the power 1.6 of the step's.
+    // The secant method converges with order 1.6.
     if (std::abs(step) <= 1e-10 * t) break;
   }
   if (!look(t)) return {};
@@ -664,7 +664,7 @@ std::vector<double> Sensitivity::measure_gradients(const std::vector<scenario::M
     recorder.begin(at.models[i], at.constants[i], grid_);
     if (solve::PieceSink* const pieces = recorder.pieces()) {
       pieces->begin_run();
-      double moves = 0;  // of the arc's start
+      double moves = 0;  // shift of the arc's start
       for (std::size_t a = 0; a < arcs_.size(); ++a) {
         const Arc& arc = arcs_[a];
         const double from = arc.from + change * moves;
@@ -688,7 +688,7 @@ std::vector<double> Sensitivity::measure_gradients(const std::vector<scenario::M
   std::vector<double> gradients(measures.size());
   for (std::size_t m = 0; m < measures.size(); ++m) {
     const auto i = static_cast<Eigen::Index>(m);
-    // At a kink, such as one maximum overtaking another, differences do not agree.
+    // At a kink, such as one maximum overtaking another, the differences disagree.
     const double allowed = 1e-2 * std::max(std::abs(gradient[i]), std::abs(coarse[i])) +
                            1e-10 * std::abs(found[1][i]) / at.change;
     gradients[m] = std::abs(gradient[i] - coarse[i]) <= allowed ? gradient[i] : nothing;

@@ -26,20 +26,20 @@
 
 namespace bbsim::study {
 
-// The least form of the model that has room for the effects of all keys.
+// The smallest form of the model that covers the effects of all keys.
 [[nodiscard]] model::Form form_for(const Scenario& scenario, const std::vector<VariedKey>& keys);
 
 // Integrates S = dz/dp beside a run. Along each piece of the run,
 //     S' = J S + df/dp
 // is linear in S. Radau IIA collocation solves it with one factored matrix for all keys. J is
-// exact. df/dp is a difference of order 8 between models at eight values of the key, or of a lower
-// order where that is as good, with the state held: f is smooth in p, so a wide difference is good
-// to rounding. Where the scene switches, S jumps (switches.hpp).
+// exact. df/dp is a difference with the state held: of order 8 between models at eight values of
+// the key, or of a lower order if that is as good. f is smooth in p, so a wide difference is
+// accurate to rounding. S jumps where the scene switches (switches.hpp).
 class Sensitivity : public solve::StateSink, public solve::PieceSink {
  public:
-  // `model` has the form `form`. All references must outlive this. Throws InputError if
-  // the model has parts without derivatives, or if a key changes more than numbers of it. Events
-  // may observe the motion and end it; then the ends of measures move, too.
+  // `model` has the form `form`. All references must outlive this object. Throws InputError if the
+  // model has parts without derivatives, or if a key changes more than the model's numbers. Events
+  // may observe the motion and end it; the ends of measures then move, too.
   Sensitivity(const model::Model& model, model::Form form, const solve::OutputGrid& grid,
               std::vector<VariedKey> keys);
   Sensitivity(const Sensitivity&) = delete;  // fan_ refers to this
@@ -47,7 +47,7 @@ class Sensitivity : public solve::StateSink, public solve::PieceSink {
 
   [[nodiscard]] std::size_t keys() const { return keys_.size(); }
 
-  // The run's rows and pieces go on to `next`. `with_measures`: measure_gradients() will be called.
+  // Passes the run's rows and pieces to `next`. `with_measures`: measure_gradients() will follow.
   void begin(solve::StateSink& next, bool with_measures);
 
   void accept(std::size_t first, std::size_t count, const double* values) override;
@@ -58,14 +58,14 @@ class Sensitivity : public solve::StateSink, public solve::PieceSink {
   // After the run: the derivatives of a column in each row.
   [[nodiscard]] std::vector<double> column_gradient(const scenario::Column& column,
                                                     std::size_t key) const;
-  // After the run: the derivatives of measures; NaN where there is none.
+  // After the run: the derivatives of measures; NaN if there is none.
   [[nodiscard]] std::vector<double> measure_gradients(
       const std::vector<scenario::Measure>& measures, std::size_t key,
       const solve::Outcome& outcome) const;
 
  private:
-  // The motion over a part of a piece. Column i of `values` has the row at node i, and behind it
-  // the row's derivatives by each key.
+  // The motion over a part of a piece. Column i of `values` has the row at node i, followed by the
+  // row's derivatives by each key.
   struct Arc {
     double from, to;
     Eigen::MatrixXd values;
@@ -106,12 +106,12 @@ class Sensitivity : public solve::StateSink, public solve::PieceSink {
   const model::Model& model_;
   model::Form form_;
   const solve::OutputGrid& grid_;
-  // Of S: the states, and r gamma if it is integrated; and of a row, which may have extras.
+  // Sizes of S (the states, and r gamma if it is integrated) and of a row, which may have extras.
   Eigen::Index size_, row_;
   int spin_;  // the state u = r gamma', or -1
   std::vector<Neighbors> keys_;
-  std::unique_ptr<Switches> switches_;  // of a scene that switches
-  Eigen::MatrixXd initial_;             // S at t = 0, a column for each key
+  std::unique_ptr<Switches> switches_;  // null if the scene does not switch
+  Eigen::MatrixXd initial_;             // S at t = 0, one column per key
 
   solve::StateSink* next_ = nullptr;
   record::PieceFan fan_;
@@ -119,12 +119,12 @@ class Sensitivity : public solve::StateSink, public solve::PieceSink {
   StageChoice stages_;
   Eigen::MatrixXd slopes_;   // S at the time reached
   Eigen::MatrixXd largest_;  // the greatest absolute value of each number of S so far
-  // Of a scene that switches: the run, and the states and their rates at the time reached.
+  // If the scene switches: the run, and the states and their rates at the time reached.
   const model::HybridSystem* run_ = nullptr;
   Eigen::VectorXd reached_, rates_;
   std::size_t next_row_ = 0;
   std::vector<double> states_;     // row after row
-  std::vector<double> gradients_;  // of each row, key after key
+  std::vector<double> gradients_;  // for each row, key after key
   std::vector<Arc> arcs_;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How many stages of Radau IIA a step of some length takes.
+// Chooses the number of Radau IIA stages from the length of a step.
 #pragma once
 
 #include <algorithm>
@@ -24,10 +24,10 @@ class StageChoice {
     while (choice < last && h >= failed_[choice]) ++choice;
     return choice;
   }
-  // Not precise enough for h.
+  // Records that a choice is not precise enough for h.
   void fail(std::size_t choice, double h) { failed_[choice] = std::min(failed_[choice], 0.9 * h); }
-  // What once failed is tried again in the long run: slopes are small at first, and their relative
-  // errors large.
+  // Lets failed choices be tried again in the long run: slopes are small at first, and their
+  // relative errors large.
   void pass(std::size_t choice) {
     if (choice > 0) failed_[choice - 1] *= 1.002;
   }

@@ -11,11 +11,10 @@ namespace {
 
 using Block = std::vector<Eigen::Index>;
 
-// The numbers in blocks that depend on each other in both directions, each block after those that
-// it depends on.
+// Splits the numbers into blocks of mutual dependence, each block after those that it depends on.
 std::vector<Block> blocks_of(const std::vector<Eigen::MatrixXd>& jacobians) {
   const Eigen::Index n = jacobians.front().rows();
-  // depends(i, k): i on k, by any number of steps (Warshall's algorithm).
+  // depends(i, k): i depends on k, directly or through others (Warshall's algorithm).
   Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> depends(n, n);
   depends.setConstant(false);
   for (const Eigen::MatrixXd& jacobian : jacobians) depends = depends || jacobian.array() != 0;
@@ -25,7 +24,7 @@ std::vector<Block> blocks_of(const std::vector<Eigen::MatrixXd>& jacobians) {
       if (depends(i, via)) depends.row(i) = depends.row(i) || depends.row(via);
     }
   }
-  // What depends on fewer numbers comes first: it depends on all that its own numbers depend on.
+  // A number with fewer dependencies comes first, because dependence is transitive.
   std::vector<Block> blocks;
   std::vector<char> taken(static_cast<std::size_t>(n), 0);
   for (Eigen::Index count = 1; count <= n; ++count) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a scene that switches adds to the derivatives of a run by keys: the jumps of S = dz/dp, and
-// the derivatives of a row's extras.
+// A switching scene's part in the derivatives of a run by keys: the jumps of S = dz/dp, and the
+// derivatives of a row's extras.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,10 +25,10 @@ class Switches {
   virtual ~Switches() = default;
 
   virtual void begin_run() = 0;
-  // Takes S, a column for each key, across the instant. Returns how far each key moves the time of
-  // its switch. Throws InputError where there is no derivative.
+  // Takes S, one column per key, across the instant. Returns how far each key moves the time of its
+  // switch. Throws InputError if there is no derivative.
   [[nodiscard]] virtual Eigen::VectorXd pass(const Instant& now, Eigen::MatrixXd& slopes) = 0;
-  // The derivatives of a row's extras by key k. `slope` are those of the states z.
+  // The derivatives of a row's extras by key k. `slope` has those of the states z.
   [[nodiscard]] virtual Eigen::VectorXd extras(std::size_t k, double t, const Eigen::VectorXd& z,
                                                const Eigen::VectorXd& slope) const = 0;
 };

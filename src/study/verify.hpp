@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Checks with known answers: whether this build computes correctly.
+// Checks this build against known answers.
 #pragma once
 
 #include <string>
@@ -27,8 +27,8 @@ struct Verification {
   [[nodiscard]] bool holds() const;
 };
 
-// Runs closed forms, symmetries, energy, quad-precision references and method against method. Needs
-// no files: all scenes are part of the program. Takes about a second.
+// Checks closed forms, symmetries, energy, quad-precision references, and methods against each
+// other. Needs no files: all scenes are part of the program. Takes about a second.
 [[nodiscard]] Verification verify(const solve::Watch& watch = {});
 
 }  // namespace bbsim::study

@@ -114,9 +114,9 @@ Check slides_to_roll(double backspin, const solve::Watch& watch) {
           error, made.allowance, "m"};
 }
 
-// Checks the energy of all moving parts, plus losses, minus the motors' work. The integrals are
-// states under the same tolerance. Their allowed error is the allowance in joules. The energy's is
-// that of the states times the forces, momenta and moments of the scene.
+// Checks that the energy of all moving parts, plus losses, minus the motors' work, is constant. The
+// integrals are states under the same tolerance, so their allowed error is the allowance in joules.
+// The energy's is that of the states times the forces, momenta and moments of the scene.
 Check balance(const char* name, const Scenario& scene, const solve::Watch& watch) {
   const WholeRun made = whole_run(scene, watch);
   const model::BallConstants constants = model::constants_of(scene);
@@ -190,7 +190,7 @@ Check ramps_behind_a_rod(const solve::Watch& watch) {
   return {"push rod: a servo's ramp, and its end, through the curve", error, made.allowance, "rad"};
 }
 
-// When gears engage, plate and ball receive a blow. Its work is the servo's.
+// Plate and ball receive an impulse when gears engage. The servo does its work.
 Check strikes(const solve::Watch& watch) {
   Scenario scene = linked_plate();
   scene.ball.position = {0.05, -0.03};

@@ -45,8 +45,8 @@ Check push_rod_inverted() {
   return {"push rod: inverse of forward", error, 1e-13, "rad"};
 }
 
-// Fourth-order differences leave out h^4/30 times the fifth derivative, which is below 1e3. They
-// have the rounding of an angle divided by h.
+// Fourth-order differences leave out h^4/30 times the fifth derivative, which is below 1e3. Their
+// rounding error is that of an angle divided by h.
 constexpr double h = 1e-3, of_differences = 1e3 * h * h * h * h / 30 + 1e-15 / h;
 
 template <class Function>
@@ -101,7 +101,7 @@ Check three_legs_rates() {
   for_each_tilt(three, [&](const double(&wanted)[2]) {
     double servo[3];
     for (int i = 0; i < 2; ++i) {
-      // Half way out, so that the differences stay within the workspace.
+      // Halfway out, so that the differences stay within the workspace.
       const double half[2] = {wanted[0] / 2, wanted[1] / 2};
       three.told(half, servo);
       model::Axis<double> axis[2];

@@ -5,7 +5,7 @@
 //
 // In each step, an integrator with tolerances rtol and atol may make an error of rtol |z| + atol in
 // each state. An error in a speed lets the position drift by that times the rest of the scene.
-// Where a scene grows exponentially, an error grows as the solution does, so |z| is the solution's
+// If a scene grows exponentially, an error grows as the solution does, so |z| is the solution's
 // largest value. Hence, for positions, for u = r gamma' and for r gamma,
 //
 //     allowance = steps (rtol size + atol) (1 + end / 1 s).
