@@ -29,7 +29,7 @@ struct Allowances {
   Allowances(double rtol, double atol) : standard{rtol, atol} {}
 
   Allowance standard{};
-  std::map<std::string, Allowance> by_column{};  // replaces the standard one
+  std::map<std::string, Allowance> by_column{};  // entries replace the standard one
   std::string reason{};  // reported after "allowed: "; empty for the standard
 
   [[nodiscard]] const Allowance& of(const std::string& column) const;

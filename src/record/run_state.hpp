@@ -19,7 +19,7 @@ struct RunState {
   bool gamma = false;    // whether the ball's spin angle is integrated
   bool endless = false;  // whether the end of the run is unknown
   double end = 0;        // of the run, s; unless it is endless
-  double least_end = 0;  // s; an endless run has the same steps for any later end
+  double least_end = 0;  // s; the steps of an endless run hold for any later end
   double time = 0;       // of the last row before the state, s
   std::size_t next_row = 0;
   std::string state;  // solve::Part::state

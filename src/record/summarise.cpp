@@ -29,7 +29,7 @@ const CellColumn& column_of(const CellTable& table, const std::string& file,
   return table.columns[static_cast<std::size_t>(found - table.names.begin())];
 }
 
-// Default measures: the numeric columns after the status; keys come before it.
+// Default measures: the numeric columns, in sweeps those after the status; keys come before it.
 std::vector<std::string> all_measures(const CellTable& table) {
   std::vector<std::string> names;
   const auto status = std::ranges::find(table.names, "status");

@@ -29,8 +29,8 @@ struct Group {
 };
 
 // Groups appear in the order of their first case; without keys, all cases form one. If `measures`
-// is empty, all numeric columns after the status are used. Throws InputError if the table, named
-// `name`, lacks a column or has texts where numbers are needed.
+// is empty, all numeric columns after the status, if any, are used. Throws InputError if the table,
+// named `name`, lacks a column or has texts instead of numbers.
 [[nodiscard]] std::vector<Group> summarise(const file::CellTable& table, const std::string& name,
                                            const std::vector<std::string>& keys,
                                            const std::vector<std::string>& measures,
