@@ -15,8 +15,8 @@
 namespace bbsim::sweep {
 namespace {
 
-// Standard output, a pipe or a device. Rows go out as they come, so all of them stay if the run
-// ends early.
+// Standard output, a pipe or a device. Writes rows immediately, so all of them stay if the run ends
+// early.
 class Stream : public CaseFile {
  public:
   Stream(const std::string& target, const CaseFileLayout& layout) : file_(target) {

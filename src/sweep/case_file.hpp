@@ -25,7 +25,7 @@ struct CaseFileLayout {
   // The cases are first_case ... first_case + cases - 1. They are computed in groups; the last
   // group may be smaller.
   std::size_t first_case = 0, cases = 0, group = 1;
-  bool is_shard = false;  // one part of a sweep, to be merged: CSV keeps its plan beside it
+  bool is_shard = false;  // a part to be merged later; CSV keeps the plan beside it
 };
 
 // Rows kept from an earlier, unfinished run.
@@ -48,7 +48,7 @@ class CaseFile {
   // Appends `rows` rows: their lines, and rows * width numbers of each series.
   virtual void append(std::string_view lines, std::size_t rows,
                       const std::vector<std::vector<double>>& series) = 0;
-  // Call this if the run ends before all cases are done: the rows so far then stay.
+  // Keeps the rows so far. Call it if the run ends before all cases are done.
   virtual void interrupt() = 0;
   virtual void finish(const file::Attributes& attributes) = 0;
 };

@@ -46,7 +46,7 @@ class Hdf5Cases : public CaseFile {
 
   void append(std::string_view lines, std::size_t rows,
               const std::vector<std::vector<double>>& series) override {
-    // First, because the lines say how many cases are complete.
+    // Series come first, because the lines tell how many cases are complete.
     if (series_) series_->append(series, rows);
     part_.append(lines, rows);
   }

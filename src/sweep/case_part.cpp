@@ -57,7 +57,7 @@ void CasePart::take_up(std::size_t most) {
   RowReader reader(layout_.columns);
   std::string_view line;
   std::string fault;
-  off_t end = 0;  // of the header and the whole groups
+  off_t end = 0;  // end of the header and the whole groups
   StatusCounts of_group;
   std::size_t in_group = 0;
   // A last line without a line break is no fault: the earlier run was cut off there.

@@ -14,15 +14,14 @@
 
 namespace bbsim::sweep {
 
-// Checks every row that it reads, also its own ones. Functions throw OutputError.
+// Checks every row that it reads, including those that it wrote. Functions throw OutputError.
 class CasePart {
  public:
   CasePart(const std::string& target, const CaseFileLayout& layout, const std::string& plan,
            bool resume);
 
-  // Reads the rows that an earlier run left. Keeps whole groups, up to the first damaged row and no
-  // further than the first `most` cases, whose trajectories are sound. Call it once, before
-  // append().
+  // Reads the rows of an earlier run. Keeps whole groups up to the first damaged row, and at most
+  // the first `most` cases, whose trajectories are sound. Call it once, before append().
   void take_up(std::size_t most);
   [[nodiscard]] const KeptRows& kept() const { return kept_; }
 

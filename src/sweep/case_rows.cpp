@@ -27,9 +27,9 @@ bool is_number(std::string_view text, Number& value) {
   return result.ec == std::errc{} && result.ptr == end;
 }
 
-// Where the field that begins at `start` ends: the index of the comma, or the length of the line. A
-// quoted field ends after its closing quote. npos if the quote is not closed, or if text follows
-// it.
+// Returns the end of the field that begins at `start`: the index of the comma, or the length of the
+// line. A quoted field ends after its closing quote. Returns npos if the quote is not closed or
+// text follows it.
 std::size_t end_of_field(std::string_view line, std::size_t start) {
   if (start >= line.size() || line[start] != '"')
     return std::min(line.find(',', start), line.size());
@@ -59,7 +59,7 @@ void blame(Blame whose, const std::string& message) {
 PartLines::PartLines(int descriptor, std::string name, Blame whose)
     : descriptor_(descriptor), name_(std::move(name)), whose_(whose), buffer_(at_once) {}
 
-// Reads more bytes behind those in the buffer; false at the end of the file.
+// Appends more bytes to the buffer. Returns false at the end of the file.
 bool PartLines::fill() {
   if (begin_ > 0) std::memmove(buffer_.data(), buffer_.data() + begin_, size_);
   begin_ = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reads the CSV rows of sweeps, and checks every read and every row.
+// Reads the CSV rows of sweeps and checks each of them.
 #pragma once
 
 #include <sys/types.h>
@@ -16,24 +16,24 @@
 
 namespace bbsim::sweep {
 
-// Where a file that cannot be read comes from: the user gave it, or it holds results. This selects
-// the type of the error.
+// Origin of a file, which selects the type of errors: InputError if the user gave the file,
+// OutputError if it holds results.
 enum class Blame { input, output };
 
 // Throws InputError or OutputError.
 [[noreturn]] void blame(Blame whose, const std::string& message);
 
-// Reads the lines of a file from its beginning. The descriptor stays the caller's.
+// Reads the lines of a file from its beginning. The caller keeps the descriptor.
 class PartLines {
  public:
   PartLines(int descriptor, std::string name, Blame whose);
 
-  // Gets the next line without its line break, valid until the next call; false at the end of the
-  // file. Throws if the system cannot read.
+  // Gets the next line without its line break, valid until the next call. Returns false at the end
+  // of the file. Throws if the system cannot read.
   [[nodiscard]] bool next(std::string_view& line);
   // Whether the last line had its line break.
   [[nodiscard]] bool whole() const { return whole_; }
-  // Where the last line ended, in bytes from the beginning of the file.
+  // End of the last line, in bytes from the beginning of the file.
   [[nodiscard]] off_t end() const { return end_; }
 
  private:
@@ -43,8 +43,8 @@ class PartLines {
   std::string name_;
   Blame whose_;
   std::vector<char> buffer_;
-  std::size_t begin_ = 0, size_ = 0;  // of the bytes in the buffer that were not handed out yet
-  off_t place_ = 0, end_ = 0;         // of the next read; of the last line
+  std::size_t begin_ = 0, size_ = 0;  // of the unread bytes in the buffer
+  off_t place_ = 0, end_ = 0;         // of the next read; end of the last line
   bool whole_ = false;
 };
 
@@ -57,8 +57,8 @@ class RowReader {
   explicit RowReader(std::vector<Field> fields);
   // Expects the columns of the CSV text: all but the series.
   explicit RowReader(const std::vector<file::Hdf5Column>& columns);
-  // Takes the columns from a CSV header. It does not say which fields before the status are
-  // numbers, so these are read as text.
+  // Takes the columns from a CSV header. The header does not tell which fields before the status
+  // are numbers, so these are read as text.
   explicit RowReader(const std::string& header);
 
   // Splits a row. Returns the first difference from a row of `bbsim sweep`; empty if the row is

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Makes the scenario of a case. It puts numbers in place if no rule relates their keys to other
-// keys, and reads the scenario again otherwise.
+// Makes the scenario of a case. Replaces numbers in place if no rule relates their keys to other
+// keys; otherwise reads the scenario again.
 #pragma once
 
 #include <cstddef>

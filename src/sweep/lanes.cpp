@@ -27,7 +27,7 @@ namespace ensemble = solve::ensemble;
 using ensemble::Actuation;
 using Kind = scenario::Measure::Kind;
 
-// A smaller sweep of given motions is short anyway, and single runs give the bits of `bbsim run`.
+// Smaller sweeps of given motions are short anyway, and single runs match `bbsim run` bit for bit.
 constexpr std::size_t least_given = 32;
 
 bool has_single_harmonic(const Reference& reference) {
@@ -61,8 +61,8 @@ void set_loop(ensemble::Case& loop, const Scenario& scenario, const model::Model
   std::copy(model.initial.begin(), model.initial.end(), loop.initial);
 }
 
-// Adds a profile's terms but the shared ones to a case. Sinusoids of one frequency share one, as in
-// model::SignalPair, which would take longer to make.
+// Adds a profile's terms to a case, except shared terms. Sinusoids of one frequency share a term,
+// as in model::SignalPair, which takes longer to make.
 struct CaseSignals {
   ensemble::Case& to;
 
@@ -116,11 +116,11 @@ model::Model model_of(const Scenario& scenario) {
   return model::assemble(scenario, false, model::Form::full);
 }
 
-// Cases that share one call of the lanes. Some lanes are empty while the last cases finish; among
-// this many cases that costs little.
+// Number of cases in one call of the lanes. Some lanes are empty while the last cases finish; this
+// costs little among so many cases.
 constexpr std::size_t in_turn = 1024;
 
-// Measures that an ensemble knows itself, for which no model has to be made.
+// Measures that an ensemble computes itself, without a model.
 enum Known : std::size_t { x_end, y_end, distance, tilt, tilt_rate, unknown };
 
 Known known(const scenario::Measure& measure) {
@@ -193,7 +193,7 @@ class LaneCarrier : public GroupCarrier, private ensemble::Study {
     GroupCase& one = cases_[number];
     const auto greatest = extremes(run);
     const bool unbounded = run.ending == Ending::unbounded;
-    // In the last row before infinity only x and y are known, and of given motions not even these.
+    // The last row before infinity has only x and y, and not even these under a given motion.
     if (run.ending != Ending::given_up && greatest &&
         (!unbounded || (ends_at_places_ && !given_))) {
       if (needs_model_) {
@@ -249,7 +249,7 @@ class LaneCarrier : public GroupCarrier, private ensemble::Study {
   std::vector<std::optional<Scene>> models_;  // of cases that are in a lane
 };
 
-// What must hold whatever moves the gimbal. Everything tested here is the same in all cases.
+// Conditions for any source of the gimbal's motion. All cases give the same answer.
 bool can_be_asked(const SweepTask& task) {
   return task.series.empty() && record::are_track_measures(task.measures) &&
          task.plan.independent();
@@ -274,7 +274,7 @@ bool can_use_open_lanes(const SweepTask& task) {
 bool can_use_lanes(const SweepTask& task) {
   if (!can_be_asked(task)) return false;
   // Among others, planar cases are carried with all states. A sweep of only planar cases has fewer
-  // states, and runs singly.
+  // states and is run singly.
   const Scenario scenario = task.family.read(task.plan.general_settings());
   return scenario.controller && is_by_collocation(scenario) &&
          has_single_harmonic(scenario.controller->reference) &&

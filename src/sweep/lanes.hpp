@@ -8,17 +8,17 @@
 
 namespace bbsim::sweep {
 
-// Whether all cases have a given motion under equation (27), or are loops under equation (31), that
-// lanes can carry, and all measures are track measures (record/track/track_measures.hpp).
+// Whether open lanes (given motions, equation (27)) or lanes (loops, (31)) can carry all cases, and
+// all measures are track measures (record/track/track_measures.hpp).
 [[nodiscard]] bool can_use_open_lanes(const SweepTask& task);
 [[nodiscard]] bool can_use_lanes(const SweepTask& task);
 
 // The number of cases in a group.
 [[nodiscard]] std::size_t lane_group();
 
-// Requires can_use_lanes(task) or can_use_open_lanes(task). The task must outlive the runner. A
-// case that the lanes give up is run singly. So is a case that grows without bound under a given
-// motion, or if the sweep has a measure at the end other than x and y.
+// Requires can_use_lanes(task) or can_use_open_lanes(task). The task must outlive the runner. Cases
+// that the lanes give up are run singly. So are cases that grow without bound, if their motion is
+// given or the sweep has a measure at the end other than x and y.
 [[nodiscard]] std::unique_ptr<CaseRunner> lane_runner(const SweepTask& task);
 
 }  // namespace bbsim::sweep

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Takes measures of the loop beside those of the motion, or alone, without running a case.
+// Computes measures of the loop, which need no run, alone or beside measures of the motion.
 #pragma once
 
 #include <memory>
@@ -10,14 +10,14 @@
 
 namespace bbsim::sweep {
 
-// Whether nothing of the motion is asked for.
+// Whether the task asks only for measures of the loop.
 [[nodiscard]] bool is_of_loop_only(const SweepTask& task);
 
 // The same task without its measures of the loop.
 [[nodiscard]] SweepTask task_of_motion(const SweepTask& task);
 
-// `motion` runs the cases of task_of_motion(), or is null if nothing is asked of the motion: the
-// end time is then NaN. The tasks must outlive the runner.
+// `motion` runs the cases of task_of_motion(). It is null if the task asks only for measures of the
+// loop; the end time is then NaN. The tasks must outlive the runner.
 [[nodiscard]] std::unique_ptr<CaseRunner> loop_runner(const SweepTask& task,
                                                       std::unique_ptr<CaseRunner> motion);
 

@@ -14,7 +14,7 @@ namespace bbsim::sweep {
 struct Merged {
   std::size_t cases = 0;
   bool interrupted = false;  // stopped early, and wrote nothing
-  std::string note;          // a sentence that the user should know about the parts, or empty
+  std::string note;          // a sentence about the parts for the user; may be empty
 };
 
 // Orders the parts (all CSV or all HDF5) by case and writes them to `target`, byte for byte as a

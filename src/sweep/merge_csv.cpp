@@ -116,8 +116,8 @@ Agreed compare_plans_of(const std::vector<std::string>& files) {
   return agreed;
 }
 
-// Writes the rows of a part. Checks that their cases count on from `next`, and advances it. False
-// if interrupted.
+// Writes the rows of a part. Checks that their cases continue from `next`, and advances it. Returns
+// false if interrupted.
 bool copy_rows(const CsvPart& part, file::AtomicFile& out, std::size_t& next,
                const std::atomic<bool>& stop) {
   struct stat status {};

@@ -15,7 +15,7 @@
 namespace bbsim::sweep {
 namespace {
 
-// About this many numbers of series are in memory at a time.
+// Approximate limit for numbers of series in memory.
 constexpr std::size_t most_numbers = std::size_t{1} << 19U;
 constexpr std::size_t most_at_a_time = 1024;
 
@@ -92,7 +92,7 @@ Hdf5Part read_part(const std::string& file, file::Hdf5TableReader table) {
   return {file, std::move(table), std::move(inputs), first};
 }
 
-// In the order of their cases.
+// Returns the parts in the order of their cases.
 std::vector<Hdf5Part> read_parts(const std::vector<std::string>& files) {
   file::Hdf5TableReaders tables(files, {1, 1});
   std::vector<Hdf5Part> parts;
@@ -148,7 +148,7 @@ Merged merge_hdf5(const std::vector<std::string>& files, const std::string& targ
       }
       out.append(block);
     }
-    static_cast<void>(table.read_inputs());  // they are the model's
+    static_cast<void>(table.read_inputs());  // same as those of the model
   }
   file::Attributes attributes = model.table.attributes();
   for (auto& [name, value] : attributes) {

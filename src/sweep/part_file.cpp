@@ -55,7 +55,7 @@ std::vector<std::string> PartFile::names_beside(const std::string& target) {
   return {path + ".part", path + ".plan", path + ".part.series"};
 }
 
-// Comes before anything else: the plan belongs to the process that writes to the part.
+// Comes first, because the plan belongs to the process that writes to the part.
 void PartFile::open_and_lock() {
   constexpr int most_attempts = 100;  // other processes may begin and end meanwhile
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
@@ -83,7 +83,7 @@ void PartFile::open_and_lock() {
   fail("lock", EBUSY);
 }
 
-// Only a sweep with the same plan may resume an existing part.
+// Allows only a sweep with the same plan to resume an existing part.
 void PartFile::check_plan(bool resume) const {
   if (!resume) {
     throw InputError(part_ +
@@ -138,7 +138,7 @@ void PartFile::append(std::string_view bytes) {
   if (const int error = flusher_.perform(due, descriptor_.get(), size_)) fail("sync", error);
 }
 
-// Comes before any row is on the disk, so that no row is without its plan.
+// Call this before any row is on the disk, so that no row lacks its plan.
 void PartFile::sync_names() {
   if (names_synced_) return;
   int error = file::sync_content(plan_descriptor_.get());

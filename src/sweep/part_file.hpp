@@ -20,8 +20,7 @@ namespace bbsim::sweep {
 // Bytes go to TARGET.part, beside the file itself if the target is a link. TARGET.plan beside it
 // identifies the sweep, so that no other sweep resumes the part. commit() gives the part its final
 // name. Without commit(), the destructor leaves both files, unless the part has nothing worth
-// keeping. The part is locked and read through the same descriptor, so a change of its name does no
-// harm.
+// keeping. The part is locked and read through the same descriptor, so renaming it does no harm.
 //
 // Every function throws OutputError if the system refuses an operation.
 class PartFile {
@@ -44,9 +43,9 @@ class PartFile {
   [[nodiscard]] bool in_place() const;
 
   void keep_only(off_t size);
-  // Hands bytes to the system at once, and to the disk within seconds.
+  // Writes bytes to the system immediately, and to the disk within seconds.
   void append(std::string_view bytes);
-  // Says whether the part stays if the run ends early.
+  // Sets whether the part stays if the run ends early.
   void set_worth_keeping(bool worth) { worth_keeping_ = worth; }
   [[nodiscard]] bool is_worth_keeping() const { return worth_keeping_; }
   // Makes all bytes so far survive a power cut.

@@ -60,8 +60,8 @@ double listed(const Axis& axis, std::size_t i) {
   return axis.numeric ? axis.numbers[i] : static_cast<double>(i);
 }
 
-// A value of the axis other than 0, if it has one. Of two evenly spaced values one is not 0. A
-// distribution is represented by one of its two parameters.
+// A nonzero value of the axis, if it has one. At least one of two evenly spaced values is nonzero.
+// One of a distribution's two parameters represents it.
 double not_zero(const Axis& axis) {
   if (axis.random()) return axis.from != 0 ? axis.from : axis.to;
   const std::size_t look_at =
@@ -100,7 +100,7 @@ void check_apart(const std::string& key, const std::vector<Setting>& others) {
   }
 }
 
-// No case would have the value that --set gives to a key that varies.
+// No case would have the value that --set gives to a varied key.
 void check_overrides(const std::string& key, const Source& source) {
   for (const std::string& set : source.overrides) {
     const std::string set_key = set.substr(0, set.find('='));
@@ -138,9 +138,9 @@ std::vector<Varied> varied(const Sweep& sweep, const Source& source) {
   return all;
 }
 
-// The index of the written value of `other` that goes with value i of `own` in some case. In a grid
-// this is the first one. When zipped it is the one of the same case, or of the nearer end if either
-// is a range.
+// Index of the written value of `other` that occurs with value i of `own` in some case. In a grid
+// this is the first one. In a zip it is that of the same case, or of the nearer end if either is a
+// range.
 std::size_t beside(const scenario::VariationSpec& other, const scenario::VariationSpec& own,
                    std::size_t i, Combine combine) {
   if (combine != Combine::zip || other.random() || own.random()) return 0;

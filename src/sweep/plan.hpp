@@ -51,8 +51,8 @@ class SweepPlan {
     std::size_t of = 0;
     std::vector<double> numbers;
   };
-  // Lists cases of `of`; of the scenario itself if it is null. Each has the settings `always`, too.
-  // Reads only the first one: another that is refused says so when it is run. Throws InputError.
+  // Lists cases of `of`, or of the scenario itself if it is null. All have the settings `always`.
+  // Reads only the first case: errors in others appear when they are run. Throws InputError.
   SweepPlan(const ScenarioFamily& family, const SweepPlan* of, const std::vector<std::string>& keys,
             const std::vector<Listed>& cases, std::vector<ScenarioFamily::Setting> always = {});
 

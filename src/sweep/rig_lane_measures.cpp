@@ -18,8 +18,8 @@ using solve::sampled::LaneStep;
 using solve::sampled::Range;
 using solve::sampled::Size;
 
-// Intervals that resolve, over a piece or a part of one, polynomials of degree 9, their squares and
-// the sines of a servo.
+// Number of intervals that resolve polynomials of degree 9, their squares and the sines of a servo
+// over a piece or a part of one.
 constexpr std::size_t parts = 16;
 
 // A piece is searched if its bound exceeds the greatest value so far by this fraction.
@@ -136,7 +136,7 @@ void RigLaneMeasures::accept_end(std::size_t lane, double t, std::span<const dou
   last_row_[lane].assign(row.begin(), row.end());
 }
 
-// The last piece does not include a switch at its end, so the end is taken by itself.
+// The last piece does not include a switch at its end, so take the end separately.
 void RigLaneMeasures::take_end(std::size_t lane, const model::Model& model) {
   const model::Sample end =
       model.sample(last_time_[lane], last_row_[lane].data(), model::Detail::gimbal);

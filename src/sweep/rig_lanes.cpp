@@ -101,7 +101,7 @@ class RigCarrier : public GroupCarrier {
 }  // namespace
 
 bool can_use_rig_lanes(const SweepTask& task) {
-  // Fewer cases would leave lanes empty, and single runs give the bits of `bbsim run`.
+  // Fewer cases would leave lanes empty, and single runs match `bbsim run` bit for bit.
   if (task.plan.cases() < solve::sampled::group || !task.series.empty() ||
       !record::are_track_measures(task.measures) || !share_reference(task.plan)) {
     return false;

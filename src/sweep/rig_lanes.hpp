@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sweeps of sampled rigs, in step with a case in each SIMD lane.
+// Sweeps of sampled rigs that advance in step, with a case in each SIMD lane.
 #pragma once
 
 #include "sweep/task.hpp"

@@ -20,8 +20,8 @@ class SeriesPart {
   // The file gets the owner and the permissions of the part.
   SeriesPart(std::string name, std::size_t numbers_a_case, int part);
 
-  // Checks all cases that an earlier run left. Returns how many are sound before the first that is
-  // not.
+  // Checks all cases of an earlier run. Returns the number of sound cases before the first damaged
+  // one.
   [[nodiscard]] std::size_t count_kept() const;
   void keep_only(std::size_t cases);
 

@@ -27,7 +27,7 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-// The time of the end is not needed here: it has a column.
+// Omits the end time, which has its own column.
 CaseStatus status_of(const solve::Outcome& outcome) {
   switch (outcome.ending) {
     case solve::Ending::failed:
@@ -41,7 +41,7 @@ CaseStatus status_of(const solve::Outcome& outcome) {
   return {};
 }
 
-// Writes a Recorder's columns to the place of one case among the results.
+// Writes a Recorder's columns to the rows of one case.
 class SeriesWriter : public file::TableWriter {
  public:
   SeriesWriter(std::vector<std::vector<double>>& series, std::size_t first_row)
@@ -137,7 +137,7 @@ class SingleRunner : public CaseRunner {
     return true;
   }
 
-  // Integrates a smooth model as solve::integrate() does, in the memory of the case before.
+  // Integrates a smooth model as solve::integrate() does, in the memory of the previous case.
   solve::Outcome run_quickly(const Solver& solver, const model::Model& model,
                              const solve::OutputGrid& grid, const solve::Watch& watch) {
     const solve::Tolerances tolerances{solver.rtol, solver.atol};
@@ -155,7 +155,7 @@ class SingleRunner : public CaseRunner {
   CaseScenario scenario_;
   record::Recorder recorder_;
   const solve::radau::StepKernels& kernels_;
-  std::optional<controller::Host> controllers_;        // of cases that bring a controller
+  std::optional<controller::Host> controllers_;        // for cases with your own controller
   std::optional<solve::radau::RadauStepper> stepper_;  // reuses its memory from case to case
   bool same_signals_, same_tolerances_ = true;
   bool gamma_ = false;

@@ -8,7 +8,7 @@
 
 namespace bbsim::sweep {
 
-// Gives the numbers of `bbsim run`, to the bit. The task must outlive the runner.
+// Gives the numbers of `bbsim run`, bit for bit. The task must outlive the runner.
 [[nodiscard]] std::unique_ptr<CaseRunner> single_runner(const SweepTask& task);
 
 }  // namespace bbsim::sweep

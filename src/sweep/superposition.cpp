@@ -28,7 +28,7 @@ namespace {
 
 using Kind = scenario::Measure::Kind;
 
-// A few roundings: the solutions are computed only once.
+// Close to rounding errors: the solutions are computed only once.
 constexpr solve::Tolerances finest{1e-13, 1e-15};
 
 // A term in which z' = A(t) z + g b_g(t) + r b_r(t) is linear.
@@ -59,7 +59,7 @@ bool is_superposed(const scenario::Measure& measure) {
          (name == "distance" || name == "tilt" || name == "tilt_rate");
 }
 
-// The greatest remainder of x and y between points, relative to them. Squares are then right to
+// Greatest error of x and y between points, relative to their size. Squares are then accurate to
 // 1e-10.
 constexpr double shown = 1e-12;
 constexpr int most_halvings = 12;
@@ -112,8 +112,8 @@ class Stretches {
   [[nodiscard]] const std::vector<double>& times() const { return times_; }
 
  private:
-  // The remainder is relative to each motion's greatest size in the integrator's steps there,
-  // because the motion itself is no more exact.
+  // The error is relative to each motion's greatest size in the integrator's steps there, because
+  // the motion itself is no more accurate.
   [[nodiscard]] bool are_shown(double from, double to) const {
     std::vector<double> x(points_.size()), y(points_.size());
     return std::all_of(motions_->begin(), motions_->end(), [&](const RecordedMotion& motion) {

@@ -23,12 +23,12 @@
 namespace bbsim::sweep {
 namespace {
 
-// The aim for the time that a thread spends on a block, s. A killed sweep loses about one block a
-// thread; short blocks would make threads wait for each other.
+// Target time of a thread for a block, s. A killed sweep loses about one block per thread; short
+// blocks would make threads wait for each other.
 constexpr double least_seconds = 0.02, most_seconds = 0.1;
 constexpr std::size_t most_in_block = 4096;
 constexpr std::size_t most_series_numbers = std::size_t{1} << 18U;  // in a block
-// The most blocks a thread that wait for delivery while a slow case holds up its block.
+// Most blocks per thread that wait for delivery while a slow case delays an earlier block.
 constexpr std::size_t most_ahead = 8;
 
 std::size_t block_limit(const SweepTask& task, std::size_t group) {
@@ -152,7 +152,7 @@ void work(const Engine& engine, Queue& queue, const std::atomic<bool>& stop,
   }
 }
 
-// The engine of what is asked of the motion, with measures of the loop taken beside it.
+// Engine for the measures of the motion, with measures of the loop beside them.
 Engine engine_with_loop(const SweepTask& task) {
   if (is_of_loop_only(task)) {
     return {"linear analysis", task, 1, [&task] { return loop_runner(task, nullptr); }};

@@ -24,9 +24,9 @@ struct Engine {
   std::function<std::unique_ptr<CaseRunner>()> runner;
 };
 
-// Chooses the first engine that fits (docs/explanation/sweep-engines.md): linear analysis where
-// only measures of the loop are asked for; superposition, open lanes, lanes, rig lanes, single
-// runs. The task must outlive the engine.
+// Chooses the first engine that fits (docs/explanation/sweep-engines.md): linear analysis if all
+// measures are of the loop, superposition, open lanes, lanes, rig lanes, single runs. The task must
+// outlive the engine.
 [[nodiscard]] Engine choose_engine(const SweepTask& task);
 
 // Cases first ... last - 1.
