@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What is in a picture, in the axes' own units. Nothing here knows of balls, and nothing of the
-// program that draws it (script.hpp).
+// The content of a picture, in the axes' own units. It depends neither on balls nor on the program
+// that draws it (script.hpp).
 #pragma once
 
 #include <cstddef>
@@ -24,8 +24,8 @@ struct Stroke {
   double marker_size = 1;
 };
 
-// Colours that are told apart with any colour vision (Okabe and Ito's palette), in the order in
-// which lines take them, and the dashes that tell them apart without colour.
+// Colors that remain distinct with any color vision (Okabe and Ito's palette), in the order of
+// lines, with dashes that distinguish lines without color.
 [[nodiscard]] Stroke stroke_of(std::size_t line);
 
 struct Tic {
@@ -36,27 +36,27 @@ struct Tic {
 struct Axis {
   double low = 0, high = 1;  // low < high
   bool log = false;          // both above 0
-  double step = 0;           // from tic to tic; 0: the tics are in the list
+  double step = 0;           // distance between tics; 0: the tics are in the list
   std::vector<Tic> tics{};
   std::string label{};
   bool numbered = true;  // whether the tics have labels
 
-  // Where a value is: 0 at `low`, 1 at `high`.
+  // The position of a value: 0 at `low`, 1 at `high`.
   [[nodiscard]] double fraction(double value) const;
-  // The middle of a stretch as the eye sees it.
+  // The value halfway between two values on the drawn axis.
   [[nodiscard]] double middle(double from, double to) const;
-  // Of the tics' labels, after the point.
+  // The number of decimals in the tics' labels.
   [[nodiscard]] int decimals() const;
 };
 
-// Pixels from the left, and from below the picture's heading.
+// Pixels from the left edge and from the bottom of the picture's heading.
 struct Box {
   double left = 0, top = 0, right = 0, bottom = 0;
   [[nodiscard]] double width() const { return right - left; }
   [[nodiscard]] double height() const { return bottom - top; }
 };
 
-// A line through points, with NaN for a gap; or steps, each value held until the next; or the
+// A line through points, with NaN for a gap; steps, which hold each value until the next; or the
 // area between y and y_high.
 struct Curve {
   enum class Shape { line, steps, band } shape = Shape::line;
@@ -67,17 +67,17 @@ struct Curve {
   void add(double new_x, double new_y);
 };
 
-// Of a line those points that have a gap on either side, as dots: no line goes through them.
+// The points of a line with a gap on either side, as dots: no line goes through them.
 [[nodiscard]] Curve lone_points(const Curve& line);
 
-// A filled rectangle. Of a map, its colour stands for a value, and NaN is gray.
+// A filled rectangle. In a map, its color represents a value; NaN is gray.
 struct Cell {
   double left = 0, right = 0, bottom = 0, top = 0;
   double value = std::numeric_limits<double>::quiet_NaN();
-  std::string text{};  // in its middle
+  std::string text{};  // centered in the cell
 };
 
-// What a legend says of a stroke.
+// A stroke and its name in a legend.
 struct Entry {
   std::string name;
   Stroke stroke;
@@ -87,10 +87,10 @@ struct Panel {
   Box box;
   std::string heading{};  // above its top left corner
   Axis x{}, y{};
-  std::optional<Axis> colours{};  // of a map: its scale of colours is at its right
+  std::optional<Axis> colours{};  // in a map: its color scale, on the right
   std::vector<Entry> legend{};    // in one row beside the heading
   std::vector<Cell> cells{};
-  std::vector<Curve> curves{};  // from the lowest to the uppermost
+  std::vector<Curve> curves{};  // from bottom to top
 };
 
 struct Picture {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The parts of the picture of runs.
+// The parts of a picture of runs.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ namespace bbsim::plot {
 using results::Event;
 using results::Result;
 
-// The time that runs are drawn over; row numbers where one of them has no t.
+// The time axis of runs; row numbers if one of them has no t.
 struct Abscissa {
   bool is_time = true;
   Range range;  // as drawn
@@ -27,7 +27,7 @@ struct Abscissa {
 };
 [[nodiscard]] Abscissa abscissa_of(const std::vector<Result>& runs);
 
-// How each kind of event is marked, in all panels alike: kinds in the order in which they come.
+// The mark of each kind of event, the same in all panels. Kinds are in order of appearance.
 class EventMarks {
  public:
   explicit EventMarks(const std::vector<Result>& runs);
@@ -46,23 +46,23 @@ class EventMarks {
   std::vector<Kind> kinds_;
 };
 
-// What a reference is drawn with, below the runs.
+// The stroke of references, below the runs.
 inline const Stroke band_of_reference{"#d0d0d0", 6};
 
-// The stroke of a run among several, of the only one, the first.
+// The stroke of a run among several; the first stroke for a single run.
 [[nodiscard]] Stroke stroke_of_run(const std::vector<Result>& runs, const Result& run);
 
 [[nodiscard]] bool has_path(const std::vector<Result>& runs);
 
-// Whether a picture of the plane shows no more than the columns do: the ball stays on a line along
-// x or y, and no plate is known.
+// Whether a picture of the plane shows no more than the columns: the ball stays on a line along x
+// or y, and no plate is known.
 [[nodiscard]] bool is_along_an_axis(const std::vector<Result>& runs);
 
-// The path in the plane, to scale. What it shows is added to the picture's legend.
+// Draws the paths in the plane, to scale, and adds them to the picture's legend.
 void add_path(Picture& picture, const std::vector<Result>& runs, const EventMarks& marks,
               const Box& box);
 
-// Columns over time. Only the lowest panel of a stack has labels at its time axis.
+// Columns over time. Only the lowest panel of a stack has labels on its time axis.
 [[nodiscard]] Panel time_panel(const std::vector<Result>& runs, const PlannedPanel& planned,
                                const Abscissa& abscissa, const EventMarks& marks, const Box& box,
                                bool lowest);

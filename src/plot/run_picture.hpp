@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Runs -> a picture: their paths in the plane, and columns over time.
+// Draws runs: their paths in the plane, and columns over time.
 #pragma once
 
 #include <string>
@@ -14,12 +14,12 @@ namespace bbsim::plot {
 
 using results::Result;
 
-// What to draw: the columns of each panel, and the path if a list is the one word `path`. Empty:
-// all that the runs have.
+// The requested columns of each panel. A list with the single word `path` means the path. Empty:
+// everything that the runs have.
 using Asked = std::vector<std::vector<std::string>>;
 
-// One run, or several to be compared; at least one. Throws InputError if there is nothing to draw,
-// or for a column that cannot be drawn as it is asked for.
+// Draws one run or compares several. Throws InputError if there is nothing to draw, or for a column
+// that cannot be drawn as requested.
 [[nodiscard]] Picture run_picture(const std::vector<Result>& runs, const Asked& asked);
 
 }  // namespace bbsim::plot

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Picture -> a script for gnuplot, which writes the picture to its standard output.
+// Turns a picture into a script for gnuplot, which writes the picture to its standard output.
 #pragma once
 
 #include <cstdint>
@@ -14,20 +14,20 @@ namespace bbsim::plot {
 
 enum class Format { svg, png, pdf };
 
-// Whether a font of this machine has a letter for a character. It is asked for what DejaVu Sans,
-// which comes with gnuplot, may not have.
+// Whether a font of this machine has a character. Called only for characters that DejaVu Sans,
+// which comes with gnuplot, may lack.
 using HasLetter = std::function<bool(std::uint32_t)>;
 
-// gnuplot gets places in parts of the picture, colours and texts: it chooses nothing, and no text
-// of the user's is anything but text to it. In PNG and PDF a character without a letter becomes
-// U+FFFD: gnuplot's drawing library would write its number over all the picture.
+// The script fixes all positions, colors and texts: gnuplot chooses nothing and does not interpret
+// the user's texts. PNG and PDF show U+FFFD for a missing character; gnuplot's drawing library
+// would write its number across the picture.
 [[nodiscard]] std::string gnuplot_script(const Picture& picture, Format format,
                                          const HasLetter& has_letter);
 
-// What gnuplot made of it, mended: in texts of an SVG it leaves "]]>" as it is, which is no XML.
+// Repairs gnuplot's output: its SVG texts contain "]]>" unescaped, which is not valid XML.
 [[nodiscard]] std::string mended(std::string drawn, Format format);
 
-// A picture with a mark, which is not to be seen, by which one of bbsim's is known.
+// Adds an invisible mark that identifies pictures of bbsim.
 [[nodiscard]] std::string marked(std::string drawn, Format format);
 inline constexpr const char* picture_mark = "drawn by bbsim plot";
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The parts of the picture of a sweep.
+// The parts of a picture of a sweep.
 #pragma once
 
 #include <cstddef>
@@ -19,55 +19,54 @@ using results::Key;
 using results::Result;
 using results::SweepTable;
 
-// How each way to end but `done` is marked.
+// The mark of each status except `done`.
 [[nodiscard]] Stroke stroke_of_status(const SweepTable& table, const std::string& status);
 
-// A measure as it is drawn: in a unit that suits it, by its logarithm if it spans decades.
+// The axis of a measure: in a fitting unit, logarithmic if the values span decades.
 struct MeasureAxis {
   Scale scale;
-  Range range;  // as drawn, of the cases that are done
+  Range range;  // as drawn, over the cases that are done
   bool log = false;
 
   MeasureAxis(const SweepTable& table, const Column& measure, double close = close_together);
   [[nodiscard]] Axis axis(Along along, double pixels, double air) const;
 };
 
-// A key as an axis: numbers, by their logarithm if they follow each other by equal factors, or
-// texts side by side.
+// The axis of a key: numbers, logarithmic if they grow by equal factors, or texts side by side.
 struct KeyAxis {
   const Key& key;
-  std::string label;  // with the keys that go along with it
+  std::string label;  // includes the keys that vary with it
   Scale scale;
   bool log = false;
 
   KeyAxis(const SweepTable& table, const Key& of);
-  // Room at both ends for half the distance to the next value if `cells`, otherwise for a marker.
+  // Leaves half the distance to the next value at both ends if `cells`, else room for a marker.
   [[nodiscard]] Axis axis(Along along, double pixels, bool cells) const;
-  // Edges are between neighbors, and beyond the outermost: where the cell of each value begins,
-  // and the last one ends. They are as drawn.
+  // Edges of the values' cells, as drawn: halfway between neighbors, and beyond the outermost
+  // values.
   [[nodiscard]] std::vector<double> edges() const;
   [[nodiscard]] double place(double value) const { return key.is_text() ? value : scale(value); }
 };
 
-// What a panel of each kind is made from.
+// The input of each kind of panel.
 struct SweepPanel {
   const SweepTable& table;
   const Column& measure;
   Box box;
-  bool lowest;  // of its column: the others have no labels below them
+  bool lowest;  // of its column: the others have no labels below
 };
 
-// A curve for each value of `group`, or one if it is null, through the medians of the cases that
-// are done; a band where nine of ten of them lie, if there are several, for up to most_bands
-// curves: more would hide each other. Of a key that was drawn by chance, a point a case.
+// A curve for each value of `group`, or one if it is null, through the medians of the done cases. A
+// band holds nine of ten cases, if there are several at a value, for at most most_bands curves:
+// more would hide each other. A random key has a point for each case.
 inline constexpr std::size_t most_bands = 3;
 [[nodiscard]] Panel line_panel(const SweepPanel& of, const Key& over, const Key* group);
 [[nodiscard]] std::vector<Entry> group_legend(const Key* group);
 
-// A map of medians over two keys, with its scale of colours at its right.
+// A map of medians over two keys, with a color scale on its right.
 [[nodiscard]] Panel map_panel(const SweepPanel& of, const Key& over, const Key& against);
 
-// How often which value came.
+// The frequency of values.
 [[nodiscard]] Panel histogram_panel(const SweepPanel& of);
 
 }  // namespace bbsim::plot

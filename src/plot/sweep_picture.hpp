@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A sweep -> a picture: its measures over the keys that vary.
+// Draws a sweep: its measures over the keys that vary.
 #pragma once
 
 #include <string>
@@ -16,14 +16,14 @@ using results::Result;
 
 struct SweepChoice {
   std::vector<std::string> measures;  // empty: all that vary
-  std::vector<std::string> over;      // one key or two; empty: chosen by what varies
+  std::vector<std::string> over;      // one key or two; empty: chosen automatically
 };
 
-// Over one key: lines, the median and where nine of ten cases lie if there are several at a value.
-// Over two: maps, or where the second has few values, a line for each. If all keys were drawn by
-// chance: histograms. Cases that did not end `done` have no part in these, and are marked.
+// Over one key: lines through medians, and bands with nine of ten cases if a value has several.
+// Over two: maps, or a line for each value of the second key if it has few. If all keys are random:
+// histograms. These omit cases that are not `done`; marks show such cases.
 //
-// Throws InputError for a key or a measure that the sweep has not, and where nothing varies.
+// Throws InputError if the sweep lacks a key or measure, or if nothing varies.
 [[nodiscard]] Picture sweep_picture(const Result& sweep, const SweepChoice& choice);
 
 }  // namespace bbsim::plot

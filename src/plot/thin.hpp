@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Fewer points for the same line on the screen.
+// Reduces the points of a curve without changing its picture.
 #pragma once
 
 #include "plot/picture.hpp"
 
 namespace bbsim::plot {
 
-// A curve over a growing x keeps at most four points a column of pixels: the first, the lowest, the
-// highest and the last. No spike is lost, and gaps stay. Others are returned as they are.
+// Reduces a curve over increasing x to at most four points per column of pixels: the first, lowest,
+// highest and last. Spikes and gaps stay. Returns other curves unchanged.
 [[nodiscard]] Curve thin_over_time(Curve curve, const Panel& panel);
 
-// A path keeps the points that are at least a part of a pixel from the one before; more of them are
-// left out where it still has more than 50,000.
+// Keeps points of a path that are at least a fraction of a pixel from the one before. Increases
+// this distance until at most 50,000 points remain.
 [[nodiscard]] Curve thin_path(Curve curve, const Panel& panel);
 
 }  // namespace bbsim::plot

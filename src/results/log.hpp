@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Logs of real rigs: any CSV, with any names, units and clocks.
+// Reads logs of real rigs: any CSV, with any names, units and clocks.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@
 
 namespace bbsim::results {
 
-// What the user says of a log.
+// The user's options for a log.
 struct LogChoice {
-  // "NAME=[FACTOR*]COLUMN[+OFFSET|-OFFSET][:UNIT]", or a list of these with commas: which column of
-  // `bbsim columns` is made of which column of the log.
+  // "NAME=[FACTOR*]COLUMN[+OFFSET|-OFFSET][:UNIT]", or a list of these with commas. Each makes a
+  // column of `bbsim columns` from a column of the log.
   std::vector<std::string> maps{};
-  std::vector<std::string> header{};  // the columns' names, if the file does not have them
-  std::string period{};               // of the rows, if they have no clock; a time
+  std::vector<std::string> header{};  // the columns' names, if the file has none
+  std::string period{};               // time between rows, if they have no clock
   std::string time_offset{};          // a time, "start", or "auto"
 
   [[nodiscard]] bool given() const {
@@ -26,18 +26,18 @@ struct LogChoice {
   [[nodiscard]] bool aligns() const { return time_offset == "auto"; }
 };
 
-// Reads a log. Its columns get the names of bbsim and SI units, as far as `choice` or their own
-// names tell them; times are made to increase. Adds to `notes` what was done. "auto" leaves the
-// times as they are, for align() in record/log_distance.hpp. Throws InputError with the row of the
-// log or the place in the map, the text found and the texts allowed.
+// Reads a log. Its columns get names of bbsim and SI units, as far as `choice` or their own names
+// define them; times are made to increase. Adds the changes to `notes`. "auto" leaves the times
+// unchanged, for align() in record/log_distance.hpp. Throws InputError with the row of the log or
+// the place in the map, the text found and the texts allowed.
 [[nodiscard]] Result read_log(const std::string& file, const LogChoice& choice,
                               std::vector<std::string>& notes);
 
-// Does the same to what was read. Columns that no map names stay, unless `only_mapped`.
+// Does the same to a log already read. Keeps unmapped columns, unless `only_mapped`.
 void make_log(Result& log, const LogChoice& choice, bool only_mapped,
               std::vector<std::string>& notes);
 
-// Throws InputError if "auto" is asked for where there is no run to align with.
+// Throws InputError if "auto" is requested without a run to align with.
 void refuse_auto(const LogChoice& choice);
 
 }  // namespace bbsim::results
