@@ -14,10 +14,10 @@
 namespace bbsim::plot {
 namespace {
 
-// Below this part of its values' size a range is rounding.
+// A range below this part of its values' size counts as rounding.
 constexpr double rounding = 1e-9;
 
-// What is smaller is nothing: no factor makes numbers of it that a label can show.
+// Smaller values count as zero: no factor turns them into numbers that a label can show.
 constexpr double smallest = 1e-290;
 
 struct Prefix {
@@ -46,10 +46,10 @@ double power(int exponent) {
   return std::pow(10.0, exponent);
 }
 
-// The unit of values in `unit`, which are at most so large, with a power of ten where labels would
-// still be long.
+// The scale for values in `unit` of at most this size. Adds a power of ten if labels would still be
+// long.
 Scale prefixed(const Unit& unit, double largest) {
-  constexpr double usual_length = 0.1;  // of what is zero: centimeters suit a plate
+  constexpr double usual_length = 0.1;  // for zero lengths: centimeters suit a plate
   if (largest < smallest && unit.text == "m") largest = usual_length;
   if (largest < smallest) return {unit.factor, 0, unit.text};
   Prefix chosen = no_prefix.front();
@@ -62,16 +62,16 @@ Scale prefixed(const Unit& unit, double largest) {
   if (drawn < most && drawn >= least) return scale;
   const double size = std::log10(largest) + std::log10(scale.factor);
   const int exponent = static_cast<int>(std::floor(size / 3)) * 3;
-  // In two goes, as it may be beyond what one factor reaches.
+  // In two factors, because one could overflow.
   scale.factor = scale.factor * power(-exponent / 2) * power(-exponent - (-exponent / 2));
   scale.unit = power_of_ten(exponent) + (scale.unit.empty() ? "" : " " + scale.unit);
   return scale;
 }
 
-// Labels are differences from a round value near the middle of the range.
+// A scale whose labels are differences from a round value near the middle of the range.
 Scale shifted(const Unit& unit, const Range& range, double width) {
   Scale scale = prefixed(unit, width);
-  // In the unit that is drawn without a prefix, rounded to what the width lets be seen.
+  // Rounds in the unit without a prefix, to the power of ten above the width.
   const double step = power(static_cast<int>(std::ceil(std::log10(width * unit.factor))));
   const double round = std::round(range.middle() * unit.factor / step) * step;
   scale.offset = round / unit.factor;
@@ -80,7 +80,7 @@ Scale shifted(const Unit& unit, const Range& range, double width) {
   return scale;
 }
 
-// A range that is wide: what is constant is in its middle.
+// Widens a constant range, with its value in the middle.
 Range around(const Range& range) {
   if (range.wide()) return range;
   if (range.empty()) return {0, 1};

@@ -29,7 +29,7 @@ Unit drawn(std::string_view unit, bool turns) {
   return {std::string(unit)};
 }
 
-// Of the ball, often many times round.
+// The ball often makes many turns, which stay in rad.
 bool is_turn(std::string_view column) {
   return column == "gamma" || column == "spin";
 }
@@ -54,7 +54,7 @@ std::size_t count_of(const PlannedPanel& panel, Role role) {
   return static_cast<std::size_t>(std::ranges::count(panel.lines, role, &PlannedLine::role));
 }
 
-// The quantity that all main lines have in common, if there are several of one.
+// The common quantity of all main lines; empty if they differ.
 std::string_view common_name(const PlannedPanel& panel) {
   std::optional<scenario::Panel> common;
   for (const PlannedLine& line : panel.lines) {
@@ -66,7 +66,7 @@ std::string_view common_name(const PlannedPanel& panel) {
   return common ? scenario::text_of(*common).heading : "";
 }
 
-// The panel's heading, and short names for lines where it says the rest.
+// Sets the panel's heading, and shortens names of lines that the heading completes.
 void name_panel(PlannedPanel& panel) {
   const bool one = count_of(panel, Role::main) == 1;
   panel.name.clear();
@@ -90,7 +90,7 @@ void name_panel(PlannedPanel& panel) {
   }
 }
 
-// Beside one of the lines another would be flat.
+// Whether one of the lines would look flat beside another.
 bool flattens(const std::vector<Result>& runs, const PlannedPanel& panel) {
   Range widths;
   for (const PlannedLine& line : panel.lines) {
@@ -100,8 +100,8 @@ bool flattens(const std::vector<Result>& runs, const PlannedPanel& panel) {
   return !widths.empty() && widths.high > 50 * widths.low;
 }
 
-// A panel for each line that leads, with what stands beside it: beside the one of its axis, or the
-// first.
+// Makes a panel for each line that leads. Other lines join the panel of their axis, or else the
+// first one.
 template <class Leads>
 void split_into(std::vector<PlannedPanel>& panels, const PlannedPanel& panel, Leads leads) {
   std::vector<PlannedPanel> parts;
@@ -125,8 +125,8 @@ std::vector<PlannedPanel> finish(const std::vector<Result>& runs,
   std::vector<PlannedPanel> panels;
   for (const PlannedPanel& panel : wanted) {
     if (runs.size() > 1) {
-      // The lines of a panel differ by the run, so that no two quantities share one; only
-      // references do, which are bands.
+      // Lines of a panel differ by run, so two quantities cannot share one. References can, because
+      // they are bands.
       split_into(panels, panel, [](Role role) { return role != Role::reference; });
     } else if (may_split && count_of(panel, Role::main) > 1 &&
                (flattens(runs, panel) || count_of(panel, Role::command) > 0)) {
@@ -139,8 +139,7 @@ std::vector<PlannedPanel> finish(const std::vector<Result>& runs,
   return panels;
 }
 
-// Root mean square of the difference of two columns, of which the second may be one to be
-// differentiated twice over time.
+// Root mean square of u minus the angle, or minus its second derivative over time.
 double misfit(const std::vector<double>& t, const std::vector<double>& u,
               const std::vector<double>& angle, bool second_derivative) {
   double sum = 0, count = 0;
@@ -158,7 +157,7 @@ double misfit(const std::vector<double>& t, const std::vector<double>& u,
   return count > 0 ? std::sqrt(sum / count) : 0;
 }
 
-// What there is in place of a column that no run has.
+// Lists the alternatives to a column that no run has.
 std::string allowed(const Result& run, const std::string& name) {
   const std::vector<std::string> columns = run.names();
   std::vector<std::string_view> names(columns.begin(), columns.end());

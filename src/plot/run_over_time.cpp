@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Columns over time, with the commands, references and limits that belong to them.
+// Draws columns over time, with their commands, references and limits.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -15,11 +15,11 @@
 namespace bbsim::plot {
 namespace {
 
-// More marks than these stand at the panels' top only, without lines through them.
+// With more events, marks stand at the panels' top only, without lines.
 constexpr std::size_t most_uprights = 40;
 
-// Between two commands a sampled controller holds the last one; so does a sensor. A law without
-// samples has commands at all times.
+// A sampled controller holds each command until the next one; a sensor holds its value. A law
+// without samples has commands at all times.
 bool is_held(const Result& run, Role role) {
   if (role == Role::measured) return true;
   const bool smooth =
@@ -50,7 +50,7 @@ std::set<double> friction_limits(const std::vector<Result>& runs, const PlannedP
   return limits;
 }
 
-// At the top of the panel, with a line through it if they are few.
+// Marks events at the top of the panel, with vertical lines if they are few.
 void add_events(Panel& panel, const Result& run, const Abscissa& abscissa,
                 const EventMarks& marks) {
   std::map<std::string, Curve> rows;
@@ -77,7 +77,7 @@ Panel time_panel(const std::vector<Result>& runs, const PlannedPanel& planned,
   const std::set<double> limits = friction_limits(runs, planned);
   Range shown = range;
   for (const double value : limits) shown.include(value);
-  // A limit that is far away is left to its label.
+  // A limit far away appears only in the legend.
   const bool limit_in_sight = shown.width() < 20 * range.width();
   if (!limit_in_sight) shown = range;
 
@@ -88,7 +88,7 @@ Panel time_panel(const std::vector<Result>& runs, const PlannedPanel& planned,
   if (lowest) panel.x.label = abscissa.scale.heading(abscissa.is_time ? "t" : "row");
   panel.y = linear_axis(scale(shown), Along::y, box.height());
 
-  // References and what was seen are bands, under the thin lines of commands and of what was.
+  // References and measurements are bands below the thin lines of commands and the motion.
   std::map<Role, std::vector<Curve>> layers;
   for (const Result& run : runs) {
     std::size_t mains = 0;

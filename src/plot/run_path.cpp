@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The path in the plane: where the ball was, where it was to be, and where the plate ends.
+// Draws the path in the plane: the ball, its reference and the plate's edge.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -30,7 +30,7 @@ struct Extent {
   [[nodiscard]] double size() const { return std::max(x.width(), y.width()); }
 };
 
-// Empty where the run has not both columns.
+// Empty if the run lacks a column.
 Points points_of(const Result& run, const char* x, const char* y) {
   const Column* const of_x = run.find(x);
   const Column* const of_y = run.find(y);
@@ -52,7 +52,7 @@ bool stands_still(const Points& points) {
   return !extent.x.wide() && !extent.y.wide();
 }
 
-// The edges of the plates that are known, in m.
+// The edges of the known plates, m.
 std::vector<Points> plates_of(const std::vector<Result>& runs) {
   std::vector<Points> plates;
   for (const Result& run : runs) {
@@ -76,7 +76,7 @@ std::vector<Points> plates_of(const std::vector<Result>& runs) {
   return plates;
 }
 
-// The first or the last point of a path.
+// The first or the last finite point of a path.
 Points end_of(const Points& points, bool first) {
   for (std::size_t n = 0; n < points.x.size(); ++n) {
     const std::size_t i = first ? n : points.x.size() - 1 - n;
@@ -119,7 +119,7 @@ void add_path(Picture& picture, const std::vector<Result>& runs, const EventMark
     for (const Event& event : run.events) extent.include({{event.x}, {event.y}});
   }
   std::vector<Points> plates = plates_of(runs);
-  // A plate of ten times the path's size would leave nothing of the path to be seen.
+  // A plate ten times the path's size would make the path too small to see.
   const double most = 10 * extent.size();
   std::erase_if(plates, [most](const Points& edge) {
     Extent plate;
@@ -128,7 +128,7 @@ void add_path(Picture& picture, const std::vector<Result>& runs, const EventMark
   });
   for (const Points& plate : plates) extent.include(plate);
 
-  // Drawn to scale: the shorter range is widened until both axes have one.
+  // Widens the shorter range until both axes have the same scale.
   const PlaneScales scales = choose_scales(unit_of(runs, "x"), extent.x, extent.y);
   const Range x = scales.x(extent.x), y = scales.y(extent.y);
   const double aspect = box.width() / box.height();

@@ -15,10 +15,10 @@ namespace bbsim::plot {
 namespace {
 
 constexpr double left_axis = 78, left_end = 560, right_axis = 668, right_margin = 25;
-constexpr double below_panel = 56;  // the labels of tics, and what they are of
+constexpr double below_panel = 56;  // tic labels and axis label
 constexpr std::size_t path_rows = 4;
 
-// Panels in one column, or in two: the second one is beside the path, if there is one.
+// Panels in one or two columns. The second column is beside the path, if there is one.
 struct Layout {
   bool path = false;
   std::size_t left = 0, right = 0;
@@ -45,7 +45,7 @@ std::string status_text(const Result& run) {
   return text;
 }
 
-// The name of a run in a comparison: of its file, with its folder if the files have one name.
+// The name of a run in a comparison: its file, with the folder if several files share a name.
 std::string label_of(const std::vector<Result>& runs, const Result& run) {
   const auto same = std::ranges::count(runs, run.shown_file(), &Result::shown_file);
   const std::string status = status_text(run);
@@ -169,7 +169,7 @@ Picture run_picture(const std::vector<Result>& runs, const Asked& asked) {
 
   const bool two_columns = path || layout.right > 0;
   for (std::size_t p = 0; p < panels.size(); ++p) {
-    // Beside a path the right column is the first one.
+    // If there is a path, panels fill the right column first.
     const bool at_right = path ? p < layout.right : p >= layout.left;
     const std::size_t in_column = path == at_right ? p : p - (path ? layout.right : layout.left);
     const double y = height(in_column + (at_right ? 0 : rows_above));

@@ -17,9 +17,9 @@ namespace {
 
 constexpr double title_size = 17, heading_size = 13, legend_size = 12, number_size = 11;
 constexpr double legend_pitch = 19, legend_sample = 50;  // pixels: of a row; beside a name
-// Of its size, the least that a letter takes: gnuplot counts the letters of a name.
+// Least width of a letter relative to its size, because gnuplot counts the letters of a name.
 constexpr double legend_letter = 0.65;
-// The same of the one row of a panel, which may be closer.
+// The same for the single row of a panel, which may be tighter.
 constexpr double panel_sample = 42, panel_letter = 0.5;
 constexpr double side = 30;  // pixels left free beside the heading
 
@@ -30,18 +30,18 @@ std::string digits(double value) {
   return text;
 }
 
-// What differs between the terminals: each has sizes of its own.
+// Differences between the terminals, which have their own sizes.
 struct Terminal {
   const char* name;
-  double pixel;      // of the picture, in the unit of its size
-  const char* unit;  // of that
+  double pixel;      // size of a pixel
+  const char* unit;  // unit of `pixel`
   double marker_scale;
   double row_height;              // of a legend, in pixels
-  const char* tics_offset = "";   // of labels that are set too far from their axis,
-  const char* label_offset = "";  // and of what is below them
+  const char* tics_offset = "";   // for labels that are too far from their axis
+  const char* label_offset = "";  // for labels below them
 };
 
-// Fonts that have Greek letters, superscripts and arrows; a PDF has 100 pixels an inch.
+// The fonts have Greek letters, superscripts and arrows. A PDF has 100 pixels per inch.
 Terminal terminal_of(Format format) {
   switch (format) {
     case Format::svg:
@@ -60,7 +60,7 @@ Terminal terminal_of(Format format) {
   return {"pdfcairo font 'DejaVu Sans,13' fontscale 0.985 linewidth 1.35", 0.01, "in", 0.62, 14.1};
 }
 
-// The label of a tic, which gnuplot takes for a format of its number.
+// Escapes a tic label, because gnuplot reads it as a format of its number.
 std::string unformatted(const std::string& label) {
   std::string result;
   for (const char c : label) result.append(c == '%' ? 2 : 1, c);
@@ -114,9 +114,9 @@ class Script {
   }
   [[nodiscard]] std::string screen_y(double y) const { return "screen " + digits(1 - y / height_); }
 
-  // As strings in single quotes, in which all is itself, with the variable `apostrophe` between
-  // them: gnuplot 5 neither reads two quotes that are doubled, one after the other, nor leaves
-  // macros alone after a quote in double quotes.
+  // Returns strings in single quotes, which gnuplot does not interpret, joined by the variable
+  // `apostrophe`. gnuplot 5 cannot read two doubled quotes in a row, and expands macros after a
+  // quote in double quotes.
   [[nodiscard]] std::string quoted(std::string_view text) const {
     std::string shown = clean(text);
     if (!viewer_has_fonts_) shown = with_letters(shown, has_letter_);
@@ -131,7 +131,7 @@ class Script {
     return '$' + std::string(kind) + std::to_string(panel) + '_' + std::to_string(item);
   }
 
-  // Data come before `set multiplot`: within it gnuplot 5 takes no new blocks.
+  // Data come before `set multiplot`, because gnuplot 5 accepts no new blocks within it.
   void write_data(const Panel& panel, std::size_t number) {
     for (std::size_t c = 0; c < panel.curves.size(); ++c) {
       const Curve& curve = panel.curves[c];
@@ -151,7 +151,7 @@ class Script {
             cell.right, cell.bottom, cell.top, cell.value}) {
         text_ += digits(value) + ' ';
       }
-      // White is read on the dark half of the colors.
+      // White text is readable on the dark half of the colors.
       const bool dark = panel.colours && panel.colours->fraction(cell.value) < 0.55;
       text_ += (dark ? "0xffffff " : "0 ") + (cell.text.empty() ? "-" : cell.text) + '\n';
     }
@@ -208,7 +208,7 @@ class Script {
     write_axis("x", panel.x);
     write_axis("y", panel.y);
     if (panel.colours) {
-      // Viridis: its lightness grows with the value, for print and for all eyes.
+      // Viridis: its lightness grows with the value, in print and for any color vision.
       text_ +=
           "set palette defined (0 '#440154', 1 '#472d7b', 2 '#3b528b', 3 '#2c728e', 4 '#21918c', "
           "5 '#28ae80', 6 '#5ec962', 7 '#addc30', 8 '#fde725')\nset colorbox user origin " +
@@ -237,7 +237,7 @@ class Script {
 
   void write_cells(const Panel& panel, const std::string& data) {
     const auto boxes = [&](const char* x, const char* value, const char* colour) {
-      // With a border of their own color, so that no seam is seen between them.
+      // A border of the same color hides seams between cells.
       text_ += data + " using " + x + ":2:3:4:5:6" + value + " with boxxyerror linecolor " +
                colour + " fillstyle solid border notitle, ";
     };
@@ -264,7 +264,7 @@ class Script {
     text_ += data + " using 1:2 with " + style + " notitle, ";
   }
 
-  // Ends a plot, which has at least one element so. Names are cut to the room.
+  // Ends a plot and gives it at least one element. Cuts names to the room.
   void write_legend(const std::vector<Entry>& legend, double room, double narrowest) {
     text_ += "NaN notitle";
     for (const Entry& entry : legend) {
@@ -274,7 +274,7 @@ class Script {
     text_ += '\n';
   }
 
-  // A plot without axes carries what stands above all panels.
+  // Writes everything above the panels as a plot without axes.
   void write_heading() {
     const double room = picture_.width - 2 * side;
     double y = 26;
@@ -338,7 +338,7 @@ std::string mended(std::string drawn, Format format) {
   return drawn;
 }
 
-// Where each format has room for a comment, at the end.
+// Each format permits a comment at the end.
 std::string marked(std::string drawn, Format format) {
   switch (format) {
     case Format::svg:

@@ -13,7 +13,7 @@
 namespace bbsim::plot {
 namespace {
 
-// Values above 0 that follow each other by equal factors, over more than a factor of ten.
+// Whether positive values grow by equal factors, over at least a factor of ten.
 bool by_equal_factors(const std::vector<double>& values) {
   if (values.size() < 3 || values.front() <= 0 || values.back() / values.front() < 10) return false;
   const double factor = values[1] / values[0];
@@ -29,10 +29,10 @@ Unit unit_of_measure(const std::string& name) {
   if (!measure) return {};
   const Unit unit{measure->unit() == "1" ? "" : measure->unit()};
   if (measure->kind == scenario::Measure::Kind::loop) {
-    // Angles and their rates are shown in degrees; frequencies stay rad/s.
+    // Angles are shown in degrees; frequencies stay in rad/s.
     return measure->unit() == "rad" ? unit_of("phi") : unit;
   }
-  // What is measured in the column's own unit is shown as the column is.
+  // Measures in the column's own unit are shown like the column.
   if (measure->unit() == measure->column->unit) return unit_of(measure->column->name);
   return unit;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How often which value of a measure came.
+// Draws the frequencies of a measure's values.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@
 namespace bbsim::plot {
 namespace {
 
-// The width as Freedman and Diaconis choose it, from the quartiles, within what can be seen.
+// Uses the bin width of Freedman and Diaconis, from the quartiles, within visible limits.
 std::size_t bin_count(const std::vector<double>& sorted, double width) {
   const double between = quantile(sorted, 0.75) - quantile(sorted, 0.25);
   const double bin = 2 * between / std::cbrt(static_cast<double>(sorted.size()));
@@ -20,7 +20,7 @@ std::size_t bin_count(const std::vector<double>& sorted, double width) {
   return static_cast<std::size_t>(std::clamp(std::ceil(count), 5.0, 60.0));
 }
 
-// Digits that tell a hundredth of a range.
+// The number of digits that resolve a hundredth of a range.
 int digits_between(double low, double high) {
   const double part = (high - low) / std::max(std::abs(low), std::abs(high));
   return part > 0 ? std::clamp(2 - static_cast<int>(std::floor(std::log10(part))), 3, 12) : 4;
@@ -42,7 +42,7 @@ void add_quantiles(Panel& panel, double below, double middle, double above, int 
 
 Panel histogram_panel(const SweepPanel& of) {
   const MeasureAxis along(of.table, of.measure);
-  std::vector<double> values;  // as they lie along the axis
+  std::vector<double> values;  // positions along the axis
   for (std::size_t i = 0; i < of.measure.numbers.size(); ++i) {
     if (!of.table.done(i) || !std::isfinite(of.measure.numbers[i])) continue;
     const double value = along.scale(of.measure.numbers[i]);
@@ -58,7 +58,7 @@ Panel histogram_panel(const SweepPanel& of) {
     const bool wide = along.range.wide();
     const double width = values.back() - values.front();
     const std::size_t bins = wide ? bin_count(values, width) : 1;
-    // What is constant is one bar, not wider than others would be.
+    // A constant measure has one bar, no wider than others would be.
     const double thick = wide        ? width / static_cast<double>(bins)
                          : along.log ? 0.05
                                      : (panel.x.high - panel.x.low) / 40;
@@ -74,7 +74,7 @@ Panel histogram_panel(const SweepPanel& of) {
     most = std::ranges::max(counts);
   }
   panel.y = linear_axis({0, most * 1.05}, Along::y, of.box.height(), 0);
-  panel.y.step = std::max(panel.y.step, 1.0);  // there is no half a case
+  panel.y.step = std::max(panel.y.step, 1.0);  // cases are whole numbers
   panel.y.label = "cases";
   if (!values.empty()) {
     const int digits = digits_between(drawn(values.front()), drawn(values.back()));

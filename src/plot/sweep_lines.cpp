@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Measures over one key, as lines or as points.
+// Draws measures over one key, as lines or points.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,12 +16,12 @@
 namespace bbsim::plot {
 namespace {
 
-// Lines with more points carry no markers.
+// Lines with more points have no markers.
 constexpr std::size_t most_markers = 60;
-// Draws are points: these are small, and of more than those some are left out.
+// Random cases are points: above the first number small ones, above the second only some.
 constexpr std::size_t many_points = 500, most_points = 20000;
 
-// Where cases ended in each other way: a row of marks at the foot of the panel.
+// Positions of cases by other status, drawn as rows of marks at the bottom of the panel.
 using Others = std::map<std::string, std::set<double>>;
 
 void add_marks(Panel& panel, const Others& others, const SweepTable& table) {
@@ -85,7 +85,7 @@ Panel line_panel(const SweepPanel& of, const Key& over, const Key* group) {
     }
     Stroke stroke = stroke_of_group(g);
     if (over.distinct.size() > most_markers && !over.drawn) stroke.marker = Marker::none;
-    if (over.is_text() || over.drawn) stroke.width = 0;  // nothing lies between words, or draws
+    if (over.is_text() || over.drawn) stroke.width = 0;  // no lines between texts or random values
     if (over.drawn && cases > many_points) stroke.marker_size = 0.4;
     Curve line{Curve::Shape::line, stroke}, band{Curve::Shape::band, stroke};
     bool several = false;

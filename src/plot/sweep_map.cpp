@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A measure over two keys, as colours.
+// Draws a measure over two keys, as colors.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -14,20 +14,20 @@
 namespace bbsim::plot {
 namespace {
 
-constexpr std::size_t most_cells = 160;  // along one side; more are drawn as their medians
+constexpr std::size_t most_cells = 160;  // along one side; more values share cells
 // Numbers in cells have three digits.
 constexpr double close_in_cells = 1e-2;
-constexpr double scale_width = 110;  // of the scale of colours, with the gap
+constexpr double scale_width = 110;  // of the color scale, with the gap
 
 struct Cases {
   std::vector<double> done;
-  std::string other{};  // how the first one ended that is not
+  std::string other{};  // status of the first case that is not done
 };
 
 // The cells along one side.
 struct Side {
-  std::vector<double> edges;  // where they begin, and the last one ends
-  double pixels;              // of each
+  std::vector<double> edges;  // of the cells
+  double pixels;              // size of each
 
   Side(const KeyAxis& axis, double all_pixels) {
     const std::vector<double> all = axis.edges();

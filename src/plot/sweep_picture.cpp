@@ -13,10 +13,10 @@
 namespace bbsim::plot {
 namespace {
 
-// More values than these make a map rather than a line each.
+// More values make a map instead of a line for each.
 constexpr std::size_t most_groups = 5;
 
-// What the measures are drawn over: a map over two keys, or lines over one; histograms over none.
+// The keys on the axes: two for a map, one for lines, none for histograms.
 struct Form {
   const Key* over = nullptr;
   const Key* against = nullptr;
@@ -36,7 +36,7 @@ const Key& find_key(const SweepTable& table, const std::string& name) {
   throw InputError("--over: found " + name + "; what varies: " + names_of(table.keys));
 }
 
-// The keys whose values were listed, those that go along with others left out.
+// Keys with listed values, except those that vary with another key.
 std::vector<const Key*> listed_keys(const SweepTable& table) {
   std::vector<const Key*> keys;
   for (std::size_t k = 0; k < table.keys.size(); ++k) {
@@ -72,7 +72,7 @@ Form choose_form(const SweepTable& table, const std::vector<std::string>& over) 
   if (!over.empty()) return form_over(table, over);
   std::vector<const Key*> keys = listed_keys(table);
   if (keys.empty()) return {};
-  // The two with most values, in the file's order.
+  // The two with the most values, in the file's order.
   const auto more = [](const Key* a, const Key* b) {
     return a->distinct.size() > b->distinct.size();
   };
@@ -85,7 +85,7 @@ Form choose_form(const SweepTable& table, const std::vector<std::string>& over) 
   return {first, second};
 }
 
-// The measures that are asked for; or all, but those that are the same in all cases.
+// The requested measures; by default those that vary, or all if none does.
 std::vector<const Column*> choose_measures(const SweepTable& table, const Result& sweep,
                                            const std::vector<std::string>& asked) {
   std::vector<const Column*> measures;
@@ -106,7 +106,7 @@ std::vector<const Column*> choose_measures(const SweepTable& table, const Result
   return measures.empty() ? table.measures : measures;
 }
 
-// What the keys that are no axis did: nothing, or a median was taken over them, as words to add.
+// Describes medians over the keys that are not on an axis; empty if there are none.
 std::string taken_over(const SweepTable& table, const Form& form) {
   if (form.over == nullptr || form.over->drawn) return "";
   std::vector<std::string> listed, drawn;
@@ -148,7 +148,7 @@ Picture sweep_picture(const Result& sweep, const SweepChoice& choice) {
   }
   picture.width = one ? 900 : 1200;
   const double pitch = one ? 440 : map ? 320 : histogram ? 230 : 185;
-  const double below = histogram ? 52 : 12;  // its tics and label, where each panel has them
+  const double below = histogram ? 52 : 12;  // histograms have their own tics and label
   const std::size_t columns = one ? 1 : 2, rows = (measures.size() + columns - 1) / columns;
   picture.height = pitch * static_cast<double>(rows) + (histogram ? 10 : 50);
   for (std::size_t m = 0; m < measures.size(); ++m) {

@@ -28,7 +28,7 @@ bool is_in(const std::array<Block, count>& blocks, std::uint32_t code) {
 
 constexpr std::array controls = {Block{0, 0x1F}, Block{0x7F, 0x9F}, Block{0x2028, 0x2029}};
 
-// Not for print: no character at all, or one that changes how its neighbors are written.
+// Unprintable: not a character, or one that changes the display of its neighbors.
 constexpr std::array hostile = {Block{0x200B, 0x200F}, Block{0x202A, 0x202E}, Block{0x2066, 0x2069},
                                 Block{0xFDD0, 0xFDEF}, Block{0xFEFF, 0xFEFF}};
 
@@ -36,15 +36,15 @@ bool is_hostile(std::uint32_t code) {
   return (code & 0xFFFEU) == 0xFFFE || is_in(hostile, code);
 }
 
-// What DejaVu Sans has for certain: Latin, Greek and Cyrillic, punctuation, superscripts, arrows,
-// mathematics.
+// Characters that DejaVu Sans certainly has: Latin, Greek and Cyrillic, punctuation, superscripts,
+// arrows, mathematics.
 constexpr std::array in_dejavu = {
     Block{0x20, 0x7E},     Block{0xA0, 0x2E9},    Block{0x300, 0x34F},   Block{0x38E, 0x3A1},
     Block{0x3A3, 0x525},   Block{0x2010, 0x205E}, Block{0x2070, 0x2070}, Block{0x2074, 0x208E},
     Block{0x2190, 0x22FF}, Block{0xFFFD, 0xFFFD}};
 
-// Widths in hundredths of the font's size: of DejaVu Sans, the widest of the usual fonts, from the
-// blank to the tilde.
+// Widths in hundredths of the font's size, from the blank to the tilde, in DejaVu Sans, the widest
+// of the usual fonts.
 constexpr std::array<unsigned char, 95> widths = {
     32, 41, 46, 84, 64, 96, 78, 28, 40,  40, 50, 84, 32, 37, 32, 34, 64, 64, 64, 64, 64, 64, 64, 64,
     64, 64, 34, 34, 84, 84, 84, 54, 100, 69, 69, 70, 77, 64, 58, 78, 76, 30, 30, 66, 56, 87, 75, 79,
@@ -60,7 +60,7 @@ double part_of_size(std::uint32_t code) {
 
 struct Letter {
   std::string_view text;
-  std::uint32_t code;  // U+FFFD where no character begins
+  std::uint32_t code;  // U+FFFD for an invalid byte
 };
 
 std::vector<Letter> letters_of(std::string_view text) {

@@ -68,8 +68,8 @@ const scenario::Column& target_of(std::string_view part, std::string_view name) 
                    "; allowed: those of `bbsim columns`");
 }
 
-// Reads one part of a map. A column's name may have signs, colons and stars of its own: what is
-// the name of a column is that.
+// Reads one part of a map. A column's name may contain signs, colons and stars: a text that is a
+// name counts as the name.
 class PartReader {
  public:
   PartReader(std::string_view part, const Result& log)
@@ -163,7 +163,7 @@ void require_numbers(const Result& log, const Column& column) {
   }
 }
 
-// Says of a log what was done to it.
+// Adds notes about changes to a log.
 class Teller {
  public:
   Teller(const Result& log, std::vector<std::string>& notes) : file_(log.file), notes_(notes) {}
@@ -176,7 +176,7 @@ class Teller {
   std::vector<std::string>& notes_;
 };
 
-// The log's column as bbsim's.
+// Converts a column of the log to a column of bbsim.
 Column made_of(const Result& log, const Mapped& mapped, const Teller& tell) {
   const Column& from = log.columns[mapped.from];
   require_numbers(log, from);
@@ -193,7 +193,7 @@ Column made_of(const Result& log, const Mapped& mapped, const Teller& tell) {
   return made;
 }
 
-// Columns that are called as bbsim's with a unit beside the name, and the clock.
+// Finds columns whose names are bbsim's with a unit beside them, and the clock.
 std::vector<Mapped> by_their_names(const Result& log, const std::vector<Mapped>& mapped) {
   std::vector<Mapped> more;
   const std::vector<std::string> names = log.names();
@@ -296,7 +296,7 @@ void make_log(Result& log, const LogChoice& choice, bool only_mapped,
     Column* const there = find_column(log, column.name);
     if (there != nullptr) {
       const bool told = maps || !there->unit.empty();
-      if (!told) column.unit = there->unit;  // nobody says that it is in SI
+      if (!told) column.unit = there->unit;  // it may not be in SI units
       *there = std::move(column);
     } else {
       log.columns.push_back(std::move(column));

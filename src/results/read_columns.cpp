@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Tables of any origin: numbers and texts, as a picture can use them.
+// Converts tables of any origin to numbers and texts for pictures.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,9 +28,8 @@ bool has_digits_of_doubles(const Result& table) {
   });
 }
 
-// Whether a table is one that bbsim writes: all of its columns are in `bbsim columns`, some of them
-// under names that are nobody else's, and its numbers have the digits of doubles, as those of a
-// rig's log have not.
+// Whether bbsim seems to have written a table: all columns are in `bbsim columns`, some have names
+// that only bbsim uses, and numbers have the digits of doubles, unlike a rig's log.
 bool looks_like_a_run(const Result& table) {
   constexpr std::array<std::string_view, 12> anybodys = {
       "t", "x", "y", "vx", "vy", "phi", "theta", "spin", "tilt", "distance", "power", "energy"};

@@ -48,7 +48,7 @@ std::string text_in(const Json& json, const char* name) {
   return member<std::string>(json, name, "");
 }
 
-// The attributes of an HDF5 file as the summary that they are; of lists, a line an entry.
+// The summary in the attributes of an HDF5 file. Lists have one line per entry.
 Json summary_of(const file::Attributes& attributes) {
   constexpr std::array statistics = {"steps", "rhs_evaluations", "jacobian_evaluations",
                                      "nonlinear_iterations", "error_test_failures"};
@@ -62,7 +62,7 @@ Json summary_of(const file::Attributes& attributes) {
   return json;
 }
 
-// A list of texts; in an HDF5 file, lines.
+// A list of texts; in an HDF5 file, the lines of one text.
 std::vector<std::string> list_in(const Json& json, const char* name) {
   std::vector<std::string> list = lines_of(text_in(json, name));
   if (!json.contains(name) || !json[name].is_array()) return list;
@@ -126,14 +126,14 @@ void take_summary(Result& result, const Json& json) {
     const Variation variation = scenario::split_variation(line);
     if (scenario::parse_variation(variation).random()) result.drawn_keys.push_back(variation.key);
   }
-  // The scenario's file may have changed since, or be gone with its tables: what can be read of its
-  // text is enough for a picture.
+  // The scenario's file may have changed or vanished, with its tables. The readable parts of its
+  // text suffice for a picture.
   if (const std::string text = text_in(json, "scenario_text"); !text.empty()) {
     result.scenario =
         parse_sound_parts(text, text_in(json, "scenario"), list_in(json, "overrides"));
   }
   Json shown = json;
-  shown.erase("scenario_text");  // it has a place of its own
+  shown.erase("scenario_text");  // used above
   result.summary = shown.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -151,7 +151,7 @@ void read_summary(Result& result, const std::string& file) {
   take_summary(result, json);
 }
 
-// Whether one file was written that long after the other, which copies made in one go are not.
+// Whether a file is clearly newer than another. Copies made together differ by less.
 bool is_newer(const fs::path& one, const fs::path& other) {
   std::error_code error;
   const fs::file_time_type first = fs::last_write_time(other, error);
@@ -160,7 +160,7 @@ bool is_newer(const fs::path& one, const fs::path& other) {
   return !error && second - first > std::chrono::seconds(2);
 }
 
-// NAME.json beside NAME.csv, if it tells of that very file. A run writes it last.
+// Takes NAME.json beside NAME.csv, if it describes that file. A run writes it last.
 void find_summary(Result& result) {
   const fs::path csv(result.file), summary(summary_beside(result.file));
   if (summary.empty()) return;
@@ -168,7 +168,7 @@ void find_summary(Result& result) {
   Json json;
   try {
     json = parse_json(file::read_whole(summary, {}, most_of_a_summary));
-  } catch (const InputError&) {  // nobody asked for it
+  } catch (const InputError&) {  // it was not requested
     return;
   }
   if (!is_summary(json)) return;

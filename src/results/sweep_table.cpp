@@ -12,7 +12,7 @@
 namespace bbsim::results {
 namespace {
 
-// Fewer cases tell nothing of how their values were found.
+// Fewer cases do not tell whether values are random.
 constexpr std::size_t many_cases = 8;
 
 std::vector<double> sorted_distinct(std::vector<double> values) {
@@ -44,7 +44,7 @@ bool looks_drawn(const Key& key) {
          !std::ranges::is_sorted(key.values, std::ranges::greater());
 }
 
-// Whether each value of the one comes with one value of the other, and the other way round.
+// Whether the values of two keys correspond one to one.
 bool go_along(const Key& one, const Key& other) {
   if (one.distinct.size() != other.distinct.size()) return false;
   std::map<double, double> partners;
