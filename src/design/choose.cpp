@@ -49,7 +49,7 @@ class Choice {
                    std::to_string(tried_) + " motions");
   }
 
-  // The merit of a motion that keeps the limits.
+  // The merit of a motion that keeps the limits. Records the best motion.
   double merit(const Motion& motion) {
     const double merit = merit_of(experiment_.information(motion).matrix);
     if (!best_ || merit > best_->merit) best_ = Chosen{motion, merit};
@@ -76,7 +76,7 @@ class Choice {
     return drawn;
   }
 
-  // The numbers of the shape, then of the ball's place at the start.
+  // Takes the numbers of the shape, then those of the ball's initial position.
   [[nodiscard]] Motion motion_of(const Draw& from, const std::vector<double>& numbers) const {
     constexpr double place = 0.05;  // m
     Motion motion = from.shape.motion(numbers).scaled(from.scale);
@@ -87,8 +87,8 @@ class Choice {
     return motion;
   }
 
-  // Of the merit under the limits: scaled to the limits, it would have kinks where another limit
-  // becomes the closest.
+  // Improves the merit under the limits. If each motion were scaled to the limits instead, the
+  // merit would have kinks wherever another limit becomes the closest.
   void improve(const Draw& from) {
     std::vector<double> start = from.numbers;
     if (task_.plays == Plays::tilts) start.insert(start.end(), {0, 0});
@@ -106,7 +106,7 @@ class Choice {
       count();
       const Motion motion = motion_of(from, numbers);
       const auto use = experiment_.use(motion);
-      if (!use) {  // worse than all that runs
+      if (!use) {  // worse than any motion that runs
         value = worst + 1;
         std::fill_n(constraints, limits_, 1.0);
         return true;
@@ -116,7 +116,7 @@ class Choice {
       worst = std::max(worst, value);
       const auto used = use->all();
       for (std::size_t i = 0; i < limits_; ++i) constraints[i] = used[i] - 1;
-      // What is left of it at the scale that keeps the limits.
+      // The merit at the scale that keeps the limits.
       const double kept = merit - 2 * static_cast<double>(task_.keys.size()) *
                                       std::max(0.0, std::log(use->greatest()));
       if (kept > most) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The sums of sines that tell most.
+// Chooses the most informative sums of sines.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ struct Chosen {
   std::size_t tried = 0;
 };
 
-// Draws sums of sines of frequencies about this one (rad/s), and improves the best ones. The same
-// task gives the same result. Nothing if no motion keeps the limits, or if it is interrupted.
+// Draws sums of sines with frequencies around this one (rad/s), and improves the best ones. The
+// same task gives the same result. Empty if no motion keeps the limits, or if interrupted.
 [[nodiscard]] std::optional<Chosen> choose(const Task& task, const Experiment& experiment,
                                            double frequency);
 

@@ -26,7 +26,7 @@ namespace {
 }
 
 void refuse_idle_keys(const Task& task, const Eigen::VectorXd& effects) {
-  // In noise: a log of any length has more.
+  // In units of noise; any real effect is larger.
   constexpr double least = 1e-6;
   for (Eigen::Index k = 0; k < effects.size(); ++k) {
     if (effects[k] > least) continue;
@@ -40,7 +40,7 @@ void refuse_idle_keys(const Task& task, const Eigen::VectorXd& effects) {
   }
 }
 
-// In the keys' own units.
+// Standard deviations in the keys' own units.
 std::vector<double> deviations(const Task& task, const Eigen::MatrixXd& information) {
   std::vector<double> made = deviations_of(information);
   for (std::size_t k = 0; k < made.size(); ++k) made[k] *= std::abs(task.keys[k].slope(0));
@@ -52,7 +52,7 @@ std::vector<double> deviations(const Task& task, const Eigen::MatrixXd& informat
 Designed design(const Task& task, const std::function<ScenarioFamily(const Designed&)>& written) {
   const Experiment experiment(task);
   const auto circle = best_circle(task, experiment);
-  // A circle shows where the frequencies are that tell something.
+  // The circle shows which frequencies are informative.
   constexpr double usual_frequency = 3;  // rad/s
   const auto chosen = choose(task, experiment, circle ? circle->frequency : usual_frequency);
   Designed made;
@@ -60,7 +60,7 @@ Designed design(const Task& task, const std::function<ScenarioFamily(const Desig
   if (made.interrupted) return made;
   if (!chosen) refuse_limits(task, experiment);
   made.motion = chosen->motion;
-  for (double& at : made.motion.position) at = std::round(at * 1e3) / 1e3 + 0.0;  // by hand
+  for (double& at : made.motion.position) at = std::round(at * 1e3) / 1e3 + 0.0;  // placed by hand
   made.nominal = experiment.nominal();
   made.tried = chosen->tried;
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The motion whose log tells keys of a scenario best, and what one may expect of it.
+// Designs the motion whose log tells most about keys of a scenario, and predicts its accuracy.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ namespace bbsim::design {
 struct Expected {
   std::string key, unit;  // SI
   double value = 0;
-  double sd = 0;  // infinite if the log does not tell it
-  // Of a circle and a step of the same length; nothing if none keeps the limits.
+  double sd = 0;  // infinite if the log does not determine it
+  // The same for a circle and a step of the same length; empty if none keeps the limits.
   std::optional<double> circle{}, step{};
 };
 
@@ -32,9 +32,9 @@ struct Designed {
   std::size_t windows = 0, numbers = 0, tried = 0;
 };
 
-// `written`: the family of the scenario that plays the motion from a table with rows, to see that
-// it does what was promised. Throws InputError if no motion keeps the limits, and for keys that
-// change nothing.
+// `written` returns the family of the scenario that plays the motion from a table of rows, which
+// serves to check the prediction. Throws InputError if no motion keeps the limits, and for keys
+// that change nothing.
 [[nodiscard]] Designed design(const Task& task,
                               const std::function<ScenarioFamily(const Designed&)>& written);
 

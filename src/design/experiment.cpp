@@ -32,7 +32,7 @@ std::vector<double> even_times(double length, double step) {
   return times;
 }
 
-// Rounding to counts has no derivative, and what is drawn is not the log's own noise.
+// Rounding has no derivative, and random effects are not the log's own noise.
 void make_smooth(Scenario& scenario, bool keep_dead_band) {
   if (scenario.controller && scenario.controller->sampling) {
     scenario.controller->sampling->resolution = 0;
@@ -103,7 +103,7 @@ std::optional<Use> Experiment::use(const ScenarioFamily& family) const {
 }
 
 std::optional<Experiment::Scaled> Experiment::within_limits(Motion shape) const {
-  // Any scale to begin with: a hundredth, of radians or of meters.
+  // Starts with an arbitrary scale: a hundredth, in radians or meters.
   double size = 0;
   for (std::size_t axis = 0; axis < 2; ++axis) {
     double sum = std::abs(shape.step[axis]);
@@ -121,11 +121,11 @@ std::optional<Experiment::Scaled> Experiment::within_limits(Motion shape) const 
     const double greatest = used ? used->greatest() : INFINITY;
     if (greatest <= 1 && (!best || scale > best->scale)) best = Scaled{motion, scale};
     if (greatest <= 1 && greatest >= close) break;
-    // In the middle of the plate, the path has the most room.
+    // The path has the most room in the middle of the plate.
     if (used && shape.centered) {
       for (std::size_t i = 0; i < 2; ++i) shape.position[i] -= used->middle[i] / scale;
     }
-    // The motion is almost in proportion to it, but for what is not the motion's, such as an
+    // The use is almost proportional to the scale, except for parts that do not scale, such as an
     // offset.
     const double factor = std::isfinite(greatest) ? aim / std::max(greatest, 1e-6) : 0.2;
     scale *= std::clamp(factor, 0.1, 100.0);
@@ -144,7 +144,7 @@ Experiment::Information Experiment::information(const ScenarioFamily& family,
   const double length = whole ? 2 * task_.length : task_.window.value_or(fit::usual_window);
   std::vector<fit::Window> windows = fit::cut({log_}, length, 0, starts);
 
-  // The windows begin where the run passes by.
+  // The windows begin at states of the run.
   const Scenario scenario = scene(family, adapt);
   std::string why;
   const std::vector<double> run = fit::run_window(

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a log of a motion would tell about keys of a scenario.
+// The information in a motion's log about keys of a scenario.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,13 +23,13 @@
 namespace bbsim::design {
 
 struct Task {
-  const ScenarioFamily& family;  // whose motion or reference is a placeholder
+  const ScenarioFamily& family;  // has a placeholder as its motion or reference
   Plays plays = Plays::tilts;
-  std::array<bool, 2> axes{true, true};  // that may move: in a groove only one
+  std::array<bool, 2> axes{true, true};  // that may move; in a groove, only one
   std::vector<fit::FreeKey> keys{};
   std::vector<const scenario::Column*> columns{};  // of the log
   std::vector<double> noise{};                     // standard deviation of each, SI
-  std::optional<double> window{};                  // s; without one, what a fit takes
+  std::optional<double> window{};                  // s; a default of fits if empty
   double length = 0, rate = 0;                     // of the log, s and Hz
   Limits limits{};
   std::size_t threads = 0;  // 0: as many as there are processors
@@ -45,24 +45,24 @@ class Experiment {
  public:
   explicit Experiment(const Task& task);
 
-  // What of the limits it uses; nothing if it does not run to its end.
+  // The use of the limits; empty if the run does not reach its end.
   [[nodiscard]] std::optional<Use> use(const Motion& motion) const;
-  // The motion at the largest scale that keeps the limits; nothing if none does.
+  // The motion at the largest scale that keeps the limits; empty if none does.
   struct Scaled {
     Motion motion;
     double scale;
   };
   [[nodiscard]] std::optional<Scaled> within_limits(Motion shape) const;
-  // Fisher's information about the keys' numbers u: the inverse of their least covariance. With
-  // the start of each window unknown.
+  // Fisher information about the keys' numbers u, if the start of each window is unknown: the
+  // inverse of their least covariance.
   struct Information {
     Eigen::MatrixXd matrix;
-    Eigen::VectorXd effects;  // of each key on the log with the starts known, in noise
+    Eigen::VectorXd effects;  // of each key on the log with known starts, in noise units
     std::size_t windows = 0, numbers = 0;
   };
   [[nodiscard]] Information information(const Motion& motion) const;
 
-  // The same of the tables that another family of the scenario reads.
+  // The same for a family of the scenario that reads the motion from tables.
   [[nodiscard]] std::optional<Use> use(const ScenarioFamily& family) const;
   [[nodiscard]] Information information(const ScenarioFamily& family) const;
 
@@ -73,7 +73,7 @@ class Experiment {
 
   [[nodiscard]] Adapt playing(const Motion& motion) const;
   [[nodiscard]] Adapt as_it_is() const;
-  // A key's value that the scenario lacks is set.
+  // Returns the adapted scenario, with each key set to its starting value.
   [[nodiscard]] Scenario scene(const ScenarioFamily& family, const Adapt& adapt) const;
   [[nodiscard]] std::optional<Use> use(const ScenarioFamily& family, const Adapt& adapt) const;
   [[nodiscard]] Information information(const ScenarioFamily& family, const Adapt& adapt) const;

@@ -14,9 +14,9 @@ namespace bbsim::design {
 namespace {
 
 constexpr double degree = 0.017453292519943295;
-// Where neither scenario nor caller says: a hobby servo's through a horn and a rod.
+// Defaults without limits from scenario or caller: a hobby servo with a horn and a rod.
 constexpr double usual_tilt = 10 * degree, usual_tilt_rate = 60 * degree;
-// Of a servo's limits: at them it no longer follows.
+// Usable part of a servo's limits: at the limits it no longer follows.
 constexpr double share_of_servo = 0.95;
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
@@ -151,7 +151,7 @@ Use use_of(const Limits& limits, const std::vector<double>& values) {
       use.tilt_rate[axis] =
           std::max(use.tilt_rate[axis], std::abs(at(4 + axis, i)) / limits.tilt_rate[axis]);
     }
-    // The angle between normal and vertical is less than the root of the squares.
+    // An upper bound of the angle between normal and vertical.
     if (limits.total_tilt) {
       use.total_tilt = std::max(use.total_tilt, std::hypot(tilt[0], tilt[1]) / *limits.total_tilt);
     }

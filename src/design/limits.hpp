@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a motion may do to a rig.
+// Limits on the motion of a rig.
 #pragma once
 
 #include <array>
@@ -14,25 +14,25 @@
 namespace bbsim::design {
 
 struct Limits {
-  // Of the ball from the plate's center: along x and y, or in any direction, m.
+  // On the ball's distance from the plate's center: along x and y, or in any direction, m.
   std::optional<Pair> rectangle{};
   std::optional<double> disc{};
-  Pair tilt{0, 0};                        // of phi and theta, rad
-  std::optional<double> total_tilt{};     // of the plate's normal from the vertical, rad
+  Pair tilt{0, 0};                        // on phi and theta, rad
+  std::optional<double> total_tilt{};     // between the plate's normal and the vertical, rad
   Pair tilt_rate{0, 0};                   // rad/s
-  std::optional<double> friction{};       // that rolling may need
-  std::string tilt_from, tilt_rate_from;  // where they come from, in words
+  std::optional<double> friction{};       // largest permitted friction demand
+  std::string tilt_from, tilt_rate_from;  // the sources of these limits, in words
 };
 
-// What the caller asks for in place of what the scenario says.
+// Limits from the caller, which replace those of the scenario.
 struct LimitChoice {
   std::optional<double> tilt{}, tilt_rate{}, margin{};
 };
 
-// Throws InputError for a plate without a size, or that the margin leaves nothing of.
+// Throws InputError if the plate has no size, or if the margin leaves nothing of it.
 [[nodiscard]] Limits limits_of(const Scenario& scenario, const LimitChoice& choice);
 
-// What of each limit a motion uses: 1 is all of it.
+// The fraction of each limit that a motion uses; 1 is all of it.
 struct Use {
   std::array<double, 4> edge{};  // toward x, -x, y and -y
   Pair tilt{0, 0}, tilt_rate{0, 0};
@@ -46,7 +46,7 @@ struct Use {
   [[nodiscard]] double greatest_tilt_rate() const;
 };
 
-// The columns that use_of() needs, and the use of their values, column after column.
+// The columns that use_of() needs, and the use for their values, column after column.
 [[nodiscard]] std::vector<std::string> columns_of_use(const Limits& limits);
 [[nodiscard]] Use use_of(const Limits& limits, const std::vector<double>& values);
 

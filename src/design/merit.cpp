@@ -15,9 +15,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Numbers u are of size 1: 1e4 is not to know them.
+// Numbers u are of size 1: a standard deviation of 1e4 means that they are unknown.
 constexpr double floor_of_information = 1e-8;
-// Of the greatest eigenvalue, with all numbers told alike: the error of differences.
+// Relative to the greatest eigenvalue, with the diagonal scaled to 1: the error of differences.
 constexpr double rounding = 1e-8;
 
 VectorXd sizes_of(const MatrixXd& information) {
@@ -54,7 +54,7 @@ std::vector<double> deviations_of(const MatrixXd& information) {
       const double share = solver.eigenvectors()(k, j);
       if (values[j] > least) {
         variance += share * share / values[j];
-      } else if (std::abs(share) > 0.02) {  // as a fit says
+      } else if (std::abs(share) > 0.02) {  // same threshold as in fits
         told = false;
       }
     }

@@ -10,7 +10,7 @@
 namespace bbsim::design {
 namespace {
 
-// Rows for a spline that holds the motion to some parts in ten thousand, s.
+// Rows at which a spline reproduces the motion to some parts in ten thousand; times in s.
 constexpr double rows_per_period = 16, most_time_of_row = 0.1, step_row = 0.02;
 
 double highest_frequency(const Motion& motion) {
@@ -37,7 +37,7 @@ TableChange change_of(const Profile& profile) {
   if (profile.size() != 1) return {};
   const auto* const table = std::get_if<Table>(&profile.front());
   if (table == nullptr) return {};
-  // A delayed table has a row more at either end.
+  // A delayed table has one more row at either end.
   const std::size_t first = std::isinf(table->times.front()) ? 1 : 0;
   TableChange change;
   change.delay = table->times[first];
@@ -76,7 +76,7 @@ double Motion::value(std::size_t axis, double t) const {
   for (const Sinusoid& sine : sines[axis]) {
     sum += sine.offset + sine.amplitude * std::sin(sine.frequency * t + sine.phase);
   }
-  // As smoothly as it can: the quintic of least jerk.
+  // The smoothest step: the quintic of least jerk.
   const double s = std::clamp((t - step_start) / rise_time, 0.0, 1.0);
   return sum + step[axis] * s * s * s * (10 + s * (6 * s - 15));
 }

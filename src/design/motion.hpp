@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What an experiment plays: two functions of time.
+// The motion that an experiment plays: two functions of time.
 #pragma once
 
 #include <array>
@@ -17,38 +17,38 @@ enum class Plays { tilts, reference };
 
 struct Motion {
   std::array<std::vector<Sinusoid>, 2> sines{};
-  Pair step{0, 0};  // beside them: from 0 to this at `step_start`
+  Pair step{0, 0};  // added to the sines: from 0 to this at `step_start`
   double step_start = 0;
   Pair position{0, 0}, velocity{0, 0};  // of the ball at the start, m and m/s
-  bool centered = false;  // the ball may start where the path is about the plate's center
+  bool centered = false;  // whether the ball's start may move, to center its path on the plate
 
   [[nodiscard]] double value(std::size_t axis, double t) const;
-  // With the ball's start.
+  // Also scales the ball's start.
   [[nodiscard]] Motion scaled(double by) const;
 };
 
-// A step of a plate with mass takes as long, s.
+// Duration of a step, s; a plate with mass takes as long.
 inline constexpr double rise_time = 0.1;
 
-// A table that stands for the motion in a scenario's text: what the scenario does to it
-// (value(t) = offset + scale * table(t - delay)) can be read off what becomes of these rows.
+// A table that represents the motion in a scenario's text. The resulting rows show what the
+// scenario does to its tables: value(t) = offset + scale * table(t - delay).
 struct Placeholder {
   std::vector<double> times, values;
 };
 [[nodiscard]] Placeholder placeholder(double length);
 
-// What the scenario does to its tables.
+// The change that the scenario makes to a table.
 struct TableChange {
   double scale = 1, offset = 0, delay = 0;
 };
 [[nodiscard]] std::array<TableChange, 2> changes_of(const Scenario& scenario);
 
-// Puts the motion in the placeholder's place, played such that it comes out as it is with the
-// changes `nominal`; with others, it comes out changed. Up to `length` s.
+// Replaces the placeholder by the motion, up to `length` s. The motion comes out unchanged if the
+// scenario makes the changes `nominal`; with other changes, it comes out changed.
 void play(const Motion& motion, Plays plays, const std::array<TableChange, 2>& nominal,
           double length, Scenario& scenario);
 
-// What a rig is told at time t, so that the motion comes out with these changes.
+// The command at time t that makes the motion come out of a rig with these changes.
 [[nodiscard]] double command(const Motion& motion, std::size_t axis, const TableChange& nominal,
                              double t);
 

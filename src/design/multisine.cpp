@@ -15,7 +15,7 @@ using Eigen::MatrixXd;
 
 constexpr std::size_t components = 4;  // of an axis
 
-// Different multiples, by a normal distribution of their logarithms.
+// Draws different multiples whose logarithms are normally distributed.
 std::vector<std::size_t> draw_multiples(const Multisine::Band& band, Noise& noise) {
   constexpr double spread = 0.8;
   std::vector<std::size_t> multiples;
@@ -29,7 +29,7 @@ std::vector<std::size_t> draw_multiples(const Multisine::Band& band, Noise& nois
   return multiples;
 }
 
-// Of amplitudes of cosines and sines: what vanishes of a motion that is as Multisine says.
+// Rows that map amplitudes of cosines and sines to the values that Multisine requires to be zero.
 MatrixXd conditions(const std::vector<double>& frequencies, Plays plays) {
   const auto n = static_cast<Index>(frequencies.size());
   MatrixXd rows = MatrixXd::Zero(plays == Plays::tilts ? 3 : 2, 2 * n);
@@ -52,7 +52,7 @@ Multisine::Multisine(const Band& band, Noise& noise) : plays_(band.plays) {
     for (const std::size_t multiple : draw_multiples(band, noise)) {
       axis.frequencies.push_back(turn * static_cast<double>(multiple) / band.length);
     }
-    // A plate that is tilted by w^2 moves the ball alike at all frequencies.
+    // Tilts proportional to w^2 move the ball equally at all frequencies.
     const double power =
         band.plays == Plays::tilts ? 2 * noise.uniform() - 0.5 : 1.5 * noise.uniform() - 2;
     const auto n = static_cast<Index>(components);
@@ -94,7 +94,7 @@ Motion Multisine::motion(const std::vector<double>& numbers) const {
 }
 
 std::size_t highest_multiple(double length, double rate) {
-  // Faster tilts move a ball by less than its sensor sees.
+  // Faster tilts move a ball by less than its sensor resolves.
   constexpr double most = 3, samples_per_period = 8;
   const double highest = std::floor(std::min(most, rate / samples_per_period) * length);
   return std::max(components, static_cast<std::size_t>(highest));

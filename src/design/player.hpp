@@ -12,12 +12,12 @@
 namespace bbsim::design {
 
 struct Player {
-  double rate = 0;                 // rows in a second, Hz
+  double rate = 0;                 // rows per second, Hz
   std::vector<double> phi, theta;  // rad
-  Pair ball{0, 0};                 // where it begins, m
+  Pair ball{0, 0};                 // start of the ball, m
 };
 
-// The table is in flash, as whole numbers of 16 bits. Throws InputError for one that is too long.
+// The sketch keeps the table in flash, as 16-bit integers. Throws InputError if it is too long.
 [[nodiscard]] std::string player_sketch(const Player& player);
 
 }  // namespace bbsim::design

@@ -14,11 +14,11 @@ namespace {
 
 constexpr double quarter = turn / 4;
 
-// A ball that goes round counterclockwise from (1, 0), times any scale.
+// A counterclockwise circle of the ball from (1, 0), at an arbitrary scale.
 Motion circle_of(const Task& task, double frequency) {
   Motion motion;
   const bool tilts = task.plays == Plays::tilts;
-  // phi accelerates the ball along x, theta against y, and the ball is opposite to its
+  // phi accelerates the ball along x, theta against y. The ball's position is opposite to its
   // acceleration.
   const double sign = tilts ? -1 : 1;
   if (task.axes[0]) motion.sines[0] = {{sign, frequency, quarter, 0}};
@@ -37,7 +37,7 @@ std::optional<Circle> best_circle(const Task& task, const Experiment& experiment
   std::optional<Circle> best;
   double most = 0;
   const auto highest = static_cast<double>(highest_multiple(task.length, task.rate));
-  // By steps of a third at most, and each multiple once.
+  // Multiples grow by at most a third, but by at least one.
   for (double multiple = 1; multiple <= highest && !task.is_stopped();
        multiple = std::max(multiple + 1, std::floor(multiple * 1.33))) {
     const double frequency = turn * multiple / task.length;
