@@ -13,9 +13,9 @@
 
 namespace bbsim::replay {
 
-// Without maps, the log has the names and units of bbsim; with them, the run has only the columns
-// that they name, and the log's own t. Adds to `notes` what was done. Throws InputError with the
-// row of the log or the place in the map, the text found and the texts allowed.
+// Without maps, the log has the names and units of bbsim. With maps, the run has only the columns
+// that they name, and the log's own t. Adds the changes to `notes`. Throws InputError with the row
+// of the log or the place in the map, the text found and the texts allowed.
 [[nodiscard]] Run run_of_log(results::Result log, const results::LogChoice& choice,
                              const std::string& name, std::vector<std::string>& notes);
 

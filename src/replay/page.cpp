@@ -49,8 +49,8 @@ Json columns_json(const Run& run, const std::vector<std::size_t>& rows) {
   return columns;
 }
 
-// The catalogue of columns as plots: what each holds, and how. Commands are in several, in the unit
-// of each.
+// The plots of the catalogue's columns, with the style of each curve. Commands appear in several
+// plots, in the unit of each.
 Json plots_json() {
   constexpr const char* roles[] = {"main", "reference", "measured", "command"};
   Json plots = Json::array();
@@ -96,7 +96,7 @@ std::string orientation_text(const std::vector<Quaternion>& orientation,
   return base64_of_parts(numbers);
 }
 
-// Times that equal start + i * step to the bit need only three numbers; others are all listed.
+// Times that equal start + i * step bit for bit need only three numbers; others are all listed.
 Json times_json(const std::vector<double>& t) {
   const double start = t.front(), step = t.size() > 1 ? t[1] - t[0] : 0;
   bool even = true;
@@ -109,7 +109,7 @@ Json times_json(const std::vector<double>& t) {
 
 Json events_json(const Run& run) {
   Json events = Json::array();
-  // Of too many events, keeps the first ones and the last one, which may have stopped the run.
+  // Keeps the first events and the last one, which may have stopped the run.
   for (std::size_t i = 0; i < run.events.size(); ++i) {
     if (i + 1 >= most_events && i + 1 < run.events.size()) continue;
     const Event& event = run.events[i];

@@ -46,7 +46,7 @@ std::vector<double> integral(const std::vector<double>& t, const std::vector<dou
   return sum;
 }
 
-// The path that the ball would have rolled with its rotation: its path minus the slip.
+// The part of the ball's path that its rotation covers: the path minus the slip.
 std::vector<double> way_rolled(const Run& run, const char* axis, const char* slip) {
   std::vector<double> way = coordinate(run, axis);
   if (const Series* const rate = find_series(run, slip)) {

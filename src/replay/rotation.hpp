@@ -16,8 +16,8 @@ namespace bbsim::replay {
 [[nodiscard]] Quaternion plane_orientation(const Mounting& mounting, double phi, double theta);
 
 // Orientations of a rolling ball in the plane's frame, with the identity in the first row. Between
-// two rows the ball rolls straight and pivots evenly, by the rotation (-dy/r, dx/r, dgamma). This
-// is of second order in the distance of rows; the integrated rotation of a run is better. A null
+// two rows the ball rolls straight and pivots evenly, by the rotation (-dy/r, dx/r, dgamma). The
+// error is of second order in the distance of rows; a run's integrated rotation is better. A null
 // `gamma` means no pivoting. Rows with a value that is not finite repeat the last orientation.
 [[nodiscard]] std::vector<Quaternion> rolled(const std::vector<double>& x,
                                              const std::vector<double>& y,

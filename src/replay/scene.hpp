@@ -50,7 +50,7 @@ struct Leg {
   double horn = 0, rod = 0;
   double height = 0;  // of the joint above the servo's axis, at home
   double joint = 0;   // height of the joint in the plate
-  double offset = 0;  // of the horn from home where the servo is at zero
+  double offset = 0;  // of the horn from home when the servo is at zero
   int direction = 1;
 };
 
@@ -82,10 +82,10 @@ struct Run {
   std::vector<Event> events;
   Plate plate;
   std::optional<double> ball_radius{};
-  std::optional<double> rolling_radius{};  // if it is another
+  std::optional<double> rolling_radius{};  // if different
   Mounting mounting;
   std::vector<Leg> legs;                 // three, or none
-  std::array<double, 2> plate_offset{};  // phi and theta of the plate where the legs are at home
+  std::array<double, 2> plate_offset{};  // phi and theta of the plate when the legs are at home
   std::vector<std::array<double, 2>> reference;  // points of the whole path, plane frame
   std::optional<double> friction{};              // coefficient to compare friction_demand with
   std::string scenario_file, scenario_text;

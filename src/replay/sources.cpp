@@ -83,7 +83,7 @@ Series series_of(const std::string& name, std::vector<double> values, bool unit_
           std::move(values)};
 }
 
-// Commands are angles, as in `bbsim columns`, or what drives the gimbal.
+// Sets the unit of commands to that of the gimbal's drive; `bbsim columns` lists them as angles.
 void set_unit_of_commands(Run& run, Drives driven) {
   for (Series& series : run.columns) {
     if (scenario::is_command(series.name)) series.unit = command_unit(driven);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Templates of pages, which CMake assembles (src/replay/page), and how data are put into one.
+// Reads templates of pages, which CMake assembles (src/replay/page), and fills them with data.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ namespace bbsim::replay {
 // none does.
 [[nodiscard]] std::string read_template(const std::string& name,
                                         const std::vector<std::string>& folders);
-// From share/bbsim beside the program or from BBSIM_SHARE_PATH.
+// Reads it from share/bbsim beside the program or from BBSIM_SHARE_PATH.
 [[nodiscard]] std::string read_template(const std::string& name);
 
 // The file that read_template() reads; empty if it is not there.

@@ -6,7 +6,7 @@
 // saw.
 bbsim.address = (() => {
   const short = (value) => String(Number(value.toPrecision(5)));
-  // Leaves a text alone that is no valid escape sequence, like "%".
+  // Returns an invalid escape sequence, such as "%", unchanged.
   function decoded(words) {
     try {
       return decodeURIComponent(words);

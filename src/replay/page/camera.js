@@ -80,7 +80,7 @@ bbsim.makeCamera = (canvas, rig, told) => {
       // Moves around the target, not through it.
       const a = new THREE.Spherical().setFromVector3(yUp(from.position.clone().sub(from.target)));
       const b = new THREE.Spherical().setFromVector3(yUp(to.position.clone().sub(to.target)));
-      // Straight from above there is no azimuth, so the other one is used.
+      // A view straight from above has no azimuth, so it takes the other one.
       if (a.phi < 0.01) a.theta = b.theta;
       if (b.phi < 0.01) b.theta = a.theta;
       const turn = Math.atan2(Math.sin(b.theta - a.theta), Math.cos(b.theta - a.theta));

@@ -22,7 +22,7 @@ bbsim.makeClock = ({start, end, runs}) => {
 
   function frame(time) {
     if (!playing) return;
-    // The first frame only gives the time.
+    // The first frame only sets the reference time.
     const next = now + (last === null ? 0 : (time - last) / 1000 * speed);
     last = time;
     if (next >= end) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// The page of a fit: tables, and one of its logs with the model.
+// The page of a fit: tables, and one of its logs beside the model.
 (() => {
   const {palette, text} = bbsim;
   const {element} = text;
@@ -31,7 +31,7 @@
     get('remarks').append(element('li', {class: words.startsWith('not identifiable') ? 'untold' : false}, words));
   }
 
-  // Between two windows is a row without numbers, which is no place to be.
+  // A row without numbers separates two windows; `nearest` must not return it.
   for (const run of runs) {
     run.windowAt = (row) => run.windows.find(({last}) => row <= last) || run.windows[run.windows.length - 1];
     const nearest = run.nearest.bind(run);
@@ -60,8 +60,8 @@
     ]);
   }
 
-  // Windows below the curves: where each begins, and a ground for those that are held out; zero
-  // where it is residuals.
+  // Marks windows below the curves: the start of each, a background for those held out, and the
+  // zero line of residuals.
   function paintWindows(run) {
     return (ink, area, graph, {isResidual}) => {
       ink.save();
@@ -75,7 +75,7 @@
       }
       ink.strokeStyle = palette.isDark() ? '#7d8a98' : '#8b97a4';
       ink.lineWidth = 1;
-      // Many windows at once would be a wall of lines.
+      // Too many lines would hide the curves.
       const [from, to] = graph.xAxisRange();
       const seen = run.windows.filter(({first}) => run.t[first] >= from && run.t[first] <= to);
       ink.setLineDash([3, 4]);
@@ -147,7 +147,7 @@
   get('log').append(...runs.map((run, i) => element('option', {value: String(i)}, run.name)));
   get('log').addEventListener('change', () => show(runs[get('log').value]));
 
-  // On paper: all plots, two beside each other, and the picture at its time.
+  // On paper: all plots, two side by side, and the picture at its time.
   const root = document.documentElement, high = 120, wide = Math.floor((716 - 8) / 2 - 14);
   let copies = [];
   function beginPrint() {

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// Which curves stand in which plot: those that one looks at together, where the runs have them.
+// Assigns curves to plots, so that related curves are in one plot.
 bbsim.groups = (() => {
   const {runs, scene} = bbsim.data;
   const {palette, text} = bbsim;
   const lead = runs[0];
 
-  // The program's table of columns, by name. Another name is written as it reads.
+  // Symbols of the program's columns, by name. Other names are spelled out.
   const symbols = new Map(scene.plots.flatMap(({columns}) => columns.map(({name, symbol}) => [name, symbol])));
   const labelOf = (name) => symbols.get(name) || text.columnName(name);
 
@@ -28,8 +28,8 @@ bbsim.groups = (() => {
   const sensor = () => palette.now().sensor;
   const ink = () => palette.now().reference, warm = () => palette.run(0), band = () => palette.now().band;
 
-  // No two curves of a plot differ by colour alone: of x and y, phi and theta the second is dashed, references are pale
-  // bands below them, commands thin and dotted, and what a sensor saw dots and crosses.
+  // Curves of a plot never differ by color alone. The second of x and y or phi and theta is dashed,
+  // references are pale bands, commands thin and dotted, and measurements dots and crosses.
   const first = {colour: xColour, layer: 3}, second = {colour: yColour, pattern: [8, 4], layer: 3};
   const third = {colour: ink, pattern: [9, 3, 2, 3], layer: 3}, main = {colour: warm, width: 2.2, layer: 2};
   const firstBand = {colour: band, width: 6, layer: 0}, secondBand = {colour: band, width: 6, pattern: [16, 4], layer: 0};
@@ -37,7 +37,7 @@ bbsim.groups = (() => {
   const secondCommand = {colour: yColour, pattern: [1, 3], width: 2, layer: 1};
   const dots = {colour: sensor, dots: 'circle', layer: 4}, crosses = {colour: sensor, dots: 'cross', layer: 4};
 
-  // As one of several of a kind.
+  // Styles a curve as one of several of a kind.
   const numbered = (curve, n) => ({...curve, colour: () => palette.run(n), pattern: palette.dash(n), layer: 3});
 
   // How a curve is drawn beside the others of its plot.
@@ -46,7 +46,7 @@ bbsim.groups = (() => {
     if (curve.role === 'reference') return one(firstBand, secondBand);
     if (curve.role === 'measured') return one(dots, crosses);
     if (curve.role === 'command') {
-      // A law's command and the torque asked of a motor may stand in one plot.
+      // One plot may have a law's command and the torque demanded of a motor.
       const again = curves.filter((other) => other.role === 'command' && other.axis === curve.axis).indexOf(curve) > 0;
       return again ? one({...firstCommand, pattern: [6, 2]}, {...secondCommand, pattern: [6, 2, 1, 2]}) : one(firstCommand, secondCommand);
     }
@@ -56,7 +56,7 @@ bbsim.groups = (() => {
     return (hasAxes ? [third, {...main, pattern: [2, 3]}] : [main, third])[alike] || numbered({}, alike);
   }
 
-  // Of what the page computes: curves of a plot that the table does not have.
+  // Curves that the page computes, which the table of columns lacks.
   const beside = (plot) => ({plot, role: 'main', axis: 0});
 
   function derived(run) {
@@ -82,7 +82,7 @@ bbsim.groups = (() => {
       for (const {name, unit, role, axis} of [...columns, ...added]) {
         if (used.has(name)) continue;
         const curve = more.get(name) || (lead.columns.has(name) ? fromColumn(lead, name) : null);
-        // Of a table without units a name says what it belongs to.
+        // In a table without units, the name alone decides.
         if (!curve || (curve.unit !== unit && (lead.unitsKnown || curve.unit !== ''))) continue;
         used.add(name);
         curves.push({...curve, role, axis});
@@ -90,11 +90,11 @@ bbsim.groups = (() => {
       if (curves.length === 0) continue;
       plots.push({title, unit: curves[0].unit, curves: curves.map((curve) => ({...curve, ...styleOf(curve, curves)}))});
     }
-    // What no plot above has: a plot for each unit, of four at most.
+    // Columns in no plot above: a plot for each unit, with at most four curves.
     const rest = new Map();
     for (const [name, column] of lead.columns) {
       if (used.has(name) || name.startsWith('ball_q')) continue;
-      // Those without a unit need not have anything in common.
+      // Columns without a unit may be unrelated, so each has its own plot.
       const key = column.unit || name;
       if (!rest.has(key)) rest.set(key, []);
       rest.get(key).push(name);
@@ -109,7 +109,7 @@ bbsim.groups = (() => {
     return plots;
   }
 
-  // Of several runs: a plot for each column that more than one has, and how far they are from the first.
+  // For several runs: a plot for each column of two or more runs, and distances from the first run.
   function ofSeveral() {
     const plots = [];
     const apart = runs.slice(1).map((run) => numbered(computed(
@@ -128,7 +128,7 @@ bbsim.groups = (() => {
       if (lead.columns.has(name + '_reference')) {
         curves.push({...fromColumn(lead, name + '_reference'), label: 'reference', ...firstBand});
       }
-      // Beside one in nobody knows which unit none has one.
+      // A curve with an unknown unit leaves the plot without a unit.
       const units = new Set(curves.map((curve) => curve.unit)), unit = units.has('') ? '' : [...units][0];
       if (curves.length > 0) plots.push({title, unit, curves: curves.filter((curve) => unit === '' || curve.unit === unit)});
     };

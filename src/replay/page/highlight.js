@@ -13,7 +13,7 @@ bbsim.highlight = (source) => {
   for (const found of source.matchAll(token)) {
     const kind = kinds[found.slice(1).findIndex((part) => part !== undefined)];
     if (!kind) continue;
-    // A # directly behind other text begins no comment.
+    // A # directly after other text does not begin a comment.
     if (kind === 'comment' && found.index > 0 && !/\s/.test(source[found.index - 1])) continue;
     if (found.index > last) spans.push(source.slice(last, found.index));
     spans.push(element('span', {class: kind}, found[0]));

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// Three legs under a plate: where axes, horns' ends and joints are (docs/explanation/rig-model.md,
-// "Three servos"), and how they are drawn.
+// Three legs under a plate: positions of axes, horns' ends and joints
+// (docs/explanation/rig-model.md, "Three servos"), and their drawing.
 bbsim.legs = (() => {
-  // Of a run's legs: `at(phi, theta, servos)` gives for each leg the points axis, knee and joint,
-  // from the center of the joints at home, m. Without the servos' angles, the plate keeps the
-  // height of home.
+  // Kinematics of a run's legs. `at(phi, theta, servos)` returns the points axis, knee and joint of
+  // each leg, from the center of the joints at home, m. Without the servos' angles, the plate keeps
+  // its height at home.
   function kinematics({legs, phiOffset, thetaOffset}) {
     const parts = legs.map((leg) => ({...leg, ex: Math.cos(leg.angle), ey: Math.sin(leg.angle)}));
     let xx = 0, xy = 0, yy = 0;
@@ -18,7 +18,7 @@ bbsim.legs = (() => {
       xy -= leg.ey * leg.ex;
       yy += leg.ex * leg.ex;
     });
-    // Of the horn whose leg's joint is at (x, z) from the servo's axis, the knee outward.
+    // The horn's elevation, knee outward, for a joint at (x, z) from the servo's axis.
     const elevation = ({horn, rod}, x, z) => {
       const far = Math.hypot(x, z), cosine = (far * far + horn * horn - rod * rod) / (2 * horn * far);
       return Math.atan2(z, x) - Math.acos(Math.min(1, Math.max(-1, cosine)));
@@ -52,7 +52,7 @@ bbsim.legs = (() => {
       parts.forEach((leg, i) => {
         leg.x = leg.along + shift[0] * leg.ex + shift[1] * leg.ey;
         if (!servos) return;
-        // From the horn's end, the rod says how high the joint is.
+        // The rod determines the joint's height above the horn's end.
         const horn = leg.home + leg.offset + leg.direction * servos[i];
         const out = leg.x - leg.base - leg.horn * Math.cos(horn);
         lift += (leg.joint - leg.height + leg.horn * Math.sin(horn) +
@@ -99,7 +99,7 @@ bbsim.legs = (() => {
       group,
       depth: chain.depth - level + 2 * thick,
       reach: chain.reach,
-      // Of each leg: axis, knee and joint in the base's frame, m.
+      // Axis, knee and joint of each leg in the base's frame, m.
       points: () => points,
       set(phi, theta, servos) {
         points = chain.at(phi, theta, servos);

@@ -25,7 +25,7 @@
                         text.element('b', {class: `status ${run.status}`}, `${statusSigns[run.status] || '○'} ${run.status}${until}`));
   }
 
-  // Reports the error itself, and does not mistake it for a browser without 3D graphics.
+  // Reports the error itself, instead of blaming a browser without 3D graphics.
   let picture = null;
   function makePicture() {
     try {

@@ -3,8 +3,8 @@
 
 'use strict';
 // Adapts the page to slow frames while time runs, in three stages. First, everything but the
-// picture follows only a few times a second, because a browser composes anew all that lies between
-// changed parts. Then the picture gets fewer pixels. If that does not suffice, it becomes flat. A
+// picture follows only a few times a second, because a browser composes everything between changed
+// parts again. Then the picture gets fewer pixels. If that does not suffice, it becomes flat. A
 // picture at rest has all pixels. A view that the user has chosen stays.
 bbsim.makePace = (screen, tell) => {
   const {clock} = bbsim;

@@ -96,7 +96,7 @@ bbsim.makePicture = (canvas, left) => {
     const pattern = leads ? null : palette.dash(run.index);
     const dash = pattern && pattern.slice(0, 2).map((n) => n * 0.0022 * size);
     const past = ribbonOf(1, (material) => new THREE.Mesh(paint.ribbon(xs, ys, trailWidth, dash), material));
-    // Has length 1 along x, and the width of its material.
+    // A ribbon of length 1 along x, with the width of its material.
     const tip = new THREE.Mesh(paint.ribbon([-0.5, 0.5], [0, 0], 1, [2, 0]), past.material);
     const future = ribbonOf(0.9, (material) => new THREE.Mesh(
         leads ? paint.ribbon(xs, ys, 0.9 * trailWidth, [0.02 * size, 0.009 * size]) : past.geometry.clone(), material));
@@ -205,7 +205,7 @@ bbsim.makePicture = (canvas, left) => {
     root.updateMatrixWorld(true);
   }
 
-  // The color of a trail that is still to come: the plate shines through.
+  // The color of the future trail: the plate shines through.
   function mixed(colour, part) {
     return new THREE.Color(palette.now().plate).lerp(new THREE.Color(colour), part);
   }
@@ -251,7 +251,7 @@ bbsim.makePicture = (canvas, left) => {
   // Moves everything to its place at time t. Returns all numbers that the picture depends on.
   function pose(t) {
     const state = [factor * angle(lead, t, 'phi'), factor * angle(lead, t, 'theta')];
-    // Where tilts are drawn larger, the servos' angles are not theirs.
+    // The servos' angles do not fit exaggerated tilts.
     const servos = factor === 1 && lead.legs ? lead.servosAt(t) : null;
     rig.set(...state, servos);
     if (servos) state.push(...servos);

@@ -2,20 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// The ball of a log beside that of the model, seen from above at one time, with the window's way.
-// place: the names of two columns; radius: the ball's, m.
+// The balls of a log and of the model at one time, seen from above, with their paths in the window.
+// xName, yName: two columns; radius: the ball's, m.
 bbsim.makePlan = (container, run, [xName, yName], radius) => {
   const {text} = bbsim;
   const {element, svg} = text;
   const of = (ending) => [run.values(xName + ending), run.values(yName + ending)];
   const measured = of(''), model = of('_modelled');
 
-  // What the picture holds: all places of the log and the model, and a ball at each.
+  // The picture's extent: all positions in the log and the model, with a ball at each.
   const sides = [0, 1].map((axis) => {
     const one = bbsim.data.extent(measured[axis]), other = bbsim.data.extent(model[axis]);
     return [Math.min(one.least, other.least) - 1.2 * radius, Math.max(one.greatest, other.greatest) + 1.2 * radius];
   });
-  // Not much longer than wide, nor wider than long.
+  // Keeps the shorter side from being much shorter than the longer one.
   const spans = sides.map(([from, to]) => to - from), least = 0.4 * Math.max(...spans);
   sides.forEach((side, axis) => {
     const more = Math.max(0, least - spans[axis]) / 2;

@@ -3,8 +3,7 @@
 
 'use strict';
 // Plots over time beside the picture, with one cursor in all of them, at the clock's time or at the
-// pointer.
-// A page may paint below the curves by itself, and be told at what time the pointer is.
+// pointer. `behind` paints below the curves; `pointed` receives the time at the pointer.
 bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
   const {clock, palette, text, data} = bbsim;
   const {element} = text;
@@ -30,8 +29,8 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
     return line;
   }
 
-  // Draws points as dots or crosses, so far apart that each one and the curve below are visible, or
-  // every one that is not on the one before.
+  // Draws points as dots or crosses, far enough apart to show each one and the curve below. With
+  // `every`, omits only points on top of the one before.
   function drawPoint(cross, every) {
     let last = -Infinity, lastY = -Infinity;
     const hides = every ? (x, y) => Math.abs(x - last) < 1 && Math.abs(y - lastY) < 1 : (x) => x >= last && x < last + 7;
@@ -280,7 +279,7 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
     plots, point,
     get range() { return range; },
     zoom: (to) => setRange(to),
-    // Takes them away.
+    // Removes all plots.
     end() {
       near.disconnect();
       for (const plot of plots.splice(0)) {

@@ -68,7 +68,7 @@ bbsim.makeSweep = (json, container) => {
             `-o ${quoted(`${stem}-case-${cases[i]}.csv`)}`].join(' \\\n  ');
   }
 
-  // What to show. The first measure shown is one of the tracking, if the sweep has one.
+  // The view. The first measure shown is one of tracking, if the sweep has one.
   const telling = ['rms_tracking_error', 'max_tracking_error', 'max_distance'];
   const firstMeasure = Math.max(0, measures.findIndex((m) => m.name === telling.find((name) => measures.some((other) => other.name === name))));
   // x and y are indices into `leads`. As in `bbsim plot`, the two keys with the most values are the

@@ -6,8 +6,8 @@
 window.bbsim = {};
 
 bbsim.text = (() => {
-  // Replaces invisible characters, and those that change the direction of text, by visible signs.
-  // Escape codes are an example.
+  // Replaces invisible characters, such as escape codes, and those that change the direction of
+  // text, by visible signs.
   function visible(text) {
     return String(text).replace(
         /[\u0000-\u0008\u000b-\u001f\u007f-\u009f\u200b-\u200f\u202a-\u202e\u2028\u2029\u2060-\u2069\ufeff]/g,
