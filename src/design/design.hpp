@@ -18,7 +18,7 @@ struct Expected {
   std::string key, unit;  // SI
   double value = 0;
   double sd = 0;  // infinite if the log does not determine it
-  // The same for a circle and a step of the same length; empty if none keeps the limits.
+  // `sd` with a circle and a step of the same length; empty if none keeps the limits.
   std::optional<double> circle{}, step{};
 };
 

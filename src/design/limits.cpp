@@ -151,7 +151,7 @@ Use use_of(const Limits& limits, const std::vector<double>& values) {
       use.tilt_rate[axis] =
           std::max(use.tilt_rate[axis], std::abs(at(4 + axis, i)) / limits.tilt_rate[axis]);
     }
-    // An upper bound of the angle between normal and vertical.
+    // An upper bound of the angle between normal and vertical, for a level base without skew.
     if (limits.total_tilt) {
       use.total_tilt = std::max(use.total_tilt, std::hypot(tilt[0], tilt[1]) / *limits.total_tilt);
     }

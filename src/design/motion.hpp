@@ -43,7 +43,7 @@ struct TableChange {
 };
 [[nodiscard]] std::array<TableChange, 2> changes_of(const Scenario& scenario);
 
-// Replaces the placeholder by the motion, up to `length` s. The motion comes out unchanged if the
+// Replaces the placeholder with the motion, up to `length` s. The motion comes out unchanged if the
 // scenario makes the changes `nominal`; with other changes, it comes out changed.
 void play(const Motion& motion, Plays plays, const std::array<TableChange, 2>& nominal,
           double length, Scenario& scenario);

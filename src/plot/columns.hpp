@@ -33,8 +33,8 @@ struct PlannedPanel {
 
 // Makes a panel for each quantity of the runs, in an order that suits a control engineer: the
 // ball's position, the gimbal's motion, forces. x and y, or phi and theta, share a panel if it has
-// no other quantity. With several runs, each panel has one quantity. Columns outside all catalogues
-// have their own panels.
+// no other quantity. With several runs, each panel has one quantity. Columns that bbsim does not
+// know have their own panels.
 [[nodiscard]] std::vector<PlannedPanel> plan_panels(const std::vector<Result>& runs);
 
 // Makes a panel for each list of columns. Throws InputError for an empty list, for t, and for a

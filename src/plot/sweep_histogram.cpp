@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Draws the frequencies of a measure's values.
+// Draws a histogram of a measure.
 #include <algorithm>
 #include <cmath>
 

@@ -18,7 +18,7 @@ namespace {
 
 // Lines with more points have no markers.
 constexpr std::size_t most_markers = 60;
-// Random cases are points: above the first number small ones, above the second only some.
+// Random cases are points: small ones above the first number, only some above the second.
 constexpr std::size_t many_points = 500, most_points = 20000;
 
 // Positions of cases by other status, drawn as rows of marks at the bottom of the panel.

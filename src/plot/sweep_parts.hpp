@@ -66,7 +66,7 @@ inline constexpr std::size_t most_bands = 3;
 // A map of medians over two keys, with a color scale on its right.
 [[nodiscard]] Panel map_panel(const SweepPanel& of, const Key& over, const Key& against);
 
-// The frequency of values.
+// A histogram of the measure.
 [[nodiscard]] Panel histogram_panel(const SweepPanel& of);
 
 }  // namespace bbsim::plot

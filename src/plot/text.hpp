@@ -16,7 +16,7 @@ namespace bbsim::plot {
 // those that change the direction of text become U+FFFD; control characters become blanks.
 [[nodiscard]] std::string clean(std::string_view text);
 
-// Replaces characters of a clean text by U+FFFD if DejaVu Sans and `has_letter` lack them.
+// Replaces characters of a clean text with U+FFFD if DejaVu Sans and `has_letter` lack them.
 [[nodiscard]] std::string with_letters(std::string_view text,
                                        const std::function<bool(std::uint32_t)>& has_letter);
 

@@ -49,8 +49,8 @@ Json columns_json(const Run& run, const std::vector<std::size_t>& rows) {
   return columns;
 }
 
-// The plots of the catalogue's columns, with the style of each curve. Commands appear in several
-// plots, in the unit of each.
+// Plots of the columns in scenario::catalogue, with the style of each curve. Commands appear in
+// several plots, in the unit of each.
 Json plots_json() {
   constexpr const char* roles[] = {"main", "reference", "measured", "command"};
   Json plots = Json::array();

@@ -17,7 +17,7 @@ namespace bbsim::results {
 struct Beside {
   std::string summary;                 // written by `bbsim run --summary`
   std::string scenario;                // the scenario of the run
-  std::vector<std::string> overrides;  // changes that were made to it
+  std::vector<std::string> overrides;  // each "key.path=value"
 };
 
 // Reads a CSV or HDF5 file of a run or a sweep, or any other CSV file with a header; "-" is CSV on

@@ -39,8 +39,8 @@ struct SweepTable {
 };
 
 // Columns before `status` are keys, numbers after it measures. `end_time` is a measure if the cases
-// end at different times. If the file does not say whether a key was drawn, it was if more than
-// half of many cases have distinct values in no order.
+// end at different times. If the file does not tell, a key counts as drawn if more than half of
+// many cases have distinct values in no order.
 [[nodiscard]] SweepTable sweep_table(const Result& sweep);
 
 }  // namespace bbsim::results

@@ -7,7 +7,7 @@ window.bbsim = {};
 
 bbsim.text = (() => {
   // Replaces invisible characters, such as escape codes, and those that change the direction of
-  // text, by visible signs.
+  // text, with visible signs.
   function visible(text) {
     return String(text).replace(
         /[\u0000-\u0008\u000b-\u001f\u007f-\u009f\u200b-\u200f\u202a-\u202e\u2028\u2029\u2060-\u2069\ufeff]/g,
