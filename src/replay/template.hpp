@@ -10,7 +10,7 @@
 
 namespace bbsim::replay {
 
-// The template with the title and the data, a JSON text, in it. All texts appear as text in the
+// Inserts the title and the data, a JSON text, into the template. All texts appear as text in the
 // page, whatever characters they have. Throws InputError for a damaged template.
 [[nodiscard]] std::string filled(std::string_view page_template, const std::string& title,
                                  const std::string& json);
