@@ -24,7 +24,7 @@ std::optional<double> tolerance(const std::string& text) {
   return value;
 }
 
-// Of a model that is hybrid().
+// Lists what makes a hybrid() model switch.
 std::string what_switches(const Scenario& scenario, const model::Model& model) {
   std::string list;
   const auto add = [&list](bool there, const char* what) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How exact this build is: methods and tolerances over a scene, known answers, simpler models.
+// Accuracy of this build: methods and tolerances over a scene, known answers, simpler models.
 #pragma once
 
 #include <string>
@@ -23,10 +23,10 @@ using study::Picture;
 [[nodiscard]] AccuracyStudy accuracy(const Scenario& scenario, const std::vector<Method>& methods,
                                      const std::vector<double>& rtols, Watch& watch);
 
-// "1e-3:1e-13": a value a decade from the first to the last; or a single value. Throws InputError.
+// Values from "FIRST:LAST", such as "1e-3:1e-13", a decade apart; or one value. Throws InputError.
 [[nodiscard]] std::vector<double> tolerance_ladder(const std::string& text);
 
-// Whether any run came to the scene's end.
+// Whether any run reached the end of the scene.
 [[nodiscard]] bool any_complete(const AccuracyStudy& study);
 
 using study::accuracy_csv;
@@ -35,18 +35,18 @@ using study::accuracy_table;
 
 using study::Verification;
 
-// Checks with known answers; needs no files, and takes about a second.
+// Runs checks with known answers. Needs no files and takes about a second.
 [[nodiscard]] Verification verify(Watch& watch);
 
 using study::FullModelStudy;
 using study::require_comparable;
 using study::SimplerModel;
 
-// What the full model of a scene buys, against simpler ones. Throws InputError as
-// require_comparable() does.
+// Compares the full model of a scene with simpler ones. Throws InputError as require_comparable()
+// does.
 [[nodiscard]] FullModelStudy compare_simpler(const Scenario& scenario, Watch& watch);
 
-// The scenes of the paper's Fig. 2, which are part of the program.
+// Scenes of the paper's Fig. 2, which are built into the program.
 [[nodiscard]] std::vector<Scenario> paper_scenes(const std::vector<std::string>& overrides);
 
 }  // namespace bbsim::api

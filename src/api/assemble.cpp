@@ -9,7 +9,7 @@
 namespace bbsim::api {
 namespace {
 
-// Calls `make`; what is wrong with a key is thrown with its place.
+// Calls `make`; turns a KeyError into an InputError with the key's place in the scenario.
 template <class Make>
 auto with_places(const Scenario& scenario, const Make& make) {
   try {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Scenario -> Model: what is wrong with a key is said with its place.
+// Builds the model of a scenario; errors about a key name its place.
 #pragma once
 
 #include <vector>
@@ -13,18 +13,18 @@
 
 namespace bbsim::api {
 
-// The model that these columns need, to be looked at. Throws InputError.
+// Model that these columns need, for inspection only. Throws InputError.
 [[nodiscard]] model::Model assemble(const Scenario& scenario,
                                     const std::vector<const scenario::Column*>& columns,
                                     model::Form form = model::Form::reduced);
 
-// The same, to be run: with its controller, if the scene has one of its own.
+// The same for a run: starts the user's controller, if the scene has one.
 [[nodiscard]] model::Model assemble(const Scenario& scenario,
                                     const std::vector<const scenario::Column*>& columns,
                                     controller::Host& host,
                                     model::Form form = model::Form::reduced);
 
-// A host whose programs say to the watch what they have to say, and wait no longer than it lets.
+// Host that passes what controllers say to the watch and stops waiting when the watch stops.
 [[nodiscard]] controller::Host make_host(Watch& watch);
 
 }  // namespace bbsim::api

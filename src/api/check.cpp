@@ -28,7 +28,7 @@
 namespace bbsim::api {
 namespace {
 
-// The rows of an LQR's gain K, of u = K (reference - z): what the weights came to.
+// Rows of an LQR's gain K in u = K (reference - z), which follow from the weights.
 void tell_gain(Report& report, const Scenario& scenario, const model::Model& model) {
   if (!scenario.controller || scenario.controller->law != Law::lqr) return;
   const model::ControlLaw law = model.rig->sampled
@@ -43,7 +43,7 @@ void tell_gain(Report& report, const Scenario& scenario, const model::Model& mod
   const auto row = [](const double(&gain)[8]) {
     std::string text;
     for (const double value : gain) {
-      // What symmetry makes zero is zero but for rounding.
+      // Entries that symmetry makes zero differ from it by rounding.
       text += (text.empty() ? "" : ", ") + short_number(std::abs(value) < 1e-12 ? 0 : value);
     }
     return text;
@@ -53,7 +53,7 @@ void tell_gain(Report& report, const Scenario& scenario, const model::Model& mod
   report.push_back({"", "on x, y, vx, vy, phi, theta, phi_rate, theta_rate"});
 }
 
-// Of an unstable loop they would mean nothing.
+// Margins mean nothing for an unstable loop.
 void tell_margins(Report& report, const Scenario& scenario, const model::Model& model) {
   const model::Linearization made =
       model::linearize(scenario, model, model::LinearKind::loop, model::home_point());
@@ -101,7 +101,7 @@ void tell_sampled_loop(Report& report, const Scenario& scenario, const model::Mo
   }
 }
 
-// Of a loop whose law is not for bbsim to know, or that is open.
+// For loops that are open, or whose law bbsim cannot see.
 void tell_plant(Report& report, const model::Model& model, const std::string& why) {
   const model::Eigenvalues poles = model::plant_poles(model);
   report.push_back(
@@ -152,7 +152,7 @@ void tell_solver(Report& report, const Scenario& scenario, const model::Model& m
                             " times over it"});
 }
 
-// Tells what a sweep block of the scenario holds; its values are checked too.
+// Describes the scenario's sweep block, after a check of its values.
 void tell_sweep(Report& report, const Scenario& scenario) {
   if (scenario.sweep.vary.empty()) return;
   const ScenarioFamily family(scenario.source);
@@ -166,8 +166,8 @@ void tell_sweep(Report& report, const Scenario& scenario) {
 // Starts the user's controller, if there is one, and reports what it says and how it answers.
 void tell_controller(Report& report, const Scenario& scenario, Watch& watch) {
   if (!scenario.controller || !scenario.controller->own) return;
-  // What it says at each of its starts is of interest once. Nothing is lost where a signal ends it
-  // at once.
+  // The controller starts several times: pass each line on once, and at once, so that a signal that
+  // ends bbsim loses none.
   std::set<std::string, std::less<>> said;
   controller::Host host([&](std::string_view line) {
     if (said.emplace(line).second) watch.controller_says(line);
@@ -178,7 +178,7 @@ void tell_controller(Report& report, const Scenario& scenario, Watch& watch) {
   for (const std::string& line : host.describe()) {
     report.push_back({std::exchange(label, ""), line});
   }
-  // A function of the calling program is not probed: it may remember what it was asked.
+  // A function of the calling program is not probed: it may remember earlier calls.
   if (std::holds_alternative<ControllerFactory>(scenario.controller->own->by)) return;
   const Report found = probe(scenario, model);
   report.insert(report.end(), found.begin(), found.end());

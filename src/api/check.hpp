@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What there is to say of a scene before it is run.
+// Description of a scene before its run.
 #pragma once
 
 #include <algorithm>
@@ -13,13 +13,13 @@
 
 namespace bbsim::api {
 
-// What a line is about, and what there is to say of it; without a label it goes on.
+// Subject and text of a line; a line without a label continues the one before.
 struct Line {
   std::string label, text;
 };
 using Report = std::vector<Line>;
 
-// A line each, the labels in a column.
+// One line each, with the labels in a column.
 [[nodiscard]] inline std::string to_text(const Report& report) {
   constexpr std::size_t width = 12;
   std::string text;
@@ -31,12 +31,11 @@ using Report = std::vector<Line>;
   return text;
 }
 
-// What is modelled and why, gains, poles, margins, the solver. Throws InputError.
+// Describes the model and its reasons, gains, poles, margins and the solver. Throws InputError.
 [[nodiscard]] Report describe(const Scenario& scenario);
 
-// The same, with the cases of the scenario's sweep block, all of which are checked, and with what
-// its own controller answers when it is started and asked (probe.hpp). Throws
-// model::ControllerFault.
+// The same, with the cases of the scenario's sweep block, all checked, and the answers of the
+// user's controller to test samples (probe.hpp). Throws model::ControllerFault.
 [[nodiscard]] Report check(const Scenario& scenario, Watch& watch);
 
 }  // namespace bbsim::api

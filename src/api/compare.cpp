@@ -36,7 +36,7 @@ record::Allowances allowances_of(const CompareRequest& request, const file::Cell
   return record::solver_allowances(a, b).value_or(standard);
 }
 
-// Warns of columns that one of the files has in another unit than the other, by their looks.
+// Warns of columns whose values suggest that the two files use different units.
 void warn_of_units(const file::CellTable& table, const std::string& name,
                    const file::CellTable& other, const std::string& other_name,
                    std::vector<std::string>& warnings) {
@@ -87,8 +87,8 @@ void warn_of_looks(const file::TableData& log, const std::string& name,
   }
 }
 
-// Rows of the scenario's run: what the log has too, and the rates that interpolation uses, at the
-// output times and between them.
+// Runs the scenario with the log's columns and the rates that interpolation uses, at the output
+// times and between them.
 file::TableData run_for(const Scenario& scenario, const file::TableData& log, Watch& watch,
                         Compared& made) {
   constexpr double near = 2e-3;  // s, between rows

@@ -68,7 +68,7 @@ double rate_of(const DesignRequest& request, const Scenario& scenario) {
   return std::min(1 / period, most);
 }
 
-// A whole number of rows.
+// Rounds the length to a whole number of rows.
 double length_of(const DesignRequest& request, const Scenario& scenario, double rate) {
   const double asked =
       request.length.empty()
@@ -86,7 +86,7 @@ void read_noise(const DesignRequest& request, const Scenario& scenario, design::
   double usual = 1e-3;
   if (scenario.controller && scenario.controller->sensor) {
     const Sensor& sensor = *scenario.controller->sensor;
-    // Rounding to counts is as a uniform error.
+    // Rounding to counts acts like a uniformly distributed error.
     const double own = std::hypot(sensor.noise, sensor.resolution / std::sqrt(12.0));
     if (own > 0) usual = own;
   }
@@ -122,7 +122,7 @@ void read_noise(const DesignRequest& request, const Scenario& scenario, design::
   }
 }
 
-// A table for one axis of `section`, with the changes that the scenario makes to its own.
+// Table for one axis of `section`, with the scale, offset and delay of the scenario's own table.
 std::string table_text(const ScenarioFamily& family, const std::string& section,
                        const std::string& axis, const std::string& file) {
   std::string text = "{table: {file: " + file + ", time: t, value: " + axis + ", unit: rad";
@@ -133,16 +133,16 @@ std::string table_text(const ScenarioFamily& family, const std::string& section,
   return text + "}}";
 }
 
-// What is played, and how it is logged.
+// The input that the experiment plays, and how it is logged.
 struct Plan {
   Plays plays;
-  std::string section;  // that has the tables of tilts
+  std::string section;  // has the tables of tilts
   std::array<bool, 2> axes;
   double length, rate;
-  bool is_launched;  // the ball of the scenario moves at the start
+  bool is_launched;  // whether the scenario's ball moves at the start
 };
 
-// What makes the scenario play the table.
+// Settings that make the scenario play the table.
 Settings settings_of(const DesignRequest& request, const Plan& plan, const Pair& start) {
   std::string file = "'";
   for (const char c : request.table) file += c == '\'' ? "''" : std::string(1, c);
@@ -182,11 +182,11 @@ file::TableData placeholder_table(Plays plays, double length) {
   return {{"t", names[0], names[1]}, {times, values, values}};
 }
 
-// In steps that no rig sees, so that the text is short.
+// Rounds to steps too small for any rig, so that the text is short.
 double in_steps(double value) {
   constexpr double steps = 1e8;
   const double rounded = std::round(value * steps) / steps;
-  return rounded == 0 ? 0 : rounded;  // and not -0
+  return rounded == 0 ? 0 : rounded;  // no -0
 }
 
 file::TableData rows_of(const design::Task& task, const design::Designed& designed) {
@@ -263,7 +263,7 @@ DesignResult design(const DesignRequest& request, DesignParts parts, Watch& watc
   const auto played = [&](const Pair& start) {
     return text_with(request.family.source(), settings(start));
   };
-  if (parts.scenario) static_cast<void>(played({0, 0}));  // what cannot be written is said now
+  if (parts.scenario) static_cast<void>(played({0, 0}));  // fails now if the text cannot be written
   task.threads = request.threads;
   task.stop = watch.stop();
   task.progress = [&watch](double fraction, const std::string& detail) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The experiment that tells keys of a scenario best.
+// Design of the experiment that identifies keys of a scenario best.
 #pragma once
 
 #include <cstddef>
@@ -22,18 +22,18 @@ struct DesignRequest {
   std::string length{};              // a time; empty: the scenario's
   std::optional<double> rate{};      // Hz; the sensor's, or 50
   std::vector<std::string> noise{};  // COLUMN=SIZE; the sensor's, or 1 mm
-  std::string window{};              // a time; empty: as of a fit
-  // An angle, a rate and a length; empty: as limits.hpp says.
+  std::string window{};              // a time; empty: as for a fit
+  // Angle, rate and length; empty: the defaults of limits.hpp.
   std::string tilt{}, tilt_rate{}, margin{};
-  std::string table = "designed.csv";  // its name, from the designed scenario's folder
-  std::size_t threads = 0;             // 0: as many as there are processors
+  std::string table = "designed.csv";  // relative to the designed scenario's folder
+  std::size_t threads = 0;             // 0: as many as processors
 };
 
 struct DesignResult {
   ExitCode code = ExitCode::done;  // or interrupted
   design::Designed designed;
   std::string text, json;  // a report
-  std::string scenario;    // that plays the table
+  std::string scenario;    // plays the table
   std::string table;       // CSV
   std::string sketch;
 };
@@ -42,7 +42,7 @@ struct DesignParts {
   bool scenario = false, sketch = false;
 };
 
-// Throws InputError. The scenario's text and the sketch are made only if they are asked for.
+// Throws InputError. Makes the scenario's text and the sketch only on request.
 [[nodiscard]] DesignResult design(const DesignRequest& request, DesignParts parts, Watch& watch);
 
 }  // namespace bbsim::api

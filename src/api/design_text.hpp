@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a design says: a report, JSON, and comments for its scenario.
+// Texts of a design: a report, JSON, and comments for its scenario.
 #pragma once
 
 #include <string>

@@ -30,14 +30,14 @@ constexpr std::array<ObservationColumn, 11> its_columns{{
     {"servo_theta_rate", "rad/s", "its rate"},
 }};
 
-// What of a scene draws by controller.sensor.seed.
+// Whether anything in the scene draws random numbers from controller.sensor.seed.
 bool draws(const Scenario& scenario) {
   const Controller& controller = *scenario.controller;
   return (controller.sensor && (controller.sensor->noise > 0 || controller.sensor->dropout > 0)) ||
          (controller.sampling && controller.sampling->jitter > 0);
 }
 
-// In a lane nobody asks it, but the model has to have one.
+// Placeholder that the model needs; a lane never asks it.
 class Unasked : public model::ExternalController {
  public:
   void begin() override {}
@@ -49,7 +49,7 @@ class Unasked : public model::ExternalController {
   void restore(const std::string& /*memory*/) override {}
 };
 
-// Runs with more samples are left to single runs, which need not remember their commands.
+// Longer runs are stepped singly, without a record of their commands.
 constexpr double most_samples = 1e5;
 
 bool suits_lanes(const Scenario& scenario) {
@@ -71,7 +71,7 @@ Environments::Environments(ScenarioFamily family, std::size_t count, std::vector
     throw InputError("controller: found none; allowed: a controller with sampling and drives");
   }
   scenario_.source = family_.source();
-  // Fewer would leave lanes empty, and single runs give the bits of `bbsim run`.
+  // Fewer runs would leave lanes empty, and single runs match `bbsim run` bit for bit.
   if (keeps_rows_ || count < group || !scenario_.controller->sampling) return;
   for (std::size_t first = 0; first < count; first += group) {
     lanes_.push_back(
@@ -94,7 +94,7 @@ Scenario Environments::scenario_of(const Beginning& beginning) const {
     scenario.source = family_.source();
   }
   if (draws(scenario)) {
-    // Its place in the text is of no matter: the sensor is made anew with each run.
+    // The seed needs no place in the text: each run makes its sensor anew.
     auto& sensor = scenario.controller->sensor;
     if (!sensor) sensor.emplace();
     sensor->seed = beginning.seed;

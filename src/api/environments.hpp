@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Runs of one scenario at values of its keys that go on together, a sample at a time.
+// Runs of one scenario at different values of its keys, which advance one sample at a time.
 #pragma once
 
 #include <cstddef>
@@ -17,44 +17,44 @@
 
 namespace bbsim::api {
 
-// A column of an observation.
+// Column of an observation.
 struct ObservationColumn {
   std::string_view name, unit, meaning;
 };
 
-// Rigs that SIMD lanes can carry go in lanes, if there are enough runs and nobody wants their rows;
-// all others are a SteppedRun each.
+// Rigs that SIMD lanes can carry run in lanes if there are enough runs and nobody wants their rows.
+// Each other run is a SteppedRun.
 class Environments {
  public:
-  // `keys` are set at each begin(). Runs that keep rows have those of output.columns in their
-  // results. Throws InputError for a scenario whose controller takes no samples.
+  // `keys` are set at each begin(). `keeps_rows`: results have the rows of output.columns. Throws
+  // InputError if the controller takes no samples.
   Environments(ScenarioFamily family, std::size_t count, std::vector<std::string> keys,
                bool keeps_rows);
 
   [[nodiscard]] static std::span<const ObservationColumn> columns();
   [[nodiscard]] std::size_t count() const { return runs_.size(); }
-  // The scenario without settings.
+  // Scenario without settings.
   [[nodiscard]] const Scenario& scenario() const { return scenario_; }
 
-  // How a run begins: with a value for each key. A sensor or sampling that draws is given `seed`.
+  // Start of a run: a value for each key, and the seed of a sensor or sampling that draws.
   struct Beginning {
     std::vector<std::string> values;
     std::size_t seed = 0;
   };
-  // Begins runs `which` anew. Throws InputError.
+  // Restarts runs `which`. Throws InputError.
   void begin(std::span<const std::size_t> which, std::span<const Beginning> how);
-  // Gives each run that is flagged and not over its commands, two for each run, and goes to its
-  // next sample. Throws InputError for commands that are not finite; no run has then moved.
+  // Applies two commands to each flagged run that is not over, and advances it to its next sample.
+  // Throws InputError for commands that are not finite; then no run has moved.
   void step(std::span<const double> commands, std::span<const bool> which);
 
-  // Row-major, count() x columns(): of each run's present sample; of one that is over, the last.
+  // Present sample of each run, or the last if it is over; row-major, count() x columns().
   [[nodiscard]] const std::vector<double>& observations() const { return observations_; }
-  // The run ended before time.end, by an event or a failure; at time.end.
+  // terminated(): ended early, by an event or a failure. truncated(): ended at time.end.
   [[nodiscard]] bool terminated(std::size_t which) const;
   [[nodiscard]] bool truncated(std::size_t which) const;
-  // Of a run that is over; null if it is not. A run that went in a lane is run again for it.
+  // Result of a run that is over, else null. A run in a lane is repeated for it.
   [[nodiscard]] const RunResult* result(std::size_t which);
-  // The number of runs in lanes.
+  // Number of runs in lanes.
   [[nodiscard]] std::size_t in_lanes() const;
 
  private:
@@ -64,8 +64,8 @@ class Environments {
   struct Run {
     std::unique_ptr<SteppedRun> alone;  // null in a lane
     Beginning beginning;
-    std::vector<Pair> commands;            // in a lane, so far
-    std::unique_ptr<SteppedRun> repeated;  // of a run in a lane that is over
+    std::vector<Pair> commands;            // so far, in a lane
+    std::unique_ptr<SteppedRun> repeated;  // for a run in a lane that is over
   };
 
   [[nodiscard]] Scenario scenario_of(const Beginning& beginning) const;
@@ -82,7 +82,7 @@ class Environments {
   std::vector<std::string> keys_;
   bool keeps_rows_;
   std::vector<Run> runs_;
-  std::vector<std::unique_ptr<Lanes>> lanes_;  // of `group` runs each; empty without lanes
+  std::vector<std::unique_ptr<Lanes>> lanes_;  // each of `group` runs; empty without lanes
   std::vector<double> observations_;
 };
 

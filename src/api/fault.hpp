@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The parts of a message about a key: "ball.radius: found -1; allowed: a length greater than 0".
+// Parts of a message about a key: "ball.radius: found -1; allowed: a length greater than 0".
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace bbsim::api {
 
 struct KeyAndHint {
   std::string key;   // ball.radius; empty if the message begins with no key
-  std::string hint;  // "did you mean radius?", "allowed: ..."; empty if there is neither
+  std::string hint;  // "did you mean radius?", "allowed: ..."; may be empty
 };
 
 [[nodiscard]] KeyAndHint key_and_hint(std::string_view message);

@@ -47,7 +47,7 @@ void finish_switch([[maybe_unused]] void* fake, [[maybe_unused]] const void** bo
 #endif
 }
 
-// The thread sanitizer has a clock for each fiber, which is told of immediately before a switch.
+// The thread sanitizer has a clock for each fiber. Tell it of a switch just before the switch.
 void* new_clock() {
 #ifdef BBSIM_FIBERS_WATCHED
   return __tsan_create_fiber(0);
@@ -90,7 +90,7 @@ Fiber::Fiber(std::function<void()> body) : body_(std::move(body)) {
   own_.uc_stack.ss_sp = static_cast<char*>(memory_) + page;
   own_.uc_stack.ss_size = stack_bytes;
   own_.uc_link = nullptr;
-  // makecontext() hands on only ints.
+  // makecontext() passes only ints.
   const auto self = reinterpret_cast<std::uintptr_t>(this);
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): as POSIX has it
   makecontext(&own_, reinterpret_cast<void (*)()>(&Fiber::enter), 2,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A function that can pause and give control back to its caller: it runs on its own stack.
+// Function with a stack of its own, which can pause and return control to its caller.
 #pragma once
 
 #include <ucontext.h>
@@ -21,11 +21,10 @@ class Fiber {
   Fiber(const Fiber&) = delete;
   Fiber& operator=(const Fiber&) = delete;
 
-  // Goes on with the body until it waits or ends. Throws what the body throws, which has then
-  // ended.
+  // Continues the body until it waits or ends. Rethrows what the body throws, which ends it.
   void resume();
-  // For the body: back to who called resume(), until it does so again. Not while an exception is
-  // handled, which belongs to the thread.
+  // Called by the body: returns to the caller of resume() until the next resume(). Not while an
+  // exception is handled, since it belongs to the thread.
   void wait();
 
   [[nodiscard]] bool has_ended() const { return ended_; }
@@ -37,15 +36,15 @@ class Fiber {
   std::function<void()> body_;
   ucontext_t caller_{}, own_{};
   void* memory_ = nullptr;
-  std::size_t size_ = 0;  // of the memory, with the page that guards the stack's end
+  std::size_t size_ = 0;  // of the memory, including the guard page at the stack's end
   bool ended_ = false;
   std::exception_ptr thrown_;
-  // What the address sanitizer knows of the two stacks.
+  // State of the two stacks for the address sanitizer.
   void* fake_caller_ = nullptr;
   void* fake_own_ = nullptr;
   const void* caller_bottom_ = nullptr;
   std::size_t caller_size_ = 0;
-  // What the thread sanitizer knows them by.
+  // Handles of the two stacks for the thread sanitizer.
   void* caller_clock_ = nullptr;
   void* own_clock_ = nullptr;
 };

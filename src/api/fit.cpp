@@ -26,7 +26,7 @@ namespace {
 
 using scenario::Column;
 
-// Columns that are compared where a log has them, and those that only what moves by itself has.
+// Columns to compare if a log has them. The gimbal's count only if it moves by itself.
 constexpr std::array ball_columns = {"x", "y", "vx", "vy"};
 constexpr std::array gimbal_columns = {"phi", "theta", "phi_rate", "theta_rate"};
 
@@ -34,7 +34,7 @@ bool is_of_gimbal(std::string_view name) {
   return std::ranges::find(gimbal_columns, name) != gimbal_columns.end();
 }
 
-// The names that the user maps, without the time.
+// Names that the user maps, except the time.
 std::vector<std::string> mapped_names(const results::LogChoice& choice) {
   std::vector<std::string> names;
   for (const std::string& map : choice.maps) {
@@ -123,7 +123,7 @@ fit::Log log_of(const results::Result& read, const std::string& file,
   return log;
 }
 
-// The keys of the tables that read `file`.
+// Keys of the tables that read `file`.
 std::vector<std::string> tables_of(const Scenario& scenario, const std::filesystem::path& folder,
                                    const std::string& file) {
   const auto is_it = [&](const std::string& name) {
@@ -185,12 +185,12 @@ FitResult fit(const FitRequest& request, bool with_scenario, Watch& watch) {
   FitResult made;
   fit::Task task{request.family, {}, {}, {}};
   task.keys = fit::read_free_keys(request.free, request.family);
-  if (with_scenario) {  // what cannot be written is said before the work
+  if (with_scenario) {  // fails before the work if the text cannot be written
     std::vector<ScenarioFamily::Setting> settings;
     for (const fit::FreeKey& key : task.keys) settings.push_back(key.setting(key.start));
     static_cast<void>(text_with(request.family.source(), settings));
   }
-  // A table of the scenario that is one of the logs is, for each log, that log.
+  // If a table of the scenario is one of the logs, each log replaces it in turn.
   std::vector<std::string> of_log;
   const auto folder = std::filesystem::path(request.family.source().file).parent_path();
   for (const std::string& file : request.logs) {

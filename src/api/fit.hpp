@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The values of keys at which a scenario is closest to logs of a rig.
+// Fit of a scenario's keys to logs of a rig.
 #pragma once
 
 #include <cstddef>
@@ -20,27 +20,27 @@ namespace bbsim::api {
 struct FitRequest {
   const ScenarioFamily& family;
   std::vector<std::string> logs;  // files
-  results::LogChoice choice{};    // what their columns are
+  results::LogChoice choice{};       // how to read their columns
   std::vector<std::string> free;  // KEY or KEY=FROM:TO
-  std::string window{};           // a time; empty: what suits the scene
-  double hold_out = 0;            // a share of the windows, from 0 to below 1
+  std::string window{};           // a time; empty: one that suits the scene
+  double hold_out = 0;            // share of the windows, from 0 to below 1
   bool with_series = false;       // for fit_page()
-  std::size_t threads = 0;        // 0: as many as there are processors
-  std::size_t starts = 1;         // sets of values to begin with, from 1 on
+  std::size_t threads = 0;        // 0: as many as processors
+  std::size_t starts = 1;         // sets of start values, at least 1
   std::string loss = "squares";   // or huber
-  bool continuity = false;        // windows join where no gap is between them
+  bool continuity = false;        // join windows that have no gap between them
 };
 
 struct FitResult {
-  ExitCode code = ExitCode::done;  // or interrupted, with the best so far, if there is any
+  ExitCode code = ExitCode::done;  // or interrupted, with the best so far, if any
   fit::Fitted fitted;
-  std::vector<std::string> warnings;  // of the logs
+  std::vector<std::string> warnings;  // about the logs
   std::string text;                   // a report
   std::string json;
-  std::string scenario;  // its text with the estimates in it, and what they are in comments
+  std::string scenario;  // text with the estimates, which comments explain
 };
 
-// Throws InputError. The fitted scenario's text is made only if it is asked for.
+// Throws InputError. Makes the fitted scenario's text only on request.
 [[nodiscard]] FitResult fit(const FitRequest& request, bool with_scenario, Watch& watch);
 
 }  // namespace bbsim::api

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a rig most often has that its scenario lacks.
+// Keys that a rig often needs and its scenario lacks.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace bbsim::api {
 
-// Keys that the scenario takes and that a fit might free next: those of tables, ball, mounting,
-// servos, delays and sensor that `task` does not free.
+// Keys that the scenario takes and a fit might free next: those of tables, ball, mounting, servos,
+// delays and sensor that `task` does not free.
 [[nodiscard]] std::vector<fit::FreeKey> fit_candidates(const fit::Task& task);
 
 }  // namespace bbsim::api

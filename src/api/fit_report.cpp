@@ -24,7 +24,7 @@ constexpr std::size_t most_page_rows = 40000;
 
 using WindowList = std::vector<const fit::WindowSeries*>;
 
-// The windows of a log, in their order.
+// Windows of a log, in order of time.
 WindowList windows_of(const fit::Fitted& fitted, std::size_t log) {
   WindowList windows;
   for (const fit::WindowSeries& one : fitted.series) {
@@ -34,7 +34,7 @@ WindowList windows_of(const fit::Fitted& fitted, std::size_t log) {
   return windows;
 }
 
-// Of each column three: the log's numbers, the model's, and their difference.
+// Three series per column: log, model and difference.
 struct PageRows {
   std::vector<double> times;
   std::vector<std::array<std::vector<double>, 3>> columns;
@@ -62,7 +62,7 @@ PageJson log_json(const std::string& name, const fit::Fitted& fitted, const Wind
   PageJson parts = PageJson::array();
   std::size_t all = 0;
   for (const fit::WindowSeries* const window : windows) {
-    // A row without numbers parts the lines of two windows.
+    // A row without numbers separates the lines of two windows.
     if (!rows.times.empty()) rows.add((rows.times.back() + window->times.front()) / 2);
     const std::size_t first = rows.times.size(), count = window->times.size();
     for (std::size_t row = 0; row < count; ++row) {
@@ -82,7 +82,7 @@ PageJson log_json(const std::string& name, const fit::Fitted& fitted, const Wind
                          {"data", replay::base64_of_floats(rows.columns[c][k])}});
     }
   }
-  // The rest is what runs of replays have, too.
+  // Runs of replays have the other members too.
   return {{"name", name},
           {"rows", all},
           {"every", step},
@@ -101,7 +101,7 @@ PageJson table_json(const std::vector<std::vector<std::string>>& lines) {
           {"rows", std::vector<std::vector<std::string>>(lines.begin() + 1, lines.end())}};
 }
 
-// Two compared columns that give the ball's place.
+// Pair of compared columns that hold the ball's position.
 PageJson place_json(const fit::Fitted& fitted) {
   for (const auto& [x, y] : {std::array{"x", "y"}, std::array{"x_measured", "y_measured"}}) {
     const auto has = [&](const char* name) {

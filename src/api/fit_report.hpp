@@ -14,8 +14,8 @@ namespace bbsim::api {
 
 inline constexpr const char* fit_template = "fit.html";  // see replay::read_template()
 
-// Puts a fit with_series into the page's template. Times are doubles, other numbers floats. Of more
-// than 40,000 rows of all logs, each window keeps every nth.
+// Fills the page's template with a fit with_series. Times are doubles, other numbers floats. If all
+// logs have more than 40,000 rows, each window keeps every nth.
 [[nodiscard]] std::string fit_page(const FitRequest& request, const fit::Fitted& fitted,
                                    std::string_view page_template);
 

@@ -24,7 +24,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// To as many digits as the interval tells.
+// Shows as many digits as the standard deviation justifies.
 std::string with_digits_of(double value, double sd) {
   if (!std::isfinite(sd) || sd <= 0 || value == 0) return short_number(value);
   const double digits = std::ceil(std::log10(std::abs(value) / sd)) + 2;
@@ -79,7 +79,7 @@ std::vector<std::vector<std::string>> residual_table(const fit::Fitted& fitted) 
 
 namespace {
 
-// The keys that go with another one, in one line.
+// Keys that correlate with another one, in one line.
 std::string correlations_text(const fit::Fitted& fitted) {
   std::vector<std::string> names;
   double largest = 0;

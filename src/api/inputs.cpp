@@ -9,7 +9,7 @@
 namespace bbsim::api {
 namespace {
 
-// The files that a scenario names.
+// Declares the files that a scenario names.
 void reads_parts(file::Outputs& outputs, const Scenario& scenario) {
   for (const std::string& table : table_files(scenario)) {
     outputs.reads(table, "a table of the scenario");

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What is read with a scenario: nothing that is written may be among it.
+// Files read with a scenario, which no output may overwrite.
 #pragma once
 
 #include <string>
@@ -12,10 +12,10 @@
 
 namespace bbsim::api {
 
-// Says that a scenario is read, and with it its tables and what its own controller is made of.
+// Declares the scenario, its tables and the files of its controller as read.
 void reads_scenario(file::Outputs& outputs, const std::string& file, const Scenario& scenario);
 
-// The same of what was read with a result: its summary, and what its scenario names.
+// Declares the files read with a result: its summary, and those that its scenario names.
 void reads_with_result(file::Outputs& outputs, const results::Result& result);
 
 }  // namespace bbsim::api

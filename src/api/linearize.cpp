@@ -69,7 +69,7 @@ double read_time(const std::string& text, const Scenario& scenario) {
   return *time.value;
 }
 
-// Where the run is at that time; nothing, and why, if it does not get there.
+// State of the run at that time; empty, with the reason in `made`, if the run does not get there.
 std::optional<model::LinearPoint> point_at(double time, const Scenario& scenario,
                                            const model::Model& model, Watch& watch,
                                            Linearized& made) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A scene as a linear system: A, B, C, D, poles, zeros and margins.
+// Linear system of a scene: A, B, C, D, poles, zeros and margins.
 #pragma once
 
 #include <optional>
@@ -18,33 +18,33 @@ namespace bbsim::api {
 using model::Linearization;
 using model::LinearKind;
 
-// plant, loop or sampled; nothing for an empty name. Throws InputError for another one.
+// Kind named plant, loop or sampled; empty for an empty name. Throws InputError for other names.
 [[nodiscard]] std::optional<LinearKind> kind_named(const std::string& name);
 
 struct LinearizeRequest {
   Scenario scenario;
-  std::optional<LinearKind> kind{};  // without one, what is usual for the scene
+  std::optional<LinearKind> kind{};  // empty: the usual one for the scene
   std::string at = "home";           // or equilibrium, or a time of the run, such as "2 s"
 };
 
 struct Linearized {
   ExitCode code = ExitCode::done;
   std::string reason;  // why there is no linear system; empty if there is one
-  std::string note;    // what it leaves out
+  std::string note;    // what the system leaves out
   std::string scenario, kind, at;
   Linearization linearisation;
 };
 
-// Throws InputError where the scene has no such linear system.
+// Throws InputError if the scene has no such linear system.
 [[nodiscard]] Linearized linearize(const LinearizeRequest& request, Watch& watch);
 
 // Margins of each command's loop, and the bandwidths.
 [[nodiscard]] Report margin_lines(const Linearization& made);
 
-// Points of operation, names and units, poles, zeros and margins.
+// Operating points, names and units, poles, zeros and margins.
 [[nodiscard]] Report report_of(const Linearized& made);
 
-// As a file of that name is written, by its ending: .m, .py, .csv, or else JSON.
+// Text of a file of that name; its ending selects the format: .m, .py, .csv, else JSON.
 [[nodiscard]] std::string file_text(const Linearized& made, const std::string& file);
 
 }  // namespace bbsim::api

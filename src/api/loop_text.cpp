@@ -16,8 +16,8 @@ namespace bbsim::api {
 
 namespace {
 
-// A pair's second pole, which is named with the first. A smaller imaginary part is the rounding of
-// a double pole's root.
+// Whether this is a pair's second pole, which the first one names. Smaller imaginary parts are
+// rounding errors of a double pole's root.
 bool is_named(const std::complex<double>& pole) {
   return pole.imag() < -1e-7 * std::abs(pole);
 }
@@ -84,7 +84,7 @@ bool is_pd_or_pid(const Scenario& scenario) {
          (scenario.controller->law == Law::pd || scenario.controller->law == Law::pid);
 }
 
-// The scene with the signs of theta's row reversed in those gains that `which` has a bit for.
+// Reverses theta's row in a state feedback and in the gains with a bit in `which`.
 Scenario with_theta_reversed(const Scenario& scenario, unsigned which) {
   Scenario reversed = scenario;
   Controller& controller = *reversed.controller;
@@ -95,7 +95,7 @@ Scenario with_theta_reversed(const Scenario& scenario, unsigned which) {
   reverse(controller.kv, 1);
   reverse(controller.kp, 2);
   reverse(controller.ki, 4);
-  // Columns 5 to 8 multiply the servo's own angle and rate.
+  // Columns 5 to 8 multiply the servos' own angles and rates, and keep their signs.
   for (std::size_t i = 0; i < 4; ++i) controller.gain[1][i] = -controller.gain[1][i];
   return reversed;
 }

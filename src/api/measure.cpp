@@ -18,13 +18,13 @@
 namespace bbsim::api {
 namespace {
 
-// A column of words, as a log may have it for others.
+// A column of words, such as a log may have for other readers.
 struct Words {
   std::string column, first;
   std::size_t row = 0;  // of the first
 };
 
-// The columns of numbers; of the others, what is there in place of one.
+// Returns the columns of numbers; puts the first word of each other column into `others`.
 file::TableData numbers_of(results::Result result, std::vector<Words>& others) {
   if (result.is_sweep()) {
     throw InputError(result.file +
@@ -50,7 +50,7 @@ file::TableData numbers_of(results::Result result, std::vector<Words>& others) {
   return table;
 }
 
-// Whether `text` has the name as a part of its own: x of "max_x", "x.Peak" and "when x=1".
+// Whether `text` contains the name as a separate part, as x in "max_x", "x.Peak" and "when x=1".
 bool has_name(const std::string& text, const std::string& name) {
   const auto is_letter = [&](std::size_t at) {
     return at < text.size() && std::isalnum(static_cast<unsigned char>(text[at])) != 0;
@@ -61,7 +61,7 @@ bool has_name(const std::string& text, const std::string& name) {
   return false;
 }
 
-// What is wrong with measures that cannot be taken may be that they are of words.
+// Throws a message about the first word in t or an asked column, else `error`.
 [[noreturn]] void refuse(const InputError& error, const std::string& file,
                          const std::vector<std::string>& asked, const std::vector<Words>& others) {
   for (const Words& words : others) {
@@ -77,7 +77,7 @@ bool has_name(const std::string& text, const std::string& name) {
   throw InputError(error);
 }
 
-// Of a log, in whatever units, columns that are not in bbsim's by their looks.
+// Warns of a log's columns whose values suggest units other than bbsim's.
 void warn_of_units(const record::StoredRun& run, const std::vector<scenario::Measure>& measures,
                    const std::string& file, std::vector<std::string>& notes) {
   std::vector<const scenario::Column*> told;
@@ -95,7 +95,7 @@ void warn_of_units(const record::StoredRun& run, const std::vector<scenario::Mea
   }
 }
 
-// Of step metrics, what they count to for want of a reference.
+// Notes which value step metrics refer to if there is no reference.
 void tell_of_references(const record::StoredRun& run,
                         const std::vector<scenario::Measure>& measures, const std::string& file,
                         std::vector<std::string>& notes) {

@@ -15,18 +15,18 @@
 
 namespace bbsim::api {
 
-// These columns, and after them what a picture of the scene needs and is not among them.
+// These columns, followed by others that a picture of the scene needs.
 [[nodiscard]] std::vector<const scenario::Column*> with_pictured(
     const std::vector<const scenario::Column*>& columns, const Scenario& scenario);
 
-// A run of the scenario; `end_row` is that of record::Recorder.
+// Run of the scenario for a page; `end_row` is that of record::Recorder.
 [[nodiscard]] replay::Run run_of(const Scenario& scenario, file::TableData rows,
                                  record::RunSummary summary, const std::vector<double>& end_row);
 
-// What is known of a scene: its plate, ball and signals, and what `bbsim check` says of it.
+// Adds facts about the scene: its plate, ball and signals, and the report of `bbsim check`.
 void describe(replay::Run& run, const Scenario& scenario);
 
-// What a file is called in a scene: without its folder.
+// Name of a file without its folder, as scenes show it.
 [[nodiscard]] std::string short_name(const std::string& file);
 
 }  // namespace bbsim::api

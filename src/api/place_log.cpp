@@ -47,7 +47,7 @@ std::vector<std::string> place_log(replay::Scene& scene, bool align) {
     said.push_back(record::to_text(record::log_distance(ours, log.name, theirs, lead.name),
                                    log.name, lead.name));
     said.back().pop_back();
-  } catch (const InputError& error) {  // they have no time in common, and can still be shown
+  } catch (const InputError& error) {  // no time in common; the log can still be shown
     said.push_back("warning: " + std::string(error.what()));
   }
   return said;

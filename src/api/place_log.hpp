@@ -10,8 +10,8 @@
 
 namespace bbsim::api {
 
-// The last run of the scene is a log: aligns it with the first one if `align`. Returns sentences
-// that say how far it was moved, and how far it is from that run.
+// Aligns the scene's last run, which is a log, with the first one if `align`. Returns sentences
+// about the shift and the distance to that run.
 [[nodiscard]] std::vector<std::string> place_log(replay::Scene& scene, bool align);
 
 }  // namespace bbsim::api

@@ -31,7 +31,7 @@
 namespace bbsim::api {
 namespace {
 
-// Most answer at the first sample; a sketch that filters or waits takes some.
+// Most controllers answer at the first sample; a sketch that filters or waits takes longer.
 constexpr std::size_t samples = 25;
 using Commands = std::vector<Pair>;
 
@@ -49,7 +49,7 @@ class Bench {
     return model_.with_loop([t](const auto& loop) { return loop.reference().at(t); });
   }
 
-  // The answers to a ball that is away(sample) from the reference, m.
+  // Commands for a ball at away(sample) from the reference, m.
   Commands commands(const std::function<Pair(double)>& away) {
     return answers(samples, 0, [&](std::size_t i, const Pair& reference) {
       const Pair from = away(static_cast<double>(i));
@@ -59,8 +59,8 @@ class Bench {
     });
   }
 
-  // The answers to a ball at the reference that is seen elsewhere by `pulse` at one sample, m; all
-  // servos are at that angle, rad.
+  // Commands for a ball at the reference that one sample shows displaced by `pulse`, m. All servos
+  // are at the angle `servo`, rad.
   Commands answers_to_pulse(std::size_t count, std::size_t at, const Pair& pulse, double servo) {
     return answers(count, servo, [&](std::size_t i, const Pair& reference) {
       Pair seen = reference;
@@ -99,9 +99,8 @@ class Bench {
   std::vector<double> own_;
 };
 
-// How much a positive command, in phi and theta, moves the ball along x and y: by the angle that it
-// turns the plate to. What the ball does while the plate accelerates may be the other way, and is
-// left out.
+// How much a positive command in phi and theta moves the ball along x and y, through the angle to
+// which it turns the plate. Leaves out motion while the plate accelerates, which may be opposite.
 Eigen::MatrixXd effect_of(const model::Model& model) {
   const model::PlantDerivatives plant =
       model::plant_derivatives(model, model::home_point(), model::Heave::left_out);
@@ -109,18 +108,18 @@ Eigen::MatrixXd effect_of(const model::Model& model) {
   Eigen::MatrixXd turned = plant.of_command.block(rate, 0, 2, 2);
   for (int i = 0; i < 2; ++i) {
     if (!model.rig->servo[i].time_constant) continue;
-    // One of first order takes its rate from the command, and no acceleration.
+    // A first-order servo takes its rate from the command, and has no acceleration.
     turned.row(i).setZero();
     turned(i, i) = 1;
   }
-  // Of angles under commands that hold them.
+  // Effect of angles under commands that hold them.
   const Eigen::MatrixXd holding = model::solve(turned, plant.of_state.block(rate, angle, 2, 2));
   const Eigen::MatrixXd of_angle = plant.of_state.block(speed, angle, 2, 2) -
                                    model::product(plant.of_command.block(speed, 0, 2, 2), holding);
   return model::product(of_angle, turned);
 }
 
-// How far from the reference the ball is put, m: less where the plate or what the sensor sees ends.
+// Distance of the test ball from the reference, m: less near the end of the plate or sensor area.
 double greatest_distance(const Scenario& scenario, std::size_t axis, double reference) {
   double half = std::numeric_limits<double>::infinity();
   if (scenario.plate.size) half = (*scenario.plate.size)[axis] / 2;
@@ -131,22 +130,22 @@ double greatest_distance(const Scenario& scenario, std::size_t axis, double refe
   return room > 0 ? std::min(room, 0.05) : 0.05;
 }
 
-// The controller's answers on either side of the reference along an axis.
+// The controller's commands on either side of the reference along an axis.
 struct Sides {
   double distance;  // m
   Commands up, down;
 
-  // By how much a command rises with the coordinate, in its unit per m.
+  // Rise of a command with the coordinate, in its unit per m.
   [[nodiscard]] double slope(std::size_t sample, std::size_t command) const {
     return (up[sample][command] - down[sample][command]) / (2 * distance);
   }
 };
 
-// Along x and y.
+// Answers along x and y.
 struct Answers {
   std::array<std::optional<Sides>, 2> near, far;
 
-  // Whether any command of the sample depends on where the ball is.
+  // Whether any command of the sample depends on the ball's position.
   [[nodiscard]] bool depend(std::size_t sample) const {
     for (const auto* sides : {&near, &far}) {
       for (const auto& one : *sides) {
@@ -156,7 +155,7 @@ struct Answers {
     return false;
   }
 
-  // By how much a command rises with a coordinate about the reference, in its unit per m.
+  // Rise of a command with a coordinate about the reference, in its unit per m.
   [[nodiscard]] double gain(std::size_t sample, std::size_t command, std::size_t axis) const {
     const auto slope = [&](const std::optional<Sides>& sides) {
       return sides ? sides->slope(sample, command) : 0;
@@ -190,8 +189,8 @@ std::string centimeters(double meters) {
   return short_number(100 * meters) + " cm";
 }
 
-// What there is to say of phi's command, or theta's. `effect` is effect_of() it: on x and y. With
-// legs, both together have a cure (turn_of), and neither has one of its own.
+// Assesses the command for phi or theta; `effect` is its effect_of() on x and y. With legs, a
+// remedy exists only for both commands together (turn_of).
 Line line_of(const Answers& answers, std::size_t sample, std::size_t command,
              const Eigen::Vector2d& effect, const std::string& unit, bool legs) {
   constexpr const char* warning = "WARNING";
@@ -200,7 +199,7 @@ Line line_of(const Answers& answers, std::size_t sample, std::size_t command,
   const double gain = answers.gain(sample, command, axis);
   const double cross = answers.gain(sample, command, other);
   if (gain == 0 && cross == 0) return {warning, name + "does not depend on where the ball is"};
-  // What is left of its own axis may be rounding, or a sensor that is turned a little.
+  // The rest on its own axis may be rounding, or a sensor that is turned slightly.
   if (std::abs(gain) < 0.1 * std::abs(cross)) {
     return {warning, name + "depends on " + coordinates[other] + ", but moves the ball along " +
                          coordinates[axis] +
@@ -229,8 +228,8 @@ Line line_of(const Answers& answers, std::size_t sample, std::size_t command,
                        "; " + gains};
 }
 
-// What is wrong with the commands of three legs together: they shall push a ball back along the
-// line to the reference, and push it along one that is turned, or mirrored.
+// Finds what is wrong with the commands of three legs together: they should push the ball back
+// along the line to the reference, but push it along a line that is turned or mirrored.
 std::optional<Line> turn_of(const Answers& answers, std::size_t sample,
                             const Eigen::Matrix2d& effect) {
   Eigen::Matrix2d gains;
@@ -256,7 +255,7 @@ std::optional<Line> turn_of(const Answers& answers, std::size_t sample,
                   " deg; are the legs numbered and placed (legs.angle) as in your code?"};
 }
 
-// What it answers to pulses of `size` (m) in each coordinate, at a sample.
+// Response to pulses of `size` (m) in each coordinate at a sample.
 model::PulseResponse response_to(Bench& bench, std::size_t at, double size) {
   model::PulseResponse response(model::pulse_samples, Eigen::MatrixXd(2, 2));
   const std::size_t count = at + response.size();
@@ -280,8 +279,8 @@ struct Estimate {
   std::string why;  // there is none
 };
 
-// The law about the reference, if it is linear there and the same at every sample: two pulses of
-// different size, at different samples, have the same answer. `start`: by then it answers.
+// Law about the reference, if linear there and the same at every sample: two pulses of different
+// size at different samples get the same response. The controller answers from `start` on.
 Estimate law_about_reference(Bench& bench, std::size_t start, double size) {
   constexpr std::size_t settling = 10;
   constexpr double servo = 0.01;  // rad
@@ -301,7 +300,7 @@ Estimate law_about_reference(Bench& bench, std::size_t start, double size) {
   return {model::law_of(one, apart), not_linear};
 }
 
-// Margins of the loop of the plant and that law.
+// Margins of the loop of the plant and the estimated law.
 Report estimated_margins(const Scenario& scenario, const model::Model& model, Bench& bench,
                          const std::vector<int>& axes, const Answers& answers, std::size_t start) {
   const std::string none = "margins: no estimate: ";
@@ -337,7 +336,7 @@ Report estimated_margins(const Scenario& scenario, const model::Model& model, Be
 Report probe(const Scenario& scenario, const model::Model& model) {
   Bench bench(model);
   Report report;
-  // A ball that moves, so that a controller takes differences and divides them by time.
+  // The ball moves, so that a controller takes differences and divides them by time.
   const auto moves = [](double sample) { return Pair{0.01 - 0.001 * sample, 0.0007 * sample}; };
   if (bench.commands(moves) != bench.commands(moves)) {
     report.push_back({"WARNING",

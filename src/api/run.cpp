@@ -27,7 +27,7 @@ namespace {
 
 using Columns = std::vector<const scenario::Column*>;
 
-// The measures asked for, and behind them the others that something is expected of.
+// The measures asked for, followed by others that have expectations.
 std::vector<scenario::Measure> with_expected(
     std::vector<scenario::Measure> measures,
     const std::vector<scenario::Expectation>& expectations) {
@@ -39,7 +39,7 @@ std::vector<scenario::Measure> with_expected(
   return measures;
 }
 
-// What became of the expectations.
+// Records in `result` which expectations hold.
 void judge(const std::vector<scenario::Expectation>& expectations,
            const std::vector<scenario::Measure>& measures, const Simulation& made,
            RunResult& result) {
@@ -60,7 +60,7 @@ void judge(const std::vector<scenario::Expectation>& expectations,
   }
 }
 
-// The columns of the rows, and those that measures look at.
+// Columns of the rows, and those that measures use.
 Columns needed_for(Columns columns, const std::vector<scenario::Measure>& measures) {
   for (const scenario::Measure& measure : measures) {
     if (measure.column != nullptr) columns.push_back(measure.column);
@@ -80,7 +80,7 @@ std::vector<file::ColumnHeader> headers_of(const Columns& columns) {
   return headers;
 }
 
-// Writes the first `count` columns of the table, and behind them the others.
+// Writes the first `count` columns of the table, then the others.
 void append(const file::TableData& table, std::size_t count,
             const std::vector<std::vector<double>>& others, file::TableWriter& writer) {
   std::vector<const double*> columns;
@@ -89,7 +89,7 @@ void append(const file::TableData& table, std::size_t count,
   writer.append(columns, table.columns.front().size());
 }
 
-// Hands rows to a function, and to another table if there is one.
+// Passes rows to a callback and, if given, to a second table.
 class RowsTo : public file::TableWriter {
  public:
   RowsTo(const RunRequest& request, std::size_t asked, file::TableWriter* next)
@@ -130,7 +130,7 @@ RunResult run(const RunRequest& request, Watch& watch) {
   std::optional<RunPart> part;
   if (request.part.any()) part.emplace(request.part, scenario, request.inputs);
 
-  // Before a controller is started, and long before the file is opened.
+  // Check names before a controller starts, and long before the file is opened.
   std::vector<file::ColumnHeader> headers = headers_of(asked);
   gradients.add_headers(headers);
   if (!request.output.empty()) file::require_table_name(request.output);
@@ -145,7 +145,7 @@ RunResult run(const RunRequest& request, Watch& watch) {
   if (part) part->check(model, columns);
   std::optional<study::Sensitivity> sensitivity;
   if (!keys.empty()) sensitivity.emplace(model, form, grid, keys);
-  std::deque<std::string> units;  // as the scene's own controller names them
+  std::deque<std::string> units;  // from the scene's own controller
   for (std::size_t c = 0; c < asked.size(); ++c) {
     if (asked[c]->needs != scenario::Needs::own) continue;
     headers[c].unit = units.emplace_back(host.unit_of(asked[c]->name).value_or("1"));
@@ -160,7 +160,7 @@ RunResult run(const RunRequest& request, Watch& watch) {
     summary_file = std::make_unique<file::AtomicFile>(request.summary);
   }
   if (writer) writer->keep(request.inputs);
-  // Derivatives become known after the last row.
+  // Derivatives are known only after the last row.
   file::TableWriter* const beside = sensitivity ? nullptr : writer.get();
   std::optional<file::MemoryTable> kept;
   if (request.pictured || request.keeps_rows || sensitivity || (!writer && !request.rows_to)) {
@@ -199,7 +199,7 @@ RunResult run(const RunRequest& request, Watch& watch) {
   if (writer && summary.error_estimate) {
     writer->add_column(header_of(scenario::position_error), made.row_estimates);
   }
-  // A controller that does not begin is no reason to lose an earlier run.
+  // If the controller failed to begin, there are no rows, and the file of an earlier run stays.
   if (writer && summary.rows > 0) {
     writer->finish(record::to_attributes(summary, scenario.source.text));
   }

@@ -23,7 +23,7 @@
 namespace bbsim::api {
 namespace {
 
-// All that a run depends on but its end, and what it shows.
+// Everything that a run depends on, except its end and its output.
 std::string identity_of(const Scenario& scenario, const std::vector<file::InputTable>& inputs) {
   std::string identity = scenario.source.text;
   for (const std::string& override : scenario.source.overrides) {
@@ -37,7 +37,7 @@ std::string identity_of(const Scenario& scenario, const std::vector<file::InputT
       for (const double value : table.data->columns[c]) identity += ' ' + number_text(value);
     }
   }
-  // What a controller of one's own is made of, and which numbers it is asked for.
+  // Numbers that output asks of the user's controller, and the files of that controller.
   for (const scenario::Column* column : scenario::columns_named(scenario.output.columns)) {
     if (column->needs == scenario::Needs::own) identity += "\n" + std::string(column->name);
   }
@@ -63,7 +63,7 @@ RunPart::RunPart(const PartRequest& request, const Scenario& scenario,
                      std::string(solve::method_name(method)) +
                      ", whose history is not saved; allowed: radau");
   }
-  Scenario without_push = scenario;  // which switches nothing
+  Scenario without_push = scenario;  // a push switches nothing
   without_push.ball.push.reset();
   if (scenario::is_coupled(without_push)) {
     throw InputError(
@@ -89,18 +89,18 @@ void RunPart::choose_rows() {
                        "; allowed: a time from time.step to before time.end, " +
                        short_number(times.end) + " s");
     }
-    // Times nearer than this are one, as on the grid.
+    // Times closer than this count as equal, as on the grid.
     const double last = *until.value * (1 + 1e-12);
     while ((*grid_)[part_.end_row - 1] > last) --part_.end_row;
   } else if (part_.keeps_state) {
-    // The end is not known: rows are those of any longer run, so without one at an end that is no
-    // multiple of the step.
+    // The end is not known: leave out a row at an end that is no multiple of the step, since longer
+    // runs lack it.
     const std::size_t rows = grid_->size();
     const double multiple = static_cast<double>(rows - 1) * times.step;
     part_.end_row = std::abs(multiple - times.end) <= 1e-9 * times.step ? rows : rows - 1;
     part_.endless = true;
     grid_.emplace(OutputTimes{static_cast<double>(rows + 1) * times.step, times.step});
-    // Knots of the input behind the end are stops, too.
+    // Knots of the input after the end are stops too.
     whole_.time.end += 1e9;
   }
   if (!from_) return;

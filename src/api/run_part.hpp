@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which part of its run is done: --save-state, --from-state and --until.
+// Part of a run: --save-state, --from-state and --until.
 #pragma once
 
 #include <memory>
@@ -22,22 +22,22 @@
 
 namespace bbsim::api {
 
-// Everything throws InputError where bytes could not be those of one run.
+// All members throw InputError if the parts could not match one run bit for bit.
 class RunPart {
  public:
   RunPart(const PartRequest& request, const Scenario& scenario,
           const std::vector<file::InputTable>& inputs);
 
-  // The scene that the model is of: of a run whose end is not known, one that goes on.
+  // Scene for the model; its end is later if the run's end is not known.
   [[nodiscard]] const Scenario& whole() const { return whole_; }
-  // Of the whole run.
+  // Grid of the whole run.
   [[nodiscard]] const solve::OutputGrid& grid() const { return *grid_; }
   [[nodiscard]] solve::Part& part() { return part_; }
 
-  // Checks the state that is gone on from, and these columns, before files are opened.
+  // Checks the state to continue from, and these columns, before files are opened.
   void check(const model::Model& model, const std::vector<const scenario::Column*>& columns) const;
   void open();
-  // Writes the state that the part left; what there is to say of it.
+  // Writes the state that the part left. Returns a message about it.
   [[nodiscard]] std::string finish(const model::Model& model);
 
  private:

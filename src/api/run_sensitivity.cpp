@@ -21,7 +21,7 @@
 namespace bbsim::api {
 namespace {
 
-// What moves, in the names of output columns.
+// States, by the names of their output columns.
 constexpr std::array state_columns = {
     "x",     "y",        "vx",         "vy",        "spin",        "gamma",      "phi",
     "theta", "phi_rate", "theta_rate", "servo_phi", "servo_theta", "servo_third"};
@@ -52,7 +52,7 @@ study::VariedKey read_key(const std::string& key,
            ": the scenario gives it no single number; allowed: a key with a number, such "
            "as ball.radius");
   }
-  // Wide enough for little rounding, and within what the scene takes.
+  // Wide enough for little rounding, and within what the scene accepts.
   study::VariedKey varied{key, *value, 0x1p-9, [family, number](double at) {
                             return family->read({number.setting(at)});
                           }};

@@ -45,7 +45,7 @@ std::string occurrence_text(const model::Occurrence& occurrence) {
   return text + ", at x = " + short_number(ball.x) + " m, y = " + short_number(ball.y) + " m";
 }
 
-// Which key makes the scene stop there, and how it would run on.
+// Which key makes the scene stop there, and how the scene would run on.
 std::string stopping_text(const Scenario& scenario, const std::string& event) {
   const Events& events = scenario.events;
   if (event == "tilt" && !events.tilt) {

@@ -35,12 +35,12 @@ Ended how(solve::Ending ending) {
   return endings[static_cast<std::size_t>(ending)];
 }
 
-// What was integrated, and how well, as far as the run can tell.
+// What was integrated, and how well, as far as the run knows.
 struct Integration {
   solve::Outcome outcome;
   solve::Tolerances tolerances;
-  std::optional<double> error_estimate;  // m, of a run with solver.error
-  std::vector<double> row_estimates;     // the same of each row
+  std::optional<double> error_estimate;  // m; only for solver.error
+  std::vector<double> row_estimates;     // for each row
   bool within_error = true;
   double cpu_seconds = 0;
 };
@@ -70,13 +70,13 @@ Integration integrate(const Scenario& scenario, const model::Model& model,
   return made;
 }
 
-// To two digits, so that as much can be asked for.
+// Rounds up to two digits, so that the user can ask for the error shown.
 double rounded_up(double error) {
   const double digit = std::pow(10.0, std::floor(std::log10(error)) - 1);
   return std::ceil(error / digit) * digit;
 }
 
-// Why the run is not all that was asked for; empty if it is.
+// Why the run falls short of the request; empty if it does not.
 std::string shortfall(const Scenario& scenario, const model::Model& model,
                       const Integration& made) {
   const double end = scenario.time.end;
@@ -144,7 +144,7 @@ solve::Watch looking_in(Watch& watch, double end) {
           }};
 }
 
-// What is asked of the motion and of the loop near home, as one list.
+// Measures of the motion and of the loop near home, as one list.
 void take_measures(const Scenario& scenario, const model::Model& model,
                    const std::vector<scenario::Measure>& measures,
                    const scenario::SplitMeasures& split, record::Recorder& recorder,
@@ -174,7 +174,7 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
   const model::BallConstants constants = model::constants_of(scenario);
   const scenario::SplitMeasures split = scenario::split_loop_measures(wanted.measures);
   record::Recorder recorder({wanted.columns, split.of_motion, true});
-  // A sweep takes them in this manner too: its numbers are these.
+  // Sweeps record rows this way too, so that both give the same numbers.
   const bool quick = part == nullptr && !scenario.solver.error &&
                      solve::choose_method(scenario.solver.method) == Method::radau;
   recorder.begin(model, constants, grid, &writer, {quick});

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The middle of a run: its model is there and its files are open. And the sentences about it, of
-// run_text.cpp.
+// The core of a run, with its model assembled and its files open; and sentences about the run
+// (run_text.cpp).
 #pragma once
 
 #include <cstddef>
@@ -25,40 +25,40 @@ namespace bbsim::api {
 
 struct RowsAndMeasures {
   std::vector<const scenario::Column*> columns;
-  std::size_t finite_columns;  // the first ones, which have to be; the others are for a picture
+  std::size_t finite_columns;  // first columns, which must be finite; others are for a picture
   std::vector<scenario::Measure> measures;
   std::size_t measures_with_gradients = 0;  // the first ones
 };
 
 struct Simulation {
   RunResult result;                   // without what only the request knows
-  std::vector<double> row_estimates;  // the error of each row, in a run with an error estimate, m
+  std::vector<double> row_estimates;  // error of each row, m, in a run with an error estimate
   std::vector<double> measures;
-  scenario::Whys whys;          // of those that are no number
+  scenario::Whys whys;          // of measures that are not finite
   std::vector<double> end_row;  // Recorder::end_row()
-  // Of each key of the sensitivity, the derivatives of the first measures.
+  // Derivatives of the first measures, for each key of the sensitivity.
   std::vector<std::vector<double>> gradients{};
 };
 
-// Integrates the model, which what is wanted needs, and hands the rows to `writer`, which is left
-// to be finished. A part of a run, if it is one, has what came of it; `sensitivity`, if not null,
-// the derivatives of the rows.
+// Integrates the model, which must provide what `wanted` needs. Passes the rows to `writer`, which
+// the caller finishes. `part` and `sensitivity` may be null; they receive the state and the
+// derivatives.
 [[nodiscard]] Simulation simulate(const Scenario& scenario, const model::Model& model,
                                   const solve::OutputGrid& grid, const RowsAndMeasures& wanted,
                                   file::TableWriter& writer, Watch& watch, solve::Part* part,
                                   study::Sensitivity* sensitivity);
 
-// Why a run failed: when, what the integrator said, what grew, and what to do.
+// Why a run failed: when, what the integrator reported, what grew, and what to do.
 [[nodiscard]] std::string failure_text(const Scenario& scenario, const model::Model& model,
                                        const solve::Outcome& outcome);
 
-// Why a run stopped: when, at what, which key says so, and how the scene would run on.
+// Why a run stopped: when, at which event, which key asks for it, and how the scene would run on.
 [[nodiscard]] std::string stopped_text(const Scenario& scenario, const solve::Outcome& outcome);
 
-// How often each thing was noted, and when first; a line each, empty if nothing was.
+// How often each event was noted, and when first; one line each, empty if none was.
 [[nodiscard]] std::string noted_text(const std::vector<model::Occurrence>& occurrences);
 
-// Remarks on the scenario, an unstable loop, and a ball that left its plate unwatched.
+// Remarks on the scenario, an unstable loop, and a ball that left its plate without an event.
 [[nodiscard]] std::vector<std::string> warnings_of(const Scenario& scenario,
                                                    const model::Model& model, bool failed,
                                                    const std::optional<record::OffPlate>& left);

@@ -39,7 +39,7 @@ Sample copy_of(const model::ControllerSample& sample) {
 
 namespace {
 
-// Waits at each sample for who steps the run.
+// Waits at each sample for the caller of step().
 template <class State>
 class Waiting : public model::ExternalController {
  public:
@@ -98,7 +98,7 @@ SteppedRun::~SteppedRun() {
   state_->given_up = true;
   try {
     state_->fiber.resume();
-  } catch (...) {  // it is given up
+  } catch (...) {  // the run was given up
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A run that waits at each sample for its commands, which come from outside.
+// A run that waits at each sample for commands from outside.
 #pragma once
 
 #include <array>
@@ -17,20 +17,20 @@
 
 namespace bbsim::api {
 
-// What a controller is told at a sample (docs/reference/controllers.md), SI.
+// What a controller receives at a sample (docs/reference/controllers.md), SI.
 struct Sample {
   std::size_t number = 0;
   double t = 0;
   std::optional<Pair> ball;
   Pair reference{}, reference_rate{}, reference_acceleration{};
-  std::size_t commands = 2;  // that it asks for: three, of as many servos, under drives: legs
+  std::size_t commands = 2;  // number of commands; three, like the servos, under drives: legs
   std::array<double, 3> servo{}, servo_rate{};
 };
 
 [[nodiscard]] Sample copy_of(const model::ControllerSample& sample);
 
-// The scenario with commands from outside in place of its law. Throws InputError if its controller
-// takes no samples, or drives legs.
+// Replaces the scenario's law with commands from outside. Throws InputError if its controller takes
+// no samples, or drives legs.
 [[nodiscard]] Scenario with_outside_commands(Scenario scenario);
 
 // Throws InputError for a command that is not finite.
@@ -38,9 +38,9 @@ void require_finite(const Pair& command);
 
 class SteppedRun {
  public:
-  // Whatever law the scenario has, commands from outside take its place. Begins the run, and goes
-  // to its first sample. `request` is without a scenario. Throws as run() does, and InputError for
-  // a scenario whose controller takes no samples.
+  // Begins the run and advances to its first sample. Commands from outside replace the scenario's
+  // law. `request` has no scenario. Throws as run() does, and InputError for a scenario whose
+  // controller takes no samples.
   SteppedRun(const Scenario& scenario, RunRequest request);
   // Ends a run that is not over.
   ~SteppedRun();
@@ -48,12 +48,12 @@ class SteppedRun {
   SteppedRun& operator=(const SteppedRun&) = delete;
 
   [[nodiscard]] bool is_over() const;
-  // The sample that waits for its commands; of a run that is over, the last one.
+  // Sample that waits for its commands; the last one if the run is over.
   [[nodiscard]] const Sample& sample() const;
-  // Gives the commands for phi and theta, and goes to the next sample or to the end. The run must
+  // Applies commands for phi and theta, and advances to the next sample or to the end. The run must
   // not be over. Throws InputError for commands that are not finite.
   void step(Pair command);
-  // Of a run that is over.
+  // Result of a run that is over.
   [[nodiscard]] const RunResult& result() const;
 
  private:

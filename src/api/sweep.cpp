@@ -38,7 +38,7 @@ std::vector<scenario::Measure> measures_of(const Sweep& sweep, const ScenarioFam
       sweep.measure.empty() ? scenario::default_measures(loop) : sweep.measure, family, plan);
 }
 
-// Columns of the output rows to be kept of each case.
+// Sets the columns of output rows to keep for each case.
 void keep_rows(sweep::SweepTask& task, const Scenario& scenario) {
   for (const sweep::Axis& axis : task.plan.axes()) {
     if (axis.key.starts_with("time") || axis.key.starts_with("output")) {
@@ -53,7 +53,7 @@ void keep_rows(sweep::SweepTask& task, const Scenario& scenario) {
   task.series_rows = solve::OutputGrid(scenario.time).size();
 }
 
-// Comes before any of them is opened.
+// Call it before any of the files is opened.
 void declare_files(const SweepRequest& request, const Scenario& first) {
   file::Outputs outputs;
   reads_scenario(outputs, request.file, first);
@@ -67,7 +67,7 @@ void declare_files(const SweepRequest& request, const Scenario& first) {
   if (!request.summary.empty()) outputs.writes(request.summary, "--summary");
 }
 
-// A controller of one's own that cannot be had is the scenario's fault, and not that of each case.
+// Tries the user's controller once: if it cannot start, the scenario is at fault, not each case.
 void try_controller(const ScenarioFamily& family, Scenario first, Watch& watch) {
   if (!first.controller || !first.controller->own) return;
   first.source = family.source();  // where its keys stand
@@ -75,7 +75,7 @@ void try_controller(const ScenarioFamily& family, Scenario first, Watch& watch) 
   static_cast<void>(assemble(first, scenario::columns_named(first.output.columns), host));
 }
 
-// Where the rows of a sweep go. prepare() is called on the threads that compute them.
+// Destination of a sweep's rows. The threads that compute them call prepare().
 struct CaseSink {
   std::function<void(sweep::CaseResults&)> prepare;
   std::function<void(const sweep::CaseResults&)> take;
@@ -98,7 +98,7 @@ CaseSink into_table(const sweep::SweepTask& task, const sweep::CaseFileLayout& l
           [&task, &table](const sweep::CaseResults& results) { append(task, results, table); }};
 }
 
-// Runs the cases that are not there yet, and tells `watch` how many a second.
+// Runs the missing cases, and reports the rate to `watch`.
 bool run_cases(const sweep::Engine& engine, sweep::CaseRange missing, std::size_t threads,
                const CaseSink& sink, SweepResult& result, Watch& watch) {
   const auto started = std::chrono::steady_clock::now();
@@ -175,7 +175,7 @@ SweepResult sweep(const SweepRequest& request, Watch& watch) {
     return result;
   }
   declare_files(request, first);
-  // Before a controller is started.
+  // Check the file before a controller starts.
   sweep::check_case_target(request.output, layout, request.resumes);
   if (request.by_default && !request.replaces_anything) {
     file::require_like(request.output, file::table_with(sweep::header_of(layout.columns)));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Many runs of a scenario at other values of its keys, and the parts of such a sweep as one.
+// Runs of a scenario at many values of its keys, and the merge of a sweep's parts.
 #pragma once
 
 #include <cstddef>
@@ -20,21 +20,21 @@ struct Shard {
 };
 
 struct SweepRequest {
-  std::string file;  // of the scenario, as the user named it; "-": standard input
+  std::string file;  // the scenario's, as the user gave it; "-": standard input
   const ScenarioFamily& family;
   Sweep sweep;
   Shard shard{};
-  std::string output;  // by sweep::open_case_file(); empty: into the result's table
-  // The output's name is none that the user gave: how messages call it, and, unless told otherwise,
-  // that only a table with the same columns is replaced.
+  std::string output;  // for sweep::open_case_file(); empty: the result's table
+  // The user did not name the output: messages say so, and unless `replaces_anything`, only a table
+  // with the same columns is replaced.
   bool by_default = false, replaces_anything = false;
   std::string summary{};    // a JSON file; empty: none
-  std::size_t threads = 0;  // 0: as many as there are processors
-  bool resumes = false;     // goes on with a part that an earlier run left
-  bool keeps_rows = false;  // also those of output.columns of each case
+  std::size_t threads = 0;  // 0: as many as processors
+  bool resumes = false;     // continue a part that an earlier run left
+  bool keeps_rows = false;  // also keep the rows of output.columns of each case
 };
 
-// The rows of a sweep, a column each.
+// Rows of a sweep, by columns.
 struct SweepTable {
   struct Column {
     std::string name, unit;
@@ -47,27 +47,26 @@ struct SweepTable {
 
 struct SweepResult {
   ExitCode code = ExitCode::done;  // or interrupted
-  std::string reason;              // why it did not end
-  std::size_t cases = 0;           // of this shard
-  std::size_t rows = 0, kept = 0;  // that are there now, and of these those of an earlier run
-  sweep::StatusCounts statuses;    // of these
+  std::string reason;              // why the sweep did not finish
+  std::size_t cases = 0;           // in this shard
+  std::size_t rows = 0, kept = 0;  // rows now there, and those kept from an earlier run
+  sweep::StatusCounts statuses;    // of the rows
   std::string engine, output;
-  SweepTable table;  // of a request without an output
+  SweepTable table;  // if the request names no output
   double seconds = 0;
 };
 
-// Throws InputError, OutputError, and ControllerFault where the scene's own controller does not
-// begin.
+// Throws InputError, OutputError, and ControllerFault if the scene's own controller does not begin.
 [[nodiscard]] SweepResult sweep(const SweepRequest& request, Watch& watch);
 
 struct MergeResult {
   ExitCode code = ExitCode::done;  // or interrupted, with nothing written
   std::size_t cases = 0;
-  std::string note;  // what the user should know of the parts; or empty
+  std::string note;  // what the user should know about the parts; may be empty
 };
 
-// Joins the parts of a sweep to the file that one run of it would have written. Throws InputError,
-// OutputError.
+// Joins the parts of a sweep into the file that one run of it would have written. Throws InputError
+// and OutputError.
 [[nodiscard]] MergeResult merge(const std::vector<std::string>& parts, const std::string& output,
                                 Watch& watch);
 

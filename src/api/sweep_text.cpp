@@ -16,10 +16,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Bytes of the longest word; strings of one length take HDF5 a fraction of the time of others.
+// Length of the longest word in bytes. HDF5 writes strings of one length many times faster.
 constexpr std::size_t longest_status = 16;
 
-// A name in the file system need not be UTF-8, which is all that JSON holds.
+// File names need not be UTF-8, but JSON must be: invalid bytes are replaced.
 std::string text_of(const Json& json) {
   constexpr int indent = 1;
   return json.dump(indent, ' ', false, Json::error_handler_t::replace) + '\n';
@@ -33,7 +33,7 @@ const char* combine_of(const Sweep& sweep) {
   return sweep.combine == Combine::zip ? "zip" : "grid";
 }
 
-// How well cases are computed, where that is the same for all: for comparisons.
+// Accuracy of the cases, for comparisons; empty if it varies.
 struct Accuracy {
   const char* name;
   double value;
@@ -50,8 +50,8 @@ std::vector<Accuracy> accuracy_of(const SweepFacts& facts) {
 Json plan_of(const SweepFacts& facts) {
   const auto& [family, sweep, task, first, shard] = facts;
   const Source& source = family.source();
-  // Objects and lists are begun as such: nlohmann's leave a null that becomes one broken where
-  // memory fails just then.
+  // Create objects and lists as such: nlohmann's json breaks a null that becomes one if memory runs
+  // out at that moment.
   Json plan = Json::object();
   plan["version"] = BBSIM_VERSION;
   plan["instruction_set"] = instruction_set();

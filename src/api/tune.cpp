@@ -32,7 +32,7 @@ using tune::CaseScore;
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-// A number that is free, and the keys that take it, times a factor each.
+// A free number, and the keys that take it, each times a factor.
 struct FreeNumber {
   struct Key {
     std::string name, unit;
@@ -41,9 +41,9 @@ struct FreeNumber {
   std::vector<Key> keys;
   double from = 0, to = 1, start = 0;
 
-  // Positive numbers over more than a decade are searched by their logarithms.
+  // Ranges of positive numbers over more than a decade are searched by logarithm.
   [[nodiscard]] bool logarithmic() const { return from > 0 && to > 10 * from; }
-  // At a place from 0 to 1.
+  // Number at a place from 0 to 1.
   [[nodiscard]] double at(double place) const {
     if (place <= 0) return from;
     if (place >= 1) return to;
@@ -95,7 +95,7 @@ std::vector<FreeNumber> read_all_free(const TuneRequest& request) {
   return free;
 }
 
-// The rigs that `--vary` draws.
+// Rigs drawn from `--vary`.
 std::optional<sweep::SweepPlan> rigs_of(const TuneRequest& request,
                                         const std::vector<FreeNumber>& free,
                                         std::optional<double> samples, double seed) {
@@ -126,11 +126,11 @@ std::optional<sweep::SweepPlan> rigs_of(const TuneRequest& request,
   return sweep::SweepPlan(request.family, sweep);
 }
 
-// The measures that are minimized and required, each once.
+// Measures to minimize and to constrain, each once.
 struct Goals {
   std::vector<scenario::Measure> measures;  // the first is minimized
   std::vector<Expectation> requirements;
-  std::vector<std::size_t> of;  // of each requirement, the place of its measure
+  std::vector<std::size_t> of;  // index of each requirement's measure
 
   std::size_t place_of(const scenario::Measure& measure) {
     const auto same = [&](const scenario::Measure& other) {
@@ -158,13 +158,13 @@ bool is_upper_bound(const Expectation& requirement) {
          requirement.relation == Expectation::Relation::at_most;
 }
 
-// A margin that any change leaves is infinite, and more than any bound.
+// A margin that no change of gain or delay uses up is infinite, and exceeds any bound.
 bool is_endless_margin(const Expectation& requirement, double measured) {
   return requirement.measure.kind == scenario::Measure::Kind::loop && measured == unlimited &&
          !is_upper_bound(requirement);
 }
 
-// By how much a measured value misses a requirement, relative to its bound; 0 or less if it holds.
+// Amount by which a value misses a requirement, relative to its bound; 0 or less if it holds.
 double excess_of(const Expectation& requirement, double measured) {
   if (is_endless_margin(requirement, measured)) return -1;
   if (!std::isfinite(measured)) return unlimited;
@@ -176,8 +176,8 @@ double excess_of(const Expectation& requirement, double measured) {
   return std::max(over, std::numeric_limits<double>::min());
 }
 
-// Slips that are only noted change no measure, but take a rig out of the lanes of a sweep: they are
-// left out, unless a key or a measure is of them.
+// Leaves out slips that are only noted, unless a key or a measure refers to them: they change no
+// measure, but take a rig out of the lanes of a sweep.
 std::vector<ScenarioFamily::Setting> without_notes(const TuneRequest& request,
                                                    const std::vector<FreeNumber>& free,
                                                    const Goals& goals) {
@@ -218,7 +218,7 @@ class Rigs {
     }
   }
 
-  // False if it was interrupted.
+  // Returns false if interrupted.
   bool run(const sweep::SweepPlan* rigs, const std::vector<tune::Point>& points,
            const std::vector<std::size_t>& cases, std::vector<CaseScore>& scores,
            const std::function<void(double)>& progress = {}) {
@@ -259,7 +259,7 @@ class Rigs {
     return numbers;
   }
 
-  // Why the latest case that did not settle did not.
+  // Latest reason why a case failed or gave no value.
   [[nodiscard]] const std::string& reason() const { return reason_; }
 
  private:
@@ -302,7 +302,7 @@ class Rigs {
   std::string reason_;
 };
 
-// The value on the worst rig that counts: the greatest, or the least where it shall be large.
+// Value on the worst rig that counts: the greatest, or the least if it should be large.
 double worst_of(const Expectation& requirement, std::size_t measure,
                 const std::vector<CaseScore>& scores, double share) {
   const double sign = is_upper_bound(requirement) ? 1 : -1;
@@ -347,7 +347,7 @@ bool all_holds(const CaseScore& score) {
          std::ranges::all_of(score.excess, [](double excess) { return excess <= 0; });
 }
 
-// What is not as it was asked for; empty if all is.
+// Which parts of the request are not met; empty if all are.
 std::string shortfall(const Tuned& tuned, const std::string& reason) {
   std::string text;
   for (const Tuned::Requirement& one : tuned.requirements) {
@@ -384,7 +384,7 @@ TuneResult tune(const TuneRequest& request, bool with_scenario, Watch& watch) {
     if (*plan)
       static_cast<void>((*plan)->check(family, 0, (*plan)->cases(), [](double) { return true; }));
   }
-  if (with_scenario) {  // what cannot be written is said before the work
+  if (with_scenario) {  // fails before the work if the text cannot be written
     std::vector<ScenarioFamily::Setting> settings;
     for (const FreeNumber& number : free) {
       for (const FreeNumber::Key& key : number.keys) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The values of keys, such as gains, that are best on the worst of many rigs.
+// Search for values of keys, such as gains, that are best on the worst of many rigs.
 #pragma once
 
 #include <cstddef>
@@ -21,11 +21,11 @@ struct TuneRequest {
   std::vector<std::string> free;       // KEY=FROM:TO; KEY may be several tied keys
   std::string minimize;                // a measure
   std::vector<std::string> require{};  // MEASURE < VALUE
-  std::vector<std::string> vary{};     // KEY=SPEC, as in a sweep; none: one rig
-  std::optional<double> samples{};     // rigs to draw
-  std::optional<double> hold_out{};    // further ones, on which the result is tried
-  double quantile = 1;                 // the share of rigs that counts
-  std::size_t threads = 0;             // 0: as many as there are processors
+  std::vector<std::string> vary{};     // KEY=SPEC, as in a sweep; empty: one rig
+  std::optional<double> samples{};     // number of rigs to draw
+  std::optional<double> hold_out{};    // number of fresh rigs that test the result
+  double quantile = 1;                 // share of rigs that counts
+  std::size_t threads = 0;             // 0: as many as processors
 };
 
 struct Tuned {
@@ -35,30 +35,30 @@ struct Tuned {
   };
   struct Requirement {
     scenario::Expectation expectation;
-    double before, value;  // on the worst rig that counts; perhaps not finite
+    double before, value;  // on the worst rig that counts; may be infinite or NaN
     bool holds;
   };
   std::vector<Parameter> parameters;
   scenario::Measure minimized;
-  double before = 0, objective = 0;  // on the worst rig that counts; perhaps infinite
+  double before = 0, objective = 0;  // on the worst rig that counts; may be infinite
   std::vector<Requirement> requirements;
   std::size_t rigs = 0, tried = 0;
-  // Fresh rigs, and the share of these on which all requirements hold, if there are any.
+  // Number of fresh rigs, and the share of them on which all requirements hold.
   std::size_t held_out = 0;
   double share_that_holds = 0;
 };
 
 struct TuneResult {
-  // ended_early: a requirement does not hold, or no value of the measure is finite; interrupted:
-  // with what was best until then.
+  // ended_early: a requirement does not hold, or the measure is never finite; interrupted: with the
+  // best result so far.
   ExitCode code = ExitCode::done;
-  std::string reason;          // of a code other than done
-  std::optional<Tuned> tuned;  // nothing if it was interrupted before anything was known
+  std::string reason;          // for codes other than done
+  std::optional<Tuned> tuned;  // empty if interrupted before any result
   std::string text, json;      // a report
-  std::string scenario;        // its text with the values in it
+  std::string scenario;        // text with the tuned values
 };
 
-// Throws InputError. The tuned scenario's text is made only if it is asked for.
+// Throws InputError. Makes the tuned scenario's text only on request.
 [[nodiscard]] TuneResult tune(const TuneRequest& request, bool with_scenario, Watch& watch);
 
 }  // namespace bbsim::api

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What tuning says: a report, JSON, and the tuned scenario.
+// Texts of tuning: a report, JSON, and the tuned scenario.
 #pragma once
 
 #include <string>
