@@ -13,7 +13,7 @@ import numpy as np
 import bbsim
 
 FALLING = {"ball.position.0": (0.03, 0.07), "gimbal.servo.natural_frequency": (25, 38)}  # m, rad/s
-# Lanes leave runs with so many samples to single runs, which go the same way to begin with.
+# Runs with so many samples do not go in lanes but as single runs; their start is the same.
 SINGLE = {"time.end": 1e4}
 
 
@@ -51,7 +51,7 @@ def main():
     given = parser.parse_args()
     for name, falls in (("balancing", False), ("falling", True)):
         rounds = []
-        for _ in range(given.rounds):  # by turns, as other work on the machine disturbs both alike
+        for _ in range(given.rounds):  # take turns, so that other load affects both alike
             lanes, ends = rate(given.scenario, given.n, given.steps, None, falls)
             single, _ = rate(given.scenario, given.n, given.steps, SINGLE, falls)
             rounds.append((lanes, single, lanes / single))

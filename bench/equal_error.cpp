@@ -13,10 +13,9 @@ struct Cost {
   double error, seconds;
 };
 
-// The points that no other point betters in both error and time, from the most accurate to the
-// fastest.
+// Points that no other point beats in both error and time, from the most accurate to the fastest.
 std::vector<Cost> unbettered(const std::vector<Point>& points, const std::string& tool) {
-  constexpr double rounding = 1e-18;  // m; the logarithm of zero does not exist
+  constexpr double rounding = 1e-18;  // m; zero has no logarithm
   std::vector<Cost> all, front;
   for (const Point& point : points) {
     if (point.tool == tool) all.push_back({std::max(point.error, rounding), point.seconds});

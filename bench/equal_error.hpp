@@ -12,9 +12,9 @@
 
 namespace bbsim::bench {
 
-// The time (s) at which `tool` reaches an error of `error` (m). Log-log interpolation between the
-// points of the tool that no other of its points betters in both error and time. If all of these
-// are more accurate than `error`, the time of the fastest. Empty if none is accurate enough.
+// Time (s) at which `tool` reaches `error` (m), by log-log interpolation between those of its
+// points that no other point beats in both error and time. If all are more accurate, the time of
+// the fastest. Empty if none is accurate enough.
 [[nodiscard]] std::optional<double> seconds_at(const std::vector<Point>& points,
                                                const std::string& tool, double error);
 

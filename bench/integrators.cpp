@@ -27,7 +27,7 @@ struct Arguments {
   double budget = 0.1;
 };
 
-// Two tolerances for each decade, from 1e-2 to 1e-14.
+// Two tolerances per decade, from 1e-2 to 1e-14.
 std::vector<double> tolerance_ladder() {
   std::vector<double> ladder;
   for (int i = 4; i <= 28; ++i)

@@ -12,9 +12,9 @@
 namespace bbsim::bench {
 namespace {
 
-// Reading the clock takes about a microsecond, so it is read once for runs of this total time, s.
+// Reading the clock takes about a microsecond, so batches of runs take at least this time, s.
 constexpr double least_batch = 1e-4;
-// The least time is final once this many batches in a row have not lowered it by more than 1/200.
+// The least time is final once this many batches in a row have not lowered it by over 1/200.
 constexpr int standing = 30;
 constexpr double lowered = 0.995;
 

@@ -20,10 +20,10 @@ struct Point {
   int runs = 0;
 };
 
-// The points of runs that reached their end. The tools take turns, so that other load on the
-// machine affects all of them alike. A point is measured until its least time has not changed for a
-// while, or until it has used up `budget` seconds. The least time is the best estimate, because
-// other load can only add to it.
+// Points of runs that reached their end. The tools take turns, so that other load on the machine
+// affects all of them alike. Each point is measured until its least time settles or `budget`
+// seconds are used up. The least time is the best estimate, because other load can only increase
+// it.
 [[nodiscard]] std::vector<Point> measure(const Scene& scene, const std::vector<double>& rtols,
                                          double budget);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The process that startup.cpp compares bbsim with.
+// Empty process, which startup.cpp compares with bbsim.
 int main() {
   return 0;
 }

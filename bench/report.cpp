@@ -14,7 +14,7 @@
 namespace bbsim::bench {
 namespace {
 
-// The longest time of radau relative to another tool, with AVX-512.
+// Upper bound on radau's time relative to another tool, with AVX-512.
 struct Target {
   const char* scene;
   const char* other;
@@ -29,7 +29,7 @@ constexpr Target targets[] = {
     {"stiff-servo", "bdf", 1e-9, 0.12},
 };
 
-// With AVX2, half as many lanes may take twice the time. Without AVX there is no target.
+// AVX2, with half as many lanes, may take twice the time. Without AVX there is no target.
 std::optional<double> target(const std::string& scene, const std::string& other, double error,
                              const std::string& kernels) {
   const double factor = kernels == "avx512" ? 1 : kernels == "avx2" ? 2 : 0;

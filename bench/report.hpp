@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The texts and files of the measurement.
+// Texts and files of the benchmark.
 #pragma once
 
 #include <string>
@@ -16,8 +16,8 @@ struct Measured {
   std::vector<Point> points;
 };
 
-// Times at equal error and their ratios, each beside its target, if it has one. `kernels` is the
-// instruction set that ran.
+// Times at equal error and their ratios, beside their targets. `kernels` is the instruction set
+// that ran.
 [[nodiscard]] std::string ratio_table(const std::vector<Measured>& scenes,
                                       const std::string& kernels);
 

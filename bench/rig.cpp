@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Compares configs/rig.yaml with the same rig written by hand (rig_by_hand.hpp): processor time of
-// a run, and distance from the solution.
+// a run, and error against the solution.
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -36,7 +36,7 @@ namespace {
 
 using namespace bbsim;
 
-// Takes columns and keeps only x and y, for the error.
+// Receives columns and keeps x and y, for the error.
 class Taken : public file::TableWriter {
  public:
   void append(std::span<const double* const> columns, std::size_t rows) override {
@@ -61,7 +61,7 @@ class Prepared {
   Prepared(const Prepared&) = delete;
   Prepared& operator=(const Prepared&) = delete;
 
-  // A run as in `bbsim run`, without writing its rows as text.
+  // A run as in `bbsim run`, but without formatting the rows as text.
   void run(Taken& taken) const {
     for (auto& column : taken.kept) column.clear();
     record::Recorder recorder({columns_, {}, true});
@@ -79,7 +79,7 @@ class Prepared {
   std::vector<const scenario::Column*> columns_;
 };
 
-// A sweep of the scene over gains and seeds of the noise, with its default measures.
+// A sweep of the scene over gains and noise seeds, with the default measures.
 class Swept {
  public:
   Swept(const std::string& file, std::size_t cases)
@@ -94,8 +94,8 @@ class Swept {
 
   [[nodiscard]] const std::string& engine() const { return engine_.name; }
   [[nodiscard]] std::size_t cases() const { return plan_.cases(); }
-  // Times a few cases at once, for as long as a run of the others: other load interrupts any longer
-  // time.
+  // Times a few cases at once, for as long as one run of the others, because other load interrupts
+  // longer measurements.
   void run() {
     for (std::size_t i = 0; i < least_.size(); ++i) {
       const CpuClock clock;
@@ -103,12 +103,12 @@ class Swept {
       least_[i] = std::min(least_[i], clock.seconds());
     }
   }
-  // The least time of all cases, s.
+  // Sum of the least times of all cases, s.
   [[nodiscard]] double seconds() const {
     return std::accumulate(least_.begin(), least_.end(), 0.0);
   }
 
-  // The largest difference of a length from that of a single run, over the first cases, m.
+  // Largest difference of a length measure from a single run, over the first cases, m.
   [[nodiscard]] double error(std::size_t looked_at) {
     sweep::CaseResults alone;
     static_cast<void>(runner_->run(0, looked_at, results_, goes_on));
@@ -154,9 +154,9 @@ struct Candidate {
   std::string name;
   std::function<void()> run;
   std::function<double()> error;    // of the last run, or of a sweep's first cases, m
-  double most = 0;                  // relative to dopri5 at rtol 1e-8; 0: no target
-  double cases = 1;                 // in one call
-  std::function<double()> least{};  // of all calls, s, if that is not the least call
+  double most = 0;                  // bound relative to dopri5 at rtol 1e-8; 0: no target
+  double cases = 1;                 // per call
+  std::function<double()> least{};  // least time of all calls, s, if that is not the least call
   double seconds = std::numeric_limits<double>::infinity();
 };
 
@@ -170,7 +170,7 @@ double largest_difference(const Taken& a, const Taken& b) {
   return largest;
 }
 
-// The longest time of a run relative to dopri5 at rtol 1e-8. There is no target for lanes in pairs.
+// Bound on a run's time relative to dopri5 at rtol 1e-8. No target with two lanes.
 double target(double by_avx512, double by_avx2) {
   const std::string kernels = simd::name_of(simd::chosen_instruction_set());
   return kernels == "avx512" ? by_avx512 : kernels == "avx2" ? by_avx2 : 0;
@@ -220,7 +220,7 @@ void measure(const std::string& file, bool noise, double budget) {
                           [&] { return swept->error(16); }, target(0.1, 0.2),
                           static_cast<double>(swept->cases()), [&] { return swept->seconds(); }});
   }
-  // In turns, so that other load on the machine affects all alike.
+  // Take turns, so that other load on the machine affects all alike.
   std::vector<double> errors(candidates.size());
   constexpr int turns = 10;
   for (int turn = 0; turn < turns; ++turn) {

@@ -29,7 +29,7 @@ constexpr double half_width = 0.16, half_depth = 0.12;
 using State = std::array<double, 9>;
 
 struct Rig {
-  double command[2]{0, 0};  // that the servos follow
+  double command[2]{0, 0};  // for the servos to follow
 
   // Equation (27) and two servos. Shared products are computed once.
   void operator()(const State& z, State& dz, double) const {
@@ -99,7 +99,7 @@ bool run(Integrator integrator, bool noise, HandRow* rows) {
   Rig rig;
   State z{0.05};
   Noise draws(1);
-  double given[2] = {0, 0};  // of the sample, before it reaches the servos
+  double given[2] = {0, 0};  // of the sample, before the servos receive it
   const auto see = [&](double(&at)[2]) {
     for (int i = 0; i < 2; ++i) {
       const double drawn = noise ? sensor_noise * draws.normal() : 0.0;
@@ -111,7 +111,7 @@ bool run(Integrator integrator, bool noise, HandRow* rows) {
   const double keep = filter / (filter + period);
   for (std::size_t n = 0;; ++n) {
     const double t = static_cast<double>(n) * period;
-    // The exposure of half a period ago.
+    // Exposure of half a period ago.
     for (int i = 0; i < 2; ++i) {
       const double slope = n > 0 ? (exposed[i] - seen[i]) / period : 0;
       velocity[i] = keep * velocity[i] + (1 - keep) * slope;

@@ -15,7 +15,7 @@
 
 namespace bbsim::bench {
 
-// Takes the rows of a run. Its memory is allocated before the clock starts, for every tool alike.
+// Receives the rows of a run. For all tools, memory is allocated before the clock starts.
 class Rows : public solve::StateSink {
  public:
   Rows(std::size_t rows, std::size_t row_size) : row_size_(row_size), values_(rows * row_size) {}
@@ -37,7 +37,7 @@ struct Scene {
   model::Model model;  // without gamma
   solve::OutputGrid grid;
   std::vector<double> times;  // of the grid, s
-  std::vector<double> x, y;   // the reference solution at the output times, m
+  std::vector<double> x, y;   // reference solution at the output times, m
   double radius = 0, gravity = 0;
 };
 
@@ -45,7 +45,7 @@ struct Scene {
 // either is missing or invalid, or if their output times differ.
 [[nodiscard]] Scene load_scene(const std::string& folder, const std::string& name);
 
-// max |dx|, |dy| over the output times, m; infinity if a value is not finite.
+// max |dx|, |dy| over the output times, m; infinite if a value is not finite.
 [[nodiscard]] double largest_error(const Scene& scene, const Rows& rows);
 
 }  // namespace bbsim::bench

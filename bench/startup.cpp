@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Times whole processes, from posix_spawn() to their end: `bbsim run` of a scenario, and a program
-// with the same libraries that does nothing.
+// Times whole processes from posix_spawn() to their end: `bbsim run` of a scenario, and a program
+// that links the same libraries and does nothing.
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -23,7 +23,7 @@ extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX decl
 
 namespace {
 
-// The wall time, s. Throws std::runtime_error if the program cannot be started or fails.
+// Wall time of the program, s. Throws std::runtime_error if it cannot start or fails.
 double time_process(std::vector<std::string> words) {
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
@@ -60,7 +60,7 @@ void compare(const std::string& bbsim, const std::string& nothing, const std::st
           .string();
   Times run, bare;
   for (int i = 0; i <= rounds; ++i) {
-    // In turns, so that other load on the machine affects both alike; the first turn warms the
+    // Take turns, so that other load on the machine affects both alike; the first turn warms the
     // caches.
     const double run_seconds = time_process({bbsim, "run", scenario, "-q", "-o", out});
     const double bare_seconds = time_process({nothing});

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Compares sweeps with the same cases run one by one with odeint's Dormand-Prince 5(4) and CVODE's
-// BDF: processor time for each case at equal error.
+// BDF: processor time per case at equal error.
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -39,7 +39,7 @@ struct Job {
   std::vector<Variation> vary;
   double error;       // m, for the comparison
   std::string other;  // the tool to compare with
-  double ratio;       // target for the other time over the sweep's
+  double ratio;       // target for the other tool's time over the sweep's
 };
 
 const std::vector<Job> jobs{
@@ -86,7 +86,7 @@ const std::vector<Job> jobs{
      150},
 };
 
-// The number of cases with a known solution.
+// Number of cases with a known solution.
 constexpr double known_cases = 64;
 
 std::vector<scenario::Measure> default_measures(bool loop) {
@@ -137,7 +137,7 @@ class Cases {
   sweep::Engine engine_;
 };
 
-// The largest difference of those measures that are lengths, m.
+// Largest difference of the measures that are lengths, m.
 double largest_error(const sweep::SweepTask& task, const std::vector<double>& numbers,
                      const std::vector<double>& exact) {
   double largest = 0;
@@ -151,7 +151,7 @@ double largest_error(const sweep::SweepTask& task, const std::vector<double>& nu
   return largest;
 }
 
-// The least time of `work` that has not changed for a while, s.
+// Least time of `work`, once it has not fallen for a while, s.
 template <class Work>
 double least_seconds(double budget, Work work) {
   double least = std::numeric_limits<double>::infinity(), total = 0;
@@ -169,11 +169,11 @@ double least_seconds(double budget, Work work) {
 // A point whose time is still being measured.
 struct Candidate {
   Point point;
-  std::function<double(double budget)> seconds;  // for each case, the least within the budget
+  std::function<double(double budget)> seconds;  // per case, the least within the budget
 };
 
-// Takes errors over the few cases with a known solution, and times over many cases, so that the
-// setup of a sweep does not count.
+// Takes errors from the few cases with a known solution, and times from many cases, so that the
+// sweep's setup does not count.
 Candidate sweep_point(const std::string& file, const Job& job, const sweep::CaseResults& exact,
                       solve::Tolerances tolerances) {
   constexpr double many = 4096;
@@ -192,8 +192,7 @@ Candidate sweep_point(const std::string& file, const Job& job, const sweep::Case
           }};
 }
 
-// Takes the measures that are lengths over the rows alone, as with tools that give nothing between
-// rows.
+// Takes the measures that are lengths from the rows alone, as tools give nothing between them.
 void add_row_measures(const sweep::SweepTask& task, const bench::Scene& scene,
                       const bench::Rows& rows, std::vector<double>& numbers) {
   using Kind = scenario::Measure::Kind;
@@ -255,8 +254,7 @@ Candidate tool_point(const bench::Tool& tool, const Cases& cases, solve::Toleran
           }};
 }
 
-// Two tolerances for each decade, from 1e-2 down, until the error is a hundredth of the one asked
-// for.
+// Adds two tolerances per decade, from 1e-2 down, until the error is a hundredth of `error`.
 template <class Make>
 void add_ladder(double error, std::vector<Candidate>& candidates, Make make) {
   for (int i = 4; i <= 24; ++i) {
@@ -283,7 +281,7 @@ void measure(const Job& job, const std::string& folder, double budget) {
     add_ladder(job.error, candidates,
                [&](solve::Tolerances tolerances) { return tool_point(tool, finest, tolerances); });
   }
-  // In turns, so that other load on the machine affects all alike.
+  // Take turns, so that other load on the machine affects all alike.
   std::vector<Point> points;
   constexpr int turns = 5;
   for (int turn = 0; turn < turns; ++turn) {
@@ -304,7 +302,7 @@ void measure(const Job& job, const std::string& folder, double budget) {
   std::fflush(stdout);
 }
 
-// The wall time of a sweep on one thread over that on two.
+// Prints a sweep's wall time on one thread over that on two.
 void measure_threads(const std::string& folder) {
   const Cases cases(folder + "/scenarios/fig2b.yaml", jobs[1], 20000, {1e-8, 1e-10});
   double least[2] = {1e99, 1e99};
@@ -323,11 +321,11 @@ void measure_threads(const std::string& folder) {
               ratio >= 1.85 ? "holds" : "FAILS");
 }
 
-// A sweep in which a third of the cases grow without bound, beside one in which none does.
+// Compares a sweep in which a third of the cases grow without bound with one in which none does.
 void measure_blow_ups(const std::string& folder) {
   const std::string file = folder + "/scenarios/fig2b.yaml";
   const auto seconds = [&](const char* gains) {
-    // A gain of the other sign makes the loop unstable: its motion overflows before the end.
+    // With the other sign, the gain makes the loop unstable: its motion overflows before the end.
     const Job job{"", "fig2b", {{"controller.pd.kv.0.0", gains}, {"ball.mass", "uniform:1:2"}},
                   0,  "",      0};
     const Cases cases(file, job, 1000, {1e-8, 1e-10});

@@ -29,8 +29,8 @@ bool run_cvode(const Scene& scene, solve::Tolerances tolerances, Rows& rows) {
          solve::Ending::done;
 }
 
-// Integrates from the scene's start over its grid with odeint's dopri5; rows come from its dense
-// output. False if it gave up.
+// Integrates over the scene's grid with odeint's dopri5, with rows from its dense output. Returns
+// false if it gives up.
 template <class State, class Rates>
 bool run_odeint(const Scene& scene, solve::Tolerances tolerances, const Rates& rates, Rows& rows) {
   namespace odeint = boost::numeric::odeint;
@@ -51,10 +51,10 @@ bool run_odeint(const Scene& scene, solve::Tolerances tolerances, const Rates& r
   return next == scene.grid.size();
 }
 
-// odeint at its best. The right-hand side is the one that bbsim integrates, for the concrete system
-// and inlined: no virtual call, no branch on the kind of scene. The state is an array of fixed
-// size, so nothing is allocated and loops unroll. Rows come from the method's dense output, so
-// output times do not shorten steps. It is compiled with -O3, like all of a release build.
+// odeint at its best. The right-hand side is bbsim's, for the concrete system and inlined: no
+// virtual call, no branch on the kind of scene. The state is an array of fixed size, so nothing is
+// allocated and loops unroll. Rows come from dense output, so output times do not shorten steps. It
+// is compiled with -O3, like bbsim's integrators.
 bool run_dopri5(const Scene& scene, solve::Tolerances tolerances, Rows& rows) {
   return std::visit(
       [&](const auto& system) {
@@ -67,9 +67,9 @@ bool run_dopri5(const Scene& scene, solve::Tolerances tolerances, Rows& rows) {
       scene.model.system);
 }
 
-// The same with a right-hand side written for one kind of scene. Both angles are sinusoids of one
-// frequency about 0, so one sine and one cosine of time suffice for them and their derivatives.
-// Products that the rows of (27) share are computed once. False for other scenes.
+// The same with a right-hand side for one kind of scene. Both angles are sinusoids of one frequency
+// about 0, so one sine and one cosine of time give them and their derivatives. Products shared by
+// rows of (27) are computed once. Returns false for other scenes.
 bool run_dopri5_by_hand(const Scene& scene, solve::Tolerances tolerances, Rows& rows) {
   using Open = model::OpenLoop<model::Shape::full>;
   const auto* const system = std::get_if<Open>(&scene.model.system);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The integrators to compare, each behind the same call.
+// The integrators to compare, all with the same interface.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace bbsim::bench {
 
 struct Tool {
   const char* name;
-  // Integrates the scene from its start to its end and fills all rows; false if it gave up.
+  // Integrates the scene over its whole time and fills all rows. Returns false if it gives up.
   bool (*run)(const Scene& scene, solve::Tolerances tolerances, Rows& rows);
 };
 

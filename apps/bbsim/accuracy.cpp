@@ -28,7 +28,7 @@ struct AccuracyArguments {
   std::vector<std::string> methods;
 };
 
-// Every method but `auto`, which is one of the others, if none is named.
+// The methods named; by default all except `auto`, which is one of the others.
 std::vector<Method> methods_named(const std::vector<std::string>& names) {
   std::vector<Method> methods;
   if (names.empty()) {
@@ -73,7 +73,7 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
   if (arguments.csv != "-") prints(outputs);
   if (!arguments.csv.empty()) outputs.writes(arguments.csv, "--csv");
   if (!arguments.plot.empty()) outputs.writes(arguments.plot, "--plot");
-  // What is written is opened, and gnuplot looked for, before the work is done.
+  // Open the files and look for gnuplot before the work.
   std::unique_ptr<file::AtomicFile> csv, plot;
   if (!arguments.csv.empty()) csv = std::make_unique<file::AtomicFile>(arguments.csv);
   const api::Picture picture =

@@ -17,7 +17,7 @@ namespace bbsim::app {
 
 namespace {
 
-// An option without a value is not the same as none: it is a variable of a script that is not set.
+// Refuses an option with an empty value, which is often an unset variable of a script.
 CLI::Option* refusing_nothing(CLI::Option* option) {
   const auto fault = [](const std::string& text) -> std::string {
     return text.empty() ? "found nothing; allowed: a value, or leave the option out" : "";
@@ -25,7 +25,7 @@ CLI::Option* refusing_nothing(CLI::Option* option) {
   return option->check(CLI::Validator(fault, ""));
 }
 
-// In the validator's name, which nothing shows.
+// Prefix of the validator's name, which is never shown.
 constexpr std::string_view one_of = "one of ";
 
 }  // namespace
@@ -77,7 +77,7 @@ Option& Option::takes_whole(double least, double most) {
     return "found " + text + "; allowed: a whole number from " + short_number(least) +
            (most < largest_whole ? " to " + short_number(most) : " up");
   };
-  // Without a description, which help would show for the option's type.
+  // Without a description, because help would show it as the option's type.
   option_->check(CLI::Validator(fault, ""));
   return *this;
 }

@@ -73,7 +73,7 @@ bool is_option(std::string_view word) {
   return word.size() > 1 && word.front() == '-';
 }
 
-// `command` is the one that was given, or the whole program if none was.
+// `command` is the given command, or the whole program if none was given.
 [[noreturn]] void refuse_word(const CLI::App& app, const CLI::App& command,
                               const std::string& word) {
   const bool whole = &app == &command;
@@ -96,14 +96,14 @@ bool is_option(std::string_view word) {
   throw InputError(message + help);
 }
 
-// -q, before and after all commands that are added later.
+// Adds -q, which may stand before and after all commands that are added later.
 void add_quiet(CLI::App& app, Options& options) {
-  app.fallthrough();  // which the commands take over, so that the flag may stand after them
+  app.fallthrough();  // the commands inherit it, so that the flag may follow them
   app.add_flag("-q,--quiet", options.quiet,
                "print results and the reason why a run ended early; no messages, no progress");
 }
 
-// Prints help or the version, where that ended the parsing. Throws InputError for a mistake.
+// Prints help or the version if that ended the parsing. Throws InputError for a mistake.
 ExitCode parsing_ended(const CLI::App& app, const CLI::ParseError& error) {
   if (dynamic_cast<const CLI::CallForHelp*>(&error) != nullptr) {
     print(app.help());
@@ -115,7 +115,7 @@ ExitCode parsing_ended(const CLI::App& app, const CLI::ParseError& error) {
   }
   const std::vector<CLI::App*> given = app.get_subcommands();
   const CLI::App& command = given.empty() ? app : *given.front();
-  // What is not known comes first: for want of it something else may be missing.
+  // Unknown options come first: a misspelled one may be why another is missing.
   const std::vector<std::string> unknown = app.remaining(true);
   for (const std::string& word : unknown) {
     if (is_option(word)) refuse_word(app, command, word);
@@ -129,7 +129,7 @@ ExitCode parsing_ended(const CLI::App& app, const CLI::ParseError& error) {
                    " --help for more information.");
 }
 
-// Options that print one text and end.
+// Options that print a text and end the program.
 void add_texts(CLI::App& app) {
   app.add_flag_callback(
       "--schema", [] { throw CLI::CallForVersion(scenario_json_schema(), 0); },
@@ -185,7 +185,7 @@ void add_help(CLI::App& app, Chosen& chosen) {
 
 void add_about_commands(CLI::App& app, std::span<const NamedCommand> commands, Chosen& chosen);
 
-// The texts of all commands and options. To make them all takes time, so only commands that ask do.
+// Texts of all commands and options. Making them takes time, so only commands that need them do.
 ProgramText all_texts(std::span<const NamedCommand> commands) {
   CLI::App app(purpose, "bbsim");
   Options options;
@@ -202,7 +202,7 @@ ProgramText all_texts(std::span<const NamedCommand> commands) {
   return texts_of(app);
 }
 
-// The commands about commands: help, and what is made of all texts.
+// Commands about commands: help, and those made from all texts.
 void add_about_commands(CLI::App& app, std::span<const NamedCommand> commands, Chosen& chosen) {
   const auto texts = [commands] { return all_texts(commands); };
   Command completion(*app.add_subcommand("completion", "Print the completion script of a shell"),
@@ -214,10 +214,9 @@ void add_about_commands(CLI::App& app, std::span<const NamedCommand> commands, C
   add_help(app, chosen);
 }
 
-// Adds the commands, --schema and --licenses. All of them and their options take longer to make
-// than many a run: where the first word names a command, only those are made that a word names;
-// where it names none, all are, for help and for what is said of a mistake. Options are made of
-// those that are named.
+// Adds the commands, --schema and --licenses. Making all of them takes longer than many a run. If
+// the first word names a command, only commands that some word names are made; else all are, for
+// help and for messages about mistakes. Only named commands get their options.
 void add_commands(CLI::App& app, std::span<char* const> words,
                   std::span<const NamedCommand> commands, const Options& options, Chosen& chosen) {
   const auto calls = [](std::string_view word, const NamedCommand& command) {

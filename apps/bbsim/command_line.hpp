@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The command line: which command it names, help, and what is said of mistakes.
+// The command line: its commands, help, and messages about mistakes.
 #pragma once
 
 #include <span>
@@ -16,8 +16,8 @@ struct NamedCommand {
   std::string_view alias{};  // empty: none
 };
 
-// Does what the command line asks for. Throws InputError for a mistake in it: what was found, and
-// the command or option that is nearest to it.
+// Carries out the command line. Throws InputError for a mistake in it, with the word found and the
+// command or option nearest to it.
 ExitCode obey(int argc, char** argv, std::span<const NamedCommand> commands);
 
 }  // namespace bbsim::app

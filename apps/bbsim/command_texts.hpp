@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The commands and options as plain texts, for what is made of them beside --help: completion and
-// man pages.
+// Commands and options as plain texts, for completion and man pages.
 #pragma once
 
 #include <string>
@@ -13,12 +12,12 @@
 namespace bbsim::app {
 
 struct OptionText {
-  std::vector<std::string> names;  // "-o", "--output"; of an argument, its name
-  std::string takes;               // what it takes, such as FILE; empty for a flag
+  std::vector<std::string> names;  // "-o", "--output"; or the name of an argument
+  std::string takes;               // its value, such as FILE; empty for a flag
   std::string what;
-  std::string standard;            // shown in help
-  std::vector<std::string> words;  // where it takes one of these
-  bool argument = false;           // without dashes
+  std::string standard;            // default, as help shows it
+  std::vector<std::string> words;  // allowed values, if they are a list
+  bool argument = false;           // has no dashes
   bool required = false;
   bool repeatable = false;
 };
@@ -33,7 +32,7 @@ struct ProgramText {
   std::vector<CommandText> commands;
 };
 
-// Of a program all of whose commands and options are made.
+// Call it with a program that has all its commands and options.
 [[nodiscard]] ProgramText texts_of(CLI::App& app);
 
 }  // namespace bbsim::app

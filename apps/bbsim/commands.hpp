@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The subcommands. Each add_ function gives one its options, and says what it does.
+// The subcommands. Each add_ function sets the options and the action of one.
 #pragma once
 
 #include <cstddef>
@@ -29,20 +29,20 @@ struct Options {
   bool quiet = false;
 };
 
-// The scenario that a command reads, and the keys to set in it: SCENARIO [--set key.path=value]...
+// Scenario that a command reads, and keys to set in it: SCENARIO [--set key.path=value]...
 struct ScenarioArguments {
   std::string file;
   std::vector<std::string> overrides;
 };
 void add_scenario(Command& command, ScenarioArguments& arguments);
-// --error E: a bound in metres, in place of tolerances; as a further override it comes last.
+// --error E: error bound in meters, in place of tolerances; appended as the last override.
 void add_error(Command& command, std::string& error);
 [[nodiscard]] ScenarioArguments with_error(ScenarioArguments arguments, const std::string& error);
 // --force: see file::require_like().
 void add_force(Command& command, bool& force);
-// What is wrong with solver.error as --error gave it, in --error's words.
+// Rewords errors about solver.error that --error set as errors about --error.
 [[nodiscard]] InputError as_of_error_option(const InputError& error);
-// What `what` returns; its InputErrors as_of_error_option, if --error was given.
+// Calls `what`. If --error was given, its InputErrors become as_of_error_option().
 template <class What>
 ExitCode with_error_option(const std::string& error, const What& what) {
   if (error.empty()) return what();
@@ -57,50 +57,50 @@ void add_overrides(Command& command, std::vector<std::string>& overrides);
 // --map, --header, --period and --time-offset of a log.
 void add_log_options(Command& command, results::LogChoice& choice);
 
-// Where the result goes if nothing else is said: the scenario's name with the suffix, in the
-// current folder; what came from standard input goes to standard output.
+// Default output: the scenario's name with the suffix, in the current folder. For a scenario from
+// standard input, standard output.
 [[nodiscard]] std::string default_output(const std::string& scenario, const std::string& suffix);
 
-// --measure NAME,...; may be given again. What a measure's name may be, for a command's help. And
-// what was measured as CSV: measure,value.
+// --measure NAME,..., which may be repeated; help text on measure names; and measured values as
+// CSV: measure,value.
 Option add_measures(Command& command, std::vector<std::string>& lists, const std::string& what);
 [[nodiscard]] std::string measures_footer();
 [[nodiscard]] std::string measure_text(const std::vector<std::pair<std::string, double>>& measures);
 
-// What an output is called in messages.
+// Name of an output in messages.
 [[nodiscard]] std::string name_of_output(const std::string& output);
 
-// Reads a scenario, and says that the command does, with its tables and its own controller.
-// `inputs`, if it is given, gets its tables.
+// Reads a scenario, and declares it, its tables and its controller as inputs of the command.
+// `inputs`, if given, receives the tables.
 [[nodiscard]] Scenario read(const ScenarioArguments& arguments, const Options& options,
                             file::Outputs& outputs,
                             std::vector<file::InputTable>* inputs = nullptr);
 
-// Whether a file among results is a scenario, by its ending.
+// Whether the file's ending is that of a scenario.
 [[nodiscard]] bool is_scenario(const std::string& file);
 
 void add_threads(Command& command, std::size_t& threads);
 
-// What a command writes that finds values of keys: the scenario with the values in it, and JSON.
+// Outputs of commands that find values of keys: the scenario with these values, and JSON.
 struct FoundFiles {
-  std::string scenario, json, page{};  // - is standard output; empty: not written
+  std::string scenario, json, page{};  // -: standard output; empty: not written
 
-  // A report goes to standard output where no file does.
+  // A report goes to standard output unless a file does.
   [[nodiscard]] bool reports() const { return scenario != "-" && json != "-" && page != "-"; }
   void declare(file::Outputs& outputs) const;
-  // Says so if the scenario goes to another folder than the one it is made of: its tables are named
-  // from there.
+  // Notes if the scenario goes to a folder other than its source's, because it names tables from
+  // the latter.
   void write(const ScenarioFamily& family, const std::string& scenario_text,
              const std::string& json_text, const std::string& report, bool quiet) const;
 };
-// Options -o and --json. `values`: what the scenario has in it, as in "the estimates".
+// Adds options -o and --json. `values` names what the scenario will contain, as in "the estimates".
 void add_found_files(Command& command, FoundFiles& files, const std::string& values);
 
-// Says that it prints: nothing it reads may be what its standard output goes to.
+// Declares standard output as an output, so that it cannot overwrite an input.
 void prints(file::Outputs& outputs);
 
-// Says why a run ended early and what is not as expected, and, unless it is to be quiet, warnings
-// and what was noted.
+// Prints why a run ended early and which expectations fail; unless `quiet`, also warnings and noted
+// events.
 void tell(const api::RunResult& made, bool quiet);
 
 void add_run(Command& command, const Options& options);

@@ -25,14 +25,14 @@ std::string joined(const Names& words, std::string_view by) {
   return text;
 }
 
-// What an option or an argument is completed with.
+// Completions of an option or an argument.
 struct Offer {
   enum class Kind { nothing, words, keys, key_list, measures, columns, files, folders } kind;
-  Names words{};  // the words, or the endings of files
+  Names words{};  // the words, or file endings
 };
 using Kind = Offer::Kind;
 
-// What options of these names take, whatever help calls it.
+// Options whose completion their names decide, whatever help says.
 struct Known {
   std::string_view option;
   Kind kind;
@@ -44,7 +44,7 @@ constexpr Known known[] = {
     {"--require", Kind::measures}, {"--columns", Kind::columns},
 };
 
-// Of files: those that help names, as in "FILE.csv or .h5", "CSV" and "a YAML file".
+// File endings that help mentions, as in "FILE.csv or .h5", "CSV" and "a YAML file".
 Names endings_in(std::string_view text) {
   std::set<std::string> endings;
   const auto is_part = [](char letter) {
@@ -101,19 +101,19 @@ Names measures() {
   return sorted(names);
 }
 
-// The first clause of what help says.
+// First clause of a help text.
 std::string brief(const std::string& what) {
   return what.substr(0, std::min(what.find("; "), what.find(" (see below)")));
 }
 
-// Within single quotes, in bash and zsh.
+// Text within single quotes, for bash and zsh.
 std::string quoted(const std::string& text) {
   std::string result = "'";
   for (const char letter : text) result += letter == '\'' ? "'\\''" : std::string(1, letter);
   return result + '\'';
 }
 
-// Those that a command has, and those of the program that stand after every command.
+// The command's own options, and those of the program that may follow any command.
 std::vector<OptionText> options_of(const CommandText& command, const ProgramText& texts) {
   std::vector<OptionText> options;
   for (const OptionText& option : command.options) {
@@ -139,7 +139,7 @@ Names commands_of(const ProgramText& texts) {
   return names;
 }
 
-// The words of `help COMMAND` are the commands.
+// The argument of `help COMMAND` completes to the commands.
 Offer offer_of(const OptionText& option, const ProgramText& texts) {
   if (option.argument && option.names.front() == "COMMAND") {
     return {Kind::words, commands_of(texts)};
@@ -317,7 +317,7 @@ std::string zsh_escaped(const std::string& text, std::string_view special) {
   return result;
 }
 
-// One for each name: '(-o --output)--output=[write rows]:FILE:_files'.
+// One entry for each name: '(-o --output)--output=[write rows]:FILE:_files'.
 std::string zsh_option(const OptionText& option, const ProgramText& texts) {
   std::string text;
   for (const std::string& name : option.names) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Completion for bash, zsh and fish: a script made of the texts of the commands, so that it has
-// what --help has.
+// Completion for bash, zsh and fish: scripts made from the texts of the commands, so that they
+// match --help.
 #pragma once
 
 #include <functional>

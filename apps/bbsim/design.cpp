@@ -27,11 +27,11 @@ struct DesignArguments {
   std::string table, sketch;
   std::size_t threads = 0;
 
-  // A report goes to standard output where no file does.
+  // A report goes to standard output unless a file does.
   [[nodiscard]] bool reports() const { return files.reports() && table != "-" && sketch != "-"; }
 };
 
-// Beside the scenario that plays it, if the user gives no name.
+// Default: beside the scenario that plays the table.
 std::string table_file_of(const DesignArguments& arguments) {
   const std::string& scenario = arguments.files.scenario;
   std::string table = arguments.table;
@@ -42,13 +42,13 @@ std::string table_file_of(const DesignArguments& arguments) {
     throw InputError("--table: found no file for the scenario of -o to name; allowed: FILE.csv");
   }
   if (table.empty() && !scenario.empty()) {
-    // FILE.csv is what a run of FILE.yaml writes.
+    // A run of FILE.yaml writes FILE.csv, so choose another name.
     table = std::filesystem::path(scenario).replace_extension().string() + "-motion.csv";
   }
   return table;
 }
 
-// The table's name from the scenario's folder.
+// Path of the table relative to the scenario's folder.
 std::string name_from(const std::string& scenario, const std::string& table) {
   const auto whole = [](const std::string& file) {
     return std::filesystem::absolute(file).lexically_normal();
@@ -87,7 +87,7 @@ ExitCode design(const DesignArguments& arguments, const Options& options) {
     say("design: interrupted; nothing is written");
     return made.code;
   }
-  // The table first: the scenario names it.
+  // Write the table first: the scenario refers to it.
   if (!table.empty()) file::write_file(table, made.table);
   if (with_scenario) file::write_file(arguments.files.scenario, made.scenario);
   if (!arguments.sketch.empty()) file::write_file(arguments.sketch, made.sketch);

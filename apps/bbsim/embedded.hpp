@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Files of the repository that the program has in it (cmake/embed.cmake).
+// Files of the repository that are embedded in the program (cmake/embed.cmake).
 #pragma once
 
 #include <span>
@@ -15,14 +15,14 @@ struct EmbeddedFile {
   std::string_view name, text;
 };
 
-// configs/: the scenarios, and the tables that they read.
+// configs/: scenarios and their tables.
 [[nodiscard]] std::span<const EmbeddedFile> example_files();
-// examples/templates/: controllers to begin with.
+// examples/templates/: controllers to start from.
 [[nodiscard]] std::span<const EmbeddedFile> template_files();
-// The license of bbsim and those of the libraries in it.
+// Licenses of bbsim and of the libraries in it.
 [[nodiscard]] std::span<const EmbeddedFile> license_files();
 
-// The one of that name, which is there.
+// Text of the file of that name, which must exist.
 [[nodiscard]] std::string_view text_of(std::span<const EmbeddedFile> files, std::string_view name);
 
 struct Copy {
@@ -30,8 +30,8 @@ struct Copy {
   std::string_view text;
 };
 
-// Writes the copies. The first one is what -o names, if `named`; it and the others must be new
-// files otherwise, or the others as they are there, unless `force`.
+// Writes the copies. Unless `force`, they must be new files, except that the first one may replace
+// a file if -o names it (`named`), and the others may exist with the same text.
 void write_copies(const std::vector<Copy>& copies, bool named, bool force);
 
 }  // namespace bbsim::app

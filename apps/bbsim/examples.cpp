@@ -24,7 +24,7 @@ struct ExampleArguments {
   bool force = false;
 };
 
-// The first sentence of the comment that a scenario begins with.
+// First sentence of the comment at the start of a scenario.
 std::string first_sentence(std::string_view text) {
   std::string sentence;
   while (text.starts_with("# ")) {
@@ -55,7 +55,7 @@ ExitCode list() {
   return ExitCode::done;
 }
 
-// A scenario, with or without its ending, or a table.
+// Finds a scenario, with or without its ending, or a table.
 const EmbeddedFile& example(const std::string& name) {
   const auto files = example_files();
   const auto found = std::ranges::find_if(files, [&](const EmbeddedFile& one) {

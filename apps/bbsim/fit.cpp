@@ -18,7 +18,7 @@
 namespace bbsim::app {
 namespace {
 
-// Opened before the fit: what is missing for it is said at once.
+// Opened before the fit, so that a missing file or template is reported at once.
 class FitPage {
  public:
   explicit FitPage(const std::string& target) {
@@ -29,7 +29,7 @@ class FitPage {
 
   [[nodiscard]] bool is_asked_for() const { return file_.has_value(); }
 
-  // Whole or not at all. Throws OutputError.
+  // Writes the whole page or nothing. Throws OutputError.
   void write(const api::FitRequest& request, const fit::Fitted& fitted) {
     if (!file_) return;
     file_->write(api::fit_page(request, fitted, template_));

@@ -19,7 +19,7 @@ struct Letters {
   std::uint32_t first, last;
 };
 
-// A line a font: hexadecimal ranges, "20-7e a0 a2-17f".
+// One line per font, with hexadecimal ranges: "20-7e a0 a2-17f".
 std::vector<Letters> letters_of_fonts() {
   const std::optional<file::Finished> listed =
       file::run_program({"fc-list", "--format", "%{charset}\n"}, "", "list the fonts");

@@ -17,7 +17,7 @@ void require_gnuplot() {
 }
 
 std::string run_gnuplot(const std::string& script) {
-  // What a user has set for plots of their own is not for ours.
+  // Ignore the user's settings, which are for their own plots.
   std::optional<file::Finished> finished =
       file::run_program({"gnuplot", "--default-settings", "-"}, script, "draw the plot");
   if (!finished) {

@@ -13,10 +13,9 @@ namespace bbsim::app {
 namespace {
 
 constexpr std::size_t line_width = 80;
-constexpr std::size_t margin = 24;  // where descriptions begin
+constexpr std::size_t margin = 24;  // where descriptions start
 
-// The words of a text, in lines that begin at column `indent`; the first one is at `column`
-// already.
+// Wraps a text into lines that start at column `indent`; the first one is at `column` already.
 std::string wrapped(std::string_view text, std::size_t indent, std::size_t column) {
   std::string result;
   bool first = true;
@@ -53,7 +52,7 @@ std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positi
                make_option_desc(option));
 }
 
-// What the option takes, and what it is without it.
+// The option's value and its default.
 std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
   if (option->get_type_size() == 0 || option->get_positional()) return "";
   const std::string standard = option->get_default_str();
@@ -64,8 +63,8 @@ std::string HelpFormatter::make_subcommand(const CLI::App* command) const {
   return entry(command->get_name(), command->get_description());
 }
 
-// What it shares with the other commands; then the footer, a paragraph a line, of which one that
-// begins with a space stands as it is.
+// Options of all commands; then the footer, where each line is a paragraph. Lines that start with a
+// space stay as they are.
 std::string HelpFormatter::make_footer(const CLI::App* command) const {
   std::string text;
   if (const CLI::App* all = command->get_parent()) {
@@ -73,7 +72,7 @@ std::string HelpFormatter::make_footer(const CLI::App* command) const {
     if (quiet != nullptr) text = "Options of all commands:\n" + make_option(quiet, false) + '\n';
   }
   std::string footer = command->get_footer();
-  // A command without a footer has the program's, whose examples are not its own.
+  // A command without a footer inherits the program's, whose examples do not apply to it.
   if (const CLI::App* all = command->get_parent(); all != nullptr && footer == all->get_footer()) {
     footer = footer.substr(0, footer.find("\n\nExamples:"));
   }

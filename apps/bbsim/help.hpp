@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How --help looks: no line is wider than 80 columns.
+// Layout of --help: no line is wider than 80 columns.
 #pragma once
 
 #include <CLI/App.hpp>

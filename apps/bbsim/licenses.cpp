@@ -14,7 +14,7 @@ std::string licenses() {
     if (!texts.empty()) texts += rule;
     texts += one.text;
   }
-  texts.pop_back();  // the line break, which who prints it adds
+  texts.pop_back();  // the caller adds the line break when it prints
   return texts;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The license of this program, and the notices of what it contains, without the last line's end.
+// License of this program and notices of what it contains, without a line break at the end.
 #pragma once
 
 #include <string>

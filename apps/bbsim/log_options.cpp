@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The options that say what the columns and the clock of a log are.
+// Options that describe the columns and the clock of a log.
 #include "commands.hpp"
 #include "results/log.hpp"
 

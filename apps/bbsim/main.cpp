@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// bbsim: a table of contents. Each subcommand has a file of its own; one ladder turns errors into
+// The program bbsim: its commands, each in a file of its own, and one place that turns errors into
 // exit codes.
 #include <csignal>
 #include <cstdio>
@@ -26,7 +26,7 @@ int code(ExitCode exit_code) {
   return static_cast<int>(exit_code);
 }
 
-// Needs no memory of its own: there may be none where this is called.
+// Takes a C string, because there may be no memory left for a std::string.
 ExitCode say(const char* message, ExitCode exit_code) {
   bbsim::app::say(message);
   return exit_code;
@@ -39,7 +39,7 @@ ExitCode run(const Command& command) {
   } catch (const bbsim::InputError& error) {
     return say(error.what(), ExitCode::input_at_fault);
   } catch (const bbsim::ReaderGone&) {
-    return ExitCode::output_failed;  // quietly: whoever reads has seen enough, as of `| head`
+    return ExitCode::output_failed;  // quiet: the reader has seen enough, as with `| head`
   } catch (const bbsim::api::ControllerFault& error) {
     return say(error.what(), error.interrupted() ? ExitCode::interrupted : ExitCode::ended_early);
   } catch (const bbsim::OutputError& error) {
@@ -53,9 +53,9 @@ ExitCode run(const Command& command) {
   }
 }
 
-// Where there is no memory even for an exception, as may be before main() begins, or where it ends
-// in a destructor (those of nlohmann::json take some), the program would end by a signal. In all
-// other cases that is as it should be: it is a fault of ours.
+// Memory may run out where no handler can catch it: before main() begins, or in a destructor, such
+// as nlohmann::json's. This reports it; otherwise the program would end by a signal, as it still
+// does for other exceptions, which are bugs.
 [[gnu::constructor(101)]] void say_when_memory_ends() {
   std::set_terminate([] {
     try {
@@ -102,8 +102,8 @@ constexpr bbsim::app::NamedCommand commands[] = {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A reader that goes away, or a file at its size limit, is an error like any other, not a
-  // sudden end.
+  // A reader that goes away, or a file at its size limit, is then an ordinary error instead of a
+  // signal that ends the program.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   bbsim::app::end_at_signals();

@@ -15,7 +15,7 @@
 namespace bbsim::app {
 namespace {
 
-// Text for roff: no letter of it is a request or an escape.
+// Text for roff, with everything escaped that roff would interpret.
 std::string escaped(std::string_view text) {
   std::string result;
   for (const char letter : text) {
@@ -55,7 +55,7 @@ std::string head(std::string_view name, const std::string& what) {
          escaped(what) + '\n';
 }
 
-// -o, --output FILE; what it is; what it is without it.
+// Names and value of an option; its description; its default.
 std::string entry(const OptionText& option) {
   std::string text = ".TP\n";
   for (std::size_t i = 0; i < option.names.size(); ++i) {
@@ -82,7 +82,7 @@ std::string exit_status(std::string_view line) {
   return ".SH EXIT STATUS\n" + escaped(line.substr(codes.size())) + '\n';
 }
 
-// What the program's footer says of exit codes.
+// Section about exit codes, from the program's footer.
 std::string exit_status(const ProgramText& texts) {
   const std::string& footer = texts.program.footer;
   const std::size_t start = footer.find(codes);
@@ -90,8 +90,8 @@ std::string exit_status(const ProgramText& texts) {
   return exit_status(std::string_view(footer).substr(start, footer.find('\n', start) - start));
 }
 
-// The footer of help: a paragraph a line; lines that begin with blanks stand as they are. Examples
-// and exit codes have headings of their own.
+// Converts the footer of help. Each line is a paragraph, and lines that start with blanks stay as
+// they are. Examples and exit codes get headings.
 std::string paragraphs(std::string_view footer) {
   std::string text;
   bool as_it_is = false;
@@ -120,7 +120,7 @@ std::string page_of(const CommandText& command) {
   return "bbsim-" + command.name;
 }
 
-// "run", "SCENARIO", "[OPTIONS]", as the usage line of help has them.
+// "run", "SCENARIO", "[OPTIONS]", as in the usage line of help.
 std::string synopsis(const CommandText& command) {
   std::string text =
       ".SH SYNOPSIS\n" + bold("bbsim " + command.name) + " [" + italic("OPTIONS") + ']';
@@ -175,7 +175,7 @@ std::string man_page(const CommandText& command, const ProgramText& texts) {
   std::string text = head(page_of(command), command.what) + synopsis(command) +
                      ".SH DESCRIPTION\n" + escaped(command.what) + ".\n" +
                      entries("ARGUMENTS", options, true) + entries("OPTIONS", options, false);
-  // A command without a footer has the program's.
+  // A command without a footer inherits the program's.
   if (!command.footer.empty() && command.footer != texts.program.footer) {
     const bool examples_alone = command.footer.starts_with("Examples:");
     text += (examples_alone ? "" : ".SH NOTES\n") + paragraphs(command.footer);

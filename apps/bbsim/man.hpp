@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Man pages, made of the texts of the commands: bbsim.1, and one for each command.
+// Man pages, made from the texts of the commands: bbsim.1, and one for each command.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@
 
 namespace bbsim::app {
 
-// bbsim.1, or the page of a command, bbsim-run.1.
+// Page of the program, bbsim.1, or of a command, such as bbsim-run.1.
 [[nodiscard]] std::string man_page(const ProgramText& texts);
 [[nodiscard]] std::string man_page(const CommandText& command, const ProgramText& texts);
 

@@ -24,7 +24,7 @@ struct NewArguments {
   bool force = false;
 };
 
-// A folder with bbsim/controller.h, for C compilers.
+// Folder that contains bbsim/controller.h, for C compilers.
 std::string header_folder() {
   for (const std::string& share : file::share_folders()) {
     const fs::path folder = fs::path(share) / "arduino";
@@ -34,7 +34,7 @@ std::string header_folder() {
   return "PREFIX/include";
 }
 
-// How the controller in `file` is run.
+// Tells how to run the controller in `file`.
 std::string how_to_run(const std::string& language, const std::string& file,
                        const std::string& wiring) {
   const std::string library = fs::path(file).stem().string() + ".so";

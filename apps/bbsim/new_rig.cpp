@@ -33,7 +33,7 @@ InputError refused(const std::string& option, const std::string& found,
   return InputError(option + ": found " + found + "; allowed: " + allowed);
 }
 
-// Sides along x and y, or the diameter of a disc twice.
+// Sides along x and y. For a disc, both are the diameter.
 struct Plate {
   double x = 0, y = 0;
   bool disc = false;
@@ -69,10 +69,10 @@ constexpr std::array balls = {
     NamedBall{"ping-pong", {40e-3, 2.7e-3, true}}, NamedBall{"steel", {20e-3, 32.7e-3, false}},
     NamedBall{"rubber", {40e-3, 33e-3, false}}, NamedBall{"golf", {42.7e-3, 45.9e-3, false}}};
 
-// Balls of wood and rubber are denser, thin shells are not, kg/m^3.
+// Density in kg/m^3 above that of thin shells and below that of wood and rubber.
 constexpr double density_of_hollow_ones = 400;
 
-// "40 mm 2.7 g", and maybe "hollow" or "solid".
+// "40 mm 2.7 g", optionally with "hollow" or "solid".
 std::optional<Ball> read_diameter_and_mass(std::string_view text) {
   std::optional<bool> hollow;
   for (const std::string_view word : {"hollow", "solid"}) {
@@ -92,7 +92,7 @@ std::optional<Ball> read_diameter_and_mass(std::string_view text) {
   return {};
 }
 
-// The name as it stands in `balls`: "Table tennis" and "ping pong" are ping-pong.
+// Name as in `balls`: "Table tennis" and "ping pong" become ping-pong.
 std::string name_of_ball(std::string_view text) {
   std::string name;
   for (const char letter : text) {
@@ -119,12 +119,12 @@ Ball read_ball(const std::string& text, const Plate& plate) {
   return *ball;
 }
 
-// In Hz.
+// Rate in Hz.
 double read_rate(const std::string& option, const std::string& text) {
   const bool hertz = trimmed(text).ends_with("Hz");
   const auto rate = hertz ? value_in(text, "rad/s") : std::nullopt;
   const double turns = rate.value_or(0) / (2 * std::numbers::pi);
-  const double digits = 1e9;  // as they were given
+  const double digits = 1e9;  // removes rounding of the conversion
   const double kept = std::round(turns * digits) / digits;
   if (kept >= 15 && kept <= 200) return kept;
   throw refused(option, text, "a rate from 15 Hz to 200 Hz, such as \"30 Hz\"");
@@ -154,7 +154,7 @@ Rig read_rig(const RigWords& words) {
   return rig;
 }
 
-// The delays of a loop, s, and the gains that suit them.
+// Delays of a loop, s, and gains that suit them.
 struct Loop {
   double sensor = 0, filter = 0, bandwidth = 0, kp = 0, kv = 0, ki = 0;
 };
@@ -166,9 +166,9 @@ Loop loop_of(const Rig& rig) {
   Loop loop;
   loop.sensor = rig.touch ? 0.005 : period;
   loop.filter = std::max(0.04, period);
-  // Half a period is the delay of the hold. The delay then takes 30 degrees off the phase margin.
+  // The hold delays by half a period. The total delay takes 30 degrees off the phase margin.
   const double delay = servo + code + loop.sensor + loop.filter + period / 2;
-  // With more, noise shakes a ball off the plate, far from its middle.
+  // With a larger bandwidth, noise drives a ball far from the center off the plate.
   constexpr double most = 2.5;
   loop.bandwidth = std::min(most, std::stod(rounded(0.3 / delay, 2)));
   const double acceleration = 9.81 / (rig.ball.hollow ? 1 + 2.0 / 3 : 1.4);  // for 1 rad of tilt
@@ -193,7 +193,7 @@ Values values_of(const Rig& rig, const std::string& file) {
   const Loop loop = loop_of(rig);
   const Plate& plate = rig.plate;
   const double size = plate.least();
-  // Lengths of rods grow with the plate.
+  // Rods scale with the plate.
   const auto part = [&](double of_size) { return std::round(of_size * size / mm) * mm; };
   const double horn = part(rig.three_legs ? 0.133 : 0.08), arm = part(0.2);
   const double pixels = rig.touch ? 1024 : 640;
@@ -242,7 +242,7 @@ std::string filled(std::string_view line, const Values& values) {
   return text += line;
 }
 
-// Moves the comment at the end of a line to where those of its neighbors begin.
+// Aligns the comment at the end of a line with those of its neighbors.
 std::string aligned(std::string line) {
   constexpr std::size_t column = 41;
   const std::size_t start = line.find_first_not_of(' '), comment = line.find(" # ");
@@ -251,7 +251,7 @@ std::string aligned(std::string line) {
   return line;
 }
 
-// A question on standard error; the answer without blanks around it, or nothing at the end of the
+// Asks a question on standard error. Returns the trimmed answer, or nothing at the end of the
 // input.
 std::optional<std::string> answer_to(const std::string& question) {
   std::fputs((question + ": ").c_str(), stderr);
@@ -266,7 +266,7 @@ std::optional<std::string> answer_to(const std::string& question) {
   return std::string(trimmed(line));
 }
 
-// Takes an answer into the words, or throws InputError.
+// Stores an answer in the words, or throws InputError.
 using Take = void (*)(RigWords&, const std::string&);
 
 struct Question {

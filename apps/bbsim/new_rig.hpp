@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The scenario that `bbsim new rig` writes: a template, filled in for a plate, a ball, servos and a
+// The scenario that `bbsim new rig` writes: a template filled in for a plate, a ball, servos and a
 // sensor, with gains that suit the delays.
 #pragma once
 
@@ -10,22 +10,22 @@
 
 namespace bbsim::app {
 
-// Those of servo.model.
+// The values of servo.model.
 [[nodiscard]] std::vector<std::string> servo_classes();
 
-// In the words of the options. What is empty was not said.
+// Values of the options as text. Empty: not given.
 struct RigWords {
   std::string plate, ball, servo, camera, touch, legs;
 
-  // The name of the first option that was given, if one was.
+  // Name of the first option that was given; empty if none was.
   [[nodiscard]] std::string first_given() const;
 };
 
-// Asks for each on standard error, and reads the answers from standard input, a terminal. An empty
-// one leaves the default, the end of the input all the rest.
+// Asks for each on standard error and reads the answers from standard input, a terminal. An empty
+// answer keeps the default, and the end of the input keeps all remaining defaults.
 void ask(RigWords& words);
 
-// The scenario, as it stands in `file`. Throws InputError.
+// Text of the scenario for `file`. Throws InputError.
 [[nodiscard]] std::string rig_scenario(const RigWords& words, const std::string& file);
 
 }  // namespace bbsim::app

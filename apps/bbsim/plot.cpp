@@ -44,7 +44,7 @@ constexpr std::array formats = {NamedFormat{"svg", plot::Format::svg},
                                 NamedFormat{"png", plot::Format::png},
                                 NamedFormat{"pdf", plot::Format::pdf}};
 
-// What --format says, or else the ending of --output.
+// Format from --format, else from the ending of --output.
 NamedFormat format_of(const PlotArguments& arguments) {
   std::string name = arguments.format;
   if (name.empty()) {
@@ -73,7 +73,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-// "x,y;phi" is two panels; so is the option given twice.
+// "x,y;phi" means two panels, as does giving the option twice.
 plot::Asked asked_columns(const std::vector<std::string>& given) {
   plot::Asked asked;
   for (const std::string& panels : given) {
@@ -106,7 +106,7 @@ plot::Picture picture_of(const std::vector<results::Result>& results,
   return plot::sweep_picture(results.front(), choice);
 }
 
-// Files that make one picture.
+// Files drawn in one picture.
 struct Task {
   std::vector<std::string> files;
   std::string output;
@@ -136,7 +136,7 @@ std::string option_of(const Task& task, const PlotArguments& arguments) {
   return arguments.output.empty() ? "the picture of " + task.files.front() + ", without -o" : "-o";
 }
 
-// Comes before any of them is opened.
+// Call it before any of the files is opened.
 void declare_files(const std::vector<Task>& tasks, const PlotArguments& arguments) {
   file::Outputs outputs;
   for (const std::string& file : arguments.files) {
@@ -193,7 +193,7 @@ ExitCode plot_files(const PlotArguments& arguments, const Options& options) {
   results::refuse_auto(arguments.log);
   declare_files(tasks, arguments);
   require_gnuplot();
-  // What can be drawn is drawn, whatever is wrong with other files.
+  // Draw what can be drawn, even if other files have faults.
   std::vector<Problem> problems;
   for (const Task& task : tasks) {
     try {

@@ -21,8 +21,8 @@ using namespace std::chrono_literals;
 
 namespace {
 
-// As the terminal says now: it may have been resized. The last column stays free, for there some
-// terminals break the line.
+// Asks the terminal each time, since it may have been resized. The last column stays free, because
+// some terminals break the line there.
 std::size_t columns_of_terminal() {
   winsize size{};
   const bool told = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
@@ -32,7 +32,7 @@ std::size_t columns_of_terminal() {
 }  // namespace
 
 void Progress::controller_says(std::string_view line) {
-  // In the place of a progress bar, which is drawn again below it.
+  // Replaces the progress bar, which is drawn again below the line.
   if (draws_on_terminal()) std::fputs(to_clear_line, stderr);
   say("controller: " + std::string(line));
 }

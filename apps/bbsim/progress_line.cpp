@@ -42,14 +42,14 @@ bool is_ascii(char c) {
   return static_cast<unsigned char>(c) < 0x80;
 }
 
-// The text, or its end after "..." where there is no room for it.
+// The text; if it does not fit, "..." and its end.
 std::string end_of(const std::string& text, std::size_t columns) {
   if (widest(text) <= columns) return text;
   constexpr std::size_t dots = 3;
   if (columns <= dots) return "";
   std::size_t from = text.size(), room = columns - dots;
   while (from > 0) {
-    std::size_t before = from - 1;  // where the character before begins
+    std::size_t before = from - 1;  // start of the character before
     while (before > 0 && (static_cast<unsigned char>(text[before]) & 0xC0U) == 0x80U) --before;
     const std::size_t width = is_ascii(text[before]) ? 1 : 2;
     if (width > room) break;
@@ -82,7 +82,7 @@ std::string progress_line(const ProgressState& state, std::size_t columns) {
   const std::string left = left_text(state), detail = detail_text(state);
   const std::string name = std::filesystem::path(state.label).filename().string();
 
-  // The forms go from all to little; the first that has room for its shortest bar.
+  // Forms from long to short; the first with room for the shortest bar is used.
   struct Form {
     const std::string& label;
     const std::string after;

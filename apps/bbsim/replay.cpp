@@ -36,7 +36,7 @@ struct ReplayArguments {
   results::Beside beside;
 };
 
-// One of the files, read; a scenario is yet to be run.
+// One of the files after reading; a scenario is run later.
 struct Replayed {
   std::string name;
   std::optional<Scenario> scenario{};
@@ -44,7 +44,7 @@ struct Replayed {
   std::optional<replay::Run> log{};
 };
 
-// Files of one name are told apart by their folders, and the same file given twice by a number.
+// Distinguishes files of the same name by their folders, and repeated files by a number.
 std::vector<std::string> names_of(const std::vector<std::string>& files) {
   std::vector<std::string> names;
   for (const std::string& file : files) {
@@ -108,7 +108,7 @@ void say_all(const std::vector<std::string>& notes, const Options& options) {
   }
 }
 
-// All of them, and all that is wrong with them at once.
+// Reads all files, and reports all their faults together.
 std::vector<Replayed> read_all(const ReplayArguments& arguments, const Options& options,
                                file::Outputs& outputs) {
   std::vector<std::string> files = arguments.files;

@@ -80,7 +80,7 @@ replay::Run run_of(results::Result result, const std::string& name) {
   const Source& source = scenario->source;
   try {
     api::describe(run, parse_scenario(source.text, source.file, source.overrides));
-  } catch (const InputError&) {  // its tables are gone, say, or another version wrote it
+  } catch (const InputError&) {  // its tables are gone, for example, or another version wrote it
     replay::describe_sight(run, *scenario);
   }
   if (!title.empty()) run.title = title;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A replay as a file, and how a run becomes one: for `replay`, and for `run --replay`.
+// Replay files, and the conversion of runs to them, for `replay` and `run --replay`.
 #pragma once
 
 #include <string>
@@ -13,19 +13,19 @@
 
 namespace bbsim::app {
 
-// Throws InputError unless the name ends in .html or .glb, or is "-", a page on standard output.
+// Throws InputError unless the name ends in .html or .glb, or is "-": a page on standard output.
 void require_replay_ending(const std::string& file, const std::string& option);
 
-// Says that a replay is written to that file, whose name `what` gives, of the page's template.
+// Declares the replay file as an output, which messages call `what`, and the template as an input.
 void declare_replay(file::Outputs& outputs, const std::string& file, const std::string& what);
 
-// Opened before the work is done that it shows: what is missing for it is said at once.
+// Opened before the work that it will show, so that a missing file or template is reported at once.
 class ReplayFile {
  public:
-  // Throws OutputError: the file cannot be written to, or there is no template for pages.
+  // Throws OutputError if the file cannot be written, or the template of pages is missing.
   explicit ReplayFile(const std::string& target);
 
-  // Whole or not at all, and what was written is said. Throws InputError, OutputError.
+  // Writes the whole file or nothing, and reports it. Throws InputError, OutputError.
   void write(const replay::Scene& scene, bool quiet);
 
  private:
@@ -35,11 +35,11 @@ class ReplayFile {
   file::AtomicFile file_;
 };
 
-// A result with what is known of its scenario: all of it where it and its tables can be read as
-// they were, else what is sound in it.
+// Run of a result, described by its scenario: fully if the scenario and its tables can still be
+// read, else by the parts that can.
 [[nodiscard]] replay::Run run_of(results::Result result, const std::string& name);
 
-// The scene of one run, called by the title of the run, or its name.
+// Scene of one run, titled after the run or its name.
 [[nodiscard]] replay::Scene scene_of(replay::Run run);
 
 }  // namespace bbsim::app

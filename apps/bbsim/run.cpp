@@ -25,16 +25,16 @@ struct RunArguments {
   ScenarioArguments scenario;
   std::string output, error, replay;
   bool force = false;
-  api::RunRequest request;  // as far as words say it
+  api::RunRequest request;  // filled in from the options
 };
 
-// Comes before any of them is opened.
+// Call it before any of the files is opened.
 void declare_files(const RunArguments& arguments, const std::string& output,
                    file::Outputs& outputs) {
   if (!arguments.request.part.from.empty())
     outputs.reads(arguments.request.part.from, "--from-state");
   if (!arguments.request.measures.empty()) {
-    // A pipe is nobody's, but what came of it could not be read.
+    // Outputs allows a shared pipe, but rows and measures in it could not be told apart.
     for (const auto& [name, option] :
          {std::pair(output, "-o"), {arguments.request.summary, "--summary"}}) {
       if (name != "-") continue;
@@ -50,7 +50,7 @@ void declare_files(const RunArguments& arguments, const std::string& output,
   if (!arguments.replay.empty()) declare_replay(outputs, arguments.replay, "--replay");
 }
 
-// By default a part that continues would have the name of the part before it.
+// By default, a part that continues would overwrite the part before it.
 void keep_part_before(const RunArguments& arguments, const std::string& output) {
   if (arguments.request.part.from.empty() || !arguments.output.empty() || arguments.force) return;
   std::error_code none;

@@ -21,7 +21,7 @@ struct SketchArguments {
   bool force = false;
 };
 
-// A cure that the compiler's messages do not name.
+// Remedy that the compiler's messages do not name.
 std::string hint(const std::string& messages) {
   if (messages.find("No such file or directory") == std::string::npos) return "";
   return "\nname the folder of a library with -I";

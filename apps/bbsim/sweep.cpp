@@ -41,7 +41,7 @@ api::Shard read_shard(const std::string& text) {
   return shard;
 }
 
-// What the scenario says of the sweep, and the command line instead of it.
+// The scenario's sweep block, with the command line taking precedence.
 Sweep sweep_of(const SweepArguments& arguments, const Sweep& in_scenario) {
   Sweep sweep = in_scenario;
   if (!arguments.vary.empty()) {
@@ -55,7 +55,7 @@ Sweep sweep_of(const SweepArguments& arguments, const Sweep& in_scenario) {
   }
   const auto random = [](const Variation& one) { return scenario::parse_variation(one).random(); };
   if (!arguments.vary.empty() && std::none_of(sweep.vary.begin(), sweep.vary.end(), random)) {
-    sweep.samples.reset();  // of what the scenario would draw
+    sweep.samples.reset();  // for the scenario's random keys, which are replaced
   }
   if (arguments.samples) sweep.samples = *arguments.samples;
   if (arguments.seed) sweep.seed = *arguments.seed;

@@ -18,7 +18,7 @@ namespace bbsim::app {
 void say(std::string_view message) {
   try {
     const std::string line = printable(message) + '\n';
-    // Written in one piece, so that it stays whole among those of other processes.
+    // Write in one piece, so that other processes cannot split the message.
     static_cast<void>(std::fwrite(line.data(), 1, line.size(), stderr));
   } catch (const std::bad_alloc&) {
     std::fputs("out of memory\n", stderr);

@@ -17,7 +17,7 @@
 namespace bbsim::app {
 namespace {
 
-// Prints as printf does.
+// Formats as printf does.
 template <class... Values>
 std::string formatted(const char* format, const Values&... values) {
   const int size = std::snprintf(nullptr, 0, format, values...);
@@ -65,7 +65,7 @@ std::string table_of(const Scenario& scenario, const api::FullModelStudy& study)
 }
 
 ExitCode verify(const ScenarioArguments& arguments, const Options& options) {
-  // Looked up before the checks, so that a mistake in it is told at once.
+  // Read the scenes before the checks, so that a mistake is reported at once.
   file::Outputs outputs;
   const std::vector<Scenario> scenes = arguments.file.empty()
                                            ? api::paper_scenes(arguments.overrides)

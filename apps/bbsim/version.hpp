@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What this program is, and what it is made of.
+// Version of this program and of its parts.
 #pragma once
 
 #include <string>
 
 namespace bbsim::app {
 
-// Lines: the version, the instruction set that was chosen, the commit of the source, the libraries
-// that it was built with.
+// Lines: the version, the chosen instruction set, the commit of the source, the libraries of the
+// build.
 [[nodiscard]] std::string version();
 
 }  // namespace bbsim::app

@@ -11,7 +11,7 @@
 #include <memory>
 #include <string>
 
-// The model of a scene in MuJoCo's XML. Ends the program with exit code 1 if MuJoCo refuses it.
+// Compiles a scene in MuJoCo's XML. Ends the program with exit code 1 if MuJoCo refuses it.
 inline std::unique_ptr<mjModel, decltype(&mj_deleteModel)> compiled(const std::string& xml) {
   const auto files = std::make_unique<mjVFS>();  // in memory
   mj_defaultVFS(files.get());

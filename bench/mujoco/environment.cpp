@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Control periods per second of processor time with MuJoCo (Todorov, Erez and Tassa 2012), for a
-// rig like configs/rig.yaml: what bench/environments.py counts for bbsim.VectorEnv.
+// rig like configs/rig.yaml. bench/environments.py counts the same for bbsim.VectorEnv.
 //
-// A plate on two hinges with position servos of second order, a solid ball on it, and a law that
-// leads the ball to the center, once every 20 ms. The law sees the true position and velocity, so
-// no time goes into sensors. One rig after the other, as MuJoCo has no vectorized steps on
+// The rig: a plate on two hinges with second-order position servos, a solid ball, and a law that
+// brings the ball to the center, once every 20 ms. The law sees the true position and velocity, so
+// sensors cost no time. Rigs run one after another, as MuJoCo has no vectorized steps on
 // processors.
 //
 //     mujoco_environment
@@ -46,7 +46,7 @@ std::string scene(double step) {
          servos + "</actuator></mujoco>";
 }
 
-// The mean distance of the balls from the center at the end, m.
+// Mean distance of the balls from the center at the end, m.
 double balance(const mjModel* model, mjData* data, int steps) {
   double distance = 0;
   for (int rig = 0; rig < rigs; ++rig) {

@@ -4,11 +4,10 @@
 // Compares rolling resistance with MuJoCo, an engine with soft contacts (Todorov, Erez and Tassa
 // 2012).
 //
-// One ball rolls along a level plate to rest. Another one rests on a plate tilted by half of the
-// angle that the resistance holds. Both have a couple c_rr N r against rolling. MuJoCo makes
-// friction a soft constraint. This equals dry friction while the ball rolls, and lets it creep at
-// rest. The creep shrinks with the constraint's time constant (solref), and the time constant with
-// the step.
+// One ball rolls along a level plate to rest. Another rests on a plate tilted by half of the angle
+// that the resistance holds. Both have a couple c_rr N r against rolling. MuJoCo makes friction a
+// soft constraint, which equals dry friction while the ball rolls, but lets it creep at rest. The
+// creep shrinks with the constraint's time constant (solref), and the time constant with the step.
 //
 //     crosscheck_losses
 #include <mujoco/mujoco.h>
@@ -35,7 +34,7 @@ std::string text(double number) {
   return digits;
 }
 
-// The position of the ball at the end, m.
+// Position of the ball at the end, m.
 double by_bbsim(double tilt, double velocity, double end) {
   const bbsim::Scenario scene = bbsim::parse_scenario(
       "gravity: " + text(gravity) + "\nball: {radius: " + text(radius) + ", mass: " + text(mass) +
@@ -52,8 +51,8 @@ double by_bbsim(double tilt, double velocity, double end) {
 }
 
 double by_mujoco(double tilt, double velocity, double end, double step) {
-  // MuJoCo's coefficients of rolling and torsion are lengths. Twice the step is the stiffest
-  // permitted time constant.
+  // MuJoCo's coefficients of rolling and torsion are lengths. The stiffest permitted time constant
+  // is twice the step.
   std::ostringstream xml;
   xml << "<mujoco><option timestep='" << text(step) << "' cone='elliptic' "
       << "impratio='100' tolerance='1e-14' iterations='200' gravity='"

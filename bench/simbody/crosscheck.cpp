@@ -5,7 +5,7 @@
 //
 // Simbody (Sherman, Seth and Delp 2011) gets two pins, a plate, a free ball and its ideal
 // sphere-on-plane constraint with rolling, and integrates its own equations of motion. The pins are
-// prescribed, or torques act on them. The paths of the contact point and the angles are compared.
+// prescribed or driven by torques. The angles and the paths of the contact point are compared.
 //
 //     crosscheck SCENARIO.yaml...    open loops and given torques; prints the largest differences
 #include <algorithm>

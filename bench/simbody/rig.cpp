@@ -30,7 +30,7 @@ class Angle : public Function {
   int axis_;
 };
 
-// The motors' torques on the two pins of the gimbal, minus the viscous torques of its bearings.
+// Torques of the motors on the gimbal's two pins, minus the viscous torques of the bearings.
 class Torques : public Force::Custom::Implementation {
  public:
   Torques(const Driven& driven, const MobilizedBody::Pin& phi, const MobilizedBody::Pin& theta)
@@ -57,8 +57,8 @@ Body::Rigid ring_of(const Rig& rig) {
   return Body::Rigid(MassProperties(1, Vec3(0), Inertia(about)));
 }
 
-// The inertia is about the gimbal's center, which is fixed. The mass has no effect there; the
-// weight is a separate force.
+// The inertia is about the gimbal's fixed center. The mass has no effect there; the weight is a
+// separate force.
 Body::Rigid plate_of(const Rig& rig) {
   if (!rig.driven) return Body::Rigid(MassProperties(1, Vec3(0), Inertia(1)));
   const auto& [x, y, z] = rig.driven->plate_inertia;
@@ -85,7 +85,7 @@ std::vector<std::array<double, 4>> simulate(const Rig& rig, const std::vector<do
     Force::Custom(forces, new Torques(*rig.driven, outer, plate));
     Force::ConstantForce(forces, plate, Vec3(0, 0, rig.driven->centre_of_mass),
                          Vec3(0, 0, -rig.driven->plate_mass * rig.gravity));
-    // The rotor of theta's motor turns like the plate in the ring, but about a fixed axis.
+    // The rotor of theta's motor turns with the plate in the ring, but about a fixed axis.
     const double inertia = rig.driven->rotor_inertia;
     if (inertia > 0) {
       rotor.emplace(matter.Ground(), about_x,

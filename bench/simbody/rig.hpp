@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The rig in Simbody, behind an interface for C++17 and C++20: Simbody 3.7 is not C++20.
+// The rig in Simbody, behind an interface for C++17 and C++20, because Simbody 3.7 is not C++20.
 #pragma once
 
 #include <array>
@@ -30,8 +30,7 @@ struct Rig {
   std::optional<Driven> driven{};  // instead of `angle`
 };
 
-// The contact point and the gimbal's angles (x, y, phi, theta) at each of the times, which start at
-// 0.
+// Contact point and gimbal angles (x, y, phi, theta) at each time. The times start at 0.
 std::vector<std::array<double, 4>> simulate(const Rig& rig, const std::vector<double>& times);
 
 }  // namespace crosscheck
