@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# Writes files, each with its name and its text, to an array in a C++ header:
+# Writes the names and texts of files to an array in a C++ header:
 #
 #   cmake "-DFILES=FILE|FILE" -DNAME=NAME -DINTO=FILE.hpp -P embed.cmake
 string(REPLACE "|" ";" FILES "${FILES}")

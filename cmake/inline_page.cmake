@@ -6,8 +6,8 @@
 #   cmake -DINDEX=index.html -DLIBRARIES=FILE|FILE -DNOTICES=NAME=FILE|NAME=FILE -DOUTPUT=page.html
 #         -P inline_page.cmake
 #
-# Each file that index.html names is beside it or in LIBRARIES, by its name. The script NAME begins with a comment that
-# contains its notice, the text of FILE.
+# Each file that index.html names is beside it or, by name, in LIBRARIES. The script NAME gets a comment with its
+# notice, the text of FILE, at its start.
 file(READ "${INDEX}" page)
 get_filename_component(folder "${INDEX}" DIRECTORY)
 string(REPLACE "|" ";" LIBRARIES "${LIBRARIES}")
@@ -22,14 +22,14 @@ function(content_of name result)
     endif()
   endforeach()
   file(READ "${file}" content)
-  # The end tag would end the script that contains it. A source map would be requested over the network.
+  # An end tag would end the script that contains it. A source map would cause a network request.
   if(content MATCHES "</(script|style)")
     message(FATAL_ERROR "${file} contains '</${CMAKE_MATCH_1}': it cannot stand in a page")
   endif()
   string(REGEX REPLACE "\n?(//|/[*])# sourceMappingURL=[^\n]*" "" content "${content}")
   # The page states its license once.
   string(REGEX REPLACE "^((//|/[*]) SPDX-[^\n]*\n+)+" "" content "${content}")
-  # Remove indentation and comment lines: the sources are for reading, and the page is for sending.
+  # Remove indentation and comment lines, which nobody needs in a page.
   if(NOT name MATCHES "[.]min[.]")
     string(REGEX REPLACE "\n[ \t]*//[^\n]*" "" content "${content}")
     string(REGEX REPLACE "\n[ \t\n]+" "\n" content "${content}")

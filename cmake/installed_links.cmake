@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 # cmake --install runs this on the pages that it has just installed (cmake/packages.cmake), whose links lead from file to
-# file of the sources. A link to a file that is installed, of whatever component, leads to its installed place. A link to
-# another file of the sources becomes the name of that file. Needs
+# file of the sources. A link to an installed file of any component then leads to its installed place. A link to another
+# file of the sources becomes the file's name. Needs
 #   BBSIM_SOURCE     the folder of the sources
 #   BBSIM_PREFIX     the prefix; without DESTDIR, as are the folders below
 #   BBSIM_DOC_DIR, BBSIM_DATA_DIR, BBSIM_INCLUDE_DIR   folders below it, or absolute
@@ -12,7 +12,7 @@ foreach(_folder IN ITEMS DOC DATA INCLUDE)
   cmake_path(ABSOLUTE_PATH BBSIM_${_folder}_DIR BASE_DIRECTORY ${BBSIM_PREFIX} NORMALIZE)
 endforeach()
 
-# Where the file or folder `path` of the sources is installed; empty if it is not.
+# Sets the place where the file or folder `path` of the sources is installed; empty if it is not.
 function(installed_place path result)
   set(_place)
   if(path MATCHES "^docs/(.*\\.(md|png))$")
@@ -27,7 +27,7 @@ function(installed_place path result)
   set(${result} "${_place}" PARENT_SCOPE)
 endfunction()
 
-# rewrite PATH-IN-THE-SOURCES: the page at its installed place, from the text of the sources
+# rewrite PATH-IN-THE-SOURCES: writes the page to its installed place, from its text in the sources
 function(rewrite page)
   installed_place(${page} _installed)
   set(_file $ENV{DESTDIR}${_installed})
@@ -63,7 +63,7 @@ function(rewrite page)
       continue()
     endif()
     set(_names_sources TRUE)
-    # A text that names the file, in whole or in part, is replaced by the whole name.
+    # If the text is the file's name or ends it, only the full name remains.
     string(REGEX REPLACE "`|/$" "" _plain "${_text}")
     string(FIND "/${_path}" "/${_plain}" _at REVERSE)
     string(LENGTH "${_plain}" _length)

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# Compiles one source for several instruction sets; the program chooses at run time:
+# Compiles one source for several instruction sets; the program chooses one at run time:
 #
 #   bbsim_add_kernels(TARGET ROOM)
 #
@@ -22,10 +22,10 @@ function(_bbsim_add_kernels_of target isa)
        "#define BBSIM_ISA bbsim::simd::${isa}\n#include \"${CMAKE_CURRENT_SOURCE_DIR}/kernels.cpp\"\n")
   target_sources(${target} PRIVATE ${source})
 
-  # Source options come last on the command line and so override those of bbsim::options. Instruction sets agree to the
-  # tolerance, not to the bit, so products may be fused. Packs never cross a function's boundary, so their calling
-  # convention (-Wpsabi) does not matter. Sanitizers are off, because the unrolled loops would take compilers many
-  # minutes; all memory is in fixed arrays.
+  # Source options come last on the command line, so they override those of bbsim::options. Instruction sets agree to
+  # the tolerance, not bit for bit, so products may be fused. Packs never cross a function's boundary, so their calling
+  # convention (-Wpsabi) does not matter. Sanitizers are off, because compilers would take many minutes for the
+  # unrolled loops; all memory is in fixed arrays.
   set(options -ffp-contract=fast -Wno-psabi ${ARGN})
   if(BBSIM_INSTRUMENTED)
     list(APPEND options -fno-sanitize=all)

@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# NLopt's header, and the name under which its library is loaded by bbsim tune and design (docs/decisions/tuning.md).
+# NLopt's header, and the library name that bbsim tune and design load (docs/decisions/tuning.md).
 find_path(NLOPT_INCLUDE_DIR nlopt.h REQUIRED)
 find_library(NLOPT_LIBRARY nlopt REQUIRED)
 mark_as_advanced(NLOPT_INCLUDE_DIR NLOPT_LIBRARY)
 file(REAL_PATH ${NLOPT_LIBRARY} _file)
 get_filename_component(NLOPT_SONAME ${_file} NAME)
-# libnlopt.so.0.11.1 is libnlopt.so.0 to those who use it.
+# Programs load libnlopt.so.0.11.1 as libnlopt.so.0.
 if(NLOPT_SONAME MATCHES "^(libnlopt\\.so\\.[0-9]+)")
   set(NLOPT_SONAME ${CMAKE_MATCH_1})
 endif()

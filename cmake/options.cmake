@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# The compile options of every target, linked as bbsim::options.
+# Compile options of every target, linked as bbsim::options.
 add_library(bbsim_options INTERFACE)
 add_library(bbsim::options ALIAS bbsim_options)
 
@@ -14,12 +14,12 @@ if(BBSIM_WARNINGS_AS_ERRORS)
 endif()
 
 if(BBSIM_UNITY)
-  # These warnings are false for combined sources. The preset dev compiles each source alone and keeps them.
+  # These warnings are false for combined sources. The preset dev compiles sources singly and keeps them.
   target_compile_options(bbsim_options INTERFACE -Wno-shadow
     $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
 endif()
 
-# a*b + c must give the same result on every machine, because results are compared to the bit.
+# a*b + c must give the same result on every machine, because results are compared bit for bit.
 target_compile_options(bbsim_options INTERFACE -ffp-contract=off)
 
 if(BBSIM_SANITIZE)
@@ -34,7 +34,7 @@ elseif(BBSIM_TSAN)
   target_compile_options(bbsim_options INTERFACE -fsanitize=thread -fno-omit-frame-pointer)
   target_link_options(bbsim_options INTERFACE -fsanitize=thread)
 elseif(BBSIM_STATIC_RUNTIME)
-  # A library shares the runtime of the program that loads it: its exceptions cross.
+  # Exceptions cross from a library to the program that loads it, so both must share a runtime.
   set(_own $<NOT:$<BOOL:$<TARGET_PROPERTY:BBSIM_SHARED_RUNTIME>>>)
   target_link_options(bbsim_options INTERFACE $<${_own}:-static-libstdc++> $<${_own}:-static-libgcc>)
 endif()
@@ -45,6 +45,6 @@ endif()
 function(bbsim_spare_from_sanitizers)
   if(BBSIM_INSTRUMENTED)
     set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS -fno-sanitize=all)
-    set_property(SOURCE ${ARGN} PROPERTY SKIP_PRECOMPILE_HEADERS ON) # which are instrumented
+    set_property(SOURCE ${ARGN} PROPERTY SKIP_PRECOMPILE_HEADERS ON) # they are instrumented
   endif()
 endfunction()

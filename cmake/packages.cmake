@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# Packages, by CPack (scripts/package). Each component that install() names is one: what names none is
-# of the program. A component without a description here is not packaged.
+# Packages by CPack (scripts/package), one per component of install(); the default component is the
+# program. A component without a description here is not packaged.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/pages COMPONENT docs
         FILES_MATCHING PATTERN *.md PATTERN *.png)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/CITATION.cff
@@ -40,7 +40,7 @@ ball-and-plate rig of control courses, with the effects of real rigs: sampling,
 delay, noise, limits of servos, backlash and friction. It runs single scenarios
 and large sweeps, and takes controllers in any language.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME bbsim)
-# Found when they are used: by bbsim tune and design, and by bbsim plot.
+# Loaded or run only on demand: by bbsim tune and design, and by bbsim plot.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libnlopt0, gnuplot-nox | gnuplot")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "g++, python3, octave, bbsim-doc")
 set(CPACK_COMPONENT_DOCS_DESCRIPTION "The tutorials, how-to guides, references and explanations of bbsim, a simulator
@@ -48,9 +48,9 @@ of the ball-and-plate rig of control courses, as Markdown.")
 set(CPACK_DEBIAN_DOCS_PACKAGE_NAME bbsim-doc)
 set(CPACK_DEBIAN_DOCS_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_DOCS_PACKAGE_SECTION doc)
-set(CPACK_DEBIAN_DOCS_PACKAGE_RECOMMENDS bbsim) # the pages lead to its examples
+set(CPACK_DEBIAN_DOCS_PACKAGE_RECOMMENDS bbsim) # the pages link to its examples
 
-# The C++ library, and what one compiles against it; its version is in its name, as that of any Debian library.
+# The C++ library and its development files. As for any Debian library, the name contains the version.
 set(_library libbbsim${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(_same "(= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "The C++ library of bbsim, a simulator of the ball-and-plate rig of control
@@ -79,7 +79,7 @@ It reads HDF5 files, and writes them, if the package bbsim is installed.")
                   OUTPUT_VARIABLE _python_version COMMAND_ERROR_IS_FATAL ANY)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${_python_version}, python3-numpy")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "bbsim ${_same}")
-  # What Python compiles belongs to the package.
+  # Files that Python compiles belong to the package.
   set(_scripts ${PROJECT_BINARY_DIR}/python/scripts)
   file(WRITE ${_scripts}/postinst "#!/bin/sh\nset -e\nif [ \"$1\" = configure ]; then py3compile -p python3-bbsim; fi\n")
   file(WRITE ${_scripts}/prerm "#!/bin/sh\nset -e\npy3clean -p python3-bbsim\n")
@@ -87,6 +87,6 @@ It reads HDF5 files, and writes them, if the package bbsim is installed.")
   list(APPEND CPACK_COMPONENTS_ALL python)
 endif()
 
-# What Debian's policy wants beside what any installation has.
+# What Debian's policy requires beyond other installations.
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/debian.cmake)
 include(CPack)

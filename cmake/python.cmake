@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# Finds a Python with numpy and headers, and pybind11; BBSIM_HAS_PYTHON says whether all are there. The first python3
-# on PATH may be another one than the packages of the system are for.
+# Finds a Python with numpy and headers, and pybind11. BBSIM_HAS_PYTHON is ON if all were found. The system's
+# packages may be for another Python than the first python3 on PATH.
 set(BBSIM_HAS_PYTHON OFF)
 set(_pythons ${PYTHON_EXECUTABLE} python3 /usr/bin/python3)
 foreach(_python IN LISTS _pythons)

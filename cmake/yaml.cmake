@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# yaml-cpp. The program takes the static library, if the system has one: the shared one adds 0.3 ms to its start.
-# Debian's static library cannot be linked into a shared one, so that bbsim's library and Python module take the shared.
+# yaml-cpp. The program links the static library if the system has one: the shared one adds 0.3 ms to its start.
+# Debian's static library cannot be linked into a shared one, so bbsim's library and Python module use the shared one.
 find_package(yaml-cpp REQUIRED)
 add_library(bbsim_yaml_cpp INTERFACE)
 add_library(bbsim::yaml_cpp ALIAS bbsim_yaml_cpp)

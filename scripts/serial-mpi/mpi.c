@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What Debian's static SUNDIALS 7 library wants of Open MPI to link. Without a communicator none of
-// it is called; see mpi.h.
+// Symbols of Open MPI that Debian's static SUNDIALS 7 library needs to link. Without a
+// communicator, none of them is called; see mpi.h.
 #include "mpi.h"
 
 #include <stdio.h>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Stands in for Open MPI's header, for the SUNDIALS that scripts/setup unpacks: Debian builds
-// SUNDIALS 7 with MPI, so that its headers name the type and the null communicator below. bbsim
-// passes the null communicator only, with which SUNDIALS calls nothing of MPI.
+// Replaces Open MPI's header for the SUNDIALS that scripts/setup unpacks: Debian builds SUNDIALS 7
+// with MPI, so its headers use the type and the null communicator below. bbsim passes only the null
+// communicator, with which SUNDIALS calls no MPI function.
 #pragma once
 
 #ifdef __cplusplus

@@ -27,9 +27,9 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 MADE = os.environ["BBSIM_SITE_MADE"]
 
-# Pages of the site that are not in docs/, with the file of the repository that has their text.
+# Pages of the site that are not in docs/, with the files of the repository that contain their text.
 PAGES = {"changes.md": "CHANGELOG.md", "replays.md": "scripts/site/replays.md"}
-# Files of these folders have pages even if only the folder is linked to.
+# If only one of these folders is linked to, its files get pages too.
 WHOLE = ("configs/", "examples/", "scripts/examples/")
 LANGUAGES = {".yaml": "yaml", ".yml": "yaml", ".py": "python", ".js": "javascript", ".awk": "awk", ".cmake": "cmake",
              ".c": "c", ".h": "cpp", ".hpp": "cpp", ".cpp": "cpp", ".ino": "cpp", ".sh": "sh"}
@@ -229,7 +229,7 @@ def on_page_markdown(markdown, page, config, files):
     lines, command, previous = [], False, ""
     for line, is_text in lines_outside_fences(markdown):
         if is_text and re.match(r"<!--.*-->\s*$", line):
-            # The separate comment keeps blocks of code apart that stand above and below.
+            # The separate comment keeps adjacent blocks of code apart.
             lines += ["", "<!-- -->", ""]
             command, previous = False, ""
             continue
@@ -252,7 +252,7 @@ def on_page_markdown(markdown, page, config, files):
         close(lines)
     text = "\n".join(lines)
     if uri == "index.md":
-        # The picture leads to what it shows.
+        # The picture links to the page with what it shows.
         text = re.sub(r"^(!\[[^\]]*\]\([^)]*\))$", r"[\1](replays.md)\n\n[Play this and other replays](replays.md)",
                       text, count=1, flags=re.MULTILINE)
     return text
@@ -305,7 +305,7 @@ def check(site):
     pages = {}
     for folder, folders, names in os.walk(site):
         if folder == site:
-            folders.remove("replays")  # they are tested in a browser
+            folders.remove("replays")  # a browser tests them
         for name in names:
             if name.endswith(".html") and name != "404.html":
                 path = os.path.relpath(os.path.join(folder, name), site)
