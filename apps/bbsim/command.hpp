@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A subcommand and its options, for the subcommand's own file. Only command.cpp uses the parser,
-// CLI11: each source that includes its headers constructs their validators at every program start,
+// A subcommand and its options, for the subcommand's own file. Keeps the parser, CLI11, out of that
+// file: each source that includes its headers constructs their validators at every program start,
 // and compiles seconds longer.
 #pragma once
 
@@ -21,7 +21,7 @@ class Option;
 
 namespace bbsim::app {
 
-// What the command line asks for.
+// Action that the command line asks for.
 using Chosen = std::function<ExitCode()>;
 
 // Doubles hold whole numbers up to 2^53.

@@ -3,7 +3,7 @@
 
 #include "command_line.hpp"
 
-#include <CLI/CLI.hpp>  // all of it: some source has to
+#include <CLI/CLI.hpp>  // at least one source must include all of it
 #include <algorithm>
 #include <memory>
 #include <string>

@@ -61,7 +61,7 @@ bool has_name(const std::string& text, const std::string& name) {
   return false;
 }
 
-// Throws a message about the first word in t or an asked column, else `error`.
+// Throws a message about the first word in `t` or a requested column, else `error`.
 [[noreturn]] void refuse(const InputError& error, const std::string& file,
                          const std::vector<std::string>& asked, const std::vector<Words>& others) {
   for (const Words& words : others) {

@@ -46,7 +46,7 @@ replay::Run run_of(const Scenario& scenario, file::TableData rows, record::RunSu
   for (const record::EventRecord& event : summary.events) {
     run.events.push_back({event.t, event.name, event.action, event.x, event.y});
   }
-  summary.scenario_text.clear();  // it has a place of its own
+  summary.scenario_text.clear();  // replay::Run holds it separately
   run.summary = record::to_json(summary);
   return run;
 }

@@ -276,7 +276,7 @@ model::PulseResponse response_to(Bench& bench, std::size_t at, double size) {
 
 struct Estimate {
   std::optional<model::LinearSystem> law;
-  std::string why;  // there is none
+  std::string why;  // there is no law
 };
 
 // Law about the reference, if linear there and the same at every sample: two pulses of different

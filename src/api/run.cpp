@@ -27,7 +27,7 @@ namespace {
 
 using Columns = std::vector<const scenario::Column*>;
 
-// The measures asked for, followed by others that have expectations.
+// The requested measures, followed by others that have expectations.
 std::vector<scenario::Measure> with_expected(
     std::vector<scenario::Measure> measures,
     const std::vector<scenario::Expectation>& expectations) {

@@ -28,7 +28,7 @@ class RunPart {
   RunPart(const PartRequest& request, const Scenario& scenario,
           const std::vector<file::InputTable>& inputs);
 
-  // Scene for the model; its end is later if the run's end is not known.
+  // Scene for the model; its end is much later if the run's end is not known.
   [[nodiscard]] const Scenario& whole() const { return whole_; }
   // Grid of the whole run.
   [[nodiscard]] const solve::OutputGrid& grid() const { return *grid_; }
