@@ -17,12 +17,12 @@
 namespace bbsim::scenario {
 namespace {
 
-// Noise is at most this part of the plate's range; what is larger turns back.
+// Largest noise, as a fraction of the plate's range. A curve with larger deviations turns back.
 constexpr double most_noise = 0.02;
 
 struct Row {
   double servo, plate;
-  double weight = 1;  // how many measurements
+  double weight = 1;  // number of measurements
 };
 
 // Neighboring rows at one level.
@@ -30,7 +30,7 @@ struct Level {
   std::size_t first, last;  // rows
   double servo, plate;      // means
   double weight;
-  double moved = 0;  // by how far at most a row's plate angle is from the mean, rad
+  double moved = 0;  // largest deviation of a row's plate angle from the mean, rad
 };
 
 bool strictly_rises(const std::vector<double>& of) {
@@ -53,7 +53,7 @@ void add(std::string& done, const std::string& what) {
   done += (done.empty() ? "" : ", ") + what;
 }
 
-// In rising order of the servo's angle; `repeated` counts the rows that repeat another's.
+// Sorts by the servo's angle. `repeated` counts the rows that repeat another row's angle.
 std::vector<Row> sorted_rows(const CurveLinkage& curve, std::size_t& repeated) {
   std::vector<std::size_t> order(curve.servo.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -85,7 +85,7 @@ void measure_moves(const std::vector<Row>& rows, Level& level) {
   }
 }
 
-// Levels that rise strictly, or fall with `sign` -1.
+// Pools rows into levels that rise strictly, or fall if `sign` is -1.
 std::vector<Level> pool(const std::vector<Row>& rows, double sign) {
   std::vector<Level> levels;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -100,8 +100,8 @@ std::vector<Level> pool(const std::vector<Row>& rows, double sign) {
   return levels;
 }
 
-// Whether rows from one level to another at an end are flat: they differ by no more than their
-// noise, and at the curve's mean slope would differ by clearly more.
+// Whether the rows from one level to another are flat: they differ by no more than their noise, but
+// would differ by at least four times as much at the curve's mean slope.
 bool is_flat(const std::vector<Row>& rows, const std::vector<Level>& levels, std::size_t from,
              std::size_t to) {
   const std::size_t first = levels[from].first, last = levels[to].last;
@@ -115,7 +115,7 @@ bool is_flat(const std::vector<Row>& rows, const std::vector<Level>& levels, std
          std::abs(levels[to].plate - levels[from].plate) <= noise;
 }
 
-// A level in place of those that are flat at an end, at the row next to the rest.
+// Replaces the flat levels at an end with one level, at the flat row nearest to the rest.
 void cut_flat_end(const std::vector<Row>& rows, std::vector<Level>& levels, bool high,
                   std::string& done) {
   const std::size_t count = levels.size();
@@ -125,7 +125,7 @@ void cut_flat_end(const std::vector<Row>& rows, std::vector<Level>& levels, bool
     Level end = levels[from];
     for (std::size_t i = from + 1; i <= to; ++i) end = merged(end, levels[i]);
     end.servo = rows[high ? end.first : end.last].servo;
-    end.first = end.last = high ? end.first : end.last;  // what was cut has not been moved
+    end.first = end.last = high ? end.first : end.last;  // cut rows do not count as smoothed
     end.moved = 0;
     const auto at = levels.begin() + static_cast<std::ptrdiff_t>(from);
     levels.erase(at, levels.begin() + static_cast<std::ptrdiff_t>(to + 1));

@@ -26,7 +26,7 @@ void report_missing(yaml::Keys& scenario, const std::string& message) {
   place.context->problems.add(place.position, message);
 }
 
-// An invalid value of `drives` was reported before; the servo is not checked then.
+// Checks nothing for an invalid value of `drives`, which the reader has reported.
 void check_servo(yaml::Keys& scenario) {
   const auto drives = find_in(scenario, "controller", "drives");
   const std::string driven = drives ? drives->node->text : "acceleration";

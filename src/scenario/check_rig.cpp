@@ -16,8 +16,8 @@
 namespace bbsim::scenario {
 namespace {
 
-// The longest delay in periods. Delayed samples are part of the loop's state, and of the matrix
-// whose eigenvalues are the loop's poles.
+// The longest delay in periods. Delayed samples enlarge the loop's state and the matrix whose
+// eigenvalues are the loop's poles.
 constexpr double most_periods = 100;
 
 // The value at a path of keys, if present.
@@ -66,7 +66,7 @@ class Checks {
     if (value) value->context->problems.add(value->position, value->path + ": " + why);
   }
 
-  // The law's key in the spelling of the scenario.
+  // The key feedback_linearization in the scenario's spelling.
   std::string law() {
     const auto value = find_at(keys_, {"controller", "feedback_linearization"});
     return value ? std::string(value->name()) : "feedback_linearization";
@@ -383,7 +383,7 @@ class Checks {
     }
   }
 
-  // Lengths without their unit put the ball meters away.
+  // Warns of points beside the plate, which are often lengths without their unit.
   void plate() {
     const Plate& plate = scene_.plate;
     const auto warn_beside = [&](Path path, const Pair& point) {
@@ -460,7 +460,7 @@ class Checks {
     const auto inertia = find_at(keys_, {"plate", "inertia"});
     if (!inertia || !scene_.plate.inertia) return;
     const auto& j = *scene_.plate.inertia;
-    // Users give moments with a few digits.
+    // Tolerance for moments given with few digits.
     constexpr double more = 1 + 1e-6;
     constexpr const char* axes[] = {"x", "y", "the normal"};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -496,7 +496,7 @@ class Checks {
       return;
     }
     if (!find_at(keys_, {"ball", "mass"})) {
-      // The key `ball` is present, or its radius was reported as missing.
+      // If the key `ball` is missing, the reader has reported its radius.
       refuse({"ball"},
              "found no mass, but the ball's weight moves the gimbal; allowed: ball.mass given, "
              "since the default of 1 kg is not a realistic ball");
@@ -538,7 +538,7 @@ class Checks {
       const yaml::Value item = columns->item(i);
       const Column* column = find_column(item.node->text);
       if (column == nullptr) continue;
-      // Without motion and controller, check_loop() reported a problem before.
+      // Without motion and controller, check_loop() has reported a problem.
       const bool of_controller =
           column->needs == Needs::controller || column->needs == Needs::commands;
       if (of_controller && !scene_.gimbal.motion && commands_of(scene_) == nullptr) continue;

@@ -15,8 +15,8 @@ namespace bbsim::scenario {
 
 namespace {
 
-// Columns of numbers that the controllers of scenes give, by their names, which they look at. Those
-// who have a column hold on to it, whatever becomes of its scenario.
+// Columns of numbers from your own controllers. Each column views its name in the map. Nothing is
+// ever removed, because pointers to columns outlive their scenario.
 struct OwnColumns {
   std::mutex mutex;
   std::map<std::string, Column, std::less<>> by_name;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The one table of output columns: CSV headers, HDF5 datasets, `bbsim columns`, docs/reference,
-// pictures and replays. How each is computed is record/column_values.hpp's matter.
+// pictures and replays. record/column_values.hpp computes them.
 #pragma once
 
 #include <array>
@@ -15,35 +15,28 @@
 
 namespace bbsim::scenario {
 
-// What a column is computed from, those that need the dynamics last: the ball's motion; its angle
-// gamma, and of all rows so far its orientation; the gimbal's angles and rates, and its
-// accelerations; the angles of servos, and of a third one; what is there with a controller, its
-// commands, and what is there with one in discrete time; a number that one's own controller gives
-// beside its commands; forces; forces where the plate's inertia is known, where torques move the
-// gimbal, where DC motors do; and `coupled` where the ball has losses or may slide, or torques move
-// the gimbal, `pushed` where something pushes it.
+// What a column is computed from. All from `dynamics` on need forces, torques or energy.
 enum class Needs {
-  ball,
-  gamma,
-  orientation,
-  gimbal,
-  accelerations,
-  servos,
-  third_servo,
-  controller,
-  commands,
-  samples,
-  own,
-  dynamics,
-  plate,
-  torques,
-  armature,
-  coupled,
-  pushed
+  ball,           // the ball's motion
+  gamma,          // the ball's angle about the normal
+  orientation,    // the ball's orientation, from all rows so far
+  gimbal,         // the gimbal's angles and rates
+  accelerations,  // of the gimbal
+  servos,         // angles of servos
+  third_servo,    // angle of the third of three servos
+  controller,     // any controller that follows a path
+  commands,       // commands of a controller
+  samples,        // a discrete-time controller
+  own,            // a number that your own controller gives beside its commands
+  dynamics,       // forces and energy
+  plate,          // forces, with the plate's inertia
+  torques,        // torques that move the gimbal
+  armature,       // DC motors that move the gimbal
+  coupled,        // is_coupled() or is_linked() (coupled.hpp)
+  pushed          // a push on the ball
 };
 
-// What a curve is to the picture it is in: what the picture is about, or what stands beside that
-// for comparison.
+// The role of a curve in a picture: the main subject, or a curve for comparison.
 enum class Role { main, reference, measured, command };
 
 // The panels of a picture, in their order.
@@ -80,11 +73,11 @@ enum class Panel {
 };
 
 struct PanelText {
-  std::string_view heading;  // of several columns: the quantity that they have in common
-  std::string_view plot;     // the plot of a replay that has its columns; empty: none has
+  std::string_view heading;  // common quantity of several columns
+  std::string_view plot;     // plot of a replay that has its columns; empty if none has
 };
 
-// In the order of Panel. A replay's plots hold more than a picture's panels do.
+// In the order of Panel. A plot of a replay may hold several panels of a picture.
 inline constexpr std::array panels = {
     PanelText{"", "Position"},
     PanelText{"", "Position"},
@@ -134,7 +127,7 @@ struct Column {
   Needs needs;
   Panel panel = Panel::none;
   Role role = Role::main;
-  std::string_view beside{};  // its symbol below its panel's heading, if that is another one
+  std::string_view beside{};  // symbol below the panel's heading, if different
 };
 
 // All columns, in the order of `bbsim columns`.
@@ -287,7 +280,7 @@ inline constexpr std::array catalogue = {
            Needs::armature, Panel::power, Role::main, "electrical"},
 };
 
-// What HDF5 results have beside them; no scenario asks for it.
+// An additional column of HDF5 results. No scenario asks for it.
 inline constexpr Column position_error{
     "position_error",
     "error of x, y",
@@ -296,45 +289,45 @@ inline constexpr Column position_error{
     Needs::ball,
     Panel::position_error};
 
-// The column of that name, or nullptr. Numbers of one's own controller are found once a scene has
-// asked for them by that name.
+// Returns the column, or nullptr. Finds numbers of your own controller once a scene has asked for
+// them.
 [[nodiscard]] const Column* find_column(std::string_view name);
 
-// The same, of what results may have: position_error, too.
+// The same for columns of results, which may also have position_error.
 [[nodiscard]] const Column* find_result_column(std::string_view name);
 
-// The column of a number that one's own controller gives by that name, for which is_own_name()
-// holds and which is not in the catalogue. It stays as long as the program.
+// Returns the column of a number from your own controller. Requires is_own_name() and a name that
+// is not in the catalogue. The column exists until the program ends.
 const Column& own_column(std::string_view name);
 
-// Whether a number of one's own controller may have that name: letters, digits and underscores, at
-// most 60, and no digit first.
+// Whether a number of your own controller may have this name: at most 60 letters, digits and
+// underscores, and no digit first.
 [[nodiscard]] bool is_own_name(std::string_view name);
 
-// How many of them a scene may ask for.
+// The most columns of your own controller in a scene.
 inline constexpr std::size_t most_own_columns = 64;
 
-// The names of those that the scene's output columns ask for, in their order.
+// The names of your own controller's numbers among the scene's output columns, in their order.
 [[nodiscard]] std::vector<std::string> own_columns(const Scenario& scenario);
 
-// The columns of these names, in this order. Throws InputError for an unknown one.
+// Returns the columns in the order of the names. Throws InputError for an unknown name.
 [[nodiscard]] std::vector<const Column*> columns_named(const std::vector<std::string>& names);
 
 [[nodiscard]] std::vector<std::string> names_of(const std::vector<const Column*>& columns);
 
 [[nodiscard]] bool any_needs(const std::vector<const Column*>& columns, Needs what);
 
-// Whether one of them is computed from forces, torques or energy.
+// Whether a column is computed from forces, torques or energy.
 [[nodiscard]] bool need_dynamics(const std::vector<const Column*>& columns);
 
-// Whether one of them is computed from gamma, which the model then integrates.
+// Whether a column is computed from gamma, which the model then integrates.
 [[nodiscard]] bool need_gamma(const std::vector<const Column*>& columns);
 
 // The axis that a column belongs to, by its name: 1 for x and phi, 2 for y and theta, else 0.
 [[nodiscard]] int axis_of(std::string_view name);
 
-// Commands are angles in the table. Those in another unit (command_unit()) stand beside what they
-// command.
+// The table has commands as angles. panel_of() puts commands in another unit (command_unit())
+// beside the quantity that they command.
 [[nodiscard]] bool is_command(std::string_view name);
 [[nodiscard]] Panel panel_of(const Column& column, std::string_view unit);
 
@@ -342,7 +335,7 @@ inline constexpr std::size_t most_own_columns = 64;
   return panels[static_cast<std::size_t>(panel)];
 }
 
-// Why the scene cannot fill a column, and which ones it can; both null if it can.
+// Why the scene cannot fill a column, and what to use instead; both null if it can.
 struct Missing {
   const char* why = nullptr;
   const char* instead = nullptr;

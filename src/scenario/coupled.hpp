@@ -14,8 +14,8 @@ namespace bbsim::scenario {
 // Whether rolling resistance or pivoting friction acts on the ball.
 [[nodiscard]] bool has_dry_losses(const Scenario& scene);
 
-// What is dry in the scene, such as "ball.losses.rolling": it depends on the direction of motion
-// and holds at rest. Null if nothing is.
+// The key of dry friction in the scene, such as "ball.losses.rolling". Dry friction depends on the
+// direction of motion and holds at rest. Null if there is none.
 [[nodiscard]] const char* dry_part(const Scenario& scene);
 
 // Whether a loss or a push acts on the ball, the ball may slide, or torques move the gimbal.

@@ -32,7 +32,7 @@ std::size_t offset_of(std::string_view text, const Position& position) {
   return std::min(text.size(), line_start + static_cast<std::size_t>(position.column - 1));
 }
 
-// The length of a scalar as it is written on one line; nothing for any other.
+// The length of a scalar that is written on one line without escapes; empty for any other.
 std::optional<std::size_t> written_length(std::string_view text, const Node& scalar) {
   if (text.starts_with(scalar.text) && !scalar.quoted) return scalar.text.size();
   if (!text.starts_with('"') && !text.starts_with('\'')) return {};
@@ -48,7 +48,7 @@ const Entry* find(const Node& mapping, std::string_view name) {
   return nullptr;
 }
 
-// "a.b.c" and a value as "a: {b: {c: value}}".
+// Writes "a.b.c" and a value as "a: {b: {c: value}}".
 std::string nested(std::string_view path, const std::string& value) {
   const std::size_t dot = path.find('.');
   const std::string name(path.substr(0, dot));
@@ -63,7 +63,7 @@ class Editor {
 
   void set(const Node& root) {
     const Node* node = &root;
-    const Entry* key = nullptr;  // whose value the node is
+    const Entry* key = nullptr;  // the entry with this node as its value
     std::string_view path = setting_.key;
     while (!path.empty()) {
       const std::size_t dot = path.find('.');
@@ -103,12 +103,12 @@ class Editor {
     text_.replace(at, *length, setting_.value);
   }
 
-  // A mapping or a list; what is empty in the text has no place.
+  // Replaces a mapping or a list. A null node has no place in the text.
   void replace_section(const Node& section, const Entry& key) {
     if (section.kind == Node::Kind::null) refuse();
     const std::size_t name = offset_of(text_, key.position);
     const std::size_t at = offset_of(text_, section.position);
-    // An alias stands elsewhere.
+    // The text of an alias is elsewhere.
     if (at < name || key.position.source != section.position.source) refuse();
     const std::string_view between = std::string_view(text_).substr(name, at - name);
     if (between.find_first_of("&*") != std::string_view::npos) refuse();
@@ -135,7 +135,7 @@ class Editor {
       text_.insert(first, added + ", ");
       return;
     }
-    // After a neighbor that ends with its line, so that comments above keys stay with them.
+    // Insert after a neighbor that ends with its line, so that comments stay above their keys.
     const std::string indent(static_cast<std::size_t>(mapping.entries.front().position.column - 1),
                              ' ');
     for (auto entry = mapping.entries.rbegin(); entry != mapping.entries.rend(); ++entry) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Changes values in the text of a scenario, and leaves all else as it is, comments too.
+// Changes values in the text of a scenario and keeps everything else, comments included.
 #pragma once
 
 #include <string>
@@ -11,9 +11,9 @@
 
 namespace bbsim {
 
-// The text with these settings in it. A key that is not there joins its neighbors. A section is
-// replaced as a whole. Throws InputError for a key that cannot be set there alone: one within an
-// alias, or in a list.
+// Returns the text with these settings. Inserts a missing key beside its neighbors. Replaces a
+// section as a whole. Throws InputError for a key that cannot be set alone, such as a section that
+// an alias shares or that is an item of a list.
 [[nodiscard]] std::string edited_text(const std::string& text,
                                       const std::vector<ScenarioFamily::Setting>& settings);
 

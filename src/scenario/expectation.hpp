@@ -21,8 +21,8 @@ struct Expectation {
   [[nodiscard]] bool holds(double measured) const;
 };
 
-// Reads "MEASURE < VALUE", or with <=, > or >=. The value may have a unit. Throws InputError, which
-// begins with `where`; also for a measure that the scene does not have.
+// Reads "MEASURE < VALUE", or with <=, > or >=. The value may have a unit. Throws InputError,
+// starting with `where`, if the text is invalid or the scene lacks the measure.
 [[nodiscard]] Expectation read_expectation(std::string_view where, std::string_view text,
                                            const Scenario& scenario);
 

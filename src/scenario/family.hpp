@@ -22,7 +22,7 @@ namespace bbsim {
 class ScenarioFamily {
  public:
   // Reads `file` ("-" is standard input) and sets each "key.path=value" of `overrides`. Throws
-  // InputError if the result is no tree of keys. read() checks the values.
+  // InputError if the result is not a tree of keys. read() checks the values.
   ScenarioFamily(const std::string& file, const std::vector<std::string>& overrides);
   // The same for text in memory.
   explicit ScenarioFamily(const Source& source);
@@ -30,12 +30,12 @@ class ScenarioFamily {
   ScenarioFamily(ScenarioFamily&&) noexcept;
   ScenarioFamily& operator=(ScenarioFamily&&) = delete;
 
-  // Scenarios that are read from now on have this controller in place of the program or library
-  // that their text names. Not while another thread reads.
+  // Replaces the program or library in the text with this controller, for scenarios read from now
+  // on. Must not run while another thread reads.
   void give_controller(ControllerFactory factory);
 
-  // Scenarios that are read from now on find this table in place of a file, under the name that
-  // they give for it. Not while another thread reads.
+  // Replaces the table file that scenarios name `file` with this table, for scenarios read from now
+  // on. Must not run while another thread reads.
   void give_table(const std::string& file, file::TableData table);
 
   // A value for the key at a path, in YAML as after --set.
@@ -67,7 +67,7 @@ class ScenarioFamily {
   // A hash of the content of each table file read so far.
   [[nodiscard]] std::vector<std::pair<std::string, std::uint64_t>> table_hashes() const;
 
-  // These tables, under the file names in the scenario.
+  // The tables read so far, under their file names in the scenario.
   [[nodiscard]] std::vector<file::InputTable> inputs() const;
 
   [[nodiscard]] const Source& source() const;

@@ -40,7 +40,7 @@ struct StaysAtZero {
   }
 };
 
-// Whether a continuous law moves the other axis, too.
+// Whether a continuous law also moves the other axis.
 bool couples(const Controller& controller, std::size_t own) {
   const std::size_t other = 1 - own;
   const auto& gain = controller.gain[other];

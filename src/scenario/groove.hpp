@@ -13,8 +13,8 @@ namespace bbsim::scenario {
 // Why the scene does not move along x (0) or y (1) alone; empty if it does.
 [[nodiscard]] std::string why_not_along(int axis, const Scenario& scene);
 
-// Gives a ball in a groove its axis, and its sensor what there is to measure. Call it after all
-// sections are read.
+// Sets the axis of a ball in a groove and the coordinate that its sensor measures. Call it after
+// all sections are read.
 void place_groove(Scenario& scene);
 
 }  // namespace bbsim::scenario

@@ -119,7 +119,7 @@ Numbers in_controller(Controller& controller, Names names) {
   return {};
 }
 
-// Whether the scene has prescribed motion, or equation (31) with an ideal servo, and no events.
+// Whether the scene has no events, and prescribed motion or equation (31) with a plain servo.
 bool is_plain(const Scenario& scenario) {
   if (bbsim::scenario::is_coupled(scenario) || scenario.ball.groove) return false;
   const Events& events = scenario.events;

@@ -29,7 +29,7 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
   }
 }
 
-// Markdown without its marks: [text](link), $formula$, `code`.
+// Removes the marks of Markdown: [text](link), $formula$, `code`.
 std::string plain(std::string text) {
   for (auto link = text.find("]("); link != std::string::npos; link = text.find("](")) {
     text.erase(link, text.find(')', link) - link + 1);
@@ -41,7 +41,7 @@ std::string plain(std::string text) {
   return text;
 }
 
-// A pattern for a number with a unit. Of the bounds, it knows those at zero.
+// A pattern for a number with a unit. It checks only bounds at zero.
 std::string pattern_of(const Declared& number) {
   const yaml::Range& range = number.range;
   const bool zero = range.at_least == 0.0 && range.at_most == 0.0;
@@ -97,7 +97,7 @@ Json unless(Json schema) {
   return {{"not", std::move(schema)}};
 }
 
-// The keys of a group exclude all others; those of a group that is there may be required.
+// The keys of a group exclude all others. A group that is present needs its required keys.
 void add_choice(const Choice& choice, const Declared& mapping, Json& all) {
   std::vector<std::string_view> every;
   for (const auto& group : choice.groups) every.insert(every.end(), group.begin(), group.end());
@@ -118,7 +118,7 @@ void add_choice(const Choice& choice, const Declared& mapping, Json& all) {
   }
 }
 
-// The default as JSON, where it is a value and not only words.
+// The default as JSON. Empty if there is none, or for a list described in words.
 std::optional<Json> standard_of(const DeclaredKey& key) {
   if (key.standard.empty()) return {};
   Json value = Json::parse(key.standard, nullptr, false);
@@ -137,7 +137,7 @@ std::string description_of(const scenario::KeyText& row, const Declared& value) 
 
 Json schema_of(const Declared& value, const std::string& path);
 
-// The dimension of a profile's values names its definition.
+// The name of a profile's definition, from the dimension of its values.
 std::string profile_name(const Declared& profile) {
   std::string name =
       "profile of " + std::string(yaml::noun(profile.parts.front().parts.front().dimension));
@@ -217,7 +217,7 @@ Json schema_of(const Declared& value, const std::string& path) {
   return Json::object();
 }
 
-// The schema at a path of keys of a mapping, in either spelling.
+// Applies the schema at a path of keys of a mapping, in either spelling.
 Json at(std::string_view path, const Json& schema, bool must_be_there) {
   const std::size_t dot = path.find('.');
   const std::string key(path.substr(0, dot));
@@ -270,7 +270,7 @@ const Declared& declared_at(std::string_view path) {
   return *value;
 }
 
-// Commands that are no angles have limits without a unit.
+// Limits of commands other than angles have no unit.
 Json limit_of_numbers() {
   const Json number = {{"not", {{"type", "string"}}}};
   return {{"if", unless(holds(Condition("controller.drives=angle|legs")))},
@@ -280,7 +280,7 @@ Json limit_of_numbers() {
               false)}};
 }
 
-// Only a controller of one's own gives other columns than bbsim's.
+// Only your own controller gives columns other than bbsim's.
 Json known_columns() {
   const Declared& columns = declared_at("output.columns");
   const Declared& name = columns.parts.front().parts.front();

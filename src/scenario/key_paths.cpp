@@ -13,7 +13,7 @@ namespace {
 
 using yaml::Declared;
 
-constexpr std::size_t longest_list = 8;  // of those whose positions are listed
+constexpr std::size_t longest_list = 8;  // with listed positions
 
 void add(const Declared& value, const std::string& path, std::set<std::string>& paths) {
   switch (value.kind) {

@@ -58,7 +58,7 @@ NamedNumber number_named(const std::string& option, std::string name,
                          const ScenarioFamily& family) {
   const auto known = number_key(name);
   if (!known) {
-    // The scenario's own reader says what is wrong with the name.
+    // The scenario's reader throws if the key is unknown.
     static_cast<void>(family.read({{name, "1"}}));
     throw InputError(option + ": " + shown(name) +
                      ": takes no single number; allowed: a key that is a number, such as "

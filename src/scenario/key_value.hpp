@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What is known of a key that is a number: its unit, its range and its default.
+// Unit, range and default of a key that is a number.
 #pragma once
 
 #include <optional>
@@ -16,10 +16,10 @@ namespace bbsim::scenario {
 struct NumberKey {
   yaml::Dimension dimension = yaml::Dimension::number;
   yaml::Range range{};
-  std::optional<double> standard{};  // if nothing is given, SI
+  std::optional<double> standard{};  // default, SI
 };
 
-// Nothing for a key that no scenario has, or that takes no number.
+// Empty for an unknown key and for a key that takes no number.
 [[nodiscard]] std::optional<NumberKey> number_key(std::string_view path);
 
 // A key of a scenario that an option names.
@@ -27,12 +27,12 @@ struct NamedNumber {
   std::string name;
   NumberKey key;
   std::string unit{};             // SI; empty for a number
-  std::optional<double> value{};  // the scenario's, or its default, SI
+  std::optional<double> value{};  // from the scenario, or else the default, SI
 
   [[nodiscard]] ScenarioFamily::Setting setting(double to) const;
 };
 
-// Throws InputError, which begins with the option, for a key that takes no single number.
+// Throws InputError, starting with the option, for a key that takes no single number.
 [[nodiscard]] NamedNumber number_named(const std::string& option, std::string name,
                                        const ScenarioFamily& family);
 

@@ -14,10 +14,10 @@
 
 namespace bbsim::scenario {
 
-// The keys of a row and what the documents say of them. The cells for unit, default and range are
-// those of the declaration where they are empty here; "-" is an empty cell.
+// The keys of a row and their documentation. The declaration fills cells for unit, default and
+// range that are empty here; "-" is an empty cell.
 struct KeyText {
-  std::string_view keys;  // "ball.push.x .y": a key, and others with another last name
+  std::string_view keys;  // "ball.push.x .y": a key, and others that differ in the last name
   std::string_view meaning;
   std::string_view unit{}, standard{}, range{};
 
@@ -28,7 +28,7 @@ struct KeyText {
 // A table of a page of docs/reference.
 struct KeyTable {
   std::string_view page, heading;
-  std::string_view prefix;  // of all keys but those of the top level
+  std::string_view prefix;  // of all keys except those at the top level
   std::span<const KeyText> rows;
 };
 [[nodiscard]] std::span<const KeyTable> key_tables();
@@ -36,7 +36,7 @@ struct KeyTable {
 // The declaration of the whole scenario.
 [[nodiscard]] const yaml::Declared& declared_keys();
 
-// The path under which the tables have a key: profiles, for example, share their rows.
+// The path of a key in the tables. Some keys share rows, such as those of profiles.
 [[nodiscard]] std::string path_in_tables(std::string_view path);
 
 // The row of a key with this path in the tables; nullptr if there is none.

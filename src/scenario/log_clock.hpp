@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Clocks of logs: counters that wrap, times that are doubled, unsorted or missing, epoch seconds.
+// Clocks of logs: counters that wrap; repeated, unsorted or missing times; epoch seconds.
 #pragma once
 
 #include <cstddef>
@@ -11,19 +11,19 @@
 
 namespace bbsim::scenario {
 
-// Adds 2^32 to what follows where a counter of 32 bits, such as millis(), has wrapped. Returns what
-// was done, or nothing.
+// Adds 2^32 after each wrap of a 32-bit counter such as millis(). Returns a description of the
+// change, if any.
 [[nodiscard]] std::optional<std::string> unwrap(std::vector<double>& times);
 
-// The rows of a log in the order of their times (s), each time once, without rows that have none.
+// The rows of a log sorted by time (s), without repeated times and rows that lack a time.
 struct Clock {
   std::vector<std::size_t> rows;
-  bool changed = false;           // they are not all rows in their order
-  std::vector<std::string> done;  // what was done, in words
+  bool changed = false;           // rows were dropped or moved
+  std::vector<std::string> done;  // descriptions of the changes
 };
 [[nodiscard]] Clock clock_of(const std::vector<double>& times);
 
-// Whether times (s) count from an epoch and not from the start of something.
+// Whether times (s) count from an epoch, such as 1970.
 [[nodiscard]] bool counts_from_epoch(const std::vector<double>& times);
 
 }  // namespace bbsim::scenario

@@ -13,7 +13,7 @@
 
 namespace bbsim::scenario {
 
-// The unit that a name of a column of this dimension carries; nothing if it carries none.
+// The unit of the dimension in a column's name, if there is one.
 [[nodiscard]] std::optional<yaml::UnitScale> unit_in_name(std::string_view name,
                                                           yaml::Dimension dimension);
 
@@ -21,8 +21,8 @@ namespace bbsim::scenario {
 [[nodiscard]] std::optional<yaml::UnitScale> log_unit(std::string_view unit,
                                                       yaml::Dimension dimension);
 
-// The place among `names` of the column that is called `wanted`, or is called so beside a unit of
-// the dimension; nothing if there is none.
+// The index in `names` of the column `wanted`, with or without a unit of the dimension. Empty if
+// there is none.
 [[nodiscard]] std::optional<std::size_t> find_log_column(const std::vector<std::string>& names,
                                                          std::string_view wanted,
                                                          yaml::Dimension dimension);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Measures of the control loop near home: stability, margins and bandwidths. They depend on the
-// scenario alone, and not on its motion.
+// scenario, but not on its motion.
 #pragma once
 
 #include <array>
@@ -26,10 +26,10 @@ struct LoopMeasure {
     bandwidth,
     feedback_bandwidth
   } kind;
-  std::size_t axis;  // 0: phi and x; 1: theta and y; of stability and spectra: 0
+  std::size_t axis;  // 0: phi and x, or stability and spectra; 1: theta and y
   std::string_view name, unit, meaning;
 
-  // Whether it is taken from the frequency response of the loop, and not from its poles.
+  // Whether it comes from the loop's frequency response rather than from its poles.
   [[nodiscard]] bool of_response() const { return kind > Kind::spectral_abscissa; }
 };
 
@@ -69,10 +69,10 @@ inline constexpr std::array loop_measures = {
                 "the bandwidth of y without the reference's accelerations"},
 };
 
-// Null if none has this name.
+// Returns null for an unknown name.
 [[nodiscard]] const LoopMeasure* find_loop_measure(std::string_view name);
 
-// Why the scene has no such measure, as far as its keys tell.
+// Why the scene lacks the measure, as far as its keys tell.
 [[nodiscard]] Missing missing(const LoopMeasure& measure, const Scenario& scenario);
 
 }  // namespace bbsim::scenario

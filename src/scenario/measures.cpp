@@ -71,7 +71,7 @@ bool read_number(std::string_view text, std::size_t& number) {
 }
 
 bool is_usable(const Column* column) {
-  // Extremes of a quaternion's components have no meaning.
+  // Measures of a quaternion's components have no meaning.
   return column != nullptr && column->needs != Needs::orientation;
 }
 
@@ -281,7 +281,7 @@ std::vector<std::string_view> measured_columns() {
 
 std::string measure_hint(std::string_view name, std::span<const std::string_view> columns) {
   name = trimmed(name);
-  // Of a name that is known, the window is at fault.
+  // If the name is known, the window is at fault.
   if (find_loop_measure(name) != nullptr) return ", which is of no time";
   if (std::ranges::find(columns, name) != columns.end()) {
     return " (did you mean end_" + std::string(name) + "?)";

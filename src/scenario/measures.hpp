@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The measures of a run. A measure reduces a column over the run to one number, or is of the loop
-// near home.
+// The measures of a run. A measure reduces a column over the run to one number, or describes the
+// loop near home.
 #pragma once
 
 #include <cstddef>
@@ -60,8 +60,8 @@ struct Measure {
   // least, greatest: over the continuous motion, with both sides of every discontinuity. rms: the
   // root mean square over the rows. end: the value at the last instant, at time.end or where the
   // scene stopped. step: see StepMetric. when: the time of an instant. find: the column's value at
-  // an instant. All kinds except rms and end use the continuous motion. loop: of the loop near
-  // home, without any motion.
+  // an instant. loop: of the loop near home, without any motion. All other kinds except rms and end
+  // use the continuous motion.
   enum class Kind { least, greatest, rms, end, step, when, find, loop } kind = Kind::end;
   const Column* column = nullptr;  // for `when`: the column of the condition; null for `loop`
   std::string name;                // max_tilt, end_phi, x_end, x.RiseTime, when x=0.05 rise=1
@@ -93,7 +93,7 @@ struct Measure {
 using FindColumn = std::function<const Column*(std::string_view name)>;
 [[nodiscard]] std::optional<Measure> find_measure(std::string_view name, const FindColumn& find);
 
-// Measures of the motion, and their places and those of measures of the loop in the list of all.
+// The measures of the motion, and the indices of measures of motion and loop in the full list.
 struct SplitMeasures {
   std::vector<Measure> of_motion;
   std::vector<std::size_t> motion_places, loop_places;
@@ -103,19 +103,19 @@ struct SplitMeasures {
 // Splits lists at their commas.
 [[nodiscard]] std::vector<std::string> split_measures(const std::vector<std::string>& lists);
 
-// The extremes and step metrics of columns, and the columns of a scenario that have them.
+// The names of measures of columns with a prefix or step metric, and the columns that have them.
 [[nodiscard]] std::vector<std::string> measures_of(std::span<const std::string_view> columns);
 [[nodiscard]] std::vector<std::string_view> measured_columns();
 
-// For messages about an unknown name: " (did you mean x.RiseTime?)" by the existing columns, or
-// nothing; and the text of the allowed names.
+// For messages about an unknown name: " (did you mean x.RiseTime?)" from the existing columns, or
+// an empty text; and the text of the allowed names.
 [[nodiscard]] std::string measure_hint(std::string_view name,
                                        std::span<const std::string_view> columns);
 [[nodiscard]] std::string measure_hint(std::string_view name);  // with the columns of a scenario
 [[nodiscard]] std::string allowed_measures();
 
-// The measure with this name. Throws InputError, which begins with `where`, if the name is unknown
-// or the scene lacks the columns or the time for it.
+// The measure with this name. Throws InputError, starting with `where`, if the name is unknown or
+// the scene lacks the columns or the time for it.
 [[nodiscard]] Measure measure_named(std::string_view where, const std::string& name,
                                     const Scenario& scenario);
 
@@ -143,8 +143,8 @@ void require_once(const std::vector<Measure>& measures);
 // Why each measure has no number, if known; otherwise null.
 using Whys = std::vector<const char*>;
 
-// Describes all measures without a finite number (an infinite margin is one that any change
-// leaves), with the reasons in `whys`, which may be empty. Empty if all are finite.
+// Describes each measure without a finite number, with its reason from `whys`, which may be empty.
+// Skips infinite measures of the loop: no change exhausts such a margin. Empty if none is left.
 [[nodiscard]] std::string why_not_finite(const std::vector<Measure>& measures,
                                          const double* results, const Whys& whys);
 

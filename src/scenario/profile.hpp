@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reads a profile of a gimbal angle, a motor's torque or a force: a number, one of the shapes of
-// ProfileTerm, or a list of these, which means their sum.
+// Reads a profile of a gimbal angle, a motor's torque or a force: a number, a shape of ProfileTerm,
+// or a list of these, which are summed.
 #pragma once
 
 #include <string>

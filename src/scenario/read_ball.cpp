@@ -44,7 +44,7 @@ void read_ball(yaml::Keys& keys, Ball& ball) {
     keys.find("rolling_radius")
         ->refuse("", "a length of at most ball.radius, " + number_text(ball.radius) + " m");
   } else if (rolling && *rolling > 0) {
-    // It acts as a ball of this radius, whose inertia is that of the whole ball.
+    // The ball acts like one of the rolling radius with the inertia of the whole ball.
     const double ratio = ball.radius / *rolling;
     ball.groove = Groove{ball.radius};
     ball.inertia_factor *= ratio * ratio;

@@ -209,7 +209,7 @@ struct Jitter {
 
 constexpr std::string_view period_example = "0.02, \"20 ms\" or \"30 Hz\"";
 
-// The time from one to the next, or how many there are in a second: "30 Hz".
+// A period, or a number per second: "30 Hz".
 struct Period {
   yaml::Usual time;
 
@@ -294,7 +294,7 @@ void read_sensor(yaml::Keys& keys, Sensor& sensor) {
   keys.optional("phase", yaml::Number{yaml::Dimension::time, {.at_least = 0}}, sensor.phase);
 }
 
-// How the controller converts angles of the plate: a name, or the legs that it takes for real.
+// How the controller converts angles of the plate: a name, or the legs that it assumes.
 struct AssumesRule {
   [[nodiscard]] static yaml::NameOf<Assumes> names() {
     return {{{Assumes::exact, "exact"}, {Assumes::ratio, "ratio"}}};
@@ -328,7 +328,7 @@ struct CommandLimit {
   [[nodiscard]] static yaml::Number number() {
     return {yaml::Dimension::number, {.above = 0}, "5"};
   }
-  // Which of the two is a matter of `drives`: relations.cpp.
+  // Declares angles. limit_of_numbers() in json_schema.cpp refuses units for other commands.
   [[nodiscard]] static yaml::Declared declared() {
     const auto one = yaml::Declared::number(yaml::Dimension::angle, {.above = 0});
     yaml::Declared axes(yaml::Declared::Kind::mapping);

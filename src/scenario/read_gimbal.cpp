@@ -62,8 +62,7 @@ void read_start(yaml::Keys& keys, GimbalStart& start) {
   keys.optional("theta_rate", yaml::Number{yaml::Dimension::angular_rate}, start.theta_rate);
 }
 
-// The width of a gap: none, or so much that rounding does not decide when the servo touches the
-// plane.
+// The width of a gap: 0, or enough that rounding does not decide when the servo touches the plane.
 struct Backlash {
   static constexpr double least = 1e-6;
 
@@ -83,7 +82,7 @@ struct Backlash {
 
 enum class ServoModel { hobby_standard, hobby_micro, smart_serial };
 
-// Plain keys of servos as they are sold (docs/reference/scenario.md, "Servos").
+// The keys of commercial servos (docs/reference/scenario.md, "Servos").
 Servo servo_of_model(ServoModel model) {
   constexpr double degree = std::numbers::pi / 180, hertz = 2 * std::numbers::pi;
   switch (model) {
@@ -97,7 +96,7 @@ Servo servo_of_model(ServoModel model) {
   return {10 * hertz, 1, {}, 150 * degree, 360 * degree, {}, 0.1 * degree, 0.25 * degree};
 }
 
-// A rate as shops give it: the time for an angle.
+// A rate as vendors state it: the time for an angle.
 struct Speed {
   [[nodiscard]] static std::string allowed() {
     return "a time for an angle, such as \"0.17 s/60deg\"";
@@ -111,7 +110,7 @@ struct Speed {
     const auto part = [](std::string_view of, yaml::Dimension dimension) {
       while (of.ends_with(' ')) of.remove_suffix(1);
       while (of.starts_with(' ')) of.remove_prefix(1);
-      // As if quoted: with a unit.
+      // Reading it as quoted requires a unit.
       return yaml::read_quantity(of, true, dimension).value.value_or(0);
     };
     const double time = part(text.substr(0, slash), yaml::Dimension::time);
@@ -122,7 +121,7 @@ struct Speed {
   }
 };
 
-// An angle, or a time: a width of the pulse that turns the servo by `scale` (rad) a microsecond.
+// An angle, or the width of a pulse, which turns the servo by `scale` (rad) per microsecond.
 struct DeadBand {
   double scale;
 
@@ -188,7 +187,7 @@ void read_servo_keys(yaml::Keys& keys, Servo& servo) {
   if (keys.find("speed") && keys.find("rate_limit")) {
     keys.find("speed")->report("given together with rate_limit; allowed: one of the two");
   }
-  // As of Servo.h: 180 degrees from 544 to 2400 us.
+  // As in Arduino's Servo.h: 180 degrees from 544 to 2400 us.
   double scale = std::numbers::pi / 1856;
   const yaml::Number angle{yaml::Dimension::angle, {.above = 0}, "\"0.1 deg\""};
   if (const auto given = keys.find("scale", angle)) angle.read(*given, scale);
@@ -315,7 +314,7 @@ void read_linkage(yaml::Keys& keys, BothLinkages& both) {
 
 const yaml::Number leg_length{yaml::Dimension::length, {.above = 0}};
 
-// Reads the lengths that all legs, or one leg, may have.
+// Reads lengths of all legs or of one leg.
 template <class Leg>
 void read_leg_lengths(yaml::Keys& keys, Leg& leg) {
   const auto length = [&](const char* key, double& into) {
@@ -328,7 +327,7 @@ void read_leg_lengths(yaml::Keys& keys, Leg& leg) {
   length("height", leg.height);
 }
 
-// A leg over the values that all have.
+// Reads the keys of a leg over the common values.
 void read_leg(yaml::Keys& keys, ServoLeg& leg) {
   const yaml::Number azimuth{yaml::Dimension::angle};
   if (const auto given = keys.find("angle", azimuth)) azimuth.read(*given, leg.angle);

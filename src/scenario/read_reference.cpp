@@ -10,7 +10,7 @@
 namespace bbsim::scenario {
 namespace {
 
-constexpr std::size_t fewest_waypoints = 2;  // one point alone is a `point`
+constexpr std::size_t fewest_waypoints = 2;  // a single point is a `point`
 constexpr std::size_t most_waypoints = 10000;
 
 void read_circle(yaml::Keys& keys, CircleReference& circle) {
@@ -57,7 +57,7 @@ void read_waypoints(yaml::Keys& keys, WaypointReference& way) {
 
 void read_staircase(yaml::Keys& keys, StaircaseReference& stairs) {
   read_timed_points(keys, stairs.points, stairs.jumps);
-  // The first point holds before its time, too.
+  // The first point also holds before its time.
   if (!stairs.jumps.empty()) stairs.jumps.erase(stairs.jumps.begin());
 }
 

@@ -21,7 +21,7 @@ std::vector<std::string_view> column_names() {
 
 struct Columns {
   [[nodiscard]] static std::string allowed() { return "a list of columns, such as [t, x, y]"; }
-  // Any name that is no column is a number of the controller's own, if it has one.
+  // Any other name is a number of your own controller, if there is one.
   [[nodiscard]] static yaml::Declared declared() {
     yaml::Declared column(yaml::Declared::Kind::name);
     for (const std::string_view name : column_names()) column.names.emplace_back(name);

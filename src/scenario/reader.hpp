@@ -12,8 +12,8 @@
 
 namespace bbsim {
 
-// Reads the scenario in `file` after setting each "key.path=value" of `overrides` in turn. "-" is
-// standard input; the scenario's source then has that name.
+// Reads the scenario in `file` with each "key.path=value" of `overrides` set in turn. "-" is
+// standard input, which is then also the name of the scenario's source.
 //
 // Table files are relative to the scenario's folder, or to the current folder for standard input.
 // Throws InputError with all problems in the file's order: "file:line:column: key.path: found ...,

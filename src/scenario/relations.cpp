@@ -158,7 +158,7 @@ std::optional<yaml::Value> find_at(yaml::Keys& keys, std::string_view path) {
   return value;
 }
 
-// No relation with a message has a condition on a size.
+// Ignores Condition::positive, because no relation with a message uses it.
 bool holds(yaml::Keys& keys, const Condition& condition) {
   const std::optional<yaml::Value> value = find_at(keys, condition.path);
   if (!value) return condition.or_absent;
@@ -195,7 +195,7 @@ void report_if_broken(yaml::Keys& keys, const Check& check) {
                               value.path + ": " + std::string(check.relation->message));
 }
 
-// Of what moves the gimbal: check_loop() asks for these alone.
+// Whether the relation is about what moves the gimbal. check_loop() asks for these one by one.
 bool of_loop(const KeyRelation& relation) {
   return relation.others == "gimbal.motion" || relation.others == "gimbal.torque" ||
          relation.others.find("controller.drives") != std::string_view::npos;

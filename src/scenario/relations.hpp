@@ -13,9 +13,9 @@
 
 namespace bbsim::scenario {
 
-// A condition on one key: "gimbal.servo", which is given; "controller.drives=angle", with one of
-// the values between bars; "controller.drives=acceleration|", which may also be absent;
-// "plate.mass>0".
+// A condition on one key. "gimbal.servo": it is given. "controller.drives=torque|voltage": it has
+// one of these values. "controller.drives=acceleration|": it has this value or is absent.
+// "plate.mass>0": it is positive.
 struct Condition {
   explicit Condition(std::string_view text);
 
@@ -25,13 +25,13 @@ struct Condition {
 };
 
 // If the condition `key` holds, then one of `others` holds (`needs`), or none of them (`excludes`).
-// `others` are conditions with " or " between; of each, all those with " and " between.
+// `others` are alternatives joined by " or ", each of conditions joined by " and ".
 struct KeyRelation {
   enum class Kind { needs, excludes };
   std::string_view key;
   Kind kind;
   std::string_view others;
-  // What is reported at the key; empty where the check needs more than the keys (check_loop.cpp,
+  // Reported at the key. Empty if the check needs more than the keys (check_loop.cpp,
   // check_rig.cpp, the readers).
   std::string_view message{};
 
@@ -39,7 +39,8 @@ struct KeyRelation {
 };
 [[nodiscard]] std::span<const KeyRelation> relations();
 
-// Reports the relations with a message that do not hold. With `others`, only those of just these.
+// Reports broken relations that have a message: those with exactly these `others`, or all except
+// those that check_loop() asks for.
 void check_relations(yaml::Keys& scenario, std::string_view others);
 void check_relations(yaml::Keys& scenario);
 

@@ -22,7 +22,7 @@ class ExternalController;
 }
 struct Scenario;
 
-// Couples of the plate on the ball that resist its rotation.
+// Couples that the plate exerts on the ball against its rotation.
 struct Losses {
   double rolling = 0;   // coefficient of rolling resistance: couple over N r
   double viscous = 0;   // couple over the rotation rate along the plane, N m s
@@ -31,8 +31,8 @@ struct Losses {
   friend bool operator==(const Losses&, const Losses&) = default;
 };
 
-// Terms of a profile. move_clock(begin) makes each the same function of time on a clock that is 0
-// at the time `begin` (s).
+// Terms of a profile. move_clock(begin) moves the zero of a term's clock to the time `begin` (s)
+// without changing the motion.
 
 // offset + amplitude sin(frequency t + phase).
 struct Sinusoid {
@@ -52,24 +52,23 @@ struct Ramp {
   void move_clock(double begin) { start += rate * begin; }
 };
 
-// A C2 interpolant through (time, value): at least four rows with strictly increasing times. Its
-// clock moves in fit/clock_shift.cpp, which leaves out the rows of other times.
+// C2 interpolant through (time, value): at least four rows with strictly increasing times.
+// fit/clock_shift.cpp moves its clock and drops the rows of other times.
 struct Table {
   std::string file;
   std::vector<double> times;   // s
   std::vector<double> values;  // rad
 };
 
-// Zero but for `duration` seconds from `start` on, in which it rises to `value` and falls again, as
-// smoothly as it can: each half has the least jerk.
+// Zero except for `duration` seconds from `start`, when it rises to `value` and falls back. Each
+// half has minimum jerk.
 struct Pulse {
   double start = 0, duration = 0, value = 0;
 
   void move_clock(double begin) { start -= begin; }
 };
 
-// The units are those of an angle. In a profile of torque or force, N m or N takes the place of
-// rad.
+// The units are those of an angle. In a profile of torque or force, N m or N replaces rad.
 using ProfileTerm = std::variant<double, Sinusoid, Ramp, Pulse, Table>;  // a number is a constant
 using Profile = std::vector<ProfileTerm>;                                // their sum; empty is zero
 
@@ -81,17 +80,17 @@ struct BallPush {
 // A ball between two rails, or in a groove, rolls about the axis through its two contacts.
 struct Groove {
   double ball_radius = 0;  // m
-  int axis = 0;            // along x, or 1: along y
+  int axis = 0;            // 0: along x, 1: along y
 };
 
 struct Ball {
   double radius =
       0;            // m, > 0, required; in a groove, the distance from center to the contacts' axis
-  double mass = 1;  // kg, > 0; needed only for forces, or where the mass affects the motion
+  double mass = 1;  // kg, > 0; needed only for forces, or if the mass affects the motion
   Pair position{0, 0};  // contact point in the plane frame, m
   Pair velocity{0, 0};  // of the contact point in the plane frame, m/s
   double spin = 0;      // about the plane's normal, relative to the plane, rad/s
-  // Moment of inertia over m r^2: 2/5 solid, 2/3 a thin shell; more in a groove.
+  // Moment of inertia over m r^2: 2/5 if solid, 2/3 for a thin shell; more in a groove.
   double inertia_factor = 0.4;
   std::optional<Groove> groove{};
   Losses losses{};
@@ -101,7 +100,7 @@ struct Ball {
   std::optional<BallPush> push{};
 };
 
-// The plate, if the scene needs it: a rectangle or a disc centered on the plane's origin.
+// The plate, if the scene needs it: a rectangle or a disk centered on the plane's origin.
 struct Plate {
   std::optional<Pair> size{};        // along x and y, m
   std::optional<double> diameter{};  // m
@@ -152,7 +151,7 @@ struct CurveLinkage {
   std::string file;
   std::vector<double> servo;  // rad, strictly increasing, at least four
   std::vector<double> plate;  // rad
-  // Rows of noise have been replaced by their mean, and may be where the curve would turn back.
+  // The mean replaced rows of noise. An interpolant may turn back between the remaining rows.
   bool smoothed = false;
 };
 
@@ -164,15 +163,15 @@ struct ServoLeg {
   double horn = 0, rod = 0;                  // m, > 0
   double height = 0;             // of the joint above the servo's axis with the plate level, m, > 0
   double angle = 0;              // azimuth, from the plate's x axis, rad
-  double joint_height = 0;       // of the joint in the plate, from any level that all legs share, m
-  double offset = 0;             // of the horn from home where the servo is at zero, rad
+  double joint_height = 0;       // of the joint in the plate, above a level common to all legs, m
+  double offset = 0;             // of the horn from home when the servo is at zero, rad
   int direction = 1;             // -1: the horn falls as the servo's angle grows
   std::optional<Servo> servo{};  // if it differs from gimbal.servo
 };
 
-// Three servos below the plate: 3-RRS. At 0, 120 and 240 degrees and alike, or as `legs` says.
+// Three servos below the plate (3-RRS): equal legs at 0, 120 and 240 degrees, or `legs`.
 struct ThreeServoPlate {
-  double radius_base = 0, radius_plate = 0;  // as of ServoLeg
+  double radius_base = 0, radius_plate = 0;  // as in ServoLeg
   double horn = 0, rod = 0;
   double height = 0;
   std::optional<std::array<ServoLeg, 3>> legs{};
@@ -184,18 +183,18 @@ struct ThreeServoPlate {
   }
 };
 
-// How the plane is mounted on the gimbal. The defaults are those of the paper.
+// Mounting of the plane on the gimbal. The defaults are those of the paper.
 struct Mounting {
   double height = 0;                        // of the contact plane above the gimbal's center, m
   double phi_offset = 0, theta_offset = 0;  // angle of the plane at the servo's zero, rad
-  double skew = 0;  // deviation of theta's axis from square to phi's, about the normal, rad
+  double skew = 0;  // deviation of theta's axis from a right angle to phi's, about the normal, rad
   double yaw = 0;   // of the plane's x axis from theta's axis without skew, about the normal, rad
   double base_tilt = 0;  // of the base about its x axis, rad
 
   friend bool operator==(const Mounting&, const Mounting&) = default;
 };
 
-// A DC motor with gear under a voltage V: torque = gear k_t (V - gear k_t rate) / R.
+// A DC motor with a gear at the voltage V: torque = gear k_t (V - gear k_t rate) / R.
 struct DcMotor {
   double resistance = 0;                  // R, ohm, > 0
   double torque_constant = 0;             // k_t, N m/A, > 0
@@ -226,7 +225,7 @@ struct Gimbal {
   double ring_inertia = 0;  // of the parts that turn only with phi, about phi's axis, kg m^2
   std::optional<Motor> motor{};
   GimbalStart start;
-  std::optional<Servo> servo{};  // present exactly when the controller drives angle
+  std::optional<Servo> servo{};  // present exactly when servos move the gimbal
   // theta's servo if it differs; `servo` is then phi's.
   std::optional<Servo> theta_servo{};
   std::array<std::optional<AxisLinkage>, 2> linkage{};  // from servo to plane: phi, theta
@@ -263,8 +262,8 @@ struct LissajousReference {
   Pair centre{0, 0};     // m
 };
 
-// Passes each point at its time on a smooth path. Holds the first point before and the last point
-// afterwards.
+// Smooth path through each point at its time. Holds the first point before its time and the last
+// point after its time.
 struct WaypointReference {
   std::vector<Pair> points;   // m, at least two
   std::vector<double> times;  // s, strictly increasing, one for each point
@@ -284,9 +283,9 @@ struct StaircaseReference {
   std::vector<double> jumps;  // s, strictly increasing: to points[i + 1] at jumps[i]
 };
 
-// Along each axis, center + amplitude for the fraction `duty` of each period, then center -
-// amplitude. A period begins where 2 pi t / period + phase is a multiple of 2 pi.
 inline constexpr std::size_t most_jumps = 100000;  // of an axis, within a run
+// Along each axis, center + amplitude for the fraction `duty` of each period, then center -
+// amplitude. A period begins when 2 pi t / period + phase is a multiple of 2 pi.
 struct SquareReference {
   Pair amplitude{0, 0};  // m
   double period = 0;     // s, > 0
@@ -295,7 +294,7 @@ struct SquareReference {
   double duty = 0.5;     // > 0, < 1
 };
 
-// What a rig is told, whatever its ball does: the commands of Law::commands in place of a path.
+// Known commands of Law::commands, independent of the ball. They replace a path.
 struct CommandProfiles {
   Profile phi, theta;  // rad
 };
@@ -304,9 +303,9 @@ using Reference =
     std::variant<PointReference, CircleReference, LissajousReference, WaypointReference,
                  TableReference, StaircaseReference, SquareReference, CommandProfiles>;
 
-enum class Drives { acceleration, angle, torque, voltage, legs };  // legs: three servos' angles
+enum class Drives { acceleration, angle, torque, voltage, legs };  // legs: angles of three servos
 
-// The word in scenarios, and the unit of a command.
+// The word in scenarios.
 [[nodiscard]] constexpr const char* name_of(Drives drives) {
   constexpr const char* names[] = {"acceleration", "angle", "torque", "voltage", "legs"};
   return names[static_cast<std::size_t>(drives)];
@@ -325,18 +324,18 @@ enum class Law {
   state_feedback,          // u = gain (e, e' [, -angles, -rates])
   lqr,                     // state feedback with the gain that minimizes a quadratic cost
   gravity_compensation,    // angles at which gravity accelerates the ball by x_d'' + kv e' + kp e
-  feedback_linearisation,  // gimbal accelerations that accelerate the ball alike
-  commands,                // none: profiles of the commands
+  feedback_linearisation,  // gimbal accelerations that give the ball that acceleration
+  commands,                // no law: profiles of the commands
   own,                     // an external program or library (docs/reference/controllers.md)
 };
 
-// The cost of lqr: the integral of the weighted squares of the ball's position and velocity, of the
-// servos' angles and rates, and of the command.
+// Weights of the cost of lqr: the integral of the weighted squares of the ball's position and
+// velocity, the servos' angles and rates, and the command.
 struct LqrWeights {
   double position = 0, velocity = 0, angle = 0, rate = 0, command = 0;
 };
 
-// A discrete-time controller, which holds its command between samples.
+// Sampling of a discrete-time controller, which holds its command between samples.
 struct Sampling {
   double period = 0;              // s, > 0
   double delay = 0;               // from a sample to its command taking effect, s
@@ -344,8 +343,8 @@ struct Sampling {
   double derivative_filter = 0;   // time constant of the filtered derivative, s
   double jitter = 0;              // standard deviation of the period, s
   std::string periods_file{};     // measured periods, which replace `jitter`
-  std::vector<double> periods{};  // s; repeated from the first after the last
-  // How long before t = 0 the first sample was, s: in a run of a part of known commands.
+  std::vector<double> periods{};  // s; start again after the last
+  // Time from the first sample to t = 0, s; not 0 in a run of a part of known commands.
   double since = 0;
 
   [[nodiscard]] bool is_even() const { return jitter == 0 && periods.empty(); }
@@ -359,8 +358,8 @@ struct Sensor {
   double delay = 0;            // from the measurement to the sample, s
   double dropout = 0;          // probability that a sample has no measurement
   std::optional<Pair> area{};  // sides of the field of view, a rectangle, m
-  std::optional<int> only{};   // in a groove, the coordinate that it measures; the other is 0
-  // The measurement of a ball at p, before noise: scale R(rotation) p + offset.
+  std::optional<int> only{};   // in a groove, the measured coordinate; the other is 0
+  // Measurement of a ball at p, before noise: scale R(rotation) p + offset.
   double rotation = 0;  // rad
   Pair scale{1, 1};
   Pair offset{0, 0};  // m
@@ -391,14 +390,14 @@ struct ControllerProgram {
 // A shared library with a function for each sample (bbsim/controller.h).
 struct ControllerLibrary {
   std::string file;    // as in the scenario
-  std::string wiring;  // file that says what a sketch's pins are wired to; empty without a sketch
+  std::string wiring;  // wiring file of a sketch's pins; empty without a sketch
 };
 
-// Code of the process that bbsim is a library of. No scenario's text names it:
-// ScenarioFamily::give_controller().
+// A controller in the process that uses bbsim as a library. ScenarioFamily::give_controller() sets
+// it; no scenario's text names it.
 struct ControllerFactory {
   std::string name;  // in messages
-  // Makes one for a run of that scene.
+  // Makes a controller for a run of the scene.
   std::function<std::shared_ptr<model::ExternalController>(const Scenario&)> make;
 };
 
@@ -406,10 +405,10 @@ struct ControllerFactory {
 struct OwnController {
   std::variant<ControllerProgram, ControllerLibrary, ControllerFactory> by;
   std::vector<Parameter> parameters;  // in the file's order
-  std::string folder;  // the scenario's; base for file names and working folder of the program
+  std::string folder;  // the scenario's: base of file names and working folder of the program
 };
 
-// The model of the linkage in the controller: a line with the slope at home, or the exact curve.
+// The controller's model of the linkage: a line with the slope at home, or the exact curve.
 enum class Assumes { ratio, exact };
 
 // The tracking error is e = reference - (x, y).
@@ -425,7 +424,7 @@ struct Controller {
   // Separate limits for phi and theta, which replace `limit`.
   std::optional<std::array<std::optional<double>, 2>> axis_limits{};
   std::optional<Assumes> assumes{};               // only with a linkage or three servos
-  std::optional<ThreeServoPlate> assumed_legs{};  // exact, but for legs that may not be those
+  std::optional<ThreeServoPlate> assumed_legs{};  // for exact; may differ from the real legs
   std::optional<Sampling> sampling{};
   std::optional<Sensor> sensor{};  // only with sampling
 
@@ -463,7 +462,7 @@ struct Events {
   std::optional<OnEvent> stick{};                 // dry friction holds a gimbal axis
 };
 
-// Output at i * step, exactly, and at `end`.
+// Output exactly at i * step, and at `end`.
 struct OutputTimes {
   double end = 0;   // s, > 0, required
   double step = 0;  // s, > 0, required
@@ -530,11 +529,11 @@ struct Scenario {
   Output output;
   Sweep sweep;
   Source source;
-  // Notes and warnings on valid values that may be mistakes: one line each, with its place.
+  // Notes and warnings on valid values that may be mistakes: one line each, with the place.
   std::vector<std::string> remarks{};
 };
 
-// The commands that are known beforehand; null for any other law, and without a controller.
+// The known commands of Law::commands; null for any other law and without a controller.
 template <class AnyScenario>
 [[nodiscard]] auto* commands_of(AnyScenario& scenario) {
   using Commands = decltype(std::get_if<CommandProfiles>(&scenario.controller->reference));

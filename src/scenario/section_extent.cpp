@@ -14,7 +14,7 @@ std::size_t line_end(std::string_view text, std::size_t at) {
   return std::min(text.find('\n', at), text.size());
 }
 
-// The end of a quoted text that begins at `at`; the doubled quote of '' is two texts.
+// The end of the quoted text at `at`. A text with a doubled quote ('') counts as two.
 std::size_t quote_end(std::string_view text, std::size_t at) {
   const char quote = text[at];
   for (++at; at < text.size() && text[at] != quote; ++at) {
@@ -56,7 +56,7 @@ std::optional<Extent> block_extent(std::string_view text, std::size_t key) {
     const std::size_t start = end + 1;
     end = line_end(text, start);
     const std::size_t word = text.find_first_not_of(" \r", start);
-    // Blank lines and comments belong to what follows them.
+    // Blank lines and comments belong to the key below them.
     if (word == none || word >= end || text[word] == '#') continue;
     const std::size_t indent = word - start;
     const bool item = indent == column && text[word] == '-';

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where a mapping or a list stands in a scenario's text.
+// Finds the extent of a mapping or a list in a scenario's text.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,11 @@ struct Extent {
   std::size_t from, to;
 };
 
-// Of {...} or [...] that begins at `from`, quotes and comments within it heeded.
+// The extent of the {...} or [...] at `from`. Ignores brackets in quotes and comments.
 [[nodiscard]] std::optional<Extent> flow_extent(std::string_view text, std::size_t from);
 
-// Of the indented lines below a key at `key`, from the end of the key's own line on. Nothing if
-// more than a comment follows the key on that line, such as an anchor.
+// The extent of the indented lines below the key at `key`, from the end of the key's line. Empty if
+// anything but a comment follows the key on its line, such as an anchor.
 [[nodiscard]] std::optional<Extent> block_extent(std::string_view text, std::size_t key);
 
 }  // namespace bbsim::scenario

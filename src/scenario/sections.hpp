@@ -16,7 +16,7 @@ void read_plate(yaml::Keys& keys, Plate& plate);
 void read_events(yaml::Keys& keys, Events& events);
 void read_time(yaml::Keys& keys, OutputTimes& time);
 void read_gimbal(yaml::Keys& keys, Gimbal& gimbal);
-// Three servos, and the one of legs without their own.
+// Three servos, and the servo of legs without their own.
 struct ThreeServos {
   ThreeServoPlate plate;
   std::optional<Servo> servo{};
@@ -31,8 +31,8 @@ void read_sweep(yaml::Keys& keys, Sweep& sweep);
 // Reads all sections and checks them.
 void read_sections(yaml::Keys& keys, Scenario& scenario);
 
-// The tree of a scenario's text with all overrides applied. Reports problems; returns nullptr if
-// the text is no tree.
+// The tree of a scenario's text with all overrides applied. Reports problems. Returns nullptr if
+// the text is not a tree.
 [[nodiscard]] const yaml::Node* build_tree(const Source& source, yaml::Problems& problems,
                                            yaml::Nodes& nodes);
 

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t fewest_rows = 4;  // a C2 interpolant needs four without extra end conditions
 
-// Texts are NaN: the scenario may not ask for their columns.
+// Texts become NaN, because the scenario may not use their columns.
 file::TableData read_numbers(const yaml::Value& value, const std::string& path) {
   if (file::format_of(path) == file::Format::hdf5) return file::read_table(path);
   file::CellTable cells = file::read_cells(path);
@@ -66,8 +66,8 @@ const file::TableData* load(const yaml::Value& file, const std::string& name) {
   }
 }
 
-// Whether a column has a text in place of a number; reports it. Puts the rows into `gaps` in which
-// one of the columns has nothing at all.
+// Whether a column has a text in place of a number, which is reported. Sets `gaps` to true for rows
+// in which a column is empty.
 bool has_text(const yaml::Value& file, const std::string& name,
               const std::vector<std::string>& columns, std::vector<bool>& gaps) {
   const std::string path = (file.context->folder / name).string();
@@ -185,9 +185,9 @@ void put_in_si(const std::optional<yaml::UnitScale>& unit, std::vector<double>& 
   for (double& number : numbers) number = unit->in_si(number);
 }
 
-// What a scenario does to a table: value(t) = offset + scale * table(t - delay).
+// Changes to a table: value(t) = offset + scale * table(t - delay).
 struct Changes {
-  std::vector<double> scales, offsets;  // for each column of values; the offsets in SI
+  std::vector<double> scales, offsets;  // one for each column of values; offsets in SI
   double delay = 0, time_offset = 0;    // s
   bool from_start = false;              // the first row is t = 0
 };
@@ -238,7 +238,7 @@ struct ForEach {
   }
 };
 template <class Rule>
-ForEach(Rule, std::size_t) -> ForEach<Rule>;  // clang 14 deduces none of aggregates
+ForEach(Rule, std::size_t) -> ForEach<Rule>;  // clang 14 deduces none for aggregates
 
 struct TimeOffsetRule {
   [[nodiscard]] static std::string allowed() {
@@ -263,7 +263,7 @@ struct TimeOffsetRule {
   }
 };
 
-// All but the offset, which waits for the table's unit.
+// Reads all changes but the offset, which needs the table's unit.
 bool read_changes(yaml::Keys& keys, std::size_t columns, yaml::Dimension dimension, Changes& into) {
   into.scales.assign(columns, 1);
   into.offsets.assign(columns, 0);
@@ -280,8 +280,8 @@ void move_times(const Changes& changes, std::vector<double>& times) {
   for (double& time : times) time += offset;
 }
 
-// A delayed table holds its end values outside its rows: Spline does so after a time of -infinity
-// and before one of infinity.
+// Makes a delayed table hold its end values outside its rows, as Spline does after a time of
+// -infinity and before one of infinity.
 void change_values(const Changes& changes, TableRows& rows) {
   for (std::size_t k = 0; k < rows.values.size(); ++k) {
     const double scale = changes.scales[k], offset = changes.offsets[k];
@@ -298,8 +298,7 @@ void change_values(const Changes& changes, TableRows& rows) {
   }
 }
 
-// Leaves out the rows in which one of the columns has nothing, and says so. Returns false after
-// reporting a text.
+// Drops rows in which a column is empty, with a warning. Returns false after reporting a text.
 bool leave_out_gaps(yaml::Keys& keys, const std::vector<std::string>& columns, TableRows& rows) {
   std::vector<bool> gaps;
   if (has_text(*keys.find("file"), rows.file, columns, gaps)) return false;

@@ -32,7 +32,7 @@ void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& valu
 struct FileColumns {
   std::string file;
   std::vector<std::vector<double>> columns;  // in SI units; finite
-  bool has_unit = false;                     // the scenario gives a unit
+  bool has_unit = false;                     // the scenario or a column's name gives a unit
 };
 
 // Reads the columns that `column_keys` name. Returns false after reporting a fault. `unit` (for

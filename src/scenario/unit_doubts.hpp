@@ -19,8 +19,7 @@ struct Doubt {
 
 // Doubts angles above 1.6 rad and lengths above 1 m, which are rare on a plate.
 [[nodiscard]] std::optional<Doubt> doubt_of(double largest, yaml::Dimension dimension);
-// The same for a column with a name from `bbsim columns`, but without a limit for the ball's
-// rotation.
+// The same for a column of `bbsim columns`. Does not doubt gamma, which has no limit.
 [[nodiscard]] std::optional<Doubt> doubt_of(double largest, std::string_view column);
 // The largest absolute value of the finite numbers; 0 if there are none.
 [[nodiscard]] double largest_size(const std::vector<double>& numbers);
