@@ -60,7 +60,7 @@ Array = "np.ndarray[Any, Any]"
 Distribution = Union[Tuple[float, float], Callable[[np.random.Generator], Any]]
 Reward = Callable[[Array, Array, Array], Array]
 
-_MOST_SEED = 2**53  # what the scenario's seed may be
+_MOST_SEED = 2**53  # the largest seed of a scenario
 
 
 def minus_squared_distance(observations: Array, actions: Array, terminated: Array) -> Array:

@@ -112,7 +112,7 @@ class Result:
         names = list(columns) if columns is not None else [n for n in self.columns if n != "t"]
         panels: Dict[str, List[str]] = {}
         for name in names:
-            self[name]  # says which there are
+            self[name]  # raises for an unknown column
             panels.setdefault(self.units[name], []).append(name)
         times = self["t"] if "t" in self else np.arange(len(self))
         figure, axes = plt.subplots(

@@ -24,7 +24,7 @@ def _plain(value: Any) -> Any:
         return value
     if isinstance(value, (float, np.floating)):
         number = float(value)
-        if not math.isfinite(number):  # YAML's words, which the reader refuses by the key's name
+        if not math.isfinite(number):  # the reader refuses these words of YAML and names the key
             return _Word(".nan" if math.isnan(number) else ".inf" if number > 0 else "-.inf")
         return number
     if isinstance(value, Mapping):

@@ -150,7 +150,7 @@ class Callable::Controller : public model::ExternalController {
   Callable& callable_;
   Watch& watch_;
   std::vector<std::string> own_;
-  std::size_t commands_ = 2;  // that the sample asks for
+  std::size_t commands_ = 2;  // number of commands for a sample
 };
 
 Callable::Callable(py::object function)

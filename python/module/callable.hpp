@@ -15,20 +15,19 @@
 
 namespace bbsim::python {
 
-// What a callable is given, with the names of docs/reference/controllers.md.
+// Defines the argument of a callable, with the names of docs/reference/controllers.md.
 void define_sample(py::module_& module);
 
-// Lives as long as the runs that it controls, and is made and destroyed with the interpreter's
-// lock.
+// Must outlive the runs that it controls. Create and destroy it with the interpreter's lock.
 class Callable {
  public:
   explicit Callable(py::object function);
 
-  // For the runs of a watch: what the callable raises ends them. Needs no lock.
+  // For runs under `watch`, which end if the callable raises. Needs no lock.
   [[nodiscard]] ControllerFactory factory(Watch& watch);
 
   // Raises what the callable raised: an Exception as the cause of a ControllerError, others (such
-  // as KeyboardInterrupt) themselves.
+  // as KeyboardInterrupt) unchanged.
   void throw_if_raised();
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The compiled part of the Python package bbsim, which has the documented functions.
+// The compiled part of the Python package bbsim. The documented functions are in its Python part.
 #include <pybind11/complex.h>
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
@@ -39,7 +39,7 @@ namespace {
 // A scenario as the package names it: a file, or a text with a name for messages.
 struct Given {
   std::string name;
-  std::optional<std::string> text;  // none: the file of that name
+  std::optional<std::string> text;  // if empty: the file `name`
   std::vector<std::string> overrides;
   py::object callable;  // or None
 };
@@ -55,7 +55,7 @@ Scenario first_of(const ScenarioFamily& family) {
   return scenario;
 }
 
-// What the functions below have in common: a callable, a watch, and what was raised meanwhile.
+// Common to the functions below: a callable, a watch, and exceptions raised meanwhile.
 class Work {
  public:
   explicit Work(const Given& given) : given_(given) {
@@ -65,7 +65,7 @@ class Work {
   [[nodiscard]] bool has_callable() const { return callable_.has_value(); }
   [[nodiscard]] Watch& watch() { return watch_; }
 
-  // Without the interpreter's lock.
+  // Call it without the interpreter's lock.
   [[nodiscard]] ScenarioFamily family() {
     ScenarioFamily family = family_of(given_);
     if (callable_) family.give_controller(callable_->factory(watch_));
@@ -106,7 +106,7 @@ class Work {
 
 using Column = py::array_t<double>;
 
-// The memory stays that of `owner`, which the array keeps.
+// An array on memory of `owner`, which the array keeps alive.
 Column view(const std::vector<double>& values, const py::object& owner) {
   return {{static_cast<py::ssize_t>(values.size())}, {sizeof(double)}, values.data(), owner};
 }
@@ -174,7 +174,7 @@ struct Variations {
   std::vector<std::string> measures;
 };
 
-// In place of what the scenario says.
+// Replaces parts of the scenario's sweep with `wanted`.
 Sweep sweep_of(const Variations& wanted, Sweep sweep) {
   if (!wanted.vary.empty()) {
     sweep.vary.clear();
@@ -201,7 +201,7 @@ api::SweepResult sweep(const Given& given, const Variations& wanted, std::size_t
   return work.beside([&] {
     const ScenarioFamily family = work.family();
     api::SweepRequest request{given.name, family, sweep_of(wanted, family.read_sweep()), {}, {}};
-    // A callable is asked by one case after another, which it may remember something of.
+    // A callable may keep a state, so its cases run one after another.
     request.threads = work.has_callable() ? 1 : threads;
     return api::sweep(request, work.watch());
   });
@@ -305,7 +305,7 @@ std::unique_ptr<Environments> environments(const Given& given, std::size_t count
   return std::make_unique<Environments>(family_of(given), count, std::move(keys), keeps_rows);
 }
 
-// Begins the runs of these numbers, each with its texts of values and its seed.
+// Begins the runs with these indices, each with its values as texts and its seed.
 void begin(Environments& its, const std::vector<std::size_t>& which,
            const std::vector<std::vector<std::string>>& values,
            const std::vector<std::size_t>& seeds) {
@@ -318,7 +318,7 @@ void begin(Environments& its, const std::vector<std::size_t>& which,
   its.begin(which, how);
 }
 
-// Steps the runs that are flagged.
+// Steps the flagged runs.
 void step(Environments& its, const Commands& commands, const Flags& which) {
   const auto count = static_cast<py::ssize_t>(its.count());
   if (commands.ndim() != 2 || commands.shape(0) != count || commands.shape(1) != 2 ||

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Python's side of long work: Ctrl-C, and what is said meanwhile.
+// Handles Ctrl-C and messages during long work.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -20,7 +20,7 @@ namespace bbsim::python {
 
 namespace py = pybind11;
 
-// Made, asked and destroyed with the interpreter's lock; the work goes on without it.
+// Create, query and destroy it with the interpreter's lock. The work runs without the lock.
 class Watch : public api::Watch {
  public:
   void update(double /*fraction*/, const std::string& /*detail*/) override {
@@ -31,20 +31,20 @@ class Watch : public api::Watch {
     look();
   }
 
-  // Notes are in results, or for a terminal.
+  // Notes are in the results or meant for a terminal.
   void note(const std::string& /*text*/) override {}
   void controller_says(std::string_view line) override {
     const py::gil_scoped_acquire lock;
     try {
       py::print("controller:", line, py::arg("file") = py::module_::import("sys").attr("stderr"));
-    } catch (const py::error_already_set&) {  // there is nobody to read it
+    } catch (const py::error_already_set&) {  // nobody can read it
     }
   }
 
   [[nodiscard]] const std::atomic<bool>* stop() override { return &stop_; }
   void end_soon() { stop_ = true; }
 
-  // Does the work on this thread, which hears of Ctrl-C whenever the work calls update().
+  // Does the work on this thread, which checks for Ctrl-C whenever the work calls update().
   template <class Work>
   auto here(const Work& work) {
     const py::gil_scoped_release unlocked;
@@ -61,7 +61,7 @@ class Watch : public api::Watch {
     return made.get();
   }
 
-  // What a signal's handler raised, such as KeyboardInterrupt.
+  // Throws what a signal's handler raised, such as KeyboardInterrupt.
   void throw_if_interrupted() {
     if (raised_) throw py::error_already_set(*std::exchange(raised_, std::nullopt));
   }
@@ -72,7 +72,7 @@ class Watch : public api::Watch {
   void look() {
     const py::gil_scoped_acquire lock;
     if (raised_ || PyErr_CheckSignals() == 0) return;
-    raised_.emplace();  // takes what was raised
+    raised_.emplace();  // takes the exception
     stop_ = true;
   }
 

@@ -28,12 +28,12 @@ namespace bbsim::controller {
 namespace {
 
 constexpr std::size_t longest_line = 65536, longest_complaint = 4096;
-// Looks for an answer, some 50 us of them, before it is waited for: to be woken takes longer than
-// many a program thinks. As long as they succeed, and now and then again.
+// Reads for an answer, about 50 us in all, before waiting, because waking up takes longer than many
+// programs need to answer. ask() continues this while it succeeds, and retries it now and then.
 constexpr int most_patience = 200;
-constexpr int slice = 100;    // ms: how soon a request to end is heard, at most
-constexpr int parting = 300;  // ms: within which who closes a stream has ended, if it ends over it
-constexpr int farewell = 1000;  // ms, for it to end by itself
+constexpr int slice = 100;      // ms: longest time until `stop` is noticed
+constexpr int parting = 300;    // ms: time to end, for a child that closed a stream
+constexpr int farewell = 1000;  // ms: time for the child to end by itself
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -43,7 +43,7 @@ struct Pipe {
   file::Descriptor ours, its;
 };
 
-// Our end does not block; a new process gets its end alone.
+// Our end does not block. A new process gets only its own end.
 Pipe make_pipe(bool it_reads) {
   std::array<int, 2> ends{-1, -1};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) {
@@ -60,7 +60,7 @@ Pipe make_pipe(bool it_reads) {
   return pipe;
 }
 
-// Is readable once the process has ended; none where the system has no such descriptors.
+// A descriptor that is readable once the process has ended; not open if the system has none.
 file::Descriptor end_of(pid_t process) {
   return file::Descriptor(static_cast<int>(syscall(SYS_pidfd_open, process, 0)));
 }
@@ -112,14 +112,14 @@ std::string_view Child::ask(std::string_view line, double timeout) {
   }
 }
 
-// An answer that comes before its question is one to another, and so would be all after it.
+// After an answer that comes before its request, all later answers would belong to other requests.
 void Child::refuse_early_words() {
   std::memmove(buffer_.data(), buffer_.data() + answer_, size_ - answer_);
   size_ -= answer_;
   answer_ = 0;
   if (size_ == 0) {
     const ssize_t got = read(output_.get(), buffer_.data(), buffer_.size());
-    if (got <= 0) return;  // that it has closed it is found when it is asked
+    if (got <= 0) return;  // receive() finds a closed stream
     size_ = static_cast<std::size_t>(got);
   }
   const std::string_view words = received();
@@ -143,7 +143,7 @@ void Child::send(std::string_view line) {
   }
 }
 
-// Takes what there is of an answer.
+// Reads what is available of an answer.
 void Child::receive() {
   while (answer_ == 0) {
     if (size_ == buffer_.size()) {
@@ -166,11 +166,11 @@ void Child::receive() {
   }
 }
 
-// Until there is something to read, or to write if that is asked for; or its end, or a slice of the
+// Waits until there is output to read (or room to write, on request), the child ends, or a slice of
 // time has passed.
 void Child::wait(short for_output) {
   const double time = now(), left = deadline_ - time;
-  // Who answers soon is waited for: it may be asked yet what it remembers.
+  // Waits for a prompt child even if stopped, because bbsim may still ask for its state.
   if (stop_ != nullptr && stop_->load(std::memory_order_relaxed) &&
       time - (deadline_ - timeout_) > slice / 1e3) {
     throw ChildInterrupted();
@@ -186,16 +186,16 @@ void Child::wait(short for_output) {
   const bool ended = ready > 0 && events[2].revents != 0;
   const bool may_have = ready == 0 && !ended_.is_open();
   if ((ended || (may_have && has_ended(0))) && events[0].revents == 0) {
-    receive();  // what it said last
+    receive();  // its last output
     if (answer_ == 0)
       fail(size_ == 0 ? "" : "its answer breaks off: " + bbsim::quoted(received(), longest_saying));
   }
 }
 
-// Hands on what it says on its standard error.
+// Passes the child's standard error to tell_.
 void Child::listen() {
   std::array<char, 4096> part;
-  for (int i = 0; i < 16; ++i) {  // there may be no end of it
+  for (int i = 0; i < 16; ++i) {  // the output may be endless
     const ssize_t got = read(error_.get(), part.data(), part.size());
     if (got == 0) error_.close();
     if (got <= 0) break;
@@ -235,7 +235,7 @@ void Child::fail(const std::string& why) {
 }
 
 ChildFault Child::refuse(const std::string& why) {
-  // It may be about to end over what it did.
+  // The child may already be about to end.
   const bool by_itself = has_ended(why.empty() ? 0 : slice / 2);
   const std::optional<int> status = end();
   const std::string how =
@@ -243,7 +243,7 @@ ChildFault Child::refuse(const std::string& why) {
   return ChildFault(why.empty() ? how : why + "; " + how);
 }
 
-// Whether it has, or does within so many milliseconds.
+// Whether the child has ended, or ends within so many milliseconds.
 bool Child::has_ended(int milliseconds) const {
   if (process_ == 0) return true;
   const double until = now() + milliseconds / 1e3;
@@ -260,8 +260,8 @@ bool Child::has_ended(int milliseconds) const {
   }
 }
 
-// Ends it and all that it has started, and waits for it, but not for ever: the system may hold it.
-// Its status, if it is there and nobody else has taken it.
+// Ends the child and all that it has started. Waits for a limited time, because the system may hold
+// the child. Returns its status, unless it is still there or something else reaped it.
 std::optional<int> Child::end() {
   if (process_ == 0) return {};
   input_.close();
@@ -288,7 +288,7 @@ void Child::finish() {
         {{output_.get(), POLLIN, 0}, {error_.get(), POLLIN, 0}, {ended_.get(), POLLIN, 0}}};
     poll(events.data(), events.size(), ended_.is_open() ? slice : 5);
     if (events[0].revents != 0 && read(output_.get(), buffer_.data(), buffer_.size()) == 0) {
-      output_.close();  // its last words are for nobody
+      output_.close();  // nobody reads its last output
     }
     if (events[1].revents != 0) listen();
     ended = has_ended(0);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A process that answers lines with lines.
+// A child process that answers each line with a line.
 #pragma once
 
 #include <sys/types.h>
@@ -18,7 +18,7 @@
 
 namespace bbsim::controller {
 
-// What reaches the person at the terminal, a line at a time.
+// Shows a line to the user at the terminal.
 using Tell = std::function<void(std::string_view line)>;
 
 // Why there is no answer: "it did not answer within 1 s; it was still running, and has been ended".
@@ -26,30 +26,30 @@ class ChildFault : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Whoever waits for it was asked to end.
+// Thrown while waiting for the child if `stop` is true.
 class ChildInterrupted : public std::exception {};
 
-// It runs in a process group of its own. It ends with this object at the latest, and with it all
-// that it has started, in whatever group.
+// The child runs in its own process group. The destructor ends it, and everything that it has
+// started, in any group.
 class Child {
  public:
-  // Starts the program; `tell` gets what it says on its standard error, and `stop`, which may be
-  // null, ends all waiting once it is true. Throws std::system_error if it cannot be started.
+  // Starts the program. `tell` receives the lines of its standard error. `stop`, which may be null,
+  // ends all waiting once it is true. Throws std::system_error if the program cannot be started.
   Child(const std::vector<std::string>& words, const std::string& folder, Tell tell,
         const std::atomic<bool>* stop);
   ~Child();
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  // Sends a line, and returns the line that it answers within so many seconds, without its break;
-  // it is there until the next call. Throws ChildFault, after which there is none any more, and
-  // ChildInterrupted.
+  // Sends a line. Returns the answer without its line break, which is valid until the next call.
+  // Throws ChildFault if there is no proper answer within `timeout` (s), after which the child is
+  // gone, and ChildInterrupted.
   std::string_view ask(std::string_view line, double timeout);
 
-  // Ends it because of what it answered; the fault is `why`, and how it ended.
+  // Ends the child because of its answer. The fault says `why`, and how the child ended.
   [[nodiscard]] ChildFault refuse(const std::string& why);
 
-  // Lets it come to its end by itself, at the end of its input, for a second at most.
+  // Closes the child's input, and gives it at most a second to end by itself.
   void finish();
 
  private:
@@ -67,14 +67,14 @@ class Child {
 
   Tell tell_;
   const std::atomic<bool>* stop_;
-  std::string mark_;   // of it and of what it starts
-  pid_t process_ = 0;  // 0 once it was waited for
+  std::string mark_;   // of the child and what it starts
+  pid_t process_ = 0;  // 0 once reaped
   file::Descriptor input_, output_, error_, ended_;
-  std::vector<char> buffer_;           // of what it says, as long as a line may be
-  std::size_t size_ = 0, answer_ = 0;  // of what is in it; of the last answer and its break
-  std::string complaint_;              // on its standard error, not yet told
+  std::vector<char> buffer_;           // output of the child; as long as the longest line
+  std::size_t size_ = 0, answer_ = 0;  // of the output in it; of the last answer with its break
+  std::string complaint_;              // from the standard error, not yet told
   double timeout_ = 0, deadline_ = 0;  // s
-  int patience_ = 0;                   // looks for an answer before it is waited for
+  int patience_ = 0;                   // reads for an answer before waiting
   std::size_t asked_ = 0;
 };
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The two places at which code of others begins to run. Fuzz targets, which read scenarios that
-// nobody wrote, have their own of these, which refuse.
+// The two functions that start foreign code. Fuzz targets, whose scenarios nobody wrote, replace
+// them with functions that refuse.
 #pragma once
 
 #include <sys/types.h>
@@ -12,19 +12,19 @@
 
 namespace bbsim::controller {
 
-// What a process begins with, beside its words: descriptors for its standard streams, the folder
-// that it runs in (empty: this one).
+// Descriptors for the standard streams of a process.
 struct Streams {
   int input = -1, output = -1, error = -1;
 };
 
-// Starts a program in a process group of its own, with all signals as at a login, a mark in its
-// environment (file/children.hpp) and no descriptors but its streams; it is remembered at once. The
-// first word is looked for on PATH if it has no slash. Returns its id; or 0, and why in `error`.
+// Starts a program in `folder` (empty: this one) and in its own process group, with the signals of
+// a login, a mark in its environment (file/children.hpp) and no descriptors but its streams.
+// Registers it at once. Looks up the first word on PATH if it has no slash. Returns the process id,
+// or 0 with the error number in `error`.
 [[nodiscard]] pid_t start_program(const std::vector<std::string>& words, const std::string& folder,
                                   const Streams& streams, const std::string& mark, int& error);
 
-// Opens a shared library; a null pointer, and why in `error`, if it cannot be.
+// Opens a shared library. Returns null, with the reason in `error`, if that fails.
 [[nodiscard]] void* open_library(const std::string& path, std::string& error);
 
 }  // namespace bbsim::controller

@@ -23,7 +23,7 @@
 namespace bbsim::controller {
 namespace {
 
-// Where a call of this thread is left, and why.
+// Where to leave a call in this thread, and why.
 struct Call {
   std::jmp_buf left{};
   const char* volatile function = nullptr;
@@ -32,9 +32,9 @@ struct Call {
 thread_local Call* present = nullptr;
 thread_local bool cannot_return = false;
 
-// The process that has opened a library; 0 before. One that a library forks off ends as it will.
+// The process that has opened a library; 0 before. Processes forked by a library end freely.
 std::atomic<pid_t> expecting{0};
-// What is said of an end that comes from elsewhere than a call; it is never freed.
+// Printed if the process ends from outside a call; never freed.
 std::atomic<const char*> message{nullptr};
 
 [[noreturn]] void end_with_message() {
@@ -44,7 +44,7 @@ std::atomic<const char*> message{nullptr};
   end_process(static_cast<int>(ExitCode::ended_early));
 }
 
-// The C library's own function.
+// Calls the C library's own function.
 [[noreturn]] void pass_on(const char* function, int status) {
   if (void* const own = dlsym(RTLD_NEXT, function)) {
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): as dlsym gives functions
@@ -53,8 +53,8 @@ std::atomic<const char*> message{nullptr};
   end_process(status);
 }
 
-// What a library's call of `function` does in place of ending the process; returns where it is for
-// the function to do its part.
+// Handles a library's call of `function`. Returns only if the function is to end the process after
+// all.
 void leave(const char* function, int status) {
   if (expecting.load() == 0 || expecting.load() != getpid()) return;
   if (present == nullptr || cannot_return) end_with_message();
@@ -63,7 +63,7 @@ void leave(const char* function, int status) {
   std::longjmp(present->left, 1);
 }
 
-// exit() that the C library calls itself, in err() for one, which does not come by here.
+// Handles exit() called inside the C library, as by err(), which bypasses the functions below.
 void ended_within_a_call() {
   if (present != nullptr && expecting.load() == getpid()) end_with_message();
 }
@@ -78,7 +78,7 @@ std::string ExitCalled::text() const {
 void expect_foreign_exits(const std::string& path) {
   const std::string text =
       "the controller (" + shown(path, uncut) + ") ended bbsim; unwritten output is lost\n";
-  // Kept to the end of the process, which may end in any thread while it prints one of them.
+  // Kept until the process ends, because any thread may end it and print one of them.
   static std::mutex guard;
   static auto* const texts = new std::set<std::string>;
   {
@@ -113,9 +113,8 @@ void call_foreign(void (*function)(void*), void* data) {
 
 }  // namespace bbsim::controller
 
-// Functions of the C library by which a process ends, for all that is loaded into this program.
-// None of them returns, as its header says. The program exports them; bbsim as a library keeps them
-// to itself.
+// Replacements of the C library's functions that end a process, for all code in this program. None
+// of them returns, as its header says. The program exports them; bbsim as a library does not.
 #pragma GCC visibility push(default)
 extern "C" {
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Functions of a library that end the process in place of returning: exit() and its like are this
-// program's own (foreign_exit.cpp), and end the call where they can.
+// Handles functions of a library that end the process instead of returning. This program replaces
+// exit() and similar functions (foreign_exit.cpp); if possible, they end only the call.
 #pragma once
 
 #include <exception>
@@ -12,7 +12,7 @@
 
 namespace bbsim::controller {
 
-// What a function called in place of returning.
+// The function that a foreign function called instead of returning.
 class ExitCalled : public std::exception {
  public:
   ExitCalled(const char* function, int status) : function_(function), status_(status) {}
@@ -24,12 +24,12 @@ class ExitCalled : public std::exception {
   int status_;
 };
 
-// From here on a thread of a library's own that ends the process, and whatever else does so behind
-// bbsim's back, ends it with exit code 1 and a message that names the library.
+// From now on, if a library's own thread or other code outside a call ends the process, it ends
+// with exit code 1 and a message that names the library.
 void expect_foreign_exits(const std::string& path);
 
-// While there is one, code of a library runs in this thread that cannot be left: it is being
-// opened. If it ends the process, the message is said.
+// While one exists, this thread runs code of a library that cannot be left, because the library is
+// being opened. If that code ends the process, the message is printed.
 class CannotReturn {
  public:
   CannotReturn();
@@ -38,11 +38,11 @@ class CannotReturn {
   CannotReturn& operator=(const CannotReturn&) = delete;
 };
 
-// Calls function(data). Throws ExitCalled if it ends the process, in this thread; nothing of what
-// it had on its stack is then destroyed.
+// Calls function(data). Throws ExitCalled if it tries to end the process in this thread. No object
+// on its stack is then destroyed.
 void call_foreign(void (*function)(void*), void* data);
 
-// The same of any function and its arguments, which are plain; returns what it does.
+// The same for any function with trivially destructible arguments. Returns the function's result.
 template <class Result, class... Parameters, class... Arguments>
 Result foreign(Result (*function)(Parameters...), Arguments... arguments) {
   static_assert((std::is_trivially_destructible_v<Arguments> && ...));

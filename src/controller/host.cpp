@@ -59,7 +59,7 @@ void Host::attach(const Scenario& scenario, model::Model& model) {
 
 void Host::require_columns(const std::vector<std::string>& asked) const {
   const auto& given = program_->ready().columns;
-  if (!given) return;  // what it gives is found when it gives it
+  if (!given) return;  // each answer is checked instead
   std::vector<std::string_view> names;
   for (const auto& [name, unit] : *given) names.push_back(name);
   for (const std::string& name : asked) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sees to it that runs of scenes have the controllers that are not built in.
+// Gives runs of scenes their external controllers.
 #pragma once
 
 #include <atomic>
@@ -18,29 +18,29 @@ namespace bbsim::controller {
 class Library;
 class Program;
 
-// For runs one after another on one thread; a controller that can reset serves them all.
+// For consecutive runs on one thread. A controller that can reset serves all of them.
 class Host {
  public:
-  // `tell` gets what programs say on their standard error; `stop`, which may be null, ends all
-  // waiting for them once it is true. Both outlive it.
+  // `tell` receives the lines of programs' standard error. `stop`, which may be null, ends all
+  // waiting for them once it is true. Both must outlive the host.
   explicit Host(Tell tell, const std::atomic<bool>* stop = nullptr);
   ~Host();
   Host(const Host&) = delete;
   Host& operator=(const Host&) = delete;
 
-  // Gives the scene's model its controller, if it has one of its own, which stays until the next
-  // call. Throws KeyError if there can be none, or none that gives what output.columns asks for. A
-  // program that does not answer as it should fails the run.
+  // Gives the scene's model its external controller, if any, until the next call. Throws KeyError
+  // if the controller cannot start or lacks a column of output.columns. A program that answers
+  // wrongly fails the run.
   void attach(const Scenario& scenario, model::Model& model);
 
-  // The unit of a number of that name, if the controller says it.
+  // The unit of a number of your own controller, if the controller states it.
   [[nodiscard]] std::optional<std::string> unit_of(std::string_view own_column) const;
 
-  // What is known of the controller: a line each. Throws model::ControllerFault if it does not
-  // begin as it should.
+  // Describes the controller in lines of text. Throws model::ControllerFault if it does not begin
+  // properly.
   [[nodiscard]] std::vector<std::string> describe() const;
 
-  // Lets a program end by itself, as the destructor does too.
+  // Lets a program end by itself, as the destructor also does.
   void finish();
 
  private:
@@ -52,8 +52,8 @@ class Host {
   std::shared_ptr<Library> library_;
 };
 
-// The files that a controller of one's own is made of, as far as its scenario tells: the library,
-// or each word of the command that names a file.
+// The files of your own controller, as far as its scenario tells: the library and its wiring, or
+// each word of the command that names a file.
 [[nodiscard]] std::vector<std::string> files_of(const Scenario& scenario);
 
 }  // namespace bbsim::controller

@@ -35,7 +35,7 @@ struct LibraryFunctions {
 
 namespace {
 
-// Bytes: more than a microcontroller has, by far.
+// Bytes; far more than a microcontroller has.
 constexpr std::size_t most_remembered = std::size_t{64} * 1024 * 1024;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
@@ -84,7 +84,7 @@ std::shared_ptr<const LibraryFunctions> open(const std::string& path) {
   return functions;
 }
 
-// bbsim_setup::drives_acceleration.
+// The value of bbsim_setup::drives_acceleration.
 std::uint32_t c_drives(Drives drives) {
   switch (drives) {
     case Drives::angle:
@@ -101,7 +101,7 @@ std::uint32_t c_drives(Drives drives) {
   return 0;
 }
 
-// What a setup is for a library, as long as this stays.
+// A setup for a library, valid as long as this object.
 class CSetup {
  public:
   explicit CSetup(const Setup& setup) {
@@ -131,7 +131,7 @@ class CSetup {
 std::string Library::path_of(const OwnController& own) {
   const std::filesystem::path path =
       std::filesystem::path(own.folder) / std::get<ControllerLibrary>(own.by).file;
-  // A name without a slash would be looked for among the system's libraries.
+  // The system would search its own libraries for a name without a slash.
   return path.has_parent_path() ? path.string() : "./" + path.string();
 }
 
@@ -169,7 +169,7 @@ Library::~Library() {
   destroy();
 }
 
-// One that ends the process then has done its part before.
+// A library that ends the process here counts as having destroyed the controller.
 void Library::destroy() {
   try {
     if (controller_ != nullptr) foreign(functions_->destroy, controller_);
@@ -187,8 +187,8 @@ std::string Library::last_error(const void* controller) const {
   return text == nullptr || *text == '\0' ? "it does not say why" : shown(text, longest_saying);
 }
 
-// Calls a function of the library. Where that ends the process, the library has failed `when` it
-// did, and its controller is left alone.
+// Calls a function of the library. If it tries to end the process, abandons the controller and
+// throws the fault, described by `when`.
 template <class When, class Function, class... Arguments>
 auto Library::ask(When when, Function* function, Arguments... arguments) {
   try {
@@ -199,7 +199,7 @@ auto Library::ask(When when, Function* function, Arguments... arguments) {
   }
 }
 
-// That it ended the process is kept for begin().
+// Keeps the fault for begin() if the library tries to end the process.
 void Library::create() {
   destroy();
   fault_.reset();
@@ -228,7 +228,7 @@ void Library::renew(const Setup& setup) {
     try {
       fresh_ = foreign(functions_->reset, controller_, its.get()) == 0;
     } catch (const ExitCalled&) {
-      controller_ = nullptr;  // as one that cannot reset
+      controller_ = nullptr;  // like one that cannot reset
     }
   }
   if (!fresh_) create();
@@ -300,7 +300,7 @@ model::Commands Library::command(const model::ControllerSample& sample, double* 
   if (!std::ranges::all_of(given_back, [](double one) { return std::isfinite(one); })) {
     std::string all;
     for (const double one : given_back) all += (all.empty() ? "" : ", ") + number_text(one);
-    // bbsim sets all to NaN before it asks.
+    // Commands that the library does not write stay NaN.
     const bool lacks_third =
         given_back.size() == 3 && std::isnan(given_back[2]) && std::isfinite(given_back[1]);
     throw fail("its command is [" + all + "]; allowed: finite numbers" +

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A controller that is a shared library (bbsim/controller.h).
+// A controller in a shared library (bbsim/controller.h).
 #pragma once
 
 #include <memory>
@@ -15,12 +15,12 @@
 
 namespace bbsim::controller {
 
-// The functions of a library; it stays open as long as the program.
+// The functions of a library, which stays open until the program ends.
 struct LibraryFunctions;
 
 class Library : public model::ExternalController {
  public:
-  // Opens it and creates a controller. Throws KeyError if one of the two cannot be done.
+  // Opens the library and creates a controller. Throws KeyError if either fails.
   Library(const OwnController& own, const Setup& setup);
   ~Library() override;
   Library(const Library&) = delete;
@@ -32,20 +32,20 @@ class Library : public model::ExternalController {
   [[nodiscard]] std::string save() override;
   void restore(const std::string& memory) override;
 
-  // The next run is of that setup. Throws KeyError.
+  // Prepares for a run with this setup. Throws KeyError.
   void renew(const Setup& setup);
 
   [[nodiscard]] bool is(const OwnController& own) const {
     return path_ == path_of(own) && wiring_path_ == wiring_path_of(own);
   }
-  // The library, and the files of its wiring. Throws InputError.
+  // The library and the files of its wiring. Throws InputError.
   [[nodiscard]] static std::vector<std::string> files_of(const OwnController& own);
 
-  // What begin() would throw.
+  // The fault that begin() would throw.
   [[nodiscard]] const std::optional<model::ControllerFault>& fault() const { return fault_; }
 
  private:
-  // Where the library is, from this folder; and its wiring, if it has one.
+  // The paths of the library and of its wiring, if any, from the current folder.
   [[nodiscard]] static std::string path_of(const OwnController& own);
   [[nodiscard]] static std::string wiring_path_of(const OwnController& own);
   void create();
@@ -60,9 +60,9 @@ class Library : public model::ExternalController {
   Setup setup_;
   std::optional<sketch::Wiring> wiring_;
   std::shared_ptr<const LibraryFunctions> functions_;
-  void* controller_ = nullptr;  // also where it is left alone
+  void* controller_ = nullptr;  // also null if it was abandoned
   std::optional<model::ControllerFault> fault_;
-  bool fresh_ = false;  // no sample since it was created or reset
+  bool fresh_ = false;  // no run since it was created or reset
 };
 
 }  // namespace bbsim::controller

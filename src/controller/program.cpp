@@ -61,7 +61,7 @@ void Program::start(const std::string& memory) {
   say_hello(memory);
 }
 
-// Keeps what is wrong for begin().
+// Keeps a fault for begin().
 void Program::say_hello(const std::string& memory) {
   fault_.reset();
   ready_ = {};
@@ -99,7 +99,7 @@ void Program::restore(const std::string& memory) {
   begin();
 }
 
-// `read` takes the answer, and returns what is wrong with it; `when` says when it was asked for.
+// `read` reads the answer and returns what is wrong with it. `when` says when bbsim asked for it.
 template <class When, class Read>
 void Program::ask(std::string_view line, When when, Read read) {
   if (!child_) throw model::ControllerFault("the controller has ended before");

@@ -15,28 +15,28 @@ namespace bbsim::controller {
 
 class Program : public model::ExternalController {
  public:
-  // Starts it, and has its answer to the hello, right or wrong: whatever is wrong with it is thrown
-  // by begin(), as a fault of the run. Throws KeyError if it cannot be started.
+  // Starts the program and reads its answer to the hello. begin() throws any fault of the answer,
+  // as a fault of the run. Throws KeyError if the program cannot be started.
   Program(const OwnController& own, const Setup& setup, Tell tell, const std::atomic<bool>* stop);
 
   void begin() override;
   model::Commands command(const model::ControllerSample& sample, double* own) override;
-  // One that is at fault can, until begin() or restore() says what is wrong.
+  // True after a fault, so that begin() or restore() reports it.
   [[nodiscard]] bool can_save() const override { return fault_ || ready_.save; }
   [[nodiscard]] std::string save() override;
   void restore(const std::string& memory) override;
 
-  // The next run is of that setup, by a new process unless this one can reset; it begins with that
-  // memory, if there is one.
+  // Prepares for a run with this setup, in a new process unless this one can reset. The run begins
+  // with `memory`, unless it is empty.
   void renew(const Setup& setup, const std::string& memory = {});
 
-  // What begin() would throw.
+  // The fault that begin() would throw.
   [[nodiscard]] const std::optional<model::ControllerFault>& fault() const { return fault_; }
   [[nodiscard]] const Ready& ready() const { return ready_; }
-  // Whether it is run by these words in that folder.
+  // Whether `own` has the same command, folder and timeouts.
   [[nodiscard]] bool is(const OwnController& own) const;
 
-  // Lets it end by itself.
+  // Lets the program end by itself.
   void finish();
 
  private:
@@ -54,7 +54,7 @@ class Program : public model::ExternalController {
   const std::atomic<bool>* stop_;
   std::unique_ptr<Child> child_;
   Ready ready_;
-  bool fresh_ = false;  // it has answered the hello, and no sample yet
+  bool fresh_ = false;  // it has answered the hello, but no sample yet
   std::optional<model::ControllerFault> fault_;
 };
 

@@ -18,8 +18,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A number with a point or an exponent, so that who reads it takes it for no integer: -0 would lose
-// its sign.
+// Writes a number with a point or an exponent, so that no reader takes it for an integer, which
+// would lose the sign of -0.
 char* write_real(char* to, double value) {
   if (!std::isfinite(value)) return to + std::string_view("null").copy(to, 4);
   char* const end = write_number(to, value);
@@ -35,7 +35,7 @@ char* write_text(char* to, std::string_view text) {
   return to + text.copy(to, text.size());
 }
 
-// "name":[a,b]
+// ,"name":[a,b]
 char* write_list(char* to, std::string_view name, std::span<const double> numbers) {
   to = write_text(to, ",\"");
   to = write_text(to, name);
@@ -48,7 +48,7 @@ char* write_list(char* to, std::string_view name, std::span<const double> number
   return to;
 }
 
-// A line of JSON from its start to its end; what is asked for and not there leaves it where it is.
+// Reads a line of JSON from start to end. The functions return false if their item does not follow.
 class Reader {
  public:
   explicit Reader(std::string_view line) : at_(line.data()), end_(line.data() + line.size()) {}
@@ -65,7 +65,7 @@ class Reader {
     return at_ == end_;
   }
 
-  // A name in quotation marks, as it is written.
+  // Reads a name in quotation marks, with escapes as written.
   bool take_name(std::string_view& name) {
     if (!take('"')) return false;
     const char* const start = at_;
@@ -76,7 +76,7 @@ class Reader {
     return true;
   }
 
-  // A number of JSON, or what Python and others write where there is none.
+  // Reads a JSON number, or NaN or Infinity as Python and others write them.
   bool take_number(double& number) {
     take_space();
     constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -91,7 +91,7 @@ class Reader {
       return true;
     }
     const char* const first = at_ < end_ && *at_ == '-' ? at_ + 1 : at_;
-    if (first == end_ || *first < '0' || *first > '9') return false;  // from_chars reads "inf", say
+    if (first == end_ || *first < '0' || *first > '9') return false;  // from_chars also reads "inf"
     const auto [after, error] = std::from_chars(at_, end_, number);
     if (error == std::errc::result_out_of_range) {
       number = std::numeric_limits<double>::infinity();
@@ -115,15 +115,15 @@ std::string not_understood(std::string_view line, const std::string& why) {
   return "its answer was " + bbsim::quoted(line, longest_saying) + ": " + why;
 }
 
-// " (did you mean command?)", where another one of the names is near; otherwise nothing.
+// " (did you mean command?)" if another one of the names is near; otherwise empty.
 std::string hint(std::string_view found, std::span<const std::string_view> names) {
   const std::string_view nearest = yaml::nearest_name(found, names);
   if (nearest.empty() || nearest == found) return "";
   return " (did you mean " + shown(nearest) + "?)";
 }
 
-// Of an answer that lacks a name, what it has in its place, if that is near: ", but "comand" (did
-// you mean command?)".
+// For an answer that lacks a name, a similar name in the answer: ", but "comand" (did you mean
+// command?)". Empty if there is none.
 std::string misspelt(std::string_view line, const std::string& lacks) {
   const Json answer = parse_json(line);
   if (!answer.is_object()) return "";
@@ -140,7 +140,7 @@ std::string form_of(std::size_t commands) {
          "]}, optionally with \"NAME\": NUMBER";
 }
 
-// The text of {"error": "..."}, if it is that.
+// The text of an answer {"error": "..."}; empty for any other answer.
 std::optional<std::string> error_of(std::string_view line) {
   const Json answer = parse_json(line);
   if (!answer.is_object()) return {};
@@ -252,7 +252,7 @@ std::size_t write_sample(const model::ControllerSample& sample, Fields wanted,
                          char (&line)[longest_sample]) {
   char* to = write_text(line, "{\"sample\":");
   to = std::to_chars(to, to + longest_number, sample.number).ptr;
-  std::size_t next = 0;  // of the fields, in their order
+  std::size_t next = 0;  // index in `fields`
   const auto list = [&](std::span<const double> numbers) {
     if (wanted[next]) to = write_list(to, fields[next].name, numbers);
     ++next;
@@ -279,7 +279,7 @@ std::size_t write_sample(const model::ControllerSample& sample, Fields wanted,
 
 std::string read_answer(std::string_view line, std::span<const std::string> names,
                         std::span<double> command, double* own) {
-  // What is wrong, and then what is allowed.
+  // Says what is wrong, and then what is allowed.
   const auto refuse_form = [&](const std::string& why) {
     return refusal(line, why + form_of(command.size()));
   };

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What bbsim and a controller that is a program say to each other: lines of JSON, one each way a
-// sample (docs/reference/controllers.md).
+// The protocol between bbsim and a controller program: lines of JSON, one each way per sample
+// (docs/reference/controllers.md).
 //
 //     bbsim       {"protocol":1,"bbsim":"0.3.0","period":0.02,...,"parameters":{"kp":0.7},...}
 //     controller  {"protocol": 1, "reset": true, "save": true, "columns": {"x_integral": "rad"}}
@@ -30,11 +30,11 @@ namespace bbsim::controller {
 
 inline constexpr int protocol_version = 1;
 
-// The line that begins a run, with its line break; one that goes on has what a controller answered
-// to the save_line.
+// The line that begins a run, with its line break. To continue an earlier run, `memory` is the
+// state that read_memory() returned.
 [[nodiscard]] std::string hello_line(const Setup& setup, const std::string& memory = {});
 
-// What a sample has beside its number, each with its unit.
+// The fields of a sample beside its number, with their units.
 struct Field {
   std::string_view name, unit;
 };
@@ -47,39 +47,38 @@ inline constexpr std::array fields = {
     Field{"servo", "rad"},
     Field{"servo_rate", "rad/s"},
 };
-using Fields = std::bitset<fields.size()>;  // some of them
+using Fields = std::bitset<fields.size()>;  // a subset of them
 
-// What the controller says of itself.
+// The controller's answer to the hello.
 struct Ready {
   bool reset = false;  // another hello begins another run
-  bool save = false;   // it answers the save_line
-  // The numbers that it gives beside its commands, with their units, if it names them.
+  bool save = false;   // it answers save_line
+  // The names and units of the numbers that it gives beside its commands, if it lists them.
   std::optional<std::vector<std::pair<std::string, std::string>>> columns{};
-  Fields fields = Fields().set();  // those that it wants to be told
+  Fields fields = Fields().set();  // those that it wants to receive
   std::string fault;               // what is wrong with the answer; empty if nothing is
 };
 
-// Reads the answer to a hello, a line without its break.
+// Reads the answer to a hello, a line without its line break.
 [[nodiscard]] Ready read_ready(std::string_view line);
 
-// Asks for what the controller remembers.
+// Asks for the controller's state.
 inline constexpr std::string_view save_line = "{\"save\":true}\n";
 
-// Reads the answer to that, a line without its break. Returns what is wrong with it; empty if
-// nothing is.
+// Reads the answer to save_line, a line without its line break. Returns what is wrong with it;
+// empty if nothing is.
 [[nodiscard]] std::string read_memory(std::string_view line, std::string& memory);
 
-// No line of a sample is longer.
+// The longest line of a sample, in bytes.
 inline constexpr std::size_t longest_sample = 1024;
 
-// Writes the line of a sample, with its break; returns its length.
+// Writes the line of a sample, with its line break. Returns its length.
 [[nodiscard]] std::size_t write_sample(const model::ControllerSample& sample, Fields wanted,
                                        char (&line)[longest_sample]);
 
-// Reads an answer, a line without its break: as many commands as there is room for, two or three,
-// and the numbers of these names into
-// `own`. Returns what is wrong with it, "its answer ..."; empty if nothing is. Takes no memory
-// unless something is wrong.
+// Reads an answer, a line without its line break. Reads as many commands as `command` has room for,
+// two or three, and the numbers of these names into `own`. Returns what is wrong with the answer;
+// empty if nothing is. Allocates no memory unless something is wrong.
 [[nodiscard]] std::string read_answer(std::string_view line, std::span<const std::string> names,
                                       std::span<double> command, double* own);
 

@@ -20,7 +20,7 @@ Setup setup_of(const Scenario& scenario) {
   setup.delay = sampling.delay;
   setup.resolution = sampling.resolution;
   setup.derivative_filter = sampling.derivative_filter;
-  // The tighter one, where the axes' differ.
+  // The tighter limit, if those of the axes differ.
   setup.limit = std::numeric_limits<double>::infinity();
   for (const std::size_t axis : {0U, 1U}) {
     setup.limit = std::min(setup.limit, controller.limit_of(axis).value_or(setup.limit));

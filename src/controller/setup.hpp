@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What one's own controller is told of a run before its first sample.
+// The facts about a run that your own controller receives before its first sample.
 #pragma once
 
 #include <cstddef>
@@ -15,16 +15,16 @@ namespace bbsim::controller {
 // SI units and radians.
 struct Setup {
   Drives drives = Drives::angle;
-  double period = 0, delay = 0, resolution = 0, derivative_filter = 0;  // as of Sampling
+  double period = 0, delay = 0, resolution = 0, derivative_filter = 0;  // as in Sampling
   double limit = 0;  // of the command; infinite if there is none
   double end = 0;    // of the run, s
   std::vector<Parameter> parameters;
-  // How many commands it gives, and of how many servos it is told.
+  // The number of commands that it gives, and of servos whose state it receives.
   [[nodiscard]] std::size_t commands() const { return drives == Drives::legs ? 3 : 2; }
-  std::vector<std::string> columns;  // names of the numbers that it is asked for
+  std::vector<std::string> columns;  // names of the numbers that bbsim wants from it
 };
 
-// The scene is one whose controller is its own.
+// Requires a scene with your own controller.
 [[nodiscard]] Setup setup_of(const Scenario& scenario);
 
 }  // namespace bbsim::controller

@@ -163,7 +163,7 @@ struct Jitter {
   [[nodiscard]] static yaml::Number number() {
     return {yaml::Dimension::time, {.at_least = 0}, "\"1 ms\""};
   }
-  // Warns if the mean of the measured periods is far from the nominal period.
+  // Warns if the mean of the measured periods is far above the nominal period.
   static void warn_of_periods(const yaml::Value& table, const Sampling& sampling) {
     const double mean = std::accumulate(sampling.periods.begin(), sampling.periods.end(), 0.0) /
                         static_cast<double>(sampling.periods.size());

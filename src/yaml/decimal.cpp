@@ -25,7 +25,7 @@ std::size_t skip_sign(std::string_view text, std::size_t at) {
   return at < text.size() && (text[at] == '+' || text[at] == '-') ? at + 1 : at;
 }
 
-// A larger exponent overflows or vanishes with every mantissa that a file of bounded size can hold.
+// Larger exponents overflow or underflow with every mantissa that a file of bounded size can hold.
 constexpr long exponent_limit = 100'000'000;
 
 long exponent_value(std::string_view text) {

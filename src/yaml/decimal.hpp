@@ -20,8 +20,8 @@ struct Decimal {
 
 enum class Magnitude { fine, too_large, too_small };
 
-// `value` holds only if the magnitude is fine. Too small: a double would lose digits (a denormal)
-// or become zero.
+// `value` is valid only if the magnitude is fine. Too small: a double would lose digits (a
+// denormal) or become zero.
 struct DecimalValue {
   double value = 0;
   Magnitude magnitude = Magnitude::fine;
@@ -30,7 +30,7 @@ struct DecimalValue {
 // The double nearest to decimal * 10^shift.
 [[nodiscard]] DecimalValue to_double(const Decimal& decimal, int shift);
 
-// Whether the value is a normal double. `zero` says that the exact value is zero.
+// `fine` for a normal double. `zero` says that the exact value is zero, which is also fine.
 [[nodiscard]] Magnitude magnitude_of(double value, bool zero);
 
 }  // namespace bbsim::yaml

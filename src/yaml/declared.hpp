@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the readers of a scenario declare as they read: the keys, and the values that each takes.
-// The tables of the documents and the JSON Schema are made of it.
+// Keys and their allowed values, as the readers of a scenario declare them. They are the source of
+// the tables of the documents and the JSON Schema.
 #pragma once
 
 #include <cstddef>
@@ -26,10 +26,10 @@ struct Range {
   [[nodiscard]] std::string text() const;  // " greater than 0"; empty without bounds
 };
 
-// Keys of a mapping that exclude those of the other groups.
+// Groups of keys of a mapping. The keys of a group exclude those of the other groups.
 struct Choice {
   std::vector<std::vector<std::string_view>> groups;
-  bool needed = false;  // one of the groups must be there
+  bool needed = false;  // one of the groups must be present
 };
 
 struct DeclaredKey;
@@ -42,10 +42,10 @@ struct Declared {
     text,     // any text
     name,     // one of `names`
     unit,     // the name of a unit of the dimension
-    list,     // `fewest` to `most` items, each as the first of `parts`
+    list,     // `fewest` to `most` items, each like the first of `parts`
     mapping,  // of `keys`
-    names,    // a mapping of any names to values as the first of `parts`
-    any,      // as any of `parts`
+    names,    // a mapping of any names to values like the first of `parts`
+    any,      // like any of `parts`
   };
   static constexpr std::size_t unbounded = std::numeric_limits<std::size_t>::max();
 
@@ -75,8 +75,8 @@ struct DeclaredKey {
   std::string name;  // in American spelling
   Declared value;
   bool required = false;
-  std::string standard;  // the value of a key that is not given, if it has a text
-  bool section = false;  // a mapping that, not given, reads like an empty one
+  std::string standard;  // default as text; empty if it has no text
+  bool section = false;  // a mapping that reads like an empty one if it is missing
 
   [[nodiscard]] bool must_be_given() const { return required || (section && value.needs_keys()); }
 };

@@ -70,7 +70,7 @@ const Node* parse_yaml(std::string_view text, int source, Nodes& nodes) {
   TreeBuilder builder(source, nodes);
   try {
     // The comment terminates open constructs on the last line. Without it, yaml-cpp overlooks a
-    // missing closing quote there and takes an unclosed list for a key.
+    // missing closing quote there and reads an unclosed list as a key.
     std::istringstream stream{std::string(text) + "\n#"};
     YAML::Parser parser(stream);
     while (parser.HandleNextDocument(builder)) {

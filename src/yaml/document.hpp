@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Parses YAML text to a tree of nodes with their positions. Only this room uses yaml-cpp.
+// Parses YAML text into a tree of nodes with their positions. Only this room uses yaml-cpp.
 #pragma once
 
 #include <deque>
@@ -47,7 +47,7 @@ struct TextFault : std::runtime_error {
   Position position;
 };
 
-// The deepest nesting that is accepted. yaml-cpp and the readers recurse.
+// The deepest nesting accepted. It is limited because yaml-cpp and the readers recurse.
 inline constexpr int deepest = 32;
 
 // Parses one YAML document; returns nullptr if the text holds none. Refuses tags and shares the

@@ -9,9 +9,9 @@
 
 namespace bbsim::yaml {
 
-// The name that `word` most likely stands for: the one that it abbreviates, or the one with the
-// fewest typing errors. An error is a letter missing, added, changed, or swapped with its neighbor;
-// case does not count. Empty if every name has more than one error in three letters.
+// The name that `word` most likely means: the one that it abbreviates, or the one with the fewest
+// typing errors. An error is a letter missing, added, changed, or swapped with its neighbor; case
+// does not count. Empty if every name has more than one error per three letters.
 [[nodiscard]] std::string_view nearest_name(std::string_view word,
                                             std::span<const std::string_view> names);
 

@@ -46,7 +46,7 @@ class Setter {
   Setter(Path path, const Node& value, int source, Nodes& nodes)
       : path_(path), value_(value), source_(source), nodes_(nodes) {}
 
-  // `old` with the value set at the path below `level`. nullptr stands for a missing node.
+  // Returns `old` with the value set at the path below `level`. nullptr stands for a missing node.
   [[nodiscard]] const Node* set(const Node* old, std::size_t level) const {
     if (level == path_.size()) return &value_;
     if (old == nullptr || old->kind == Node::Kind::null) {
@@ -63,8 +63,7 @@ class Setter {
   }
 
  private:
-  // The key in the spelling of the mapping. Parameters of an external controller have one spelling
-  // only.
+  // The key in the mapping's spelling. Parameters of an external controller have only one spelling.
   [[nodiscard]] std::string key_in(const Node& mapping, std::size_t level) const {
     const auto is_there = [&](std::string_view key) {
       return std::ranges::find(mapping.entries, key, &Entry::key) != mapping.entries.end();
@@ -97,7 +96,7 @@ class Setter {
     const std::string_view name = path_[level];
     std::size_t index = 0;
     const auto result = std::from_chars(name.data(), name.data() + name.size(), index);
-    // Each position has one spelling; otherwise a sweep would take .00 and .0 for two keys.
+    // Each position has one spelling; otherwise a sweep would treat .00 and .0 as two keys.
     const bool number = result.ec == std::errc{} && result.ptr == name.data() + name.size() &&
                         (name.size() == 1 || name.front() != '0');
     const std::size_t size = list.items.size();
@@ -128,7 +127,7 @@ class Setter {
   Nodes& nodes_;
 };
 
-// This text needs no YAML parser, which would take a third of a sweep's time.
+// Such a text needs no YAML parser, which would take a third of a sweep's time.
 bool is_plain_number(std::string_view text) {
   return text.size() < 40 && text.substr(0, 2) != "--" &&
          text.find_first_not_of("0123456789.eE-+") == std::string_view::npos &&

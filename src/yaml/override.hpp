@@ -19,7 +19,7 @@ namespace bbsim::yaml {
 [[nodiscard]] const Node* apply_override(std::string_view assignment, int source, const Node& root,
                                          Nodes& nodes);
 
-// The same for a path and a value apart.
+// The same with path and value separate.
 [[nodiscard]] const Node* apply_override(std::string_view path, std::string_view value, int source,
                                          const Node& root, Nodes& nodes);
 

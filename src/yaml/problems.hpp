@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Collects all faults of a scenario, to report them together.
+// Collects all faults of a scenario to report them together.
 #pragma once
 
 #include <cstddef>

@@ -47,8 +47,8 @@ struct Whole {
   bool read(const Value& value, double& into) const;
 };
 
-// A number that is rarely above `most` or below `least`, in SI units. One that is, and has no unit,
-// is read and warned of: `unit` may have been meant.
+// A number that is rarely above `most` or below `least`, in SI units. Such a number without a unit
+// is read with a warning, because `unit` may have been meant.
 struct Usual {
   Number number;
   std::string_view unit;  // "deg"
@@ -61,7 +61,7 @@ struct Usual {
   bool read(const Value& value, double& into) const;
 };
 
-// An angle that something must not exceed: more than a turn without a unit may be in degrees.
+// A limit of an angle. More than `most` without a unit may be in degrees.
 [[nodiscard]] Usual angle_limit(Range range, double most = 2 * std::numbers::pi);
 
 // [x, y]

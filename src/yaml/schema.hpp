@@ -11,8 +11,8 @@
 // The function defines the known keys by reading them, each in either spelling (spelling.hpp). Any
 // other key is reported with the nearest known one. A rule (rules.hpp) describes the allowed values
 // in allowed(), and in declared() as data (declared.hpp). Its read() reads a value, reports its
-// faults, and returns whether it is valid. A rule whose values have a default says its text in
-// text_of().
+// faults, and returns whether it is valid. If values have a default, the rule's text_of() converts
+// it to text.
 #pragma once
 
 #include <algorithm>
@@ -61,7 +61,7 @@ struct Context {
   std::shared_ptr<Tables> tables = std::make_shared<Tables>();
   // If set, receives each single number that is read, by the key's path in American spelling.
   std::map<std::string, NotedNumber>* numbers = nullptr;
-  bool own_controller = false;  // an external controller, which may name columns itself; once read
+  bool own_controller = false;  // set once an external controller is read, which may name columns
 };
 
 // A node with the place where the scenario uses it.
@@ -99,7 +99,7 @@ class Keys {
   // The key's value, if present. Makes the key known.
   std::optional<Value> find(std::string_view key);
 
-  // The same, of a key that `rule` reads later; `standard` is its default, if it has a text.
+  // The same for a key that `rule` reads later. `standard` is its default as text, if any.
   template <class Rule>
   std::optional<Value> find(std::string_view key, const Rule& rule,
                             const std::string& standard = {}) {
@@ -143,10 +143,10 @@ class Keys {
   // Whether exactly one of the keys is present. Reports it otherwise.
   bool exactly_one(const std::vector<std::string_view>& keys);
 
-  // Declares that exactly one of the keys is there. The reader reports it.
+  // Declares that exactly one of the keys must be present. The reader reports violations.
   void one_of(const std::vector<std::string_view>& keys);
-  // Declares that the keys of a group exclude those of the others. The reader reports it.
-  // `needed`: one group must be there.
+  // Declares that the keys of a group exclude those of the others. `needed`: one group must be
+  // present. The reader reports violations.
   void exclusive(std::initializer_list<std::initializer_list<std::string_view>> groups,
                  bool needed = false) {
     if (declared_ == nullptr) return;
@@ -180,7 +180,6 @@ class Keys {
   Declared* declared_;
 };
 
-// A mapping without keys.
 [[nodiscard]] const Node& empty_mapping();
 
 [[nodiscard]] std::string comma_separated(const std::vector<std::string_view>& words);

@@ -48,8 +48,8 @@ std::string british(std::string_view path) {
 }
 
 std::optional<std::string> other_spelling(std::string_view name) {
-  // Most names have one spelling. A sweep looks up many names, so these return without making a
-  // string.
+  // Most names have one spelling. They return without making a string, because a sweep looks up
+  // many names.
   const auto holds = [&](std::string_view word) {
     return name.find(word) != std::string_view::npos;
   };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Keys under the names that people from other tools try first: kd for kv, dt for time.step.
+// Names that users of other tools try first for keys: kd for kv, dt for time.step.
 #pragma once
 
 #include <span>
@@ -9,8 +9,8 @@
 
 namespace bbsim::yaml {
 
-// The key that `word` may stand for: one of `known`, the keys of the mapping, or a path from the
-// top of the scenario if none of them fits. Empty if the word is no such name.
+// The key that `word` may mean: one of `known`, the keys of the mapping, or a path from the top of
+// the scenario if none of them fits. Empty for an unknown word.
 [[nodiscard]] std::string_view synonym(std::string_view word,
                                        std::span<const std::string_view> known);
 

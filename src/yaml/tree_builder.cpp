@@ -9,7 +9,7 @@
 namespace bbsim::yaml {
 namespace {
 
-// More than any scenario needs, at little memory.
+// More than any scenario needs, in little memory.
 constexpr std::size_t most_nodes = 100'000;
 
 }  // namespace

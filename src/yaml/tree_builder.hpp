@@ -43,7 +43,7 @@ class TreeBuilder : public YAML::EventHandler {
   struct Open {  // a sequence or mapping that has not ended
     Node* node;
     YAML::anchor_t anchor;
-    std::optional<Key> key;  // of a mapping: read, but without its value so far
+    std::optional<Key> key;  // of a mapping: read, but still without its value
   };
 
   [[nodiscard]] Position at(const YAML::Mark& mark) const;
