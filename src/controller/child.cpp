@@ -28,7 +28,7 @@ namespace bbsim::controller {
 namespace {
 
 constexpr std::size_t longest_line = 65536, longest_complaint = 4096;
-// Reads for an answer, about 50 us in all, before waiting, because waking up takes longer than many
+// Attempts to read an answer before waiting, about 50 us in all: waking up takes longer than many
 // programs need to answer. ask() continues this while it succeeds, and retries it now and then.
 constexpr int most_patience = 200;
 constexpr int slice = 100;      // ms: longest time until `stop` is noticed

@@ -74,7 +74,7 @@ class Child {
   std::size_t size_ = 0, answer_ = 0;  // of the output in it; of the last answer with its break
   std::string complaint_;              // from the standard error, not yet told
   double timeout_ = 0, deadline_ = 0;  // s
-  int patience_ = 0;                   // reads for an answer before waiting
+  int patience_ = 0;                   // attempts to read an answer before waiting
   std::size_t asked_ = 0;
 };
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The two functions that start foreign code. Fuzz targets, whose scenarios nobody wrote, replace
-// them with functions that refuse.
+// The two functions that start foreign code. Fuzz targets replace them with functions that refuse,
+// because their scenarios are random.
 #pragma once
 
 #include <sys/types.h>

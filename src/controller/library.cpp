@@ -131,7 +131,7 @@ class CSetup {
 std::string Library::path_of(const OwnController& own) {
   const std::filesystem::path path =
       std::filesystem::path(own.folder) / std::get<ControllerLibrary>(own.by).file;
-  // The system would search its own libraries for a name without a slash.
+  // dlopen() would search the system's libraries for a name without a slash.
   return path.has_parent_path() ? path.string() : "./" + path.string();
 }
 

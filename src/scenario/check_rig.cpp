@@ -190,7 +190,7 @@ class Checks {
     }
   }
 
-  // Checks frames with a period other than the controller's.
+  // Checks the frames of a sensor with its own period.
   void frames(const Controller& controller) {
     if (!controller.sensor) return;
     const Sensor& sensor = *controller.sensor;

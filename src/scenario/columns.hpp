@@ -123,7 +123,7 @@ struct Column {
   std::string_view name;
   std::string_view symbol;   // in a legend
   std::string_view unit;     // "1" if dimensionless
-  std::string_view meaning;  // one phrase, without a full stop
+  std::string_view meaning;  // one phrase, without a period
   Needs needs;
   Panel panel = Panel::none;
   Role role = Role::main;

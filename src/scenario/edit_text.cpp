@@ -63,7 +63,7 @@ class Editor {
 
   void set(const Node& root) {
     const Node* node = &root;
-    const Entry* key = nullptr;  // the entry with this node as its value
+    const Entry* key = nullptr;  // the entry of `node`
     std::string_view path = setting_.key;
     while (!path.empty()) {
       const std::size_t dot = path.find('.');

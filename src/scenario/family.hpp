@@ -47,8 +47,7 @@ class ScenarioFamily {
   // InputError with all problems; those of a setting begin with "KEY=VALUE".
   [[nodiscard]] Scenario read(const std::vector<Setting>& settings) const;
 
-  // Reads as read() does. Returns the number in SI units at the key of the last setting; nothing if
-  // the value is not a single number.
+  // Returns number_at() for the key of the last setting.
   [[nodiscard]] std::optional<double> read_number(const std::vector<Setting>& settings) const;
 
   // The unit of the single number at the key, with these settings: "m". Empty if the value is not a

@@ -144,7 +144,7 @@ void require_once(const std::vector<Measure>& measures);
 using Whys = std::vector<const char*>;
 
 // Describes each measure without a finite number, with its reason from `whys`, which may be empty.
-// Skips infinite measures of the loop: no change exhausts such a margin. Empty if none is left.
+// Skips infinite measures of the loop, which are valid. Empty if none is left.
 [[nodiscard]] std::string why_not_finite(const std::vector<Measure>& measures,
                                          const double* results, const Whys& whys);
 

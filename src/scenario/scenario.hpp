@@ -151,7 +151,7 @@ struct CurveLinkage {
   std::string file;
   std::vector<double> servo;  // rad, strictly increasing, at least four
   std::vector<double> plate;  // rad
-  // The mean replaced rows of noise. An interpolant may turn back between the remaining rows.
+  // Whether means replaced rows of noise. An interpolant may turn back between the rows left.
   bool smoothed = false;
 };
 

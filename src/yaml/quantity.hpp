@@ -63,7 +63,7 @@ struct Quantity {
 
 // Reads a number (in SI) or a number with a unit of `dimension`. Independent of the locale. Powers
 // of ten scale the decimal text, so "10 cm" is exactly the double 0.1. A quoted number without a
-// unit is text, and a fault.
+// unit is text, which is a fault.
 [[nodiscard]] Quantity read_quantity(std::string_view text, bool quoted, Dimension dimension);
 
 }  // namespace bbsim::yaml
