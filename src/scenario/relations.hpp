@@ -39,8 +39,7 @@ struct KeyRelation {
 };
 [[nodiscard]] std::span<const KeyRelation> relations();
 
-// Reports broken relations that have a message: those with exactly these `others`, or all except
-// those that check_loop() asks for.
+// Reports broken relations with a message: with these `others`, or all but check_loop()'s own.
 void check_relations(yaml::Keys& scenario, std::string_view others);
 void check_relations(yaml::Keys& scenario);
 

@@ -16,7 +16,7 @@ struct VariationSpec {
   enum class Kind { linear, log, list, uniform, normal } kind = Kind::list;
   // As written, in any unit of the key: FROM, TO; or MEAN, SD; or the items of a list.
   std::vector<std::string> values;
-  std::size_t count = 0;  // for linear and log
+  std::size_t count = 0;  // for linear, log and list
 
   // Whether the values are random, one for each case.
   [[nodiscard]] bool random() const { return kind == Kind::uniform || kind == Kind::normal; }
