@@ -20,7 +20,7 @@ namespace bbsim::api {
 struct FitRequest {
   const ScenarioFamily& family;
   std::vector<std::string> logs;  // files
-  results::LogChoice choice{};       // how to read their columns
+  results::LogChoice choice{};    // how to read their columns
   std::vector<std::string> free;  // KEY or KEY=FROM:TO
   std::string window{};           // a time; empty: one that suits the scene
   double hold_out = 0;            // share of the windows, from 0 to below 1

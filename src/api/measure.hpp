@@ -32,7 +32,7 @@ struct CompareRequest {
   std::string a{}, b{};
   std::optional<double> rtol{}, atol{};  // without either: from the files' solver settings
   std::vector<std::string> columns{};    // empty: all
-  results::LogChoice log{};                 // if given, `a` is the log of a rig, and `b` a run
+  results::LogChoice log{};              // if given, `a` is the log of a rig, and `b` a run
   std::optional<Scenario> run{};         // run for `b` if that is no result; `a` is then a log
 };
 
