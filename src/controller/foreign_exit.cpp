@@ -103,7 +103,12 @@ void call_foreign(void (*function)(void*), void* data) {
   Call* volatile before = present;
   if (setjmp(call.left) == 0) {
     present = &call;
-    function(data);
+    try {
+      function(data);
+    } catch (...) {
+      present = before;
+      throw;
+    }
     present = before;
     return;
   }

@@ -125,6 +125,7 @@ double Use::greatest_tilt_rate() const {
 std::vector<std::string> columns_of_use(const Limits& limits) {
   std::vector<std::string> names{"x", "y", "phi", "theta", "phi_rate", "theta_rate"};
   if (limits.friction) names.emplace_back("friction_demand");
+  if (limits.total_tilt) names.emplace_back("tilt");
   return names;
 }
 
@@ -151,11 +152,11 @@ Use use_of(const Limits& limits, const std::vector<double>& values) {
       use.tilt_rate[axis] =
           std::max(use.tilt_rate[axis], std::abs(at(4 + axis, i)) / limits.tilt_rate[axis]);
     }
-    // An upper bound of the angle between normal and vertical, for a level base without skew.
-    if (limits.total_tilt) {
-      use.total_tilt = std::max(use.total_tilt, std::hypot(tilt[0], tilt[1]) / *limits.total_tilt);
-    }
     if (limits.friction) use.friction = std::max(use.friction, at(6, i) / *limits.friction);
+    if (limits.total_tilt) {
+      const double angle = at(limits.friction ? 7 : 6, i);
+      use.total_tilt = std::max(use.total_tilt, angle / *limits.total_tilt);
+    }
   }
   return use;
 }

@@ -82,7 +82,9 @@ OwnText read_own_file(const std::string& name) {
   if (!file.is_open()) return {};
   struct stat status {};
   if (fstat(file.get(), &status) != 0) fail_to_write(name, errno);
-  if (status.st_size > largest_text) refuse_kind(name, "larger than any plan");
+  if (status.st_size > largest_text) {
+    throw OutputError("cannot read " + name + ": it is larger than any plan of a sweep");
+  }
   OwnText read{std::string(static_cast<std::size_t>(status.st_size), '\0'), true};
   const ssize_t size = read_at(file.get(), read.text.data(), read.text.size(), 0);
   if (size < 0) throw OutputError("cannot read " + name + ": " + error_text(errno));

@@ -41,6 +41,19 @@ std::optional<std::size_t> written_length(std::string_view text, const Node& sca
   return end + 1;
 }
 
+// Whether the value, whose key or list begins at `from`, is an alias or has an anchor. Its text is
+// then also that of another key.
+bool is_shared(std::string_view text, const Position& from, const Node& value) {
+  if (value.kind == Node::Kind::null) return false;  // without a place in the text
+  const std::size_t begin = offset_of(text, from), at = offset_of(text, value.position);
+  if (at < begin || from.source != value.position.source) return true;
+  const std::string_view before = text.substr(begin, at - begin);
+  const std::size_t end = before.find_last_not_of(" \n");
+  if (end == std::string_view::npos) return false;
+  const std::size_t blank = before.find_last_of(" \n[{,", end);
+  return before[blank == std::string_view::npos ? 0 : blank + 1] == '&';
+}
+
 const Entry* find(const Node& mapping, std::string_view name) {
   for (const Entry& entry : mapping.entries) {
     if (entry.key == name || yaml::other_spelling(name) == entry.key) return &entry;
@@ -74,10 +87,12 @@ class Editor {
         if (entry == nullptr) return insert(*node, path);
         next = entry->value;
         key = entry;
+        if (next != nullptr && is_shared(text_, entry->position, *next)) refuse();
       } else if (node->kind == Node::Kind::sequence) {
         std::size_t index = 0;
         const auto read = std::from_chars(name.data(), name.data() + name.size(), index);
         if (read.ec == std::errc() && index < node->items.size()) next = node->items[index];
+        if (next != nullptr && is_shared(text_, node->position, *next)) refuse();
         key = nullptr;
       }
       if (next == nullptr) refuse();
@@ -108,10 +123,6 @@ class Editor {
     if (section.kind == Node::Kind::null) refuse();
     const std::size_t name = offset_of(text_, key.position);
     const std::size_t at = offset_of(text_, section.position);
-    // The text of an alias is elsewhere.
-    if (at < name || key.position.source != section.position.source) refuse();
-    const std::string_view between = std::string_view(text_).substr(name, at - name);
-    if (between.find_first_of("&*") != std::string_view::npos) refuse();
     if (text_[at] == '{' || text_[at] == '[') {
       const auto extent = scenario::flow_extent(text_, at);
       if (!extent) refuse();

@@ -14,11 +14,16 @@ std::size_t line_end(std::string_view text, std::size_t at) {
   return std::min(text.find('\n', at), text.size());
 }
 
-// The end of the quoted text at `at`. A text with a doubled quote ('') counts as two.
+// The last character of the quoted text at `at`. Two single quotes in it are one letter.
 std::size_t quote_end(std::string_view text, std::size_t at) {
   const char quote = text[at];
-  for (++at; at < text.size() && text[at] != quote; ++at) {
-    if (quote == '"' && text[at] == '\\') ++at;
+  for (++at; at < text.size(); ++at) {
+    const bool doubled = quote == '\'' && text.substr(at).starts_with("''");
+    if (doubled || (quote == '"' && text[at] == '\\')) {
+      ++at;
+    } else if (text[at] == quote) {
+      break;
+    }
   }
   return at;
 }
@@ -26,19 +31,24 @@ std::size_t quote_end(std::string_view text, std::size_t at) {
 }  // namespace
 
 std::optional<Extent> flow_extent(std::string_view text, std::size_t from) {
+  constexpr std::string_view blanks = " \t\r\n", before_value = "{[,:";
   int depth = 0;
+  char last = '{';  // the last character that is no blank
   for (std::size_t at = from; at < text.size(); ++at) {
     const char c = text[at];
     const bool after_space = at == 0 || text[at - 1] == ' ' || text[at - 1] == '\n';
     if (c == '#' && after_space) {
       at = line_end(text, at);
-    } else if (c == '"' || c == '\'') {
-      at = quote_end(text, at);
+      continue;
+    }
+    if ((c == '"' || c == '\'') && before_value.find(last) != none) {
+      at = quote_end(text, at);  // elsewhere, as in it's, a quote is a letter
     } else if (c == '{' || c == '[') {
       ++depth;
     } else if (c == '}' || c == ']') {
       if (--depth == 0) return Extent{from, at + 1};
     }
+    if (blanks.find(c) == none) last = c;
   }
   return {};
 }

@@ -163,6 +163,7 @@ Compiled compile(const Job& job) {
   words.insert(words.end(), {"-x", "c++", "-", board + "/runtime.cpp"});
   for (const std::string& source : sources.libraries.sources) words.push_back(source);
   const auto library = compiler.run(words, joined(sources.files));
+  if (!library) throw OutputError(std::string("cannot ") + purpose + ": the compiler is gone");
   Compiled compiled{"", library->complaint};
   if (library->well()) compiled.library = file::read_whole(folder.library()) + library_mark;
   return compiled;

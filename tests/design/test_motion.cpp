@@ -144,16 +144,16 @@ TEST_CASE("what a motion uses of the limits") {
   limits.tilt = {0.2, 0.1};
   limits.tilt_rate = {1, 2};
   limits.total_tilt = 0.25;
-  // Two rows of x, y, phi, theta and their rates.
+  // Two rows of x, y, phi, theta, their rates, and the tilt.
   const design::Use use =
-      design::use_of(limits, {0.05, -0.08, 0, 0.1, 0.1, 0, -0.05, 0, 0.3, 0, 0, -1});
+      design::use_of(limits, {0.05, -0.08, 0, 0.1, 0.1, 0, -0.05, 0, 0.3, 0, 0, -1, 0.15, 0.02});
   CHECK(use.edge[0] == Approx(0.5));
   CHECK(use.edge[1] == Approx(0.8));
   CHECK(use.edge[2] == Approx(0.5));
   CHECK(use.edge[3] == 0);
   CHECK(use.tilt[0] == Approx(0.5));
   CHECK(use.tilt[1] == Approx(0.5));
-  CHECK(use.total_tilt == Approx(std::hypot(0.1, 0.05) / 0.25));
+  CHECK(use.total_tilt == Approx(0.6));
   CHECK(use.tilt_rate[0] == Approx(0.3));
   CHECK(use.tilt_rate[1] == Approx(0.5));
   CHECK(use.middle[0] == Approx(-0.015));
@@ -161,6 +161,7 @@ TEST_CASE("what a motion uses of the limits") {
   CHECK(use.greatest_edge() == Approx(0.8));
   limits.rectangle.reset();
   limits.disc = 0.1;
+  limits.total_tilt.reset();
   CHECK(design::use_of(limits, {0.06, 0, 0.08, 0, 0, 0, 0, 0, 0, 0, 0, 0}).greatest() == Approx(1));
 }
 

@@ -85,6 +85,16 @@ TEST_CASE("a section of a scenario's text is replaced as a whole") {
   // Another key has the same section.
   CHECK_THROWS_AS(edited_text("a: &it {b: 1}\nc: *it\n", {{"c", "{b: 2}"}}), InputError);
   CHECK_THROWS_AS(edited_text("a: &it {b: 1}\nc: *it\n", {{"a", "{b: 2}"}}), InputError);
+  CHECK_THROWS_AS(edited_text("a: &it {b: 1}\nc: *it\n", {{"c.b", "2"}}), InputError);
+  CHECK_THROWS_AS(edited_text("a: &it {b: 1}\nc: *it\n", {{"a.b", "2"}}), InputError);
+  CHECK_THROWS_AS(edited_text("a:\n  &it\n  b: 1\nc: *it\n", {{"a.b", "2"}}), InputError);
+  CHECK_THROWS_AS(edited_text("a: &it 1\nc: [3, *it]\n", {{"a", "2"}}), InputError);
+  CHECK_THROWS_AS(edited_text("a: &it 1\nc: [3, *it]\n", {{"c.1", "2"}}), InputError);
+  CHECK(edited_text("a: &it 1\nc: [3, *it]\n", {{"c.0", "2"}}) == "a: &it 1\nc: [2, *it]\n");
+  // A quote within a word is a letter; two within single quotes are one.
+  CHECK(edited_text("a: {b: it's, c: ['}''', 1]}\nd: 'x'\n", {{"a.c", "[2]"}}) ==
+        "a: {b: it's, c: [2]}\nd: 'x'\n");
+  CHECK(edited_text("a: {b: it's}\nd: 'x'\n", {{"a", "{b: 1}"}}) == "a: {b: 1}\nd: 'x'\n");
   CHECK_THROWS_AS(edited_text("a:\n", {{"a", "{b: 2}"}}), InputError);
 }
 

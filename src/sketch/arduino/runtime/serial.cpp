@@ -188,8 +188,8 @@ void HardwareSerial::add_to_line(char c) {
 // The sketch continues while at most 64 bytes wait to be sent.
 size_t HardwareSerial::write(uint8_t letter) {
   spend(board.costs.serial);
-  add_to_line(static_cast<char>(letter));
   if (!begun_) return 0;
+  add_to_line(static_cast<char>(letter));
   if (line_is_free_ < board.now) line_is_free_ = board.now;
   line_is_free_ += per_byte_;
   const long long wait = line_is_free_ - board.now - 64 * per_byte_;

@@ -3,6 +3,7 @@
 
 // Print and Stream: numbers as text and back, as on the boards.
 #include <stdarg.h>
+#include <string.h>
 
 #include "Arduino.h"
 
@@ -150,11 +151,19 @@ String Stream::read_text(int end) {
 }
 
 bool Stream::find(const char* wanted) {
+  // The longest start of `wanted`, shorter than `length`, with which its first `length` letters
+  // end.
+  const auto restart = [wanted](size_t length) {
+    size_t shorter = length - 1;
+    while (memcmp(wanted, wanted + length - shorter, shorter) != 0) --shorter;
+    return shorter;
+  };
   size_t found = 0;
   while (wanted[found] != '\0') {
     const int letter = timed(&Stream::read);
     if (letter < 0) return false;
-    found = letter == wanted[found] ? found + 1 : letter == wanted[0] ? 1 : 0;
+    while (found > 0 && letter != wanted[found]) found = restart(found);
+    if (letter == wanted[found]) ++found;
   }
   return true;
 }
