@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// `bbsim check`: what a scenario models, and its loop.
 #include "api/check.hpp"
 
 #include <memory>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// `bbsim columns`: the columns that a run can record.
 #include "scenario/columns.hpp"
 
 #include <algorithm>

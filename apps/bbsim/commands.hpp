@@ -18,7 +18,7 @@
 namespace bbsim::api {
 struct RunResult;
 }
-namespace bbsim::plot {
+namespace bbsim::results {
 struct LogChoice;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// `bbsim compare`: two results, or a log and a run.
 #include <memory>
 #include <string>
 #include <vector>

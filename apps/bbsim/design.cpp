@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// `bbsim design`: the motion whose log determines the keys of a rig best.
 #include "api/design.hpp"
 
 #include <filesystem>

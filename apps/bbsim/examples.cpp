@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// `bbsim examples`: lists and writes the scenarios in the program.
 #include <algorithm>
 #include <cctype>
 #include <filesystem>

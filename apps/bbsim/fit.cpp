@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// `bbsim fit`: keys of a rig from its logs.
 #include "api/fit.hpp"
 
 #include <memory>

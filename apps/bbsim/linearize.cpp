@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// `bbsim linearize`: A, B, C, D, poles, zeros and margins.
 #include "api/linearize.hpp"
 
 #include <memory>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// `bbsim measure`: measures of a result or a log.
 #include "api/measure.hpp"
 
 #include <memory>

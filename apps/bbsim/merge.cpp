@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// `bbsim merge`: joins the parts of a sweep.
 #include <memory>
 #include <string>
 #include <vector>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// `bbsim new`: writes the template of a controller or a rig.
 #include <filesystem>
 #include <memory>
 #include <string>

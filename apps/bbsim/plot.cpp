@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// `bbsim plot`: pictures of runs and sweeps, by gnuplot.
 #include <algorithm>
 #include <array>
 #include <filesystem>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// `bbsim replay`: a page that plays runs, sweeps and logs, or a glTF file.
 #include <algorithm>
 #include <filesystem>
 #include <memory>

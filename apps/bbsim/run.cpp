@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// `bbsim run`: simulates a scenario.
 #include "api/run.hpp"
 
 #include <filesystem>

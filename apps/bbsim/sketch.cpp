@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// `bbsim sketch`: compiles an Arduino sketch as a controller.
 #include <filesystem>
 #include <memory>
 #include <string>

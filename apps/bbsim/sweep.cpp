@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// `bbsim sweep`: a scenario at many values of its keys.
 #include "api/sweep.hpp"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// `bbsim tune`: gains for the worst of many rigs.
 #include "api/tune.hpp"
 
 #include <memory>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// `bbsim verify`: checks the program against closed forms and references.
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Compares two results or a log and a run, and summarizes a sweep (measure.hpp).
 #include "record/compare.hpp"
 
 #include <algorithm>

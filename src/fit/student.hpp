@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Quantiles of Student's distribution.
 #pragma once
 
 namespace bbsim::fit {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Makes a Model from a Scenario (model.hpp): chooses the system, its states and its stops.
 #include <algorithm>
 #include <cmath>
 #include <utility>

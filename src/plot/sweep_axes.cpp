@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Axes, units and marks of a sweep's picture (sweep_parts.hpp).
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Reports what is missing beside `controller.drives`: a servo, a motor, a motion (sections.hpp).
 #include "scenario/relations.hpp"
 #include "scenario/sections.hpp"
 

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Refuses combinations of keys that no single relation describes (sections.hpp): sampling, laws,
+// servos, linkages, losses, events.
 #include <algorithm>
 #include <cmath>
 #include <numeric>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Reads `ball` and `plate`: sizes, masses, losses, pushes, the start.
 #include "base/number_text.hpp"
 #include "scenario/profile.hpp"
 #include "scenario/sections.hpp"

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Reads `gimbal`: motions, torques, servos, motors, linkages, mounting.
 #include <algorithm>
 #include <array>
 #include <limits>

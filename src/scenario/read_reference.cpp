@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Reads `controller.reference`.
 #include <utility>
 
 #include "scenario/sections.hpp"

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Reads `time`, `solver` and `output`.
 #include <algorithm>
 #include <set>
 

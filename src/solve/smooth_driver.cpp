@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Drives a stepper through a smooth run, from stop to stop of the input (stepper.hpp).
 #include <algorithm>
 #include <array>
 #include <cmath>

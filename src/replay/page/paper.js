@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// A canvas that is redrawn during printing may be printed empty, and so may a 3D canvas. Copies of
-// their pixels are printed instead.
+// Copies a canvas for printing: one that is redrawn during printing may be printed empty, as may a
+// 3D canvas.
 bbsim.copyForPaper = (from) => {
   const made = bbsim.text.element('canvas', {class: 'printed'});
   [made.width, made.height] = [from.width, from.height];
