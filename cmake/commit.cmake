@@ -3,7 +3,7 @@
 
 # cmake -DSOURCE=FOLDER -DINTO=HEADER -P commit.cmake: writes a header with the commit of the source tree. Leaves an
 # unchanged header alone, so that sources that include it are not compiled again.
-set(_commit "unknown: not built from a work tree of git")
+set(_commit "unknown: not built from a git work tree")
 file(REAL_PATH "${SOURCE}" _source)
 function(ask_git into)
   execute_process(COMMAND git --no-optional-locks -C "${_source}" ${ARGN}

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# cmake --install runs this on the pages that it has just installed (cmake/packages.cmake), whose links lead from file to
-# file of the sources. A link to an installed file of any component then leads to its installed place. A link to another
-# file of the sources becomes the file's name. Needs
+# cmake --install runs this on the pages that it has just installed (cmake/packages.cmake). Their links are between
+# source files. A link to an installed file of any component becomes a link to its installed place. A link to another
+# source file becomes the file's name. Needs
 #   BBSIM_SOURCE     the folder of the sources
-#   BBSIM_PREFIX     the prefix; without DESTDIR, as are the folders below
+#   BBSIM_PREFIX     the prefix, without DESTDIR, like the folders below
 #   BBSIM_DOC_DIR, BBSIM_DATA_DIR, BBSIM_INCLUDE_DIR   folders below it, or absolute
 
 foreach(_folder IN ITEMS DOC DATA INCLUDE)

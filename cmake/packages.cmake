@@ -19,7 +19,7 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME bbsim)
 set(CPACK_PACKAGE_VENDOR "the bbsim authors")
 set(CPACK_PACKAGE_CONTACT "the bbsim authors <bbsim@localhost.invalid>" CACHE STRING
-    "who packages are from, with an address for mail")
+    "who the packages are from, with an email address")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_STRIP_FILES ON)
@@ -54,14 +54,13 @@ set(CPACK_DEBIAN_DOCS_PACKAGE_RECOMMENDS bbsim) # the pages link to its examples
 set(_library libbbsim${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(_same "(= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "The C++ library of bbsim, a simulator of the ball-and-plate rig of control
-courses. It reads HDF5 files, and writes them, if the package bbsim is
-installed.")
+courses. It reads and writes HDF5 files if the package bbsim is installed.")
 file(WRITE ${PROJECT_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/triggers)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME ${_library})
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "bbsim ${_same}")
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "What programs are compiled with that use the C++ library of bbsim, a simulator
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Development files of the C++ library of bbsim, a simulator
 of the ball-and-plate rig of control courses: the header, the static library,
 and files for CMake and pkg-config.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libbbsim-dev)
@@ -72,7 +71,7 @@ if(TARGET bbsim_python)
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python package of bbsim, a simulator of the ball-and-plate rig of control
 courses: runs, sweeps and linear models in the process, with numpy arrays, and
 environments for learning.
-It reads HDF5 files, and writes them, if the package bbsim is installed.")
+It reads and writes HDF5 files if the package bbsim is installed.")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-bbsim)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
   execute_process(COMMAND ${PYTHON_EXECUTABLE} -c "import sys; v = sys.version_info; print(f'python3 (>= {v[0]}.{v[1]}~), python3 (<< {v[0]}.{v[1] + 1})', end='')"

@@ -18,7 +18,7 @@ function(require_text regex)
 endfunction()
 
 look_up()
-require_text("unknown: not built from a work tree of git")
+require_text("unknown: not built from a git work tree")
 file(TIMESTAMP "${_header}" _first "%s")
 execute_process(COMMAND ${CMAKE_COMMAND} -E sleep 1.1)
 look_up()
