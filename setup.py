@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Packs python/bbsim, its compiled part, and what that needs into a wheel: pip wheel .
+"""Packs python/bbsim, its compiled part, and the libraries that it needs into a wheel: pip wheel .
 
-CMake builds, in build/wheel; BBSIM_BUILD names a build to pack instead. scripts/package --wheel does so.
+CMake builds in build/wheel. BBSIM_BUILD names an existing build to pack instead, as for scripts/package --wheel.
 """
 
 import os
@@ -20,7 +20,7 @@ TARGETS = ("bbsim_python", "bbsim_hdf5", "bbsim_hdf5_reader")
 
 
 def pybind11_folder():
-    """For CMake: that of pip's own environment, if there is one; it finds the system's itself."""
+    """Tells CMake about pybind11 in pip's own environment, if it is there; CMake finds the system's itself."""
     try:
         import pybind11
     except ImportError:
@@ -44,13 +44,13 @@ class Build(build_ext):
                  build / "lib/bbsim/libbbsim_hdf5.so", build / "lib/bbsim/bbsim-hdf5-reader"]
         copies = [shutil.copy2(file, into) for file in built]
         subprocess.run(["strip", "--strip-unneeded", *copies], check=True)
-        # Beside the module, which is where it looks for the HDF5 module and the reader.
+        # The module looks for the HDF5 module and the reader beside itself.
         subprocess.run([ROOT / "scripts/bundle", into / "libraries", *copies], check=True)
 
 
 version = re.search(r"project\(bbsim VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
 setuptools.setup(
     version=version,
-    ext_modules=[setuptools.Extension("bbsim._bbsim", sources=[])],  # so that the wheel is of this Python and machine
+    ext_modules=[setuptools.Extension("bbsim._bbsim", sources=[])],  # so that the wheel is for this Python and machine
     cmdclass={"build_ext": Build},
 )

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Samples per second of processor time of bbsim.VectorEnv on configs/rig.yaml: in SIMD lanes, and as single runs.
+"""Samples per second of processor time of bbsim.VectorEnv on configs/rig.yaml, in SIMD lanes and as single runs.
 
     PYTHONPATH=build/release/python python3 bench/environments.py configs/rig.yaml
 """
@@ -13,12 +13,12 @@ import numpy as np
 import bbsim
 
 FALLING = {"ball.position.0": (0.03, 0.07), "gimbal.servo.natural_frequency": (25, 38)}  # m, rad/s
-# Runs with so many samples do not go in lanes but as single runs; their start is the same.
+# Runs with this many samples are single runs, not in lanes; their start is the same.
 SINGLE = {"time.end": 1e4}
 
 
 def pd(observations, memory):
-    """About the law of the scenario; a clip keeps it within the space of actions."""
+    """Approximately the law of the scenario, clipped to the space of actions."""
     ball = observations[:, :2]
     last, velocity = memory or (ball, np.zeros(ball.shape))
     velocity = 0.6 * velocity + 0.4 * (ball - last) / 0.02

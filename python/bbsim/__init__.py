@@ -45,14 +45,14 @@ def run(
 ) -> Result:
     """Runs a scenario.
 
-    set       values of keys in place of the scenario's: ``{"ball.radius": "2 cm"}``; None removes one
+    set       values of keys in place of the scenario's: ``{"ball.radius": "2 cm"}``; None removes a key
     error     bounds the error of x and y: 1e-9 (m) or "1 um"; replaces the scenario's tolerances
     measures  the measures to take; by default the usual ones of ``bbsim sweep``
     expect    conditions such as "max_tilt < 5 deg"; those that do not hold are in ``Result.unmet``
     output    also writes the rows to this file, .csv or .h5
 
-    A run that an event stops has the rows until then (``Result.status``). Raises InputError,
-    OutputError, and ControllerError where a callable raised or a controller does not begin.
+    If an event stops the run, the result has the rows until then (``Result.status``). Raises
+    InputError, OutputError, and ControllerError if a callable raises or a controller does not start.
     """
     asked = None if measures is None else _names(measures)
     file = "" if output is None else os.fspath(output)
@@ -69,7 +69,7 @@ def linearize(
 ) -> Linearization:
     """The scenario as a linear system.
 
-    kind  "plant", "loop" or "sampled"; by default what ``bbsim linearize`` shows of the scene
+    kind  "plant", "loop" or "sampled"; by default that of ``bbsim linearize``
     at    "home", "equilibrium", or a time of the run such as "2 s"
     """
     return Linearization(_bbsim.linearize(given(scenario, set), kind, at))
@@ -87,14 +87,14 @@ def sweep(
     seed: Optional[int] = None,
     threads: int = 0,
 ) -> "np.ndarray[Any, np.dtype[np.void]]":
-    """Runs a scenario at many values of its keys; a structured array with a row for each case.
+    """Runs a scenario at many values of its keys; returns a structured array, one row per case.
 
     vary      {KEY: values}: a sequence, or a SPEC such as "linear:0:1:11" or "normal:0:2 mm"
     measures  the measures to take; by default the usual ones
-    combine   "grid": each value with each (default); "zip": first values together, then second ones
+    combine   "grid": all combinations (default); "zip": the first values together, then the second
     samples   the number of cases to draw for "uniform" and "normal"
-    seed      of what is drawn
-    threads   by default as many as there are processors; 1 for a scenario with a callable
+    seed      the seed of drawn values
+    threads   by default the number of processors; always 1 for a scenario with a callable
 
     The fields are those of ``bbsim sweep``: case, the keys, status, reason, end_time, the measures.
     """

@@ -16,7 +16,7 @@ class Given:
     ) -> None: ...
 
 class Sample:
-    """What a callable controller is told: SI units and radians."""
+    """What a callable controller receives, in SI units and radians."""
 
     sample: int
     t: float

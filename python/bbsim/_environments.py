@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Many runs that go on together, a sample at a time, for learning."""
+"""Many runs that advance together, sample by sample, for learning."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ except ImportError:
     _EnvBase = object
 
     class Box:  # type: ignore[no-redef]
-        """As much of gymnasium.spaces.Box as an environment needs."""
+        """The parts of gymnasium.spaces.Box that an environment needs."""
 
         def __init__(self, low: Any, high: Any, shape: Optional[Tuple[int, ...]] = None, dtype: Any = np.float64) -> None:
             self.dtype = np.dtype(dtype)
@@ -79,15 +79,15 @@ def _require_range(key: str, found: Any) -> None:
 class VectorEnv(_VectorBase):
     """``n`` runs of a scenario with Gymnasium's API of vector environments.
 
-    An action is the commands for phi and theta of each run, an array of shape (n, 2), in the unit that the
-    scenario drives; it takes the place of the scenario's law. A step is a sample of the controller, and an
-    episode is a run: truncated at ``time.end``, terminated where an event or a failure ends it earlier. The
-    step after that begins the next episode by itself, with a reward of zero (``AutoresetMode.NEXT_STEP``).
+    An action has the commands for phi and theta of each run, an array of shape (n, 2), in ``command_unit``. It
+    replaces the scenario's law. A step is a sample of the controller, and an episode is a run: truncated at
+    ``time.end``, terminated if an event or a failure ends it earlier. The step after the end begins the next
+    episode, with a reward of zero (``AutoresetMode.NEXT_STEP``).
 
     randomize  {KEY: (low, high)}: drawn uniformly for each episode; or a function of a numpy Generator
-    seed       of what is drawn; ``reset(seed=)`` begins anew
-    reward     a function of the arrays observations, actions and terminated, to an array of n
-    record     keeps the rows of each episode, for ``result()``
+    seed       the seed of drawn values; ``reset(seed=)`` begins anew
+    reward     a function of the arrays observations, actions and terminated that returns an array of n
+    record     keeps the rows of each episode for ``result()``
     """
 
     metadata: Dict[str, Any] = {"render_modes": [], "autoreset_mode": "NextStep"}
@@ -159,8 +159,8 @@ class VectorEnv(_VectorBase):
     ) -> Tuple[Array, Dict[str, Any]]:
         """Begins an episode of each run.
 
-        ``options`` are values of keys of ``randomize``, which are then not drawn, until the next
-        ``reset()``; and ``{"reset_mask": mask}`` begins only some.
+        ``options`` fix values of keys of ``randomize`` until the next ``reset()``;
+        ``{"reset_mask": mask}`` begins only some runs.
         """
         if seed is not None:
             self._random = np.random.default_rng(seed)
@@ -174,7 +174,7 @@ class VectorEnv(_VectorBase):
         return self._runs.observations.copy(), {}
 
     def step(self, actions: Any) -> Tuple[Array, Array, Array, Array, Dict[str, Any]]:
-        """Gives each run its commands, and goes to its next sample."""
+        """Gives each run its commands, and advances it to its next sample."""
         if not self._begun.all():
             raise RuntimeError("step: found a run that has not begun; allowed: reset() first")
         commands = np.ascontiguousarray(actions, dtype=np.float64)

@@ -49,7 +49,7 @@ class InputError(Error, ValueError):
     key: Optional[str]
     """The key of the first problem; None if no key is at fault."""
     hint: str
-    """What to write instead, of the first problem."""
+    """What to write instead, for the first problem."""
 
     def __init__(self, problems: Iterable[Tuple[str, str]]) -> None:
         self.problems = [_problem(place, message) for place, message in problems]
@@ -67,4 +67,4 @@ class OutputError(Error, OSError):
 
 
 class ControllerError(Error, RuntimeError):
-    """The scene's own controller failed; its exception is the cause (``__cause__``)."""
+    """The scenario's controller failed; its exception is the cause (``__cause__``)."""

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a run gives."""
+"""The results of a run."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Array = "np.ndarray[Any, np.dtype[np.float64]]"
 class Result:
     """The rows of a run, by column, and how the run ended.
 
-    ``result["x"]`` is a numpy array on the memory that the run wrote, in SI units and radians.
+    ``result["x"]`` is a numpy array that shares the memory of the run, in SI units and radians.
     """
 
     def __init__(self, run: _bbsim.Run) -> None:
@@ -66,12 +66,12 @@ class Result:
 
     @property
     def warnings(self) -> List[str]:
-        """What may not be as it was meant."""
+        """What may not be as you meant it."""
         return self._run.warnings
 
     @property
     def unmet(self) -> List[str]:
-        """Each of ``expect`` that does not hold."""
+        """The conditions of ``expect`` that do not hold."""
         return self._run.unmet
 
     def __getitem__(self, column: str) -> Array:
@@ -106,7 +106,7 @@ class Result:
         return frame
 
     def plot(self, columns: Optional[Sequence[str]] = None) -> "matplotlib.figure.Figure":
-        """Draws columns over time with matplotlib: all, or those named; a panel for each unit."""
+        """Draws columns over time with matplotlib: all, or the given ones; one panel per unit."""
         import matplotlib.pyplot as plt
 
         names = list(columns) if columns is not None else [n for n in self.columns if n != "t"]
@@ -148,7 +148,7 @@ class Result:
         )
 
     def _path(self) -> str:
-        """The ball's path from above, as SVG; empty if the columns do not tell it."""
+        """The ball's path from above, as SVG; empty without the columns x and y."""
         if "x" not in self or "y" not in self or len(self) == 0:
             return ""
         step = max(1, len(self) // 500)
@@ -172,7 +172,7 @@ class Result:
 class Linearization:
     """A scene as a linear system: dz = A z + B u, y = C z + D u.
 
-    In continuous time ``dt`` is None and dz is z'; else dz is z a period ``dt`` later.
+    In continuous time ``dt`` is None and dz is z'; otherwise dz is z after one period ``dt``.
     """
 
     def __init__(self, made: _bbsim.Linearized) -> None:
@@ -200,7 +200,7 @@ class Linearization:
 
     @property
     def margins(self) -> Dict[str, Any]:
-        """The margins of each command's loop, as ``bbsim linearize`` writes them; {} of a plant."""
+        """The margins of each command's loop, as ``bbsim linearize`` writes them; {} for a plant."""
         return self._json.get("margins") or {}
 
     def to_scipy(self) -> Any:

@@ -19,7 +19,7 @@ Settings = Optional[Mapping[str, Any]]
 
 
 def _plain(value: Any) -> Any:
-    """The value as what JSON has: dicts, lists, texts, numbers, booleans and None."""
+    """The value in the types of JSON: dicts, lists, texts, numbers, booleans and None."""
     if isinstance(value, (str, bool, int)) or value is None:
         return value
     if isinstance(value, (float, np.floating)):
@@ -44,7 +44,7 @@ def _plain(value: Any) -> Any:
 
 
 class _Word(str):
-    """A word that stands without quotation marks."""
+    """A word to write without quotation marks."""
 
 
 def _quoted(text: str) -> str:
@@ -70,12 +70,12 @@ def _text(plain: Any) -> str:
 
 
 def as_yaml(value: Any) -> str:
-    """The value as it stands behind ``KEY=``: texts as they are, all else in YAML's flow style."""
+    """The value as written after ``KEY=``: texts unchanged, everything else in YAML's flow style."""
     return _whole(value) if isinstance(value, str) else _text(_plain(value))
 
 
 def _without_callable(scenario: Mapping[str, Any]) -> Tuple[Mapping[str, Any], Optional[Callable[..., Any]]]:
-    """A dict's callable, which no YAML holds; a library stands in its place."""
+    """The dict with a library in place of its callable, which YAML cannot hold; and the callable."""
     controller = scenario.get("controller")
     if not isinstance(controller, Mapping) or "callable" not in controller:
         return scenario, None

@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Hooks of MkDocs for scripts/docs: docs/ is written for GitHub, and these make a site of it.
+"""Hooks of MkDocs for scripts/docs: docs/ is written for GitHub, and these turn it into a site.
 
 * Files that the pages link to and that are outside docs/ become pages below source/.
-* Comments are left out, and commands get the colors of a console.
+* Comments are removed, and commands get the colors of a console.
 * Headings have the names that links on GitHub use.
-* In the end, every link must lead somewhere, and nothing may come from the network.
+* At the end, no link may be broken, and nothing may come from the network.
 
 The environment names the folder that scripts/docs prepared: BBSIM_SITE_MADE, with assets/ and replays/,
 and the scenarios that it replayed: BBSIM_SITE_REPLAYS.
@@ -29,7 +29,7 @@ MADE = os.environ["BBSIM_SITE_MADE"]
 
 # Pages of the site that are not in docs/, with the files of the repository that contain their text.
 PAGES = {"changes.md": "CHANGELOG.md", "replays.md": "scripts/site/replays.md"}
-# If only one of these folders is linked to, its files get pages too.
+# A link to one of these folders gives its files pages too.
 WHOLE = ("configs/", "examples/", "scripts/examples/")
 LANGUAGES = {".yaml": "yaml", ".yml": "yaml", ".py": "python", ".js": "javascript", ".awk": "awk", ".cmake": "cmake",
              ".c": "c", ".h": "cpp", ".hpp": "cpp", ".cpp": "cpp", ".ino": "cpp", ".sh": "sh"}
@@ -77,7 +77,7 @@ def with_links(line, change):
 
 
 def target_path(target, page):
-    """Where in the repository a link of a file leads, or None if it leaves the repository or stays on its page."""
+    """The path in the repository to which a link leads; None if it leaves the repository or stays on its page."""
     parts = urlsplit(target)
     if parts.scheme or not parts.path:
         return None
@@ -112,7 +112,7 @@ def on_config(config):
 
 
 def slug(text, separator):
-    """The name of a heading in links, as scripts/check-docs and GitHub have it."""
+    """The name of a heading in links, as in scripts/check-docs and on GitHub."""
     text = re.sub(r"[`*(),.:;!?'\"/\\+=<>{}\[\]|&%$#@^~]", "", text.strip().lower())
     return text.replace(" ", separator)
 
@@ -252,7 +252,7 @@ def on_page_markdown(markdown, page, config, files):
         close(lines)
     text = "\n".join(lines)
     if uri == "index.md":
-        # The picture links to the page with what it shows.
+        # The picture links to the page with its replay.
         text = re.sub(r"^(!\[[^\]]*\]\([^)]*\))$", r"[\1](replays.md)\n\n[Play this and other replays](replays.md)",
                       text, count=1, flags=re.MULTILINE)
     return text
@@ -267,7 +267,7 @@ def close(lines):
 
 
 def on_post_build(config):
-    """Search leaves the sources out, and works without a server; then all links are followed."""
+    """Removes the sources from the search, makes it work without a server, and checks all links."""
     site = config["site_dir"]
     index_file = os.path.join(site, "search", "search_index.json")
     with open(index_file, encoding="utf-8") as file:

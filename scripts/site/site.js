@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// Formulas, tables, the colors of replays, and what the copy buttons take.
+// Formulas, tables, the colors of replays, and what the copy buttons copy.
 (() => {
-  // Numbers and names are not broken, and sentences have room, where a table is wider than a phone.
+  // If a table is wider than a phone, numbers and names are not broken, and sentences have room.
   for (const cell of document.querySelectorAll('.md-typeset td')) {
     const {length} = cell.textContent;
     if (length <= 14) cell.classList.add('short');
@@ -28,8 +28,8 @@
     new MutationObserver(paint).observe(document.body, {attributes: true, attributeFilter: ['data-md-color-scheme']});
   }
 
-  // A copy button takes the commands alone, without prompts and without what they print. It must know before
-  // the theme's own listener asks it.
+  // A copy button copies only the commands, without prompts and output. Its text must be set before the theme's
+  // own listener reads it.
   document.addEventListener('click', (event) => {
     const button = event.target.closest('[data-clipboard-target]');
     const block = button && button.closest('.language-console');
