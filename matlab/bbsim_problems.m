@@ -1,7 +1,7 @@
 function problems = bbsim_problems(fault)
 %BBSIM_PROBLEMS  What is wrong with a scenario, key by key.
 %   PROBLEMS = BBSIM_PROBLEMS(FAULT) reads an error that BBSIM_RUN, BBSIM_SWEEP or BBSIM_LINEARIZE
-%   threw. It returns a struct array, an element a mistake:
+%   threw. It returns a struct array, one element per mistake:
 %     where    the place, such as scenario.yaml:3:7; empty for a struct
 %     key      the key's path, such as ball.radius; empty if there is none
 %     message  what was found

@@ -10,8 +10,8 @@ function [rows, summary] = bbsim_run(scenario, varargin)
 %       rows = bbsim_run(s);
 %       plot(rows.t, rows.y)
 %
-%   A matrix is a list of its rows, a cell array a list, [] stands for null, and a containers.Map
-%   for a mapping whose keys are not names of fields. Files that a struct names are found from the
+%   A matrix becomes a list of its rows, a cell array a list, [] becomes null, and a containers.Map a
+%   mapping, whose keys need not be names of fields. Files that a struct names are relative to the
 %   current folder.
 %
 %   [ROWS, SUMMARY] = BBSIM_RUN(...) also returns the summary of the run: how it ended, the model,
@@ -21,10 +21,10 @@ function [rows, summary] = bbsim_run(scenario, varargin)
 %     'Set'      keys to set, {KEY, VALUE, ...}, such as {'ball.radius', 0.02}
 %     'Measure'  measures to take: 'max_tilt', or {'x.RiseTime', 'rms_x from 5 s'}
 %     'Error'    a bound for the error of x and y: 1e-9 (m) or '1 um'
-%     'Output'   FILE.csv or FILE.h5, to keep; ROWS is then empty for FILE.h5
+%     'Output'   a file to keep, FILE.csv or FILE.h5; ROWS is empty for FILE.h5
 %
-%   A run that ended early gives what it reached, and the warning bbsim:endedEarly. A scenario at
-%   fault is an error bbsim:scenario; BBSIM_PROBLEMS has its keys and hints.
+%   A run that ends early returns its rows so far, with the warning bbsim:endedEarly. A faulty
+%   scenario is an error bbsim:scenario; BBSIM_PROBLEMS returns its keys and hints.
 %
 %   The program is the one that the environment variable BBSIM names, or bbsim in the PATH.
 %

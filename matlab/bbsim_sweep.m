@@ -1,6 +1,6 @@
 function [cases, summary] = bbsim_sweep(scenario, vary, varargin)
 %BBSIM_SWEEP  Simulate a scenario of bbsim at many values of its keys.
-%   CASES = BBSIM_SWEEP(SCENARIO, VARY) returns a row a case: a table in MATLAB, a struct of columns
+%   CASES = BBSIM_SWEEP(SCENARIO, VARY) returns one row per case: a table in MATLAB, a struct of columns
 %   in Octave. SCENARIO is as for BBSIM_RUN. VARY is {KEY, VALUES, ...}; VALUES are numbers, a cell
 %   array of values, or a text as `bbsim sweep --vary` takes it:
 %
@@ -9,19 +9,19 @@ function [cases, summary] = bbsim_sweep(scenario, vary, varargin)
 %       plot(cases.controller_pid_kp_0_0, cases.x_Overshoot)
 %       cases = bbsim_sweep('step.yaml', {'ball.position.0', 'normal:0:2 mm'}, 'Samples', 1000);
 %
-%   The columns are the case, the varied keys, status, reason, end_time and the measures. What is no
-%   letter or digit in a name is _ in that of the column.
+%   The columns are the case, the varied keys, status, reason, end_time and the measures. In their
+%   names, all characters but letters and digits become _.
 %
-%   [CASES, SUMMARY] = BBSIM_SWEEP(...) also returns the summary: settings, how cases ended.
+%   [CASES, SUMMARY] = BBSIM_SWEEP(...) also returns the summary: the settings, and how cases ended.
 %
 %   BBSIM_SWEEP(SCENARIO, VARY, NAME, VALUE, ...) takes 'Set', 'Measure' and 'Error' as BBSIM_RUN
 %   does, and
-%     'Combine'  'grid', each value with each (default), or 'zip'
+%     'Combine'  'grid', all combinations (default), or 'zip'
 %     'Samples'  the number of cases to draw for uniform and normal
 %     'Seed'     the seed of drawn values
 %     'Threads'  the number of threads
-%     'Output'   FILE.csv or FILE.h5, to keep; CASES is then empty for FILE.h5
-%     'Resume'   true to go on with a sweep into Output that did not end
+%     'Output'   a file to keep, FILE.csv or FILE.h5; CASES is empty for FILE.h5
+%     'Resume'   true to continue an unfinished sweep into Output
 %
 %   See also BBSIM_RUN, BBSIM_LINEARIZE, BBSIM_PROBLEMS.
 

@@ -6,9 +6,9 @@
     python3 configs/hard/make_pulse.py > configs/hard/pulse.csv
 
 phi = 0.02 (1 - s^2)^4 rad with s = (t - 500 s) / 0.5 ms within |s| < 1, and zero elsewhere. It
-meets zero with three derivatives, and 64 intervals resolve it. What little a spline rings at the
-ends of the pulse decays 3.7 times each interval: 60 more of the same width see to it that nothing
-is left where the rows then move apart, twice as far each time.
+meets zero with three derivatives, and 64 intervals resolve it. A spline rings a little at the ends of
+the pulse, and this decays 3.7 times each interval: 60 more of the same width damp it out. Beyond them,
+the intervals double in width each time.
 """
 from fractions import Fraction
 

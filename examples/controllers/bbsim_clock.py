@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Simulated time for a controller in Python that reads a clock. Import it before all modules that do:
+"""Simulated time for a controller in Python that reads a clock. Import it before any module that reads one:
 
-    import bbsim_clock               # time.time, monotonic, perf_counter and sleep are those of the simulation
+    import bbsim_clock               # time.time, monotonic, perf_counter and sleep now use simulated time
     ...
     bbsim_clock.now = message["t"]   # at each sample
 """
@@ -12,7 +12,7 @@ now = 0.0  # s
 
 
 def sleep(seconds):
-    """Takes no time outside; the next sample comes when it comes."""
+    """Takes no real time, and does not delay the next sample."""
     global now
     now += seconds
 

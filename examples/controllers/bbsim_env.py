@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A ball on a plate as a Gymnasium-style environment: reset() and step(), by bbsim itself.
+"""A ball on a plate as a Gymnasium-style environment: reset() and step() of bbsim's runs.
 
     from bbsim_env import BallOnPlate
 
@@ -14,9 +14,9 @@
         done = terminated or truncated
     env.close()
 
-The scenario is any whose controller is a program: an environment puts itself in the place of that
-program, and time stands still until the next step(). An episode is a run of bbsim. Needs Python 3.9
-on Linux, and nothing else; Gymnasium's own classes take it as it is.
+The scenario can be any whose controller is a program: the environment replaces that program, and
+simulated time waits for the next step(). An episode is a run of bbsim. Needs only Python 3.9 on
+Linux; Gymnasium's own classes accept it as it is.
 """
 import json
 import os
@@ -27,17 +27,17 @@ import tempfile
 
 
 class BallOnPlate:
-    """An observation is a list of eight numbers, SI: the ball as the sensor last saw it (x, y), where
-    it is to be (x, y), and the servos' angles and rates (phi, theta, phi_rate, theta_rate)."""
+    """An observation is a list of eight numbers in SI units: the ball as last measured (x, y), its
+    reference (x, y), and the servos' angles and rates (phi, theta, phi_rate, theta_rate)."""
 
     observation_size, action_size = 8, 2
 
     def __init__(self, scenario, overrides=(), bbsim="bbsim", output=None, reward=None,
                  columns=("t", "x", "y", "phi", "theta", "phi_command", "theta_command")):
         """`overrides` are "key.path=value", as after --set; `output` is a CSV or HDF5 file that gets
-        each episode in turn, with `columns` (the scenario's own may be numbers that its program
-        gives, and an environment does not); `reward(sample, action)` replaces minus the squared
-        distance from the reference, m^2."""
+        each episode in turn, with `columns` (the scenario's own may be those of its program, which
+        an environment does not give); `reward(sample, action)` replaces minus the squared distance
+        from the reference, m^2."""
         self._scenario = os.fspath(scenario)
         self._overrides = ["output.columns=" + json.dumps(list(columns)), *overrides]
         self._bbsim, self._output = os.fspath(bbsim), output
@@ -51,9 +51,9 @@ class BallOnPlate:
         return -sum((a - b) ** 2 for a, b in zip(sample["ball"], sample["reference"]))
 
     def reset(self, *, seed=None, options=None):
-        """Begins an episode. `seed` is the sensor's, of a scenario with noise or dropouts; `options`
-        are keys of the scenario with their values, such as {"ball.position": [0.05, 0]}. Raises
-        RuntimeError with what bbsim says if it refuses."""
+        """Begins an episode. `seed` is the sensor's, for a scenario with noise or dropouts; `options`
+        are keys of the scenario with their values, such as {"ball.position": [0.05, 0]}. If bbsim
+        refuses, raises RuntimeError with its message."""
         self.close()
         keys = dict(options or {})
         if seed is not None:
@@ -95,7 +95,7 @@ class BallOnPlate:
     def step(self, action):
         """Sends the commands for phi and theta (rad, or rad/s^2 if accelerations are driven), and
         returns (observation, reward, terminated, truncated, info) of the next sample: terminated
-        where an event stopped the run, or the motion did, truncated at its end."""
+        if an event or a failure stopped the run, truncated at its end."""
         if self._process is None:
             raise RuntimeError("step() before reset(), or after the episode's end")
         sample = self._ask({"command": [float(command) for command in action]})
@@ -108,7 +108,7 @@ class BallOnPlate:
         return self._observe(sample), self._reward(sample, action), terminated, truncated, info
 
     def close(self):
-        """Ends the episode, wherever it is."""
+        """Ends the episode at any point."""
         if self._process is not None:
             self._process.terminate()
             self._end()
@@ -131,7 +131,7 @@ class BallOnPlate:
         return [*self._ball, *sample["reference"], *sample["servo"], *sample["servo_rate"]]
 
     def _end(self):
-        """Waits for bbsim's end; its exit code."""
+        """Waits until bbsim ends; returns its exit code."""
         for end in (self._line, self._to_bbsim, self._from_bbsim):
             try:
                 end.close()
@@ -161,7 +161,7 @@ class BallOnPlate:
 
 
 def hand_over(place):
-    """What bbsim runs: hands its ends of the lines to the environment, and stays until that ends."""
+    """Runs as bbsim's program: passes its pipes to the environment, and waits until that ends."""
     with socket.socket(socket.AF_UNIX) as line:
         line.connect(place)
         socket.send_fds(line, [b"."], [0, 1])

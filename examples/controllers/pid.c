@@ -7,8 +7,8 @@
  *         -o examples/controllers/libpid.so
  *     bbsim run examples/controllers/library.yaml
  *
- * gives, to the bit, what configs/step.yaml gives; without -ffp-contract=off, which keeps compilers
- * from fusing a product with a sum, that holds but for the rounding. */
+ * gives the results of configs/step.yaml bit for bit. Without -ffp-contract=off, compilers may fuse a
+ * product with a sum, and the results agree but for rounding. */
 #include <bbsim/controller.h>
 #include <math.h>
 #include <stdlib.h>
@@ -21,12 +21,12 @@ struct axis {
 
 struct pid {
   double kp, kv, ki, filter, limit, period;
-  double periods, elapsed; /* since the ball was seen last; elapsed in s */
+  double periods, elapsed; /* since the ball was last seen; elapsed in s */
   int seen_any;
   struct axis axis[2];
   double command[2];
   size_t columns;
-  int column[2]; /* which axis' integral each column is */
+  int column[2]; /* the axis whose integral each column has */
 };
 
 static __thread const char *last_error = NULL;

@@ -5,7 +5,7 @@
 
     bbsim run examples/controllers/python.yaml
 
-gives, to the bit, what configs/step.yaml gives. Python's standard library suffices.
+gives the results of configs/step.yaml bit for bit. Needs only Python's standard library.
 """
 import json
 import sys

@@ -44,7 +44,7 @@ static double elevation(const struct legs *of, double azimuth, double phi, doubl
   const double distance = hypot(x, z);
   const double cosine = (distance * distance + of->horn * of->horn - of->rod * of->rod) /
                         (2 * of->horn * distance);
-  return atan2(z, x) - acos(cosine); /* of the two, the knee that points outward */
+  return atan2(z, x) - acos(cosine); /* of two solutions, the knee outward */
 }
 
 int bbsim_controller_reset(void *controller, const bbsim_setup *setup) {

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Learns to balance the rig of configs/rig.yaml, by the cross-entropy method, from nothing but bbsim and numpy.
+"""Learns to balance the rig of configs/rig.yaml, by the cross-entropy method, with only bbsim and numpy.
 
     python3 examples/learning/cross_entropy.py configs/rig.yaml
 
-Each generation draws policies about a mean and tries each on rigs of its own, all at once in a
-bbsim.VectorEnv. The best policies give the next mean and spread. In the end, the mean policy and the
-scenario's own law run on the same rigs, which no training has seen, by bbsim.sweep.
+Each generation draws policies around a mean and tries all of them on the same random rigs, at once in a
+bbsim.VectorEnv. The best policies give the next mean and spread. At the end, the mean policy and the
+scenario's own law, by bbsim.sweep, run on the same rigs, none of them from training.
 """
 import argparse
 import itertools
@@ -17,7 +17,7 @@ import numpy as np
 
 import bbsim
 
-# What is not known of a rig: uniform within these bounds.
+# Unknown properties of a rig: uniform within these bounds.
 RIGS = {
     "ball.position.0": (0.03, 0.07),
     "ball.position.1": (-0.02, 0.02),
@@ -28,7 +28,7 @@ RIGS = {
 }
 PERIOD = 0.02  # of the controller, s
 SCENE = {"time.end": 4, "controller.sampling.period": PERIOD}
-FALLEN = 0.1  # m: a ball that fell off counts as that far from its reference
+FALLEN = 0.1  # m: a ball that fell off counts as this far from its reference
 COLUMN = {name: i for i, (name, _, _) in enumerate(bbsim.VectorEnv.observation_columns)}
 X, V = (slice(COLUMN[name], COLUMN[name] + 2) for name in ("x_reference", "x_reference_rate"))
 SERVO, RATE = (slice(COLUMN[name], COLUMN[name] + 2) for name in ("servo_phi", "servo_phi_rate"))
@@ -36,7 +36,7 @@ SIGNS = np.array([1.0, -1.0])  # phi moves the ball along x; minus theta moves i
 
 
 class Policy:
-    """A command is a weighted sum of what is known of its axis: the error of the ball's position and
+    """A command is a weighted sum of quantities of its axis: the error of the ball's position and
     velocity, the sum of errors, and the servo's angle and rate. Both axes have the same weights."""
 
     START = np.array([0.5, 0.5, 0.1, 0.5, 0.05])  # the first spread of the weights
@@ -80,7 +80,7 @@ def costs(envs, policy):
 
 
 class Rigs:
-    """What VectorEnv's randomize takes: the rigs of a list, again and again."""
+    """For VectorEnv's randomize: the rigs of a list, repeated."""
 
     def __init__(self):
         self.randomize = {key: lambda _, key=key: next(self.values[key]) for key in RIGS}
@@ -92,7 +92,7 @@ class Rigs:
 
 
 def learn(scenario, *, policies=64, rigs=8, best=8, generations=30, seed=1, said=print):
-    """The weights that the cross-entropy method ends with."""
+    """Returns the final weights of the cross-entropy method."""
     random, given = np.random.default_rng(seed), Rigs()
     envs = bbsim.VectorEnv(scenario, policies * rigs, given.randomize, seed, set=SCENE)
     mean, spread = np.zeros(Policy.START.size), Policy.START

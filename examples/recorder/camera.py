@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The ball in pictures of a camera, in the plate's frame and on the sketch's clock. Needs numpy; OpenCV
-only reads cameras, videos and markers. Lengths are in mm, as in the log."""
+"""Finds the ball in a camera's pictures, in the plate's frame and on the sketch's clock. Needs numpy, and
+OpenCV for cameras, videos and markers only. Lengths are in mm, as in the log."""
 import csv
 import math
 import time
@@ -20,7 +20,7 @@ def opencv():
 
 
 def frames(source):
-    """Opens a camera or video; what it returns gives (s, picture), by time.monotonic() or from the video's start."""
+    """Opens a camera or video; yields (s, picture), with s of time.monotonic() or since the video's start."""
     cv2 = opencv()
     video = not source.isdecimal() and not source.startswith("/dev/")
     capture = cv2.VideoCapture(int(source) if source.isdecimal() else source)
@@ -42,7 +42,7 @@ def frames(source):
 def save_picture(pictures, path):
     last = None
     for i, (_, last) in enumerate(pictures):
-        if i == 10:  # a camera needs some for its exposure
+        if i == 10:  # a camera needs some to set its exposure
             break
     if last is None or not opencv().imwrite(path, last):
         raise Problem(3, f"--picture: {path} could not be written")
@@ -60,16 +60,16 @@ def read_log(path, needs):
 
 
 class Clock:
-    """The host's time of the sketch's: host = start + rate board. No line arrives before it is sent, so the
-    clocks' line is below all arrivals. Of those, it is the one that is highest at the mean time: an
-    edge of their lower convex hull. Lines that were late do not move it."""
+    """The host's time as a function of the sketch's: host = start + rate board. No line arrives before it is
+    sent, so this straight line is below all arrivals. Of all such lines, it is the highest at the mean
+    time: an edge of the lower convex hull of the arrivals. Late arrivals do not move it."""
 
     def __init__(self, rows, baud):
         board = np.array([row.t for row in rows])
         # A line's own time on the wire: 8 bits with start and stop, and an end of two characters.
         host = np.array([row.arrival - 10 * (len(",".join(row.fields)) + 2) / baud for row in rows])
         self.rate = self._slope(board, host - host[0])
-        if abs(self.rate - 1) > 0.02:  # no resonator is that far off: too few lines tell it
+        if abs(self.rate - 1) > 0.02:  # no resonator is that far off: there are too few lines
             self.rate = 1.0
         late = host - self.rate * board
         self.start = late.min()
@@ -93,12 +93,12 @@ class Clock:
         return (host - self.start) / self.rate
 
     def text(self):
-        return f"the board's clock runs {100 * (1 / self.rate - 1):+.2f} % against this computer's; lines are {1000 * self.spread:.1f} ms " \
-            "later than the soonest, in the median"
+        return f"the board's clock runs {100 * (1 / self.rate - 1):+.2f} % against this computer's; the median line arrives {1000 * self.spread:.1f} ms " \
+            "later than the earliest one"
 
 
 def homography(plate, pixels):
-    """The matrix that takes (x, y, 1) of four places to their pixels."""
+    """The matrix that maps (x, y, 1) of four places to their pixels."""
     rows, right = [], []
     for (x, y), (u, v) in zip(plate, pixels):
         rows += [[x, y, 1, 0, 0, 0, -u * x, -u * y], [0, 0, 0, x, y, 1, -v * x, -v * y]]
@@ -106,7 +106,7 @@ def homography(plate, pixels):
     try:
         return np.append(np.linalg.solve(rows, right), 1).reshape(3, 3)
     except np.linalg.LinAlgError:
-        raise Problem(2, "--corners: found three of four in one line; allowed: the corners of the plate") from None
+        raise Problem(2, "--corners: found three of the four on one line; allowed: the corners of the plate") from None
 
 
 def rotation(phi, theta):
@@ -116,7 +116,7 @@ def rotation(phi, theta):
 
 
 class View:
-    """A camera that stands still, from how it shows the level plate. With its place it is known in full."""
+    """A fixed camera, known from its picture of the level plate; completely, if its place is given."""
 
     def __init__(self, level, radius, place=None, height=0.0):
         self.level, self.radius, self.height = np.asarray(level), radius, height
@@ -124,7 +124,7 @@ class View:
         self.camera = None
         if place is not None:
             self.camera = np.array([place[0], place[1], place[2] + height])
-            # Its matrix M takes p - camera to a pixel; two columns are the plate's, the third is what is left.
+            # Its matrix M maps p - camera to a pixel; two columns are the plate's, the third one follows.
             third = -(self.level @ [place[0], place[1], 1]) / place[2]
             self.matrix = np.column_stack([self.level[:, 0], self.level[:, 1], third])
             self.axis = self.matrix[2] / np.linalg.norm(self.matrix[2])
@@ -137,14 +137,14 @@ class View:
         return left @ right
 
     def position(self, pixel, turn=np.eye(3)):
-        """The ball's contact point, of the center of its outline."""
+        """The ball's contact point, from the center of its outline."""
         seen = np.array([*pixel, 1.0])
         if self.camera is None:
             x, y, w = self.inverse @ seen
             return x / w, y / w
         ray, camera, axis = turn.T @ np.linalg.solve(self.matrix, seen), turn.T @ self.camera, turn.T @ self.axis
-        # A sphere's outline is an ellipse. Its center is the picture of a point that is nearer than
-        # the sphere's center, by radius^2 / depth along the optical axis.
+        # A sphere's outline is an ellipse. Its center shows a point that is nearer than the sphere's
+        # center, by radius^2 / depth along the optical axis.
         nearer = np.zeros(3)
         for _ in range(3):
             center = camera + ray * ((self.height + self.radius - nearer[2] - camera[2]) / ray[2]) + nearer
@@ -175,7 +175,7 @@ class Finder:
         return np.sqrt(((picture.astype(np.float32) - self.color)**2).sum(axis=2))
 
     def _look_at(self, level, shape):
-        """The plate's pixels, and a pixel's size on it."""
+        """The plate's pixels, and the pixels per mm at each."""
         if self.known is not None and self.known[1] == shape and np.array_equal(self.known[0], level):
             return self.region
         half = np.array(self.plate) / 2
@@ -189,13 +189,13 @@ class Finder:
         u, v = np.meshgrid(np.arange(low[0], high[0]), np.arange(low[1], high[1]))
         x, y, w = (np.linalg.inv(level) @ np.stack([u.ravel(), v.ravel(), np.ones(u.size)])).reshape(3, *u.shape)
         on_plate = (abs(x / w) <= half[0]) & (abs(y / w) <= half[1])
-        # Pixels for a mm: the root of the determinant of the homography's derivative.
+        # Pixels per mm: the root of the determinant of the homography's derivative.
         scale = np.sqrt(abs(np.linalg.det(level)) * abs(w)**3)
         self.known, self.region = (level, shape), (low, high, u, v, on_plate, scale)
         return self.region
 
     def find(self, picture, level, outlines=()):
-        """The pixel of the ball's center, None if there is no ball; `outlines` are those of markers."""
+        """The pixel of the ball's center, None if there is no ball; `outlines` are the markers'."""
         low, high, u, v, on_plate, scale = self._look_at(level, picture.shape)
         for outline in outlines:
             on_plate = on_plate & ~inside(outline, u, v)
@@ -214,7 +214,7 @@ class Finder:
         window = tuple(slice(max(0, int(at + size / 2 - 3 * radius)), int(at + size / 2 + 3 * radius) + 1)
                        for at in (row, column))
         u, v, weight = u[window], v[window], np.clip(like[window] / contrast, 0, 1)
-        weight[weight < 0.2] = 0  # the ground's noise
+        weight[weight < 0.2] = 0  # the background's noise
         for _ in range(20):
             near = weight * ((u - center[0])**2 + (v - center[1])**2 < (1.5 * radius)**2)
             area = near.sum()
@@ -254,7 +254,7 @@ class Markers:
 
 
 def inside(outline, u, v):
-    """Which pixels are in a marker, with some room around it."""
+    """Which pixels are in a marker or close to it."""
     middle = outline.mean(axis=0)
     points = middle + 1.15 * (outline - middle)
     sides = [(b[0] - a[0]) * (v - a[1]) - (b[1] - a[1]) * (u - a[0]) for a, b in zip(points, np.roll(points, -1, axis=0))]
@@ -300,7 +300,7 @@ class Watcher:
         return sum(log.rows[0].t <= t <= log.rows[-1].t for t in moments)
 
     def merge(self, log, moments):
-        """How many pictures show the ball, and the rows of both: the sketch's have angles, the camera's have the ball."""
+        """The number of pictures with the ball, and all rows: the sketch's have angles, the camera's have the ball."""
         arguments = self.arguments
         level = self.level
         if self.markers:

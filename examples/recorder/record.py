@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Records what the sketch of `bbsim design --sketch` plays, for `bbsim fit`.
+"""Records the motion of a sketch of `bbsim design --sketch`, for `bbsim fit`.
 
     record.py serial /dev/ttyACM0 -o log.csv
     record.py camera 0 --serial /dev/ttyACM0 --plate 300x300 --radius 20 \\
@@ -9,8 +9,8 @@
 
 `serial` takes the ball from the sketch, which reads a touch screen. `camera` finds the ball in
 pictures, and puts them on the sketch's clock; it needs OpenCV. docs/how-to/design.md has more.
-Exit codes: 0 done, 1 ended early, 2 the command line, 3 the output, 130 Ctrl-C; what there is of
-a log is kept in all but 2 and 3.
+Exit codes: 0 done, 1 ended early, 2 wrong arguments, 3 the output cannot be written, 130 Ctrl-C.
+After 1 and 130, the log has the rows so far.
 """
 import argparse
 import sys
@@ -32,7 +32,7 @@ def count(number, thing):
 
 
 def verdict(end, log, device):
-    """The exit code, and what to say of the end; raises where there is no row."""
+    """The exit code, and what to say about the end; raises if there is no row."""
     if not log.rows:
         texts = {
             "silent": f"found no log on {device}; is the sketch on the board, with --baud of its Serial.begin?",
@@ -41,7 +41,7 @@ def verdict(end, log, device):
             "unplugged": f"{device} was unplugged before the first row",
             "interrupted": "interrupted before the first row",
         }
-        raise Problem(130 if end == "interrupted" else 1, texts.get(end, "found no row that is sound") + "; nothing is written")
+        raise Problem(130 if end == "interrupted" else 1, texts.get(end, "found no valid row") + "; nothing is written")
     if end == "interrupted":
         return 130, "interrupted"
     if end == "unplugged":
@@ -88,7 +88,7 @@ def record_camera(arguments, frames=None):
     frames = frames or camera.frames(arguments.source)
     if arguments.picture:
         camera.save_picture(frames, arguments.picture)
-        say(f"{arguments.picture}: a picture; read the corners' pixels off it")
+        say(f"{arguments.picture}: a picture; read the corners' pixels from it")
         return 0
     watcher = camera.Watcher(arguments)
     needs = (CLOCK, *ANGLES)
@@ -128,8 +128,8 @@ def record_camera(arguments, frames=None):
     say(f"{why}; {arguments.output}: {describe(log)}; the ball in {found} of "
         f"{count(watcher.within(log, moments), 'picture')}")
     if watcher.slow:
-        say(f"{count(watcher.slow, 'picture')} took longer to read than the next one to come: their times may be late; "
-            "choose a smaller picture or fewer frames a second")
+        say(f"{count(watcher.slow, 'picture')} took longer to process than the time between pictures: their times may be late; "
+            "choose a smaller picture or fewer frames per second")
     return code
 
 
@@ -156,10 +156,10 @@ def parser():
     common = argparse.ArgumentParser(add_help=False)
     common.add_argument("-o", "--output", default="log.csv", metavar="FILE", help="the log (default: %(default)s)")
     common.add_argument("--force", action="store_true", help="replace FILE if it exists")
-    common.add_argument("--baud", type=int, default=115200, help="bits a second (default: %(default)s, the sketch's)")
-    common.add_argument("--wait", type=positive, default=60, metavar="S", help="for the first row (default: %(default)s)")
+    common.add_argument("--baud", type=int, default=115200, help="bits per second (default: %(default)s, the sketch's)")
+    common.add_argument("--wait", type=positive, default=60, metavar="S", help="how long to wait for the first row (default: %(default)s)")
     common.add_argument("--silence", type=positive, default=2, metavar="S",
-                        help="after which the sketch is done (default: %(default)s)")
+                        help="how long a silence ends the recording (default: %(default)s)")
     common.add_argument("-q", "--quiet", action="store_true", help="print errors only")
     serial = commands.add_parser("serial", parents=[common], help="the ball as the sketch reads it")
     serial.add_argument("device", metavar="DEVICE", help="such as /dev/ttyACM0")
@@ -167,26 +167,26 @@ def parser():
     view.add_argument("source", metavar="SOURCE", help="a camera's number or device, or a video")
     line = view.add_mutually_exclusive_group()
     line.add_argument("--serial", metavar="DEVICE", help="the sketch's line, while the camera runs")
-    line.add_argument("--log", metavar="FILE", help="for a video: what `record.py serial` wrote meanwhile")
+    line.add_argument("--log", metavar="FILE", help="for a video: the log that `record.py serial` wrote meanwhile")
     view.add_argument("--first-frame", type=float, metavar="MS",
                       help="for a video: the sketch's t_ms at its first frame; negative if the video began before")
-    view.add_argument("--plate", type=numbers(2, "x"), metavar="XxY", help="its sides, or the distances of the markers")
-    view.add_argument("--radius", type=positive, metavar="MM", help="of the ball")
-    view.add_argument("--ball", default="dark", metavar="LOOK", help="dark (default), light, or its color as R,G,B")
+    view.add_argument("--plate", type=numbers(2, "x"), metavar="XxY", help="the plate's sides, or the distances of the markers")
+    view.add_argument("--radius", type=positive, metavar="MM", help="the ball's radius")
+    view.add_argument("--ball", default="dark", metavar="LOOK", help="the ball: dark (default), light, or a color as R,G,B")
     where = view.add_mutually_exclusive_group()
     where.add_argument("--corners", nargs=4, type=numbers(2), metavar="U,V",
                        help="pixels of the level plate's corners: (-x, -y), (+x, -y), (+x, +y), (-x, +y)")
     where.add_argument("--markers", type=numbers(4), metavar="ID,ID,ID,ID",
-                       help="ArUco markers whose centers are such corners; they show the tilt, too")
-    view.add_argument("--dictionary", default="4X4_50", help="of the markers (default: %(default)s)")
+                       help="ArUco markers with their centers at these corners; they also show the tilt")
+    view.add_argument("--dictionary", default="4X4_50", help="the markers' dictionary (default: %(default)s)")
     view.add_argument("--camera-at", type=numbers(3), metavar="X,Y,Z",
-                      help="from the center of the level plate's surface, along its axes and up, after a = sign; without it, the "
-                           "ball's height and the tilt are not accounted for")
+                      help="the camera's place, from the center of the level plate's surface, along its axes and up, after a = "
+                           "sign; without it, the ball's height and the tilt are ignored")
     view.add_argument("--height", type=float, default=0, metavar="MM",
-                      help="of the plate's surface above the gimbal's center (default: 0)")
-    view.add_argument("--lag", type=float, default=0, metavar="MS", help="from the sketch's angles to the plate's (default: 0)")
-    view.add_argument("--latency", type=float, default=0, metavar="MS", help="from exposure to arrival of a picture (default: 0)")
-    view.add_argument("--picture", metavar="FILE.png", help="write one picture, to read the corners off, and stop")
+                      help="height of the plate's surface above the gimbal's center (default: 0)")
+    view.add_argument("--lag", type=float, default=0, metavar="MS", help="time from the sketch's angles to the plate's (default: 0)")
+    view.add_argument("--latency", type=float, default=0, metavar="MS", help="time from exposure to arrival of a picture (default: 0)")
+    view.add_argument("--picture", metavar="FILE.png", help="write one picture, to read the corners from, and stop")
     return top
 
 

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The log that a sketch of `bbsim design --sketch` prints: its lines from a serial line, its rows, its file.
-Python's standard library suffices, on Linux and macOS."""
+"""Reads the log that a sketch of `bbsim design --sketch` prints from a serial line, and writes its rows to a file.
+Needs only Python's standard library, on Linux or macOS."""
 import bisect
 import collections
 import glob
@@ -19,7 +19,7 @@ Row = collections.namedtuple("Row", "t arrival fields")  # t: s of the sketch's 
 
 
 class Problem(Exception):
-    """What the user can mend, with the exit code: 1 the recording failed, 2 the command line, 3 the output."""
+    """A problem that the user can fix, with the exit code: 1 the recording failed, 2 the arguments, 3 the output."""
 
     def __init__(self, code, text):
         super().__init__(text)
@@ -36,7 +36,7 @@ class SerialLine:
 
         speed = getattr(termios, f"B{baud}", None)
         if speed is None:
-            raise Problem(2, f"--baud: found {baud}; allowed: a usual speed, such as 115200, which the sketch has")
+            raise Problem(2, f"--baud: found {baud}; allowed: a usual speed, such as the sketch's 115200")
         try:
             self.file = os.open(device, os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK)
         except OSError as e:
@@ -45,18 +45,18 @@ class SerialLine:
                 "serial lines here: " + (", ".join(there) or "none; is the board plugged in?")
             raise Problem(2, f"found {device}: {e.strerror}; {hint}") from None
         try:
-            tty.setraw(self.file, termios.TCSANOW)  # without a flush: what has come may be the log
+            tty.setraw(self.file, termios.TCSANOW)  # no flush: what has arrived may be the log
             mode = termios.tcgetattr(self.file)
             mode[2] |= termios.CLOCAL | termios.CREAD
             mode[4] = mode[5] = speed
             termios.tcsetattr(self.file, termios.TCSANOW, mode)
-            fcntl.ioctl(self.file, termios.TIOCEXCL)  # else a monitor that is opened takes lines away
+            fcntl.ioctl(self.file, termios.TIOCEXCL)  # else a serial monitor could take lines away
         except termios.error:
             os.close(self.file)
             raise Problem(2, f"found {device}, which is no serial line; allowed: one such as /dev/ttyACM0") from None
 
     def read(self, seconds):
-        """What has arrived within `seconds`, None if nothing has; b"" once the line is gone."""
+        """What arrives within `seconds`; None if nothing does; b"" once the line is gone."""
         if not select.select([self.file], [], [], seconds)[0]:
             return None
         try:
@@ -103,7 +103,7 @@ class Listener:
                         headed, rows = True, 0
                     elif numbers_of(line.text):
                         rows += 1
-                # Before that, rows may be those of a motion that the opened line has just reset.
+                # Earlier rows may be of a motion that opening the line has just reset.
                 if not headed and rows >= 5 and now - began > 1:
                     self.end = "headless"
 
@@ -115,7 +115,7 @@ def is_header(text, needs):
 
 
 def numbers_of(text):
-    """The fields of a row, None where one is no number."""
+    """The fields of a row; None if one is not a number."""
     fields = text.split(",")
     return fields if len(fields) >= 3 and all(NUMBER.fullmatch(f) for f in fields) else None
 
@@ -135,8 +135,8 @@ def increasing(numbers):
 
 
 class Log:
-    """The rows below the last header. A damaged line is one that is no row of numbers, whose numbers
-    have other decimals than those of most rows, or whose time does not fit between its neighbors'."""
+    """The rows below the last header. A line is damaged if it is not a row of numbers, if its numbers have
+    other decimals than most rows, or if its time does not fit between its neighbors'."""
 
     def __init__(self, lines, needs):
         headers = [i for i, line in enumerate(lines) if is_header(line.text, needs)]
@@ -160,7 +160,7 @@ class Log:
         if not steps:
             return
         period = statistics.median(steps)
-        # Nothing after the last row tells whether its time is right, but for the lines before it.
+        # No row follows the last one, so only the lines before it can show whether its time is right.
         if steps[-1] > (self.damaged + 10) * period:
             self.rows.pop()
             steps.pop()
@@ -171,13 +171,13 @@ class Log:
         return [float(row.fields[self.names.index(name)]) for name in ANGLES]
 
     def ends_level(self):
-        """A designed motion begins and ends with the plate level; a tenth of a degree is for a lost first row."""
+        """A designed motion begins and ends with the plate level; the 0.1 deg allow for a lost first row."""
         return bool(self.rows) and all(abs(first - last) < 0.1 for first, last in
                                        zip(self.angles(self.rows[0]), self.angles(self.rows[-1])))
 
 
 def check_output(path, force):
-    """Refuses before the recording, rather than after it."""
+    """Refuses a file before the recording, not after it."""
     folder = os.path.dirname(os.path.abspath(path))
     if not os.path.isdir(folder) or not os.access(folder, os.W_OK):
         raise Problem(3, f"-o: found {path}, whose folder is missing or not writable")
@@ -188,7 +188,7 @@ def check_output(path, force):
 
 
 def write_whole(path, names, rows):
-    """All of a CSV file, or nothing."""
+    """Writes a complete CSV file, or nothing."""
     part = f"{path}.{os.getpid()}.part"
     try:
         with open(part, "x", encoding="ascii", newline="\n") as file:

@@ -18,7 +18,7 @@ struct axis {
   double last, velocity, integral;
 };
 
-/* All that it remembers: a sweep runs several controllers at the same time. */
+/* All of its memory, since a sweep runs several controllers at the same time. */
 struct controller {
   double period; /* s */
   int seen_any;

@@ -4,8 +4,8 @@
     bbsim examples step
     bbsim run step.yaml --set controller.pid=null --set "controller.program.command=[python3, controller.py]"
 
-`bbsim check`, with the same --set, says where its commands drive the ball. What bbsim sends and what it wants to
-hear: docs/reference/controllers.md.
+`bbsim check`, with the same --set, says where its commands drive the ball. docs/reference/controllers.md says what
+bbsim sends and which answers it expects.
 """
 import json
 import sys

@@ -1,6 +1,6 @@
 function code = bbsim_call(folder, command, scenario, words)
-% Calls the program: its exit code is 0 or, of a run that ended early, 1. All else is an error with
-% what the program says.
+% Calls the program and returns its exit code: 0, or 1 for a run that ended early. Any other code is
+% an error with the program's message.
 
 % SPDX-FileCopyrightText: 2026 the bbsim authors
 % SPDX-License-Identifier: BSD-3-Clause
@@ -11,7 +11,7 @@ input = '';
 if ischar(scenario) || isa(scenario, 'string')
   name = char(scenario);
 elseif isstruct(scenario) || isa(scenario, 'containers.Map')
-  % By standard input: files that it names are then found from the current folder.
+  % By standard input, so that files that it names are relative to the current folder.
   name = '-';
   input = fullfile(folder, 'scenario.json');
   write(input, [bbsim_json(scenario, '') sprintf('\n')]);

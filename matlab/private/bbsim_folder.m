@@ -1,5 +1,5 @@
 function [folder, remove] = bbsim_folder()
-% A folder for files that pass between here and the program. It goes when `remove` does.
+% A folder for files that pass between here and the program. It is deleted with `remove`.
 
 % SPDX-FileCopyrightText: 2026 the bbsim authors
 % SPDX-License-Identifier: BSD-3-Clause

@@ -1,5 +1,5 @@
 function text = bbsim_json(value, path)
-% A value as JSON, which YAML takes too. jsonencode rounds numbers to 15 digits; here they keep all
+% A value as JSON, which is also YAML. jsonencode rounds numbers to 15 digits; here they keep all
 % bits. `path` is the key's, for messages.
 
 % SPDX-FileCopyrightText: 2026 the bbsim authors

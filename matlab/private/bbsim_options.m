@@ -1,5 +1,5 @@
 function options = bbsim_options(words, names)
-% NAME, VALUE, ... as a struct with a field for each of the names, [] where it is not given.
+% NAME, VALUE, ... as a struct with a field for each of the names, [] if it is not given.
 
 % SPDX-FileCopyrightText: 2026 the bbsim authors
 % SPDX-License-Identifier: BSD-3-Clause

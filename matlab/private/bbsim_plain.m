@@ -1,5 +1,5 @@
 function text = bbsim_plain(value)
-% A value as a word of the command line: text as it stands, a number to its last bit.
+% A value as a word of the command line: text unchanged, a number with all bits.
 
 % SPDX-FileCopyrightText: 2026 the bbsim authors
 % SPDX-License-Identifier: BSD-3-Clause

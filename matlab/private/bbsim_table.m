@@ -1,6 +1,6 @@
 function data = bbsim_table(name, has_units)
-% A CSV file of bbsim: a table in MATLAB, a struct of columns in Octave. Rows of runs are of numbers
-% and have units; those of sweeps have text, too.
+% A CSV file of bbsim: a table in MATLAB, a struct of columns in Octave. Rows of runs are numbers
+% with units; those of sweeps also have text.
 
 % SPDX-FileCopyrightText: 2026 the bbsim authors
 % SPDX-License-Identifier: BSD-3-Clause
@@ -26,14 +26,14 @@ data.Properties.VariableDescriptions = header;
 if has_units, data.Properties.VariableUnits = bbsim_units(header); end
 end
 
-% The columns of rows of numbers. textscan's %f misses the last bit of many a number in Octave.
+% The columns of rows of numbers. In Octave, textscan's %f often misses the last bit.
 function columns = numbers(text, width)
 values = sscanf(strrep(text, ',', ' '), '%f');
 columns = num2cell(reshape(values, width, [])', 1);
 if isempty(values), columns = repmat({zeros(0, 1)}, 1, width); end
 end
 
-% Varied values may be words, as of solver.method.
+% Varied values may be words, such as those of solver.method.
 function values = numbers_in(fields)
 values = str2double(fields);
 if any(isnan(values) & ~strcmpi(fields, 'nan') & ~strcmp(fields, '')), values = fields; end

@@ -1,5 +1,5 @@
 function units = bbsim_units(names)
-% The units of output columns; '' for one that is not bbsim's own.
+% The units of output columns; '' for a column of a controller.
 
 % SPDX-FileCopyrightText: 2026 the bbsim authors
 % SPDX-License-Identifier: BSD-3-Clause

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Written by make_tables.py, which says how; not to be edited.
+// Written by make_tables.py, which says how. Do not edit.
 #pragma once
 
 namespace bbsim::simd {
 
 // On |r| <= pi/4, by the Remez exchange: sin r = r + r^3 p(r^2), cos r = 1 - r^2/2 + r^4 q(r^2).
-// pi/2 in three parts, the first two of 33 bits, so that their products with integers below 2^20
+// pi/2 is in three parts. The first two have 33 bits, so their products with integers below 2^20
 // are exact.
 struct SineTable {
   static constexpr double sine[6] = {

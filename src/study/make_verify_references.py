@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes verify_references.hpp: what `bbsim verify` knows by heart.
+"""Writes verify_references.hpp: the reference solutions of `bbsim verify`.
 
     python3 src/study/make_verify_references.py > src/study/verify_references.hpp
 
-Takes the scenarios of tests/data/scenarios and, of their quad-precision solutions in
-tests/data/reference, the rows at a fifth, two fifths ... of the scene and at its end, with all
-digits as they stand there. Scenarios are kept as text: the program reads them as it reads a file.
+Takes the scenarios of tests/data/scenarios and rows of their quad-precision solutions in
+tests/data/reference: those at a fifth, two fifths ... of the scene and at its end, with all
+digits. Scenarios are kept as text: the program reads them as it reads a file.
 """
 import csv
 import pathlib

@@ -1,13 +1,12 @@
 /* SPDX-FileCopyrightText: 2026 the bbsim authors
  * SPDX-License-Identifier: BSD-3-Clause */
 
-/* The PID of configs/step.yaml as one writes it for a board: it goes to the rig and to bbsim as it
- * stands.
+/* The PID of configs/step.yaml, written for a board: it runs unchanged on the rig and in bbsim.
  *
  *     bbsim sketch examples/controllers/arduino/pid.ino -o examples/controllers/arduino/pid.so
  *     bbsim run examples/controllers/arduino.yaml
  *
- * (On boards with an 8-bit processor a double is a float: there it rounds more than on the desktop.) */
+ * On boards with an 8-bit processor a double is a float, so it rounds more there than on a PC. */
 #include <Servo.h>
 
 const unsigned long period_ms = 20;

@@ -6,11 +6,11 @@
     python3 src/solve/collocation/make_tables.py radau > src/solve/collocation/radau_table.hpp
     python3 src/solve/collocation/make_tables.py sine > src/simd/sine_table.hpp
 
-Needs mpmath; works with 60 digits and prints 25, more than a double can tell apart.
+Needs mpmath; works with 60 digits and prints 25, more than a double resolves.
 
 Nodes: the right Radau points, roots of P_s - P_(s-1) on [-1, 1]. On the nodes a polynomial of
 degree s - 1 has Legendre coefficients `legendre` times its values; integrating its Legendre series
-gives A; A's eigenvalues come in complex pairs for even s, of which one of each is kept.
+gives A. For even s, the eigenvalues of A come in complex pairs; one of each pair is kept.
 """
 import sys
 
@@ -94,7 +94,7 @@ def show_table(rows):
 
 
 def minimax(f, degree, low, high):
-    """Remez exchange for p(u) ~ f(u) on [low, high], all of it smooth and positive weight 1."""
+    """Remez exchange for p(u) ~ f(u) on [low, high], with f smooth and the weight 1."""
     points = [(low + high) / 2 - (high - low) / 2 * mp.cos(mp.pi * i / (degree + 1))
               for i in range(degree + 2)]
     for _ in range(12):
@@ -151,7 +151,7 @@ def write_radau():
     print("""// SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Written by make_tables.py, which says how; not to be edited.
+// Written by make_tables.py, which says how. Do not edit.
 //
 // Matrices are stored by columns, the index of the result last: column[j][i].
 #pragma once
@@ -162,8 +162,8 @@ namespace bbsim::solve::radau {
 //   c           nodes
 //   a           integrates nodal values from 0 to the nodes; a_squared = a * a
 //   legendre    nodal values -> coefficients of the shifted Legendre polynomials
-//   lambda      eigenvalues of a above the real axis; forward: nodal values -> eigenvectors'
-//               coordinates; back: the real nodal values of those, their conjugates included
+//   lambda      eigenvalues of a above the real axis; forward: nodal values -> coordinates in the
+//               eigenvectors; back: these and their conjugates -> real nodal values
 template <int s>
 struct RadauTable;
 """)
@@ -187,13 +187,13 @@ def write_sine():
     print("""// SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Written by make_tables.py, which says how; not to be edited.
+// Written by make_tables.py, which says how. Do not edit.
 #pragma once
 
 namespace bbsim::simd {
 
 // On |r| <= pi/4, by the Remez exchange: sin r = r + r^3 p(r^2), cos r = 1 - r^2/2 + r^4 q(r^2).
-// pi/2 in three parts, the first two of 33 bits, so that their products with integers below 2^20
+// pi/2 is in three parts. The first two have 33 bits, so their products with integers below 2^20
 // are exact.
 struct SineTable {""")
     for name, values in (("sine", sine), ("cosine", cosine), ("half_pi", parts)):

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Written by make_tables.py, which says how; not to be edited.
+// Written by make_tables.py, which says how. Do not edit.
 //
 // Matrices are stored by columns, the index of the result last: column[j][i].
 #pragma once
@@ -12,8 +12,8 @@ namespace bbsim::solve::radau {
 //   c           nodes
 //   a           integrates nodal values from 0 to the nodes; a_squared = a * a
 //   legendre    nodal values -> coefficients of the shifted Legendre polynomials
-//   lambda      eigenvalues of a above the real axis; forward: nodal values -> eigenvectors'
-//               coordinates; back: the real nodal values of those, their conjugates included
+//   lambda      eigenvalues of a above the real axis; forward: nodal values -> coordinates in the
+//               eigenvectors; back: these and their conjugates -> real nodal values
 template <int s>
 struct RadauTable;
 
