@@ -180,8 +180,8 @@ def parser():
                        help="ArUco markers with their centers at these corners; they also show the tilt")
     view.add_argument("--dictionary", default="4X4_50", help="the markers' dictionary (default: %(default)s)")
     view.add_argument("--camera-at", type=numbers(3), metavar="X,Y,Z",
-                      help="the camera's place, from the center of the level plate's surface, along its axes and up, after a = "
-                           "sign; without it, the ball's height and the tilt are ignored")
+                      help="the camera's place, from the center of the level plate's surface, along its axes and up, "
+                           "after a = sign; without it, the ball's height and the tilt are ignored")
     view.add_argument("--height", type=float, default=0, metavar="MM",
                       help="height of the plate's surface above the gimbal's center (default: 0)")
     view.add_argument("--lag", type=float, default=0, metavar="MS", help="time from the sketch's angles to the plate's (default: 0)")
