@@ -41,7 +41,7 @@ std::vector<Method> methods_named(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     const auto known = std::ranges::find(named_methods, name, &NamedMethod::name);
     if (known == named_methods.end()) {
-      std::string message = "--methods: found " + name + ", allowed are, separated by commas:";
+      std::string message = "--methods: found " + name + "; allowed, separated by commas:";
       for (const NamedMethod& method : named_methods) (message += ' ') += method.name;
       throw InputError(message);
     }
@@ -55,14 +55,14 @@ api::Picture picture_of(const std::string& file) {
   if (ending == ".svg") return api::Picture::svg;
   if (ending == ".png") return api::Picture::png;
   if (ending == ".pdf") return api::Picture::pdf;
-  throw InputError("--plot: found " + file + ", allowed is a name that ends in .svg, .png or .pdf");
+  throw InputError("--plot: found " + file + "; allowed: a name that ends in .svg, .png or .pdf");
 }
 
 void explain_reference(const api::AccuracyStudy& study, double end) {
   say("the reference's own error: about " + rounded(study.reference_error, 2) + " m");
   if (!study.reference_complete && !study.interrupted) {
     say("the reference solution ended at t = " + short_number(study.reference_reached) + " s of " +
-        short_number(end) + " s, and the errors are those up to then: " + study.reference_reason);
+        short_number(end) + " s; the errors are those up to then: " + study.reference_reason);
   }
 }
 

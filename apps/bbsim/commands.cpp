@@ -28,7 +28,7 @@ void add_overrides(Command& command, std::vector<std::string>& overrides) {
 
 void add_force(Command& command, bool& force) {
   command.flag("--force", force,
-               "replace a file of the default name, whatever it holds; only without -o");
+               "replace a file with the default name, whatever it contains; only without -o");
 }
 
 std::string default_output(const std::string& scenario, const std::string& suffix) {
@@ -130,8 +130,8 @@ void FoundFiles::write(const ScenarioFamily& family, const std::string& scenario
                        folder_of(scenario) != folder_of(family.source().file);
     if (moved && !quiet) {
       say("note: " + scenario +
-          " is in another folder than the scenario, which names tables from its own; move it there "
-          "to run it");
+          " is not in the scenario's folder, from which its tables are read; move it there to run "
+          "it");
     }
   }
   if (!json.empty()) file::write_file(json, json_text);

@@ -49,12 +49,12 @@ ExitCode compare(const CompareArguments& arguments, const Options& all) {
 void add_compare(Command& command, const Options& all) {
   command.footer(
       "bbsim matches columns by name and rows by position. Values a and b are alike if |a - b| <= "
-      "atol + rtol max(|a|, |b|). NaN is like NaN, and an infinity like the same infinity. Texts, "
+      "atol + rtol max(|a|, |b|). NaN equals NaN, and an infinity equals the same infinity. Texts, "
       "such as a sweep's status, must be equal. Without --rtol and --atol, the tolerances follow "
       "from the solver settings that HDF5 files carry; for other files they are 1e-9 and 1e-12.\n"
       "With one of --map, --header, --period and --time-offset, or a scenario as B, A is the log "
-      "of a rig and B a run. bbsim then prints, for each column in common, the distance of the "
-      "log's rows from the run at their times; --rtol and --atol say what is alike.\n"
+      "of a rig and B a run. bbsim then prints, for each common column, how far the log's rows are "
+      "from the run at their times; --rtol and --atol say what is alike.\n"
       "The exit code is 0 if the files are alike, 1 if they differ, 2 if one cannot be read or "
       "lacks a named column.\n"
       "\n"
@@ -77,7 +77,7 @@ void add_compare(Command& command, const Options& all) {
       .takes("A");
   command
       .option("--columns", request->columns,
-              "compare only these columns; default: all, and a column that only one file has is a "
+              "compare only these columns; default: all; a column that only one file has is a "
               "difference")
       .takes("NAME,...")
       .parted_by_commas();  // a file may follow

@@ -150,7 +150,7 @@ Offer offer_of(const OptionText& option, const ProgramText& texts) {
 // ---- bash ----
 
 constexpr const char* bash_helpers = R"(
-# Adds the words of LIST, each up to its next dot; what stands before the last comma of CUR stays.
+# Adds the words of LIST, each up to its next dot; keeps what is before the last comma of CUR.
 _bbsim_dotted() { # CUR END LIST
   local cur=$1 kept= word rest last=
   if [[ $cur == *,* ]]; then
@@ -185,7 +185,7 @@ _bbsim_files() { # CUR ENDING...
 _bbsim() {
   local cur=${COMP_WORDS[COMP_CWORD]} option=${COMP_WORDS[COMP_CWORD - 1]} command= options= i
   COMPREPLY=()
-  # bash parts words at =: --set=KEY is three of them.
+  # bash splits words at =, so --set=KEY is three words.
   if [[ $cur == = ]]; then
     [[ $option == --* ]] || return
     cur=
@@ -265,7 +265,7 @@ std::string bash_script(const ProgramText& texts) {
 // ---- zsh ----
 
 constexpr const char* zsh_helpers = R"(
-# Offers the words, each up to its next dot; what stands before the last comma stays.
+# Offers the words, each up to its next dot; keeps what is before the last comma.
 _bbsim_dotted() { # END WORD...
   local end=$1 word rest
   local -aU found
@@ -384,12 +384,12 @@ std::string zsh_script(const ProgramText& texts) {
 // ---- fish ----
 
 constexpr const char* fish_helpers = R"(
-# The present word, without --option= before it.
+# The current word, without --option= before it.
 function __bbsim_word
     commandline -ct | string replace -r '^--[a-z-]+=' ''
 end
 
-# Words, each up to its next dot; what stands before the last comma stays.
+# Words, each up to its next dot; keeps what is before the last comma.
 function __bbsim_dotted # END WORD...
     set -l word (__bbsim_word)
     set -l kept (string match -r '^.*,' -- $word; or echo '')

@@ -40,7 +40,8 @@ std::string table_file_of(const DesignArguments& arguments) {
     throw InputError("--table: found " + table + "; allowed: FILE.csv, or - for standard output");
   }
   if (!scenario.empty() && (table == "-" || (table.empty() && scenario == "-"))) {
-    throw InputError("--table: found no file for the scenario of -o to name; allowed: FILE.csv");
+    throw InputError(
+        "--table: found no file, and the scenario of -o must name one; allowed: FILE.csv");
   }
   if (table.empty() && !scenario.empty()) {
     // A run of FILE.yaml writes FILE.csv, so choose another name.
@@ -101,10 +102,11 @@ ExitCode design(const DesignArguments& arguments, const Options& options) {
 
 void add_design(Command& command, const Options& options) {
   command.footer(
-      "bbsim chooses sums of sines for both axes such that a log of them tells the free keys best "
-      "(the determinant of Fisher's information is greatest), with the ball on the plate and tilts "
-      "and their rates within limits. It prints the standard deviations that a fit will have, "
-      "beside those of a circle and of a step of the same length within the same limits.\n"
+      "bbsim chooses sums of sines for both axes such that their log determines the free keys "
+      "best: the determinant of Fisher's information is greatest. The ball stays on the plate, and "
+      "tilts and their rates stay within limits. bbsim prints the standard deviations to expect "
+      "from a fit, beside those of a circle and of a step of the same length within the same "
+      "limits.\n"
       "With gimbal.motion or controller.commands, it chooses tilts: each axis plays a table, whose "
       "scale, offset and delay may be free. With another controller, it chooses the reference.\n"
       "The limits are those of servos, commands and events.tilt; --max-tilt and --max-tilt-rate "
@@ -119,7 +121,7 @@ void add_design(Command& command, const Options& options) {
   add_scenario(command, arguments->scenario);
   command
       .option("--free", arguments->free,
-              "a key that the log shall tell, as in `bbsim fit`; repeatable")
+              "a key that the log should determine, as in `bbsim fit`; repeatable")
       .takes("KEY[=FROM:TO]")
       .may_be_repeated()
       .required();
@@ -128,12 +130,12 @@ void add_design(Command& command, const Options& options) {
       .takes("TIME");
   command
       .option("--rate", arguments->rate,
-              "rows of the log in a second; default: the sensor's, or else 50")
+              "rows of the log per second; default: the sensor's, or else 50")
       .takes("HZ");
   command
       .option("--noise", arguments->noise,
-              "standard deviation of a column's noise, such as x=0.5mm; another column than x and "
-              "y joins the log; default: the sensor's, or else 1 mm; repeatable")
+              "standard deviation of a column's noise, such as x=0.5mm; a column other than x and "
+              "y is added to the log; default: the sensor's, or else 1 mm; repeatable")
       .takes("COLUMN=SIZE")
       .may_be_repeated();
   command
@@ -141,7 +143,8 @@ void add_design(Command& command, const Options& options) {
               "length of the fit's windows; default: as in `bbsim fit`")
       .takes("TIME");
   command.option("--max-tilt", arguments->tilt, "the largest phi and theta").takes("ANGLE");
-  command.option("--max-tilt-rate", arguments->tilt_rate, "their largest rates").takes("RATE");
+  command.option("--max-tilt-rate", arguments->tilt_rate, "the largest rates of phi and theta")
+      .takes("RATE");
   command
       .option("--margin", arguments->margin,
               "distance that the ball keeps from the edge; default: a tenth of the plate")

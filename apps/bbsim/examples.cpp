@@ -112,7 +112,7 @@ void add_examples(Command& command, const Options& options) {
               "folder; - is standard output")
       .takes("FILE");
   command.flag("--force", arguments->force,
-               "replace files that -o does not name, whatever they hold");
+               "replace files that -o does not name, whatever they contain");
   command.does([arguments, &options] { return examples(*arguments, options); });
 }
 

@@ -96,13 +96,13 @@ void add_fit(Command& command, const Options& options) {
   command.footer(
       "bbsim cuts each log into windows, fits the ball's position and velocity at the start of "
       "each, and finds the values of the free keys at which the runs are closest to the logs. It "
-      "prints estimates, standard deviations, 95 % intervals and residuals. A key that the logs do "
-      "not tell is named; the exit code is then 0, too. Ctrl+C ends a fit with the best values so "
-      "far.\n"
-      "A sensor's scale, offset and delay are free keys, too: log.x.scale, log.x.offset, "
-      "log.delay. "
-      "The log then shows offset + scale x(t - delay).\n"
-      "Where a table of the scenario is one of several logs, each log has itself for that table.\n"
+      "prints estimates, standard deviations, 95 % intervals and residuals. It names keys that the "
+      "logs do not determine; the exit code is then 0, too. Ctrl+C ends a fit with the best values "
+      "so far.\n"
+      "A sensor's scale, offset and delay can be free keys, too: log.x.scale, log.x.offset, "
+      "log.delay. The log then shows offset + scale x(t - delay).\n"
+      "If a table of the scenario is one of several logs, each log is fitted with itself as that "
+      "table.\n"
       "\n"
       "Examples:\n"
       "  bbsim fit rig.yaml log.csv --free ball.inertia_factor \\\n"
@@ -114,16 +114,15 @@ void add_fit(Command& command, const Options& options) {
   command.option("LOG", arguments->logs, "logs of the rig: CSV with a header").required();
   command
       .option("--free", arguments->free,
-              "a key that the fit chooses, and its bounds; it begins at the scenario's value; "
-              "repeatable")
+              "a key to fit, and its bounds; the fit starts at the scenario's value; repeatable")
       .takes("KEY[=FROM:TO]")
       .may_be_repeated()
       .required();
   add_log_options(command, arguments->choice);
   command
       .option("--window", arguments->window,
-              "length of a window; default: 2 s, and with a controller and without --hold-out or "
-              "--continuity the whole log")
+              "length of a window; default: 2 s, or the whole log with a controller and without "
+              "--hold-out or --continuity")
       .takes("TIME");
   command
       .option("--hold-out", arguments->hold_out,
@@ -134,13 +133,12 @@ void add_fit(Command& command, const Options& options) {
                "before ends, as in one long window");
   command
       .option("--loss", arguments->loss,
-              "squares, or huber: numbers that are far off have less weight; default: squares")
+              "squares, or huber, which gives outliers less weight; default: squares")
       .takes("LOSS");
   command
-      .option(
-          "--starts", arguments->starts,
-          "begin with N sets of values, drawn within the bounds, or else near the scenario's, and "
-          "go on from the best; default: 1")
+      .option("--starts", arguments->starts,
+              "try N sets of starting values, drawn within the bounds, or else near the "
+              "scenario's, and continue from the best; default: 1")
       .takes("N");
   add_found_files(command, arguments->files, "the estimates");
   command

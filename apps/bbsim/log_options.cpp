@@ -25,8 +25,8 @@ void add_log_options(Command& command, results::LogChoice& choice) {
       .takes("TIME");
   command
       .option("--time-offset", choice.time_offset,
-              "a time that is added to the log's times, or start: its first row is t = 0, or, in "
-              "compare and replay, auto: by cross-correlation with the run")
+              "a time to add to the log's times; or start, so that its first row is t = 0; or, in "
+              "compare and replay, auto, by cross-correlation with the run")
       .takes("TIME|start|auto");
 }
 

@@ -73,7 +73,7 @@ ExitCode run(const Command& command) {
 
 constexpr bbsim::app::NamedCommand commands[] = {
     {"run", "Simulate a scenario", bbsim::app::add_run},
-    {"check", "Validate a scenario; print the model and why, the poles and the solver",
+    {"check", "Validate a scenario; explain the model; print the poles and the solver",
      bbsim::app::add_check},
     {"linearize", "Linearize a scenario about a point: A, B, C, D, poles, zeros, margins",
      bbsim::app::add_linearize},
@@ -82,10 +82,11 @@ constexpr bbsim::app::NamedCommand commands[] = {
     {"merge", "Join the parts of a sweep that `bbsim sweep --shard` wrote", bbsim::app::add_merge},
     {"summarize", "Print statistics of a sweep's measures: count, mean, deviation, quantiles",
      bbsim::app::add_summarize, "summarise"},
-    {"new", "Write a controller or the scenario of a rig to begin with", bbsim::app::add_new},
+    {"new", "Write a controller or the scenario of a rig to start from", bbsim::app::add_new},
     {"examples", "List example scenarios, or write one", bbsim::app::add_examples},
     {"fit", "Fit keys of a scenario to logs of a rig", bbsim::app::add_fit},
-    {"design", "Choose the motion whose log tells keys of a scenario best", bbsim::app::add_design},
+    {"design", "Choose the motion whose log determines keys of a scenario best",
+     bbsim::app::add_design},
     {"tune", "Tune keys of a scenario, such as gains, on the worst of many rigs",
      bbsim::app::add_tune},
     {"sketch", "Compile an Arduino sketch into a controller", bbsim::app::add_sketch},

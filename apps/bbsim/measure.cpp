@@ -63,7 +63,7 @@ std::string measures_footer() {
          "  values        \"find y when x=0.05\", \"find y at 2\"\n"
          "  of the loop   stable, spectral_radius, spectral_abscissa; phi_ or theta_ and\n"
          "                gain_margin, gain_reduction, phase_margin or delay_margin; x_\n"
-         "                or y_ and bandwidth or feedback_bandwidth; none of a stored run\n"
+         "                or y_ and bandwidth or feedback_bandwidth; not of a stored run\n"
          "A step goes from x at the start to x_reference at the end, or to x at the end if x has "
          "no reference. Append \"from 5 s\", \"to 20 s\" or both to measure a part of the run.";
 }

@@ -110,7 +110,7 @@ void add_new(Command& command, const Options& options) {
   command.option("WHAT", arguments->what, "controller or rig")
       .required()
       .takes_one_of({"controller", "rig"});
-  command.option("LANGUAGE", arguments->language, "of a controller: python, c or arduino")
+  command.option("LANGUAGE", arguments->language, "for a controller: python, c or arduino")
       .takes_one_of({"python", "c", "arduino"});
   command
       .option("-o,--output", arguments->output,
@@ -118,38 +118,41 @@ void add_new(Command& command, const Options& options) {
               "my-rig.yaml, in the current folder; - is standard output")
       .takes("FILE");
   command.flag("--force", arguments->force,
-               "replace files that -o does not name, whatever they hold");
+               "replace files that -o does not name, whatever they contain");
   RigWords& rig = arguments->rig;
   command
-      .option("--plate", rig.plate,
-              "of a rig: sides along x and y, or the diameter of a disc; default: \"300 mm x 200 "
-              "mm\"")
+      .option(
+          "--plate", rig.plate,
+          "for a rig: sides along x and y, or the diameter of a disc; default: \"300 mm x 200 mm\"")
       .takes("SIZE");
   command
       .option("--ball", rig.ball,
-              "of a rig: ping-pong (default), steel, rubber, golf, or diameter and mass, such as "
+              "for a rig: ping-pong (default), steel, rubber, golf, or diameter and mass, such as "
               "\"40 mm 2.7 g\"; hollow or solid may follow")
       .takes("BALL");
   command
       .option("--servo", rig.servo,
-              "of a rig: hobby-standard (default), hobby-micro or smart-serial")
+              "for a rig: hobby-standard (default), hobby-micro or smart-serial")
       .takes_one_of(servo_classes());
   const Option camera =
-      command.option("--camera", rig.camera, "of a rig: frames a second; default: \"30 Hz\"")
+      command.option("--camera", rig.camera, "for a rig: frames per second; default: \"30 Hz\"")
           .takes("RATE");
-  command.option("--touch", rig.touch, "of a rig: a touch screen instead, its readings a second")
+  command
+      .option("--touch", rig.touch,
+              "for a rig: a touch screen instead of a camera, and its readings per second")
       .takes("RATE")
       .excludes(camera);
   command
       .option("--legs", rig.legs,
-              "of a rig: 2 servos with push rods on a gimbal (default), or 3 under the plate")
+              "for a rig: 2 servos with push rods on a gimbal (default), or 3 under the plate")
       .takes_one_of({"2", "3"});
   command.footer(
-      "The controller balances the ball of the scenario that `bbsim examples step` writes. That of "
-      "an Arduino comes with a wiring, FILE-wiring.yaml.\n"
+      "The controller balances the ball of the scenario that `bbsim examples step` writes. An "
+      "Arduino sketch comes with a wiring, FILE-wiring.yaml.\n"
       "The rig is a scenario whose comments say how to find the numbers of yours; its gains suit "
-      "its delays. On a terminal, and without options of a rig, bbsim asks for each.\n"
-      "\nExamples:\n"
+      "its delays. On a terminal, bbsim asks for each option of the rig if you give none.\n"
+      "\n"
+      "Examples:\n"
       "  bbsim new controller python\n"
       "  bbsim new rig\n"
       "  bbsim new rig --plate \"250 mm\" --ball steel --touch \"50 Hz\" -o disc.yaml");

@@ -57,8 +57,8 @@ NamedFormat format_of(const PlotArguments& arguments) {
   if (found != formats.end()) return *found;
   throw InputError(arguments.format.empty()
                        ? "--output: found " + arguments.output +
-                             ", allowed is a name that ends in .svg, .png or .pdf"
-                       : "--format: found " + name + ", allowed are svg, png and pdf");
+                             "; allowed: a name that ends in .svg, .png or .pdf"
+                       : "--format: found " + name + "; allowed: svg, png and pdf");
 }
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -90,7 +90,7 @@ plot::Picture picture_of(const std::vector<results::Result>& results,
   if (std::ranges::none_of(results, is_sweep)) {
     if (!arguments.over.empty()) {
       throw InputError("--over: " + results.front().file +
-                       " is no sweep; bbsim draws a run over time");
+                       " is not a sweep; bbsim draws a run over time");
     }
     return plot::run_picture(results, asked);
   }
@@ -214,8 +214,8 @@ void add_plot(Command& command, const Options& options) {
       "The picture of a run has its path on the plate and its columns over time; that of a sweep "
       "has its measures over the keys that vary. Title, plate, events and friction coefficient "
       "come from the .h5 file. For a .csv they come from its summary (NAME.json beside NAME.csv, "
-      "or --summary) or from --scenario. Without these, bbsim draws a table of other programs "
-      "without units.\n"
+      "or --summary) or from --scenario. Without these, bbsim draws the columns without units, as "
+      "for tables of other programs.\n"
       "\n"
       "Examples:\n"
       "  bbsim run configs/rig.yaml --summary rig.json && bbsim plot rig.csv\n"
@@ -237,7 +237,7 @@ void add_plot(Command& command, const Options& options) {
   command
       .option("--columns", arguments->columns,
               "columns to draw: commas separate the columns of a panel, semicolons separate "
-              "panels; path is the path on the plate. Of a sweep: measures")
+              "panels; path is the path on the plate. For a sweep: measures")
       .may_be_repeated();
   command.option("--over", arguments->over, "KEY[,KEY]: draw a sweep's measures over these keys")
       .may_be_repeated();

@@ -48,9 +48,8 @@ std::string content_text(const replay::Scene& scene) {
 
 void require_replay_ending(const std::string& file, const std::string& option) {
   if (file == "-" || is_gltf(file) || file::lower_ending(file) == ".html") return;
-  throw InputError(
-      option + ": found " + file +
-      ", allowed is a name that ends in .html, a page, or .glb, a model of what moves");
+  throw InputError(option + ": found " + file +
+                   "; allowed: a name that ends in .html, a page, or .glb, a model of what moves");
 }
 
 void declare_replay(file::Outputs& outputs, const std::string& file, const std::string& what) {

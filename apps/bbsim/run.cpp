@@ -138,11 +138,10 @@ void add_run(Command& command, const Options& options) {
       .takes("\"MEASURE < VALUE\"")
       .may_be_repeated();
   command
-      .option(
-          "--sensitivity", arguments->request.sensitivity,
-          "add columns d(x)/d(KEY), the derivatives of the states in output.columns by these "
-          "keys, and gradients of measures to the summary; in smooth scenes and with sampled laws; "
-          "repeatable")
+      .option("--sensitivity", arguments->request.sensitivity,
+              "add columns d(x)/d(KEY), the derivatives of the states in output.columns by these "
+              "keys, and gradients of measures to the summary; for smooth scenes and sampled laws; "
+              "repeatable")
       .takes("KEY[,KEY]")
       .may_be_repeated();
   command
@@ -157,8 +156,8 @@ void add_run(Command& command, const Options& options) {
       .takes("FILE");
   command
       .option("--from-state", arguments->request.part.from,
-              "continue from a state of the same scenario; the rows are those of one whole run to "
-              "the bit")
+              "continue from a state of the same scenario; the rows are those of one whole run, "
+              "bit for bit")
       .takes("FILE");
   command
       .option("--until", arguments->request.part.until,

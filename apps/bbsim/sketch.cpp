@@ -63,7 +63,7 @@ void add_sketch(Command& command, const Options& options) {
       .takes("FILE");
   command
       .option("-I,--libraries", arguments->job.folders,
-              "look for libraries in FOLDER: a library's own, or one of several; may be repeated")
+              "look for libraries in FOLDER, which holds one library or several; repeatable")
       .takes("FOLDER")
       .may_be_repeated();
   add_force(command, arguments->force);

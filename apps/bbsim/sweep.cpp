@@ -134,9 +134,9 @@ void add_sweep(Command& command, const Options& options) {
       .takes("KEY=SPEC")
       .may_be_repeated();
   command
-      .option(
-          "--combine", arguments->combine,
-          "grid: each value with each (default); zip: first values together, then second ones, ...")
+      .option("--combine", arguments->combine,
+              "grid: every combination (default); zip: the first values together, then the second "
+              "ones, ...")
       .takes("HOW")
       .takes_one_of({"grid", "zip"});
   command.option("--samples", arguments->samples, "number of cases to draw for uniform and normal")

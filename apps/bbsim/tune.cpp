@@ -52,11 +52,11 @@ ExitCode tune(const TuneArguments& arguments, const Options& options) {
 
 void add_tune(Command& command, const Options& options) {
   command.footer(
-      "bbsim finds the values of the free keys at which the measure is smallest on the worst of "
-      "the rigs that --vary draws, and the requirements hold on all of them. It prints the values "
-      "and what they come to. A run that does not come to its end, or a measure that is no finite "
-      "number, counts as infinite. The exit code is 1 if it finds no values at which all "
-      "requirements hold; the best ones are then printed and written.\n"
+      "bbsim finds the values of the free keys that make the measure smallest on the worst of the "
+      "rigs that --vary draws, while the requirements hold on all of them. It prints the values "
+      "and what they achieve. A run that does not reach its end, or a measure that is not finite, "
+      "counts as infinite. The exit code is 1 if it finds no values at which all requirements "
+      "hold; the best ones are then printed and written.\n"
       "\n"
       "Examples:\n"
       "  bbsim tune configs/rig.yaml --free controller.gravity_compensation.kp=2:30 \\\n"
@@ -75,12 +75,12 @@ void add_tune(Command& command, const Options& options) {
       .required();
   command
       .option("--minimize", arguments->minimize,
-              "the measure to make small, as in `bbsim sweep --measure`")
+              "the measure to minimize, as in `bbsim sweep --measure`")
       .takes("MEASURE")
       .required();
   command
       .option("--require", arguments->require,
-              "\"MEASURE < VALUE\", or with <=, > or >=, which shall hold on all rigs; repeatable")
+              "\"MEASURE < VALUE\", or with <=, > or >=, which must hold on all rigs; repeatable")
       .takes("CONDITION")
       .may_be_repeated();
   command
@@ -93,13 +93,14 @@ void add_tune(Command& command, const Options& options) {
       .takes("N")
       .takes_whole(1);
   command
-      .option("--hold-out", arguments->hold_out,
-              "draw N further rigs, try the result on them, and print on how many all holds")
+      .option(
+          "--hold-out", arguments->hold_out,
+          "draw N more rigs, try the result on them, and print on how many all requirements hold")
       .takes("N")
       .takes_whole(1);
   command
       .option("--quantile", arguments->quantile,
-              "the share of rigs that counts, in place of all; default: 1")
+              "judge by this share of the rigs instead of all; default: 1")
       .takes("Q");
   add_found_files(command, arguments->files, "the values");
   add_threads(command, arguments->threads);
