@@ -54,8 +54,8 @@ std::vector<double> tolerance_ladder(const std::string& text) {
   const auto last = colon == std::string::npos ? first : tolerance(text.substr(colon + 1));
   if (!first || !last || *last > *first) {
     throw InputError("--rtol: found " + text +
-                     ", allowed is LOOSEST:TIGHTEST such as 1e-3:1e-13, or one value, each from "
-                     "0.1 down to 1e-14");
+                     "; allowed: LOOSEST:TIGHTEST such as 1e-3:1e-13, or one value, each from 0.1 "
+                     "down to 1e-14");
   }
   std::vector<double> ladder;
   for (int decade = 0;; ++decade) {

@@ -95,7 +95,7 @@ void tell_sampled_loop(Report& report, const Scenario& scenario, const model::Mo
   if (!model::why_not_linear(scenario).empty()) return;
   if (cycle.samples > 1) {
     report.push_back(
-        {"margins", "none: the loop differs from sample to sample, by the sensor's frames"});
+        {"margins", "none: the loop differs from sample to sample because of the sensor's frames"});
   } else {
     tell_margins(report, scenario, model);
   }
@@ -148,8 +148,8 @@ void tell_solver(Report& report, const Scenario& scenario, const model::Model& m
   report.push_back({"solver", line});
   const double decays = solve::decays_over_scene(model, scenario.time.end);
   report.push_back({"", std::string(decays > 100 ? "a stiff scene" : "not a stiff scene") +
-                            ": its fastest mode decays " + short_number(decays) +
-                            " times over it"});
+                            ": the run lasts " + short_number(decays) +
+                            " time constants of its fastest mode"});
 }
 
 // Describes the scenario's sweep block, after a check of its values.

@@ -56,7 +56,7 @@ double rate_of(const DesignRequest& request, const Scenario& scenario) {
   if (request.rate) {
     if (*request.rate > 0) return *request.rate;
     throw InputError("--rate: found " + number_text(*request.rate) +
-                     "; allowed: rows in a second, such as 50");
+                     "; allowed: rows per second, such as 50");
   }
   constexpr double usual = 50;
   if (!scenario.controller || !scenario.controller->sampling) return usual;

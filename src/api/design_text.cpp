@@ -102,7 +102,8 @@ std::string report_of(const Task& task, const Designed& designed) {
   for (const design::Expected& one : designed.parameters) {
     if (is_told(one)) continue;
     text += "not identifiable: " + one.key +
-            ", which no log of this length tells from the other keys and the windows' starts\n";
+            ", which a log of this length cannot separate from the other keys and the windows' "
+            "starts\n";
   }
   return text;
 }
@@ -145,7 +146,7 @@ std::string json_of(const Task& task, const Designed& designed) {
 std::string comments_of(const DesignRequest& request, const Task& task, const Designed& designed) {
   std::string text = "# Designed by bbsim " BBSIM_VERSION ": plays " + shown(request.table) + ", " +
                      short_number(task.length) + " s; " + start_text(designed) +
-                     "\n# Standard deviations to expect of a fit:\n";
+                     "\n# Standard deviations to expect from a fit:\n";
   for (const design::Expected& one : designed.parameters) {
     text += "#   " + one.key + ": " + deviation_text(one.sd) +
             (one.unit.empty() || !is_told(one) ? "" : " " + one.unit) + "\n";

@@ -97,8 +97,8 @@ std::string correlations_text(const fit::Fitted& fitted) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
   }
-  return text + " go together, with correlations up to " + rounded(largest, 4) +
-         ": the logs tell a combination of them better than each\n";
+  return text + " are correlated, up to " + rounded(largest, 4) +
+         ": the logs determine a combination of them better than each\n";
 }
 
 std::string hash_of(const std::string& file) {
@@ -151,13 +151,13 @@ std::string remarks_of(const FitRequest& request, const fit::Fitted& fitted) {
             ": these are the best values so far\n";
   }
   if (!fitted.white) {
-    text += "note: neighboring residuals are alike (";
+    text += "note: neighboring residuals are correlated (";
     bool first = true;
     for (const fit::ColumnResidual& column : fitted.columns) {
       text += (first ? "" : ", ") + column.column + ": " + rounded(column.correlation, 2);
       first = false;
     }
-    text += "); the scene lacks something, and the intervals are too short\n";
+    text += "); the model is incomplete and the intervals are too short\n";
     if (const auto& one = fitted.suggestion) {
       text += "note: --free " + one->key + " could make the residuals about " +
               rounded(100 * one->share, 2) + " % smaller\n";
@@ -237,7 +237,7 @@ std::string fitted_scenario(const FitRequest& request, const fit::Fitted& fitted
     text += one.told ? ", 95 % from " + with_digits_of(one.low, one.sd) + " to " +
                            with_digits_of(one.high, one.sd) + unit + "; was " +
                            short_number(one.start) + unit + "\n"
-                     : ", which the logs do not tell\n";
+                     : ", which the logs do not determine\n";
   }
   std::vector<ScenarioFamily::Setting> settings;
   for (const fit::Parameter& one : fitted.parameters) {

@@ -72,7 +72,7 @@ bool has_name(const std::string& text, const std::string& name) {
     if (!is_asked) continue;
     throw InputError(file + ": column " + shown(words.column) + ", row " +
                      std::to_string(words.row) + ": found " + bbsim::quoted(words.first) +
-                     ", a number is expected");
+                     "; allowed: a number");
   }
   throw InputError(error);
 }
@@ -105,7 +105,7 @@ void tell_of_references(const record::StoredRun& run,
     if (lacking.empty() || std::ranges::find(told, lacking) != told.end()) continue;
     told.push_back(lacking);
     notes.push_back("note: " + file + " has no column " + lacking + ": step metrics of " +
-                    std::string(one.column->name) + " count to its own value at the end");
+                    std::string(one.column->name) + " refer to its own value at the end");
   }
 }
 

@@ -203,7 +203,7 @@ Line line_of(const Answers& answers, std::size_t sample, std::size_t command,
   if (std::abs(gain) < 0.1 * std::abs(cross)) {
     return {warning, name + "depends on " + coordinates[other] + ", but moves the ball along " +
                          coordinates[axis] +
-                         (legs ? "" : "; exchange the commands, or the coordinates")};
+                         (legs ? "" : "; swap the commands, or the coordinates")};
   }
   std::string gains = "gain " + short_number(gain) + ' ' + unit + " per m of " + coordinates[axis];
   if (std::abs(cross) > 1e-3 * std::abs(gain)) {
@@ -244,8 +244,8 @@ std::optional<Line> turn_of(const Answers& answers, std::size_t sample,
   const double mirrored = std::hypot(push(0, 0) - push(1, 1), push(0, 1) + push(1, 0));
   if (mirrored > std::hypot(along, across)) {
     return Line{"WARNING",
-                "its commands are mirrored; are two legs exchanged, or does one turn the other "
-                "way (direction: -1)?"};
+                "its commands are mirrored; are two legs swapped, or does one turn the other way "
+                "(direction: -1)?"};
   }
   constexpr double much = 20;
   const double turn = std::atan2(across, along) * 180 / std::numbers::pi;

@@ -41,8 +41,7 @@ study::VariedKey read_key(const std::string& key,
   for (const std::string_view section : {"time.", "solver.", "output.", "sweep."}) {
     if (!key.starts_with(section)) continue;
     refuse(name +
-           ": found a key of the computation; allowed: keys of what moves, such as "
-           "ball.radius");
+           ": found a key of the computation; allowed: keys of the scene, such as ball.radius");
   }
   const scenario::NamedNumber number = scenario::number_named("--sensitivity", key, *family);
   const std::optional<double>& value = number.value;
@@ -70,8 +69,9 @@ study::VariedKey read_key(const std::string& key,
   for (int halvings = 0; !fits(); ++halvings) {
     constexpr int most_halvings = 20;
     if (halvings == most_halvings) {
-      refuse(name + ": found " + number_text(*value) +
-             ", where the scene takes no values on both sides; allowed: a value within its range");
+      refuse(
+          name + ": found " + number_text(*value) +
+          ", but a derivative needs valid values on both sides; allowed: a value inside its range");
     }
     varied.step /= 2;
   }
@@ -104,7 +104,7 @@ std::vector<study::VariedKey> sensitivity_keys(const RunRequest& request) {
   const auto family = std::make_shared<const ScenarioFamily>(request.scenario.source);
   for (const std::string& key : scenario::split_measures(request.sensitivity)) {
     if (std::ranges::find(keys, key, &study::VariedKey::name) != keys.end()) {
-      refuse(shown(key) + " is there twice");
+      refuse(shown(key) + " is given twice");
     }
     keys.push_back(read_key(key, family));
   }
@@ -151,8 +151,8 @@ void add_gradients(const Simulation& made, const std::vector<scenario::Measure>&
       by_key.emplace_back(keys[k].name, gradient);
       if (std::isnan(gradient)) {
         summary.warnings.push_back("note: " + name_of_gradient(name, keys[k].name) +
-                                   " is no number: the measure has none, or jumps or has a kink "
-                                   "at this value of the key");
+                                   " is not a number: the measure has no value, or has a jump or a "
+                                   "kink at this value of the key");
       }
     }
   }

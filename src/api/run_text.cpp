@@ -106,11 +106,11 @@ std::string failure_text(const Scenario& scenario, const model::Model& model,
   }
   const std::string warning = instability_warning(scenario, model);
   if (!warning.empty()) {
-    text += "  That is the scene, not the solver: " + warning + ".\n";
+    text += "  The cause is the scene, not the solver: " + warning + ".\n";
     text += "  Change the gains or the servo; `bbsim check` shows the poles.";
   } else if (none != state.end() || (largest != state.end() && std::abs(*largest) > 1e30)) {
     text +=
-        "  That is the motion, not the solver: end the scene earlier, or change the gimbal's "
+        "  The cause is the motion, not the solver: end the scene earlier, or change the gimbal's "
         "motion.";
   } else {
     text += "  Try a looser solver.rtol, or another solver.method; `bbsim check` shows the model.";

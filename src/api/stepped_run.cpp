@@ -49,7 +49,7 @@ class Waiting : public model::ExternalController {
   model::Commands command(const model::ControllerSample& sample, double* /*own*/) override {
     state_.sample = copy_of(sample);
     state_.fiber.wait();
-    if (state_.given_up) throw ControllerFault("the run was given up", true);
+    if (state_.given_up) throw ControllerFault("the run was abandoned", true);
     return {state_.command[0], state_.command[1], 0};
   }
   [[nodiscard]] bool can_save() const override { return false; }
@@ -71,13 +71,13 @@ void require_finite(const Pair& command) {
 Scenario with_outside_commands(Scenario scenario) {
   if (!scenario.controller || !scenario.controller->sampling) {
     throw InputError(
-        "controller.sampling: found none; allowed: {period: \"20 ms\"}, as commands from outside "
-        "are given once a sample");
+        "controller.sampling: found none; allowed: {period: \"20 ms\"}, since commands from "
+        "outside are given once per sample");
   }
   if (scenario.controller->drives == Drives::legs) {
     throw InputError(
-        "controller.drives: found legs; allowed: angle, as commands from outside are for phi and "
-        "theta");
+        "controller.drives: found legs; allowed: angle, since commands from outside are for phi "
+        "and theta");
   }
   scenario.controller->law = Law::own;
   scenario.controller->own.emplace();

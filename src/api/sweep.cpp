@@ -197,7 +197,7 @@ SweepResult sweep(const SweepRequest& request, Watch& watch) {
     interrupted();
     if (!file->part().empty() && result.rows > 0) {
       result.reason +=
-          "\n  " + file->part() + " keeps them; the same command with --resume goes on.";
+          "\n  " + file->part() + " keeps them; the same command with --resume continues.";
     }
   }
   if (summary) {

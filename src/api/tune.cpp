@@ -85,7 +85,7 @@ std::vector<FreeNumber> read_all_free(const TuneRequest& request) {
     free.push_back(read_free(text, request.family));
     for (const FreeNumber::Key& key : free.back().keys) {
       if (std::ranges::find(names, key.name) != names.end()) {
-        throw InputError("--free: " + shown(key.name) + " is there twice");
+        throw InputError("--free: " + shown(key.name) + " is given twice");
       }
       names.push_back(key.name);
       settings.push_back({key.name, number_text(key.factor * free.back().start)});
@@ -353,12 +353,12 @@ std::string shortfall(const Tuned& tuned, const std::string& reason) {
   for (const Tuned::Requirement& one : tuned.requirements) {
     if (one.holds) continue;
     const std::string unit = one.expectation.measure.unit();
-    text += (text.empty() ? "" : "\n") + std::string("tune: found nothing with ") +
+    text += (text.empty() ? "" : "\n") + std::string("tune: found no values with ") +
             one.expectation.text + "; the best has " + short_number(one.value) +
             (unit.empty() ? "" : " " + unit);
   }
   if (text.empty() && !std::isfinite(tuned.objective)) {
-    text = "tune: found nothing with a finite " + tuned.minimized.name;
+    text = "tune: found no values with a finite " + tuned.minimized.name;
   }
   if (!text.empty() && !reason.empty()) text += "\n  a rig: " + reason;
   return text;

@@ -57,7 +57,7 @@ std::string report_of(const TuneRequest& request, const Tuned& tuned) {
   }
   std::string text = record::aligned(keys) + "\n" + record::aligned(measures) + "\n";
   text += "on " + rigs_text(request, tuned) + "; " + std::to_string(tuned.tried) + " tries\n";
-  if (tuned.held_out > 0) text += "all holds on " + share_text(tuned) + "\n";
+  if (tuned.held_out > 0) text += "all requirements hold on " + share_text(tuned) + "\n";
   return text;
 }
 
@@ -90,7 +90,7 @@ std::string tuned_scenario(const TuneRequest& request, const Tuned& tuned) {
     add(one.expectation.text + (one.holds ? "" : " (does not hold)"), one.value,
         one.expectation.measure.unit());
   }
-  if (tuned.held_out > 0) text += "# All holds on " + share_text(tuned) + ".\n";
+  if (tuned.held_out > 0) text += "# All requirements hold on " + share_text(tuned) + ".\n";
   std::vector<ScenarioFamily::Setting> settings;
   for (const Tuned::Parameter& one : tuned.parameters) {
     settings.push_back(

@@ -376,7 +376,7 @@ class Fit {
     }
   }
 
-  // "a and b are not told apart by the log: it stays the same with a +1 %, b -1 %"
+  // "a and b cannot be told apart: the log stays the same with a +1 %, b -1 %"
   [[nodiscard]] std::string words_for(const VectorXd& change, const VectorXd& weight) const {
     std::vector<Index> members;
     for (Index k = 0; k < change.size(); ++k) {
@@ -384,7 +384,7 @@ class Fit {
     }
     if (members.size() == 1) {
       return task_.keys[static_cast<std::size_t>(members[0])].name +
-             " is not told by the log: what it changes, another start of each window changes, too";
+             " is not determined by the log: other starts of the windows have the same effect";
     }
     std::string names, changes;
     // Scales the first key's change to 1 %, or to a hundredth of its scale.
@@ -399,7 +399,7 @@ class Fit {
                                                      (key.unit.empty() ? "" : " " + key.unit);
       changes += (changes.empty() ? "" : ", ") + key.name + " " + sign + size;
     }
-    return names + " are not told apart by the log: it stays the same with " + changes;
+    return names + " cannot be told apart: the log stays the same with " + changes;
   }
 
   Task task_;
@@ -420,8 +420,8 @@ void drop_rows_before(double time, Window& window) {
 void require_whole_starts(const Scenario& scenario) {
   const auto refuse = [](const std::string& found) {
     throw InputError("--continuity: found " + found +
-                     ", whose state is not all at the start of a window; allowed: scenes whose "
-                     "state is that of the ball and of the gimbal");
+                     ", whose state is not part of a window's start; allowed: scenes with no state "
+                     "but that of the ball and of the gimbal");
   };
   const bool is_loop = scenario.controller && commands_of(scenario) == nullptr;
   if (is_loop && scenario.controller->sampling) refuse("a sampled controller");
@@ -495,10 +495,11 @@ Fitted fit(const Task& task) {
   made.numbers = numbers;
   const std::size_t unknowns = windows.size() * coordinates + task.keys.size();
   if (numbers <= unknowns) {
-    throw InputError("the logs have " + std::to_string(numbers) + " numbers in " +
-                     std::to_string(windows.size()) + " windows; allowed: more than the " +
-                     std::to_string(unknowns) +
-                     " that are sought, starts included; a longer --window or fewer --free keys");
+    throw InputError(
+        "the logs have " + std::to_string(numbers) + " numbers in " +
+        std::to_string(windows.size()) + " windows; allowed: more than the " +
+        std::to_string(unknowns) +
+        " that are sought, starts included; use a longer --window or fewer --free keys");
   }
   require_tables(task, windows);
   require_tables(task, held);

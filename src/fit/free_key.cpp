@@ -138,7 +138,7 @@ FreeKey read_free_key(std::string_view text, const ScenarioFamily& family) {
   if (!start) {
     // The reader reports a misspelled key or a key of another law.
     static_cast<void>(family.read({key.setting(1)}));
-    refuse(name + ": the scenario gives no value to begin with; allowed: " + name +
+    refuse(name + ": the scenario gives no value to start from; allowed: " + name +
            "=FROM:TO, or a value in the scenario");
   }
   key.start = *start;
@@ -184,7 +184,7 @@ FreeKey read_log_key(std::string_view text, const std::vector<const scenario::Co
     key.column = c;
   }
   const std::string name = shown(key.name);
-  if (key.of == FreeKey::Of::scenario) refuse(name + ": allowed of a log: log.delay" + names);
+  if (key.of == FreeKey::Of::scenario) refuse(name + ": allowed for a log: log.delay" + names);
   if (equals != std::string_view::npos) {
     if (key.of == FreeKey::Of::delay) key.upper = unlimited;
     read_bounds(trimmed(text.substr(equals + 1)), key);
@@ -204,7 +204,7 @@ FreeKey read_log_key(std::string_view text, const std::vector<const scenario::Co
 
 void add_free_key(std::vector<FreeKey>& keys, FreeKey key) {
   if (std::ranges::find(keys, key.name, &FreeKey::name) != keys.end()) {
-    refuse(shown(key.name) + " is there twice");
+    refuse(shown(key.name) + " is given twice");
   }
   keys.push_back(std::move(key));
 }

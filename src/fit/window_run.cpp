@@ -100,7 +100,7 @@ std::vector<double> run_window(const Scenario& scene, const Start& start,
   const solve::Outcome outcome = solve::integrate(
       model, begun.solver.method, {begun.solver.rtol, begun.solver.atol}, grid, sink);
   if (outcome.ending != solve::Ending::done || !sink.all()) {
-    why = outcome.reason.empty() ? "the run does not come to the window's end" : outcome.reason;
+    why = outcome.reason.empty() ? "the run does not reach the window's end" : outcome.reason;
     return {};
   }
   const model::BallConstants constants = model::constants_of(begun);

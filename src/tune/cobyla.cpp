@@ -38,7 +38,7 @@ Library load() {
   // Never closed, because the process may tune again.
   void* const library = dlopen(file, RTLD_NOW | RTLD_LOCAL);
   const auto fail = [&] {
-    throw InputError(std::string("the optimizer NLopt does not open: ") + dlerror() +
+    throw InputError(std::string("the optimizer NLopt cannot be loaded: ") + dlerror() +
                      "; install NLopt 2, such as Debian's libnlopt0");
   };
   if (library == nullptr) fail();

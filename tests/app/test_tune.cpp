@@ -60,7 +60,7 @@ TEST_CASE("tune ends with exit code 1 where a requirement cannot be met, and wri
       tune({"--minimize", "rms_tracking_error", "--require", "max_tilt < 0.1 deg", "--json", "-"}),
       folder.path());
   CHECK(result.exit_code == 1);
-  CHECK_THAT(result.err, Contains("tune: found nothing with max_tilt < 0.1 deg; the best has "));
+  CHECK_THAT(result.err, Contains("tune: found no values with max_tilt < 0.1 deg; the best has "));
   CHECK(nlohmann::json::parse(result.out)["requirements"][0]["holds"] == false);
 }
 

@@ -180,6 +180,6 @@ TEST_CASE("windows are not joined where their starts are not the whole state") {
     });
   };
   CHECK(contains(refused("gravity_compensation: {kp: 10, kv: 8}, sampling: {period: 20 ms}"),
-                 "--continuity: found a sampled controller, whose state is not all at the start "
-                 "of a window; allowed: scenes whose state is that of the ball and of the gimbal"));
+                 "--continuity: found a sampled controller, whose state is not part of a window's "
+                 "start; allowed: scenes with no state but that of the ball and of the gimbal"));
 }

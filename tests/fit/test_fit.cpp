@@ -206,9 +206,9 @@ TEST_CASE("keys that trade off exactly are not given small bars") {
   CAPTURE(made.text, made.json);
   CHECK(made.code == ExitCode::done);
   REQUIRE(made.fitted.untold.size() == 1);
-  CHECK(contains(made.fitted.untold.front(),
-                 "gimbal.motion.phi.table.offset and "
-                 "gimbal.mounting.phi_offset are not told apart"));
+  CHECK(contains(
+      made.fitted.untold.front(),
+      "gimbal.motion.phi.table.offset and gimbal.mounting.phi_offset cannot be told apart"));
   CHECK_FALSE(made.fitted.parameters[0].told);
   CHECK_FALSE(made.fitted.parameters[1].told);
   CHECK(made.fitted.parameters[2].told);
@@ -480,12 +480,12 @@ TEST_CASE("what a fit cannot use is refused") {
   CHECK(contains(refused({"ball.mass"}), "ball.mass: has no effect on x, y"));
   CHECK(contains(refused({"ball.inertia_factor=2"}), "found \"2\"; allowed: FROM:TO"));
   CHECK(contains(refused({"ball.inertia_factor=0.5:0.3"}), "allowed: FROM:TO with FROM below TO"));
-  CHECK(contains(refused({"ball.radius", "ball.radius"}), "ball.radius is there twice"));
+  CHECK(contains(refused({"ball.radius", "ball.radius"}), "ball.radius is given twice"));
   CHECK(contains(refused({"ball.radius"}, "-1"), "--window: found \"-1\""));
   CHECK(contains(refused({"ball.radius"}, "", 1), "--hold-out: found 1"));
   CHECK(contains(
       refused({"log.phi.scale"}),
-      "log.phi.scale: allowed of a log: log.delay, log.x.scale, log.x.offset, log.y.scale"));
+      "log.phi.scale: allowed for a log: log.delay, log.x.scale, log.x.offset, log.y.scale"));
   CHECK(contains(refused({"log.delay=-1:1"}), "allowed: values from 0"));
   Case other(log_text(5e-4));
   other.loss = "cauchy";

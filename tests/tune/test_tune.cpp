@@ -145,7 +145,7 @@ TEST_CASE("gains under which no rig is stable do not meet a margin") {
   api::TuneRequest other{stiff, request.free, "spectral_radius", {"phi_delay_margin > 1 ms"}};
   const api::TuneResult made = tune(other);
   CHECK(made.code == ExitCode::ended_early);
-  CHECK(contains(made.reason, "found nothing with phi_delay_margin > 1 ms"));
+  CHECK(contains(made.reason, "found no values with phi_delay_margin > 1 ms"));
   CHECK(contains(made.reason, "the loop is not stable"));
 }
 
@@ -167,7 +167,7 @@ TEST_CASE("a requirement that cannot be met ends with exit code 1, and says what
   request.require = {"max_tilt < 0.1 deg"};
   const api::TuneResult made = tune(request);
   CHECK(made.code == ExitCode::ended_early);
-  CHECK(contains(made.reason, "tune: found nothing with max_tilt < 0.1 deg; the best has "));
+  CHECK(contains(made.reason, "tune: found no values with max_tilt < 0.1 deg; the best has "));
   REQUIRE(made.tuned);
   CHECK_FALSE(made.tuned->requirements[0].holds);
   CHECK(nlohmann::json::parse(made.json)["requirements"][0]["holds"] == false);
@@ -179,7 +179,7 @@ TEST_CASE("what never is counts as infinite, and is null in JSON") {
   request.require.clear();
   const api::TuneResult made = tune(request);
   CHECK(made.code == ExitCode::ended_early);
-  CHECK(contains(made.reason, "tune: found nothing with a finite when x=1"));
+  CHECK(contains(made.reason, "tune: found no values with a finite when x=1"));
   CHECK(nlohmann::json::parse(made.json)["objective"].is_null());
 }
 
@@ -212,7 +212,7 @@ TEST_CASE("what is wrong with the input of tuning is said before it runs") {
   CHECK(contains(free("ball.radius=1 s:2 s"), "ball.radius"));
   CHECK(contains(free("ball.radius=-1 cm:2 cm"), "allowed: values from 0"));
   CHECK(contains(free("2*" + kp + "=1:2"), "found a factor before the first key"));
-  CHECK(fault(request_of({kp + "=1:2", kp + "=1:3"})) == "--free: " + kp + " is there twice");
+  CHECK(fault(request_of({kp + "=1:2", kp + "=1:3"})) == "--free: " + kp + " is given twice");
   CHECK_FALSE(contains(free("ball.position.0=1 cm:2 cm"), "window"));
 
   const auto with = [](const auto& change, bool with_scenario = false) {
