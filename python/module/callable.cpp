@@ -85,7 +85,7 @@ class Callable::Controller : public model::ExternalController {
 
   void begin() override {
     const py::gil_scoped_acquire lock;
-    ask("to begin", [&] {
+    ask("to start", [&] {
       if (py::hasattr(callable_.function_, "reset")) callable_.function_.attr("reset")();
     });
   }

@@ -147,7 +147,7 @@ void Child::send(std::string_view line) {
 void Child::receive() {
   while (answer_ == 0) {
     if (size_ == buffer_.size()) {
-      fail("its answer has no end within " + std::to_string(longest_line) +
+      fail("its answer does not end within " + std::to_string(longest_line) +
            " bytes: " + bbsim::quoted(received(), longest_saying));
     }
     const ssize_t got = read(output_.get(), buffer_.data() + size_, buffer_.size() - size_);
@@ -222,8 +222,7 @@ void Child::say_lines(bool all) {
 void Child::fail_by_silence() {
   std::string why = "it did not answer within " + number_text(timeout_) + " s";
   if (size_ > 0) {
-    why += ": of its answer there is " + bbsim::quoted(received(), longest_saying) +
-           ", without a line break";
+    why += ": it sent " + bbsim::quoted(received(), longest_saying) + ", without a line break";
   } else {
     why += " (flush buffered output after each answer: print(..., flush=True) in Python)";
   }
@@ -293,7 +292,7 @@ void Child::finish() {
     if (events[1].revents != 0) listen();
     ended = has_ended(0);
   }
-  if (!ended) tell_("it went on after the end of its input, and has been ended");
+  if (!ended) tell_("it kept running after the end of its input, and has been ended");
   static_cast<void>(end());
 }
 

@@ -103,7 +103,7 @@ std::vector<std::string> Host::describe() const {
       columns += (columns.empty() ? "" : ", ") + shown(name) + " (" + shown(unit) + ")";
     }
   }
-  if (!columns.empty()) lines.push_back("beside its commands it gives " + columns);
+  if (!columns.empty()) lines.push_back("besides its commands it gives " + columns);
   return lines;
 }
 

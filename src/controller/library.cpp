@@ -71,7 +71,7 @@ std::shared_ptr<const LibraryFunctions> open(const std::string& path) {
   if (abi != BBSIM_CONTROLLER_ABI) {
     refuse(path, "which is of version " + std::to_string(abi) +
                      " of bbsim/controller.h; allowed: version " +
-                     std::to_string(BBSIM_CONTROLLER_ABI) + ": compile it anew");
+                     std::to_string(BBSIM_CONTROLLER_ABI) + ": compile it again");
   }
   require("bbsim_controller_create", functions->create);
   require("bbsim_controller_step", functions->step);
@@ -155,12 +155,12 @@ Library::Library(const OwnController& own, const Setup& setup)
   try {
     functions_ = open(path_);
   } catch (const ExitCalled& call) {
-    throw fault_of("to begin", call.text());
+    throw fault_of("to start", call.text());
   }
   if (wiring_ && functions_->create_wired == nullptr) {
     throw KeyError("controller.library.wiring",
                    "found beside " + shown(path_, uncut) +
-                       ", which is no sketch; allowed: with a library of bbsim sketch");
+                       ", which is not a sketch; allowed: with a library that bbsim sketch made");
   }
   create();
 }
@@ -205,7 +205,7 @@ void Library::create() {
   fault_.reset();
   fresh_ = true;
   const CSetup setup(setup_);
-  constexpr auto when = [] { return "to begin"; };
+  constexpr auto when = [] { return "to start"; };
   try {
     controller_ = wiring_ ? ask(when, functions_->create_wired, setup.get(), wiring_->get())
                           : ask(when, functions_->create, setup.get());
@@ -267,7 +267,7 @@ std::string Library::save() {
 
 void Library::restore(const std::string& memory) {
   begin();
-  constexpr auto when = [] { return "to go on from a state"; };
+  constexpr auto when = [] { return "to continue from a state"; };
   const int code = ask(when, functions_->restore, controller_,
                        static_cast<const void*>(memory.data()), memory.size());
   if (code == 0) return;

@@ -69,7 +69,7 @@ void Program::say_hello(const std::string& memory) {
     ready_ = read_ready(child_->ask(hello_line(setup_, memory), program_.start_timeout));
     if (!ready_.fault.empty()) throw child_->refuse(ready_.fault);
   } catch (const ChildFault& fault) {
-    fault_ = fault_of("to begin", fault);
+    fault_ = fault_of("to start", fault);
   } catch (const ChildInterrupted&) {
     fault_.emplace("interrupted", true);
   }
@@ -102,7 +102,7 @@ void Program::restore(const std::string& memory) {
 // `read` reads the answer and returns what is wrong with it. `when` says when bbsim asked for it.
 template <class When, class Read>
 void Program::ask(std::string_view line, When when, Read read) {
-  if (!child_) throw model::ControllerFault("the controller has ended before");
+  if (!child_) throw model::ControllerFault("the controller has already ended");
   try {
     const std::string wrong = read(child_->ask(line, program_.timeout));
     if (!wrong.empty()) throw child_->refuse(wrong);

@@ -188,7 +188,7 @@ Ready read_ready(std::string_view line) {
     return ready;
   };
   const std::string wanted = "allowed: {\"protocol\": " + std::to_string(protocol_version) +
-                             "}, and beside it \"reset\": " +
+                             "}, optionally with \"reset\": " +
                              "true, \"save\": true, \"columns\": {\"NAME\": \"UNIT\"}, \"fields\": "
                              "[\"NAME\"]";
   const Json answer = parse_json(line);
@@ -219,16 +219,17 @@ Ready read_ready(std::string_view line) {
           for (const Field& one : fields) known.push_back(one.name);
           const bool is_text = name.is_string();
           const std::string meant = is_text ? hint(name.get<std::string>(), known) : "";
-          return refuse("found a field " +
-                        (is_text ? bbsim::quoted(name.get<std::string>()) : "that is no text") +
-                        meant + "; allowed: those of the hello");
+          return refuse(
+              "found a field " +
+              (is_text ? bbsim::quoted(name.get<std::string>()) : "that is not a string") + meant +
+              "; allowed: those of the hello");
         }
       }
     } else if (key == "columns") {
-      if (!value.is_object()) return refuse("found columns that are no object; " + wanted);
+      if (!value.is_object()) return refuse("found columns that are not an object; " + wanted);
       ready.columns.emplace();
       for (const auto& [name, unit] : value.items()) {
-        if (!unit.is_string()) return refuse("found a unit that is no text; " + wanted);
+        if (!unit.is_string()) return refuse("found a unit that is not a string; " + wanted);
         ready.columns->emplace_back(name, unit.get<std::string>());
       }
     } else {
@@ -310,13 +311,14 @@ std::string read_answer(std::string_view line, std::span<const std::string> name
         std::vector<std::string_view> known{"command", "error"};
         known.insert(known.end(), names.begin(), names.end());
         const std::string meant = hint(name, known);
-        const char* const kind = name == "error" ? " that is no text" : " that is no number";
+        const char* const kind =
+            name == "error" ? " that is not a string" : " that is not a number";
         return refuse_form("found " + bbsim::quoted(name) + (meant.empty() ? kind : meant) + "; ");
       }
       const auto wanted = std::ranges::find(names, name);
       if (wanted == names.end()) continue;
       if (!std::isfinite(number)) {
-        return refuse("found " + bbsim::quoted(name) + " that is no finite number");
+        return refuse("found " + bbsim::quoted(name) + " that is not a finite number");
       }
       own[wanted - names.begin()] = number;
     }
@@ -324,7 +326,7 @@ std::string read_answer(std::string_view line, std::span<const std::string> name
   if (!reader.take('}') || !reader.at_end()) return refuse_form("");
   if (!commanded) return refuse_form("found no command" + misspelt(line, "command") + "; ");
   if (!std::ranges::all_of(command, [](double one) { return std::isfinite(one); })) {
-    return refuse("found a command that is no finite number");
+    return refuse("found a command that is not a finite number");
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (std::isnan(own[i])) {

@@ -129,7 +129,7 @@ void AtomicFile::open_named() {
   if (error == EACCES || error == EPERM || error == EROFS) {
     throw OutputError("cannot write " + target_.name + ": " + error_text(error) + " in folder " +
                       target_.folder() +
-                      "; write to a folder where you may, or change the permissions of this one");
+                      "; write to another folder, or change the permissions of this one");
   }
   fail(error);
 }

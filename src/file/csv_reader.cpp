@@ -182,7 +182,7 @@ class Parser {
   void require_room(std::size_t rows, std::size_t most) const {
     if (rows < most) return;
     fail(text_, "found more than " + std::to_string(most) +
-                    " rows; that is more than this machine has memory for");
+                    " rows, more than this machine's memory holds");
   }
 
   bool next_line() {
@@ -331,7 +331,7 @@ class Parser {
                        "; the first row names the columns, or --header NAME,... does");
       }
       if (!name.empty() && !seen.emplace(name).second) {
-        fail(name, "column " + quoted(name, longest_name) + " is there twice");
+        fail(name, "column " + quoted(name, longest_name) + " appears twice");
       }
       cells_.names.emplace_back(name);
     };
@@ -427,7 +427,7 @@ class Parser {
     if (cells_.rows == 0 && delimiter_ == ',' && cells_.names.size() > 1 &&
         found == 2 * cells_.names.size()) {
       fail(text_, count_text(found) +
-                      ": commas seem to stand both between columns and in numbers; separate the "
+                      ": commas seem to separate columns and to mark decimals; separate the "
                       "columns by semicolons or tabs");
     }
     if (rows_beyond_++ == 0)
@@ -445,7 +445,7 @@ class Parser {
                              more(rows_beyond_));
     }
     if (headers_again_ > 0) {
-      cells_.notes.push_back("note: " + lines_.name() + ": the header stands again in " +
+      cells_.notes.push_back("note: " + lines_.name() + ": the header is repeated in " +
                              std::to_string(headers_again_) +
                              (headers_again_ == 1 ? " row" : " rows") + ", left out");
     }
@@ -514,7 +514,7 @@ void refuse_text(const CellTable& table, std::size_t column, const Place& place)
       {Problem{table.file + ":" + std::to_string(place.line) + ":" + std::to_string(place.column),
                "column " + shown(table.names[column]) + ": " +
                    what_was_found(gap || text == of.texts.end() ? std::string_view() : *text) +
-                   ", a number is expected"}});
+                   "; allowed: a number"}});
 }
 
 }  // namespace bbsim::file

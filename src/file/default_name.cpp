@@ -26,7 +26,7 @@ constexpr const char* remedy = ". Name another file with -o, or replace this one
 
 [[noreturn]] void refuse(const std::string& target, const std::string& found,
                          const Likeness& likeness) {
-  throw InputError(target + ": is there, " + found + "; allowed without -o: to replace " +
+  throw InputError(target + ": already exists, " + found + "; allowed without -o: to replace " +
                    likeness.what + remedy);
 }
 
@@ -88,7 +88,7 @@ void require_new(const std::string& target, const std::string_view* content) {
     const Descriptor file = opened(target);
     if (file.is_open() && bytes_at(file, 0, content->size() + 1) == *content) return;
   }
-  throw InputError(target + ": is there; allowed: to write a new file" + remedy);
+  throw InputError(target + ": already exists; allowed: to write a new file" + remedy);
 }
 
 }  // namespace bbsim::file

@@ -29,7 +29,7 @@ ModuleFile find_file(const std::string& what, const char* name,
     looked_in.append(looked_in.empty() ? "" : " and ").append(folder);
   }
   return {"", what + " " + name + " is not in " + looked_in + way_out +
-                  "or install bbsim whole, or set BBSIM_MODULE_PATH to the module's folder"};
+                  "or install all of bbsim, or set BBSIM_MODULE_PATH to the module's folder"};
 }
 
 // The path of the shared library that contains this code; empty if the program contains it.
@@ -66,7 +66,7 @@ Hdf5Module open_hdf5_module(const std::vector<std::string>& folders) {
   // Never closed: HDF5 cleans up when the process ends.
   void* library = dlopen(file.path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
-    return {nullptr, std::string("the HDF5 module does not open: ") + dlerror() + way_out +
+    return {nullptr, std::string("the HDF5 module cannot be loaded: ") + dlerror() + way_out +
                          "or install the HDF5 library that it was built with"};
   }
   const auto entry = reinterpret_cast<bbsim_hdf5_entry_function>(dlsym(library, BBSIM_HDF5_ENTRY));

@@ -39,7 +39,7 @@ class Hdf5Writer final : public TableWriter {
 
 [[noreturn]] void refuse(const Hdf5TableReader& reader, const std::string& dataset,
                          const char* held) {
-  reader.fail("dataset " + shown(dataset) + " is no column of numbers: it holds " + held);
+  reader.fail("dataset " + shown(dataset) + " is not a column of numbers: it holds " + held);
 }
 
 void check_numbers(const Hdf5TableReader& reader) {

@@ -33,7 +33,7 @@ constexpr int told_why = 1, no_program = 127;
 constexpr std::size_t longest_reason = 65536;  // bytes
 
 [[noreturn]] void no_process(int error) {
-  throw Hdf5Trouble("no process can be had to read it in: " + error_text(error));
+  throw Hdf5Trouble("cannot start a process to read it: " + error_text(error));
 }
 
 constexpr const char* damaged = ": the file is damaged, or not valid HDF5";
@@ -136,7 +136,7 @@ std::size_t Hdf5Process::read(char* to, std::size_t most) {
     if (errno == EINTR) continue;
     const int error = errno;
     end();
-    throw Hdf5Trouble("talking with the HDF5 reader failed: " + error_text(error));
+    throw Hdf5Trouble("communication with the HDF5 reader failed: " + error_text(error));
   }
 }
 
@@ -158,7 +158,7 @@ void Hdf5Process::fail_by_end() {
   if (status && WIFSIGNALED(*status)) throw Hdf5Trouble(signal_text(WTERMSIG(*status)));
   const std::string reason = content_of(error_);
   if (!reason.empty() && (!status || WEXITSTATUS(*status) == told_why)) throw Hdf5Trouble(reason);
-  if (!status) throw Hdf5Trouble(std::string("the HDF5 reader ended over it") + damaged);
+  if (!status) throw Hdf5Trouble(std::string("the HDF5 reader ended while reading it") + damaged);
   throw Hdf5Trouble(exit_text(WEXITSTATUS(*status)));
 }
 

@@ -56,7 +56,7 @@ void check_regular(const std::string& file) {
   if (stat(file.c_str(), &status) != 0 || access(file.c_str(), R_OK) != 0) {
     refuse_file(file, error_text(errno));
   }
-  if (!S_ISREG(status.st_mode)) refuse_file(file, "it is no regular file");
+  if (!S_ISREG(status.st_mode)) refuse_file(file, "it is not a regular file");
 }
 
 Hdf5Kind kind_named(const std::string& text) {

@@ -145,7 +145,8 @@ class Hdf5TableWriter::State {
   }
 
   void add_column(const Hdf5Column& column, const std::vector<double>& values) {
-    if (values.size() != rows_) refuse(target_, "a column has not as many rows as the others");
+    if (values.size() != rows_)
+      refuse(target_, "a column does not have as many rows as the others");
     flush();
     output_.write_column(described(column, BBSIM_HDF5_NUMBER, 1), values.data());
   }

@@ -30,7 +30,7 @@ constexpr off_t largest_text = off_t{64} * 1024 * 1024;  // bytes; a scenario ha
 int check(const std::string& name, int descriptor) {
   struct stat status {};
   if (fstat(descriptor, &status) != 0) fail_to_write(name, errno);
-  if (!S_ISREG(status.st_mode)) refuse_kind(name, "no regular file");
+  if (!S_ISREG(status.st_mode)) refuse_kind(name, "not a regular file");
   if (status.st_uid != geteuid()) {
     refuse_kind(name, "a file of another user (number " + std::to_string(status.st_uid) + ")");
   }

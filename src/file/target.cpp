@@ -41,7 +41,7 @@ std::string advice(int error_number, const std::string& name) {
     case EACCES:
     case EPERM:
     case EROFS:
-      return "; write to a folder where you may, or change the permissions of " + name;
+      return "; write to another folder, or change the permissions of " + name;
     case ENOENT:
       return "; create its folder, or write to another place";
     case ENAMETOOLONG:

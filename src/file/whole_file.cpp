@@ -36,7 +36,8 @@ std::string read_whole(const std::string& file, std::string_view start, std::siz
   std::size_t size = 0;
   for (;;) {
     if (size > most || (regular && room - 1 > most)) {
-      refuse(file, "found more than " + std::to_string(most) + " bytes; allowed: at most as many");
+      refuse(file,
+             "found more than " + std::to_string(most) + " bytes; allowed: at most that many");
     }
     const bool begins = size >= start.size();
     if (size == bytes.size()) bytes.resize(begins ? std::max(room, 2 * size) : start.size());

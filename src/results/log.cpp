@@ -146,7 +146,7 @@ std::vector<Mapped> read_maps(const std::vector<std::string>& maps, const Result
       const std::string_view part = std::string_view(map).substr(start, end - start);
       all.push_back(PartReader(part, log).read());
       if (std::ranges::count(all, all.back().column, &Mapped::column) > 1) {
-        refuse(part, ": " + std::string(all.back().column->name) + " is there twice");
+        refuse(part, ": " + std::string(all.back().column->name) + " is given twice");
       }
       start = end + 1;
     }

@@ -141,7 +141,7 @@ void read_summary(Result& result, const std::string& file) {
   const Json json = parse_json(file::read_whole(file, {}, most_of_a_summary));
   if (!is_summary(json)) {
     throw InputError(file +
-                     ": is no summary; allowed: what `bbsim run --summary FILE.json` writes");
+                     ": is not a summary; allowed: what `bbsim run --summary FILE.json` writes");
   }
   const std::size_t rows = member(json, "rows", std::size_t{0});
   if (rows != result.rows) {
@@ -177,8 +177,8 @@ void find_summary(Result& result) {
   if (as_long && !is_newer(csv, summary)) return take_summary(result, json);
   result.left_out = summary.string() + ": left out, since it " +
                     (as_long ? "is older than " : "has another number of rows than ") +
-                    result.file + " and so is of another run" +
-                    (as_long ? "; --summary " + summary.string() + " takes it all the same" : "");
+                    result.file + " and so is from another run" +
+                    (as_long ? "; --summary " + summary.string() + " uses it anyway" : "");
 }
 
 }  // namespace

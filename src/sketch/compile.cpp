@@ -36,7 +36,7 @@ std::string board_folder() {
     looked_in.append(looked_in.empty() ? "" : " and ").append(folder.string());
   }
   throw OutputError(std::string("cannot ") + purpose + ": the board's sources are not in " +
-                    looked_in + "; install bbsim whole, or set BBSIM_SHARE_PATH to share/bbsim");
+                    looked_in + "; install all of bbsim, or set BBSIM_SHARE_PATH to share/bbsim");
 }
 
 // A folder that is removed at the end, with all files in it.
@@ -84,7 +84,7 @@ class Compiler {
     }
     throw OutputError(std::string("cannot ") + purpose + ": there is no C++ compiler" +
                       (choice ? " " + std::string(chosen) + " (CXX)" : "") +
-                      "; install one (Debian: apt install g++), or let CXX name one");
+                      "; install one (Debian: apt install g++), or set CXX to one");
   }
   [[nodiscard]] std::optional<file::Finished> run(const std::vector<std::string>& arguments,
                                                   const std::string& input = "") const {

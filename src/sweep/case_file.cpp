@@ -71,7 +71,7 @@ void check_case_target(const std::string& target, const CaseFileLayout& layout, 
   const file::Format format = file::format_of(target);
   if (!direct && format == file::Format::other) {
     throw InputError("cannot tell the format of " + target +
-                     " by its name; allowed endings: .csv, .h5, .hdf5");
+                     " from its name; allowed endings: .csv, .h5, .hdf5");
   }
   if (!layout.axis_values.empty() && (direct || format != file::Format::hdf5)) {
     throw InputError("cannot keep trajectories in " + target +

@@ -45,7 +45,7 @@ std::string CasePart::fault_of(std::string_view line, bool whole, std::size_t ro
   if (found.empty() && reader.case_number() != number) {
     found = "case " + std::to_string(reader.case_number());
   }
-  if (found.empty() && !whole) found = "no end of it";
+  if (found.empty() && !whole) found = "no line end";
   if (found.empty()) return "";
   return "the row of case " + std::to_string(number) + " is not as it was written (found " + found +
          ")";
@@ -80,7 +80,7 @@ void CasePart::take_up(std::size_t most) {
             " are not as they were written";
   }
   if (!fault.empty()) {
-    kept_.trouble = file_.name() + ": " + fault + "; going on from case " +
+    kept_.trouble = file_.name() + ": " + fault + "; continuing from case " +
                     std::to_string(layout_.first_case + kept_.rows);
   }
   file_.keep_only(end);

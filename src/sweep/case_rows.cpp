@@ -142,7 +142,7 @@ std::string RowReader::read(std::string_view line) {
   if (count != cells_.size()) return fields_found(count, cells_.size());
   for (std::size_t i = 1; i < cells_.size(); ++i) {
     if (fields_[i] == Field::number && !is_number(cells_[i], numbers_[i])) {
-      return "something else than a number in field " + std::to_string(i + 1);
+      return "something other than a number in field " + std::to_string(i + 1);
     }
   }
   numbers_[0] = static_cast<double>(case_number_);

@@ -68,7 +68,7 @@ Merged merge_cases(const std::vector<std::string>& parts, const std::string& tar
   const bool to_hdf5 = !file::is_written_directly(target) && is_hdf5(target);
   if (!file::is_written_directly(target) && file::format_of(target) == file::Format::other) {
     throw InputError("cannot tell the format of " + target +
-                     " by its name; allowed endings: .csv, .h5, .hdf5");
+                     " from its name; allowed endings: .csv, .h5, .hdf5");
   }
   const auto hdf5 = static_cast<std::size_t>(std::count_if(parts.begin(), parts.end(), is_hdf5));
   if ((hdf5 > 0) != to_hdf5 || (hdf5 > 0 && hdf5 < parts.size())) {

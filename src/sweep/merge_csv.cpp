@@ -54,7 +54,7 @@ CsvPart look_at(const std::string& file) {
   const file::Descriptor opened = open_part(file, status);
   PartLines lines(opened.get(), file, Blame::input);
   std::string_view line;
-  if (!lines.next(line) || !lines.whole()) cannot_read(file, "it is no file with rows of cases");
+  if (!lines.next(line) || !lines.whole()) cannot_read(file, "it is not a file with rows of cases");
   if (!line.starts_with("case,")) {
     throw InputError(file + ": found the first column " +
                      std::string(line.substr(0, line.find(','))) +
@@ -109,7 +109,7 @@ Agreed compare_plans_of(const std::vector<std::string>& files) {
     }
     const PlanDifference difference = compare_plans(first_plan, *plan, true);
     if (difference.other.empty()) continue;
-    throw InputError(file + ": found of another sweep than " + first_file +
+    throw InputError(file + ": is a part of another sweep than " + first_file +
                      ": their plans differ in " + difference.other +
                      "; allowed: parts of one sweep");
   }

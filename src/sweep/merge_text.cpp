@@ -35,7 +35,7 @@ std::string InstructionSets::names() const {
 
 std::string InstructionSets::note() const {
   if (names_.size() < 2) return "";
-  return "the parts are of " + names() + ": alike within the tolerance, not to the bit";
+  return "the parts are of " + names() + ": alike within the tolerance, not bit for bit";
 }
 
 }  // namespace bbsim::sweep

@@ -98,7 +98,7 @@ void PartFile::check_plan(bool resume) const {
   if (found.text == plan_text_) return;
   const PlanDifference difference = compare_plans(found.text, plan_text_);
   if (!difference.other.empty()) {
-    throw InputError(part_ + ": of another sweep than this one, says " + plan_ + ", by its " +
+    throw InputError(part_ + ": is of another sweep than this one: " + plan_ + " differs in its " +
                      difference.other +
                      "; allowed with --resume: the same scenario, tables, keys, seed, measures and "
                      "shard, by the same version of bbsim");
@@ -107,7 +107,7 @@ void PartFile::check_plan(bool resume) const {
                    ", and this is " + difference.instruction_sets[1] +
                    ", whose results differ in the last digits; continue on a machine with the "
                    "first one (BBSIM_SIMD=" +
-                   difference.instruction_sets[0] + "), or remove it to begin anew");
+                   difference.instruction_sets[0] + "), or remove it to start again");
 }
 
 void PartFile::write_plan() {

@@ -92,7 +92,7 @@ void check_apart(const std::string& key, const std::vector<Setting>& others) {
       fail(key, "found twice; allowed: each key once");
     }
     if (within(other.key, key) || within(key, other.key)) {
-      fail(key, "found beside " + other.key + "; allowed: keys apart from each other");
+      fail(key, "found beside " + other.key + "; allowed: keys that do not overlap");
     }
   }
   if (key == "sweep" || within(key, "sweep")) {
@@ -314,7 +314,7 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, const Sweep& sweep)
       if (axis.random() || axis.count == longest) continue;
       fail(axis.key, "found " + std::to_string(axis.count) + " values, and " +
                          std::to_string(longest) +
-                         " of another key; allowed with zip: as many of each");
+                         " of another key; allowed with zip: equally many of each");
     }
     cases = static_cast<double>(longest);
   }

@@ -25,7 +25,7 @@ std::string instruction_set_of(const Json& plan) {
 
 PlanDifference compare_plans(const std::string& one, const std::string& two, bool of_shards) {
   const Json a = parsed(one), b = parsed(two);
-  if (!a.is_object() || !b.is_object()) return {"text, which is no plan of bbsim", {}};
+  if (!a.is_object() || !b.is_object()) return {"text, which is not a plan of bbsim", {}};
   PlanDifference difference;
   const auto note = [&](const std::string& key) {
     if (key == "instruction_set") {

@@ -167,21 +167,20 @@ TEST_CASE("long decimals are read to the nearest double") {
 TEST_CASE("ragged rows are refused") {
   CHECK(refusal("t,x\n1,2\n3\n") == "a.csv:3:1: found 1 number; the header names 2 columns");
   CHECK(refusal("t,x\n1,2,3,4\n") ==
-        "a.csv:2:1: found 4 numbers; the header names 2 columns: commas seem to stand both between "
-        "columns and in numbers; separate the columns by semicolons or tabs");
+        "a.csv:2:1: found 4 numbers; the header names 2 columns: commas seem to separate columns "
+        "and to mark decimals; separate the columns by semicolons or tabs");
 }
 
 TEST_CASE("what is no number is refused") {
-  CHECK(refusal("t,x\n1,2\n1, abc\n") ==
-        "a.csv:3:4: column x: found \"abc\", a number is expected");
-  CHECK(refusal("t,x\n1,\n") == "a.csv:2:3: column x: found nothing, a number is expected");
+  CHECK(refusal("t,x\n1,2\n1, abc\n") == "a.csv:3:4: column x: found \"abc\"; allowed: a number");
+  CHECK(refusal("t,x\n1,\n") == "a.csv:2:3: column x: found nothing; allowed: a number");
   CHECK(refusal("t\n1e400\n") ==
         "a.csv:2:1: column t: found \"1e400\", too large for a double (at most 1.8e308)");
   for (const char* text : {"0x10", "1.5.2", "1 2", "+-1", "--1", "+", "-", ".", "e5", "1e", "1;2",
                            "1_000", "one", "\x01", "0x", "1f", "nanx", "inf2"}) {
     CAPTURE(text);
     CHECK_THAT(refusal(std::string("t\n") + text + "\n"),
-               Contains("a.csv:2:1: column t: found ") && Contains("a number is expected"));
+               Contains("a.csv:2:1: column t: found ") && Contains("allowed: a number"));
   }
 }
 
@@ -189,7 +188,7 @@ TEST_CASE("what is found is shown fit for a terminal") {
   CHECK_THAT(refusal("t\n\x1b[31mred\n"), Contains("found \"\\x1b[31mred\""));
   // A header may not hold control characters, but all else that turns a terminal's head.
   CHECK(refusal("t,\u009b31mx\n1,y\n") ==
-        "a.csv:2:3: column \\u009b31mx: found \"y\", a number is expected");
+        "a.csv:2:3: column \\u009b31mx: found \"y\"; allowed: a number");
   CHECK_THAT(refusal("t\n" + std::string(100000, 'z') + "\n"),
              Contains("found \"" + std::string(40, 'z') + "...\""));
 }
@@ -204,7 +203,7 @@ TEST_CASE("a header is required, of names that differ") {
   CHECK_THAT(refusal("\xEF\xBB\xBF"), Contains("a.csv:1:1: found no header"));
   CHECK_THAT(refusal("t,,x\n"), Contains("a.csv:1:3: a column's name is empty"));
   CHECK_THAT(refusal("t,x,\n"), Contains("a.csv:1:5: a column's name is empty"));
-  CHECK_THAT(refusal("t,x,t\n"), Contains("a.csv:1:5: column \"t\" is there twice"));
+  CHECK_THAT(refusal("t,x,t\n"), Contains("a.csv:1:5: column \"t\" appears twice"));
   CHECK_THAT(refusal("0,0.1\n1,2\n"), Contains("a.csv:1:1: found the number \"0\""));
   CHECK_THAT(refusal("t,\"x\n"), Contains("a.csv:1:1: found a quotation mark without"));
   CHECK_THAT(refusal(std::string("t\0x\n", 4)), Contains("a control character"));

@@ -372,15 +372,15 @@ TEST_CASE("HDF5 that is no table is refused") {
   const Folder folder;
   const std::string none = folder / "none.h5";
   CHECK(refusal(none) == "cannot read " + none + ": no such file or directory");
-  CHECK_THAT(refusal(folder.put("text.h5", "t,x\n1,2\n")), Contains("it is no HDF5 file"));
-  CHECK_THAT(refusal(folder.put("empty.h5", "")), Contains("it is no HDF5 file"));
+  CHECK_THAT(refusal(folder.put("text.h5", "t,x\n1,2\n")), Contains("it is not an HDF5 file"));
+  CHECK_THAT(refusal(folder.put("empty.h5", "")), Contains("it is not an HDF5 file"));
   std::filesystem::create_directory(folder / "folder.h5");
-  CHECK_THAT(refusal(folder / "folder.h5"), Contains("it is no regular file"));
+  CHECK_THAT(refusal(folder / "folder.h5"), Contains("it is not a regular file"));
 
   write_foreign(folder / "two.h5", "image", {4, 4}, H5T_NATIVE_DOUBLE);
-  CHECK_THAT(refusal(folder / "two.h5"), Contains("dataset image is no column"));
+  CHECK_THAT(refusal(folder / "two.h5"), Contains("dataset image is not a column"));
   write_foreign(folder / "string.h5", "names", {4}, H5T_C_S1);
-  CHECK_THAT(refusal(folder / "string.h5"), Contains("dataset names is no column"));
+  CHECK_THAT(refusal(folder / "string.h5"), Contains("dataset names is not a column"));
 
   write_table(folder / "a.h5", {{"t", "x"}, {{0, 1}, {2, 3}}});
   const std::string whole = content_of(folder / "a.h5");
@@ -406,19 +406,19 @@ TEST_CASE("a missing module is told, and what to do") {
   CHECK(none.functions == nullptr);
   CHECK(none.trouble == "the HDF5 module libbbsim_hdf5.so is not in " + (folder / "a") + " and " +
                             (folder / "b") +
-                            "; write or read .csv instead, or install bbsim whole, or set "
+                            "; write or read .csv instead, or install all of bbsim, or set "
                             "BBSIM_MODULE_PATH to the module's folder");
   const auto reader = find_hdf5_reader({folder / "a"});
   CHECK(reader.path.empty());
   CHECK(reader.trouble == "the HDF5 reader bbsim-hdf5-reader is not in " + (folder / "a") +
-                              "; write or read .csv instead, or install bbsim whole, or set "
+                              "; write or read .csv instead, or install all of bbsim, or set "
                               "BBSIM_MODULE_PATH to the module's folder");
 
   folder.put("libbbsim_hdf5.so", "no library");
   const auto broken = open_hdf5_module({folder.name()});
   CHECK(broken.functions == nullptr);
-  CHECK_THAT(broken.trouble,
-             Contains("the HDF5 module does not open: ") && Contains("write or read .csv instead"));
+  CHECK_THAT(broken.trouble, Contains("the HDF5 module cannot be loaded: ") &&
+                                 Contains("write or read .csv instead"));
 }
 
 TEST_CASE("the module is looked for where the environment says, or beside the program") {

@@ -169,7 +169,7 @@ TEST_CASE("a reader that cannot be started is an error") {
   {
     const FakeReader fake("#!/none/at/all\n");
     CHECK_THAT(refusal(folder / "a.h5"),
-               Contains("no process can be had to read it in: no such file or directory"));
+               Contains("cannot start a process to read it: no such file or directory"));
   }
   const char* before = std::getenv("BBSIM_MODULE_PATH");
   const std::string kept = before == nullptr ? "" : before;
@@ -193,7 +193,7 @@ TEST_CASE("a line to the reader that fails is an error, and not a wait for the r
   {
     Hdf5Process process(child, Descriptor(output), Descriptor());
     CHECK(message_of<Hdf5Trouble>([&] { (void)process.line(); }) ==
-          "talking with the HDF5 reader failed: is a directory");
+          "communication with the HDF5 reader failed: is a directory");
   }
   CHECK(std::chrono::steady_clock::now() - started < std::chrono::seconds(20));
 }
@@ -349,7 +349,7 @@ TEST_CASE("what lies in other files is not read") {
     H5Pset_external(creation, (folder / "secret").c_str(), 0, 800);
     H5Dclose(dataset_of(id, "x", 100, creation));
   });
-  CHECK_THAT(refusal(raw), Contains("dataset x is no column: its numbers are in other files"));
+  CHECK_THAT(refusal(raw), Contains("dataset x is not a column: its numbers are in other files"));
 
   const std::string mapped = foreign(folder, "mapped.h5", [&](hid_t id, hid_t creation) {
     const hsize_t rows = 2;
@@ -390,8 +390,8 @@ TEST_CASE("what a file calls its datasets is shown fit for a terminal") {
     H5Sclose(space);
   });
   CHECK(refusal(file) == "cannot read " + (folder / "a\\x1b[2J.h5") +
-                             ": dataset x\\x1b]0;title\\x07\\n is no column: it has 3 dimensions; "
-                             "numbers may have 1 or 2, text 1");
+                             ": dataset x\\x1b]0;title\\x07\\n is not a column: it has 3 "
+                             "dimensions; numbers may have 1 or 2, text 1");
 }
 
 // As a shell leaves it after trap '' CHLD.
@@ -401,10 +401,11 @@ TEST_CASE("files are read where the system keeps no children's ends") {
   write_table(file, {{"t", "x"}, {{0, 1}, {2, 3}}});
   void (*const before)(int) = std::signal(SIGCHLD, SIG_IGN);
   CHECK(refusal(file).empty());
-  CHECK_THAT(refusal(folder.put("b.h5", "none")), Contains("it is no HDF5 file"));
+  CHECK_THAT(refusal(folder.put("b.h5", "none")), Contains("it is not an HDF5 file"));
   {
     const FakeReader fake("#!/bin/sh\nkill -SEGV $$\n");
-    CHECK_THAT(refusal(file), Contains("the HDF5 reader ended over it: the file is damaged"));
+    CHECK_THAT(refusal(file),
+               Contains("the HDF5 reader ended while reading it: the file is damaged"));
   }
   static_cast<void>(std::signal(SIGCHLD, before));
 }

@@ -562,21 +562,21 @@ TEST_CASE("a table of cases is read as a table if it has nothing but numbers") {
   CHECK(written({{"a", "1", ""}}, {}).empty());
   const std::string start = "cannot read " + (folder / "a.h5") + ": dataset ";
   CHECK(written({{"a", "1", ""}, {"why", "1", "", Hdf5Kind::text}}, {}) ==
-        start + "why is no column of numbers: it holds text");
+        start + "why is not a column of numbers: it holds text");
   CHECK(written({{"x", "1", "", Hdf5Kind::series, 1}}, {}) ==
-        start + "x is no column of numbers: it holds several numbers a row, in two dimensions");
+        start + "x is not a column of numbers: it holds several numbers a row, in two dimensions");
   CHECK(written({{"a", "1", ""}}, some_axes) ==
-        start + "t is no column of numbers: it holds the axis of other datasets");
+        start + "t is not a column of numbers: it holds the axis of other datasets");
 }
 
 TEST_CASE("files that are no table of cases are refused") {
   const Folder folder;
   const std::string none = folder / "none.h5";
   CHECK(refusal(none) == "cannot read " + none + ": no such file or directory");
-  CHECK_THAT(refusal(folder.put("text.h5", "t,x\n1,2\n")), Contains("it is no HDF5 file"));
-  CHECK_THAT(refusal(folder.put("empty.h5", "")), Contains("it is no HDF5 file"));
-  CHECK_THAT(refusal(folder.name()), Contains("it is no regular file"));
-  CHECK_THAT(refusal("/dev/null"), Contains("it is no regular file"));
+  CHECK_THAT(refusal(folder.put("text.h5", "t,x\n1,2\n")), Contains("it is not an HDF5 file"));
+  CHECK_THAT(refusal(folder.put("empty.h5", "")), Contains("it is not an HDF5 file"));
+  CHECK_THAT(refusal(folder.name()), Contains("it is not a regular file"));
+  CHECK_THAT(refusal("/dev/null"), Contains("it is not a regular file"));
 
   write_cases(folder / "a.h5", 3000, 3, 3000);
   const std::string whole = content_of(folder / "a.h5");
@@ -604,8 +604,9 @@ TEST_CASE("files that are no table of cases are refused") {
       H5Dcreate2(third, "cube", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   H5Sclose(space);
   H5Fclose(third);
-  CHECK_THAT(refusal(folder / "cube.h5"),
-             Contains("dataset cube is no column: it has 3 dimensions; numbers may have 1 or 2"));
+  CHECK_THAT(
+      refusal(folder / "cube.h5"),
+      Contains("dataset cube is not a column: it has 3 dimensions; numbers may have 1 or 2"));
 }
 
 TEST_CASE("attributes of other kinds and of fixed length") {
@@ -752,5 +753,5 @@ TEST_CASE("several files are read by one process, in order") {
     CHECK(reader.read_inputs().empty());
   }
   CHECK(message_of<InputError>([&] { (void)others.next(); }) ==
-        "cannot read " + files[2] + ": it is no HDF5 file");
+        "cannot read " + files[2] + ": it is not an HDF5 file");
 }

@@ -90,13 +90,8 @@ const std::vector<Log> logs = {
      {},
      "separate the columns by semicolons or tabs"},
     {"a quote left open", "t,x\n0,\"0.01\n", {}, {}, {}, "log.csv:2:1: found a quotation mark"},
-    {"a name twice", "t,x,x\n0,1,2\n", {}, {}, {}, "log.csv:1:5: column \"x\" is there twice"},
-    {"a header again",
-     "t,x\n0,0.01\nt,x\n0.5,0.02\n",
-     {},
-     t,
-     x,
-     "the header stands again in 1 row"},
+    {"a name twice", "t,x,x\n0,1,2\n", {}, {}, {}, "log.csv:1:5: column \"x\" appears twice"},
+    {"a header again", "t,x\n0,0.01\nt,x\n0.5,0.02\n", {}, t, x, "the header is repeated in 1 row"},
     {"factor, offset and unit", "t,px\n0,200\n0.5,240\n", {{"x=0.25*px-40:mm"}, {}, "", ""}, t, x},
     {"another sign", "t,px\n0,-10\n0.5,-20\n", {{"x=-px:mm"}, {}, "", ""}, t, x},
     {"signs within names", "t,p-1\n0,-8\n0.5,-18\n", {{"x=-1*p-1+2:mm"}, {}, "", ""}, t, x},
@@ -161,7 +156,7 @@ TEST_CASE("a map is refused where its place is wrong") {
   CHECK_THAT(refused({{"x"}, {}, "", ""}), Contains("COLUMN=NAME:UNIT"));
   CHECK_THAT(refused({{"x=px:s"}, {}, "", ""}), Contains("x=px:s\": x is in m"));
   CHECK_THAT(refused({{"xx=px"}, {}, "", ""}), Contains("there is no column \"xx\""));
-  CHECK_THAT(refused({{"x=px", "x=t"}, {}, "", ""}), Contains("x is there twice"));
+  CHECK_THAT(refused({{"x=px", "x=t"}, {}, "", ""}), Contains("x is given twice"));
   CHECK_THAT(refused({{}, {}, "", "later"}), Contains("--time-offset: found \"later\""));
   CHECK_THAT(refused({{}, {}, "0 s", ""}), Contains("--period"));
 }

@@ -57,7 +57,7 @@ TEST_CASE("what is no CSV of rows is refused with its place") {
   CHECK_THAT(refused("t,x\n"), Contains("has a header and no rows"));
   CHECK_THAT(refused("1,2\n3,4\n"), Contains("a.csv:1:1: found the number"));
   CHECK_THAT(refused("t,x\n1,2\n3\n"), Contains("a.csv:3:1: found 1 number; the header names 2"));
-  CHECK_THAT(refused("t,t\n1,2\n"), Contains("column \"t\" is there twice"));
+  CHECK_THAT(refused("t,t\n1,2\n"), Contains("column \"t\" appears twice"));
   CHECK_THAT(refused("t,\n1,2\n"), Contains("a column's name is empty"));
   CHECK_THAT(refused("t,x\n1,\"2\n"), Contains("a.csv:2:1: found a quotation mark"));
   CHECK_THAT(refused(std::string("\0\1\2", 3)), Contains("a control character in the header"));
@@ -92,7 +92,7 @@ TEST_CASE("a summary beside a CSV tells of its scene, if it is of that very run"
   CHECK(read(other).left_out.empty());  // it does not say that it is of that file
   CHECK_THROWS_WITH(read(other, {folder / "run.json", "", {}}),
                     Contains("of another run: it has 2 rows"));
-  CHECK_THROWS_WITH(read(csv, {csv, "", {}}), Contains("is no summary"));
+  CHECK_THROWS_WITH(read(csv, {csv, "", {}}), Contains("is not a summary"));
   CHECK_THROWS_WITH(read(csv, {folder / "none.json", "", {}}), Contains("no such file"));
   folder.put("run.csv", "t,x\n0,1\n0.25,2\n0.5,3\n");
   CHECK(read(csv).title.empty());

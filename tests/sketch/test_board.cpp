@@ -177,7 +177,7 @@ TEST_CASE("a scenario that a sketch cannot serve is refused") {
        "a sketch moves servos; allowed: drives: angle"},
       {{"controller.library.wiring=/no/such.yaml"}, "/no/such.yaml: cannot be read"},
       {{std::string("controller.library.file=") + BBSIM_EXAMPLE_LIBRARY},
-       "which is no sketch; allowed: with a library of bbsim sketch"},
+       "which is not a sketch; allowed: with a library that bbsim sketch made"},
   };
   for (const Wrong& one : all) {
     std::vector<std::string> more{"-o", "-"};

@@ -154,7 +154,7 @@ TEST_CASE("a part is cut at the first row that is not as it was written, and it 
   SECTION("deleted") {
     const KeptRows kept = resumed(changed(row_103, row_of_103.size(), ""));
     CHECK(kept.rows == 3);
-    CHECK(kept.trouble == start + " (found case 104); going on from case 103");
+    CHECK(kept.trouble == start + " (found case 104); continuing from case 103");
   }
   SECTION("twice") {
     const KeptRows kept = resumed(changed(row_103, 0, row(102)));
@@ -280,7 +280,7 @@ TEST_CASE("no part is written through what others set up in its place") {
   }
   SECTION("a FIFO") {
     REQUIRE(mkfifo((target + name).c_str(), 0600) == 0);
-    CHECK_THAT(writing_fails(target), Contains("no regular file"));
+    CHECK_THAT(writing_fails(target), Contains("not a regular file"));
   }
   SECTION("another user's file") {
     folder.put("a.csv" + name, "");
@@ -314,15 +314,15 @@ TEST_CASE("a part is gone on with only by the same plan, and it is said what dif
   CHECK_THAT(opening_fails(target), Contains("add --resume"));
   CHECK_THAT(
       opening_fails(target, R"({"version": "1", "instruction_set": "avx2", "seed": 2})", true),
-      Contains("of another sweep than this one") && Contains("by its seed;"));
+      Contains("of another sweep than this one") && Contains("in its seed;"));
   CHECK_THAT(
       opening_fails(target, R"({"version": "1", "instruction_set": "avx512", "seed": 1})", true),
       Contains("begun with the instruction set avx2, and this is avx512") &&
           Contains("BBSIM_SIMD=avx2"));
   CHECK_THAT(opening_fails(target, R"({"instruction_set": "avx512", "seed": 1, "vary": []})", true),
-             Contains("by its version, vary;"));
+             Contains("in its version, vary;"));
   folder.put("a.csv.plan", std::string(100, '\0'));
-  CHECK_THAT(opening_fails(target, plan, true), Contains("which is no plan of bbsim"));
+  CHECK_THAT(opening_fails(target, plan, true), Contains("which is not a plan of bbsim"));
   std::filesystem::remove(folder / "a.csv.plan");
   CHECK_THAT(opening_fails(target, plan, true), Contains("found without"));
   CHECK(content_of(target + ".part") == header + rows(100, 103));

@@ -463,7 +463,7 @@ TEST_CASE("a case without what a measure needs has no number for it, and says wh
   CHECK(std::isnan(results.numbers[4]));
   CHECK(std::isfinite(results.numbers[5]));
   CHECK(results.status[1].reason ==
-        "end_motor_torque_phi is no number: plate.inertia is not known");
+        "end_motor_torque_phi is not a number: plate.inertia is not known");
 }
 
 TEST_CASE("windows of time are taken whatever the engine, which the whole run has") {
@@ -542,7 +542,7 @@ TEST_CASE("a measure that the first case does not know may be another's") {
   SweepTask task{setup.family, setup.plan, found};
   const CaseResults results = run_all(*single_runner(task), 2);
   CHECK(results.status[0].reason ==
-        "end_motor_torque_phi is no number: plate.inertia is not known");
+        "end_motor_torque_phi is not a number: plate.inertia is not known");
   CHECK(std::isnan(results.numbers[1]));
   CHECK(std::isfinite(results.numbers[4]));
   // One that no case knows is a mistake, and so is a window that none has.
@@ -756,7 +756,7 @@ TEST_CASE("rigs in lanes have no number for what their scene does not know") {
     CHECK(std::isfinite(results.numbers[3 * i + 1]));
     CHECK(std::isfinite(results.numbers[3 * i + 2]) == (i < 8));
     CHECK(results.status[i].reason ==
-          (i < 8 ? "" : "end_motor_torque_phi is no number: plate.inertia is not known"));
+          (i < 8 ? "" : "end_motor_torque_phi is not a number: plate.inertia is not known"));
   }
 }
 

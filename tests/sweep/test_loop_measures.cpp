@@ -134,7 +134,7 @@ TEST_CASE("margins beside measures of the motion change none of these, and stay 
     CHECK(mine[3] == analysis.value_of(*both.task.measures[2].loop).value);
     CHECK(std::isnan(mine[1]) == (mine[3] == 0));
     if (mine[3] == 0 && a.status[i].word == "done") {
-      CHECK(a.status[i].reason == "phi_delay_margin is no number: the loop is not stable");
+      CHECK(a.status[i].reason == "phi_delay_margin is not a number: the loop is not stable");
     }
     stable += mine[3] == 1 ? 1 : 0;
   }
@@ -164,7 +164,7 @@ TEST_CASE("a measure of the loop that no case has is refused, and one that some 
   const CaseResults results = run(some.task);
   CHECK(std::isnan(results.numbers[1]));
   CHECK(results.status[0].reason ==
-        "spectral_radius is no number: the controller takes no samples");
+        "spectral_radius is not a number: the controller takes no samples");
   CHECK(results.numbers[4] > 0);
   CHECK(results.status[1].reason.empty());
 }

@@ -199,7 +199,7 @@ TEST_CASE("all that is wrong with a sweep is said before it runs") {
   CHECK(contains(fault(vary({{"ball.radius", "list:1"}, {"ball.radius", "list:2"}})), "twice"));
   CHECK(contains(fault(vary({{"ball.radius", "log:-1:1:3"}})), "found -1"));
   CHECK(contains(fault(vary({{"ball.position", "list:[1, 2]"}, {"ball.position.0", "list:1"}})),
-                 "apart from each other"));
+                 "that do not overlap"));
   CHECK(contains(fault(vary({{"sweep.seed", "list:1"}})), "does not vary itself"));
   CHECK(contains(fault(vary({{"ball.spin", "log:-1:1:3"}})), "neither 0"));
   CHECK(contains(fault(vary({{"solver.method", "linear:1:2:3"}})), "solver.method: found 1"));

@@ -29,7 +29,7 @@ constexpr std::uint64_t slack = 65536;  // bytes
 constexpr std::size_t rows_at_once = 256;
 
 File open_file(const char* path) {
-  if (H5Fis_hdf5(path) == 0) throw Failure("it is no HDF5 file");
+  if (H5Fis_hdf5(path) == 0) throw Failure("it is not an HDF5 file");
   const Properties access(H5Pcreate(H5P_FILE_ACCESS), "opening the file");
   check(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG), "opening the file");
 #if H5_VERSION_GE(1, 12, 1) || (H5_VERSION_GE(1, 10, 7) && !H5_VERSION_GE(1, 12, 0))
@@ -94,7 +94,7 @@ std::vector<std::string> links_of(hid_t group, const std::string& path) {
 }
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
-  throw Failure("dataset " + shown(path) + " is no column: " + why);
+  throw Failure("dataset " + shown(path) + " is not a column: " + why);
 }
 
 bbsim_hdf5_kind kind_of(hid_t dataset, H5T_class_t held, int rank) {

@@ -178,7 +178,7 @@ class Table {
       for (std::size_t d = input.first; d < input.first + input.count; ++d) {
         const DatasetInfo& info = reader_.info(d);
         if (info.kind != BBSIM_HDF5_NUMBER || info.rows != rows_of(input)) {
-          throw Failure("input table " + shown(input.file) + " is no table of numbers");
+          throw Failure("input table " + shown(input.file) + " is not a table of numbers");
         }
         print_rows(d, 0, info.rows);
       }

@@ -130,7 +130,7 @@ using namespace bbsim_board;
 HardwareSerial Serial, Serial1, Serial2, Serial3, SerialUSB;
 
 void HardwareSerial::begin(unsigned long baud) {
-  if (baud == 0) fail("Serial.begin(0): allowed: bits in a second, such as 115200");
+  if (baud == 0) fail("Serial.begin(0): allowed: bits per second, such as 115200");
   per_byte_ = 10 * 1000000000LL / static_cast<long long>(baud);
   if (this == &SerialUSB) per_byte_ = 1000;
   begun_ = true;
