@@ -80,7 +80,7 @@ std::size_t place_of(std::string_view mark, std::string_view text) {
   const std::size_t place = text.find(mark);
   if (place == std::string_view::npos || text.find(mark, place + 1) != std::string_view::npos) {
     throw InputError("the page's template is damaged: it has to have " + std::string(mark) +
-                     " once; install bbsim whole");
+                     " once; install all of bbsim");
   }
   return place;
 }

@@ -60,9 +60,9 @@ bbsim.makeDetails = (container) => {
     const end = run.hasEndRow ? ' After them comes the instant at which the run stopped.' : '';
     if (kept === run.rows) return `All ${run.rows} rows are in this page.${end}`;
     return `Of ${run.rows} rows ${kept} are in this page: those with the least and the greatest value of each column in ` +
-        `${run.buckets} stretches, and those that the motion needs to be drawn within ` +
+        `${run.buckets} stretches, and those needed to draw the motion within ` +
         `${run.motionError <= 1 ? 'half a thousandth' : `${text.number(Math.max(1, run.motionError) * 0.05, 2)} %`} of its extent. ` +
-        `The result file is the record.${end}`;
+        `The result file has all rows.${end}`;
   }
 
   // Reports rows that the picture leaves out.
@@ -105,9 +105,9 @@ bbsim.makeDetails = (container) => {
       if (statistics) root.append(card('Statistics', rowsOf(statistics)));
     }
     const notes = [rowsNote(run)];
-    if (!run.turns) notes.push('How the ball turns is not known, so it is drawn without marks: columns ball_qw to ball_qz would tell.');
+    if (!run.turns) notes.push('How the ball turns is not known, so it is drawn without marks: the columns ball_qw to ball_qz would show it.');
     else if (!run.orientationGiven) notes.push('The ball is drawn as one that rolls straight from row to row: its orientation was not recorded.');
-    if (!run.unitsKnown) notes.push('Nothing tells in which units the file is: its summary would, or --scenario.');
+    if (!run.unitsKnown) notes.push('The units of the file are not known: its summary or --scenario would give them.');
     if (beyondNote(run)) notes.push(beyondNote(run));
     if (run.version) notes.push(`Run by bbsim ${run.version}.`);
     root.append(element('p', {class: 'fine'}, notes.join(' ')));

@@ -12,7 +12,7 @@
   document.title = text.visible(scene.title);
   get('title').textContent = text.visible(scene.title);
   get('subtitle').textContent = text.visible(`${scene.scenario}, to ${scene.logs.join(', ')} · bbsim ${scene.version}`);
-  get('made-by').textContent = text.visible(`Made by bbsim ${scene.version}. It holds all that it shows. Plots by dygraphs, whose MIT licence is in the source of this page.`);
+  get('made-by').textContent = text.visible(`Made by bbsim ${scene.version}. It holds all that it shows. Plots by dygraphs, whose MIT license is in the source of this page.`);
   get('theme').addEventListener('click', () => palette.choose(palette.isDark() ? 'light' : 'dark'));
 
   function table(caption, {head, rows}) {

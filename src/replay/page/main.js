@@ -33,7 +33,7 @@
     } catch (error) {
       const probe = document.createElement('canvas');
       const has = ['webgl', 'experimental-webgl'].some((kind) => probe.getContext(kind));
-      get('trouble').textContent = text.visible(has ? `The picture is drawn flat, since that in three dimensions failed: ${error.message}.`
+      get('trouble').textContent = text.visible(has ? `The picture is drawn flat, because drawing in three dimensions failed: ${error.message}.`
           : 'This browser gives the page no 3D graphics (WebGL), so the picture is drawn flat.');
       get('trouble').hidden = false;
     }
@@ -93,7 +93,7 @@
     get('said').textContent = words;
   }
 
-  const pace = bbsim.makePace(screen, (rate) => hint(`In three dimensions this browser draws ${rate} pictures a second: here it is flat. A view brings it back.`));
+  const pace = bbsim.makePace(screen, (rate) => hint(`This browser draws only ${rate} pictures a second in three dimensions, so the picture is flat now. Choose a view to bring it back.`));
   function goTo(name) {
     screen.setFlat(name === 'flat');
     if (name === 'flat' || !picture) return;
@@ -133,7 +133,7 @@
   const grid = `grid ${text.number(spacing * shown.factor)} ${shown.unit}`.trim();
   get('canvas').setAttribute('aria-label', text.visible(
       `${scene.title}: a ball on a plate in a gimbal, seen in three dimensions: ${grid}.` +
-      (scene.stage.plateGiven ? '' : ' The scene has no plate: one is drawn that the path fits on.')));
+      (scene.stage.plateGiven ? '' : ' The scene has no plate: the one drawn is large enough for the path.')));
   get('flat-canvas').setAttribute('aria-label', text.visible(`${scene.title}: a ball on a plate, seen from above: ${grid}.`));
   get('screen').append(text.element('p', {class: 'scale'},
       `${grid}${scene.stage.plateGiven ? '' : ' · plate drawn to fit the path'}${runs[0].ball.given ? '' : ' · ball of no known size'}` +

@@ -90,7 +90,7 @@ bbsim.makePlan = (container, run, [xName, yName], radius) => {
       const both = [put('measured', measured, row), put('model', model, row)].every(Boolean);
       const far = Math.hypot(measured[0][row] - model[0][row], measured[1][row] - model[1][row]);
       const {factor, unit} = text.shownIn('m', shown.factor === 1 ? 1 : 0.1);
-      apart.textContent = both ? `${text.steady(far * factor, 10)} ${unit} apart` : 'the log has no place here';
+      apart.textContent = both ? `${text.steady(far * factor, 10)} ${unit} apart` : 'the log has no position here';
     },
   };
 };

@@ -537,7 +537,7 @@ bbsim.makeSweep = (json, container) => {
   }
   for (const [word, n] of [...tally].sort((a, b) => b[1] - a[1])) counts.append(element('li', {class: `status ${word}`}, `${{done: '●', stopped: '⁄'}[word] || '×'} ${n} ${word}`));
   const grouped = (n) => n.toLocaleString('en-US');
-  const thinned = count < json.cases ? ` ${grouped(count)} of ${grouped(json.cases)} shown, evenly thinned out; the result file is the record.` : '';
+  const thinned = count < json.cases ? ` ${grouped(count)} of ${grouped(json.cases)} shown, evenly thinned out; the result file has all cases.` : '';
   container.append(element('section', {class: 'sweep'},
       element('header', {}, element('h2', {}, json.name), element('p', {class: 'fine'}, `${json.cases} ${json.cases === 1 ? 'case' : 'cases'} over ${keys.map((k) => k.name).join(', ')}.${thinned}`), counts),
       controls, remark, element('div', {class: 'columns'}, drawing, side)));

@@ -36,7 +36,7 @@ bbsim.makeTransport = () => {
   function showMissing(t) {
     const words = [], place = lead.placeAt(t);
     if (place === 'beyond') words.push(`The ball is ${far(t)}: it is not drawn.`);
-    if (place === 'missing') words.push('Where the ball is now is not recorded: it is left where it was.');
+    if (place === 'missing') words.push('The ball\'s position is not recorded here: the ball stays where it was.');
     if (bbsim.tilt(lead, t) === null) {
       words.push(lead.hasAngles ? 'The tilt is not recorded here: the plate is drawn level.' : 'No tilt was recorded: the plate is drawn level.');
     }
@@ -63,7 +63,7 @@ bbsim.makeTransport = () => {
     const degrees = text.degrees * (Math.min(largest, Math.PI) + Math.abs(lead.mounting.baseTilt));
     return [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 45, 90, 180].find((s) => degrees <= s) || 180;
   })();
-  get('level').title = 'Tilt of the plate: the dot is where downhill is, in the plate\'s own axes';
+  get('level').title = 'Tilt of the plate: the dot shows downhill, in the plate\'s own axes';
 
   let lastTilt;
   function showLevel(t) {
