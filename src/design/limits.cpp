@@ -78,7 +78,7 @@ Limits limits_of(const Scenario& scenario, const LimitChoice& choice) {
   const Plate& plate = scenario.plate;
   if (!plate.size && !plate.diameter) {
     throw InputError(
-        "plate: has no size, and the ball shall stay on it; allowed: with plate.size or "
+        "plate: has no size, but the ball must stay on it; allowed: with plate.size or "
         "plate.diameter, such as --set \"plate.size=[30 cm, 30 cm]\"");
   }
   Limits limits;

@@ -23,7 +23,7 @@ constexpr const char* heading =
 )";
 
 constexpr const char* above_table = R"(//
-// Set the constants to your rig: pins, pulses, and what a count of the touch screen is.
+// Set the constants for your rig: pins, pulses, and the scale of the touch screen.
 #include <Servo.h>
 #include <avr/pgmspace.h>
 
@@ -88,7 +88,7 @@ std::string player_sketch(const Player& player) {
   if (rows > most_rows) {
     throw InputError("--sketch: found " + std::to_string(rows) + " rows; allowed: at most " +
                      std::to_string(most_rows) +
-                     ", which a board's flash holds; a lower --rate or a shorter --length");
+                     ", which a board's flash holds; use a lower --rate or a shorter --length");
   }
   double largest = 0;
   for (const auto* const angles : {&player.phi, &player.theta}) {

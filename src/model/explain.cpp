@@ -155,7 +155,7 @@ std::string assumes_note(const Scenario& scene) {
     return "; your controller commands the servos itself";
   }
   if (scene.controller->assumed_legs) {
-    return "; the controller takes the legs for others: where it wants the plate level, " +
+    return "; the controller assumes other legs: where it wants the plate level, " +
            believed_level(scene);
   }
   return assumes_of(scene) == Assumes::exact ? "; the controller inverts the curve"
@@ -194,7 +194,7 @@ std::string linkage_note(const Scenario& scene) {
     double plate = 0;
     for (const ThreeServos::Leg& leg : three.leg) plate = std::max(plate, leg.plate);
     return "three servos, two tilts and a height, (M58) to (M61); all legs reach a tilt of " +
-           degrees(tilt) + "; without the wander of the plate's center, at most " +
+           degrees(tilt) + "; the shift of the plate's center is neglected, at most " +
            short_number(1e3 * plate / 2 * (1 - std::cos(tilt))) + " mm there, and " +
            short_number(1e3 * plate / 2 * (1 - std::cos(0.1))) + " mm at 0.1 rad" +
            legs_note(scene, between) + assumes_note(scene);

@@ -72,12 +72,12 @@ std::string worst_text(const Comparison& comparison, const std::string& name_a,
   const std::string b = worst.of_text ? column.text_b : number_text(worst.b);
   text += ": " + a + " in " + name_a + ", " + b + " in " + name_b;
   if (worst.of_text) return text + "\n";
-  return text + "; the difference is " + rounded(worst.difference) + ", allowed is " +
+  return text + "; the difference is " + rounded(worst.difference) + ", the tolerance " +
          rounded(worst.allowance) + "\n";
 }
 
 std::string within(const Allowances& allowances) {
-  if (!allowances.reason.empty()) return "within what the solver was asked for";
+  if (!allowances.reason.empty()) return "within the solver's tolerances";
   return "within rtol " + number_text(allowances.standard.rtol) + " and atol " +
          number_text(allowances.standard.atol);
 }

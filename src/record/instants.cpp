@@ -41,12 +41,12 @@ Measured peak(const Curve& curve, StepMetric metric, double start) {
 // As in python-control's step_info(), but over all instants instead of samples, and for a step that
 // may start anywhere.
 Measured step_metric(const Curve& curve, StepMetric metric, const Step& step) {
-  if (step.is_none()) return nothing("it is to end where it starts, a step of 0");
+  if (step.is_none()) return nothing("it should end where it starts, so its step is 0");
   const double size = step.size(), sign = step.sign();
   const double start = sign * step.start, end = sign * step.end;
   const auto risen = [&](double part) { return curve.first_at_least(sign, start + part * size); };
   const auto high = risen(0.9);
-  constexpr const char* not_risen = "it does not come 90 % of its step";
+  constexpr const char* not_risen = "it does not reach 90 % of its step";
   switch (metric) {
     case StepMetric::rise_time:
       if (!high) return nothing(not_risen);
@@ -88,7 +88,7 @@ Found place_of(const Instant& instant, const Curve& curve) {
     case Instant::Kind::crosses:
       return {curve.crossing(instant.level, instant.way, instant.number), "it does not happen"};
     case Instant::Kind::at:
-      return {curve.place_at(instant.level), "the time is not within what was measured"};
+      return {curve.place_at(instant.level), "the time is outside the measured part"};
     case Instant::Kind::stays_below:
     case Instant::Kind::stays_above:
       break;

@@ -336,8 +336,8 @@ class Checks {
     }
     if (scene_.controller->assumed_legs && (!three || !scene_.controller->sampling)) {
       refuse({"controller", "assumes"},
-             "found legs; allowed: only with gimbal.three_servos and controller.sampling, since it "
-             "is firmware that takes its legs for others");
+             "found legs; allowed: only with gimbal.three_servos and controller.sampling, since "
+             "only firmware assumes other legs");
     }
     if (!three) return;
     if (gimbal.theta_servo) {
@@ -365,8 +365,8 @@ class Checks {
     const std::string along_x = why_not_along(0, scene_), along_y = why_not_along(1, scene_);
     if (!along_x.empty() && !along_y.empty()) {
       refuse({"ball", "rolling_radius"},
-             "found, but the scene moves along two axes: not along x alone, as " + along_x +
-                 "; not along y alone, as " + along_y +
+             "found, but the scene moves along two axes: not along x alone, since " + along_x +
+                 "; not along y alone, since " + along_y +
                  "; allowed: only for a ball that rolls along one axis, in a groove or between "
                  "rails");
     }

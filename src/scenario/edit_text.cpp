@@ -107,8 +107,8 @@ class Editor {
  private:
   [[noreturn]] void refuse() const {
     throw InputError("-o: " + setting_.key +
-                     ": cannot be set alone in the scenario's text; allowed: a key that stands "
-                     "there, or whose section does");
+                     ": cannot be set alone in the scenario's text; allowed: a key that is there, "
+                     "or whose section is");
   }
 
   void replace(const Node& scalar) {

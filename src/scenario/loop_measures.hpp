@@ -35,7 +35,7 @@ struct LoopMeasure {
 
 inline constexpr std::array loop_measures = {
     LoopMeasure{LoopMeasure::Kind::stable, 0, "stable", "1",
-                "1 if all poles of the loop near home decay, otherwise 0"},
+                "1 if all modes of the loop near home decay, otherwise 0"},
     LoopMeasure{LoopMeasure::Kind::spectral_radius, 0, "spectral_radius", "1",
                 "of a sampled loop near home: factor of its slowest mode per sample"},
     LoopMeasure{LoopMeasure::Kind::spectral_abscissa, 0, "spectral_abscissa", "1/s",

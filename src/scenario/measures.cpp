@@ -23,8 +23,8 @@ struct Prefix {
   Kind kind;
   std::string_view meaning;
 };
-constexpr Prefix prefixes[] = {{"min_", Kind::least, "least over the continuous motion of: "},
-                               {"max_", Kind::greatest, "greatest over the continuous motion of: "},
+constexpr Prefix prefixes[] = {{"min_", Kind::least, "minimum over the continuous motion of: "},
+                               {"max_", Kind::greatest, "maximum over the continuous motion of: "},
                                {"rms_", Kind::rms, "root mean square over the rows of: "},
                                {"end_", Kind::end, "at the end of the run: "}};
 
@@ -36,14 +36,15 @@ constexpr Metric metrics[] = {
     {StepMetric::rise_time, "RiseTime", "s", "time from 10 % to 90 % of its step: "},
     {StepMetric::settling_time, "SettlingTime", "s",
      "time from the start after which it stays within 2 % of its step: "},
-    {StepMetric::settling_min, "SettlingMin", "", "least once it has come 90 % of its step: "},
-    {StepMetric::settling_max, "SettlingMax", "", "greatest once it has come 90 % of its step: "},
-    {StepMetric::overshoot, "Overshoot", "%", "beyond where its step ends, in percent of it: "},
+    {StepMetric::settling_min, "SettlingMin", "", "minimum once it has reached 90 % of its step: "},
+    {StepMetric::settling_max, "SettlingMax", "", "maximum once it has reached 90 % of its step: "},
+    {StepMetric::overshoot, "Overshoot", "%",
+     "distance beyond its step's end, in percent of the step: "},
     {StepMetric::undershoot, "Undershoot", "%",
-     "to the other side of where its step starts, in percent of it: "},
-    {StepMetric::peak, "Peak", "", "size where it is farthest from its start: "},
+     "distance to the other side of its step's start, in percent of the step: "},
+    {StepMetric::peak, "Peak", "", "absolute value where it is farthest from its start: "},
     {StepMetric::peak_time, "PeakTime", "s",
-     "time from the start to where it is farthest from it: "},
+     "time from the start to where it is farthest from its start: "},
     {StepMetric::steady_state_value, "SteadyStateValue", "", "at the end of the run: "},
 };
 
@@ -282,7 +283,7 @@ std::vector<std::string_view> measured_columns() {
 std::string measure_hint(std::string_view name, std::span<const std::string_view> columns) {
   name = trimmed(name);
   // If the name is known, the window is at fault.
-  if (find_loop_measure(name) != nullptr) return ", which is of no time";
+  if (find_loop_measure(name) != nullptr) return ", which takes no time window";
   if (std::ranges::find(columns, name) != columns.end()) {
     return " (did you mean end_" + std::string(name) + "?)";
   }
@@ -395,7 +396,7 @@ std::string why_not_finite(const std::vector<Measure>& measures, const double* r
     if (std::isfinite(results[m])) continue;
     if (measures[m].kind == Kind::loop && !std::isnan(results[m])) continue;
     text += (text.empty() ? "" : "; ") + measures[m].name +
-            (std::isnan(results[m]) ? " is no number" : " is infinite");
+            (std::isnan(results[m]) ? " is not a number" : " is infinite");
     if (m < whys.size() && whys[m] != nullptr) text += std::string(": ") + whys[m];
   }
   return text;

@@ -171,7 +171,7 @@ struct Jitter {
     const auto doubt = doubt_of_span(mean, sampling.period);
     if (!doubt || !(sampling.period > 0)) return;
     warn_of_unit(table, sampling.periods_file,
-                 "a period is " + number_text(mean) + " in the mean, for one of " +
+                 "the mean period is " + number_text(mean) + ", for one of " +
                      number_text(sampling.period) + " s",
                  yaml::Dimension::time, *doubt, "unit");
   }

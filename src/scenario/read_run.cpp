@@ -104,7 +104,7 @@ void read_time(yaml::Keys& keys, OutputTimes& time) {
       keys.required("step", yaml::Number{yaml::Dimension::time, {.above = 0}}, time.step);
   if (end) keys.context().end = time.end;
   if (end && step && time.step > time.end) {
-    keys.find("step")->warn("is longer than the run, so the result has a row at its start alone");
+    keys.find("step")->warn("is longer than the run, so the result has a row at its start only");
   }
   if (end && step && time.end / time.step > most_rows) {
     keys.find("step")->refuse(", more than 1e9 rows of output",

@@ -38,8 +38,8 @@ constexpr KeyRelation table[] = {
      "found, but controller.drives is acceleration, which no servo follows; allowed: only with "
      "drives: angle"},
     {"gimbal.motor", excludes, "controller and controller.drives=acceleration|",
-     "found, but controller.drives is acceleration, at any torque; allowed: only with drives: "
-     "torque or voltage, or angle and a position_loop"},
+     "found, but controller.drives is acceleration, whatever the torque; allowed: only with "
+     "drives: torque or voltage, or angle and a position_loop"},
     {"gimbal.servo", excludes, "controller.drives=torque",
      "found, but controller.drives is torque, which no servo follows; allowed: only with drives: "
      "angle"},
@@ -109,7 +109,7 @@ constexpr KeyRelation table[] = {
     {"controller.reference", excludes, "controller.commands"},
     {"controller.commands", needs, "controller.drives=angle"},
     {"controller.sensor", excludes, "controller.commands",
-     "found beside commands, which nothing that is measured changes; allowed: without it"},
+     "found beside commands, which no measurement changes; allowed: without it"},
     {"controller.program", needs, "controller.sampling"},
     {"controller.library", needs, "controller.sampling"},
     {"controller.feedback_linearization", excludes, "controller.sampling"},
@@ -121,7 +121,7 @@ constexpr KeyRelation table[] = {
      "sensor at its samples; a continuous law knows the ball exactly"},
     {"controller.sensor.seed", needs,
      "controller.sensor.noise or controller.sensor.dropout or controller.sampling.jitter",
-     "found, but neither noise nor dropout, nor sampling.jitter, and nothing else is drawn; "
+     "found, but neither noise nor dropout nor sampling.jitter, and nothing else is random; "
      "allowed: only with one of them"},
     {"controller.sensor.phase", needs, "controller.sensor.period",
      "found without sensor.period; allowed: only with it, since a sensor without frames measures "

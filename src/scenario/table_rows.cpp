@@ -53,7 +53,7 @@ const file::TableData* load(const yaml::Value& file, const std::string& name) {
 
   std::error_code error;
   if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {
-    file.refuse(", which is no regular file", "a table file");
+    file.refuse(", which is not a regular file", "a table file");
     return nullptr;
   }
   try {

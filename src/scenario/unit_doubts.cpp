@@ -18,7 +18,7 @@ constexpr double most_rad = 1.6, most_m = 1, most_runs = 10;
 std::optional<Doubt> doubt_of(double largest, yaml::Dimension dimension) {
   if (dimension == yaml::Dimension::angle && largest > most_rad) return Doubt{"degrees", "deg"};
   if (dimension == yaml::Dimension::length && largest > most_m) {
-    return Doubt{"millimetres or centimetres", "mm or cm"};
+    return Doubt{"millimeters or centimeters", "mm or cm"};
   }
   return {};
 }

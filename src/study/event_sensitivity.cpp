@@ -200,9 +200,9 @@ double EventSensitivity::jump(std::size_t k, const Instant& now, const std::vect
   if (is_apart(&Passed::moved, now.after.head(n)) ||
       is_apart(&Passed::rates, now.rates_after.head(n))) {
     no_sensitivity(shown(neighbors.key.name) + ": at t = " + short_number(now.t) +
-                   " s the run touches a limit, or switches twice at once, and a little more or "
-                   "less of this key leads another way, so there is no derivative; allowed: runs "
-                   "that end before");
+                   " s the run touches a limit, or switches twice at once, and a slightly "
+                   "different value of this key leads to another motion, so there is no "
+                   "derivative; allowed: runs that end before");
   }
   const double later = neighbors.slope(of(&Passed::later));
   const VectorXd before = slope.head(n);

@@ -81,8 +81,8 @@ void RigSensitivity::require_smooth_parts(const model::Model& model) {
   }
   if (model.dry || rig.between.has_pieces()) {
     no_sensitivity(
-        "found with samples of the controller beside dry friction, sliding, limits of torques or a "
-        "linkage given by a curve; allowed: samples without");
+        "found with a sampled controller and dry friction, sliding, limits of torques or a linkage "
+        "given by a curve; allowed: a sampled controller without these");
   }
   for (const model::RigServo& servo : rig.servo) {
     if (servo.backlash > 0) no_sensitivity("found with backlash; allowed: servos without");
@@ -249,7 +249,7 @@ void RigSensitivity::compute(std::size_t k, const Instant& now, const Eigen::Mat
     no_sensitivity(shown(keys_[k].key.name) +
                    ": it moves the sample at t = " + short_number(now.t) +
                    " s, at which the reference jumps; allowed: jumps between samples, or keys that "
-                   "leave the samples' times");
+                   "do not move the samples");
   }
   const auto moving = [](double value, double slope) {
     return Moving(value, Moving::Gradient(slope));

@@ -191,17 +191,17 @@ void Sensitivity::require_alike(const model::Model& other, const std::string& ke
   const std::string name = shown(key);
   if (other.system.index() != model_.system.index() || other.size() != model_.size() ||
       other.hybrid() != model_.hybrid()) {
-    no_sensitivity(
-        name +
-        ": the scene has other equations at values beside the present one; allowed: a key "
-        "whose values all give the same equations");
+    no_sensitivity(name +
+                   ": the scene has other equations at nearby values; allowed: a key whose values "
+                   "all give the same equations");
   }
   const bool same_stops = std::ranges::equal(other.stops, model_.stops, [&](double a, double b) {
     return std::abs(a - b) <= 1e-12 * grid_.end();
   });
   if (!same_stops) {
     no_sensitivity(
-        name + ": it moves times at which the input jumps; allowed: keys that leave these times");
+        name +
+        ": it moves times at which the input jumps; allowed: keys that do not move these times");
   }
 }
 

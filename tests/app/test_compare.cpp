@@ -94,7 +94,7 @@ TEST_CASE("files that carry their solver's tolerances are compared by them") {
   CHECK(contains(alike.out,
                  "allowed: 100 (rtol size + atol) for each file, by its solver's rtol 1e-08, atol "
                  "1e-10 and rtol 1.01e-08, atol 1e-10\n"));
-  CHECK(contains(alike.out, "within what the solver was asked for"));
+  CHECK(contains(alike.out, "within the solver's tolerances"));
   CHECK(bbsim({"compare", "a.h5", "b.csv"}, folder.path()).exit_code == 0);  // one of them says
   // What is given counts, and so does what CSV cannot say.
   CHECK(bbsim({"compare", "a.h5", "b.h5", "--rtol", "1e-15"}, folder.path()).exit_code == 1);

@@ -113,14 +113,14 @@ TEST_CASE("whatever a controller does instead of answering is told, and the rows
       {"dies", "failed at sample 5 (t = 0.1 s): it ended with exit code 3."},
       {"crashes", "it was ended by signal 9 (Killed)"},
       {"garbage", "its answer was \"hello \\x1b[31mworld\": allowed: {\"command\": [PHI, THETA]}"},
-      {"floods", "its answer has no end within 65536 bytes: \"xxx"},
+      {"floods", "its answer does not end within 65536 bytes: \"xxx"},
       {"closes", "it closed its standard output; it was still running, and has been ended"},
       {"breaks off", "its answer breaks off: \"{\"comma\"; it ended with exit code 0"},
       {"leaves another", "it ended with exit code 0"},
       {"late", "it did not answer within 1 s"},
       {"nan",
-       "its answer was \"{\"command\": [NaN, 0]}\": found a command that is no finite number"},
-      {"infinite", "found a command that is no finite number"},
+       "its answer was \"{\"command\": [NaN, 0]}\": found a command that is not a finite number"},
+      {"infinite", "found a command that is not a finite number"},
       {"one", "found a command that is not two numbers"},
       {"three", "found a command that is not two numbers"},
       {"none", "found no command"},
@@ -178,7 +178,7 @@ TEST_CASE("a controller that does not begin fails the run before its first row")
   const Result result = scene.run({"--set", patience});
   CAPTURE(result.err);
   CHECK(result.exit_code == 1);
-  CHECK(contains(result.err, "failed to begin: "));
+  CHECK(contains(result.err, "failed to start: "));
   CHECK(contains(result.err, told));
   CHECK(result.seconds < 10);
   CHECK(contains(result.err, "out.csv: not written; there are no rows"));
@@ -197,7 +197,7 @@ TEST_CASE("nothing is left of a controller that leaves processes, or goes on at 
   CAPTURE(result.err);
   CHECK(result.exit_code == 0);
   CHECK(count(scene.folder.read("out.csv"), "\n") == 12);
-  CHECK(contains(result.err, "it went on after the end of its input, and has been ended") ==
+  CHECK(contains(result.err, "it kept running after the end of its input, and has been ended") ==
         (mode == "goes on"));
   const auto [processes, running] = scene.processes_in_the_end();
   CHECK(processes == (mode == "goes on" ? 1 : 2));
@@ -324,7 +324,7 @@ TEST_CASE("check says what is known of a loop whose law is not") {
   CHECK(contains(result.out, "-16 +- 12i"));  // the servo's: -zeta omega +- omega sqrt(1 - zeta^2)
   CHECK(contains(result.out, "closed loop  no poles: only the controller knows its law"));
   CHECK(contains(result.out, "controller   the program starts, and answers\n"));
-  CHECK(contains(result.out, "beside its commands it gives u (rad)"));
+  CHECK(contains(result.out, "besides its commands it gives u (rad)"));
   CHECK(scene.processes_in_the_end() == std::pair(1, 0));
 }
 

@@ -66,7 +66,7 @@ TEST_CASE("design writes a scenario that runs, its table, and JSON") {
   CHECK(again.exit_code == 2);
   CHECK_THAT(again.err, Contains("--table: found designed.yaml; allowed: FILE.csv"));
   CHECK_THAT(bbsim(design({"-o", "-"}), folder.path()).err,
-             Contains("--table: found no file for the scenario of -o to name"));
+             Contains("--table: found no file, and the scenario of -o must name one"));
 }
 
 TEST_CASE("design prints its table, alone") {

@@ -240,7 +240,7 @@ TEST_CASE("without -o nothing is replaced but what the command would write") {
   folder.write("trial1.csv", content);
   const Result result = bbsim({"run", "trial1.yaml"}, folder.path());
   CHECK(result.exit_code == 2);
-  CHECK_THAT(result.err, Contains("trial1.csv: is there, and ") && Contains(told) &&
+  CHECK_THAT(result.err, Contains("trial1.csv: already exists, and ") && Contains(told) &&
                              Contains("-o") && Contains("--force"));
   CHECK(folder.read("trial1.csv") == content);
   CHECK(folder.files() == Names{"trial1.csv", "trial1.yaml"});
@@ -280,8 +280,8 @@ TEST_CASE("so it is of sweeps, pictures and pages") {
   folder.write(file, content);
   const Result result = bbsim(words, folder.path());
   CHECK(result.exit_code == 2);
-  CHECK_THAT(result.err,
-             Contains(file + ": is there, and begins with \"notes of mine") && Contains("--force"));
+  CHECK_THAT(result.err, Contains(file + ": already exists, and begins with \"notes of mine") &&
+                             Contains("--force"));
   CHECK(folder.read(file) == content);
   CHECK(bbsim(with(words, {"--force", "-q"}), folder.path()).exit_code == 0);
   CHECK(folder.read(file) != content);
@@ -305,7 +305,7 @@ TEST_CASE("a summary that nests without end is none") {
   for (const Names& words : {Names{"plot", "r.csv"}, Names{"replay", "r.csv"}}) {
     const Result result = bbsim(with(words, {"--summary", "r.json"}), folder.path());
     CHECK(result.exit_code == 2);
-    CHECK_THAT(result.err, Contains("r.json: is no summary"));
+    CHECK_THAT(result.err, Contains("r.json: is not a summary"));
   }
 }
 
@@ -451,8 +451,9 @@ TEST_CASE("parts of another sweep are refused by their plans, of another instruc
     REQUIRE(shard(folder, "p-2of2.csv", "2/2", {}, "avx2").exit_code == 0);
     const Result result = merged();
     CHECK(result.exit_code == 0);
-    CHECK_THAT(result.err, Contains("the parts are of avx2 and sse2: alike within the tolerance, "
-                                    "not to the bit"));
+    CHECK_THAT(
+        result.err,
+        Contains("the parts are of avx2 and sse2: alike within the tolerance, not bit for bit"));
   }
   SECTION("the last part is missing, whatever the names") {
     fs::rename(folder / "p-1of2.csv", folder / "first.csv");
@@ -621,7 +622,7 @@ TEST_CASE("a part that was damaged is cut where it is, and it is said") {
   const Result rest = bbsim(with(arguments, {"-o", "s.csv", "--resume"}), folder.path());
   CHECK(rest.exit_code == 0);
   CHECK_THAT(rest.err,
-             Contains("is not as it was written (found zero bytes); going on from case "));
+             Contains("is not as it was written (found zero bytes); continuing from case "));
   const bool alike = folder.read("s.csv") == folder.read("whole.csv");
   CHECK(alike);
 }

@@ -122,8 +122,8 @@ TEST_CASE("without -o, examples and templates replace no file that is there") {
   CAPTURE(file);
   CHECK(kept.exit_code == 2);
   CHECK(kept.err == file +
-                        ": is there; allowed: to write a new file. Name another file with -o, or "
-                        "replace this one with --force\n");
+                        ": already exists; allowed: to write a new file. Name another file with "
+                        "-o, or replace this one with --force\n");
   CHECK(folder.files() == std::vector{file});
   CHECK(folder.read(file) == "mine\n");
   Words forced = words;
@@ -232,9 +232,8 @@ TEST_CASE("check tells commands that are exchanged, and those that depend on not
                 "y.command(ball_y, reference_y, period), x.command(ball_x, reference_x, period)");
   write_changed(folder, "deaf.py", commands, "0.01, 0.02");
   const Result exchanged = bbsim(on_step("check", python("exchanged.py")), folder.path());
-  CHECK_THAT(exchanged.out,
-             Contains("\nWARNING      phi: depends on y, but moves the ball along x; "
-                      "exchange the commands, or the coordinates\n"));
+  CHECK_THAT(exchanged.out, Contains("\nWARNING      phi: depends on y, but moves the ball along "
+                                     "x; swap the commands, or the coordinates\n"));
   const Result deaf = bbsim(on_step("check", python("deaf.py")), folder.path());
   CHECK_THAT(deaf.out, Contains("\nWARNING      its commands do not depend on where the ball is, "
                                 "in 25 samples\n"));

@@ -135,7 +135,7 @@ TEST_CASE("a log of any rig is measured, whatever its other columns are") {
         "measure,value\nmax_y,4\n");
   const Result words = bbsim({"measure", "log.csv", "--measure", "max_mode"}, folder.path());
   CHECK(words.exit_code == 2);
-  CHECK(words.err.find("column mode, row 1: found \"auto\", a number is expected") !=
+  CHECK(words.err.find("column mode, row 1: found \"auto\"; allowed: a number") !=
         std::string::npos);
   folder.write("words.csv", "t,x,when,at\n0,1,a,b\n1,2,c,d\n2,3,e,f\n");
   CHECK(bbsim({"measure", "words.csv", "--measure", "when x=1.5"}, folder.path()).out ==
@@ -159,7 +159,8 @@ TEST_CASE("steps count from where the ball starts, and a file without a referenc
   CHECK(motion.at("x.Overshoot") == Approx(100 * (motion.at("x.Peak") - 0.03) / 0.06));
   // y is to stay where it is: a step of 0, of which there is nothing to tell, and that is said.
   CHECK(std::isnan(motion.at("y.Overshoot")));
-  const std::string why = "y.Overshoot is no number: it is to end where it starts, a step of 0";
+  const std::string why =
+      "y.Overshoot is not a number: it should end where it starts, so its step is 0";
   CHECK(run.err.find("note: " + why) != std::string::npos);
   CHECK(folder.read("s.json").find(why) != std::string::npos);
 
@@ -174,7 +175,7 @@ TEST_CASE("steps count from where the ball starts, and a file without a referenc
   const Result plain = bbsim({"measure", "plain.csv", "--measure", "x.Overshoot"}, folder.path());
   CHECK(plain.exit_code == 0);
   CHECK(plain.err ==
-        "note: plain.csv has no column x_reference: step metrics of x count to its own value at "
+        "note: plain.csv has no column x_reference: step metrics of x refer to its own value at "
         "the end\n");
   CHECK(
       bbsim({"measure", "plain.csv", "--measure", "x.Overshoot", "-q"}, folder.path()).err.empty());
@@ -243,8 +244,8 @@ TEST_CASE("what is expected of a run is judged, said and recorded") {
   CHECK(unmet.out.find("Overshoot") == std::string::npos);
   CHECK(unmet.err.starts_with("not as expected: x.Overshoot<=41: x.Overshoot is 41.1"));
   CHECK(unmet.err.find("max_tilt") == std::string::npos);
-  CHECK(unmet.err.find("not as expected: when x=1 m < 3 s: when x=1 cross=1 is no number: it does "
-                       "not happen\n") != std::string::npos);
+  CHECK(unmet.err.find("not as expected: when x=1 m < 3 s: when x=1 cross=1 is not a number: it "
+                       "does not happen\n") != std::string::npos);
   const auto summary = nlohmann::json::parse(folder.read("s.json"));
   CHECK(summary["status"] == "done");
   REQUIRE(summary["expectations"].size() == 3);
@@ -269,8 +270,8 @@ TEST_CASE("a log that looks like other units than bbsim's is warned of") {
       bbsim({"measure", "log.csv", "--measure", "max_x,max_phi,max_other"}, folder.path());
   CHECK(measured.exit_code == 0);
   CHECK(measured.err ==
-        "warning: log.csv: x goes up to 120, measured in m: it looks like millimetres or "
-        "centimetres\n"
+        "warning: log.csv: x goes up to 120, measured in m: it looks like millimeters or "
+        "centimeters\n"
         "warning: log.csv: phi goes up to 12, measured in rad: it looks like degrees\n");
   CHECK(bbsim({"measure", "log.csv", "--measure", "max_other"}, folder.path()).err.empty());
   CHECK(bbsim({"measure", "log.csv", "--measure", "max_x", "-q"}, folder.path()).err.empty());
@@ -286,8 +287,8 @@ TEST_CASE("a log that looks like other units than bbsim's is warned of") {
   CHECK(compared.exit_code == 1);
   CHECK(compared.err ==
         "warning: log.csv: t spans 3000, and in run.csv 3: it looks like milliseconds\n"
-        "warning: log.csv: x goes up to 120, and in run.csv 0.12: it looks like millimetres or "
-        "centimetres\n"
+        "warning: log.csv: x goes up to 120, and in run.csv 0.12: it looks like millimeters or "
+        "centimeters\n"
         "warning: log.csv: phi goes up to 12, and in run.csv 0.2: it looks like degrees\n");
   CHECK(bbsim({"compare", "log.csv", "log.csv"}, folder.path()).err.empty());
   CHECK(bbsim({"compare", "run.csv", "log.csv", "-q"}, folder.path()).err.empty());
@@ -429,7 +430,7 @@ TEST_CASE("measures of the loop are what linearize writes, to the last digit") {
     return refused.err;
   };
   CHECK(fault({"--measure", "stable from 2 s"})
-            .starts_with("measure: found stable from 2 s, which is of no time; allowed: "));
+            .starts_with("measure: found stable from 2 s, which takes no time window; allowed: "));
   CHECK(fault({"--measure", "phi_delay_margn"}).find("did you mean phi_delay_margin?") !=
         std::string::npos);
   CHECK(fault({"--measure", "spectral_radius"}).find("the controller takes no samples") !=

@@ -232,7 +232,7 @@ TEST_CASE("what is wrong with a library is told with the key's place") {
       {with_misdeeds("0", "/no/such/library.so"), "which cannot be opened: /no/such/library.so"},
       {with_misdeeds("0", config("step.yaml")), "which cannot be opened"},
       {with_misdeeds("0", BBSIM_MISDEEDS_VERSION),
-       "which is of version 99 of bbsim/controller.h; allowed: version 1: compile it anew"},
+       "which is of version 99 of bbsim/controller.h; allowed: version 1: compile it again"},
       {with_misdeeds("0", BBSIM_MISDEEDS_LACK), "which has no function bbsim_controller_step"},
       {with_misdeeds("1"), "which makes no controller for this scene: no such mode"},
       {{"run", example("library.yaml"), "--set", library, "--set",
@@ -266,7 +266,7 @@ TEST_CASE("a library that ends the process in place of returning fails, and the 
   const auto [mode, told, lines] = GENERATE(values<Way>({
       {"5", "failed at sample 5 (t = 0.1 s): it called exit(0), which would have ended bbsim", 6},
       {"6", "failed at sample 5 (t = 0.1 s): it called _exit(0), which would have ended bbsim", 6},
-      {"7", "failed to begin: it called exit(0), which would have ended bbsim", 0},
+      {"7", "failed to start: it called exit(0), which would have ended bbsim", 0},
       {"10", ") ended bbsim; unwritten output is lost", 0},
       {"12", ") ended bbsim; unwritten output is lost", 0},
   }));
@@ -290,7 +290,7 @@ TEST_CASE("a library that ends the process as it is opened does so with a word")
              std::string("controller.library.file=") + BBSIM_MISDEEDS, "--set",
              "controller.library.parameters={mode: 7}", "--set", "output.columns=[t, x, samples]"});
   CHECK(check.exit_code == 1);
-  CHECK(contains(check.err, "failed to begin: it called exit(0)"));
+  CHECK(contains(check.err, "failed to start: it called exit(0)"));
 }
 
 TEST_CASE("a library that ends the process once it is done, or a child of its own, does no harm") {

@@ -263,7 +263,7 @@ TEST_CASE("what cannot be drawn is told in a line") {
   CHECK_THAT(fault({"run.csv", "beam.csv", "-o", "a.svg"}, folder), Contains("--overlay"));
   CHECK_THAT(fault({"run.csv", "--columns", "phii"}, folder), Contains("did you mean phi?"));
   CHECK_THAT(fault({"beam.csv", "--columns", "path"}, folder), Contains("no numbers x and y"));
-  CHECK_THAT(fault({"run.csv", "--over", "x"}, folder), Contains("is no sweep"));
+  CHECK_THAT(fault({"run.csv", "--over", "x"}, folder), Contains("is not a sweep"));
   CHECK_THAT(fault({"sweep.csv", "run.csv", "--overlay"}, folder), Contains("a sweep has"));
   CHECK_THAT(fault({"sweep.csv", "--columns", "y"}, folder), Contains("measures of sweep.csv"));
   CHECK_THAT(fault({"-"}, folder), Contains("--output: missing"));

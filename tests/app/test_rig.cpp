@@ -229,7 +229,7 @@ TEST_CASE("check tells of linkages, clocks and frames, and of stops beyond a dea
   const Result three = bbsim({"check", config("three-servos.yaml")});
   CHECK(three.exit_code == 0);
   CHECK(contains(three.out, "three servos, two tilts and a height"));
-  CHECK(contains(three.out, "without the wander of the plate's center"));
+  CHECK(contains(three.out, "the shift of the plate's center is neglected"));
 }
 
 TEST_CASE("scenes with linkages and three servos run, in parts too, to the byte") {

@@ -143,7 +143,7 @@ TEST_CASE("an interrupted sweep keeps its cases and goes on to the same bytes") 
   REQUIRE(cut.exit_code != 0);
   if (signal == 2) {
     CHECK(cut.exit_code == 130);
-    CHECK(contains(cut.err, "--resume goes on"));
+    CHECK(contains(cut.err, "--resume continues"));
   }
   REQUIRE(folder.files() == std::vector<std::string>{"s.csv.part", "s.csv.plan"});
 

@@ -259,8 +259,8 @@ TEST_CASE("keys that no motion tells apart are named") {
   request.noise = {"x=2mm"};
   const api::DesignResult made = made_of(request);
   INFO(made.text);
-  CHECK(contains(made.text, "not identifiable: gimbal.motion.phi.table.offset, which no log"));
-  CHECK(contains(made.text, "not identifiable: gimbal.mounting.phi_offset, which no log"));
+  CHECK(contains(made.text, "not identifiable: gimbal.motion.phi.table.offset, which a log"));
+  CHECK(contains(made.text, "not identifiable: gimbal.mounting.phi_offset, which a log"));
   CHECK(std::isfinite(made.designed.parameters[2].sd));
   const auto json = nlohmann::json::parse(made.json);
   CHECK(json["parameters"][0]["sd"].is_null());
@@ -275,14 +275,14 @@ TEST_CASE("what cannot be designed is refused, with what can") {
   CHECK(contains(fault(scene("ball: {radius: 1 cm}\n"
                              "gimbal: {motion: {phi: 0, theta: 0}}\ntime: {end: 3, step: 1}\n"),
                        {inertia}),
-                 "plate: has no size, and the ball shall stay on it"));
+                 "plate: has no size, but the ball must stay on it"));
   CHECK(contains(fault(scene("ball: {radius: 1 cm, mass: 33 g}\n"
                              "plate: {size: [30 cm, 30 cm], inertia: [4e-3, 6e-3, 1e-2]}\n"
                              "gimbal: {torque: {phi: 0, theta: 0}}\ntime: {end: 3, step: 1}\n"),
                        {inertia}),
                  "gimbal.torque: found, which a design cannot choose"));
   CHECK(contains(fault(rig, {"ball.position.0"}), "each window's start is fitted anyway"));
-  CHECK(contains(fault(rig, {inertia, inertia}), "ball.inertia_factor is there twice"));
+  CHECK(contains(fault(rig, {inertia, inertia}), "ball.inertia_factor is given twice"));
   CHECK(contains(fault(rig, {"ball.mass"}), "ball.mass: has no effect on x, y"));
   CHECK(contains(fault(rig, {inertia}, [](auto& request) { request.length = "0 s"; }),
                  "--length: found \"0 s\""));

@@ -258,7 +258,7 @@ TEST_CASE("a linkage that cannot close, or is in line at home, is refused") {
   one.rod = 0.001;
   CHECK_THAT(message(one), Contains("does not close at home"));
   CHECK_THAT(message({0.02, 0.05, {}, {0.06, 0}}), Contains("in line at home"));
-  CHECK_THAT(message({0.02, 0.02, {}, {0, 0}}), Contains("a rod of no length"));
+  CHECK_THAT(message({0.02, 0.02, {}, {0, 0}}), Contains("a rod of zero length"));
 }
 
 TEST_CASE("a rod that home does not need puts the plate at an angle there") {

@@ -83,7 +83,7 @@ TEST_CASE("spectra are of the poles that check tells") {
     const LoopAnalysis::Value margin = value_of("phi_delay_margin", scene);
     CHECK(std::isnan(margin.value));
     CHECK(std::string(margin.why) ==
-          "the loop differs from sample to sample, by the sensor's frames");
+          "the loop differs from sample to sample because of the sensor's frames");
   }
 }
 

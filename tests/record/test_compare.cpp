@@ -195,8 +195,8 @@ TEST_CASE("the report names column, row, time and both values") {
         "column  largest |a - b|  in row  times allowed  rows differ\n"
         "t                     0       0              0            0\n"
         "x                   0.5       1            1.6            1\n"
-        "different: worst in column x, row 1 (t = 0.5): 2 in a.csv, 2.5 in b.csv; "
-        "the difference is 0.5, allowed is 0.312\n");
+        "different: worst in column x, row 1 (t = 0.5): 2 in a.csv, 2.5 in b.csv; the difference "
+        "is 0.5, the tolerance 0.312\n");
 }
 
 TEST_CASE("the report of tables that are alike") {

@@ -217,7 +217,7 @@ TEST_CASE("measures of stored rows are on straight lines between them") {
   const StoredRun still({{"t", "x"}, {{0}, {3}}}, "still.csv");
   const Measured none = still.value_of(still.measures_named({"x.RiseTime"}).front());
   CHECK(std::isnan(none.value));
-  CHECK(none.why == std::string("it is to end where it starts, a step of 0"));
+  CHECK(none.why == std::string("it should end where it starts, so its step is 0"));
 }
 
 TEST_CASE("step metrics count from the start to the reference") {
@@ -277,7 +277,7 @@ TEST_CASE("a step of a distance of zero has no metrics, with the reason") {
     CAPTURE(name);
     const Measured none = run.value_of(run.measures_named({name}).front());
     CHECK(std::isnan(none.value));
-    CHECK(none.why == std::string("it is to end where it starts, a step of 0"));
+    CHECK(none.why == std::string("it should end where it starts, so its step is 0"));
   }
 }
 

@@ -68,9 +68,9 @@ TEST_CASE("a measure that is no finite number has its reason") {
   const Whys whys{nullptr, "plate.inertia is not known", nullptr};
   CHECK(why_not_finite(measures, finite, whys).empty());
   CHECK(why_not_finite(measures, bad, whys) ==
-        "max_motor_power is no number: plate.inertia is not known; max_energy is infinite");
+        "max_motor_power is not a number: plate.inertia is not known; max_energy is infinite");
   CHECK(why_not_finite(measures, bad, {}) ==
-        "max_motor_power is no number; max_energy is infinite");
+        "max_motor_power is not a number; max_energy is infinite");
 }
 
 TEST_CASE("a recorder knows why a measure has no number") {
@@ -89,9 +89,9 @@ TEST_CASE("a recorder knows why a measure has no number") {
   std::vector<double> values(measures.size());
   recorder.finish(outcome, values.data());
   CHECK(why_not_finite(measures, values.data(), recorder.whys()) ==
-        "x.Overshoot is no number: it is to end where it starts, a step of 0; "
-        "when x=1 cross=1 is no number: it does not happen; "
-        "rms_x from 0.6 s to 0.9 s is no number: no row is within its window; "
-        "when x stays above 0 is no number: it does not stay there; "
-        "find x at 3 is no number: the time is not within what was measured");
+        "x.Overshoot is not a number: it should end where it starts, so its step is 0; "
+        "when x=1 cross=1 is not a number: it does not happen; "
+        "rms_x from 0.6 s to 0.9 s is not a number: no row is within its window; "
+        "when x stays above 0 is not a number: it does not stay there; "
+        "find x at 3 is not a number: the time is outside the measured part");
 }

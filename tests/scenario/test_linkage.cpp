@@ -271,7 +271,7 @@ TEST_CASE("a ball in a groove is a smaller one with more inertia, along one axis
   CHECK_THAT(errors(beam, {"ball.rolling_radius=0"}), Contains("ball.rolling_radius: found 0"));
   CHECK_THAT(errors(beam, {"ball.velocity=[0, 0.1]"}),
              Contains("ball.rolling_radius: found, but the scene moves along two axes: not along x "
-                      "alone, as ball.velocity is not 0 across it; not along y alone, as "
+                      "alone, since ball.velocity is not 0 across it; not along y alone, since "
                       "ball.position is not 0 across it"));
   CHECK_THAT(errors(beam, {"controller.reference.point=[0.1, 0.1]"}),
              Contains("controller.reference is not 0 across it"));
@@ -332,7 +332,7 @@ TEST_CASE("what makes no sense of these keys is refused, with why") {
       {{"controller.sampling={period: 0.02}", "controller.sensor={scale: 0}"},
        "controller.sensor.scale: found 0"},
       {{"controller.sampling={period: 0.02}", "controller.sensor={seed: 2}"},
-       "controller.sensor.seed: found, but neither noise nor dropout, nor sampling.jitter"},
+       "controller.sensor.seed: found, but neither noise nor dropout nor sampling.jitter"},
       {{"output.columns=[t, push_x]"}, "but nothing pushes the ball"},
       {{"output.columns=[t, servo_third]"}, "but there are no three servos"},
   };

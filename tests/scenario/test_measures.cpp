@@ -73,8 +73,9 @@ TEST_CASE("measures have units and meanings, and know what they need") {
   CHECK(find_measure("when phi=1")->unit() == "s");
   CHECK(find_measure("find phi when x=1")->unit() == "rad");
   CHECK(find_measure("max_tilt")->unit() == "rad");
-  CHECK(find_measure("x.Peak")->meaning() ==
-        "size where it is farthest from its start: contact point along the plate's x axis");
+  CHECK(
+      find_measure("x.Peak")->meaning() ==
+      "absolute value where it is farthest from its start: contact point along the plate's x axis");
   CHECK(find_measure("rms_x from 5 s")->unit() == "m");
   CHECK(find_measure("rms_x from 5 s")->meaning() ==
         "root mean square over the rows of: contact point along the plate's x axis, from 5 s");
@@ -187,5 +188,5 @@ TEST_CASE("measures of the loop are of a scene with a law, and of no window") {
   const double numbers[] = {1, 0.1, infinite};
   CHECK(why_not_finite(mixed, numbers, {}).empty());
   const double none[] = {1, infinite, std::nan("")};
-  CHECK(why_not_finite(mixed, none, {}) == "max_tilt is infinite; x_bandwidth is no number");
+  CHECK(why_not_finite(mixed, none, {}) == "max_tilt is infinite; x_bandwidth is not a number");
 }

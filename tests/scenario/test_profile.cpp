@@ -139,8 +139,9 @@ TEST_CASE("a table must be usable") {
         "gimbal.motion.phi.table.time: found time; allowed: one of t, a, b");
   CHECK_THAT(refused(five_rows("5,3,4"), "{file: absent.csv, time: t, value: a}"),
              Contains("gimbal.motion.phi.table.file: "));
-  CHECK(refused(five_rows("5,3,4"), "{file: ., time: t, value: a}") ==
-        "gimbal.motion.phi.table.file: found ., which is no regular file; allowed: a table file");
+  CHECK(
+      refused(five_rows("5,3,4"), "{file: ., time: t, value: a}") ==
+      "gimbal.motion.phi.table.file: found ., which is not a regular file; allowed: a table file");
   CHECK_THAT(refused(five_rows("5,3,4"), "{file: motion.csv, time: t}"),
              Contains("gimbal.motion.phi.table.value: missing"));
 }

@@ -47,7 +47,7 @@ TEST_CASE("commands that are known beforehand take no path and no sensor") {
        {Case{{"controller.reference={point: [0, 0]}"},
              "controller.reference: found beside commands, which follow no path; allowed: without"},
         Case{{"controller.sampling.period=\"20 ms\"", "controller.sensor.noise=\"1 mm\""},
-             "controller.sensor: found beside commands, which nothing that is measured changes"},
+             "controller.sensor: found beside commands, which no measurement changes"},
         Case{{"controller.drives=null", "gimbal.servo=null"},
              "controller.commands: found, but controller.drives is not angle"},
         Case{{"controller.commands={}"}, "profiles of phi and theta, or of one of them"},

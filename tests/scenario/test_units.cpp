@@ -108,9 +108,10 @@ TEST_CASE("a table that says no unit is warned of where it looks like another") 
                               "run of 10 s, read in s: it looks like milliseconds; say time_unit: "
                               "ms, or time_unit: s if that is right"));
   const std::string path = told(scene.read("reference", ""));
-  CHECK_THAT(path, Contains("controller.reference.table: log.csv: x goes up to 100, read in m: it "
-                            "looks like millimetres or centimetres; say unit: mm or cm, or unit: "
-                            "m if that is right"));
+  CHECK_THAT(
+      path,
+      Contains("controller.reference.table: log.csv: x goes up to 100, read in m: it looks like "
+               "millimeters or centimeters; say unit: mm or cm, or unit: m if that is right"));
   CHECK_THAT(path, Contains("time_unit: ms"));
   // What is said is believed, and says nothing of the other.
   CHECK_THAT(told(scene.read("motion", ", unit: rad")), !Contains("degrees"));
@@ -158,9 +159,9 @@ TEST_CASE("periods of a clock and angles of a linkage have units") {
     CHECK(told(scenario).empty());
   }
   const std::string warned = told(read("", ""));
-  CHECK_THAT(warned, Contains("controller.sampling.jitter: periods.csv: a period is 20 in the "
-                              "mean, for one of 0.02 s, read in s: it looks like milliseconds; "
-                              "say unit: ms"));
+  CHECK_THAT(warned,
+             Contains("controller.sampling.jitter: periods.csv: the mean period is 20, for one of "
+                      "0.02 s, read in s: it looks like milliseconds; say unit: ms"));
   CHECK_THAT(warned, Contains("gimbal.linkage.table: curve.csv: an angle is 60, read in rad: it "
                               "looks like degrees; say unit: deg"));
   CHECK_THROWS_WITH(read(", unit: ms, time_unit: ms", ""),
@@ -171,7 +172,7 @@ TEST_CASE("periods of a clock and angles of a linkage have units") {
 TEST_CASE("columns of a log look like other units by the names that they have") {
   CHECK(doubt_of(1.7, "phi")->looks_like == "degrees");
   CHECK_FALSE(doubt_of(1.6, "phi"));
-  CHECK(doubt_of(1.1, "x_reference")->looks_like == "millimetres or centimetres");
+  CHECK(doubt_of(1.1, "x_reference")->looks_like == "millimeters or centimeters");
   CHECK_FALSE(doubt_of(1, "x"));
   CHECK_FALSE(doubt_of(100, "gamma"));  // a ball that has turned often
   CHECK_FALSE(doubt_of(100, "vx"));

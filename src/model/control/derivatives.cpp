@@ -688,10 +688,11 @@ LinearPoint equilibrium(const Scenario& scene) {
   if (!point) {
     if (!is_plain(scene)) {
       throw_no_equilibrium(
-          "everything rests at no single position, at any angles and commands of this gimbal");
+          "at no single position does everything rest, whatever the angles and commands of this "
+          "gimbal");
     }
     if (has_law && EquilibriumSearch(scene, model).find(false)) {
-      throw_no_equilibrium("the law's command keeps the plate level at no single position");
+      throw_no_equilibrium("at no single position does the law's command keep the plate level");
     }
     throw_no_equilibrium("no angles of this gimbal level its plate");
   }

@@ -97,7 +97,7 @@ LoopAnalysis::Value LoopAnalysis::value_of(const scenario::LoopMeasure& measure)
   if (sampled()) {
     const SampledLoop& loop = *model_.rig->sampled;
     if (common_cycle(loop.sampling, loop.sensor).samples > 1) {
-      return {nothing, "the loop differs from sample to sample, by the sensor's frames"};
+      return {nothing, "the loop differs from sample to sample because of the sensor's frames"};
     }
   }
   if (!loop_) loop_ = linearize(scene_, model_, LinearKind::loop, home_point(), parts_);

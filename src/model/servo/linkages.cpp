@@ -139,7 +139,7 @@ Linkage make_linkage(const RodLinkage& of, Assumed assumed) {
   const double least = std::abs(v - rods.arm), most = v + rods.arm;
   if (!(rods.rod > 0)) {
     refuse(
-        "found horn and arm whose ends meet at home, with a rod of no length between; allowed: "
+        "found horn and arm whose ends meet at home, with a rod of zero length between; allowed: "
         "an offset that keeps them apart");
   }
   if (rods.rod < least || rods.rod > most) {
