@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# The program stands on api/ alone: no file of apps/ includes what computes (docs/architecture.md).
+# The program uses only api/: no file of apps/ includes the computing code (docs/architecture.md).
 file(GLOB_RECURSE _files ${SOURCE}/apps/*.cpp ${SOURCE}/apps/*.hpp ${SOURCE}/apps/*.h)
 if(NOT _files)
   message(FATAL_ERROR "found no sources in ${SOURCE}/apps")

@@ -45,7 +45,7 @@ Result bbsim(const Launch& launch) {
   const Folder streams;
   const std::string out = streams / "out", err = streams / "err";
   const auto start = std::chrono::steady_clock::now();
-  // A signal that comes early waits for the program, and does not meet what handles it here.
+  // An early signal waits for the program and does not reach handlers in this process.
   sigset_t all, before;
   sigfillset(&all);
   sigprocmask(SIG_BLOCK, &all, &before);
@@ -57,7 +57,7 @@ Result bbsim(const Launch& launch) {
     sigprocmask(SIG_SETMASK, &before, nullptr);
     redirect(STDOUT_FILENO, out);
     redirect(STDERR_FILENO, err);
-    close_range(STDERR_FILENO + 1, ~0U, 0);  // what the tests' own surroundings left open
+    close_range(STDERR_FILENO + 1, ~0U, 0);  // descriptors left open by the test environment
     if (!launch.folder.empty() && chdir(launch.folder.c_str()) != 0) _exit(126);
     if (launch.prepare) launch.prepare();
     std::vector<std::string> words{BBSIM_PROGRAM};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Runs the program as a user does, and sees what a user sees.
+// Runs the program as a user does and captures what a user sees.
 #pragma once
 
 #include <chrono>
@@ -21,21 +21,21 @@ struct Result {
 };
 
 struct Launch {
-  std::vector<std::string> arguments;  // after the program's name
-  std::filesystem::path folder{};      // working folder; empty: this one
-  int signal = 0;                      // sent after `signal_after`, 0: none
+  std::vector<std::string> arguments;  // without the program's name
+  std::filesystem::path folder{};      // working folder; empty: current one
+  int signal = 0;                      // sent after `signal_after`; 0: none
   std::chrono::milliseconds signal_after{300};
-  std::function<bool()> signal_when{};  // instead: sent once this is true
-  std::function<void()> prepare{};      // in the new process, before the program: its limits, say
+  std::function<bool()> signal_when{};  // if set, the signal is sent once this is true
+  std::function<void()>
+      prepare{};  // called in the new process before exec, to set limits for example
 };
 
-// Runs bbsim to its end.
 Result bbsim(const Launch& launch);
 inline Result bbsim(std::vector<std::string> arguments, std::filesystem::path folder = {}) {
   return bbsim(Launch{std::move(arguments), std::move(folder), 0, {}, {}, {}});
 }
 
-// A folder of its own for a test, removed with it.
+// A test's own folder, removed when the object is destroyed.
 class Folder {
  public:
   Folder();
@@ -46,18 +46,18 @@ class Folder {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] std::string operator/(const std::string& name) const { return path_ / name; }
 
-  // Writes a file into it and returns its path.
+  // Writes a file into the folder and returns its path.
   std::string write(const std::string& name,
                     const std::string& text) const;  // NOLINT(modernize-use-nodiscard)
   [[nodiscard]] std::string read(const std::string& name) const;
-  // Names of all files in it, hidden ones too, sorted.
+  // Sorted names of all files in the folder, including hidden ones.
   [[nodiscard]] std::vector<std::string> files() const;
 
  private:
   std::filesystem::path path_;
 };
 
-// A scenario of the repository's configs/.
+// Path of a scenario in configs/.
 std::string config(const std::string& name);
 
 }  // namespace bbsim_test

@@ -69,7 +69,7 @@ std::string on_terminal(const std::vector<std::string>& arguments, unsigned shor
   bool ended = false;
   std::string text;
   std::array<char, 4096> part{};
-  for (;;) {  // at the end the terminal is gone
+  for (;;) {  // read() fails at the end, when the terminal is gone
     pollfd drawn{terminal, POLLIN, 0};
     if (poll(&drawn, 1, 50) > 0) {
       const ssize_t got = read(terminal, part.data(), part.size());

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Runs the program as it stands in a shell's line, with pipes and redirections; and on a terminal.
+// Runs the program from a shell line, with pipes and redirections, or on a terminal.
 #pragma once
 
 #include <filesystem>
@@ -12,13 +12,13 @@
 
 namespace bbsim_test {
 
-// bash runs the line, in which $BBSIM is the program. Its exit code is that of the first process of
-// the last pipe that failed, if one did.
+// Runs a line in bash, with the program as $BBSIM. The exit code is that of the first process that
+// failed in the last pipe, or 0.
 Result shell(const std::string& line, const std::filesystem::path& folder);
 
-// What the program sends to a terminal of that many columns until it ends, or until it is
-// interrupted: after so many seconds, or when it has sent `awaited`, where that is something.
-// `kind` is the terminal's, TERM; `typed` what a person types, from the start.
+// Returns what the program sends to a terminal of the given width until it ends or is interrupted:
+// after the given seconds or, if `awaited` is not empty, once it has sent that. `kind` is the
+// terminal type, TERM; `typed` is the input, sent at the start.
 std::string on_terminal(const std::vector<std::string>& arguments, unsigned short columns,
                         const std::filesystem::path& folder, double seconds,
                         const std::string& awaited = "", const std::string& kind = "xterm",

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// bbsim accuracy: its table, its CSV, and its mistakes.
+// bbsim accuracy: its table, CSV output and error messages.
 #include <sstream>
 #include <string>
 
@@ -18,7 +18,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("accuracy prints a table, and writes it as CSV") {
+TEST_CASE("accuracy prints a table and writes it as CSV") {
   const Folder folder;
   const std::string scenario = std::string(BBSIM_SOURCE_DIR) + "/tests/data/scenarios/fig2a.yaml";
   const Result result = bbsim({"accuracy", scenario, "--methods", "radau,adams", "--rtol",
@@ -40,7 +40,7 @@ TEST_CASE("accuracy prints a table, and writes it as CSV") {
   CHECK(rows == 6);  // two methods, three tolerances
 }
 
-TEST_CASE("accuracy refuses a method or a range that it does not know") {
+TEST_CASE("accuracy refuses an unknown method or an invalid range") {
   const Result method = bbsim({"accuracy", config("fig2a.yaml"), "--methods", "euler"});
   CHECK(method.exit_code == 2);
   CHECK(contains(method.err, "euler"));
@@ -50,7 +50,7 @@ TEST_CASE("accuracy refuses a method or a range that it does not know") {
   CHECK(contains(range.err, "coarse"));
 }
 
-TEST_CASE("accuracy draws SVG, PNG and PDF, and nothing else") {
+TEST_CASE("accuracy draws SVG, PNG and PDF and refuses other formats") {
   const Folder folder;
   const std::string scenario = std::string(BBSIM_SOURCE_DIR) + "/tests/data/scenarios/fig2a.yaml";
   const auto drawn = [&](const std::string& file) {

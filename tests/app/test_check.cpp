@@ -17,7 +17,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("check names what an open loop is given") {
+TEST_CASE("check names the inputs of an open loop") {
   const Result result = bbsim({"check", config("fig2a.yaml")});
   CHECK(result.exit_code == 0);
   CHECK(contains(result.out, "5 states: x, y, vx, vy, r*spin"));
@@ -27,7 +27,7 @@ TEST_CASE("check names what an open loop is given") {
   CHECK_FALSE(contains(result.out, "closed loop"));
 }
 
-TEST_CASE("check finds the planar scene in tumble without its y motion and spin") {
+TEST_CASE("check reports tumble as a planar scene once its y motion and spin are removed") {
   const std::string tumble = std::string(BBSIM_SOURCE_DIR) + "/tests/data/scenarios/tumble.yaml";
   CHECK(contains(bbsim({"check", tumble}).out, "5 states"));
   const Result planar =
@@ -48,7 +48,7 @@ TEST_CASE("check prints the poles and warns of an unstable loop") {
   CHECK(contains(unstable.out, "unstable"));
 }
 
-TEST_CASE("check's verdict knows how old the frames are that a sampled controller sees") {
+TEST_CASE("check's verdict includes the age of the frames that a sampled controller sees") {
   const Folder folder;
   folder.write("camera.yaml",
                "ball: {radius: 0.01}\ntime: {end: 1, step: 0.1}\n"
@@ -60,7 +60,7 @@ TEST_CASE("check's verdict knows how old the frames are that a sampled controlle
     return bbsim({"check", "camera.yaml", "--set", set}, folder.path()).out;
   };
   CHECK(contains(check("controller.sensor.phase=0"), "stable: "));
-  // A run of it grows: each frame is 19 ms old.
+  // A run with these values grows: each frame is 19 ms old.
   CHECK(contains(check("controller.sensor.phase=0.001"), "unstable about home: 4 of its 14 poles"));
   folder.write("slow.yaml",
                "ball: {radius: 0.01}\ntime: {end: 1, step: 0.1}\n"
@@ -81,7 +81,7 @@ TEST_CASE("check's verdict knows how old the frames are that a sampled controlle
   CHECK(contains(linear.err, "coincide with the samples again after 3 samples"));
 }
 
-TEST_CASE("check reports all problems of a scenario at once, each with its place") {
+TEST_CASE("check reports all problems of a scenario together, each with its place") {
   const Folder folder;
   folder.write("bad.yaml",
                "ball:\n"
@@ -96,7 +96,7 @@ TEST_CASE("check reports all problems of a scenario at once, each with its place
   CHECK(contains(result.err, "bad.yaml:4:13: time.end: found -1; allowed:"));
 }
 
-TEST_CASE("columns lists them all with units") {
+TEST_CASE("columns lists all columns with units") {
   const Result result = bbsim({"columns"});
   CHECK(result.exit_code == 0);
   for (const char* name : {"t",
@@ -125,7 +125,9 @@ TEST_CASE("columns lists them all with units") {
   }
 }
 
-TEST_CASE("what no degrees can be is told in radians, and lengths and times likewise") {
+TEST_CASE(
+    "quantities that cannot be in degrees are reported in radians, and likewise lengths and "
+    "times") {
   const Result result = bbsim({"check", config("step.yaml"), "--set", "controller.limit=1e308",
                                "--set", "controller.sensor.offset=[1e308, 0]"});
   CAPTURE(result.out);

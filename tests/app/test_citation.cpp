@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// CITATION.cff against what the schema of the Citation File Format 1.2.0 requires, and against the
-// version and the license of the program.
+// Checks CITATION.cff against the required fields of the Citation File Format 1.2.0, and against
+// the program's version and license.
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ std::string text_of(const YAML::Node& node) {
   return node && node.IsScalar() ? node.Scalar() : "";
 }
 
-// What is wrong with a list of persons and entities: either has a name.
+// Faults of a list of persons and entities; both kinds need a name.
 std::vector<std::string> faults_of_authors(const YAML::Node& authors) {
   if (!authors || !authors.IsSequence() || authors.size() == 0) return {"no authors"};
   std::vector<std::string> faults;
@@ -86,7 +86,7 @@ std::string source_file(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("CITATION.cff keeps to its format, and names this version and the paper") {
+TEST_CASE("CITATION.cff conforms to its format and names this version and the paper") {
   const YAML::Node citation = YAML::LoadFile(source_file("CITATION.cff"));
   CHECK(faults_of(citation).empty());
   CHECK(text_of(citation["version"]) == BBSIM_VERSION);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What is the same for all commands: help, -q, mistakes, standard input, and a reader that goes.
+// Behavior common to all commands: help, -q, errors, standard input and a reader that closes early.
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -39,7 +39,7 @@ TEST_CASE("no line of any help is wider than 80 columns") {
       CAPTURE(arguments, line);
       CHECK(line.size() <= 80);
     }
-    CHECK_FALSE(contains(help.out, "e+"));  // a bound of what a double can count
+    CHECK_FALSE(contains(help.out, "e+"));  // a bound that is the greatest integer of a double
   }
 }
 
@@ -63,7 +63,7 @@ TEST_CASE("run and sweep show examples, and the examples run") {
         "bbsim() { \"$BBSIM\" \"$@\"; }; ln -sfn '" + source + "/configs' configs;";
     const Result result = shell(script + example, folder.path());
     CAPTURE(example, result.err);
-    // A reader that goes away before the end is no error of the example.
+    // If the reader closes early, exit code 3 is not a fault of the example.
     CHECK((result.exit_code == 0 || (contains(example, "head") && result.exit_code == 3)));
     CHECK_FALSE(contains(result.err, "allowed"));
     example.clear();
@@ -72,7 +72,7 @@ TEST_CASE("run and sweep show examples, and the examples run") {
   CHECK(count >= 8);
 }
 
-TEST_CASE("help names a command") {
+TEST_CASE("help of a single command") {
   CHECK(bbsim({"help"}).out == bbsim({"--help"}).out);
   for (const std::string& command : commands) {
     const Result help = bbsim(Names{"help", command});
@@ -85,7 +85,7 @@ TEST_CASE("help names a command") {
   CHECK(contains(unknown.err, "unknown command rnu; did you mean run?"));
 }
 
-TEST_CASE("summarise is summarize") {
+TEST_CASE("summarise is accepted for summarize") {
   const Result help = bbsim({"summarize", "--help"});
   CHECK(help.exit_code == 0);
   CHECK(contains(help.out, "Usage: bbsim summarize"));
@@ -93,7 +93,7 @@ TEST_CASE("summarise is summarize") {
   CHECK(bbsim({"help", "summarise"}).out == help.out);
 }
 
-TEST_CASE("a misspelt command or option is answered with the nearest one") {
+TEST_CASE("a misspelled command or option is answered with the nearest one") {
   CHECK(contains(bbsim(Names{"swep", "a.yaml"}).err, "unknown command swep; did you mean sweep?"));
   CHECK(contains(bbsim({"comapre", "a", "b"}).err, "did you mean compare?"));
   CHECK(contains(bbsim(Names{"sumarize"}).err, "did you mean summarize?"));
@@ -110,7 +110,7 @@ TEST_CASE("a misspelt command or option is answered with the nearest one") {
        "unknown option --sumary of bbsim run; did you mean --summary?"},
       {{"run", "--eror=1e-6", "a.yaml"},
        "unknown option --eror of bbsim run; did you mean --error?"},
-      {{"run", "--sumary"}, "did you mean --summary?"},  // not: SCENARIO is required
+      {{"run", "--sumary"}, "did you mean --summary?"},  // rather than: SCENARIO is required
       {{"sweep", "a.yaml", "--sampels", "3"}, "did you mean --samples?"},
       {{"run", "a.yaml", "--quite"}, "did you mean --quiet?"},
       {{"run", "a.yaml", "--wings"}, "unknown option --wings of bbsim run\n"},
@@ -129,7 +129,7 @@ TEST_CASE("a misspelt command or option is answered with the nearest one") {
   }
 }
 
-TEST_CASE("a number that an option cannot take is answered with what it can") {
+TEST_CASE("an option's invalid number is answered with the allowed range") {
   for (const std::string number : {"0", "-1", "2.5", "x", "1e300"}) {
     const Result result = bbsim({"sweep", "a.yaml", "--samples", number});
     CAPTURE(result.err);
@@ -140,7 +140,7 @@ TEST_CASE("a number that an option cannot take is answered with what it can") {
                  "found 4096; allowed: a whole number from 1 to 1024"));
 }
 
-TEST_CASE("the flag -q may stand before and after every command") {
+TEST_CASE("the flag -q may precede or follow every command") {
   for (const std::string& command : commands) {
     if (command == "help") continue;
     const Result after = bbsim(Names{command, "-q", "--help"});
@@ -155,7 +155,7 @@ TEST_CASE("the flag -q may stand before and after every command") {
   CHECK(bbsim({"compare", "-q", "a.csv", "a.csv"}, folder.path()).exit_code == 0);
 }
 
-TEST_CASE("the flag -q leaves the reason of an exit code that is not 0") {
+TEST_CASE("the flag -q keeps the reason for a nonzero exit code") {
   const Folder folder;
   const Result failed = bbsim({"run", config("fig2b-literal.yaml"), "-q"}, folder.path());
   CHECK(failed.exit_code == 1);
@@ -170,7 +170,7 @@ TEST_CASE("the flag -q leaves the reason of an exit code that is not 0") {
   CHECK(contains(beyond.err, "is out of reach"));
 }
 
-TEST_CASE("an interrupted sweep says so with -q, too") {
+TEST_CASE("an interrupted sweep reports it even with -q") {
   const Folder folder;
   Launch launch{{"sweep", config("fig2a.yaml"), "-q", "-j", "1", "--vary",
                  "gimbal.motion.phi.sinusoid.phase=linear:0:1:10000000", "-o", "s.csv"},
@@ -192,7 +192,7 @@ TEST_CASE("a scenario may come from standard input") {
   const Result file = bbsim({"run", "incline.yaml", "-o", "-", "-q"}, folder.path());
   REQUIRE(file.exit_code == 0);
 
-  // Without -o, what comes from standard input goes to standard output.
+  // Without -o, a scenario from standard input writes its result to standard output.
   const Result piped = shell("cat incline.yaml | \"$BBSIM\" run - -q", folder.path());
   CHECK(piped.exit_code == 0);
   CHECK(piped.out == file.out);
@@ -218,7 +218,7 @@ TEST_CASE("a scenario may come from standard input") {
   CHECK(shell("\"$BBSIM\" run - < /dev/null", folder.path()).exit_code == 2);
 }
 
-TEST_CASE("check of a scenario with a sweep reads standard input once") {
+TEST_CASE("check reads standard input once for a scenario with a sweep") {
   const Folder folder;
   folder.write("s.yaml",
                "ball: {radius: 0.01}\n"
@@ -230,7 +230,7 @@ TEST_CASE("check of a scenario with a sweep reads standard input once") {
   CHECK(contains(result.out, "3 cases of bbsim sweep, over ball.radius"));
 }
 
-TEST_CASE("a reader that goes away ends the program quietly, with 3") {
+TEST_CASE("a reader that closes early ends the program quietly with exit code 3") {
   const Folder folder;
   const std::string fig2a = config("fig2a.yaml");
   for (const std::string& line :
@@ -238,7 +238,7 @@ TEST_CASE("a reader that goes away ends the program quietly, with 3") {
         "sweep '" + fig2a + "' -q -o - --vary gravity=linear:9:10:100000 | head -3"}) {
     const Result result = shell("\"$BBSIM\" " + line, folder.path());
     CAPTURE(line, result.err);
-    CHECK(result.exit_code == 3);  // not 0: not all of it was written
+    CHECK(result.exit_code == 3);  // not 0, because part of the output was lost
     CHECK(result.err.empty());
     CHECK(contains(result.out, "\n"));
   }
@@ -246,7 +246,7 @@ TEST_CASE("a reader that goes away ends the program quietly, with 3") {
   CHECK(shell("\"$BBSIM\" --help | true; sleep 0.1", folder.path()).err.empty());
 }
 
-TEST_CASE("reports that cannot be written are exit 3") {
+TEST_CASE("reports that cannot be written give exit code 3") {
   const Folder folder;
   const std::string fig2a = config("fig2a.yaml");
   for (const std::string& words :
@@ -260,7 +260,7 @@ TEST_CASE("reports that cannot be written are exit 3") {
   }
 }
 
-TEST_CASE("what others named does not reach the terminal as commands") {
+TEST_CASE("names from outside do not reach the terminal as control sequences") {
   const Folder folder;
   const std::string red = "\x1b[31mred";
   folder.write(red + ".yaml", "ball: {radius: 0.01}\n");

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// bbsim compare over what the program writes: runs and sweeps, CSV and HDF5.
+// bbsim compare on the program's own results: runs and sweeps, CSV and HDF5.
 #include <cstdlib>
 #include <string>
 #include <vector>
@@ -35,7 +35,7 @@ std::vector<std::string> with(std::vector<std::string> words,
 
 }  // namespace
 
-TEST_CASE("sweeps are compared, their texts for equality") {
+TEST_CASE("sweeps are compared, and their texts must be equal") {
   const Folder folder;
   REQUIRE(bbsim(with(sweep_words, {"-o", "a.csv"}), folder.path()).exit_code == 0);
   REQUIRE(bbsim(with(sweep_words, {"-o", "a.h5"}), folder.path()).exit_code == 0);
@@ -70,21 +70,22 @@ TEST_CASE("trajectories of a sweep are compared number by number") {
   CHECK(different.exit_code == 1);
   CHECK(contains(different.out, "different: worst in column x, row 0 (t = 10): 0.12899"));
   const Result all = bbsim({"compare", "a.h5", "b.h5"}, folder.path());
-  CHECK(contains(all.out, "different: worst in column x_end, row 0: 0.12899"));  // no t of its own
+  CHECK(contains(all.out,
+                 "different: worst in column x_end, row 0: 0.12899"));  // the file has no column t
   REQUIRE(bbsim(with(words, {"-o", "c.h5", "--set", "time.step=2"}), folder.path()).exit_code == 0);
   const Result wider = bbsim({"compare", "a.h5", "c.h5"}, folder.path());
   CHECK(wider.exit_code == 1);
   CHECK(contains(wider.out, "different: column x has 11 numbers a row in a.h5, 6 in c.h5"));
 }
 
-TEST_CASE("files that carry their solver's tolerances are compared by them") {
+TEST_CASE("files that record their solver's tolerances are compared with them") {
   const Folder folder;
   const auto run = [&](const std::string& output, const std::string& more) {
     return shell("\"$BBSIM\" run '" + config("fig2b.yaml") + "' -q -o " + output + " " + more,
                  folder.path())
         .exit_code;
   };
-  // The same to the solver, not to the bit.
+  // Equal within the solver's tolerances, but not bit for bit.
   REQUIRE(run("a.h5", "") == 0);
   REQUIRE(run("b.h5", "--set solver.rtol=1.01e-8") == 0);
   REQUIRE(run("b.csv", "--set solver.rtol=1.01e-8") == 0);
@@ -101,13 +102,13 @@ TEST_CASE("files that carry their solver's tolerances are compared by them") {
   REQUIRE(run("a.csv", "") == 0);
   CHECK(bbsim({"compare", "a.csv", "b.csv"}, folder.path()).exit_code == 1);
 
-  // Another scene is not forgiven.
+  // A different scene is reported as different.
   REQUIRE(run("c.h5", "--set ball.position.0=0.0500025") == 0);
   const Result other = bbsim({"compare", "a.h5", "c.h5"}, folder.path());
   CHECK(other.exit_code == 1);
   CHECK(contains(other.out, "different: worst in column "));
 
-  // Under --error, positions are compared by the bound.
+  // With --error, positions are compared within its bound.
   REQUIRE(run("d.h5", "--error 1e-7") == 0);
   REQUIRE(run("e.h5", "--error 1e-9") == 0);
   const Result bound = bbsim({"compare", "d.h5", "e.h5", "--columns", "t,x,y"}, folder.path());
@@ -117,7 +118,7 @@ TEST_CASE("files that carry their solver's tolerances are compared by them") {
   CHECK(contains(bound.out, "positions to 1e-09 m"));
 }
 
-TEST_CASE("instruction sets agree within what their files allow") {
+TEST_CASE("results of different instruction sets agree within their files' tolerances") {
   const Folder folder;
   for (const std::string scene : {"fig2b", "hold", "recorded", "hard/stiff-servo"}) {
     std::vector<std::string> files;
@@ -127,7 +128,7 @@ TEST_CASE("instruction sets agree within what their files allow") {
                                    ".h5 --set 'output.columns=[t, x, y, vx, vy, spin, gamma, phi, "
                                    "phi_rate, phi_acceleration, normal_force, torque_phi]'",
                                folder.path());
-      if (run.exit_code == 0) files.push_back(set + ".h5");  // as far as this machine knows them
+      if (run.exit_code == 0) files.push_back(set + ".h5");  // only sets that this machine supports
     }
     REQUIRE(!files.empty());
     for (const std::string& file : files) {
@@ -138,7 +139,7 @@ TEST_CASE("instruction sets agree within what their files allow") {
   }
 }
 
-TEST_CASE("a sweep says what its solver was asked for, unless that varies") {
+TEST_CASE("a sweep records its solver's tolerances unless they vary") {
   const Folder folder;
   const std::string fig2b = config("fig2b.yaml");
   const std::vector<std::string> words{"sweep", fig2b, "-q", "--vary",
@@ -157,7 +158,7 @@ TEST_CASE("a sweep says what its solver was asked for, unless that varies") {
   CHECK(contains(bbsim({"compare", "c.h5", "c.h5"}, folder.path()).out, "within rtol 1e-09"));
 }
 
-TEST_CASE("the log of a rig is compared with a run at its own times") {
+TEST_CASE("a rig's log is compared with a run at the log's times") {
   const Folder folder;
   folder.write("run.csv", "t,x,vx\n0,0,0\n1,0.01,0.02\n2,0.04,0.04\n3,0.09,0.06\n");
   folder.write("log.csv", "Rig 3\nmillis;px\n5000;10,0\n5500;12,5\n6000;20,0\n7000;50,0\n");
@@ -177,12 +178,12 @@ TEST_CASE("the log of a rig is compared with a run at its own times") {
   CHECK(contains(found.err, "log.csv: moved by "));
 }
 
-TEST_CASE("a log is compared with the run of a scenario at the log's times") {
+TEST_CASE("a log is compared with a run of a scenario at the log's times") {
   const Folder folder;
   const std::vector<std::string> fine{"run", config("fig2a.yaml"), "--set", "time.step=0.013",
                                       "-q"};
   REQUIRE(bbsim(with(fine, {"-o", "log.csv"}), folder.path()).exit_code == 0);
-  // Rows between those that the scenario asks for, of columns that it does not ask for.
+  // Rows between those of the scenario's output, with columns that the scenario does not request.
   const Result made = bbsim({"compare", "log.csv", config("fig2a.yaml"), "--set", "time.step=0.5",
                              "--columns", "x,y", "--atol", "1e-7", "-q"},
                             folder.path());

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Completion in the shells that are installed: types into bash and zsh, and asks fish.
+"""Tests completion in the installed shells: types into bash and zsh, and queries fish.
 
 test_completion.py BBSIM"""
 
@@ -17,7 +17,7 @@ import tempfile
 import time
 
 PROGRAM = os.path.abspath(sys.argv[1])
-# What is typed; what the line or the list below it has then; what it has not.
+# Typed text; what the line or the list below it must contain; what it must not contain.
 CASES = [
     ("bbsim swe", ["bbsim sweep"], []),
     ("bbsim run --summ", ["--summary"], []),
@@ -42,7 +42,7 @@ FILES = ["input.yaml", "input.csv", "old.h5", "old.html"]
 
 
 def type_into(command, prepare, text, folder):
-    """What a shell in a terminal shows after text and two tabs."""
+    """Returns what a shell in a terminal shows after text and two tabs."""
     process, terminal = pty.fork()
     if process == 0:
         os.chdir(folder)
@@ -68,7 +68,7 @@ def type_into(command, prepare, text, folder):
         while mark not in shown and time.monotonic() < end:
             shown += read_until_quiet(0.1)
 
-    # The mark is put together by the shell, so that the echo of the line does not have it.
+    # The shell assembles the mark, so that the echoed line does not contain it.
     for line in prepare:
         os.write(terminal, line.encode() + b"\n")
     run("echo rea''dy", "ready\r")
@@ -105,7 +105,7 @@ def fish(script, text, folder):
                            capture_output=True, check=False)
     if found.returncode != 0 or found.stderr:
         return "fish: " + found.stderr
-    # It gives the last word as a whole.
+    # fish returns the whole last word.
     before = text.rpartition(" ")[0]
     return "\n".join(f"{before} {line}" for line in found.stdout.splitlines())
 

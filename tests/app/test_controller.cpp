@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Controllers that are not built in, as a user runs them: what they do well, and what they do
-// badly.
+// External controllers as a user runs them, both well-behaved and faulty.
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -33,8 +32,8 @@ std::size_t count(const std::string& text, const std::string& part) {
   return times;
 }
 
-// A scene of 10 samples and 11 rows, whose controller is a child of tests/app/child that does what
-// `mode` says.
+// A scene of 10 samples and 11 rows. Its controller is tests/app/child, which does what `mode`
+// says.
 struct Scene {
   Folder folder;
   std::string file;
@@ -61,7 +60,7 @@ struct Scene {
     return bbsim(std::move(words));
   }
 
-  // How many of its processes there were, and how many still run.
+  // Number of processes that it started, and how many still run.
   [[nodiscard]] std::pair<int, int> processes() const {
     std::ifstream ids(folder / "pids");
     std::pair<int, int> found{0, 0};
@@ -69,14 +68,14 @@ struct Scene {
       std::ifstream stat("/proc/" + std::to_string(id) + "/stat");
       std::string text;
       std::getline(stat, text);
-      // A dead one that nobody has waited for has the state Z.
+      // State Z is a zombie: dead, but not yet waited for.
       if (!text.empty() && !contains(text, ") Z ")) ++found.second;
     }
     return found;
   }
 
-  // The same once none of them runs any more: one that was killed takes its time to go, on a busy
-  // machine the longer.
+  // The same, once none of them runs any more; killed processes take time to end, longer on a busy
+  // machine.
   [[nodiscard]] std::pair<int, int> processes_in_the_end() const {
     const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(10);
     std::pair<int, int> found = processes();
@@ -87,7 +86,7 @@ struct Scene {
 
 }  // namespace
 
-TEST_CASE("a program that does its part runs to the end, with its numbers as columns") {
+TEST_CASE("a well-behaved program runs to the end, with its numbers as columns") {
   const Scene scene("good");
   const Result result = scene.run();
   CHECK(result.err == "controller: started\n" + (scene.folder / "out.csv") +
@@ -101,7 +100,7 @@ TEST_CASE("a program that does its part runs to the end, with its numbers as col
   CHECK(scene.processes_in_the_end() == std::pair(1, 0));
 }
 
-TEST_CASE("whatever a controller does instead of answering is told, and the rows before are kept") {
+TEST_CASE("any misbehavior of a controller is reported, and the rows before it are kept") {
   struct Misdeed {
     std::string mode, told;
   };
@@ -137,7 +136,7 @@ TEST_CASE("whatever a controller does instead of answering is told, and the rows
   CHECK(contains(result.err, "failed at sample 5 (t = 0.1 s): "));
   CHECK(contains(result.err, told));
   CHECK(result.seconds < 10);
-  // Rows 0 to 4, and their header.
+  // The header and rows 0 to 4.
   CHECK(count(scene.folder.read("out.csv"), "\n") == 6);
   const auto [processes, running] = scene.processes_in_the_end();
   CHECK(processes == (mode == "leaves another" ? 2 : 1));
@@ -147,7 +146,7 @@ TEST_CASE("whatever a controller does instead of answering is told, and the rows
   CHECK(contains(summary.at("reason"), "failed at sample 5"));
 }
 
-TEST_CASE("two lines for one sample are found before the next") {
+TEST_CASE("two lines for one sample are detected before the next sample") {
   const Scene scene("twice");
   const Result result = scene.run();
   CAPTURE(result.err);
@@ -158,7 +157,7 @@ TEST_CASE("two lines for one sample are found before the next") {
   CHECK(scene.processes_in_the_end() == std::pair(1, 0));
 }
 
-TEST_CASE("a controller that does not begin fails the run before its first row") {
+TEST_CASE("a controller that does not start fails the run before its first row") {
   struct Misdeed {
     std::string mode, told;
   };
@@ -172,7 +171,7 @@ TEST_CASE("a controller that does not begin fails the run before its first row")
   CAPTURE(mode);
   const Scene scene("\"" + mode + "\"", "timeout: 1", "t, x");
   scene.folder.write("out.csv", "an earlier run's rows");
-  // A busy machine may take its time to start one that does answer.
+  // A busy machine may take long to start a controller that does answer.
   const std::string patience =
       std::string("controller.program.start_timeout=") + (mode == "mute" ? "0.5" : "30");
   const Result result = scene.run({"--set", patience});
@@ -189,7 +188,7 @@ TEST_CASE("a controller that does not begin fails the run before its first row")
   CHECK(contains(check.err, told));
 }
 
-TEST_CASE("nothing is left of a controller that leaves processes, or goes on at the end") {
+TEST_CASE("no process remains of a controller that leaves children or keeps running at the end") {
   const std::string mode = GENERATE("forks", "goes on", "leaves a daemon");
   CAPTURE(mode);
   const Scene scene("\"" + mode + "\"");
@@ -204,7 +203,7 @@ TEST_CASE("nothing is left of a controller that leaves processes, or goes on at 
   CHECK(running == 0);
 }
 
-TEST_CASE("what a shell has started in groups of its own ends with it") {
+TEST_CASE("process groups started by a shell end with it") {
   const std::string mode = GENERATE("sleeps", "goes on", "leaves a daemon");
   CAPTURE(mode);
   const Scene scene("good", "timeout: 1");
@@ -219,9 +218,9 @@ TEST_CASE("what a shell has started in groups of its own ends with it") {
   CHECK(running == 0);
 }
 
-TEST_CASE("a process that is none of a controller's is left alone") {
+TEST_CASE("a process that does not belong to a controller is left alone") {
   const Scene scene("leaves a daemon");
-  // Of a shell that becomes bbsim.
+  // A child of a shell that becomes bbsim.
   const Result result = shell(
       "sleep 60 & echo $! > bystander; exec $BBSIM run scene.yaml -o out.csv", scene.folder.path());
   CAPTURE(result.err);
@@ -232,7 +231,7 @@ TEST_CASE("a process that is none of a controller's is left alone") {
   kill(bystander, SIGKILL);
 }
 
-TEST_CASE("what a controller complains of comes line by line, however much it is") {
+TEST_CASE("a controller's standard error is passed on line by line, however long") {
   const Scene scene("complains", "timeout: 20");
   const Result result = scene.run();
   CHECK(result.exit_code == 0);
@@ -240,7 +239,7 @@ TEST_CASE("what a controller complains of comes line by line, however much it is
   CHECK(contains(result.err, "controller: this is line 39999\n"));
 }
 
-TEST_CASE("a run that waits for its controller ends at SIGINT, with the rows so far") {
+TEST_CASE("a run that waits for its controller ends at SIGINT and keeps its rows") {
   const Scene scene(GENERATE("sleeps", "joins"), "timeout: 1000");
   Launch launch{{"run", scene.file, "-o", scene.folder / "out.csv"},
                 {},
@@ -257,7 +256,7 @@ TEST_CASE("a run that waits for its controller ends at SIGINT, with the rows so 
   CHECK(scene.processes_in_the_end() == std::pair(1, 0));
 }
 
-TEST_CASE("a controller has its time to end at SIGINT too, and is not told of if it does") {
+TEST_CASE("a controller gets time to end at SIGINT, and is not mentioned if it does") {
   const Scene scene("says goodbye", "timeout: 1000", "t, x");
   Launch launch{{"run", scene.file, "-o", scene.folder / "out.csv", "--set", "time.end=20000"},
                 {},
@@ -272,7 +271,7 @@ TEST_CASE("a controller has its time to end at SIGINT too, and is not told of if
   CHECK_FALSE(contains(result.err, "went on"));
 }
 
-TEST_CASE("a command that ends at once at a signal takes its controller with it") {
+TEST_CASE("a signal that ends a command immediately ends its controller too") {
   const Scene scene("mute", "timeout: 1000");
   Launch launch{{"check", scene.file, "--set", "controller.program.start_timeout=1000"},
                 {},
@@ -284,7 +283,7 @@ TEST_CASE("a command that ends at once at a signal takes its controller with it"
   CHECK(scene.processes_in_the_end() == std::pair(1, 0));
 }
 
-TEST_CASE("a command that cannot be started is the scenario's fault, with its place") {
+TEST_CASE("a command that cannot be started is reported as the scenario's fault, with its place") {
   const Scene scene("good");
   const std::string set = "controller.program.command=[no-such-program]";
   for (const char* command : {"run", "check", "sweep"}) {
@@ -302,7 +301,7 @@ TEST_CASE("a command that cannot be started is the scenario's fault, with its pl
   CHECK_FALSE(std::filesystem::exists(scene.folder / "o.csv"));
 }
 
-TEST_CASE("a name that picks no format is refused before a controller is started") {
+TEST_CASE("an output name of unknown format is refused before the controller starts") {
   const Scene scene("good");
   for (const char* command : {"run", "sweep"}) {
     std::vector<std::string> words{command, scene.file, "-o", scene.folder / "o.foo"};
@@ -315,20 +314,20 @@ TEST_CASE("a name that picks no format is refused before a controller is started
   CHECK(scene.processes().first == 0);
 }
 
-TEST_CASE("check says what is known of a loop whose law is not") {
+TEST_CASE("check reports what is known of a loop with an unknown control law") {
   const Scene scene("resets");
   const Result result = bbsim({"check", scene.file});
   CAPTURE(result.out, result.err);
   CHECK(result.exit_code == 0);
   CHECK(contains(result.out, "plant        8 poles about home under a held command (1/s): 0, 0"));
-  CHECK(contains(result.out, "-16 +- 12i"));  // the servo's: -zeta omega +- omega sqrt(1 - zeta^2)
+  CHECK(contains(result.out, "-16 +- 12i"));  // servo poles: -zeta omega +- omega sqrt(1 - zeta^2)
   CHECK(contains(result.out, "closed loop  no poles: only the controller knows its law"));
   CHECK(contains(result.out, "controller   the program starts, and answers\n"));
   CHECK(contains(result.out, "besides its commands it gives u (rad)"));
   CHECK(scene.processes_in_the_end() == std::pair(1, 0));
 }
 
-TEST_CASE("a number that the controller does not give is found before the run, or in its answer") {
+TEST_CASE("a number that the controller lacks is found before the run or in its answer") {
   const Scene declared("resets", "timeout: 1", "t, phi_comand");
   const Result typo = declared.run();
   CHECK(typo.exit_code == 2);
@@ -342,7 +341,7 @@ TEST_CASE("a number that the controller does not give is found before the run, o
   CHECK(contains(missing.err, "found no \"v\", which output.columns asks for"));
 }
 
-TEST_CASE("a sweep starts a controller a thread if it can reset, and one a case if not") {
+TEST_CASE("a sweep starts one controller per thread if it can reset, else one per case") {
   struct Way {
     std::string mode;
     std::size_t starts;
@@ -359,11 +358,12 @@ TEST_CASE("a sweep starts a controller a thread if it can reset, and one a case 
         "case,controller.program.parameters.kp,status,reason,end_time,max_u,end_phi_command\n"
         "0,1,done,,0.2,0.5,0.01\n1,2,done,,0.2,0.5,0.01\n2,3,done,,0.2,0.5,0.01\n"
         "3,4,done,,0.2,0.5,0.01\n4,5,done,,0.2,0.5,0.01\n5,6,done,,0.2,0.5,0.01\n");
-  CHECK(count(result.err, "controller: started") == starts);  // one of them tries the first case
+  CHECK(count(result.err, "controller: started") ==
+        starts);  // one thread also tries the first case
   CHECK(scene.processes_in_the_end() == std::pair(static_cast<int>(starts), 0));
 }
 
-TEST_CASE("a case whose controller dies has failed, and the next one has another") {
+TEST_CASE("a case whose controller dies fails, and the next case starts a new one") {
   const Scene scene("dies");
   const Result result =
       bbsim({"sweep", scene.file, "--vary", "gravity=list:9,10", "--measure", "end_u", "-o", "-"});
@@ -374,7 +374,7 @@ TEST_CASE("a case whose controller dies has failed, and the next one has another
   CHECK(count(result.out, ",0.1,0.5\n") == 2);
 }
 
-TEST_CASE("a controller's own files are not written over") {
+TEST_CASE("a controller's own files are not overwritten") {
   const Scene scene("good");
   const std::string kept = scene.folder.write("law.py", "a law");
   const Result result =
@@ -384,7 +384,7 @@ TEST_CASE("a controller's own files are not written over") {
   CHECK(scene.folder.read("law.py") == "a law");
 }
 
-TEST_CASE("an error bound is kept with a controller of one's own: it begins each run anew") {
+TEST_CASE("an error bound holds with your own controller, which restarts for each run") {
   const Scene scene("good", "timeout: 5");
   const Result result = scene.run({"--error", "1e-6"});
   CAPTURE(result.err);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// bbsim design, from words to files, and its sketch on the simulated board.
+// bbsim design, from the command line to its files, and its sketch on the simulated board.
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -69,7 +69,7 @@ TEST_CASE("design writes a scenario that runs, its table, and JSON") {
              Contains("--table: found no file, and the scenario of -o must name one"));
 }
 
-TEST_CASE("design prints its table, alone") {
+TEST_CASE("design can print only its table") {
   const Folder folder;
   folder.write("rig.yaml", rig);
   const Result result = bbsim(design({"--table", "-"}), folder.path());
@@ -81,7 +81,7 @@ TEST_CASE("design prints its table, alone") {
   CHECK(lines[101] == "2,0,0");
 }
 
-TEST_CASE("design finds a table in another folder than the scenario that plays it") {
+TEST_CASE("design finds a table in a folder other than that of the scenario that plays it") {
   const Folder folder;
   folder.write("rig.yaml", rig);
   std::filesystem::create_directory(folder.path() / "tables");
@@ -92,7 +92,7 @@ TEST_CASE("design finds a table in another folder than the scenario that plays i
   CHECK(bbsim({"run", "designed.yaml", "-q"}, folder.path()).exit_code == 0);
 }
 
-TEST_CASE("the sketch of a design plays it, and prints a log with a clock and units") {
+TEST_CASE("the sketch of a design plays it and prints a log with clock and units") {
   const Folder folder;
   folder.write("rig.yaml", rig);
   REQUIRE(bbsim(design({"--table", "it.csv", "--sketch", "play.ino"}), folder.path()).exit_code ==
@@ -100,7 +100,7 @@ TEST_CASE("the sketch of a design plays it, and prints a log with a clock and un
   const Result compiled = bbsim({"sketch", "play.ino", "-o", "play.so"}, folder.path());
   INFO(compiled.err);
   REQUIRE(compiled.exit_code == 0);
-  // A direction of 0.1 degrees for each microsecond, as the sketch assumes.
+  // 0.1 degrees per microsecond, as the sketch assumes.
   folder.write("wiring.yaml", R"(
 servos:
   phi: {pin: 9, level: "1500 us", scale: "0.1 deg"}
@@ -138,7 +138,7 @@ time: {end: 7.2, step: 20 ms}
     const auto played = numbers_of(log[row]), asked = numbers_of(table[row]);
     CAPTURE(log[row], table[row]);
     REQUIRE(played.size() == 5);
-    // A loop comes within a millisecond or two; a thousandth of a degree is rounding.
+    // The sketch's loop may be a millisecond or two late; rounding is a thousandth of a degree.
     CHECK(std::abs(played[0] - 1000 * asked[0]) < 3);
     CHECK(std::abs(played[1] - asked[1] / degree) < 0.0011);
     CHECK(std::abs(played[2] - asked[2] / degree) < 0.0011);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The environment of examples/controllers/bbsim_env.py: BBSIM names the program."""
+"""Tests the environment of examples/controllers/bbsim_env.py. BBSIM names the program."""
 import csv
 import os
 import pathlib
@@ -19,7 +19,7 @@ scene = examples / "python.yaml"
 
 
 class Pd:
-    """Commands from an observation."""
+    """Maps an observation to commands."""
 
     def __init__(self):
         self.last = None
@@ -52,14 +52,14 @@ class Environment(unittest.TestCase):
                 first = pathlib.Path(output).read_bytes()
                 episode(env, Pd())
                 self.assertEqual(pathlib.Path(output).read_bytes(), first)
-            # Samples at 0, 20 ms, ..., 8 s; the last one's command is not followed by another.
+            # Samples at 0, 20 ms, ..., 8 s; the episode ends with the command of the last one.
             self.assertEqual((steps, terminated), (401, False))
             self.assertLess(total, 0)
             with open(output, newline="") as file:
                 rows = list(csv.DictReader(file))
             self.assertEqual(len(rows), 401)
             self.assertAlmostEqual(float(rows[-1]["x"]), observation[0], delta=3e-3)
-            # 17.5 mm beside its target, for want of an integral: docs/how-to/real-effects.md.
+            # 17.5 mm from its target, because the law has no integral: docs/how-to/real-effects.md.
             self.assertLess(abs(observation[0] - 0.0475), 2e-3)
 
     def test_an_event_terminates_an_episode(self):

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the program reads and writes: no file is lost, whatever it is called and however it ends.
+// Input and output files: no file is lost, whatever its name and however the program ends.
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -30,7 +30,7 @@ const char* const scene =
     "gimbal: {motion: {phi: {sinusoid: {amplitude: 0.01, frequency: 1}}}}\n"
     "time: {end: 1, step: 0.1}\n";
 
-// Minutes, of a hundred thousand rows.
+// Takes minutes and writes a hundred thousand rows.
 const char* const long_scene =
     "ball: {radius: 0.01}\n"
     "gimbal: {motion: {phi: {sinusoid: {amplitude: 1e-5, frequency: 300}}}}\n"
@@ -52,7 +52,7 @@ void limit(int resource, rlim_t value) {
   setrlimit(static_cast<__rlimit_resource>(resource), &both);
 }
 
-// A part of a sweep over gravity, with an instruction set of its own.
+// Runs a part of a sweep over gravity with the given instruction set.
 Result shard(const Folder& folder, const std::string& file, const std::string& part,
              const Names& more = {}, const std::string& simd = "") {
   Launch launch{with({"sweep", "in.yaml", "-q", "--vary", "gravity=linear:1:2:40", "--shard", part,
@@ -63,7 +63,7 @@ Result shard(const Folder& folder, const std::string& file, const std::string& p
   return bbsim(launch);
 }
 
-// Ends a sweep, for good, once its part has so many bytes.
+// Kills a sweep once its partial file has the given number of bytes.
 Result kill_once_there_are(std::uintmax_t bytes, const std::string& part, const Names& arguments,
                            const Folder& folder) {
   Launch launch{arguments, folder.path(), SIGKILL};
@@ -75,7 +75,7 @@ Result kill_once_there_are(std::uintmax_t bytes, const std::string& part, const 
   return bbsim(launch);
 }
 
-// Whether there are two instruction sets to be told apart.
+// Whether the machine has two instruction sets to compare.
 bool has_two() {
   const auto has = [](const char* name) {
     Launch launch{{"--version"}};
@@ -87,10 +87,10 @@ bool has_two() {
 
 }  // namespace
 
-TEST_CASE("no command writes over what it reads, nor twice into a file") {
+TEST_CASE("no command overwrites its input or writes two outputs to one file") {
   const Folder folder;
   folder.write("in.yaml", scene);
-  folder.write("d.csv", scene);  // a scenario by an odd name: its default output is itself
+  folder.write("d.csv", scene);  // the default output of this name is the file itself
   folder.write("table.yaml", scene_with_table);
   folder.write("t.csv", table);
   fs::create_symlink("in.yaml", folder / "link.json");
@@ -130,7 +130,7 @@ TEST_CASE("no command writes over what it reads, nor twice into a file") {
         Names{"d.csv", "in.yaml", "link.json", "t.csv", "table.yaml", "y.csv.part"});
 }
 
-TEST_CASE("nothing writes over a state that it goes on from, nor over a table of what it shows") {
+TEST_CASE("no command overwrites the state that it continues from or a table that it displays") {
   const Folder folder;
   folder.write("recorded.yaml", scene_with_table);
   folder.write("t.csv", table);
@@ -160,7 +160,7 @@ TEST_CASE("nothing writes over a state that it goes on from, nor over a table of
   }
 }
 
-TEST_CASE("linearize, measure, plot and replay write over nothing that they read, asked or not") {
+TEST_CASE("linearize, measure, plot and replay overwrite no input, with or without -o") {
   const Folder folder;
   folder.write("own.yaml",
                "ball: {radius: 0.02}\n"
@@ -204,7 +204,7 @@ TEST_CASE("linearize, measure, plot and replay write over nothing that they read
   CHECK(folder.read("r.json") == summary);
 }
 
-TEST_CASE("the page's template is no place for a page") {
+TEST_CASE("no page may overwrite the page template") {
   const Folder folder;
   folder.write("in.yaml", scene);
   const std::string page =
@@ -221,7 +221,7 @@ TEST_CASE("the page's template is no place for a page") {
   }
 }
 
-TEST_CASE("without -o nothing is replaced but what the command would write") {
+TEST_CASE("without -o only a command's own earlier output is replaced") {
   struct Kept {
     std::string content, told;
   };
@@ -253,13 +253,13 @@ TEST_CASE("without -o nothing is replaced but what the command would write") {
   CHECK(bbsim({"run", "trial1.yaml", "-q", "--set", "output.columns=[t, x]"}, folder.path())
             .exit_code == 2);
   CHECK(folder.read("trial1.csv") == rows);
-  // A name that was given is the user's word.
+  // An explicit name may replace any file.
   CHECK(bbsim({"run", "trial1.yaml", "-q", "--set", "output.columns=[t, x]", "-o", "trial1.csv"},
               folder.path())
             .exit_code == 0);
 }
 
-TEST_CASE("so it is of sweeps, pictures and pages") {
+TEST_CASE("without -o sweeps, pictures and pages also replace only their own earlier output") {
   const Folder folder;
   folder.write("a.yaml", scene);
   REQUIRE(bbsim({"run", "a.yaml", "-q", "-o", "a.csv"}, folder.path()).exit_code == 0);
@@ -288,7 +288,7 @@ TEST_CASE("so it is of sweeps, pictures and pages") {
   CHECK(bbsim(with(words, {"-q"}), folder.path()).exit_code == 0);
 }
 
-TEST_CASE("a summary that nests without end is none") {
+TEST_CASE("a summary that nests without end is refused") {
   const Folder folder;
   folder.write("in.yaml", scene);
   REQUIRE(bbsim({"run", "in.yaml", "-q", "-o", "r.csv", "--summary", "r.json"}, folder.path())
@@ -300,7 +300,7 @@ TEST_CASE("a summary that nests without end is none") {
   for (const Names& words : {Names{"plot", "r.csv", "-q"}, Names{"replay", "r.csv", "-q"},
                              Names{"measure", "r.csv", "--measure", "max_x"}}) {
     CAPTURE(words);
-    CHECK(bbsim(words, folder.path()).exit_code == 0);  // nobody asked for the summary
+    CHECK(bbsim(words, folder.path()).exit_code == 0);  // no summary was requested
   }
   for (const Names& words : {Names{"plot", "r.csv"}, Names{"replay", "r.csv"}}) {
     const Result result = bbsim(with(words, {"--summary", "r.json"}), folder.path());
@@ -309,7 +309,8 @@ TEST_CASE("a summary that nests without end is none") {
   }
 }
 
-TEST_CASE("a folder, an unreadable file or a device where a state or a summary is read is exit 2") {
+TEST_CASE(
+    "a folder, an unreadable file or a device in place of a state or summary gives exit code 2") {
   const Folder folder;
   folder.write("in.yaml", scene);
   REQUIRE(bbsim({"run", "in.yaml", "-q", "-o", "r.csv"}, folder.path()).exit_code == 0);
@@ -333,7 +334,7 @@ TEST_CASE("a folder, an unreadable file or a device where a state or a summary i
       CHECK_THAT(result.err, Contains(why));
     }
   }
-  // It is looked at no further than its first bytes.
+  // Only its first bytes are read.
   if (under_sanitizers) return;
   Launch launch{{"run", "in.yaml", "-o", "x.csv", "--from-state", "/dev/zero"}, folder.path()};
   launch.prepare = [] { limit(RLIMIT_AS, rlim_t{1} << 28U); };
@@ -343,7 +344,7 @@ TEST_CASE("a folder, an unreadable file or a device where a state or a summary i
   CHECK(folder.files() == Names{"closed", "folder", "in.yaml", "r.csv"});
 }
 
-TEST_CASE("an option with nothing for a value is refused, as of a variable that is not set") {
+TEST_CASE("an option with an empty value is refused, as from an unset variable") {
   const Folder folder;
   folder.write("in.yaml", scene);
   for (const char* const option :
@@ -357,7 +358,7 @@ TEST_CASE("an option with nothing for a value is refused, as of a variable that 
   CHECK(folder.files() == Names{"in.yaml"});
 }
 
-TEST_CASE("the shipped scenarios run in their own folder, and twice alike") {
+TEST_CASE("the shipped scenarios run in their own folder, with the same result twice") {
   const Folder folder;
   for (const char* name :
        {"recorded.yaml", "recorded-angles.csv", "traced.yaml", "traced-path.csv"}) {
@@ -371,7 +372,7 @@ TEST_CASE("the shipped scenarios run in their own folder, and twice alike") {
   }
 }
 
-TEST_CASE("standard output that goes to an input is seen, devices never clash") {
+TEST_CASE("standard output redirected to an input is detected, and devices never conflict") {
   const Folder folder;
   folder.write("in.yaml", scene);
   Launch launch{{"run", "in.yaml", "-q", "-o", "-"}, folder.path()};
@@ -388,7 +389,7 @@ TEST_CASE("standard output that goes to an input is seen, devices never clash") 
             .exit_code == 0);
 }
 
-TEST_CASE("a merge does not write over its parts") {
+TEST_CASE("a merge does not overwrite its parts") {
   const Folder folder;
   folder.write("in.yaml", scene);
   REQUIRE(shard(folder, "p-1of2.csv", "1/2").exit_code == 0);
@@ -401,7 +402,7 @@ TEST_CASE("a merge does not write over its parts") {
   CHECK(folder.read("p-1of2.csv") == first);
 }
 
-TEST_CASE("a merge that cannot read its parts says so and writes nothing") {
+TEST_CASE("a merge that cannot read its parts reports it and writes nothing") {
   const Folder folder;
   folder.write("in.yaml", scene);
   REQUIRE(shard(folder, "p-1of2.csv", "1/2").exit_code == 0);
@@ -421,7 +422,8 @@ TEST_CASE("a merge that cannot read its parts says so and writes nothing") {
   CHECK(fifo.seconds < 20);
 }
 
-TEST_CASE("parts of another sweep are refused by their plans, of another instruction set noted") {
+TEST_CASE(
+    "parts of a different sweep are refused by plan, and different instruction sets are noted") {
   const Folder folder;
   folder.write("in.yaml", scene);
   REQUIRE(shard(folder, "p-1of2.csv", "1/2").exit_code == 0);
@@ -442,7 +444,7 @@ TEST_CASE("parts of another sweep are refused by their plans, of another instruc
     CHECK(result.exit_code == 2);
     CHECK_THAT(result.err,
                Contains("of another sweep than p-1of2.csv: their plans differ in overrides"));
-    fs::remove(folder / "p-2of2.csv.plan");  // as parts of an older version have none
+    fs::remove(folder / "p-2of2.csv.plan");  // an older version wrote no plans
     CHECK(merged().exit_code == 0);
   }
   SECTION("an instruction set") {
@@ -455,20 +457,20 @@ TEST_CASE("parts of another sweep are refused by their plans, of another instruc
         result.err,
         Contains("the parts are of avx2 and sse2: alike within the tolerance, not bit for bit"));
   }
-  SECTION("the last part is missing, whatever the names") {
+  SECTION("the last part is missing, whatever the file names") {
     fs::rename(folder / "p-1of2.csv", folder / "first.csv");
     fs::rename(folder / "p-1of2.csv.plan", folder / "first.csv.plan");
     const Result result = bbsim({"merge", "first.csv", "-o", "m.csv"}, folder.path());
     CHECK(result.exit_code == 2);
     CHECK_THAT(result.err, Contains("found 20 cases of 40"));
   }
-  SECTION("a plan that is none") {
+  SECTION("an invalid plan") {
     folder.write("p-2of2.csv.plan", "nonsense");
     const Result result = merged();
     CHECK(result.exit_code == 2);
     CHECK_THAT(result.err, Contains("found no plan of bbsim sweep"));
   }
-  SECTION("a row that is not whole") {
+  SECTION("an incomplete row") {
     const std::string text = folder.read("p-2of2.csv");
     folder.write("p-2of2.csv", text.substr(0, text.size() - 30) + "\n");
     const Result result = merged();
@@ -511,7 +513,7 @@ TEST_CASE("the instruction set is named") {
   CHECK(bbsim(wrong).exit_code == 2);
 }
 
-TEST_CASE("a sweep's summary has its plan, its engine, and how the cases ended") {
+TEST_CASE("a sweep's summary has its plan, its engine and how its cases ended") {
   const Folder folder;
   const Result result = bbsim(
       {"sweep", config("fig2b-literal.yaml"), "-q", "--vary", "controller.pd.kv=list:0.001,100",
@@ -531,7 +533,7 @@ TEST_CASE("a sweep's summary has its plan, its engine, and how the cases ended")
   CHECK(summary.contains("instruction_set"));
 }
 
-TEST_CASE("runs and merges end at a signal with 130, and nothing stays of what was not whole") {
+TEST_CASE("runs and merges end at a signal with 130 and leave no incomplete file") {
   const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP);
   CAPTURE(signal);
   const Folder folder;
@@ -563,7 +565,7 @@ TEST_CASE("runs and merges end at a signal with 130, and nothing stays of what w
   }
 }
 
-TEST_CASE("a program that is to outlive its terminal does") {
+TEST_CASE("a program started with nohup outlives its terminal") {
   const Folder folder;
   folder.write("in.yaml", scene);
   Launch launch{{"sweep", "in.yaml", "-q", "--vary", "time.step=uniform:1e-5:2e-5", "--samples",
@@ -575,7 +577,7 @@ TEST_CASE("a program that is to outlive its terminal does") {
   CHECK(bbsim(launch).exit_code == 0);
 }
 
-TEST_CASE("an interrupted sweep to standard output has printed the cases that it finished") {
+TEST_CASE("an interrupted sweep to standard output has printed its finished cases") {
   const Folder folder;
   folder.write("slow.yaml",
                "ball: {radius: 0.01}\n"
@@ -595,7 +597,7 @@ TEST_CASE("an interrupted sweep to standard output has printed the cases that it
   CHECK(lines == finished + 1);
 }
 
-TEST_CASE("a sweep that is resumed counts the cases of before, too") {
+TEST_CASE("a resumed sweep counts the earlier cases too") {
   const Folder folder;
   const Names arguments{
       "sweep", config("falls.yaml"), "--vary", "ball.mass=linear:0.1:0.2:900", "-j", "1", "-o",
@@ -608,7 +610,7 @@ TEST_CASE("a sweep that is resumed counts the cases of before, too") {
         nlohmann::json{{"stopped", 900}});
 }
 
-TEST_CASE("a part that was damaged is cut where it is, and it is said") {
+TEST_CASE("a damaged part is truncated at the damage, and this is reported") {
   const Folder folder;
   folder.write("in.yaml", scene);
   const Names arguments{"sweep",     "in.yaml", "-q", "--vary", "time.step=uniform:1e-4:2e-4",
@@ -627,7 +629,7 @@ TEST_CASE("a part that was damaged is cut where it is, and it is said") {
   CHECK(alike);
 }
 
-TEST_CASE("an ending in capitals is the same format, in every command") {
+TEST_CASE("an extension in capitals means the same format in every command") {
   const Folder folder;
   folder.write("in.yaml", scene);
   CHECK(bbsim({"run", "in.yaml", "-q", "-o", "A.H5"}, folder.path()).exit_code == 0);
@@ -646,7 +648,7 @@ TEST_CASE("an ending in capitals is the same format, in every command") {
   CHECK_THAT(other.err, Contains("allowed endings"));
 }
 
-TEST_CASE("a table in a folder whose name is no UTF-8 is no reason to end") {
+TEST_CASE("a folder name that is not UTF-8 does not stop a sweep with a table") {
   const Folder folder;
   fs::create_directory(folder / "s\xff");
   folder.write("s\xff/in.yaml", scene_with_table);
@@ -656,7 +658,7 @@ TEST_CASE("a table in a folder whose name is no UTF-8 is no reason to end") {
   CHECK(result.exit_code == 0);
 }
 
-TEST_CASE("where there are fewer threads, fewer are used") {
+TEST_CASE("if fewer threads are available, fewer are used") {
   if (under_sanitizers) return;
   const Folder folder;
   folder.write("in.yaml", scene);
@@ -664,7 +666,7 @@ TEST_CASE("where there are fewer threads, fewer are used") {
                         "--measure", "end_vx"};
   Launch launch{with(arguments, {"-j", "64", "-o", "few.csv"}), folder.path()};
   launch.prepare = [] {
-    limit(RLIMIT_STACK, rlim_t{1} << 30U);  // which each thread gets
+    limit(RLIMIT_STACK, rlim_t{1} << 30U);  // the size of each thread's stack
     limit(RLIMIT_AS, rlim_t{3} << 30U);
   };
   const Result few = bbsim(launch);
@@ -682,7 +684,7 @@ TEST_CASE("memory that runs out ends the program with a message, not a signal") 
     launch.prepare = [kilobytes] { limit(RLIMIT_AS, kilobytes * 1024); };
     const Result result = bbsim(launch);
     CAPTURE(kilobytes, result.exit_code, result.err);
-    // 127: the loader itself found none. SIGKILL, SIGSEGV: the kernel had none for the program.
+    // 127: the loader ran out of memory. SIGKILL, SIGSEGV: the kernel could not start the program.
     const bool before_main = result.err.find("bbsim") == 0 || result.err.empty();
     CHECK((result.exit_code < 128 || before_main));
     CHECK(result.exit_code != 128 + SIGABRT);
@@ -723,7 +725,7 @@ TEST_CASE(
   CHECK(folder.files() == Names{"closed", "in.yaml", "s.csv"});
 }
 
-TEST_CASE("names that no sweep can write to are exit 3") {
+TEST_CASE("sweep outputs that cannot be written give exit code 3") {
   const Folder folder;
   folder.write("in.yaml", scene);
   fs::create_symlink("loop.csv", folder / "loop.csv");

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The first minutes with a controller of one's own: examples, templates, and what check says of it.
+// First steps with your own controller: examples, templates and what check reports.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -23,7 +23,7 @@ std::string source(const std::string& name) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// A folder with the example step.
+// Writes the example step into a folder.
 void write_step(const Folder& folder) {
   REQUIRE(bbsim({"examples", "step", "-q"}, folder.path()).exit_code == 0);
 }
@@ -32,7 +32,7 @@ std::vector<std::string> on_step(const std::string& command, const std::string& 
   return {command, "step.yaml", "--set", "controller.pid=null", "--set", key};
 }
 
-// The ball ends within 5 mm of the reference.
+// Checks that the ball ends within 5 mm of the reference.
 void check_balances(const Folder& folder, const std::string& key) {
   std::vector<std::string> words = on_step("run", key);
   words.insert(words.end(), {"-o", "/dev/null", "-q", "--expect", "end_x > 0.025", "--expect",
@@ -76,7 +76,7 @@ TEST_CASE("examples are the scenarios of configs, and run") {
              Contains("\nfig2b            Fig. 2(b) of the paper: a PD controller leads "));
 }
 
-TEST_CASE("an example comes with its table, wherever it goes") {
+TEST_CASE("an example comes with its table, whatever its destination") {
   const Folder folder;
   fs::create_directory(folder / "there");
   const Result copied = bbsim({"examples", "recorded", "-o", "there/mine.yaml"}, folder.path());
@@ -90,7 +90,7 @@ TEST_CASE("an example comes with its table, wherever it goes") {
   CHECK(bbsim({"examples", "recorded-angles.csv", "-o", "-"}).out ==
         source("configs/recorded-angles.csv"));
 
-  // A table that is another file stays; one that is the same does no harm.
+  // A different file under the table's name is kept; an identical one is accepted.
   CHECK(bbsim({"examples", "recorded", "-o", "there/mine.yaml"}, folder.path()).exit_code == 0);
   folder.write("there/recorded-angles.csv", "t,phi\n0,0\n");
   const Result kept = bbsim({"examples", "recorded", "-o", "there/mine.yaml"}, folder.path());
@@ -98,7 +98,7 @@ TEST_CASE("an example comes with its table, wherever it goes") {
   CHECK(folder.read("there/recorded-angles.csv") == "t,phi\n0,0\n");
 }
 
-TEST_CASE("an example that is not there is refused with the nearest") {
+TEST_CASE("an unknown example is refused with the nearest name") {
   const Result near = bbsim({"examples", "stpe"});
   CHECK(near.exit_code == 2);
   CHECK(near.err == "unknown example stpe; did you mean step?\n");
@@ -107,7 +107,7 @@ TEST_CASE("an example that is not there is refused with the nearest") {
   CHECK(bbsim({"examples", "-o", "a.yaml"}).exit_code == 2);
 }
 
-TEST_CASE("without -o, examples and templates replace no file that is there") {
+TEST_CASE("without -o, examples and templates replace no existing file") {
   const Folder folder;
   using Words = std::vector<std::string>;
   const auto [words, file] = GENERATE(
@@ -132,7 +132,7 @@ TEST_CASE("without -o, examples and templates replace no file that is there") {
   CHECK(folder.read(file) != "mine\n");
 }
 
-TEST_CASE("the template in C balances") {
+TEST_CASE("the C template balances") {
   const Folder folder;
   write_step(folder);
   const Result made = bbsim({"new", "controller", "c", "-o", "mine.c"}, folder.path());
@@ -144,7 +144,7 @@ TEST_CASE("the template in C balances") {
   check_balances(folder, std::string("controller.library.file=") + BBSIM_TEMPLATE_LIBRARY);
 }
 
-TEST_CASE("the template of a sketch balances, with its wiring") {
+TEST_CASE("the sketch template balances with its wiring") {
   const Folder folder;
   write_step(folder);
   const Result made = bbsim({"new", "controller", "arduino"}, folder.path());
@@ -163,7 +163,7 @@ std::string python(const std::string& file) {
   return "controller.program.command=[python3, " + file + "]";
 }
 
-// The template in Python with one part of it replaced.
+// Writes the Python template with one part replaced.
 void write_changed(const Folder& folder, const std::string& file, const std::string& part,
                    const std::string& by) {
   std::string text = source("examples/templates/controller.py");
@@ -177,7 +177,7 @@ const char* const commands =
 
 }  // namespace
 
-TEST_CASE("the template in Python balances") {
+TEST_CASE("the Python template balances") {
   const Folder folder;
   write_step(folder);
   const Result made = bbsim({"new", "controller", "python"}, folder.path());
@@ -186,7 +186,7 @@ TEST_CASE("the template in Python balances") {
   check_balances(folder, python("controller.py"));
 }
 
-TEST_CASE("check says which sign of a controller is wrong, whatever moves the plate") {
+TEST_CASE("check reports which sign of a controller is wrong, for every kind of drive") {
   const Folder folder;
   write_step(folder);
   write_changed(folder, "wrong.py", "-y.command", "y.command");
@@ -205,7 +205,7 @@ TEST_CASE("check says which sign of a controller is wrong, whatever moves the pl
                       "sign: positive theta drives the ball towards -y; gain "));
 }
 
-TEST_CASE("check says of accelerations and torques what it says of angles") {
+TEST_CASE("check reports the same of accelerations and torques as of angles") {
   const Folder folder;
   write_changed(folder, "wrong.py", "x.command(ball_x, reference_x, period), -y",
                 "-x.command(ball_x, reference_x, period), -y");
@@ -225,7 +225,7 @@ TEST_CASE("check says of accelerations and torques what it says of angles") {
   CHECK_THAT(check.out, Contains("\n             theta: pushes the ball towards the reference; "));
 }
 
-TEST_CASE("check tells commands that are exchanged, and those that depend on nothing") {
+TEST_CASE("check reports swapped commands and commands that depend on nothing") {
   const Folder folder;
   write_step(folder);
   write_changed(folder, "exchanged.py", commands,
@@ -239,7 +239,7 @@ TEST_CASE("check tells commands that are exchanged, and those that depend on not
                                 "in 25 samples\n"));
 }
 
-TEST_CASE("check finds a wall clock, and bbsim_clock.py replaces it") {
+TEST_CASE("check detects a wall clock, and bbsim_clock.py replaces it") {
   const Folder folder;
   write_step(folder);
   folder.write("bbsim_clock.py", source("examples/controllers/bbsim_clock.py"));
@@ -273,10 +273,11 @@ TEST_CASE("check finds a wall clock, and bbsim_clock.py replaces it") {
   CHECK_THAT(bbsim(on_step("check", python("simulated.py")), folder.path()).out, !Contains(told));
 }
 
-TEST_CASE("what a controller says at each start of check is shown once") {
+TEST_CASE("output that a controller repeats at each start of check is shown once") {
   const Folder folder;
   write_step(folder);
-  write_changed(folder, "loud.py", ", \"reset\": True", "");  // so that each run starts it
+  write_changed(folder, "loud.py", ", \"reset\": True",
+                "");  // without reset, each run starts the controller again
   std::string text = folder.read("loud.py");
   text.insert(text.find("for line in sys.stdin"), "print('hello', file=sys.stderr)\n");
   folder.write("loud.py", text);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// bbsim fit --report, as a user runs it. What the page shows is tested in a browser
+// bbsim fit --report as a user runs it. The page's display is tested in a browser
 // (tests/replay/browser).
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -16,7 +16,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// A fit of a log that bbsim makes, and more words.
+// A fit of a log that bbsim makes, with optional extra arguments.
 class Fit {
  public:
   Fit() {
@@ -40,7 +40,7 @@ class Fit {
 
 }  // namespace
 
-TEST_CASE("fit --report writes a page that holds all that it shows") {
+TEST_CASE("fit --report writes a self-contained page") {
   const Fit fit;
   const Result made = bbsim(fit.launch({"--report", "fit.html", "--json", "fit.json"}));
   INFO(made.err);
@@ -60,7 +60,7 @@ TEST_CASE("fit --report writes a page that holds all that it shows") {
   const auto json = nlohmann::json::parse(fit.folder.read("fit.json"));
   CHECK(data["version"] == BBSIM_VERSION);
   CHECK(data["runs"][0]["rows"] == 201);
-  // The log is bbsim's own, so that all of its digits are told.
+  // bbsim wrote the log, so all digits are known.
   const std::string estimate = data["parameters"]["rows"][0][2];
   CHECK(std::stod(estimate) ==
         Approx(json["parameters"][0]["estimate"].get<double>()).epsilon(1e-5));
@@ -70,7 +70,7 @@ TEST_CASE("fit --report writes a page that holds all that it shows") {
   CHECK(alone.out == page);
 }
 
-TEST_CASE("fit --report leaves a whole page or none") {
+TEST_CASE("fit --report leaves a complete page or none") {
   const Fit fit;
   struct Fault {
     std::vector<std::string> words;
@@ -92,14 +92,14 @@ TEST_CASE("fit --report leaves a whole page or none") {
     CHECK(made.out.empty());
     CHECK_THAT(made.err, Contains(fault.message));
   }
-  SECTION("a missing template is said before the fit") {
+  SECTION("a missing template is reported before the fit") {
     Launch launch = fit.launch({"--report", "fit.html", "--json", "fit.json"});
     launch.prepare = [] { setenv("BBSIM_SHARE_PATH", "/nowhere", 1); };
     const Result made = bbsim(launch);
     CHECK(made.exit_code == 3);
     CHECK_THAT(made.err, Contains("fit.html is not in /nowhere") && Contains("libjs-dygraphs"));
   }
-  SECTION("the template is no place for a page") {
+  SECTION("the template cannot be the output page") {
     const std::string page = "<title>@BBSIM_TITLE@</title>@BBSIM_DATA@";
     fit.folder.write("fit.html", page);
     Launch launch = fit.launch({"--report", "fit.html"});

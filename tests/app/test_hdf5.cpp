@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// HDF5 files as results: alike runs alike to the byte, with all that is needed to run them again;
-// and files that do the program harm.
+// HDF5 results: equal runs give equal bytes, with everything needed to repeat them; and malicious
+// files.
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -18,7 +18,8 @@
 #include "file/hdf5_table.hpp"
 #include "process.hpp"
 
-// Within it `bbsim` is what runs the program, and `bbsim::` still the program's own namespace.
+// Inside it `bbsim` is the function that runs the program, and `bbsim::` still the program's
+// namespace.
 namespace bbsim_test {
 
 using bbsim::file::AttributeValue;
@@ -55,7 +56,7 @@ void run(const std::vector<std::string>& arguments, const Folder& folder) {
 
 }  // namespace
 
-TEST_CASE("runs that are alike give the same HDF5 file to the byte, whatever it is called") {
+TEST_CASE("equal runs give the same HDF5 file byte for byte, whatever its name") {
   const Folder folder;
   for (const std::string name : {"a.h5", "b.h5"}) {
     run({"run", config("rig.yaml"), "-q", "--set", "time.end=1", "-o", name}, folder);
@@ -73,7 +74,7 @@ TEST_CASE("runs that are alike give the same HDF5 file to the byte, whatever it 
   }
 }
 
-TEST_CASE("a run can be run again from its HDF5 file alone, to the byte") {
+TEST_CASE("a run can be repeated byte for byte from its HDF5 file alone") {
   const Folder folder, other;
   run({"run", config("recorded.yaml"), "-q", "--set", "time.step=0.05", "-o", folder / "a.h5"},
       folder);
@@ -93,7 +94,7 @@ TEST_CASE("a run can be run again from its HDF5 file alone, to the byte") {
   CHECK(again.columns() == file.columns());
 }
 
-TEST_CASE("with a bound on the error, each row has its estimate") {
+TEST_CASE("with a bound on the error, each row has its error estimate") {
   const Folder folder;
   run({"run", config("fig2b.yaml"), "-q", "--error", "1 um", "-o", "a.h5"}, folder);
   run({"run", config("fig2b.yaml"), "-q", "-o", "b.h5"}, folder);
@@ -114,7 +115,8 @@ TEST_CASE("with a bound on the error, each row has its estimate") {
   CHECK(without.columns().size() == file.columns().size() - 1);
 }
 
-TEST_CASE("a sweep's HDF5 file has numbers as numbers, units of the keys, and its tables") {
+TEST_CASE(
+    "a sweep's HDF5 file stores numbers as numbers, with units of the keys and input tables") {
   const Folder folder;
   run({"sweep", config("recorded.yaml"), "-q", "--vary", "ball.position.0=linear:0:0.1:5", "--vary",
        "ball.spin=normal:0:1", "--vary", "ball.inertia_factor=list:0.4,0.5", "--samples", "2",
@@ -130,7 +132,7 @@ TEST_CASE("a sweep's HDF5 file has numbers as numbers, units of the keys, and it
   CHECK(file.read_inputs().size() == 1);
 }
 
-TEST_CASE("parts of a sweep are merged with their tables, and not where these differ") {
+TEST_CASE("parts of a sweep are merged with their tables, and refused if these differ") {
   const Folder folder;
   const std::string rows = "\n0,0\n1,0.01\n2,0\n3,0.01\n";
   folder.write("table.csv", "t,phi" + rows);
@@ -163,7 +165,7 @@ TEST_CASE("parts of a sweep are merged with their tables, and not where these di
   CHECK_THAT(result.err, Contains("part-2of2.h5: found other columns or another scenario"));
 }
 
-TEST_CASE("a device that never ends is refused before the memory is full") {
+TEST_CASE("an endless device is refused before it fills the memory") {
   const Result result = bbsim({"compare", "/dev/zero", "/dev/zero"});
   CHECK(result.exit_code == 2);
   CHECK(result.err ==
@@ -171,7 +173,7 @@ TEST_CASE("a device that never ends is refused before the memory is full") {
         "line\n");
 }
 
-TEST_CASE("Ctrl-C ends the program while HDF5 goes in circles") {
+TEST_CASE("Ctrl-C ends the program while HDF5 loops forever") {
   const Folder folder;
   run({"run", config("incline.yaml"), "-q", "-o", "a.h5"}, folder);
   const std::string reader = folder.write("bbsim-hdf5-reader", "#!/bin/sh\nexec sleep 20\n");

@@ -42,7 +42,7 @@ TEST_CASE("option --licenses prints the license and the notices of all libraries
   CHECK(result.out.substr(result.out.size() - 50).find("\n\n") == std::string::npos);
 }
 
-TEST_CASE("option --licenses knows every library that --version names") {
+TEST_CASE("option --licenses covers every library that --version names") {
   const std::string version = bbsim({"--version"}).out;
   const std::string licenses = bbsim({"--licenses"}).out;
   const std::string mark = "libraries: ";
@@ -61,7 +61,7 @@ TEST_CASE("option --licenses knows every library that --version names") {
   CHECK(libraries == 7);
 }
 
-TEST_CASE("a page of a run has the notices of the libraries in it, once, and no others") {
+TEST_CASE("a run's page has the notices of exactly its libraries, once each") {
   const Folder folder;
   REQUIRE(bbsim({"replay", config("fig2a.yaml"), "-q", "-o", "a.html"}, folder.path()).exit_code ==
           0);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// bbsim linearize, and the files that it writes, read by who they are for where they are installed.
+// bbsim linearize and its files, read by their target programs if those are installed.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -53,17 +53,17 @@ TEST_CASE("linearize writes A, B, C, D, names and poles as JSON") {
   CHECK(sampled["period"] == 0.02);
   CHECK(sampled["poles"].size() == sampled["states"].size());
   CHECK(sampled["margins"]["phi_command"]["gain"].get<double>() > 1);
-  CHECK(sampled["bandwidth"]["x"].is_null());  // the law is told the reference's accelerations
+  CHECK(sampled["bandwidth"]["x"].is_null());  // the law uses the reference's accelerations
   CHECK(sampled["feedback_bandwidth"]["x"].is_number());
 }
 
-TEST_CASE("linearize goes to a time of the run, and to an equilibrium") {
+TEST_CASE("linearize accepts a time of the run or an equilibrium") {
   const Result at_time =
       bbsim({"linearize", config("fig2b.yaml"), "--at", "2 s", "-o", "-", "--plant"});
   REQUIRE(at_time.exit_code == 0);
   const json moving = json::parse(at_time.out);
   CHECK(moving["at"] == "t = 2 s");
-  CHECK(moving["states"].size() == 9);  // where the plane turns, the spin acts
+  CHECK(moving["states"].size() == 9);  // on a turning plane, spin matters
   const Result at_start =
       bbsim({"linearize", config("rig.yaml"), "--at", "0", "-o", "-", "--sampled"});
   REQUIRE(at_start.exit_code == 0);
@@ -78,11 +78,11 @@ TEST_CASE("linearize goes to a time of the run, and to an equilibrium") {
   CHECK(bbsim({"linearize", config("fig2b.yaml"), "--sampled"}).exit_code == 2);
   CHECK(bbsim({"linearize", config("fig2b.yaml"), "--plant", "--loop"}).exit_code == 2);
   CHECK(bbsim({"linearize", config("fig2b.yaml"), "-o", "plant.txt"}).exit_code == 2);
-  // The printed law blows up before.
+  // The law as printed blows up before.
   CHECK(bbsim({"linearize", config("fig2b-literal.yaml"), "--at", "10"}).exit_code == 1);
 }
 
-TEST_CASE("linearize's files have what their readers expect") {
+TEST_CASE("linearize's files contain what their readers expect") {
   const Folder folder;
   for (const char* name : {"loop.m", "loop.py", "loop.csv"}) {
     REQUIRE(bbsim({"linearize", config("rig.yaml"), "-o", name}, folder.path()).exit_code == 0);
@@ -96,7 +96,7 @@ TEST_CASE("linearize's files have what their readers expect") {
   CHECK(first.starts_with("x_next,"));
   CHECK(contains(folder.read("loop.m"), "sys = ss(A, B, C, D, period);"));
   CHECK(contains(folder.read("loop.py"), "control.ss(A, B, C, D, period)"));
-  // Python itself reads the module, with numpy's array in the place of numpy where that is missing.
+  // Python itself reads the module; a stand-in for numpy's array is used if numpy is missing.
   const Result python = shell(
       "command -v python3 >/dev/null || exit 0\n"
       "python3 - <<'END'\n"
@@ -126,7 +126,7 @@ TEST_CASE("linearize's files have what their readers expect") {
   CHECK(octave.exit_code == 0);
 }
 
-TEST_CASE("no 0 that linearize writes or prints has a sign") {
+TEST_CASE("no zero that linearize writes or prints has a sign") {
   const Folder folder;
   for (const char* name : {"fig2b.yaml", "three-servos.yaml", "torque-lqr.yaml"}) {
     for (const char* kind : {"--plant", "--loop"}) {
@@ -143,7 +143,7 @@ TEST_CASE("no 0 that linearize writes or prints has a sign") {
   }
 }
 
-TEST_CASE("linearize writes over nothing that it reads") {
+TEST_CASE("linearize overwrites no input") {
   const Folder folder;
   const Result same =
       shell("cp " + config("fig2b.yaml") + " scene.csv; $BBSIM linearize scene.csv -o scene.csv",
@@ -160,7 +160,7 @@ TEST_CASE("check prints the margins of a stable loop") {
   CHECK_FALSE(contains(bbsim({"check", config("fig2a.yaml")}).out, "margins"));
 }
 
-TEST_CASE("margins at both ends of the frequencies, and of lead, are told") {
+TEST_CASE("margins at the lowest and highest frequencies, and of a lead, are reported") {
   const Folder folder;
   const std::string about = "ball: {radius: 0.02, mass: 0.1}\ntime: {end: 1, step: 0.1}\n";
   folder.write("half-rate.yaml",
@@ -171,7 +171,7 @@ TEST_CASE("margins at both ends of the frequencies, and of lead, are told") {
                    "reference: {point: [0, 0]}, sampling: {period: 0.026}}\n");
   const Result fast = bbsim({"linearize", "half-rate.yaml", "-o", "-"}, folder.path());
   const json at_half_rate = json::parse(fast.out)["margins"]["phi_command"];
-  // pi / 0.026; 2.035 by the poles of the loop with these gains times that.
+  // pi / 0.026; 2.035 by the poles of the loop with scaled gains.
   CHECK(at_half_rate["gain"].get<double>() == Approx(2.035).epsilon(1e-3));
   CHECK(at_half_rate["gain_frequency"].get<double>() == Approx(120.83).epsilon(1e-4));
   CHECK(at_half_rate["gain_reduction"].is_null());
@@ -201,7 +201,7 @@ TEST_CASE("margins at both ends of the frequencies, and of lead, are told") {
   CHECK(contains(bbsim({"linearize", config("fig2b-literal.yaml")}).out, "the loop is not stable"));
 }
 
-TEST_CASE("margins off home are not those of the spin") {
+TEST_CASE("margins away from home do not include spin") {
   for (const char* name : {"hold.yaml", "rig.yaml", "catch.yaml"}) {
     const Result moving = bbsim({"linearize", config(name), "--at", "1 s", "-o", "-"});
     REQUIRE(moving.exit_code == 0);
@@ -215,7 +215,7 @@ TEST_CASE("margins off home are not those of the spin") {
   }
 }
 
-TEST_CASE("linearize and check bear servos and gains of any size") {
+TEST_CASE("linearize and check accept servos and gains of any size") {
   for (const char* speed : {"1e4", "1e5", "1e12", "1e100"}) {
     for (const char* name : {"fig2b.yaml", "hold.yaml", "lissajous.yaml", "waypoints.yaml"}) {
       const std::string servo = std::string("gimbal.servo.natural_frequency=") + speed;
@@ -228,7 +228,7 @@ TEST_CASE("linearize and check bear servos and gains of any size") {
             .exit_code == 0);
 }
 
-TEST_CASE("check warns of no instability that is the rounding of a stiff loss") {
+TEST_CASE("check does not report rounding of a stiff loss as instability") {
   const Result slow = bbsim({"check", config("hold.yaml"), "--set", "ball.losses.viscous=1e9"});
   CHECK_FALSE(contains(slow.out, "WARNING"));
   const Result sampled = bbsim({"check", config("step.yaml"), "--set", "ball.losses.viscous=1e9"});
@@ -236,14 +236,14 @@ TEST_CASE("check warns of no instability that is the rounding of a stiff loss") 
   CHECK(contains(sampled.out, "at the stability limit about home, within rounding"));
 }
 
-TEST_CASE("check tells the bandwidth of the feedback where the reference leads the ball besides") {
+TEST_CASE("check reports the bandwidth of the feedback if a feedforward also moves the ball") {
   const Result led = bbsim({"check", config("rig.yaml")});
   CHECK(contains(led.out, "rad/s, of the feedback: with the reference's accelerations"));
   CHECK_FALSE(contains(led.out, "unlimited"));
   CHECK_FALSE(contains(bbsim({"check", config("fig2b.yaml")}).out, "of the feedback"));
 }
 
-TEST_CASE("linearize knows torques, losses without friction, pushes and three servos") {
+TEST_CASE("linearize supports torques, losses without friction, pushes and three servos") {
   const Result regulator =
       bbsim({"linearize", config("torque-lqr.yaml"), "--plant", "--at", "0.5 s", "-o", "-"});
   CHECK(regulator.exit_code == 0);
@@ -261,7 +261,7 @@ TEST_CASE("linearize knows torques, losses without friction, pushes and three se
   CHECK(pushed.exit_code == 0);
 }
 
-TEST_CASE("what linearize does not know is refused, with what it does") {
+TEST_CASE("linearize refuses what it does not support, and says what it does") {
   const Result losses = bbsim({"linearize", config("slides.yaml")});
   CHECK(losses.exit_code == 2);
   CHECK(contains(losses.err, "linearize: found ball.losses.rolling, which is dry"));
@@ -275,8 +275,8 @@ TEST_CASE("what linearize does not know is refused, with what it does") {
 }
 
 #ifdef BBSIM_PYTHON
-// "+AAo-" is a line break in UTF-7, and the name would have Python read the file so.
-TEST_CASE("a scenario's name is text in the programs that linearize writes, whatever it is") {
+// "+AAo-" is a line break in UTF-7; in the name, it could make Python read the file as UTF-7.
+TEST_CASE("a scenario's name stays text in the programs that linearize writes") {
   const Folder folder;
   const std::string name = "coding: utf-7 +AAo-open('ran', 'w')+AAo- \xce\xb8 \xff.yaml";
   std::filesystem::copy_file(config("fig2b.yaml"), folder / name);

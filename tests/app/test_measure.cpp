@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Measures on the command line: of a run, of a stored one, of a sweep, and by group.
+// Measures on the command line: of a run, a stored run and a sweep, and by group.
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -17,7 +17,7 @@ using namespace bbsim_test;
 
 namespace {
 
-// Of "measure,value" lines.
+// Parses "measure,value" lines.
 std::map<std::string, double> values_of(const std::string& text) {
   std::map<std::string, double> values;
   std::istringstream lines(text);
@@ -33,7 +33,7 @@ std::map<std::string, double> values_of(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("run prints measures of the motion, and measure those of its rows") {
+TEST_CASE("run prints measures of the motion, and measure prints those of its rows") {
   const Folder folder;
   const std::string names =
       "x.RiseTime,x.SettlingTime,x.SettlingMin,x.SettlingMax,x.Overshoot,"
@@ -51,7 +51,6 @@ TEST_CASE("run prints measures of the motion, and measure those of its rows") {
   CHECK(motion.at("x.SteadyStateValue") == motion.at("end_x"));
   CHECK(motion.at("when tracking_error stays below 0.002") > 0);
 
-  // The summary has the same.
   const auto summary = nlohmann::json::parse(folder.read("step.json"));
   CHECK(summary["measures"].size() == 12);
   CHECK(summary["measures"]["x.RiseTime"] == motion.at("x.RiseTime"));
@@ -63,12 +62,12 @@ TEST_CASE("run prints measures of the motion, and measure those of its rows") {
   REQUIRE(stored.exit_code == 0);
   for (const auto& [name, value] : values_of(stored.out)) {
     CAPTURE(name);
-    // Rows are 10 ms or less apart.
+    // Rows are at most 10 ms apart.
     CHECK(value == Approx(motion.at(name)).epsilon(0.02));
   }
 }
 
-TEST_CASE("measures are refused where they cannot be, with what is allowed") {
+TEST_CASE("unavailable measures are refused with the list of allowed ones") {
   const Folder folder;
   const auto code = [&](std::vector<std::string> arguments) {
     return bbsim(std::move(arguments), folder.path()).exit_code;
@@ -89,12 +88,12 @@ TEST_CASE("measures are refused where they cannot be, with what is allowed") {
         "measure,value\nwhen u=0.25 cross=1,0.25\n");
 }
 
-TEST_CASE("what switches at a run's last instant counts in its greatest and least values") {
+TEST_CASE("a switch at a run's last instant counts in its extremes") {
   const Folder folder;
   const std::string first_order = "gimbal.servo={time_constant: 0.05}";
   const std::string names =
       "max_tilt_rate,end_tilt_rate,max_motor_torque_theta,end_motor_torque_theta";
-  // 10 ms: when the first command comes.
+  // The first command arrives at 10 ms.
   const Result run = bbsim({"run", config("rig.yaml"), "-q", "-o", "end.csv", "--set", first_order,
                             "--set", "time.end=0.01", "--measure", names, "--summary", "end.json"},
                            folder.path());
@@ -128,7 +127,7 @@ TEST_CASE("what switches at a run's last instant counts in its greatest and leas
   CHECK(at_stop.at("min_normal_force") == at_stop.at("end_normal_force"));
 }
 
-TEST_CASE("a log of any rig is measured, whatever its other columns are") {
+TEST_CASE("any rig's log is measured, whatever its other columns") {
   const Folder folder;
   folder.write("log.csv", "\"t\",x (m),y,mode\n0,1,2,auto\n1,3,4,man\n");
   CHECK(bbsim({"measure", "log.csv", "--measure", "max_y"}, folder.path()).out ==
@@ -146,7 +145,7 @@ TEST_CASE("a log of any rig is measured, whatever its other columns are") {
   CHECK(sweep.err.find("is a sweep") != std::string::npos);
 }
 
-TEST_CASE("steps count from where the ball starts, and a file without a reference is told of") {
+TEST_CASE("steps are measured from the ball's start, and a file without a reference is reported") {
   const Folder folder;
   const std::string names = "x.Overshoot,x.RiseTime,x.Peak,y.Overshoot";
   const Result run = bbsim(
@@ -157,7 +156,7 @@ TEST_CASE("steps count from where the ball starts, and a file without a referenc
   // From -3 cm to +3 cm, with a peak at 5.47 cm.
   CHECK(motion.at("x.Peak") == Approx(0.0547).epsilon(1e-3));
   CHECK(motion.at("x.Overshoot") == Approx(100 * (motion.at("x.Peak") - 0.03) / 0.06));
-  // y is to stay where it is: a step of 0, of which there is nothing to tell, and that is said.
+  // y stays where it is: a step of 0 has no step metrics, and that is reported.
   CHECK(std::isnan(motion.at("y.Overshoot")));
   const std::string why =
       "y.Overshoot is not a number: it should end where it starts, so its step is 0";
@@ -181,7 +180,7 @@ TEST_CASE("steps count from where the ball starts, and a file without a referenc
       bbsim({"measure", "plain.csv", "--measure", "x.Overshoot", "-q"}, folder.path()).err.empty());
 }
 
-TEST_CASE("a window of time is measured in runs, files and sweeps") {
+TEST_CASE("a time window applies to runs, files and sweeps") {
   const Folder folder;
   const std::string names =
       "rms_tracking_error from 5 s,max_x to 3000 ms,end_x to 2 s,x.Overshoot from 1 s to 8 s";
@@ -199,7 +198,6 @@ TEST_CASE("a window of time is measured in runs, files and sweeps") {
     CAPTURE(name);
     CHECK(motion.at(name) == Approx(value).epsilon(1e-3));  // rows are 20 ms apart
   }
-  // What the same rows give.
   CHECK(values_of(stored.out).at("rms_tracking_error from 5 s") ==
         Approx(motion.at("rms_tracking_error from 5 s")).epsilon(1e-14));
   const Result sweep = bbsim({"sweep", config("step.yaml"), "-q", "-o", "-", "--vary",
@@ -225,7 +223,7 @@ TEST_CASE("a window of time is measured in runs, files and sweeps") {
   }
 }
 
-TEST_CASE("what is expected of a run is judged, said and recorded") {
+TEST_CASE("expectations of a run are judged, reported and recorded") {
   const Folder folder;
   const auto run = [&](const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"run",     config("step.yaml"), "-q",    "-o",
@@ -263,7 +261,7 @@ TEST_CASE("what is expected of a run is judged, said and recorded") {
   }
 }
 
-TEST_CASE("a log that looks like other units than bbsim's is warned of") {
+TEST_CASE("a log that seems to use units other than bbsim's gives a warning") {
   const Folder folder;
   folder.write("log.csv", "t,x,phi,other\n0,0,0,0\n1000,120,5,7\n2000,60,-12,7\n3000,0,0,7\n");
   const Result measured =
@@ -275,7 +273,7 @@ TEST_CASE("a log that looks like other units than bbsim's is warned of") {
         "warning: log.csv: phi goes up to 12, measured in rad: it looks like degrees\n");
   CHECK(bbsim({"measure", "log.csv", "--measure", "max_other"}, folder.path()).err.empty());
   CHECK(bbsim({"measure", "log.csv", "--measure", "max_x", "-q"}, folder.path()).err.empty());
-  // A result of bbsim's is in SI, however far it goes.
+  // A result of bbsim's is in SI, however large its values.
   const Result far =
       bbsim({"run", config("fig2a.yaml"), "-q", "-o", "far.h5", "--set", "ball.position.0=100"},
             folder.path());
@@ -293,7 +291,7 @@ TEST_CASE("a log that looks like other units than bbsim's is warned of") {
   CHECK(bbsim({"compare", "log.csv", "log.csv"}, folder.path()).err.empty());
   CHECK(bbsim({"compare", "run.csv", "log.csv", "-q"}, folder.path()).err.empty());
 
-  // A table of the same.
+  // The same with a table.
   folder.write("s.yaml",
                "ball: {radius: 0.01}\n"
                "gimbal: {motion: {phi: {table: {file: log.csv, time: t, value: phi}}}}\n"
@@ -307,11 +305,12 @@ TEST_CASE("a log that looks like other units than bbsim's is warned of") {
                              table + "time_unit=ms", "--measure", "max_phi,min_phi"},
                             folder.path());
   CHECK(said.err.find("warning") == std::string::npos);
-  CHECK(values_of(said.out).at("min_phi") < -0.2);  // -12 deg, and what the interpolant makes of it
+  CHECK(values_of(said.out).at("min_phi") <
+        -0.2);  // -12 deg, and a little more from the interpolant
   CHECK(values_of(said.out).at("min_phi") > -0.3);
 }
 
-TEST_CASE("a sweep takes step metrics, and they are those of its runs") {
+TEST_CASE("a sweep computes the step metrics of its runs") {
   const Folder folder;
   std::vector<std::string> to_csv{"sweep",     config("step.yaml"),
                                   "--vary",    "controller.pid.kp.0.0=linear:0.6:0.8:3",
@@ -339,14 +338,14 @@ TEST_CASE("a sweep takes step metrics, and they are those of its runs") {
   CHECK(bbsim({"summarize", "sweep.csv", "-o", "sweep.csv"}, folder.path()).exit_code == 2);
   CHECK(bbsim({"summarize", "sweep.csv", "--quantiles", "2"}, folder.path()).exit_code == 2);
 
-  // HDF5 has the same, and a resumed sweep takes its columns for what they are.
+  // HDF5 agrees, and a resumed sweep recognizes its columns.
   auto to_hdf5 = to_csv;
   to_hdf5.back() = "sweep.h5";
   REQUIRE(bbsim(to_hdf5, folder.path()).exit_code == 0);
   CHECK(bbsim({"compare", "sweep.csv", "sweep.h5"}, folder.path()).exit_code == 0);
 }
 
-TEST_CASE("a log is measured by its own names, units and clock") {
+TEST_CASE("a log is measured with its own names, units and clock") {
   const Folder folder;
   folder.write("log.csv", "10,ok\n20,ok\n40,ok\n");
   const std::vector<std::string> words{"measure",      "log.csv",  "--header", "px,mode",  "--map",
@@ -363,7 +362,8 @@ TEST_CASE("a log is measured by its own names, units and clock") {
   CHECK(bbsim(aligned, folder.path()).exit_code == 2);
 }
 
-TEST_CASE("run writes derivatives by keys beside its columns, and gradients of measures") {
+TEST_CASE(
+    "run writes derivatives with respect to keys beside its columns, and gradients of measures") {
   const Folder folder;
   const auto run_to = [&](const std::string& file, const std::string& scene) {
     return bbsim(
@@ -392,7 +392,7 @@ TEST_CASE("run writes derivatives by keys beside its columns, and gradients of m
   CHECK_FALSE(std::filesystem::exists(folder.path() / "none.csv"));
 }
 
-TEST_CASE("measures of the loop are what linearize writes, to the last digit") {
+TEST_CASE("measures of the loop equal linearize's to the last digit") {
   const Folder folder;
   REQUIRE(
       bbsim({"linearize", config("step.yaml"), "-q", "-o", "loop.json"}, folder.path()).exit_code ==

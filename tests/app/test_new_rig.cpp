@@ -22,7 +22,7 @@ Result new_rig(const Folder& folder, const Words& options) {
   return bbsim(words, folder.path());
 }
 
-// The ball ends near its reference; nothing ends the run early.
+// Checks that the ball ends near its reference and nothing ends the run early.
 void check_balances(const Folder& folder, const std::string& within) {
   const Result run = bbsim({"run", "my-rig.yaml", "-o", "/dev/null", "-q", "--expect",
                             "max_tracking_error from 10 s < " + within},
@@ -34,7 +34,7 @@ void check_balances(const Folder& folder, const std::string& within) {
 
 }  // namespace
 
-TEST_CASE("a rig of any class balances its ball", "[slow]") {
+TEST_CASE("the rig scenario of every class balances its ball", "[slow]") {
   const Folder folder;
   const std::string plate = GENERATE("300 mm x 200 mm", "250 mm");
   const std::string ball = GENERATE("ping-pong", "steel", "rubber", "golf");
@@ -49,7 +49,7 @@ TEST_CASE("a rig of any class balances its ball", "[slow]") {
   check_balances(folder, servo == "hobby-micro" ? "8 mm" : "2 mm");
 }
 
-TEST_CASE("rigs at the ends of what the options allow balance their ball") {
+TEST_CASE("rigs at the limits of the options balance their ball") {
   const Folder folder;
   const std::string plate = GENERATE("150 mm", "600 mm x 600 mm");
   const std::string servo = GENERATE("hobby-standard", "smart-serial");
@@ -62,7 +62,7 @@ TEST_CASE("rigs at the ends of what the options allow balance their ball") {
   check_balances(folder, rate == "15 Hz" ? "9 mm" : "2 mm");
 }
 
-TEST_CASE("a rig is written with what the options say, and asks nothing without a terminal") {
+TEST_CASE("a rig follows its options and asks nothing without a terminal") {
   const Folder folder;
   const Result made = new_rig(folder, {});
   REQUIRE(made.exit_code == 0);
@@ -92,7 +92,7 @@ TEST_CASE("a rig is written with what the options say, and asks nothing without 
                             Contains("of a step") && !Contains("linkage: ") && !Contains("@"));
 }
 
-TEST_CASE("a light ball is taken as hollow, unless its option says what it is") {
+TEST_CASE("a light ball is assumed hollow unless its option says otherwise") {
   const Folder folder;
   const auto [ball, factor] =
       GENERATE(table<std::string, std::string>({{"40 mm 2.7 g", "0.667"},
@@ -106,7 +106,7 @@ TEST_CASE("a light ball is taken as hollow, unless its option says what it is") 
              Contains("radius: \"20 mm\" ") && Contains("inertia_factor: " + factor + ' '));
 }
 
-TEST_CASE("a ball of table tennis goes by several names") {
+TEST_CASE("a table tennis ball has several names") {
   const Folder folder;
   const std::string name = GENERATE("table tennis", "Table-Tennis", "ping pong", "ping-pong");
   const Result made = new_rig(folder, {"--ball", name, "-o", "-"});
@@ -115,7 +115,7 @@ TEST_CASE("a ball of table tennis goes by several names") {
   CHECK_THAT(made.out, Contains("radius: \"20 mm\" "));
 }
 
-TEST_CASE("options of a rig that make no sense are refused, and nothing is written") {
+TEST_CASE("inconsistent rig options are refused and nothing is written") {
   const Folder folder;
   const std::string plate =
       "; allowed: two sides, or the diameter of a disc, from 150 mm to 600 mm, such as \"300 mm x "
@@ -150,9 +150,9 @@ TEST_CASE("options of a rig that make no sense are refused, and nothing is writt
   CHECK(folder.files().empty());
 }
 
-TEST_CASE("on a terminal, a rig without options is asked for") {
+TEST_CASE("on a terminal, a rig without options is set up by questions") {
   const Folder folder;
-  // A mistake is asked again; Enter takes a default.
+  // An invalid answer is asked again; Enter takes the default.
   std::string shown = on_terminal({"new", "rig"}, 120, folder.path(), 20, "bbsim replay", "xterm",
                                   "250\n250 mm\n\nsmart-serial\ntouch 50 Hz\n3\n");
   CHECK_THAT(shown, Contains("for a disc [300 mm x 200 mm]: ") &&
@@ -164,7 +164,7 @@ TEST_CASE("on a terminal, a rig without options is asked for") {
                  Contains("model: smart-serial ") && Contains("period: \"50 Hz\"") &&
                  Contains("of a step") && Contains("three_servos: "));
 
-  // Ctrl-D takes all the rest.
+  // Ctrl-D takes all remaining defaults.
   shown = on_terminal({"new", "rig", "-o", "rest.yaml"}, 120, folder.path(), 20, "bbsim replay",
                       "xterm", "250 mm\n\x04");
   CHECK_THAT(shown, !Contains("[hobby-standard]: "));
@@ -172,7 +172,7 @@ TEST_CASE("on a terminal, a rig without options is asked for") {
                                            Contains("model: hobby-standard ") &&
                                            Contains("period: \"30 Hz\""));
 
-  // Options answer all questions.
+  // With enough options, nothing is asked.
   shown = on_terminal({"new", "rig", "--legs", "3", "-o", "legs.yaml"}, 120, folder.path(), 20,
                       "bbsim replay");
   CHECK_THAT(shown, !Contains("[ping-pong]: "));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The controllers of examples/controllers against the built-in law; and those that are libraries.
+// The controllers of examples/controllers against the built-in law, and library controllers.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -39,7 +39,7 @@ std::string csv_of(std::vector<std::string> words) {
 
 const std::string library = std::string("controller.library.file=") + BBSIM_EXAMPLE_LIBRARY;
 
-// The numbers of the margins that `words` prints, each command's in their order.
+// The margins that bbsim prints for `words`, of each command in turn.
 std::vector<double> margins_of(const std::vector<std::string>& words) {
   const Result result = bbsim(words);
   CAPTURE(result.out, result.err);
@@ -77,11 +77,11 @@ std::vector<std::string> with_misdeeds(const std::string& mode, const std::strin
 
 }  // namespace
 
-TEST_CASE("the library of the examples gives the built-in PID's trajectory, to the bit") {
+TEST_CASE("the example library reproduces the built-in PID's trajectory bit for bit") {
   CHECK(csv_of({example("library.yaml"), "--set", library}) == csv_of({config("step.yaml")}));
 }
 
-TEST_CASE("so does the sketch, where servos have steps") {
+TEST_CASE("the sketch reproduces it too, with stepped servos") {
   const Folder folder;
   REQUIRE(bbsim({"sketch", example("arduino/pid.ino"), "-o", folder / "pid.so"}).exit_code == 0);
   CHECK(csv_of(
@@ -90,7 +90,7 @@ TEST_CASE("so does the sketch, where servos have steps") {
 }
 
 #ifdef BBSIM_PYTHON
-TEST_CASE("so does the program in Python, with noise and dropouts too") {
+TEST_CASE("the Python program reproduces it too, also with noise and dropouts") {
   CHECK(csv_of({example("python.yaml")}) == csv_of({config("step.yaml")}));
   const std::vector<std::string> worse = {"--set", "controller.sensor.noise=\"0.5 mm\"",
                                           "--set", "controller.sensor.dropout=0.2",
@@ -105,7 +105,7 @@ TEST_CASE("so does the program in Python, with noise and dropouts too") {
   CHECK(csv_of(in_c) == wanted);
 }
 
-TEST_CASE("parameters of a program are keys: they are set, and vary over a sweep") {
+TEST_CASE("parameters of a program are keys that can be set and swept") {
   const Result sweep = bbsim({"sweep", example("python.yaml"), "--vary",
                               "controller.program.parameters.ki=list:0.2,0.35", "--measure",
                               "end_x,max_x_integral", "-o", "-", "-q"});
@@ -120,20 +120,20 @@ TEST_CASE("parameters of a program are keys: they are set, and vary over a sweep
     for (int i = 0; i < 5; ++i) at = rows.find(',', at) + 1;
     return rows.substr(at, rows.find_first_of(",\n", at) - at);
   };
-  // theta's ki differs between the two, and the ball stays on the x axis.
+  // Only theta's ki differs, and the ball stays on the x axis.
   CHECK(end_x(sweep.out, 1) == end_x(built_in.out, 1));
   CHECK(end_x(sweep.out, 2) == end_x(built_in.out, 2));
   CHECK(end_x(sweep.out, 1) != end_x(sweep.out, 2));
 }
 #endif
 
-TEST_CASE("check estimates the margins that the built-in PID has") {
+TEST_CASE("check estimates the built-in PID's margins for the same external law") {
   const std::vector<std::string> built_in{"linearize", config("step.yaml")};
   check_margins({"check", example("library.yaml"), "--set", library}, built_in);
 #ifdef BBSIM_PYTHON
   check_margins({"check", example("python.yaml")}, built_in);
 #endif
-  // Commands in steps are not linear.
+  // Quantized commands are not linear.
   const Folder folder;
   REQUIRE(bbsim({"sketch", example("arduino/pid.ino"), "-o", folder / "pid.so"}).exit_code == 0);
   CHECK(contains(bbsim({"check", example("arduino.yaml"), "--set",
@@ -142,14 +142,14 @@ TEST_CASE("check estimates the margins that the built-in PID has") {
                  "margins: no estimate: the controller is not linear about the reference"));
 }
 
-TEST_CASE("a library with inverse kinematics balances on three legs, as the built-in law does") {
+TEST_CASE("a library with inverse kinematics balances on three legs like the built-in law") {
   const Folder folder;
   const std::string legs = std::string("controller.library.file=") + BBSIM_EXAMPLE_LEGS;
   const std::string own = folder / "own.csv", built_in = folder / "built-in.csv";
   const Result run = bbsim({"run", example("three-legs.yaml"), "--set", legs, "-o", own});
   CAPTURE(run.err);
   REQUIRE(run.exit_code == 0);
-  // The same law and tilts, whose inverse is bbsim's.
+  // The same law with tilts, which bbsim converts.
   REQUIRE(bbsim({"run", example("three-legs.yaml"), "--set", "controller.library=null", "--set",
                  "controller.pd={kp: [[0.9, 0], [0, -0.9]], kv: [[0.7, 0], [0, -0.7]]}", "--set",
                  "controller.drives=angle", "--set", "controller.limit=0.2", "-o", built_in})
@@ -157,7 +157,7 @@ TEST_CASE("a library with inverse kinematics balances on three legs, as the buil
   const Result compared = bbsim({"compare", own, built_in, "--rtol", "0", "--atol", "1e-8"});
   CAPTURE(compared.out, compared.err);
   CHECK(compared.exit_code == 0);
-  // Under drives: angle, the same library is refused.
+  // The same library is refused under drives: angle.
   const Result refused = bbsim({"run", example("three-legs.yaml"), "--set", legs, "--set",
                                 "controller.drives=angle", "-o", "-"});
   CHECK(refused.exit_code == 2);
@@ -184,7 +184,7 @@ TEST_CASE("check says whether three legs are turned or mirrored") {
   CHECK(contains(turned, "WARNING      its commands are turned by 90 deg"));
 }
 
-TEST_CASE("your own program may give tilts to three legs, and bbsim inverts them") {
+TEST_CASE("your own program may command tilts on three legs, which bbsim inverts") {
   const Folder folder;
   const std::string own = folder / "own.csv", built_in = folder / "built-in.csv";
   const std::vector<std::string> three{
@@ -206,7 +206,7 @@ TEST_CASE("your own program may give tilts to three legs, and bbsim inverts them
   CHECK(bbsim({"compare", own, built_in, "--rtol", "0", "--atol", "0"}).exit_code == 0);
 }
 
-TEST_CASE("a library's file begins at the scenario's folder, and so does its name") {
+TEST_CASE("a library's path and name start at the scenario's folder") {
   const Folder folder;
   std::filesystem::create_directory(folder / "scene");
   std::filesystem::copy_file(BBSIM_EXAMPLE_LIBRARY, folder / "scene/libpid.so");
@@ -223,7 +223,7 @@ TEST_CASE("a library's file begins at the scenario's folder, and so does its nam
   CHECK(over.exit_code == 2);
 }
 
-TEST_CASE("what is wrong with a library is told with the key's place") {
+TEST_CASE("faults of a library are reported with the key's place") {
   struct Wrong {
     std::vector<std::string> words;
     std::string told;
@@ -247,7 +247,7 @@ TEST_CASE("what is wrong with a library is told with the key's place") {
   CHECK(contains(result.err, told));
 }
 
-TEST_CASE("a library that fails at a sample ends the run there") {
+TEST_CASE("a library error at a sample ends the run there") {
   const auto [mode, told] = GENERATE(table<std::string, std::string>(
       {{"2", "failed at sample 5 (t = 0.1 s): it returned 7: the plate is gone"},
        {"3", "failed at sample 5 (t = 0.1 s): its command is [0.01, nan]; allowed: finite"}}));
@@ -258,7 +258,7 @@ TEST_CASE("a library that fails at a sample ends the run there") {
   CHECK(std::count(result.out.begin(), result.out.end(), '\n') == 6);
 }
 
-TEST_CASE("a library that ends the process in place of returning fails, and the rows are kept") {
+TEST_CASE("a library that ends the process instead of returning fails, and the rows are kept") {
   struct Way {
     std::string mode, told;
     std::ptrdiff_t lines;
@@ -280,7 +280,7 @@ TEST_CASE("a library that ends the process in place of returning fails, and the 
   CHECK(std::count(result.out.begin(), result.out.end(), '\n') == lines);
 }
 
-TEST_CASE("a library that ends the process as it is opened does so with a word") {
+TEST_CASE("a library that ends the process while it is opened is reported") {
   const Result result = bbsim(with_misdeeds("0", BBSIM_MISDEEDS_OPENED));
   CAPTURE(result.err);
   CHECK(result.exit_code == 1);
@@ -293,7 +293,7 @@ TEST_CASE("a library that ends the process as it is opened does so with a word")
   CHECK(contains(check.err, "failed to start: it called exit(0)"));
 }
 
-TEST_CASE("a library that ends the process once it is done, or a child of its own, does no harm") {
+TEST_CASE("a library may end the process in its destructor, or end its own child") {
   const std::string mode = GENERATE("8", "9");
   const Result result = bbsim(with_misdeeds(mode));
   CAPTURE(mode, result.err);
@@ -302,7 +302,7 @@ TEST_CASE("a library that ends the process once it is done, or a child of its ow
   CHECK(result.out == bbsim(with_misdeeds("0")).out);
 }
 
-TEST_CASE("a case of a sweep whose library ends the process has failed, and the others go on") {
+TEST_CASE("a sweep case whose library ends the process fails, and the others continue") {
   std::vector<std::string> words = with_misdeeds("0");
   words[0] = "sweep";
   words.insert(words.end(), {"--vary", "controller.library.parameters.mode=list:0,5,7,0",
@@ -316,7 +316,7 @@ TEST_CASE("a case of a sweep whose library ends the process has failed, and the 
   CHECK(contains(result.out, "\n3,0,done,,0.2,11\n"));
 }
 
-TEST_CASE("a library that would save more than there is fails to") {
+TEST_CASE("a library that tries to save more than the allowed size fails") {
   const Folder folder;
   std::vector<std::string> words = with_misdeeds("11");
   words.insert(words.end(), {"--until", "0.1", "--save-state", folder / "s.state"});
@@ -328,7 +328,7 @@ TEST_CASE("a library that would save more than there is fails to") {
   CHECK_FALSE(std::filesystem::exists(folder / "s.state"));
 }
 
-TEST_CASE("a library begins each case of a sweep anew, whether it can reset or not") {
+TEST_CASE("a library starts anew for each case of a sweep, with or without reset") {
   for (const char* mode : {"0", "4"}) {
     std::vector<std::string> words = with_misdeeds(mode);
     words[0] = "sweep";

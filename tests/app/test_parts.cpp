@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A run split in two gives the bytes of one.
+// A run split in two gives the same bytes as one run.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -44,14 +44,14 @@ std::string rows_of(const std::string& csv) {
 
 }  // namespace
 
-TEST_CASE("the rows of two parts are those of one run, to the bit") {
+TEST_CASE("the rows of two parts equal those of one run bit for bit") {
   struct Scene {
     const char* name;
     const char* until;
     std::vector<std::string> more{};
   };
-  // Smooth ones, of few steps and of many; stops of a table and jumps of a reference; a rig with
-  // noise and delays, between two samples and at one; limits that switch; events that are noted.
+  // Smooth scenes of few and of many steps; table stops and reference jumps; a rig with noise and
+  // delays, split at a sample and between samples; limits that switch; noted events.
   const Scene scene = GENERATE(
       Scene{"fig2a", "5"}, Scene{"fig2b", "7.05"}, Scene{"recorded", "2"},
       Scene{"rig", "10.01", {"--set", "time.step=\"10 ms\""}}, Scene{"rig", "20 s"},
@@ -76,11 +76,11 @@ TEST_CASE("the rows of two parts are those of one run, to the bit") {
   CHECK(a + b == folder.read("whole.csv"));
 }
 
-TEST_CASE("so are those of a controller of one's own, a library or a program") {
+TEST_CASE("parts with your own controller, library or program, equal one run too") {
   struct Part {
     const char *until, *step;
   };
-  // At a sample, between two, and as a command comes.
+  // At a sample, between samples, and as a command arrives.
   const Part part =
       GENERATE(Part{"600 ms", "20 ms"}, Part{"604 ms", "4 ms"}, Part{"1.21", "10 ms"});
   const bool program = GENERATE(false, true);
@@ -108,7 +108,7 @@ TEST_CASE("so are those of a controller of one's own, a library or a program") {
   CHECK(a + b == folder.read("whole.csv"));
 }
 
-TEST_CASE("a state is one of the controller that made it, and of what it was asked for") {
+TEST_CASE("a state belongs to the controller that made it and to its settings") {
   const Folder folder;
   if (!has_python) return;
   for (const char* name : {"pid.py", "python.yaml"}) {
@@ -127,7 +127,7 @@ TEST_CASE("a state is one of the controller that made it, and of what it was ask
   CHECK(contains(refusal("[t, x, x_integral]"), "files of a controller"));
 }
 
-TEST_CASE("a run may go on for longer than it was meant to") {
+TEST_CASE("a run may continue beyond its planned end") {
   const Folder folder;
   const std::string rig = config("rig.yaml");
   run(folder, {rig, "-o", "whole.csv", "--set", "time.end=9"});
@@ -138,7 +138,7 @@ TEST_CASE("a run may go on for longer than it was meant to") {
   CHECK(folder.read("a.csv") + rows_of(folder.read("b.csv")) + rows_of(folder.read("c.csv")) ==
         folder.read("whole.csv"));
 
-  // Fig. 2(a) takes four steps in all, which are fitted to its end.
+  // Fig. 2(a) takes four steps in all, the last one fitted to the end.
   const std::string smooth = config("fig2a.yaml");
   run(folder, {smooth, "-o", "d.csv", "--set", "time.end=5", "--save-state", "d.state"});
   const Result refused =
@@ -150,7 +150,7 @@ TEST_CASE("a run may go on for longer than it was meant to") {
   CHECK(folder.read("d.csv") + rows_of(folder.read("e.csv")) == folder.read("f.csv"));
 }
 
-TEST_CASE("a state is refused where bytes could not be those of one run") {
+TEST_CASE("a state is refused if the bytes could not equal those of one run") {
   const Folder folder;
   const std::string rig = config("rig.yaml");
   run(folder, {rig, "-o", "a.csv", "--save-state", "a.state", "--until", "1"});
@@ -191,15 +191,15 @@ TEST_CASE("a state is refused where bytes could not be those of one run") {
         std::vector<std::string>{"a.csv", "a.state", "damaged.state", "short.state"});
 }
 
-TEST_CASE("events are told of by the part that they happen in") {
-  // A ball that falls off has nothing to go on from.
+TEST_CASE("events are reported by the part in which they occur") {
+  // After the ball falls off, nothing remains to continue from.
   const Folder folder;
   const Result falls =
       bbsim({"run", config("falls.yaml"), "-o", "a.csv", "--save-state", "a.state"}, folder.path());
   CHECK(falls.exit_code == 1);
   CHECK(contains(falls.err, "a.state: not written"));
   CHECK(folder.files() == std::vector<std::string>{"a.csv"});
-  // Before it does, it has.
+  // A state saved before the fall can continue.
   run(folder, {config("falls.yaml"), "-o", "b.csv", "--save-state", "b.state", "--until", "0.5"});
   const Result rest =
       bbsim({"run", config("falls.yaml"), "-o", "c.csv", "--from-state", "b.state"}, folder.path());
@@ -208,9 +208,9 @@ TEST_CASE("events are told of by the part that they happen in") {
   CHECK(folder.read("b.csv") + rows_of(folder.read("c.csv")) == folder.read("a.csv"));
 }
 
-TEST_CASE("what switches at a part's last row is that part's") {
+TEST_CASE("a switch at a part's last row belongs to that part") {
   const Folder folder;
-  // A command that lifts the ball off as it comes, at 0.02 s.
+  // A command that lifts the ball off as it arrives, at 0.02 s.
   const std::vector<std::string> lifts{config("catch.yaml"), "--set",
                                        "gimbal.servo.acceleration_limit=60"};
   const auto part = [&](std::vector<std::string> more) {
@@ -222,7 +222,7 @@ TEST_CASE("what switches at a part's last row is that part's") {
   CHECK(stopped.exit_code == 1);
   CHECK(contains(stopped.err, "the run stopped at t = 0.02 s"));
   CHECK(contains(stopped.err, "a.state: not written"));
-  // One that is noted is told of once.
+  // A noted event is reported once.
   const std::vector<std::string> noted{"--set", "events.lift_off=note", "--set", "time.end=0.05"};
   std::vector<std::string> first{"-o", "b.csv", "--until", "0.02", "--save-state", "b.state"};
   std::vector<std::string> second{"-o", "c.csv", "--from-state", "b.state"};

@@ -19,7 +19,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// Why a text is no XML, as far as a picture's can fail to be; empty if it is.
+// Why a text is not XML, among the faults that a picture can have; empty if it is.
 std::string fault_of_xml(const std::string& text) {
   std::vector<std::string> open;
   std::size_t at = text.find("<svg");
@@ -121,7 +121,7 @@ TEST_CASE("every hard scenario's run is drawn, in every format, from CSV") {
   draw_all_of(config("hard"), ".csv");
 }
 
-TEST_CASE("a run's picture tells of its scene: title, plate, events, friction") {
+TEST_CASE("a run's picture shows its scene: title, plate, events, friction") {
   const Folder folder;
   REQUIRE(bbsim({"run", config("slips.yaml"), "-o", folder / "slips.h5"}).exit_code == 1);
   REQUIRE(bbsim({"plot", folder / "slips.h5"}).exit_code == 0);
@@ -133,7 +133,7 @@ TEST_CASE("a run's picture tells of its scene: title, plate, events, friction") 
     CHECK_THAT(from_hdf5, Contains(text));
   }
 
-  // A CSV has no place for these: they come from its summary ...
+  // A CSV lacks these data: they come from its summary ...
   REQUIRE(bbsim({"run", config("falls.yaml"), "-o", folder / "falls.csv"}).exit_code == 1);
   REQUIRE(bbsim({"plot", folder / "falls.csv"}).exit_code == 0);
   CHECK_THAT(folder.read("falls.svg"), !Contains("plate's edge"));
@@ -161,7 +161,7 @@ TEST_CASE("the summary carries the scenario's text") {
              Contains("title: A ball let go on a fixed incline\n"));
 }
 
-TEST_CASE("runs are compared in one picture, columns chosen, standard input and output used") {
+TEST_CASE("runs are compared in one picture, with chosen columns, standard input and output") {
   const Folder folder;
   for (const std::string k : {"0.5", "2"}) {
     REQUIRE(bbsim({"run", config("hold.yaml"), "--set",
@@ -186,14 +186,14 @@ TEST_CASE("runs are compared in one picture, columns chosen, standard input and 
   CHECK_THAT(two.err, Contains("hold-0.5.svg: ") && Contains("hold-2.svg: "));
 }
 
-TEST_CASE("a log in units of its own is labelled with none, and its gaps are gaps") {
+TEST_CASE("a log in its own units is labelled without units, and its gaps stay gaps") {
   const Folder folder;
   folder.write("log.csv", "t,x,y,phi\n0,-12,3,2\n0.1,-11,2,2\n0.2,,,\n0.3,-9,1,1\n0.4,-8,0,1\n");
   REQUIRE(bbsim({"plot", "log.csv"}, folder.path()).exit_code == 0);
   const std::string svg = folder.read("log.svg");
   for (const char* unit : {"(m)", "(cm)", "(s)", "(°)", "(SI)"}) CHECK_THAT(svg, !Contains(unit));
   for (const char* name : {">x<", ">y<", ">x, y<", ">φ<", ">t<"}) CHECK_THAT(svg, Contains(name));
-  // The path's line, after its sample in the legend, is in two pieces: the pen moves twice.
+  // The path's line, after its sample in the legend, has two pieces: the pen moves twice.
   const std::string stroke = "<path stroke='rgb(  0, 114, 178)'  d='";
   const std::size_t start = svg.find(stroke, svg.find(stroke) + 1) + stroke.size();
   const std::string line = svg.substr(start, svg.find('\'', start) - start);
@@ -248,7 +248,7 @@ TEST_CASE("hostile names and titles are shown as text") {
   CHECK(is_png(folder.read(name + ".png")));
 }
 
-TEST_CASE("what cannot be drawn is told in a line") {
+TEST_CASE("what cannot be drawn is reported in one line") {
   const Folder folder;
   folder.write("run.csv", "t,x,y,phi\n0,1,2,3\n1,2,3,4\n");
   folder.write("beam.csv", "t,x\n0,1\n1,2\n");
@@ -270,7 +270,7 @@ TEST_CASE("what cannot be drawn is told in a line") {
   CHECK_THAT(fault({"run.csv", "--set", "gravity=9"}, folder), Contains("--scenario"));
   CHECK_THAT(fault({"/dev/zero", "-o", "a.svg"}, folder), Contains("more than 1048576 bytes"));
 
-  // No picture takes the place of what is read, nor of another picture.
+  // No picture overwrites an input or another picture.
   folder.write("run.svg", "t,x\n0,1\n1,2\n");
   CHECK_THAT(fault({"run.csv", "run.svg"}, folder),
              Contains("it is the same file as run.svg (what is drawn)"));
@@ -282,12 +282,12 @@ TEST_CASE("what cannot be drawn is told in a line") {
   std::filesystem::remove(folder / "run.svg");
   CHECK_THAT(fault({"run.csv", "./run.csv"}, folder), Contains("which is written here, too"));
 
-  // What can be drawn beside it is.
+  // Other files are still drawn.
   CHECK_THAT(bbsim({"plot", "none.csv", "beam.csv"}, folder.path()).err,
              Contains("beam.svg: 2 rows") && Contains("cannot read none.csv"));
 }
 
-TEST_CASE("a picture that cannot be written, or drawn for want of gnuplot, ends with 3") {
+TEST_CASE("a picture that cannot be written, or that lacks gnuplot, gives exit code 3") {
   const Folder folder;
   const std::string csv = folder.write("run.csv", "t,x\n0,1\n1,2\n");
   CHECK(bbsim({"plot", csv, "-o", folder / "none/a.svg"}).exit_code == 3);
@@ -301,7 +301,7 @@ TEST_CASE("a picture that cannot be written, or drawn for want of gnuplot, ends 
   CHECK(folder.files() == std::vector<std::string>{"run.csv"});
 }
 
-TEST_CASE("what a user has set for plots of their own does not matter") {
+TEST_CASE("a user's gnuplot settings have no effect") {
   const Folder folder;
   folder.write("run.csv", "t,x\n0,1\n1,2\n");
   folder.write(".gnuplot", "set terminal png\nset output 'elsewhere.png'\n");

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The progress bar: its text for every width, and what a terminal of that width is sent.
+// The progress bar: its text for every width, and what it sends to a terminal of that width.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -25,13 +25,13 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-// A scene that takes minutes.
+// Takes minutes.
 const char* const long_scene =
     "ball: {radius: 0.01}\n"
     "gimbal: {motion: {phi: {sinusoid: {amplitude: 1e-5, frequency: 300}}}}\n"
     "time: {end: 1e6, step: 1}\n";
 
-// The longest line that was drawn, without what moves the cursor.
+// Length of the longest line drawn, without cursor control sequences.
 std::size_t longest_line(const std::string& drawn) {
   std::size_t longest = 0, length = 0;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
@@ -48,7 +48,7 @@ std::size_t longest_line(const std::string& drawn) {
 
 }  // namespace
 
-TEST_CASE("a progress line fits its terminal, whatever its width") {
+TEST_CASE("a progress line fits its terminal at every width") {
   const std::string long_name = "a/folder/of/" + std::string(100, 'x') + ".yaml";
   for (const std::string& label : {std::string("configs/fig2b.yaml"), long_name,
                                    std::string("\u7403\u7403\u7403\u7403\u7403\u7403.yaml")}) {
@@ -65,7 +65,7 @@ TEST_CASE("a progress line fits its terminal, whatever its width") {
   }
 }
 
-TEST_CASE("what matters least is left out first") {
+TEST_CASE("the least important parts are left out first") {
   const ProgressState state{"configs/fig2b.yaml", "130 cases/s", 0.47, 12};
   CHECK(progress_line(state, 100) ==
         "configs/fig2b.yaml [##############................]  47%, 130 cases/s, 12 s left");
@@ -80,7 +80,7 @@ TEST_CASE("what matters least is left out first") {
   CHECK(log_line(state) == "configs/fig2b.yaml: 47.0%, 130 cases/s, 12 s left");
 }
 
-TEST_CASE("a terminal is never sent a line wider than it is") {
+TEST_CASE("a terminal never gets a line wider than itself") {
   const Folder folder;
   folder.write("a-scenario-with-a-name-that-is-rather-long.yaml", long_scene);
   for (const unsigned short columns : std::initializer_list<unsigned short>{20, 40, 80}) {
@@ -93,9 +93,9 @@ TEST_CASE("a terminal is never sent a line wider than it is") {
   }
 }
 
-TEST_CASE("after --resume the time left is told from what is done now") {
-  // If those from before counted, it would be told as half of what it is, or less: both are
-  // interrupted when they first tell it, a second or more after their first case.
+TEST_CASE("after --resume the time left is estimated from the current run") {
+  // Counting the earlier cases would at least halve the estimate. Both runs are interrupted at
+  // their first estimate, a second or more after their first case.
   const Folder folder;
   folder.write("long.yaml", std::string(long_scene) + "solver: {method: adams}\n");
   const std::vector<std::string> sweep{
@@ -105,7 +105,7 @@ TEST_CASE("after --resume the time left is told from what is done now") {
   resumed.emplace_back("--resume");
   (void)on_terminal(sweep, 120, folder.path(), 120, " left");
   const std::string drawn = on_terminal(resumed, 120, folder.path(), 120, " left");
-  // Seconds of "47%, 123 cases/s, 12 s left" at the first look.
+  // Reads the seconds of the first "47%, 123 cases/s, 12 s left".
   const std::size_t at = drawn.find(" left");
   REQUIRE(at != std::string::npos);
   const std::string line = drawn.substr(0, at);
@@ -117,7 +117,8 @@ TEST_CASE("after --resume the time left is told from what is done now") {
   const double left = std::stod(line.substr(left_at)) * unit;
   const double part = std::stod(line.substr(line.rfind("] ") + 2)) / 100;
   const double all = 20000 / rate, expected = all * (1 - part);
-  CHECK(std::abs(left - expected) < unit / 2 + all * 0.005 + 0.1 * expected);  // each is rounded
+  CHECK(std::abs(left - expected) <
+        unit / 2 + all * 0.005 + 0.1 * expected);  // each number is rounded
 }
 
 TEST_CASE("rates have three digits") {
@@ -138,7 +139,7 @@ TEST_CASE("rates have three digits") {
   CHECK(digits.find_last_not_of('0') < 3);
 }
 
-TEST_CASE("a terminal that obeys no escape sequences is sent none") {
+TEST_CASE("a terminal without escape sequences gets none") {
   const Folder folder;
   folder.write("scene.yaml", long_scene);
   const auto drawn = [&](const std::string& kind) {
@@ -151,7 +152,7 @@ TEST_CASE("a terminal that obeys no escape sequences is sent none") {
   CHECK(contains(plain, "interrupted at t = "));
 }
 
-TEST_CASE("who gives no scenario on a terminal is told that one is waited for") {
+TEST_CASE("without a scenario on a terminal, the program says that it waits for one") {
   const Folder folder;
   const std::string told = "reading a scenario from the terminal; Ctrl-D ends it";
   for (const char* const command : {"run", "check", "linearize", "accuracy", "verify"}) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// bbsim replay and run --replay, as a user runs them. What the pages show is tested in a browser
+// bbsim replay and run --replay as a user runs them. The pages' display is tested in a browser
 // (tests/replay/browser).
 #include <algorithm>
 #include <chrono>
@@ -36,7 +36,7 @@ std::vector<std::string> names_of(const nlohmann::json& run) {
 
 }  // namespace
 
-TEST_CASE("a scenario is run and shown with all that is known of it") {
+TEST_CASE("a scenario is run and shown with everything known about it") {
   const Folder folder;
   const Result made = bbsim({"replay", config("rig.yaml"), "-o", "rig.html"}, folder.path());
   REQUIRE(made.exit_code == 0);
@@ -53,14 +53,14 @@ TEST_CASE("a scenario is run and shown with all that is known of it") {
   CHECK(run.at("summary").at("statistics").at("steps") > 0);
 }
 
-TEST_CASE("run --replay shows the run, and its result is the same to the byte") {
+TEST_CASE("run --replay shows the run, and its result is the same byte for byte") {
   const Folder folder;
   REQUIRE(bbsim({"run", config("fig2b.yaml"), "-o", "a.csv", "-q"}, folder.path()).exit_code == 0);
   REQUIRE(
       bbsim({"run", config("fig2b.yaml"), "-o", "b.csv", "--replay", "b.html", "-q"}, folder.path())
           .exit_code == 0);
   CHECK(folder.read("a.csv") == folder.read("b.csv"));
-  // The page has what a picture needs whatever the file's columns are.
+  // The page has all columns that a picture needs, whichever columns the file has.
   REQUIRE(bbsim({"run", config("fig2b.yaml"), "--set", "output.columns=[t,gamma]", "-o", "c.csv",
                  "--replay", "c.html", "-q"},
                 folder.path())
@@ -73,7 +73,7 @@ TEST_CASE("run --replay shows the run, and its result is the same to the byte") 
   CHECK(folder.read("b.html").size() < 1'200'000);
 }
 
-TEST_CASE("a run that an event stopped is shown to its end, from every kind of file") {
+TEST_CASE("a run stopped by an event is shown to its end, from every kind of file") {
   const Folder folder;
   const auto check_page = [&](const std::string& name) {
     const auto run = data_of(folder.read(name)).at("runs").at(0);
@@ -96,9 +96,9 @@ TEST_CASE("a run that an event stopped is shown to its end, from every kind of f
   check_page("yaml.html");
 }
 
-TEST_CASE("a ball that slides is shown as it turns, and as it was when it stopped") {
+TEST_CASE("a sliding ball is shown with its turning, and with its final orientation") {
   const Folder folder;
-  // Its orientation is a column like others.
+  // The orientation is a column like any other.
   REQUIRE(bbsim({"run", config("slides.yaml"), "--set",
                  "output.columns=[t,x,y,ball_qw,ball_qx,ball_qy,ball_qz]", "-o", "s.csv", "-q"},
                 folder.path())
@@ -110,11 +110,11 @@ TEST_CASE("a ball that slides is shown as it turns, and as it was when it stoppe
   CHECK(run.at("orientationGiven") == true);
   CHECK(run.at("hasEndRow") == true);
   CHECK(run.at("rows") == 167);
-  CHECK(run.at("time").is_string());  // the last of them is no multiple of the step
+  CHECK(run.at("time").is_string());  // the last time is no multiple of the step
   CHECK(run.at("reached") == Approx(3.33288).epsilon(1e-5));
 }
 
-TEST_CASE("runs and the log of a rig are one scene, a sweep another, glTF a file of its own") {
+TEST_CASE("runs and a rig's log share one scene, a sweep has its own, and glTF its own file") {
   const Folder folder;
   const std::string log = folder.write("log.csv", "Time,Ballx,Bally\n0,-10,0\n100,-9,1\n200,,2\n");
   CHECK(bbsim({"replay", config("fig2a.yaml"), config("fig2b.yaml"), "--data", log, "--map",
@@ -136,7 +136,7 @@ TEST_CASE("runs and the log of a rig are one scene, a sweep another, glTF a file
   CHECK(folder.read("a.glb").starts_with("glTF"));
 }
 
-TEST_CASE("what a replay cannot show is said with its place, and nothing is written") {
+TEST_CASE("input that a replay cannot show is reported with its place, and nothing is written") {
   const Folder folder;
   const std::string log = folder.write("log.csv", "Time,Ballx\n0,-10\n100,far\n");
   struct Fault {
@@ -174,7 +174,7 @@ TEST_CASE("what a replay cannot show is said with its place, and nothing is writ
   CHECK(folder.files() == std::vector<std::string>{"log.csv"});
 }
 
-TEST_CASE("without the page's template it is said before the run what is missing") {
+TEST_CASE("a missing page template is reported before the run") {
   const Folder folder;
   Launch launch;
   launch.arguments = {"run", config("fig2a.yaml"), "-o", "a.csv", "--replay", "a.html"};
@@ -186,7 +186,7 @@ TEST_CASE("without the page's template it is said before the run what is missing
   CHECK(folder.files().empty());
 }
 
-TEST_CASE("an interrupted run is shown as far as it came") {
+TEST_CASE("an interrupted run is shown as far as it got") {
   const Folder folder;
   Launch launch;
   launch.arguments = {
@@ -194,7 +194,7 @@ TEST_CASE("an interrupted run is shown as far as it came") {
       "i.csv", "--replay",           "i.html"};
   launch.folder = folder.path();
   launch.signal = 2;
-  // A busy machine may have no row yet when the signal comes, and then there is nothing to show.
+  // On a busy machine the signal may arrive before the first row, and then nothing can be shown.
   for (const int wait : {300, 3000, 30000}) {
     launch.signal_after = std::chrono::milliseconds{wait};
     REQUIRE(bbsim(launch).exit_code == 130);

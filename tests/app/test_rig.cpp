@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Scenarios of built rigs, as a user runs them.
+// Scenarios of real rigs, as a user runs them.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -38,7 +38,7 @@ std::map<std::string, std::vector<double>> csv(const std::string& text) {
   return columns;
 }
 
-// Root mean square of the distance from the reference after 5 s, m.
+// Root mean square of the distance from the reference after 5 s, in m.
 double tracking_error(const std::string& text) {
   auto columns = csv(text);
   double sum = 0;
@@ -54,7 +54,8 @@ double tracking_error(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("the rig tracks its circle, and three times its delay is unstable, as check says") {
+TEST_CASE(
+    "the rig tracks its circle, and with three times its delay is unstable, as check predicts") {
   const Folder folder;
   const std::string rig = config("rig.yaml");
   REQUIRE(bbsim({"run", rig, "-o", folder / "rig.csv"}).exit_code == 0);
@@ -72,7 +73,7 @@ TEST_CASE("the rig tracks its circle, and three times its delay is unstable, as 
   CHECK(contains(bbsim(check).out, "the sampled loop is unstable about home"));
 }
 
-TEST_CASE("check lists each part that a scene uses, and each that it does not") {
+TEST_CASE("check lists the parts that a scene uses and those that it does not") {
   const std::string rig = bbsim({"check", config("rig.yaml")}).out;
   for (const char* part : {"  servo ", "  law ", "  sampling ", "  sensor ", "  plate ",
                            "  events ", "  without    mounting errors, losses of the ball\n"}) {
@@ -86,7 +87,7 @@ TEST_CASE("check lists each part that a scene uses, and each that it does not") 
       "errors, losses of the ball, the plate's inertia, events\n"));
 }
 
-TEST_CASE("an event that stops a run is told in the message, the summary and the file") {
+TEST_CASE("an event that stops a run appears in the message, the summary and the file") {
   const Folder folder;
   const Result result = bbsim({"run", config("falls.yaml"), "-o", folder / "falls.csv", "--summary",
                                folder / "falls.json"});
@@ -100,7 +101,7 @@ TEST_CASE("an event that stops a run is told in the message, the summary and the
   CHECK(event.at("action") == "stop");
   CHECK(event.at("t") == summary.at("end_time"));
   CHECK(event.at("x").get<double>() == Approx(0.16).epsilon(1e-9));
-  // The rows up to it.
+  // The rows up to the event.
   const auto columns = csv(folder.read("falls.csv"));
   CHECK(columns.at("t").size() == summary.at("rows").get<std::size_t>());
   CHECK(columns.at("t").back() <= event.at("t").get<double>());
@@ -108,7 +109,7 @@ TEST_CASE("an event that stops a run is told in the message, the summary and the
   CHECK(bbsim({"compare", folder / "falls.csv", folder / "falls.h5"}).exit_code == 0);
 }
 
-TEST_CASE("the motors' peaks are in the summary where the plate's inertia is known") {
+TEST_CASE("the motors' peaks are in the summary if the plate's inertia is known") {
   const Folder folder;
   REQUIRE(
       bbsim({"run", config("rig.yaml"), "-o", folder / "rig.csv", "--summary", folder / "rig.json"})
@@ -119,24 +120,24 @@ TEST_CASE("the motors' peaks are in the summary where the plate's inertia is kno
   for (const double torque : columns.at("motor_torque_phi")) {
     peak = std::max(peak, std::abs(torque));
   }
-  // Rows are just before a command comes; the peak is right after one.
+  // Rows precede each command; the peak follows it.
   CHECK(motors.at("peak_torque_phi") > 1.4 * peak);
   CHECK(motors.at("peak_torque_phi") < 2 * peak);
   CHECK(motors.at("carries") == "ball and plate");
 }
 
-TEST_CASE("check says so where there are no poles") {
+TEST_CASE("check reports that a loop has no poles") {
   const Result result =
       bbsim({"check", config("rig.yaml"), "--set", "controller.gravity_compensation.kv=1e308"});
   CHECK(result.exit_code == 0);
   CHECK(contains(result.out, "its gains are too large"));
 }
 
-TEST_CASE("accuracy says that it measures smooth scenes") {
+TEST_CASE("accuracy says that it measures smooth scenes only") {
   const Result result = bbsim({"accuracy", config("rig.yaml")});
   CHECK(result.exit_code == 2);
   CHECK(contains(result.err, "events, controller.sampling, a limit or the backlash"));
-  // A limit that nobody wrote.
+  // A default limit.
   const Result unwritten =
       bbsim({"accuracy", config("fig2b.yaml"), "--set",
              "controller={gravity_compensation: {kp: 4, kv: 4}, drives: angle, reference: {point: "
@@ -146,8 +147,8 @@ TEST_CASE("accuracy says that it measures smooth scenes") {
   CHECK_FALSE(contains(unwritten.err, "backlash"));
 }
 
-TEST_CASE("energy, work and losses balance in every scenario that follows them") {
-  // Over blows too: of gears that engage, of stops, and of servos whose rate jumps with a command.
+TEST_CASE("energy, work and losses balance in every scenario that tracks them") {
+  // Also over impacts: gears that engage, stops, and servos whose rate jumps with a command.
   const std::string plate = "plate.inertia=[2e-3, 3e-3, 5e-3]", losses = "ball.losses.viscous=1e-6";
   const auto [name, changes] = GENERATE_COPY(table<std::string, std::vector<std::string>>(
       {{"rolls-to-rest", {}},
@@ -175,7 +176,7 @@ TEST_CASE("energy, work and losses balance in every scenario that follows them")
                                "solver.atol=1e-12"};
   for (const std::string& change : changes) run.insert(run.end(), {"--set", change});
   const Result result = bbsim(run);
-  CHECK(result.exit_code == (name == "slides" ? 1 : 0));  // it stops where the ball rests
+  CHECK(result.exit_code == (name == "slides" ? 1 : 0));  // it stops when the ball rests
   const auto columns = csv(result.out);
   const auto& energy = columns.at("total_energy");
   const auto& lost = columns.at("energy_lost");
@@ -192,7 +193,7 @@ TEST_CASE("energy, work and losses balance in every scenario that follows them")
   CHECK(gap < 1e-9 * size);
 }
 
-TEST_CASE("check has the poles of plate, ball and motors, and says what they leave out") {
+TEST_CASE("check lists the poles of plate, ball and motors, and what they leave out") {
   const Result loop = bbsim({"check", config("sags.yaml")});
   CHECK(loop.exit_code == 0);
   CHECK(contains(loop.out, "8 poles about home"));
@@ -207,7 +208,7 @@ TEST_CASE("check has the poles of plate, ball and motors, and says what they lea
   CHECK(contains(given.out, "given functions of time"));
 }
 
-TEST_CASE("check tells of linkages, clocks and frames, and of stops beyond a dead point") {
+TEST_CASE("check reports linkages, clocks and frames, and stops beyond a dead point") {
   const Result result = bbsim({"check", config("pushrod.yaml")});
   CHECK(result.exit_code == 0);
   CHECK(contains(result.out, "servo_phi"));
@@ -232,7 +233,7 @@ TEST_CASE("check tells of linkages, clocks and frames, and of stops beyond a dea
   CHECK(contains(three.out, "the shift of the plate's center is neglected"));
 }
 
-TEST_CASE("scenes with linkages and three servos run, in parts too, to the byte") {
+TEST_CASE("scenes with linkages and three servos run byte for byte the same, also in parts") {
   for (const std::string name : {"pushrod", "three-servos", "pushed"}) {
     const Folder folder;
     std::vector<std::string> run{"run", config((name == "pushed" ? "pushrod" : name) + ".yaml"),
@@ -260,7 +261,7 @@ TEST_CASE("scenes with linkages and three servos run, in parts too, to the byte"
   }
 }
 
-TEST_CASE("a run of a ball that slides tells where it rolls, and where it rests") {
+TEST_CASE("a run of a sliding ball reports when it rolls and when it rests") {
   const Result result = bbsim({"run", config("slides.yaml"), "-o", "-"});
   CHECK(contains(result.err, "noted: roll, once at t = 0.533974 s: the ball rolls again"));
   CHECK(contains(result.err, "the run stopped at t = 3.33288 s"));

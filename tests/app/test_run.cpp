@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// bbsim run: what it writes, what it says, and every way in which it can end.
+// bbsim run: its output, its messages and its exit codes.
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -28,7 +28,7 @@ std::vector<std::string> lines(const std::string& text) {
   return list;
 }
 
-// A scene that takes minutes: a million seconds of a fast oscillation.
+// Takes minutes: a million seconds of a fast oscillation.
 const char* const long_scene =
     "ball: {radius: 0.01}\n"
     "gimbal: {motion: {phi: {sinusoid: {amplitude: 1e-5, frequency: 300}}}}\n"
@@ -36,7 +36,7 @@ const char* const long_scene =
 
 }  // namespace
 
-TEST_CASE("run writes SCENARIO's name with .csv into the current folder") {
+TEST_CASE("run writes the scenario's name with .csv into the current folder") {
   const Folder folder;
   const Result result = bbsim({"run", config("fig2a.yaml")}, folder.path());
   CHECK(result.exit_code == 0);
@@ -50,7 +50,7 @@ TEST_CASE("run writes SCENARIO's name with .csv into the current folder") {
   CHECK(contains(rows[1001], "10,0.1289970"));  // the reference says 0.128997060042
 }
 
-TEST_CASE("option -o - writes the CSV to standard output, and -q silences the rest") {
+TEST_CASE("option -o - writes the CSV to standard output, and -q silences everything else") {
   const Folder folder;
   const Result result = bbsim({"run", config("incline.yaml"), "-o", "-", "-q"}, folder.path());
   CHECK(result.exit_code == 0);
@@ -66,7 +66,7 @@ TEST_CASE("the same scene gives the same bytes") {
   CHECK(bbsim({"run", config("hold.yaml"), "-o", "-"}).out == first.out);
 }
 
-TEST_CASE("option --set changes a key through the same checks") {
+TEST_CASE("option --set changes a key with the same checks") {
   const Result fewer = bbsim({"run", config("fig2a.yaml"), "--set", "time.step=1", "--set",
                               "ball.position.1=5 cm", "-o", "-"});
   CHECK(fewer.exit_code == 0);
@@ -104,7 +104,7 @@ TEST_CASE("the summary tells how the run went") {
   CHECK(contains(json, "\"theta_rate\""));
 }
 
-TEST_CASE("an error in metres is met, or refused with what can be had") {
+TEST_CASE("an error bound in meters is met, or refused with the attainable one") {
   const Folder folder;
   const Result met =
       bbsim({"run", config("fig2a.yaml"), "--error", "1 um", "--summary", "s.json"}, folder.path());
@@ -117,7 +117,7 @@ TEST_CASE("an error in metres is met, or refused with what can be had") {
   CHECK(beyond.exit_code == 1);
   CHECK(contains(beyond.err, "an error of 1e-20 m is out of reach"));
   CHECK(lines(folder.read("fig2a.csv")).size() == 1002);
-  // What it says can be had is.
+  // The bound that it says is attainable is met.
   const std::string before = "gives about ";
   const std::size_t at = beyond.err.find(before) + before.size();
   const std::string had = beyond.err.substr(at, beyond.err.find(' ', at) - at);
@@ -130,7 +130,7 @@ TEST_CASE("an error in metres is met, or refused with what can be had") {
   CHECK(contains(both.err, "solver.rtol: given together with error"));
 }
 
-TEST_CASE("mistakes in --error are told of as --error's") {
+TEST_CASE("mistakes in --error are reported as --error's") {
   const Folder folder;
   const std::string allowed = "; allowed: a length greater than 0 and at most 1, such as 1e-9\n";
   const Result run = bbsim({"run", config("fig2a.yaml"), "--error", "5 deg"}, folder.path());
@@ -146,7 +146,7 @@ TEST_CASE("mistakes in --error are told of as --error's") {
       folder.path());
   CHECK(varied.exit_code == 2);
   CHECK(varied.err.starts_with("--error 1e-6: found, but the sweep varies solver.error"));
-  // What is set is told of as that.
+  // A key given with --set is reported under that option.
   const Result set = bbsim({"run", config("fig2a.yaml"), "--set", "solver.error=0"}, folder.path());
   CHECK(set.err.starts_with("--set solver.error=0: solver.error: found 0"));
 }
@@ -156,7 +156,8 @@ TEST_CASE("the printed law blows up: exit 1, rows kept, and the reason with the 
   const Result result =
       bbsim({"run", config("fig2b-literal.yaml"), "--summary", "s.json"}, folder.path());
   CHECK(result.exit_code == 1);
-  CHECK(result.seconds < 20);  // far under a second in release; sanitizers and a busy machine
+  CHECK(result.seconds <
+        20);  // far below a second in release; slower with sanitizers on a busy machine
   CHECK(contains(result.err, "the run ended early, at t = 0.74"));
   CHECK(contains(result.err, "grew without bound"));
   CHECK(contains(result.err, "the closed loop is unstable about home"));
@@ -167,7 +168,7 @@ TEST_CASE("the printed law blows up: exit 1, rows kept, and the reason with the 
   CHECK(rows.back().substr(0, 5) == "0.74,");
 }
 
-TEST_CASE("Ctrl-C and SIGTERM end a run with 130 and keep what it reached") {
+TEST_CASE("Ctrl-C and SIGTERM end a run with 130 and keep its rows so far") {
   const int signal = GENERATE(SIGINT, SIGTERM);
   const Folder folder;
   folder.write("long.yaml", long_scene);
@@ -183,7 +184,7 @@ TEST_CASE("Ctrl-C and SIGTERM end a run with 130 and keep what it reached") {
   CHECK(rows.back().find(',') != std::string::npos);
 }
 
-TEST_CASE("output that cannot be written is exit 3, and leaves nothing behind") {
+TEST_CASE("output that cannot be written gives exit code 3 and leaves nothing behind") {
   const Folder folder;
   const Result full = bbsim({"run", config("fig2a.yaml"), "-o", "/dev/full"}, folder.path());
   CHECK(full.exit_code == 3);
@@ -200,7 +201,7 @@ TEST_CASE("output that cannot be written is exit 3, and leaves nothing behind") 
   CHECK(folder.files() == Names{"a.csv"});
 }
 
-TEST_CASE("the scenario may stand before, between and after the options") {
+TEST_CASE("the scenario may stand before, between or after the options") {
   const std::string scenario = config("fig2a.yaml");
   const Result before = bbsim({"run", scenario, "-q", "--set", "gravity=2", "-o", "-"});
   REQUIRE(before.exit_code == 0);
@@ -209,7 +210,7 @@ TEST_CASE("the scenario may stand before, between and after the options") {
         before.out);
 }
 
-TEST_CASE("a faulty command line is exit 2, with help at hand") {
+TEST_CASE("a faulty command line gives exit code 2 with a hint to help") {
   for (const auto& arguments :
        {Names{}, Names{"fly"}, Names{"run"}, Names{"run", "a", "--wings"}}) {
     const Result result = bbsim(arguments);
@@ -240,7 +241,7 @@ TEST_CASE("help and version") {
   CHECK(version.out.substr(0, 6) == "bbsim ");
 }
 
-TEST_CASE("a column that is no finite number has its reason, and the exit code says so") {
+TEST_CASE("a non-finite column has its reason, and the exit code reports it") {
   const Folder folder;
   const Result result = bbsim({"run", config("incline.yaml"), "--set", "ball.mass=1e308", "-o",
                                "a.csv", "--summary", "a.json"},
@@ -253,7 +254,7 @@ TEST_CASE("a column that is no finite number has its reason, and the exit code s
   CHECK(contains(folder.read("a.json"), "normal_force is not a finite number"));
 }
 
-TEST_CASE("a loop that runs away, to where rounding moves it, is not waited for") {
+TEST_CASE("a loop that diverges to the range of rounding errors ends soon") {
   const Folder folder;
   folder.write("runs.yaml",
                "ball: {radius: 0.02, position: [0.5, 0]}\n"
@@ -264,7 +265,7 @@ TEST_CASE("a loop that runs away, to where rounding moves it, is not waited for"
                "  reference: {point: [0.007, 0]}\n"
                "time: {end: 7, step: 0.08}\n"
                "output: {columns: [t, x]}\n");
-  // By roundings radau gets there, too, or passes it in some dozens of steps.
+  // Because of rounding, radau may also get there, or pass it in some dozens of steps.
   const std::string method = GENERATE("bdf", "adams");
   const Result result = bbsim({"run", "runs.yaml", "--set", "solver.rtol=1e-6", "--set",
                                "solver.atol=1e-8", "--set", "solver.method=" + method},
@@ -274,7 +275,7 @@ TEST_CASE("a loop that runs away, to where rounding moves it, is not waited for"
   CHECK(result.seconds < 30);
 }
 
-TEST_CASE("a summary says in a word why a run is not whole") {
+TEST_CASE("a summary states in one word why a run is incomplete") {
   const Folder folder;
   const auto code = [&](std::vector<std::string> words) {
     words.insert(words.begin(), "run");
@@ -289,7 +290,7 @@ TEST_CASE("a summary says in a word why a run is not whole") {
         "error_out_of_reach");
 }
 
-TEST_CASE("a run that takes a million steps a second says so, and how to end it") {
+TEST_CASE("a run that takes a million steps per second says so, and how to end it") {
   const Folder folder;
   folder.write("fast.yaml",
                "ball: {radius: 0.01}\n"

@@ -39,7 +39,7 @@ std::vector<std::string> sweep(const std::string& scenario, std::vector<std::str
   return arguments;
 }
 
-// Slow enough to be interrupted, with rows that differ.
+// Slow enough to be interrupted, with varied rows.
 const std::vector<std::string> long_sweep{
     "--vary",    "gimbal.motion.phi.sinusoid.phase=uniform:0:3",
     "--samples", "100000",
@@ -50,7 +50,7 @@ std::vector<std::string> with(std::vector<std::string> one, const std::vector<st
   return one;
 }
 
-// A sweep to s.csv that a signal cuts off once there are some rows.
+// Runs a sweep to s.csv that a signal interrupts once it has some rows.
 Result cut_off(const std::vector<std::string>& arguments, const Folder& folder, int signal) {
   Launch launch{arguments, folder.path(), signal};
   launch.signal_when = [&folder] {
@@ -63,7 +63,7 @@ Result cut_off(const std::vector<std::string>& arguments, const Folder& folder, 
 
 }  // namespace
 
-TEST_CASE("a sweep writes a row for each case, in order, whatever the threads") {
+TEST_CASE("a sweep writes one row per case, in order, for any number of threads") {
   const Folder folder;
   const std::vector<std::string> keys{"--vary", "ball.position.0=linear:-10 cm:10 cm:7", "--vary",
                                       "gimbal.motion.phi.sinusoid.amplitude=list:0.5 deg,0.02"};
@@ -86,7 +86,7 @@ TEST_CASE("a sweep writes a row for each case, in order, whatever the threads") 
       bbsim(sweep(config("fig2a.yaml"), with(keys, {"-j", "3", "-o", "-"})), folder.path());
   CHECK(two.out == one.out);
 
-  // To the bit what a run of the same values gives.
+  // Bit for bit the result of a run with the same values.
   const Result run = bbsim(
       {"run", config("fig2a.yaml"), "-q", "-o", "-", "--set", "ball.position.0=" + table[6][1],
        "--set", "gimbal.motion.phi.sinusoid.amplitude=" + table[6][2]},
@@ -96,7 +96,7 @@ TEST_CASE("a sweep writes a row for each case, in order, whatever the threads") 
   CHECK(table[6][7] == last[2]);
 }
 
-TEST_CASE("shards merged are the sweep in one process, to the byte") {
+TEST_CASE("merged shards equal the sweep of one process byte for byte") {
   const Folder folder;
   const std::string ending = GENERATE(std::string(".csv"), std::string(".h5"));
   std::vector<std::string> keys{"--vary", "ball.radius=uniform:0.005:0.02", "--samples", "100"};
@@ -116,12 +116,12 @@ TEST_CASE("shards merged are the sweep in one process, to the byte") {
   CHECK(contains(merged.err, "100 cases from 3 parts"));
   CHECK(folder.read("merged" + ending) == folder.read("all" + ending));
 
-  SECTION("a part that is missing is missed") {
+  SECTION("a missing part is reported") {
     const Result less = bbsim({"merge", "-o", "less" + ending, parts[0], parts[1]}, folder.path());
     CHECK(less.exit_code == 2);
     CHECK(contains(less.err, "not part 2"));
   }
-  SECTION("a part of another sweep is refused") {
+  SECTION("a part of a different sweep is refused") {
     REQUIRE(bbsim(sweep(config("fig2b.yaml"),
                         {"--vary", "ball.mass=linear:1:2:5", "-o", "other" + ending}),
                   folder.path())
@@ -134,7 +134,7 @@ TEST_CASE("shards merged are the sweep in one process, to the byte") {
   }
 }
 
-TEST_CASE("an interrupted sweep keeps its cases and goes on to the same bytes") {
+TEST_CASE("an interrupted sweep keeps its cases and resumes to the same bytes") {
   const Folder folder;
   const auto arguments =
       with({"sweep", config("fig2a.yaml")}, with(long_sweep, {"-j", "1", "-o", "s.csv"}));
@@ -163,7 +163,7 @@ TEST_CASE("an interrupted sweep keeps its cases and goes on to the same bytes") 
   CHECK(folder.read("s.csv") == folder.read("t.csv"));
 }
 
-TEST_CASE("parts with many cases are merged, and links and folders understood") {
+TEST_CASE("parts with many cases are merged, through links and folders") {
   const Folder folder;
   const std::vector<std::string> keys{"--vary", "ball.position.0=linear:0:1:100002"};
   REQUIRE(bbsim(sweep(config("fig2a.yaml"), with(keys, {"-o", "part-1of1.csv"})), folder.path())
@@ -186,7 +186,7 @@ TEST_CASE("parts with many cases are merged, and links and folders understood") 
   CHECK(contains(directory.err, "is a directory"));
 }
 
-TEST_CASE("a slow sweep that is interrupted keeps each case") {
+TEST_CASE("a slow sweep keeps each finished case when interrupted") {
   const Folder folder;
   Launch launch{{"sweep", config("rig.yaml"), "--vary", "controller.sensor.seed=linear:1:2000:2000",
                  "-j", "1", "-o", "s.csv"},
@@ -202,9 +202,9 @@ TEST_CASE("a slow sweep that is interrupted keeps each case") {
   CHECK(rows(folder.read("s.csv.part")).size() > 2);
 }
 
-TEST_CASE("a case that fails or stops is a row with its reason") {
+TEST_CASE("a failed or stopped case is a row with its reason") {
   const Folder folder;
-  // The loop of Fig. 2(b) as printed reaches infinity; with small gains it does not in a second.
+  // The loop of Fig. 2(b) as printed diverges; with small gains it does not within a second.
   const Result blows =
       bbsim(sweep(config("fig2b-literal.yaml"),
                   {"--vary", "controller.pd.kv=list:0.001,100", "--set", "time.end=1", "-o", "-"}),
@@ -227,7 +227,7 @@ TEST_CASE("a case that fails or stops is a row with its reason") {
   }
 }
 
-TEST_CASE("a sweep may stand in the scenario, and choose its measures") {
+TEST_CASE("a scenario may contain its sweep and choose its measures") {
   const Folder folder;
   const std::string file = folder.write("scene.yaml",
                                         "ball: {radius: 0.01}\n"
@@ -264,7 +264,7 @@ TEST_CASE("a sweep may stand in the scenario, and choose its measures") {
   CHECK(contains(none.err, "no controller"));
 }
 
-TEST_CASE("a rig's cases are its runs, to the bit") {
+TEST_CASE("the cases of a rig equal its runs bit for bit") {
   const Folder folder;
   const std::vector<std::string> short_run{"--set", "time.end=4"};
   const Result result =
@@ -304,7 +304,7 @@ TEST_CASE("a bound on the error holds for each case") {
   }
 }
 
-TEST_CASE("what a sweep cannot do is said in one line, before it begins") {
+TEST_CASE("an impossible sweep is refused in one line before it begins") {
   const Folder folder;
   const auto fault = [&](std::vector<std::string> more) {
     const Result result = bbsim(sweep(config("fig2a.yaml"), std::move(more)), folder.path());
@@ -342,7 +342,7 @@ TEST_CASE("tied keys: one axis, a column for each, on the command line and in th
   CHECK(table[2][1] == "0.002");
   CHECK(table[2][2] == "-0.002");
 
-  // What a run with the same values gives.
+  // Equal to a run with the same values.
   const Result run = bbsim({"run", config("fig2b.yaml"), "-q", "-o", "-", "--set",
                             "controller.pd.kp=[[0.002, 0], [0, -0.002]]"},
                            folder.path());
@@ -381,7 +381,7 @@ TEST_CASE("tied keys: one axis, a column for each, on the command line and in th
   CHECK(contains(wrong.err, "-KEY or NUMBER*KEY"));
 }
 
-TEST_CASE("a sweep of tied keys that was interrupted goes on to the same bytes") {
+TEST_CASE("an interrupted sweep of tied keys resumes to the same bytes") {
   const Folder folder;
   const std::vector<std::string> arguments{
       "sweep",
@@ -399,7 +399,7 @@ TEST_CASE("a sweep of tied keys that was interrupted goes on to the same bytes")
   CHECK(folder.read("s.csv") == folder.read("t.csv"));
 }
 
-TEST_CASE("a key that varies is not to be set by --set") {
+TEST_CASE("a varying key cannot be set with --set") {
   const Folder folder;
   const Result result =
       bbsim(sweep(config("fig2a.yaml"), {"--vary", "gravity=list:1,2", "--set", "gravity=3"}),
@@ -421,7 +421,7 @@ TEST_CASE(
   CHECK(rows(folder.read("a.csv"))[2][3] == "max_normal_force is infinite");
 }
 
-TEST_CASE("measures of the loop come in any parts to the same bytes, alone and beside others") {
+TEST_CASE("measures of the loop give the same bytes in any parts, alone and with others") {
   const Folder folder;
   const std::string names =
       GENERATE("stable,spectral_radius,phi_delay_margin", "max_tilt,phi_delay_margin,stable");
@@ -455,7 +455,7 @@ TEST_CASE("measures of the loop come in any parts to the same bytes, alone and b
   CHECK(bbsim({"summarize", "whole.csv", "--measure", "stable"}, folder.path()).exit_code == 0);
 }
 
-TEST_CASE("an interrupted stability map goes on to the same bytes") {
+TEST_CASE("an interrupted stability map resumes to the same bytes") {
   const Folder folder;
   const std::vector<std::string> map{
       "--vary",    "controller.gravity_compensation.kp=linear:1:40:40",

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// bbsim tune, from words to files and exit codes.
+// bbsim tune, from the command line to files and exit codes.
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -14,7 +14,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// One gain of a short run, and more words.
+// Arguments that tune one gain of a short run, plus `more`.
 std::vector<std::string> tune(const std::vector<std::string>& more) {
   std::vector<std::string> words{"tune",   config("rig.yaml"),
                                  "--set",  "time.end=3",
@@ -44,7 +44,7 @@ TEST_CASE("tune writes a scenario that runs, and JSON") {
   CHECK(json["requirements"].empty());
   CHECK(json["hold_out"]["cases"] == 0);
 
-  // The run of the tuned scenario has the measure that tune tells.
+  // A run of the tuned scenario has the measure that tune reports.
   const Result run = bbsim({"run", "tuned.yaml", "-q", "-o", "run.csv", "--summary", "run.json",
                             "--measure", "rms_tracking_error"},
                            folder.path());
@@ -54,7 +54,7 @@ TEST_CASE("tune writes a scenario that runs, and JSON") {
   CHECK(std::stod(value) == Approx(json["objective"].get<double>()).epsilon(1e-6));
 }
 
-TEST_CASE("tune ends with exit code 1 where a requirement cannot be met, and writes the best") {
+TEST_CASE("tune gives exit code 1 if a requirement cannot be met, and writes the best result") {
   const Folder folder;
   const Result result = bbsim(
       tune({"--minimize", "rms_tracking_error", "--require", "max_tilt < 0.1 deg", "--json", "-"}),
@@ -64,7 +64,7 @@ TEST_CASE("tune ends with exit code 1 where a requirement cannot be met, and wri
   CHECK(nlohmann::json::parse(result.out)["requirements"][0]["holds"] == false);
 }
 
-TEST_CASE("tune refuses what it cannot use with exit code 2") {
+TEST_CASE("tune refuses invalid input with exit code 2") {
   const auto refused = [](const std::vector<std::string>& words) {
     const Result result = bbsim(words);
     CHECK(result.exit_code == 2);

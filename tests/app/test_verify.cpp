@@ -17,7 +17,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("verify needs no files, and all of its checks hold") {
+TEST_CASE("verify needs no files, and all its checks pass") {
   const Folder folder;
   const Result result = bbsim({"verify"}, folder.path());
   CAPTURE(result.out, result.err);
@@ -32,14 +32,14 @@ TEST_CASE("verify needs no files, and all of its checks hold") {
   CHECK(folder.files().empty());
 }
 
-TEST_CASE("verify compares simpler models over a scenario, up to where it goes") {
+TEST_CASE("verify compares simpler models over a scenario as far as they apply") {
   const Result result = bbsim({"verify", config("fig2b-literal.yaml"), "--set", "time.end=2"});
   CHECK(result.exit_code == 0);
   CHECK(contains(result.out, "adds in " + config("fig2b-literal.yaml")));
   CHECK(contains(result.out, "s of 2 s"));
 }
 
-TEST_CASE("verify refuses a scenario at fault before it checks anything") {
+TEST_CASE("verify refuses a faulty scenario before it checks anything") {
   const Result missing = bbsim({"verify", "nowhere.yaml"});
   CHECK(missing.exit_code == 2);
   CHECK(missing.out.empty());

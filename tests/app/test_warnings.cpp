@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a run that came to its end says of what may not be as its user meant.
+// Warnings of completed runs about what their user may not have meant.
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -16,7 +16,7 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-// A rig with gains that are alike for phi and theta, on a plate of 30 cm.
+// A rig with the same gains for phi and theta on a 30 cm plate.
 const char* const wrong_sign =
     "ball: {radius: 0.01, position: [0.01, 0.01]}\n"
     "plate: {size: [0.3, 0.3]}\n"
@@ -31,7 +31,7 @@ const char* const hint =
 
 }  // namespace
 
-TEST_CASE("gains that drive theta the wrong way are told by run as by check, with the sign") {
+TEST_CASE("run and check both report gains that drive theta the wrong way, with the sign") {
   const Folder folder;
   folder.write("s.yaml", wrong_sign);
   const Result run = bbsim({"run", "s.yaml", "--summary", "s.json"}, folder.path());
@@ -50,7 +50,7 @@ TEST_CASE("gains that drive theta the wrong way are told by run as by check, wit
   CHECK(bbsim({"run", "s.yaml", "-q"}, folder.path()).err.empty());
 }
 
-TEST_CASE("the sign is told of a sampled loop, of a PID, and of state feedback") {
+TEST_CASE("the sign hint covers a sampled loop, a PID and state feedback") {
   const Folder folder;
   folder.write("s.yaml", wrong_sign);
   const auto said = [&](const std::string& key) {
@@ -66,16 +66,16 @@ TEST_CASE("the sign is told of a sampled loop, of a PID, and of state feedback")
                  hint));
 }
 
-TEST_CASE("a loop that no sign makes stable is told without the hint") {
+TEST_CASE("a loop that no sign makes stable is reported without the hint") {
   const Folder folder;
   folder.write("s.yaml", wrong_sign);
-  // Without damping of the ball, both ways grow.
+  // Without damping, the ball diverges with either sign.
   const Result result = bbsim({"run", "s.yaml", "--set", "controller.pd.kv=0"}, folder.path());
   CHECK(contains(result.err, "unstable about home"));
   CHECK_FALSE(contains(result.err, hint));
 }
 
-TEST_CASE("a run that failed tells of its poles once, with the sign") {
+TEST_CASE("a failed run reports its poles once, with the sign") {
   const Folder folder;
   folder.write("s.yaml", wrong_sign);
   const Result result =
@@ -87,7 +87,7 @@ TEST_CASE("a run that failed tells of its poles once, with the sign") {
   CHECK(contains(result.err, hint));
 }
 
-TEST_CASE("a ball that leaves a plate of known size is noted without events") {
+TEST_CASE("a ball that leaves a plate of known size is reported without events") {
   const Folder folder;
   folder.write("s.yaml",
                "ball: {radius: 0.01, velocity: [0.1, 0.02]}\n"
@@ -108,16 +108,16 @@ TEST_CASE("a ball that leaves a plate of known size is noted without events") {
   CHECK_FALSE(contains(said("plate.size=[2, 2]"), "warning"));
   CHECK(contains(said("plate={diameter: 0.3}"), "t = 1.5 s"));
   CHECK(contains(said("plate={diameter: 0.3}"), "plate.diameter is 0.3 m"));
-  CHECK(contains(said("ball.velocity=[0, 0.1]"), "t = 1.1 s"));  // one state is y
+  CHECK(contains(said("ball.velocity=[0, 0.1]"), "t = 1.1 s"));  // planar scene along y
   CHECK(contains(said("ball.position=[1, 0]"), "t = 0 s"));
-  // Whoever watches the edge hears of it once, exactly.
+  // With an edge event, it is reported once, at its exact time.
   CHECK(contains(said("events={edge: note}"), "noted: edge, once at t = 1.5"));
   CHECK_FALSE(contains(said("events={edge: note}"), "warning"));
-  // With an error asked for, the rows come in another way.
+  // With an error bound, the rows take another path.
   CHECK(contains(bbsim({"run", "s.yaml", "--error", "1e-9"}, folder.path()).err, "t = 1.6 s"));
 }
 
-TEST_CASE("the command line's bound on the error counts, not the file's tolerances") {
+TEST_CASE("the command line's error bound overrides the file's tolerances") {
   const Folder folder;
   folder.write("s.yaml",
                "ball: {radius: 0.01, position: [0, -0.1]}\n"
@@ -154,13 +154,13 @@ TEST_CASE("the command line's bound on the error counts, not the file's toleranc
       CHECK(contains(both.err, "given together with error"));
     }
   }
-  // So they are within a file.
+  // Both in one file are refused too.
   CHECK(bbsim({"run", "s.yaml", "--set", "solver.error=1e-9", "--set", "solver.rtol=1e-5"},
               folder.path())
             .exit_code == 2);
 }
 
-TEST_CASE("the command line's tolerances count, not the file's bound on the error") {
+TEST_CASE("the command line's tolerances override the file's error bound") {
   const Folder folder;
   folder.write("s.yaml",
                "ball: {radius: 0.01, position: [0, -0.1]}\n"
@@ -176,7 +176,7 @@ TEST_CASE("the command line's tolerances count, not the file's bound on the erro
   CHECK(nlohmann::json::parse(folder.read("s.json"))["rtol"] == 1e-5);
 }
 
-TEST_CASE("an angle of more than a turn without a unit is warned of") {
+TEST_CASE("an angle of more than a turn without a unit gives a warning") {
   const Folder folder;
   folder.write("s.yaml", std::string(wrong_sign) + "events: {tilt: {limit: 30}}\n");
   const std::string angle_limit = "gimbal.servo.angle_limit=25";
@@ -200,11 +200,12 @@ TEST_CASE("an angle of more than a turn without a unit is warned of") {
   };
   CHECK(contains(said("controller.limit=20"), "warning: controller.limit"));
   CHECK_FALSE(contains(said("gimbal.servo.angle_limit=6.2"), "warning"));
-  CHECK_FALSE(contains(said("gimbal.servo.angle_limit=25 rad"), "warning"));  // meant so
+  CHECK_FALSE(contains(said("gimbal.servo.angle_limit=25 rad"),
+                       "warning"));  // an explicit unit gives no warning
   CHECK_FALSE(contains(said("gimbal.servo.angle_limit=400 deg"), "warning"));
 }
 
-TEST_CASE("a regulator without a gain is told at its place") {
+TEST_CASE("a regulator without a gain is reported at its place") {
   const Folder folder;
   folder.write("s.yaml",
                "ball: {radius: 0.01}\n"

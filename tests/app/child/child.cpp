@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A controller for tests, which does its part until sample 5 and then what its first word says. Its
-// second word names a file that gets the ids of its processes.
+// A test controller that behaves until sample 5 and then does what its first argument says. Its
+// second argument names a file that receives the ids of its processes.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -43,14 +43,14 @@ void ignore_signals() {
   for (const int signal : {SIGHUP, SIGTERM, SIGINT}) (void)std::signal(signal, SIG_IGN);
 }
 
-// Leaves a process behind that would stay, with all streams.
+// Leaves a process behind that keeps running and keeps all streams open.
 void leave_another(const char* file) {
   if (const pid_t process = fork()) return note_process(file, process);
   ignore_signals();
   stay();
 }
 
-// Leaves one that would stay in a session of its own, as a daemon does.
+// Leaves a process behind in its own session, like a daemon.
 void leave_daemon(const char* file) {
   if (const pid_t between = fork()) {
     waitpid(between, nullptr, 0);
@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
          note_process((std::string(file) + ".begun").c_str());
          say_line(answer);
        }},
-      // Out of the group that it was given, into the one of who started it.
+      // Leaves its own process group for that of its parent.
       {"joins",
        [file] {
          ignore_signals();
@@ -147,7 +147,7 @@ int main(int argc, char** argv) {
 
   if (mode == "mute") stay();
   if (mode == "dies at once") return 4;
-  if (mode == "leaves") {  // a process group to end with it
+  if (mode == "leaves") {  // a process group that must end with it
     leave_another(file);
     return 0;
   }
