@@ -6,7 +6,7 @@
 
 using namespace bbsim;
 
-// From the test vectors of its authors.
+// Test vectors of its authors.
 TEST_CASE("FNV-1a gives its authors' values") {
   CHECK(fnv1a("") == 0xCBF29CE484222325U);
   CHECK(fnv1a("a") == 0xAF63DC4C8601EC8CU);

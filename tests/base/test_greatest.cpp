@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Polynomials through Chebyshev points, and the greatest values of functions that they show.
+// Polynomials through Chebyshev points, and the greatest values of functions found with them.
 #include <cmath>
 #include <limits>
 #include <random>
@@ -21,7 +21,7 @@ std::vector<double> values_at(const ChebyshevPoints& points, Function function) 
   return values;
 }
 
-// The greatest value of a function from so many intervals.
+// Greatest value of a function, from the given number of intervals.
 template <class Function>
 double greatest_of(Function function, std::size_t intervals, Between between) {
   const ChebyshevPoints points(intervals);
@@ -40,7 +40,7 @@ double greatest_of(Function function, std::size_t intervals, Between between) {
 
 }  // namespace
 
-TEST_CASE("the polynomial through values of one is that one") {
+TEST_CASE("interpolating a polynomial returns that polynomial") {
   const auto cubic = [](double s) { return 2 - 3 * s + 5 * s * s - 7 * s * s * s; };
   for (const std::size_t intervals : {3, 4, 7, 16, 64}) {
     const ChebyshevPoints points(intervals);
@@ -51,7 +51,7 @@ TEST_CASE("the polynomial through values of one is that one") {
     for (double s = 0; s <= 1; s += 1.0 / 32) {
       CHECK(points.at(values.data(), s) == Approx(cubic(s)).margin(1e-14));
     }
-    // Sums of as many products as there are points, whose sizes are up to 2 intervals^2.
+    // Sums of one product per point, each up to 2 intervals^2.
     const double rounding = 1e-15 * static_cast<double>(intervals * intervals);
     CHECK(points.slope_at_start(values.data()) == Approx(-3).margin(rounding));
     CHECK(points.slope_at_end(values.data()) == Approx(-3 + 10 - 21).margin(rounding));
@@ -82,11 +82,11 @@ TEST_CASE("a table of points is made once") {
   CHECK(four.size() == 5);
 }
 
-TEST_CASE("the greatest value of a wave is found wherever it lies") {
+TEST_CASE("the greatest value of a wave is found wherever it is") {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(0, 1);
   for (int i = 0; i < 2000; ++i) {
-    // Up to one and a half half-waves, at times with the maximum next to an end or at one.
+    // Up to one and a half half-waves, with the maximum sometimes next to or at an end.
     const double rate = 1 + 4 * uniform(random), phase = 2 * M_PI * uniform(random);
     const auto wave = [=](double s) { return std::cos(rate * s + phase); };
     const bool turns = rate + phase >= 2 * M_PI;
@@ -96,7 +96,7 @@ TEST_CASE("the greatest value of a wave is found wherever it lies") {
   }
 }
 
-TEST_CASE("corners are found too") {
+TEST_CASE("corners are found as well") {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> uniform(0, 1);
   for (int i = 0; i < 500; ++i) {
@@ -105,12 +105,12 @@ TEST_CASE("corners are found too") {
       return 3 - std::abs(s - corner) * (s < corner ? 1 : steepness);
     };
     CAPTURE(corner, steepness);
-    // The place is found to 1e-7 of the distance of the points.
+    // The place is found to 1e-7 of the distance between points.
     CHECK(std::abs(greatest_of(tent, 16, Between::kinks) - 3) < 1e-7);
   }
 }
 
-TEST_CASE("where nothing rises above the points nothing is looked at") {
+TEST_CASE("nothing is searched if nothing rises above the points") {
   const ChebyshevPoints points(8);
   int looks = 0;
   const auto count = [&](const Bracket&) { ++looks; };
@@ -125,7 +125,7 @@ TEST_CASE("where nothing rises above the points nothing is looked at") {
   look(level, 0.3, Between::smooth);
   look(level, 0.3, Between::kinks);
   look(rises, 2, Between::smooth);
-  look(hill, 1, Between::smooth);  // which is greater than the hill
+  look(hill, 1, Between::smooth);  // this polynomial is greater than the hill
   look(none, 0, Between::smooth);
   look(none, 0, Between::kinks);
   CHECK(looks == 0);
@@ -133,12 +133,12 @@ TEST_CASE("where nothing rises above the points nothing is looked at") {
   CHECK(looks == 1);
 }
 
-TEST_CASE("what is no number at a point hides no maximum elsewhere") {
+TEST_CASE("a NaN at a point hides no maximum elsewhere") {
   const ChebyshevPoints points(16);
   const auto hill = [](double s) { return std::sin(M_PI * s); };
   std::vector<double> values = values_at(points, hill);
   values[1] = std::numeric_limits<double>::quiet_NaN();
-  // The slopes at the ends are no numbers then, the brackets within are.
+  // The slopes at the ends are then NaN, the inner brackets are not.
   double greatest = 0.99;
   for_each_bracket(points, values.data(), greatest, Between::smooth, [&](const Bracket& bracket) {
     greatest = std::max(greatest, climb(bracket, 1e-9, hill).value);
@@ -146,8 +146,8 @@ TEST_CASE("what is no number at a point hides no maximum elsewhere") {
   CHECK(greatest == Approx(1).epsilon(1e-13));
 }
 
-TEST_CASE("a maximum next to an end is found through values that were refined") {
-  // As a servo's rate has it a moment before its command changes: 1e-6 above the end.
+TEST_CASE("a maximum next to an end is found through refined values") {
+  // Like a servo's rate just before its command changes: 1e-6 above the end.
   const double place = GENERATE(0.999, 0.001);
   const auto function = [place](double s) { return -(s - place) * (s - place); };
   const ChebyshevPoints points(8), twice(16);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// JSON that others wrote: how deep it may nest.
+// Nesting limit of JSON from outside.
 #include <string>
 
 #include "base/json.hpp"
@@ -17,7 +17,7 @@ std::string nested(std::size_t depth) {
 
 }  // namespace
 
-TEST_CASE("JSON is read as deep as it may nest, and no deeper") {
+TEST_CASE("JSON is read up to its nesting limit and no deeper") {
   CHECK(parse_json(nested(deepest_json)).is_array());
   CHECK(parse_json(nested(deepest_json + 1)).is_discarded());
   CHECK(parse_json(nested(10'000'000)).is_discarded());
@@ -32,7 +32,7 @@ TEST_CASE("JSON is read as deep as it may nest, and no deeper") {
   CHECK(parse_json("").is_discarded());
 }
 
-TEST_CASE("brackets in texts are text") {
+TEST_CASE("brackets in strings do not count") {
   const std::string brackets(1000, '[');
   CHECK(parse_json("[\"" + brackets + "\", {\"" + brackets + "\": 1}]").size() == 2);
   CHECK(parse_json("[\"\\\"" + brackets + "\"]").front() == "\"" + brackets);

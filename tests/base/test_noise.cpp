@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Noise that is the same everywhere, and normal.
+// Noise: normal and the same on every machine.
 #include <cmath>
 #include <vector>
 
@@ -15,14 +15,14 @@ TEST_CASE("the normal quantile inverts the distribution") {
   for (double z = -8; z <= 8; z += 1.0 / 64) {
     const double p = std::erfc(-z / std::sqrt(2.0)) / 2;
     if (p <= 0 || p >= 1) continue;
-    // The algorithm's own 2e-7, and near 1 what the rounding of p lets through: eps / density.
+    // The algorithm's own 2e-7 and, near 1, the rounding of p: eps / density.
     const double density = std::exp(-z * z / 2) / std::sqrt(2 * std::acos(-1.0));
     const double rounding = z > 0 ? 2.3e-16 / density : 0;
     CHECK(std::abs(normal_quantile(p) - z) < 2e-7 * std::abs(z) + 1e-9 + rounding);
   }
 }
 
-TEST_CASE("noise has the mean and deviation asked for, and repeats for a seed") {
+TEST_CASE("noise has the requested mean and deviation, and repeats for a seed") {
   Noise noise(42), again(42), other(43);
   const int n = 100000;
   double sum = 0, squares = 0;
@@ -54,7 +54,7 @@ TEST_CASE("the first noise of seed 1 is known: the same on every machine") {
   CHECK(noise.uniform() == (2469588189546311528ULL >> 12U) * 0x1p-52 + 0x1p-53);
 }
 
-TEST_CASE("a sensor rounds, misses what is outside its area, and drops what it should") {
+TEST_CASE("a sensor rounds, misses what is outside its area, and drops its share of samples") {
   Sensor sensor;
   sensor.resolution = 0.001;
   sensor.area = Pair{0.2, 0.1};

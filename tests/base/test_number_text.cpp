@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Numbers as text: what files hold, to the byte.
+// Numbers as text, as files contain them.
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -18,14 +18,14 @@ using bbsim::number_text;
 
 namespace {
 
-// The C++ standard's own: the shortest text that reads back, of those the closest, and of fixed and
-// scientific notation the shorter.
+// Text by the C++ standard: shortest round-trip text, the closest of those, and the shorter of
+// fixed and scientific notation.
 std::string standard_text(double value) {
   char text[64];
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
-// Numbers whose text is not the standard's, and how the first of them is written.
+// Counts numbers whose text differs from the standard's, and keeps the first of them.
 struct Differences {
   long count = 0;
   std::string first;
@@ -43,7 +43,7 @@ double of_bits(std::uint64_t bits) {
 
 }  // namespace
 
-TEST_CASE("numbers are written with as few digits as read back, fixed or scientific") {
+TEST_CASE("numbers are written with as few digits as round-trip, fixed or scientific") {
   CHECK(number_text(0) == "0");
   CHECK(number_text(-0.0) == "-0");
   CHECK(number_text(1) == "1");
@@ -55,7 +55,7 @@ TEST_CASE("numbers are written with as few digits as read back, fixed or scienti
   CHECK(number_text(0.00012) == "0.00012");
   CHECK(number_text(1e5) == "1e+05");
   CHECK(number_text(12e4) == "120000");
-  CHECK(number_text(9007199254740993e4) == "90071992547409936384");  // all digits of a whole number
+  CHECK(number_text(9007199254740993e4) == "90071992547409936384");  // all digits of an integer
   CHECK(number_text(std::numeric_limits<double>::denorm_min()) == "5e-324");
   CHECK(number_text(std::numeric_limits<double>::max()) == "1.7976931348623157e+308");
   CHECK(number_text(-std::numeric_limits<double>::min()) == "-2.2250738585072014e-308");
@@ -71,16 +71,17 @@ TEST_CASE("numbers of all sizes are written as the standard library writes them"
   for (int i = 0; i < 200'000; ++i) {
     const double any = of_bits(random());
     if (!std::isnan(any)) differences.look_at(any);
-    differences.look_at(static_cast<double>(random() >> (random() % 64)));         // whole numbers
+    differences.look_at(static_cast<double>(random() >> (random() % 64)));         // integers
     differences.look_at(static_cast<double>(random() >> (random() % 64)) / 1000);  // short decimals
-    differences.look_at(std::ldexp(static_cast<double>(random() >> 11U), -60));  // of most columns
-    differences.look_at(0.01 * static_cast<double>(random() % 100'000));         // of times
+    differences.look_at(
+        std::ldexp(static_cast<double>(random() >> 11U), -60));           // as in most columns
+    differences.look_at(0.01 * static_cast<double>(random() % 100'000));  // times
   }
   INFO(differences.first);
   CHECK(differences.count == 0);
 }
 
-TEST_CASE("numbers beside powers of two and of ten are written as the standard library does") {
+TEST_CASE("numbers next to powers of two and of ten are written as the standard library does") {
   Differences differences;
   for (int exponent = -1074; exponent < 1024; ++exponent) {
     const auto bits = std::bit_cast<std::uint64_t>(std::ldexp(1.0, exponent));

@@ -9,7 +9,7 @@
 
 using namespace bbsim;
 
-TEST_CASE("a queue gives back what it got, in turn, however full it was") {
+TEST_CASE("a queue returns its elements in order, however full it was") {
   Queue<int> queue;
   std::deque<int> same;
   unsigned state = 1;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Text of others within our sentences: on one line, without what a terminal acts on.
+// Outside text within bbsim's sentences: on one line, with terminal control characters escaped.
 #include "base/shown.hpp"
 #include "catch.hpp"
 
@@ -9,14 +9,14 @@ using bbsim::quoted;
 using bbsim::shown;
 using bbsim::uncut;
 
-TEST_CASE("what a terminal would act on is shown as an escape") {
+TEST_CASE("terminal control characters are shown as escapes") {
   CHECK(shown("plain text, ψ > 90°") == "plain text, ψ > 90°");
   CHECK(shown("\x1b[31mred\x07") == "\\x1b[31mred\\x07");
   CHECK(shown("two\nlines\tand a tab\r") == "two\\nlines\\tand a tab\\x0d");
-  CHECK(shown("\u009b31m") == "\\u009b31m");            // as good as ESC [ to some terminals
-  CHECK(shown("\x9b") == "\\x9b");                      // the same, where text is not UTF-8
-  CHECK(shown("a\u202ecsv.exe") == "a\\u202ecsv.exe");  // turns the direction
-  CHECK(shown("\\x1b") == "\\x1b");                     // what is an escape already stays one
+  CHECK(shown("\u009b31m") == "\\u009b31m");            // some terminals treat it like ESC [
+  CHECK(shown("\x9b") == "\\x9b");                      // the same if text is not UTF-8
+  CHECK(shown("a\u202ecsv.exe") == "a\\u202ecsv.exe");  // changes the direction of writing
+  CHECK(shown("\\x1b") == "\\x1b");                     // an existing escape stays
 }
 
 TEST_CASE("long text is cut between characters") {
@@ -27,7 +27,7 @@ TEST_CASE("long text is cut between characters") {
   CHECK(shown(std::string(1000, 'a')).size() == 63);
 }
 
-TEST_CASE("quoted text, and none") {
+TEST_CASE("quoted text and empty text") {
   CHECK(quoted("a\n") == "\"a\\n\"");
   CHECK(quoted("") == "nothing");
   CHECK(quoted("abcdef", 3) == "\"abc...\"");

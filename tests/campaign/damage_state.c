@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// damage_state FILE COPY NUMBER: a copy of a state of a run (bbsim run --save-state) that is damaged
-// in one of many ways, the same of the same number, and whose check sum is right all the same.
+// damage_state FILE COPY NUMBER: copies a saved state of a run (bbsim run --save-state), damaged in
+// one of many ways. NUMBER determines the damage; the checksum is corrected.
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -34,12 +34,12 @@ int main(int argc, char **argv) {
   size_t size = fread(bytes, 1, sizeof bytes - 65536, file);
   fclose(file);
   if (size < 100) return 2;
-  size -= 8;  // of the check sum
+  size -= 8;  // without the checksum
   seed = 0x9E3779B97F4A7C15ULL * (strtoull(argv[3], NULL, 10) + 1);
   for (int i = 0; i < 8; ++i) drawn();
 
-  // Behind the first line there are three texts with their lengths, the last one of the scene: what
-  // is changed there is mostly found at once.
+  // Three texts with their lengths follow the first line. The last is the scene, in which damage is
+  // mostly found immediately.
   size_t first = (size_t)((unsigned char *)memchr(bytes, '\n', size) - bytes) + 1;
   const size_t whole = first;
   for (int i = 0; i < 3; ++i) {
@@ -68,24 +68,24 @@ int main(int argc, char **argv) {
       case 1:
         bytes[at] = (unsigned char)drawn();
         break;
-      case 2: {  // a piece less, or at the end
+      case 2: {  // removes a piece, anywhere or at the end
         const size_t cut = below(4) == 0 ? size - at : 1 + below(16);
         if (cut >= size - first) break;
         if (at + cut < size) memmove(bytes + at, bytes + at + cut, size - at - cut);
         size -= cut < size - at ? cut : size - at;
         break;
       }
-      case 3: {  // a piece more
+      case 3: {  // inserts a piece
         const size_t more = 1 + below(64);
         memmove(bytes + at + more, bytes + at, size - at);
         for (size_t k = 0; k < more; ++k) bytes[at + k] = (unsigned char)drawn();
         size += more;
         break;
       }
-      case 4:  // a number that is nearly right
+      case 4:  // changes a number slightly
         bytes[at] = (unsigned char)(bytes[at] + (below(2) == 0 ? 1 : 255));
         break;
-      default: {  // a word, where words mostly are
+      default: {  // changes a word, mostly where words are
         const size_t place = below(4) == 0 ? at : at - (at - first) % 8 + below(2);
         if (place + 8 <= size) memcpy(bytes + place, &words[below(kinds)], 8);
       }

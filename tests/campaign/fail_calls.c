@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Preloaded into a program (LD_PRELOAD), makes one of the calls to the system that it makes fail:
-// the K-th of a name, as often as the program makes it between the beginning of main() and its end.
-// scripts/try-failing-calls compiles this and says what is to fail, in the environment:
+// Preloaded into a program (LD_PRELOAD), makes the K-th system call of a given name fail, counted
+// from the beginning of main() to its end. scripts/try-failing-calls compiles this and selects the
+// failure through the environment:
 //
-//   FAIL_PROGRAM  the program's name, as started; others, such as its children, are left alone
-//   FAIL_CALL     the name of the call
-//   FAIL_AT       which of them fails, from 1; 0: none, the calls are only counted
-//   FAIL_WITH     an error's name, such as EIO; SHORT: half of the bytes go through, without an
-//   error FAIL_ON       if set, all later ones of that name fail, too FAIL_REPORT   a file: gets
-//   "fired" when a call fails, or, of FAIL_AT=0, lines CALL NUMBER at the end
+//   FAIL_PROGRAM  name of the started program; others, such as its children, are left alone
+//   FAIL_CALL     name of the call
+//   FAIL_AT       which call fails, from 1; 0: none, calls are only counted
+//   FAIL_WITH     name of an error, such as EIO; SHORT: half of the bytes are transferred
+//   FAIL_ON       if set, all later calls of that name fail too
+//   FAIL_REPORT   a file: gets "fired" when a call fails; if FAIL_AT=0, lines CALL NUMBER at the end
 //
-// What is written to standard error always arrives: messages are what is looked at. Calls that the
-// C library makes within itself, such as those of fwrite, are not seen.
+// Writes to standard error never fail, because the messages are examined. Calls inside the C
+// library, such as those of fwrite, are not intercepted.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -51,19 +51,19 @@ static const char* const call_names[] = {ALL_CALLS(TEXT)};
 static atomic_bool counting;
 static atomic_long made[number_of_calls];
 static const char* report;
-static int failing = -1;  // a call; -1: only count
+static int failing = -1;  // index of the call; -1: only count
 static long fails_at;
 static bool fails_on, halves;
 static int error_number;
 
-// Not by functions that may be made to fail.
+// Avoids functions that may be made to fail.
 static void say(const char* text) {
   const long file = syscall(SYS_openat, AT_FDCWD, report, O_WRONLY | O_CREAT | O_APPEND, 0666);
   syscall(SYS_write, file, text, strlen(text));
   syscall(SYS_close, file);
 }
 
-// Whether this call is the one; errno is what it is to be then. Keeps errno otherwise.
+// Whether this call must fail; errno is then the error. Otherwise errno is kept.
 static bool fails(enum call call) {
   if (!atomic_load(&counting)) return false;
   const long number = atomic_fetch_add(&made[call], 1) + 1;
@@ -132,7 +132,7 @@ __attribute__((destructor)) static void say_counts(void) {
   }
 }
 
-// NEXT(name): the function that would be called without us; looked up once, not counted.
+// NEXT(name): the real function; looked up once, not counted.
 static void* next(void* _Atomic* place, const char* name) {
   void* found = atomic_load(place);
   if (found) return found;
@@ -146,7 +146,7 @@ static void* next(void* _Atomic* place, const char* name) {
   static void* _Atomic known; \
   const __typeof__(&name) next_function = (__typeof__(&name))next(&known, #name)
 
-// The HDF5 reader ends by one of these.
+// The HDF5 reader process ends with one of these.
 _Noreturn void _exit(int code) {
   NEXT(_exit);
   say_counts();
@@ -168,7 +168,7 @@ _Noreturn void _Exit(int code) {
 static size_t at_most(size_t bytes) {
   return bytes > 1 ? bytes / 2 : bytes;
 }
-// The same of what moves bytes; nothing on standard error fails.
+// The same for calls that transfer bytes; writes to standard error never fail.
 #define TRANSFER(name, parameters, file, size, arguments) \
   ssize_t name parameters {                               \
     NEXT(name);                                           \
@@ -218,7 +218,7 @@ CALL(FILE*, fopen, fopen, NULL, (const char* name, const char* how), (name, how)
 CALL(FILE*, fopen64, fopen, NULL, (const char* name, const char* how), (name, how))
 CALL(FILE*, fdopen, fdopen, NULL, (int file, const char* how), (file, how))
 
-// A descriptor is closed even if closing it fails.
+// Closes the descriptor even if the call must fail.
 int close(int file) {
   NEXT(close);
   if (!fails(call_close)) return next_function(file);
@@ -227,7 +227,7 @@ int close(int file) {
   return -1;
 }
 
-// Only what makes a descriptor.
+// Only the commands that create a descriptor.
 int fcntl(int file, int command, ...) {
   NEXT(fcntl);
   va_list list;
@@ -266,8 +266,7 @@ CALL(ssize_t, readlink, readlink, -1, (const char* name, char* to, size_t size),
 CALL(int, socketpair, socketpair, -1, (int domain, int type, int protocol, int ends[2]),
      (domain, type, protocol, ends))
 CALL(int, pipe2, pipe2, -1, (int ends[2], int flags), (ends, flags))
-// One that fails must say why when dlerror asks; one that succeeds runs what libraries have to set
-// up.
+// After a failure dlerror must give a reason; after a success the libraries' constructors run.
 void* dlopen(const char* name, int how) {
   NEXT(dlopen);
   if (fails(call_dlopen)) return next_function("/nowhere/that/does/not/open.so", how);
@@ -276,7 +275,7 @@ void* dlopen(const char* name, int how) {
   atomic_store(&counting, was);
   return library;
 }
-// These return what others leave in errno.
+// These return the error number instead of setting errno.
 CALL(int, posix_spawn, posix_spawn, error_number,
      (pid_t * process, const char* program, const posix_spawn_file_actions_t* actions,
       const posix_spawnattr_t* attributes, char* const arguments[], char* const environment[]),
@@ -286,7 +285,7 @@ CALL(int, pthread_create, pthread_create, error_number,
       void* argument),
      (thread, attributes, function, argument))
 
-// Memory, which looking up a name takes, too: by the C library's own names.
+// Uses the C library's internal names, because looking up a name allocates memory.
 void* __libc_malloc(size_t size);
 void* __libc_calloc(size_t count, size_t size);
 void* __libc_realloc(void* memory, size_t size);

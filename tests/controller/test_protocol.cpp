@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The lines that bbsim and a program say to each other.
+// The lines that bbsim and an external program exchange.
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -47,7 +47,7 @@ Read read(const std::string& line, const std::vector<std::string>& names = {},
 
 }  // namespace
 
-TEST_CASE("a sample's numbers read back to the same double, and none to an integer") {
+TEST_CASE("numbers in a sample round-trip as doubles and never look like integers") {
   Noise noise(5);
   for (int i = 0; i < 1000; ++i) {
     const auto number = [&noise] { return noise.normal() * std::pow(10, 40 * noise.normal()); };
@@ -70,7 +70,7 @@ TEST_CASE("a sample's numbers read back to the same double, and none to an integ
   }
 }
 
-TEST_CASE("the longest sample fits its line; zeros keep their sign; what was not seen is null") {
+TEST_CASE("the longest sample fits its line; zeros keep their sign; unseen values are null") {
   constexpr double longest = -2.2250738585072014e-308;
   const double servo[4] = {longest, longest, longest, longest};
   const std::array<model::Jet<double>, 2> reference{
@@ -87,7 +87,7 @@ TEST_CASE("the longest sample fits its line; zeros keep their sign; what was not
       "\"reference_acceleration\":[0.0,0.0],\"servo\":[0.0,-0.0],\"servo_rate\":[1.0,1e+22]}\n");
 }
 
-TEST_CASE("a controller is told those fields alone that it asks for") {
+TEST_CASE("a controller gets only the fields that it requests") {
   const controller::Ready ready =
       controller::read_ready("{\"protocol\": 1, \"fields\": [\"servo\", \"ball\", \"sample\"]}");
   CHECK(ready.fault.empty());
@@ -104,7 +104,7 @@ TEST_CASE("a controller is told those fields alone that it asks for") {
         std::string::npos);
 }
 
-TEST_CASE("an answer may be written as libraries write it") {
+TEST_CASE("an answer may use any valid JSON formatting") {
   for (const char* line : {"{\"command\": [0.5, -1e-3]}", "{\"command\":[0.5,-0.001]}",
                            " { \"command\" : [ 0.5 , -0.001 ] } \r",
                            "{\"u\": 3, \"command\": [0.5, -0.001], \"v\": NaN}"}) {
@@ -118,7 +118,7 @@ TEST_CASE("an answer may be written as libraries write it") {
   CHECK(named.own == std::vector<double>{-1500, 2});
 }
 
-TEST_CASE("what is wrong with an answer is told with the answer") {
+TEST_CASE("faults of an answer are reported with the answer") {
   struct Wrong {
     std::string line, told;
   };
@@ -151,7 +151,7 @@ TEST_CASE("what is wrong with an answer is told with the answer") {
   CHECK(answer.fault.find(told) != std::string::npos);
 }
 
-TEST_CASE("a misspelt name in an answer is told with the one that was meant") {
+TEST_CASE("a misspelled name in an answer is reported with the likely one") {
   const auto said = [](const std::string& fault, const std::string& what) {
     CAPTURE(fault);
     return fault.find(what) != std::string::npos;
@@ -166,14 +166,14 @@ TEST_CASE("a misspelt name in an answer is told with the one that was meant") {
              "found no protocol, but \"protocoll\" (did you mean protocol?); allowed"));
   CHECK(said(controller::read_ready("{\"protocol\": 1, \"fields\": [\"refrence\"]}").fault,
              "found a field \"refrence\" (did you mean reference?); allowed"));
-  // Nobody means what stands there.
+  // This key is valid, so no suggestion.
   CHECK_FALSE(said(read("{\"command\": [0, 0], \"error\": 5}").fault, "did you mean"));
   CHECK_FALSE(said(read("{\"command\": [0, 0], \"a\": []}", {"a"}).fault, "did you mean"));
-  // What is near nothing is not guessed at.
+  // No suggestion without a near name.
   CHECK_FALSE(said(read("{\"motor\": [0, 0]}").fault, "did you mean"));
 }
 
-TEST_CASE("what is not known is shown, and cut where it is long") {
+TEST_CASE("an unknown name is shown, and cut if it is long") {
   const std::string longest(60000, 'f');
   for (const std::string& line : {"{\"protocol\": 1, \"fields\": [\"" + longest + "\"]}",
                                   "{\"protocol\": 1, \"fields\": [[\"" + longest + "\"]]}",
@@ -186,20 +186,20 @@ TEST_CASE("what is not known is shown, and cut where it is long") {
   }
 }
 
-TEST_CASE("what a controller says nests no deeper than anybody needs") {
+TEST_CASE("a controller's output may nest only so deep") {
   const auto nested = [](std::size_t depth) {
     return std::string(depth, '[') + std::string(depth, ']');
   };
   std::string memory;
   CHECK(controller::read_memory("{\"state\": " + nested(50) + "}", memory).empty());
   CHECK(memory == nested(50));
-  const std::string deep = nested(30000);  // a line is as long as that
+  const std::string deep = nested(30000);  // a line may be as long as this
   CHECK_FALSE(controller::read_memory("{\"state\": " + deep + "}", memory).empty());
   CHECK_FALSE(controller::read_ready("{\"protocol\": 1, \"fields\": " + deep + "}").fault.empty());
   CHECK_FALSE(read("{\"a\": " + deep + "}").fault.empty());
 }
 
-TEST_CASE("a hello says what the run is like, and its answer what the controller can") {
+TEST_CASE("a hello describes the run, and its answer the controller's abilities") {
   controller::Setup setup;
   setup.period = 0.02;
   setup.limit = std::numeric_limits<double>::infinity();
@@ -213,7 +213,7 @@ TEST_CASE("a hello says what the run is like, and its answer what the controller
   CHECK(hello.at("limit").is_null());
   CHECK(hello.at("parameters") == json{{"kp", 0.7}, {"ki", 0.1}});
   CHECK(hello.at("columns") == json::array({"u"}));
-  // All that a sample has, with its unit, and no more.
+  // Every field of a sample with its unit, and no other.
   const double servo[4] = {};
   const json sample = json::parse(sample_line(0, 0, std::nullopt, servo, {}));
   CHECK(hello.at("fields").size() == sample.size());
@@ -246,7 +246,7 @@ TEST_CASE("a hello says what the run is like, and its answer what the controller
   }
 }
 
-TEST_CASE("three legs: a sample has three servos, and an answer three commands") {
+TEST_CASE("with three legs a sample has three servos, and an answer three commands") {
   const double servo[6] = {0.1, 0.2, 0.3, 1, 2, 3};
   const std::string line = sample_line(0, 0, std::nullopt, servo, {});
   CHECK(line.ends_with("\"servo\":[0.1,0.2,0.3],\"servo_rate\":[1.0,2.0,3.0]}\n"));

@@ -23,7 +23,7 @@ using namespace bbsim;
 
 namespace {
 
-// A plate above the gimbal's center: it carries the ball along as it tilts.
+// A plate above the gimbal's center, which moves the ball sideways as it tilts.
 const std::string open_rig = R"(# Mine.
 ball: {radius: 1 cm, mass: 33 g}
 plate: {size: [30 cm, 30 cm]}
@@ -76,7 +76,7 @@ gimbal: {motion: {phi: 0, theta: 0}}
 time: {end: 3, step: 20 ms}
 )";
 
-// A log of the scenario in a folder, with noise of 1 mm.
+// Writes a log of the scenario, with noise of 1 mm.
 std::string log_of(const std::string& file) {
   const ScenarioFamily family(file, {});
   api::RunRequest request{family.read({})};
@@ -164,7 +164,7 @@ time: {end: 4, step: 20 ms}
   }
 }
 
-TEST_CASE("a design keeps the limits, is written, and a fit of its log is as it says") {
+TEST_CASE("a design keeps the limits, is written, and predicts the fit of its log") {
   const Folder folder;
   folder.put("rig.yaml", open_rig);
   folder.put("gone.csv", "t,phi\n0,0\n3,0\n6,0\n9,0\n");
@@ -181,7 +181,7 @@ TEST_CASE("a design keeps the limits, is written, and a fit of its log is as it 
   const std::string written = folder.put("designed.yaml", made.scenario);
   folder.put(request.table, made.table);
 
-  SECTION("the scenario keeps its comments, and what is free its values") {
+  SECTION("the scenario keeps its comments, and free keys keep their values") {
     CHECK(contains(made.scenario, "# Mine."));
     CHECK(contains(made.scenario, "  # as recorded"));
     CHECK_FALSE(contains(made.scenario, "gone.csv"));
@@ -199,8 +199,8 @@ TEST_CASE("a design keeps the limits, is written, and a fit of its log is as it 
     api::Watch watch;
     const api::RunResult ran = api::run(run, watch);
     constexpr double degree = 0.017453292519943295;
-    // x and y: half the plate without a tenth of it; 60 deg/s is the usual rate. The start, rounded
-    // to a millimeter, moves the path by little more.
+    // x and y: half the plate minus a tenth; 60 deg/s is the default rate. Rounding the start to a
+    // millimeter moves the path by little more.
     const double most[] = {6, 0.12, 0.12, 8 * degree, 8 * degree, 60 * degree, 60 * degree};
     for (std::size_t c = 1; c < 7; ++c) {
       CAPTURE(ran.rows.names[c]);
@@ -222,13 +222,13 @@ TEST_CASE("a design keeps the limits, is written, and a fit of its log is as it 
     for (std::size_t k = 0; k < free.size(); ++k) {
       const fit::Parameter& one = fitted.fitted.parameters[k];
       CAPTURE(one.key);
-      // The fit's noise is an estimate from 602 numbers, good to 3 %; its estimates move the
-      // derivatives by as little.
+      // The fit estimates the noise from 602 numbers, to 3 %; its estimates change the derivatives
+      // by about as much.
       CHECK(one.sd == Approx(made.designed.parameters[k].sd).epsilon(0.15));
       CHECK(std::abs(one.estimate - made.designed.parameters[k].value) < 3.9 * one.sd);
     }
   }
-  SECTION("JSON has what programs need") {
+  SECTION("JSON contains what programs need") {
     const auto json = nlohmann::json::parse(made.json);
     REQUIRE(json["parameters"].size() == 4);
     CHECK(json["parameters"][0]["key"] == "ball.inertia_factor");
@@ -240,7 +240,7 @@ TEST_CASE("a design keeps the limits, is written, and a fit of its log is as it 
     CHECK(json["noise"]["x"] == 1e-3);
     CHECK(json["sines"]["phi"].size() == 4);
   }
-  SECTION("and another call has the same result, with any number of threads") {
+  SECTION("another call gives the same result, with any number of threads") {
     request.threads = 1;
     const api::DesignResult again = made_of(request, {true, true});
     CHECK(again.table == made.table);
@@ -250,7 +250,7 @@ TEST_CASE("a design keeps the limits, is written, and a fit of its log is as it 
   }
 }
 
-TEST_CASE("keys that no motion tells apart are named") {
+TEST_CASE("keys that no motion can separate are named") {
   // Two offsets of the same angle.
   const ScenarioFamily family = scene(level_rig);
   api::DesignRequest request = request_of(
@@ -269,7 +269,7 @@ TEST_CASE("keys that no motion tells apart are named") {
   CHECK(json["noise"]["y"] == 1e-3);
 }
 
-TEST_CASE("what cannot be designed is refused, with what can") {
+TEST_CASE("an impossible design is refused, with the possible ones") {
   const ScenarioFamily rig = scene(level_rig);
   const std::string inertia = "ball.inertia_factor";
   CHECK(contains(fault(scene("ball: {radius: 1 cm}\n"
@@ -304,7 +304,7 @@ TEST_CASE("what cannot be designed is refused, with what can") {
                  "--sketch: the scenario has a controller"));
 }
 
-TEST_CASE("a design that is interrupted has no result") {
+TEST_CASE("an interrupted design has no result") {
   class Stopped : public api::Watch {
    public:
     const std::atomic<bool>* stop() override { return &stop_; }

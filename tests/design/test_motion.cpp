@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The motions that a design chooses from.
+// The candidate motions of a design.
 #include <Eigen/Core>
 #include <array>
 #include <cmath>
@@ -39,7 +39,7 @@ double amplitudes(const Motion& motion, std::size_t axis) {
 
 }  // namespace
 
-TEST_CASE("a sum of sines begins and ends at rest, and leaves a ball at rest") {
+TEST_CASE("a sum of sines begins and ends at rest and leaves the ball at rest") {
   const Plays plays = GENERATE(Plays::tilts, Plays::reference);
   const Motion motion = drawn(plays);
   for (const std::size_t axis : {0U, 1U}) {
@@ -48,14 +48,14 @@ TEST_CASE("a sum of sines begins and ends at rest, and leaves a ball at rest") {
     REQUIRE(size > 0);
     double rate = 0, kick = 0;
     for (const Sinusoid& sine : motion.sines[axis]) {
-      // Whole periods in the length.
+      // Whole number of periods.
       const double periods = sine.frequency * length / 6.283185307179586;
       CHECK(periods == Approx(std::round(periods)));
       rate += sine.frequency * sine.amplitude * std::cos(sine.phase);
       // The mean velocity of x'' = tilt, from rest.
       kick += sine.amplitude * std::cos(sine.phase) / sine.frequency;
     }
-    // A few roundings of the largest term.
+    // A few rounding errors of the largest term.
     CHECK(std::abs(motion.value(axis, 0)) < 1e-13 * size);
     CHECK(std::abs(motion.value(axis, length)) < 1e-12 * size);
     CHECK(std::abs(rate) < 1e-12 * size);
@@ -63,14 +63,14 @@ TEST_CASE("a sum of sines begins and ends at rest, and leaves a ball at rest") {
   }
 }
 
-TEST_CASE("in a groove, one axis is free") {
+TEST_CASE("only one axis of a groove is free") {
   const Motion motion = drawn(Plays::tilts, {false, true});
   CHECK(motion.sines[0].empty());
   CHECK(motion.sines[1].size() == 4);
   CHECK(motion.value(0, 1) == 0);
 }
 
-TEST_CASE("a motion is scaled with the ball's start") {
+TEST_CASE("scaling a motion scales the ball's start") {
   Motion motion = drawn(Plays::tilts);
   motion.step = {0.1, 0};
   motion.step_start = 1;
@@ -96,7 +96,7 @@ TEST_CASE("a step rises smoothly to its value") {
   CHECK(motion.value(1, 5) == -1);
 }
 
-TEST_CASE("a motion is played through what the scenario does to its tables") {
+TEST_CASE("a motion is played with the scenario's changes to its tables") {
   const design::Placeholder rows = design::placeholder(length);
   const double scale = 1.2, offset = 0.02, delay = 0.1;
   const auto changed = [&](double by_scale, double by_offset, double by_delay) {
@@ -127,7 +127,7 @@ TEST_CASE("a motion is played through what the scenario does to its tables") {
     }
     return sum;
   };
-  // As it is with the nominal changes, and as a table would be with others.
+  // Once with the nominal changes, once as a table would play with others.
   for (const double other : {scale, 1.5}) {
     Scenario scenario = changed(other, offset, delay);
     design::play(motion, Plays::tilts, nominal, length, scenario);
@@ -138,7 +138,7 @@ TEST_CASE("a motion is played through what the scenario does to its tables") {
   }
 }
 
-TEST_CASE("what a motion uses of the limits") {
+TEST_CASE("a motion's use of the limits") {
   design::Limits limits;
   limits.rectangle = Pair{0.1, 0.2};
   limits.tilt = {0.2, 0.1};
@@ -165,14 +165,14 @@ TEST_CASE("what a motion uses of the limits") {
   CHECK(design::use_of(limits, {0.06, 0, 0.08, 0, 0, 0, 0, 0, 0, 0, 0, 0}).greatest() == Approx(1));
 }
 
-TEST_CASE("deviations are those of the inverse, and infinite for what is not told") {
+TEST_CASE("deviations come from the inverse, and are infinite for keys that cannot be found") {
   Eigen::MatrixXd information(2, 2);
   information << 4, 1, 1, 2;
   const std::vector<double> both = design::deviations_of(information);
   CHECK(both[0] == Approx(std::sqrt(2.0 / 7)));
   CHECK(both[1] == Approx(std::sqrt(4.0 / 7)));
   CHECK(design::merit_of(information) == Approx(std::log(7)));
-  // The first two keys only together, whatever their scales.
+  // The first two keys enter only as a sum, whatever their scales.
   Eigen::MatrixXd torn = Eigen::MatrixXd::Zero(3, 3);
   torn.topLeftCorner(2, 2) << 1, 1e3, 1e3, 1e6;
   torn(2, 2) = 4;

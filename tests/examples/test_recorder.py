@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""examples/recorder/record.py on pseudo terminals, which are fed by a designed motion; BBSIM names the program."""
+"""examples/recorder/record.py on pseudo terminals that play a designed motion; BBSIM names the program."""
 import csv
 import json
 import math
@@ -57,7 +57,7 @@ class Recording:
             data = data[os.write(self.board, data[:512]):]
 
     def wait_for(self, words):
-        """Reads messages up to one that has `words`."""
+        """Reads messages until one contains `words`."""
         read = ""
         while words not in read:
             line = self.process.stderr.readline()
@@ -90,7 +90,7 @@ def text(lines):
 class Serial(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        """A designed motion, and what its sketch prints on a rig with other numbers than the scenario's."""
+        """A designed motion, and its sketch's output on a rig whose numbers differ from the scenario's."""
         cls.temporary = tempfile.TemporaryDirectory()
         cls.designed = pathlib.Path(cls.temporary.name)
         (cls.designed / "rig.yaml").write_text(RIG)
@@ -117,7 +117,7 @@ class Serial(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def fit(self, recording):
-        """Fits the log of a recording by the scenario that reads it; asks for the truth."""
+        """Fits a recorded log with the scenario that reads it, and requires the true values."""
         shutil.copy(self.designed / "designed.yaml", self.folder / "rig.yaml")
         scenario = (self.folder / "rig.yaml").read_text()
         scenario = scenario.replace("file: 'designed-motion.csv'", "file: log.csv").replace(", unit: rad", "")
@@ -125,7 +125,7 @@ class Serial(unittest.TestCase):
         run(self.folder, "fit", "rig.yaml", "log.csv", *(w for key in TRUTH for w in ("--free", key)), "--json", "fit.json", "-q")
         fit = json.loads((self.folder / "fit.json").read_text())
         for one in fit["parameters"]:
-            # Twice the 95 % interval is four deviations: another compiler's design may be another motion, with other luck.
+            # Twice the 95 % interval is four deviations, because another compiler may design another motion.
             low, high = (2 * end - one["estimate"] for end in one["interval"])
             self.assertTrue(low < TRUTH[one["key"]] < high, one)
             self.assertLess(one["sd"], 0.1 * TRUTH[one["key"]])
@@ -143,11 +143,11 @@ class Serial(unittest.TestCase):
 
     def test_damaged_lines_are_left_out_and_counted(self):
         lines = list(self.rows)
-        for i in range(10, 100, 10):  # each by another fault
+        for i in range(10, 100, 10):  # each with another fault
             line = lines[i]
             lines[i] = [line[:-1], line[4:], line.replace(",", ";", 1), line + "0", "\x01" + line[1:], "9" + line,
                         line.rsplit(",", 1)[0], line.replace(".", "", 1), line + "," + line][i // 10 - 1]
-        merged = lines[120][:9] + lines[121][5:]  # bytes between the two were lost
+        merged = lines[120][:9] + lines[121][5:]  # the bytes between the two were lost
         lines[120:122] = [merged]
         recording = Recording(self.folder)
         recording.feed(text([HEADER, *lines]))

@@ -64,14 +64,14 @@ def level_corners(view):
 
 
 def options(view, **others):
-    """What the command line would give."""
+    """Arguments as from the command line."""
     values = dict(plate=PLATE, radius=RADIUS, ball="dark", corners=level_corners(view), markers=None, dictionary="4X4_50",
                   camera_at=[40.0, -60.0, 700.0], height=HEIGHT, lag=0.0)
     return types.SimpleNamespace(**{**values, **others})
 
 
 def a_log(rows):
-    """Of (s, phi, theta) in radians."""
+    """Rotation for (s, phi, theta) in radians."""
     texts = [f"{1000 * t:.1f},{math.degrees(a):.3f},{math.degrees(b):.3f}" for t, a, b in rows]
     return Log([Line(t[0], text) for t, text in zip([(0,), *rows], [",".join(NAMES), *texts])], NAMES)
 
@@ -100,7 +100,7 @@ class Geometry(unittest.TestCase):
                        for s in np.linspace(0, 2 * math.pi, 3601)]
             middle = (np.max(outline, axis=0) + np.min(outline, axis=0)) / 2
             np.testing.assert_allclose(view.position(middle, turn), (x, y), atol=2e-4)
-            # The tilt, from where markers at the corners would be seen.
+            # The tilt, from the pictures of markers at the corners.
             tilted = camera.homography(CORNERS, [eye.pixel(turn @ [a, b, HEIGHT]) for a, b in CORNERS])
             np.testing.assert_allclose(view.tilt_of(tilted), turn, atol=1e-9)
 

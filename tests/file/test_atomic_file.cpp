@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A file is there whole or not at all, whatever stands where it is to go.
+// A file is complete or absent, whatever is at its path.
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -39,19 +39,19 @@ TEST_CASE("a file appears only at commit") {
   CHECK(folder.entries() == 1);
 }
 
-TEST_CASE("without commit nothing stays, and what was there is left alone") {
+TEST_CASE("without commit no file remains, and an existing one is left alone") {
   const Folder folder;
   const std::string file = folder.put("a.csv", "old");
   {
     AtomicFile atomic(file);
-    atomic.write(std::string(3 * AtomicFile::buffer_size, 'x'));  // some reaches the disk
-    CHECK(folder.entries() == 1);                                 // not even meanwhile
+    atomic.write(std::string(3 * AtomicFile::buffer_size, 'x'));  // part of it reaches the disk
+    CHECK(folder.entries() == 1);                                 // no temporary in between either
   }
   CHECK(content_of(file) == "old");
   CHECK(folder.entries() == 1);
 }
 
-TEST_CASE("bytes pass the buffer in order, whatever their portions") {
+TEST_CASE("bytes pass the buffer in order, whatever their sizes") {
   const Folder folder;
   const std::string file = folder / "a.txt";
   std::string expected;
@@ -70,14 +70,14 @@ TEST_CASE("bytes pass the buffer in order, whatever their portions") {
   CHECK(content_of(file) == expected);
 }
 
-TEST_CASE("a symbolic link stays and what it points to is replaced") {
+TEST_CASE("a symbolic link stays and its target is replaced") {
   const Folder folder;
   std::filesystem::create_directory(folder / "elsewhere");
   const std::string real = folder / "elsewhere/real.csv";
   std::filesystem::create_symlink("elsewhere/step.csv", folder / "link.csv");
   std::filesystem::create_symlink("real.csv", folder / "elsewhere/step.csv");
 
-  write_file(folder / "link.csv", "first");  // through links that lead nowhere yet
+  write_file(folder / "link.csv", "first");  // through links whose target does not exist yet
   CHECK(content_of(real) == "first");
   write_file(folder / "link.csv", "second");
   CHECK(content_of(real) == "second");
@@ -94,7 +94,7 @@ TEST_CASE("a circle of links is refused") {
              Contains("too many levels of symbolic links"));
 }
 
-TEST_CASE("permissions are those of the umask, or of the file replaced") {
+TEST_CASE("permissions follow the umask, or the replaced file") {
   const Folder folder;
   const mode_t before = umask(027);
   write_file(folder / "new.csv", "x");
@@ -133,7 +133,7 @@ TEST_CASE("a name as long as the system allows can be written") {
              Contains("file name too long"));
 }
 
-TEST_CASE("what cannot be written is refused before anything is done") {
+TEST_CASE("an impossible output is refused before anything is done") {
   const Folder folder;
   folder.put("file", "");
   const auto refusal = [](const std::string& target) {
@@ -146,7 +146,7 @@ TEST_CASE("what cannot be written is refused before anything is done") {
   CHECK_THAT(refusal(folder.name()), Contains("is a directory"));
   CHECK_THAT(refusal(folder / "none/"), Contains("is a directory"));
   CHECK_THAT(refusal(""), Contains("name is empty"));
-  // Nobody, not even root, may create a file there; which errno says so depends on the kernel.
+  // Nobody, not even root, may create a file there; the errno depends on the kernel.
   CHECK_THAT(refusal("/proc/a.csv"), Contains("cannot write /proc/a.csv"));
   CHECK(folder.entries() == 1);
 }
@@ -162,11 +162,11 @@ TEST_CASE("a full device is an error, at the latest when the file is completed")
   CHECK(std::filesystem::is_character_file("/dev/full"));
 }
 
-TEST_CASE("a full file system leaves the old file and no temporary") {
+TEST_CASE("a full file system keeps the old file and leaves no temporary") {
   const Folder folder;
   const std::string file = folder.put("a.csv", "old");
   {
-    const FileSizeLimit limit(50000);  // bytes, between one buffer and two
+    const FileSizeLimit limit(50000);  // bytes, between one and two buffers
     CHECK_THAT(message_of<OutputError>([&] { write_file(file, std::string(100000, 'x')); }),
                Contains("file too large; the limit is the file system's, or that of ulimit -f"));
   }
@@ -174,7 +174,7 @@ TEST_CASE("a full file system leaves the old file and no temporary") {
   CHECK(folder.entries() == 1);
 }
 
-TEST_CASE("a folder that takes the name in the meantime is an error at commit") {
+TEST_CASE("a folder created under the name in the meantime is an error at commit") {
   const Folder folder;
   {
     AtomicFile file(folder / "a.csv");
@@ -184,7 +184,7 @@ TEST_CASE("a folder that takes the name in the meantime is an error at commit") 
   CHECK(folder.entries() == 1);
 }
 
-TEST_CASE("devices are written to and stay what they are") {
+TEST_CASE("devices are written to and stay devices") {
   write_file("/dev/null", "x");
   CHECK(std::filesystem::is_character_file("/dev/null"));
 
@@ -210,7 +210,7 @@ TEST_CASE("a FIFO is written through") {
   CHECK(folder.entries() == 1);
 }
 
-TEST_CASE("a reader that goes away is an error") {
+TEST_CASE("a reader that closes early is an error") {
   int ends[2];
   REQUIRE(pipe(ends) == 0);
   close(ends[0]);
@@ -221,7 +221,7 @@ TEST_CASE("a reader that goes away is an error") {
   close(ends[1]);
 }
 
-TEST_CASE("a pipe that does not block is waited for") {
+TEST_CASE("a nonblocking pipe is waited for") {
   int ends[2];
   REQUIRE(pipe2(ends, O_NONBLOCK) == 0);
   constexpr std::size_t size = 300000;  // more than a pipe holds
@@ -241,7 +241,7 @@ TEST_CASE("a pipe that does not block is waited for") {
   close(ends[1]);
 }
 
-// The descriptor's own position is used: what a shell appends to a file goes on at its end.
+// Uses the descriptor's own position, so that a shell's >> appends.
 TEST_CASE("standard output that goes to a file is neither replaced nor truncated") {
   const Folder folder;
   const std::string file = folder.put("out", "before\n");
@@ -262,7 +262,7 @@ TEST_CASE("standard output that goes to a file is neither replaced nor truncated
   CHECK(content_of(file) == "before\nmore\nmore\nmore\nmore\n");
 }
 
-TEST_CASE("a closed standard output is an error, and no file takes its place") {
+TEST_CASE("a closed standard output is an error, and no other file is written instead") {
   const Folder folder;
   const pid_t child = fork();
   if (child == 0) {
@@ -281,7 +281,7 @@ TEST_CASE("a closed standard output is an error, and no file takes its place") {
 
 namespace {
 
-// Runs `action` in a process that then ends by that signal, or by _exit(0) where that is 0.
+// Runs `action` in a process that then ends with the signal, or with _exit(0) if it is 0.
 int ended_by(const std::function<void()>& action, int signal) {
   const pid_t child = fork();
   if (child == 0) {
@@ -297,7 +297,7 @@ int ended_by(const std::function<void()>& action, int signal) {
 
 }  // namespace
 
-TEST_CASE("however a process ends, nothing stays of a file that was not completed") {
+TEST_CASE("however a process ends, no incomplete file remains") {
   const Folder folder;
   const std::string old = folder.put("old.csv", "old");
   for (const std::string& name : {folder / "new.csv", old}) {
@@ -313,7 +313,7 @@ TEST_CASE("however a process ends, nothing stays of a file that was not complete
   CHECK(content_of(old) == "old");
 }
 
-TEST_CASE("a file without a name gets one by way of /proc, where there is no other") {
+TEST_CASE("an unnamed file gets its name through /proc if there is no other way") {
   const Folder folder;
   folder.put("old.csv", "old");
   const int status = ended_by(
@@ -333,7 +333,7 @@ TEST_CASE("a file without a name gets one by way of /proc, where there is no oth
   CHECK(folder.entries() == 2);
 }
 
-TEST_CASE("without files that have no name, a signal's handler removes the temporary") {
+TEST_CASE("without unnamed files, a signal handler removes the temporary") {
   const Folder folder;
   folder.put("old.csv", "old");
   const auto on_old_system = [&](const std::function<void()>& action) {
@@ -358,7 +358,7 @@ TEST_CASE("without files that have no name, a signal's handler removes the tempo
   };
   const int left = ended_by(on_old_system(begin), SIGKILL);
   CHECK(WTERMSIG(left) == SIGKILL);
-  CHECK(folder.entries() == 3);  // as nothing can be done about it
+  CHECK(folder.entries() == 3);  // this cannot be prevented
 
   const int removed = ended_by(on_old_system([&] {
                                  (void)std::signal(SIGTERM, [](int) {
@@ -373,7 +373,7 @@ TEST_CASE("without files that have no name, a signal's handler removes the tempo
   CHECK(folder.entries() == 3);
 }
 
-TEST_CASE("a process that was forked off leaves its parent's temporaries") {
+TEST_CASE("a forked process leaves its parent's temporaries alone") {
   const Folder folder;
   const std::string name = folder.put("temporary", "x");
   bbsim::file::remember_temporary(name.c_str());

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// CSV: written and read back to the bit; what is no table of numbers is refused, with its place.
+// CSV: written and read back bit for bit; input that is no table of numbers is refused, with its
+// place.
 #include <sys/stat.h>
 
 #include <bit>
@@ -29,7 +30,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// The message for a file of that content, without the folder.
+// The message for a file with the given content, without its folder.
 std::string refusal(const std::string& content) {
   const Folder folder;
   const std::string file = folder.put("a.csv", content);
@@ -46,14 +47,14 @@ TableData parsed(const std::string& content) {
 
 }  // namespace
 
-TEST_CASE("CSV has bare names, then the shortest numbers") {
+TEST_CASE("CSV has a header of plain names, then the shortest numbers") {
   const Folder folder;
   const std::string file = folder / "a.csv";
   write_table(file, {{"t", "x"}, {{0, 0.1, 1e300, -0.0}, {1.0 / 3, -1e-5, 5e-324, 123456789}}});
   CHECK(content_of(file) == "t,x\n0,0.3333333333333333\n0.1,-1e-05\n1e+300,5e-324\n-0,123456789\n");
 }
 
-TEST_CASE("CSV spells what is not finite") {
+TEST_CASE("CSV spells out non-finite numbers") {
   const Folder folder;
   const std::string file = folder / "a.csv";
   const double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -63,7 +64,7 @@ TEST_CASE("CSV spells what is not finite") {
   CHECK(same_bits(read_table(file).columns[0], {not_a_number, not_a_number, infinity, -infinity}));
 }
 
-TEST_CASE("CSV reads back to the bit") {
+TEST_CASE("CSV round-trips bit for bit") {
   const Folder folder;
   const std::string file = folder / "a.csv";
   const TableData table = random_table(5, 3000);
@@ -75,7 +76,7 @@ TEST_CASE("CSV reads back to the bit") {
   }
 }
 
-TEST_CASE("a table without rows is one") {
+TEST_CASE("a table without rows is valid") {
   const Folder folder;
   const std::string file = folder / "a.csv";
   write_table(file, {{"t", "x"}, {{}, {}}});
@@ -85,7 +86,7 @@ TEST_CASE("a table without rows is one") {
   CHECK(back.columns[1].empty());
 }
 
-TEST_CASE("an unfinished table leaves nothing") {
+TEST_CASE("an unfinished table leaves no file") {
   const Folder folder;
   folder.put("a.csv", "old");
   {
@@ -98,7 +99,7 @@ TEST_CASE("an unfinished table leaves nothing") {
   CHECK(folder.entries() == 1);
 }
 
-TEST_CASE("the ending picks the format") {
+TEST_CASE("the extension selects the format") {
   const Folder folder;
   const std::string message = message_of<InputError>([&] {
     (void)open_table(folder / "a.txt", {{"x", "m", ""}});
@@ -119,12 +120,12 @@ TEST_CASE("a device gets CSV whatever its name") {
   CHECK_THROWS_AS(write_table("/dev/full", {{"x"}, {{1}}}), OutputError);
 }
 
-TEST_CASE("a folder that is not there is an OutputError") {
+TEST_CASE("a missing folder is an OutputError") {
   const Folder folder;
   CHECK_THROWS_AS(open_table(folder / "none/a.csv", {{"x", "m", ""}}), OutputError);
 }
 
-TEST_CASE("CSV may come from elsewhere") {
+TEST_CASE("CSV from other programs is read") {
   CHECK(parsed("\xEF\xBB\xBFt,x\r\n1,2\r\n").names == std::vector<std::string>{"t", "x"});
   CHECK(parsed("t\n1\n2").columns[0] == std::vector<double>{1, 2});
   CHECK(parsed(" t ,\tx\n 1 , +2.5e0\t\n").columns[1] == std::vector<double>{2.5});
@@ -184,21 +185,21 @@ TEST_CASE("what is no number is refused") {
   }
 }
 
-TEST_CASE("what is found is shown fit for a terminal") {
+TEST_CASE("messages show file content safe for a terminal") {
   CHECK_THAT(refusal("t\n\x1b[31mred\n"), Contains("found \"\\x1b[31mred\""));
-  // A header may not hold control characters, but all else that turns a terminal's head.
+  // A header may not contain control characters; other special characters are possible.
   CHECK(refusal("t,\u009b31mx\n1,y\n") ==
         "a.csv:2:3: column \\u009b31mx: found \"y\"; allowed: a number");
   CHECK_THAT(refusal("t\n" + std::string(100000, 'z') + "\n"),
              Contains("found \"" + std::string(40, 'z') + "...\""));
 }
 
-TEST_CASE("blank lines and remarks are no rows") {
+TEST_CASE("blank lines and comments are not rows") {
   CHECK(parsed("t,x\n1,2\n\n3,4\n").columns[0] == std::vector<double>{1, 3});
   CHECK(parsed("\n# by hand\nt\n1\n \r\n#2\n").columns[0] == std::vector<double>{1});
 }
 
-TEST_CASE("a header is required, of names that differ") {
+TEST_CASE("a header with distinct names is required") {
   CHECK_THAT(refusal(""), Contains("a.csv:1:1: found no header"));
   CHECK_THAT(refusal("\xEF\xBB\xBF"), Contains("a.csv:1:1: found no header"));
   CHECK_THAT(refusal("t,,x\n"), Contains("a.csv:1:3: a column's name is empty"));
@@ -218,22 +219,22 @@ TEST_CASE("a file that cannot be read is an InputError") {
              Contains("is a directory"));
 }
 
-TEST_CASE("a line that does not end is refused, of devices and of files") {
+TEST_CASE("an endless line is refused, from devices and files") {
   const std::string limit = ":1:1: found a line of more than 1048576 bytes";
   CHECK_THAT(message_of<InputError>([] { (void)read_table("/dev/zero"); }),
              Contains("/dev/zero" + limit));
   CHECK_THAT(refusal(std::string(3000000, 'x')), Contains("a.csv" + limit));
   CHECK_THAT(refusal("t\n" + std::string(1048577, '1') + "\n"),
              Contains("a.csv:2:1: found a line of more than"));
-  // One byte less is a number, if too large a one.
+  // One byte less is read as a number, though too large.
   CHECK_THAT(refusal("t\n" + std::string(1048576, '1') + "\n"), Contains("too large for a double"));
-  // What begins well is read as far as it is well.
+  // Input is read as long as it is valid.
   CHECK_FALSE(message_of<InputError>([] { (void)read_table("/dev/urandom"); }).empty());
   CHECK_THAT(message_of<InputError>([] { (void)read_table("/dev/null"); }),
              Contains("/dev/null:1:1: found no header"));
 }
 
-TEST_CASE("a long row is read, and rows across what is read at a time") {
+TEST_CASE("a long row is read, and so are rows across read boundaries") {
   std::string header = "c0", row = "0";
   for (int c = 1; c < 50000; ++c) {
     header.append(",c").append(std::to_string(c));
@@ -255,7 +256,7 @@ TEST_CASE("a long row is read, and rows across what is read at a time") {
   CHECK(right);
 }
 
-TEST_CASE("a pipe is read as it comes") {
+TEST_CASE("a pipe is read as data arrive") {
   const Folder folder;
   const std::string pipe = folder / "pipe.csv";
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);

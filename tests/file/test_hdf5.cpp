@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// HDF5: written and read back to the bit, with units, description and scale where other programs
-// look for them; a full disk is an error and not a crash.
+// HDF5: written and read back bit for bit, with units, description and scale where other programs
+// look for them. A full disk is an error and not a crash.
 #include <hdf5.h>
 #include <hdf5_hl.h>
 #include <sys/stat.h>
@@ -36,8 +36,8 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// A string attribute of an object, read with HDF5 itself; "" if it is no UTF-8 string of its own,
-// fixed length.
+// A string attribute of an object, read with HDF5 itself; "" if it is not a UTF-8 string of exactly
+// fitting fixed length.
 std::string attribute_of(hid_t file, const char* object, const char* name) {
   const hid_t attribute = H5Aopen_by_name(file, object, name, H5P_DEFAULT, H5P_DEFAULT);
   const hid_t type = H5Aget_type(attribute);
@@ -46,14 +46,14 @@ std::string attribute_of(hid_t file, const char* object, const char* name) {
       H5Tget_cset(type) == H5T_CSET_UTF8) {
     text.resize(H5Tget_size(type));
     H5Aread(attribute, type, text.data());
-    text.resize(text.size() - 1);  // its end
+    text.resize(text.size() - 1);  // without the terminator
   }
   H5Tclose(type);
   H5Aclose(attribute);
   return text;
 }
 
-// What an attribute of the root is of; the value, as a double.
+// Type of an attribute of the root, and its value as a double.
 struct Number {
   H5T_class_t kind;
   std::size_t bytes;
@@ -78,7 +78,7 @@ bool is_attached(hid_t file, const char* dataset, const char* scale, unsigned di
   return attached;
 }
 
-// Writes a file of doubles or strings as another program might.
+// Writes a file of doubles or strings as another program might do.
 void write_foreign(const std::string& file, const std::string& name, std::vector<hsize_t> sizes,
                    hid_t type) {
   const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT);
@@ -94,7 +94,7 @@ std::string refusal(const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("HDF5 reads back to the bit, in order") {
+TEST_CASE("HDF5 round-trips bit for bit, in order") {
   const Folder folder;
   for (const std::string name : {"a.h5", "a.hdf5", "A.H5"}) {
     TableData table = random_table(12, 3000);  // c10 comes before c2 by name
@@ -157,7 +157,7 @@ TEST_CASE("HDF5 carries units, descriptions, the scale t and the run's attribute
   H5Fclose(id);
 }
 
-TEST_CASE("numbers among the attributes are numbers") {
+TEST_CASE("numeric attributes are numbers") {
   const Folder folder;
   const std::string file = folder / "a.h5";
   write_table(file, {{"t"}, {{0}}},
@@ -172,7 +172,7 @@ TEST_CASE("numbers among the attributes are numbers") {
   H5Fclose(id);
 }
 
-TEST_CASE("a unit that is not known is none of UDUNITS") {
+TEST_CASE("an unknown unit is not written as one of UDUNITS") {
   const Folder folder;
   const auto writer = open_table(folder / "a.h5", {{"x", "", "a gain"}, {"n", "1", "a count"}});
   writer->finish({});
@@ -183,7 +183,7 @@ TEST_CASE("a unit that is not known is none of UDUNITS") {
   H5Fclose(id);
 }
 
-TEST_CASE("a column that is known only at the end stands beside the others") {
+TEST_CASE("a column known only at the end is stored with the others") {
   const Folder folder;
   const std::string file = folder / "a.h5";
   const std::vector<double> values{1, 2, 3};
@@ -208,7 +208,7 @@ TEST_CASE("a column that is known only at the end stands beside the others") {
   CHECK_THROWS_AS(writer->add_column({"e", "m", ""}, {1}), OutputError);
 }
 
-TEST_CASE("the tables that a scenario read go with its results, under any name") {
+TEST_CASE("the tables of a scenario are stored with its results, under any name") {
   const Folder folder;
   const std::string file = folder / "a.h5";
   const TableData motion = random_table(3, 5000);
@@ -227,7 +227,7 @@ TEST_CASE("the tables that a scenario read go with its results, under any name")
     writer->keep(inputs);
     writer->finish({});
   }
-  CHECK(read_table(file).names == std::vector<std::string>{"t"});  // they are no columns
+  CHECK(read_table(file).names == std::vector<std::string>{"t"});  // they are not columns
 
   const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   CHECK(attribute_of(id, "inputs/motion.csv", "file") == "motion.csv");
@@ -274,7 +274,7 @@ TEST_CASE("the same table gives the same bytes") {
     writer->append(columns, 2);
     writer->add_column({"e", "m", ""}, {5, 6});
     writer->finish({{"status", "done"}, {"rtol", 1e-8}, {"rows", 2}});
-    sleep(name == "a.h5" ? 1 : 0);  // HDF5 stamps objects with whole seconds
+    sleep(name == "a.h5" ? 1 : 0);  // HDF5 timestamps objects in whole seconds
   }
   CHECK_FALSE(content_of(folder / "a.h5").empty());
   const bool same = content_of(folder / "a.h5") == content_of(folder / "b.h5");
@@ -297,7 +297,7 @@ TEST_CASE("h5dump reads the file") {
   CHECK(content_of(folder / "errors").empty());
 }
 
-TEST_CASE("an unfinished HDF5 file leaves nothing") {
+TEST_CASE("an unfinished HDF5 file leaves nothing behind") {
   const Folder folder;
   folder.put("a.h5", "old");
   {
@@ -322,14 +322,14 @@ TEST_CASE("HDF5 replaces a file, keeps its permissions and follows a link") {
   CHECK_THROWS_AS(open_table(folder / "none/a.h5", {{"x", "m", ""}}), OutputError);
 }
 
-// Wherever the disk gets full: in the header, the rows, the attributes, at closing.
-TEST_CASE("a disk that gets full while HDF5 is written is an error and leaves the old file") {
+// The disk gets full in the header, the rows, the attributes or at closing.
+TEST_CASE("a disk that fills up while HDF5 is written is an error and keeps the old file") {
   const Folder folder;
   const TableData table = random_table(3, 5000);
   write_table(folder / "whole.h5", table, {{"title", "x"}});
   const std::uintmax_t size = std::filesystem::file_size(folder / "whole.h5");
   const std::string file = folder.put("a.h5", "old");
-  // An odd number of limits that are not aligned to anything, from nothing to one byte too few.
+  // An odd number of unaligned limits, from nothing to one byte too few.
   constexpr std::uintmax_t steps = 61;
   for (std::uintmax_t i = 0; i <= steps; ++i) {
     const FileSizeLimit limit((size - 1) * i / steps);
@@ -341,12 +341,12 @@ TEST_CASE("a disk that gets full while HDF5 is written is an error and leaves th
   }
   CHECK(content_of(file) == "old");
   CHECK(folder.entries() == 2);
-  write_table(file, table, {{"title", "x"}});  // HDF5 is none the worse for it
+  write_table(file, table, {{"title", "x"}});  // HDF5 still works afterwards
   const bool same = content_of(file) == content_of(folder / "whole.h5");
   CHECK(same);
 }
 
-TEST_CASE("a process that met a full disk ends as it should") {
+TEST_CASE("a process that met a full disk ends normally") {
   const Folder folder;
   const TableData table = random_table(3, 5000);
   const pid_t child = fork();
@@ -354,7 +354,7 @@ TEST_CASE("a process that met a full disk ends as it should") {
     const FileSizeLimit limit(20000);
     const std::string message =
         message_of<OutputError>([&] { write_table(folder / "a.h5", table); });
-    std::exit(message.empty() ? 1 : 0);  // with what HDF5 does at exit
+    std::exit(message.empty() ? 1 : 0);  // runs HDF5's exit handlers
   }
   int status = -1;
   waitpid(child, &status, 0);
@@ -368,7 +368,7 @@ TEST_CASE("HDF5 files of other programs are read") {
   CHECK(read_table(folder / "int.h5").columns == std::vector<std::vector<double>>{{0, 0, 0, 0}});
 }
 
-TEST_CASE("HDF5 that is no table is refused") {
+TEST_CASE("HDF5 that contains no table is refused") {
   const Folder folder;
   const std::string none = folder / "none.h5";
   CHECK(refusal(none) == "cannot read " + none + ": no such file or directory");
@@ -400,7 +400,7 @@ TEST_CASE("HDF5 that is no table is refused") {
   CHECK_THAT(refusal(folder / "bare.h5"), Contains("it holds no column at its root"));
 }
 
-TEST_CASE("a missing module is told, and what to do") {
+TEST_CASE("a missing module is reported with the remedy") {
   const Folder folder;
   const auto none = open_hdf5_module({folder / "a", folder / "b"});
   CHECK(none.functions == nullptr);
@@ -421,7 +421,7 @@ TEST_CASE("a missing module is told, and what to do") {
                                  Contains("write or read .csv instead"));
 }
 
-TEST_CASE("the module is looked for where the environment says, or beside the program") {
+TEST_CASE("the module is found through the environment or beside the program") {
   const char* before = std::getenv("BBSIM_MODULE_PATH");
   const std::string kept = before == nullptr ? "" : before;
   setenv("BBSIM_MODULE_PATH", "/some/folder", 1);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where the HDF5 library crashes as it writes, the program ends with a message and its exit code.
+// If the HDF5 library crashes while writing, the program ends with a message and its exit code.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -22,14 +22,14 @@ struct End {
   std::string said;
 };
 
-// Takes all of the stack that there is.
+// Uses up the whole stack.
 [[gnu::noinline]] int without_end(int depth) {
   volatile char frame[4096]{};
   frame[0] = static_cast<char>(depth);
   return depth == 0 ? 0 : without_end(depth + 1) + frame[0];
 }
 
-// What becomes of a process that does this, and its standard error.
+// Runs an action in a process; returns how it ended and its standard error.
 template <class Action>
 End end_of(const Action& action) {
   std::array<int, 2> ends{-1, -1};
@@ -53,7 +53,7 @@ End end_of(const Action& action) {
 
 }  // namespace
 
-TEST_CASE("a crash within HDF5 ends the program with what is to be said, and 3") {
+TEST_CASE("a crash within HDF5 ends the program with a message and exit code 3") {
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT}) {
     CAPTURE(signal);
     const End end = end_of([&] {
@@ -68,7 +68,7 @@ TEST_CASE("a crash within HDF5 ends the program with what is to be said, and 3")
   }
 }
 
-TEST_CASE("nor does HDF5 end the program by itself, or by a stack that is full") {
+TEST_CASE("exit() within HDF5 and a stack overflow also end the program with a message") {
   const char* const message = "cannot write a.h5\n";
   const End left = end_of([&] {
     const WithinHdf5 within(message);
@@ -86,9 +86,9 @@ TEST_CASE("nor does HDF5 end the program by itself, or by a stack that is full")
   CHECK(full.said == message);
 }
 
-TEST_CASE("a crash elsewhere stays one, before and after HDF5 was used") {
+TEST_CASE("a crash elsewhere remains a crash, before and after HDF5 was used") {
   const End end = end_of([] {
-    std::signal(SIGABRT, SIG_DFL);  // not what the test's own framework does at it
+    std::signal(SIGABRT, SIG_DFL);  // Catch2 installs its own handler
     { const WithinHdf5 within("cannot write a.h5\n"); }
     std::abort();
   });

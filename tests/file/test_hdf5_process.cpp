@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// HDF5 files are read in a process of their own: what becomes of it is an error with its reason;
-// what a file says of its size is not believed; and nothing of a file reaches a terminal raw.
+// HDF5 files are read in a separate process. Its failure is an error with a reason; the sizes
+// declared in a file are checked; and no file content reaches a terminal raw.
 #include <fcntl.h>
 #include <hdf5.h>
 #include <sys/stat.h>
@@ -44,7 +44,7 @@ std::string refusal(const std::string& file) {
   return message_of<InputError>([&] { (void)read_table(file); });
 }
 
-// Puts a script in the place of the program that reads, for files opened from now on.
+// Replaces the reader program with a script, for files opened from now on.
 class FakeReader {
  public:
   explicit FakeReader(const std::string& script) {
@@ -68,7 +68,7 @@ class FakeReader {
   std::optional<std::string> before_;
 };
 
-// A file of one dataset, as `make` creates it.
+// A file of one dataset, created by `make`.
 template <class Make>
 std::string foreign(const Folder& folder, const std::string& name, Make make) {
   const std::string file = folder / name;
@@ -108,10 +108,10 @@ TEST_CASE("a reader that is killed by a signal is an error that says so") {
   CHECK_THAT(with("exit 3"), Contains("the HDF5 reader ended with code 3"));
   CHECK_THAT(with("exit 127"), Contains("does not start; install the HDF5 library"));
   CHECK_THAT(with("echo nonsense and more of it"), Contains("another version of bbsim"));
-  CHECK(refusal(file).empty());  // the real one is none the worse for it
+  CHECK(refusal(file).empty());  // the real reader still works
 }
 
-// What these do to the library depends on its version: 1.10.8 divides by zero over the first.
+// The effect on the library depends on its version: 1.10.8 divides by zero on the first.
 TEST_CASE("a file whose chunks have no dimensions is an error") {
   const Folder folder;
   const std::string sound = foreign(folder, "sound.h5", [](hid_t id, hid_t creation) {
@@ -124,7 +124,7 @@ TEST_CASE("a file whose chunks have no dimensions is an error") {
   });
   CHECK(read_table(sound).columns[0] == std::vector<double>(1000, 1.5));
   std::string bytes = content_of(sound);
-  // The message of the layout: version 3, in chunks, 2 dimensions, an address, then their sizes.
+  // The layout message: version 3, chunked, 2 dimensions, an address, then their sizes.
   const std::size_t sizes = bytes.find(std::string("\xe8\x03\0\0\x08\0\0\0", 8));
   REQUIRE(sizes != std::string::npos);
   REQUIRE(bytes.substr(sizes - 11, 3) == "\x03\x02\x02");
@@ -133,8 +133,8 @@ TEST_CASE("a file whose chunks have no dimensions is an error") {
   CHECK_THAT(refusal(file), Contains("cannot read " + file + ": "));
 }
 
-// ... and goes in circles over this one.
-TEST_CASE("a file whose strings lead nowhere is an error") {
+// On this one it loops forever.
+TEST_CASE("a file with dangling string references is an error") {
   const Folder folder;
   const std::string sound = foreign(folder, "sound.h5", [](hid_t id, hid_t) {
     const hid_t text = H5Tcopy(H5T_C_S1);
@@ -151,7 +151,7 @@ TEST_CASE("a file whose strings lead nowhere is an error") {
   std::string bytes = content_of(sound);
   const std::size_t second = bytes.find("the second one");
   REQUIRE(second != std::string::npos);
-  // What stands before it in the heap: its number, 2 bytes of 8, and its size, 8 bytes.
+  // Preceding it in the heap: its index, 2 bytes of 8, and its size, 8 bytes.
   bytes.replace(second - 16, 2, 2, '\0');
   bytes.replace(second - 8, 8, 8, '\0');
   const std::string file = folder.put("damaged.h5", bytes);
@@ -180,7 +180,7 @@ TEST_CASE("a reader that cannot be started is an error") {
   if (before == nullptr) unsetenv("BBSIM_MODULE_PATH");
 }
 
-TEST_CASE("a line to the reader that fails is an error, and not a wait for the reader's end") {
+TEST_CASE("a broken connection to the reader is an error, without waiting for the reader's end") {
   const int output = open("/", O_RDONLY | O_DIRECTORY | O_CLOEXEC);  // read() of it is an error
   REQUIRE(output >= 0);
   const pid_t child = fork();
@@ -198,7 +198,7 @@ TEST_CASE("a line to the reader that fails is an error, and not a wait for the r
   CHECK(std::chrono::steady_clock::now() - started < std::chrono::seconds(20));
 }
 
-TEST_CASE("many files may be open at a time, and one that is given up leaves no process") {
+TEST_CASE("many files may be open together, and an abandoned one leaves no process") {
   const Folder folder;
   const std::string file = folder / "a.h5";
   const TableData table = random_table(3, 100000);  // more than a pipe holds
@@ -214,7 +214,7 @@ TEST_CASE("many files may be open at a time, and one that is given up leaves no 
   CHECK(errno == ECHILD);
 }
 
-TEST_CASE("threads that read at a time get each their own rows") {
+TEST_CASE("concurrent threads each read their own rows") {
   const Folder folder;
   constexpr std::size_t threads = 6;
   std::vector<TableData> tables;
@@ -237,7 +237,7 @@ TEST_CASE("threads that read at a time get each their own rows") {
   CHECK(wrong == 0);
 }
 
-TEST_CASE("what a reader says is the reason if it ends with 1, and is shown fit for a terminal") {
+TEST_CASE("a reader's message is the reason if it ends with 1, and is shown safe for a terminal") {
   const Folder folder;
   const std::string file = folder / "a.h5";
   write_table(file, random_table(3, 3000));
@@ -249,11 +249,11 @@ TEST_CASE("what a reader says is the reason if it ends with 1, and is shown fit 
   CHECK(with("printf 'it is \\033[2Jred' >&2; exit 1") == start + "it is \\x1b[2Jred");
   CHECK_THAT(with("echo why >&2; exit 3"), Contains("the HDF5 reader ended with code 3"));
   CHECK_THAT(with("echo why >&2; kill -SEGV $$"), Contains("(signal 11, Segmentation fault)"));
-  // However much it says, it waits for nobody to read it.
+  // Its output is discarded however long it is, so it never blocks.
   CHECK_THAT(with("head -c 5000000 /dev/zero >&2; exit 3"), Contains("ended with code 3"));
 }
 
-TEST_CASE("a table that is not printed to its end, or otherwise than it should be, is an error") {
+TEST_CASE("an incomplete or malformed table from the reader is an error") {
   const Folder folder;
   const std::string file = folder / "a.h5";
   write_table(file, random_table(3, 3000));
@@ -281,7 +281,7 @@ TEST_CASE("a table that is not printed to its end, or otherwise than it should b
   CHECK_THAT(with(std::string(200, '[')), Contains("another version of bbsim"));
 }
 
-TEST_CASE("a file that is cut off is an error, and the next one is read") {
+TEST_CASE("a truncated file is an error, and the next one is read") {
   const Folder folder;
   write_table(folder / "a.h5", random_table(3, 3000));
   const std::string whole = content_of(folder / "a.h5");
@@ -290,7 +290,7 @@ TEST_CASE("a file that is cut off is an error, and the next one is read") {
   CHECK(refusal(folder / "a.h5").empty());
 }
 
-TEST_CASE("a dataset that declares more than the file can hold is refused with its sizes") {
+TEST_CASE("a dataset that declares more than the file can contain is refused with its sizes") {
   const Folder folder;
   const std::string file = foreign(folder, "a.h5", [](hid_t id, hid_t creation) {
     const hsize_t chunk = 1024;
@@ -305,7 +305,7 @@ TEST_CASE("a dataset that declares more than the file can hold is refused with i
             std::to_string(size) +
             " bytes, 0 of them for it: it is damaged, or the dataset was never filled");
 
-  // As large as numbers get.
+  // The largest possible numbers.
   const std::string most = foreign(folder, "most.h5", [](hid_t id, hid_t creation) {
     const hsize_t chunk = 1024;
     H5Pset_chunk(creation, 1, &chunk);
@@ -314,7 +314,7 @@ TEST_CASE("a dataset that declares more than the file can hold is refused with i
   CHECK_THAT(refusal(most), Contains("declares 9223372036854775807 rows, 18446744073709551615 "));
 }
 
-TEST_CASE("a dataset that is packed may be larger than the file, but not by any factor") {
+TEST_CASE("a compressed dataset may be larger than the file, but only by a bounded factor") {
   const Folder folder;
   constexpr hsize_t rows = 2000000;
   const auto packed = [&](const std::string& name, hsize_t declared) {
@@ -341,7 +341,7 @@ TEST_CASE("a dataset that is packed may be larger than the file, but not by any 
   CHECK_THAT(refusal(packed("false.h5", 1000 * rows)), Contains("declares 2000000000 rows"));
 }
 
-TEST_CASE("what lies in other files is not read") {
+TEST_CASE("external data in other files are not read") {
   const Folder folder;
   folder.put("secret", std::string(800, 's'));
   write_table(folder / "other.h5", {{"x"}, {{1, 2}}});
@@ -380,7 +380,7 @@ TEST_CASE("what lies in other files is not read") {
   CHECK(read_table(within).names == std::vector<std::string>{"x", "y"});
 }
 
-TEST_CASE("what a file calls its datasets is shown fit for a terminal") {
+TEST_CASE("dataset names are shown safe for a terminal") {
   const Folder folder;
   const std::string file = foreign(folder, "a\x1b[2J.h5", [](hid_t id, hid_t) {
     const std::array<hsize_t, 3> sizes{2, 2, 2};
@@ -394,8 +394,8 @@ TEST_CASE("what a file calls its datasets is shown fit for a terminal") {
                              "dimensions; numbers may have 1 or 2, text 1");
 }
 
-// As a shell leaves it after trap '' CHLD.
-TEST_CASE("files are read where the system keeps no children's ends") {
+// As after trap '' CHLD in a shell.
+TEST_CASE("files are read even if SIGCHLD is ignored") {
   const Folder folder;
   const std::string file = folder / "a.h5";
   write_table(file, {{"t", "x"}, {{0, 1}, {2, 3}}});

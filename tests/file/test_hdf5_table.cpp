@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Tables of cases: numbers, text and series, read back to the bit and block by block; the same
-// rows give the same bytes however they came, and so do parts that are merged.
+// Tables of cases: numbers, text and series, read back bit for bit and block by block. The same
+// rows give the same bytes for any block size, also when parts are merged.
 #include <hdf5.h>
 #include <hdf5_hl.h>
 #include <sys/stat.h>
@@ -45,7 +45,7 @@ Columns three_kinds(std::size_t width) {
           {"x", "m", "the ball's way", Hdf5Kind::series, width}};
 }
 
-// The same case whatever block it is in.
+// The same cases for any division into blocks.
 Hdf5Block cases(std::size_t first, std::size_t rows, std::size_t width) {
   static const std::vector<std::string> endings = {"done", "", "Kugel fällt: ψ > 90°", "nan"};
   Hdf5Block block{rows, {{}, {}, {}}, {{}, {}, {}}};
@@ -82,7 +82,7 @@ void write_cases(const std::string& file, std::size_t rows, std::size_t width,
   writer.finish(some_attributes);
 }
 
-// content_of() takes its time over large files.
+// Faster than content_of() on large files.
 std::string bytes_of(const std::string& file) {
   std::string bytes(std::filesystem::file_size(file), '\0');
   std::ifstream(file, std::ios::binary).read(bytes.data(), std::ssize(bytes));
@@ -97,7 +97,7 @@ std::string refusal(const std::string& file) {
   return message_of<InputError>([&] { (void)Hdf5TableReader(file); });
 }
 
-// What HDF5 itself says of a dataset.
+// Properties of a dataset, from HDF5 itself.
 struct Facts {
   std::vector<hsize_t> size, most, chunk;
   bool text, utf8, number, axis;
@@ -160,7 +160,7 @@ TEST_CASE("a table of cases as HDF5 sees it") {
   CHECK(t.most == Sizes{3});
   CHECK(t.chunk.empty());
 
-  // The strings themselves, and one of them of no length.
+  // Stored as strings, and none of zero length.
   const hid_t dataset = H5Dopen2(file, "ending", H5P_DEFAULT);
   const hid_t type = H5Dget_type(dataset);
   std::vector<char*> texts(5, nullptr);
@@ -175,7 +175,7 @@ TEST_CASE("a table of cases as HDF5 sees it") {
   H5Fclose(file);
 }
 
-TEST_CASE("cases are whole numbers and the scale of all rows, times that of trajectories") {
+TEST_CASE("case numbers are integers and the scale of all rows; times are that of trajectories") {
   const Folder folder;
   Columns columns = three_kinds(3);
   columns.insert(columns.begin(), {"case", "1", "number of the case, from 0"});
@@ -218,7 +218,7 @@ TEST_CASE("cases are whole numbers and the scale of all rows, times that of traj
   CHECK(same(back, block));
 }
 
-TEST_CASE("tables of cases are compressed, and texts of one length stand side by side") {
+TEST_CASE("tables of cases are compressed, and texts of equal length stored contiguously") {
   const Folder folder;
   constexpr std::size_t rows = 20000;
   const Columns columns{{"case", "1", ""},
@@ -251,7 +251,7 @@ TEST_CASE("tables of cases are compressed, and texts of one length stand side by
     std::size_t count = 1;
     CHECK(H5Pget_filter_by_id2(creation, H5Z_FILTER_DEFLATE, &flags, &count, &level, 0, nullptr,
                                nullptr) >= 0);
-    // The numbers repeat; what refers to strings has their places in the file.
+    // The numbers repeat; string references contain file positions.
     const std::size_t part = column.name == "reason" ? 3 : 20;
     const std::size_t width = column.kind == Hdf5Kind::series ? column.width : 1;
     CHECK(H5Dget_storage_size(dataset) < rows * H5Tget_size(type) * width / part);
@@ -268,7 +268,7 @@ TEST_CASE("tables of cases are compressed, and texts of one length stand side by
   CHECK(reader.read(back));
   CHECK(same(back, block));
 
-  // A text is never cut off.
+  // Text is never truncated.
   CHECK(message_of<OutputError>([&] {
           Hdf5TableWriter writer(folder / "b.h5", {{"status", "", "", Hdf5Kind::text, 4}}, {});
           writer.append({1, {{}}, {{"refused"}}});
@@ -277,7 +277,7 @@ TEST_CASE("tables of cases are compressed, and texts of one length stand side by
         "cannot write " + (folder / "b.h5") + ": writing rows: a text is longer than its column");
 }
 
-TEST_CASE("chunks of series are whole rows of some 100 KiB") {
+TEST_CASE("chunks of series are whole rows of about 100 KiB") {
   const Folder folder;
   Hdf5TableWriter writer(folder / "a.h5", {{"a", "1", "", Hdf5Kind::series, 1},
                                            {"b", "1", "", Hdf5Kind::series, 5000},
@@ -307,7 +307,7 @@ TEST_CASE("a table of cases reads back: columns, units, axes, attributes, rows")
   CHECK_FALSE(reader.read(block));
   CHECK(same(block, cases(0, 0, 3)));
 
-  // In blocks: the last is what is left.
+  // In blocks, of which the last may be smaller.
   for (const std::size_t a_block : {1, 341, 1024, 2499, 2500, 2501}) {
     CAPTURE(a_block);
     Hdf5TableReader in_blocks(folder / "a.h5", {a_block});
@@ -320,7 +320,7 @@ TEST_CASE("a table of cases reads back: columns, units, axes, attributes, rows")
     CHECK(equal);
     CHECK(first == 2500);
   }
-  // Some of the rows.
+  // A range of rows.
   Hdf5TableReader some(folder / "a.h5", {10, 14});
   CHECK(some.rows() == 2500);
   CHECK(some.read(block));
@@ -331,7 +331,7 @@ TEST_CASE("a table of cases reads back: columns, units, axes, attributes, rows")
   CHECK(folder.entries() == 1);
 }
 
-TEST_CASE("any number reads back to the bit from a table of cases") {
+TEST_CASE("any number round-trips bit for bit in a table of cases") {
   const Folder folder;
   const auto table = random_table(2, 3000);
   Hdf5TableWriter writer(folder / "a.h5", {{"n", "1", ""}, {"s", "1", "", Hdf5Kind::series, 1500}});
@@ -346,7 +346,7 @@ TEST_CASE("any number reads back to the bit from a table of cases") {
   CHECK(same(back, block));
 }
 
-TEST_CASE("a table without cases, of one case, and of a single column") {
+TEST_CASE("a table without cases, with one case, and with a single column") {
   const Folder folder;
   write_cases(folder / "none.h5", 0, 3, 1);
   Hdf5TableReader none(folder / "none.h5");
@@ -371,12 +371,13 @@ TEST_CASE("a table without cases, of one case, and of a single column") {
   }
 }
 
-TEST_CASE("the same cases give the same bytes, however they are cut into blocks") {
+TEST_CASE("the same cases give the same bytes for any division into blocks") {
   const Folder folder;
   using Sizes = std::pair<std::size_t, std::size_t>;
-  for (const auto& [rows, width] : {Sizes{2500, 3}, Sizes{150, 8000}}) {  // 1024 and 128 at once
+  for (const auto& [rows, width] :
+       {Sizes{2500, 3}, Sizes{150, 8000}}) {  // 1024 and 128 rows per block
     write_cases(folder / "whole.h5", rows, width, rows);
-    sleep(1);  // HDF5 stamps objects with whole seconds
+    sleep(1);  // HDF5 timestamps objects in whole seconds
     for (const std::size_t at_once : {1, 7, 128, 1000}) {
       CAPTURE(width, at_once);
       write_cases(folder / "cut.h5", rows, width, at_once);
@@ -386,7 +387,7 @@ TEST_CASE("the same cases give the same bytes, however they are cut into blocks"
   }
 }
 
-TEST_CASE("parts that are merged give the bytes of the whole") {
+TEST_CASE("merged parts give the bytes of the whole") {
   const Folder folder;
   const std::size_t width = 40;
   write_cases(folder / "whole.h5", 3000, width, 3000);
@@ -442,7 +443,7 @@ TEST_CASE("wide series") {
   CHECK(same(back, cases(699, 1, 5000)));
 }
 
-TEST_CASE("an unfinished table of cases leaves nothing") {
+TEST_CASE("an unfinished table of cases leaves no file") {
   const Folder folder;
   folder.put("a.h5", "old");
   {
@@ -453,8 +454,8 @@ TEST_CASE("an unfinished table of cases leaves nothing") {
   CHECK(folder.entries() == 1);
 }
 
-// Wherever the disk gets full: in the header, the rows, the strings, the attributes, at closing.
-TEST_CASE("a disk that gets full while cases are written is an error and leaves the old file") {
+// The disk gets full in the header, the rows, the strings, the attributes or at closing.
+TEST_CASE("a disk that fills up while cases are written is an error and keeps the old file") {
   const Folder folder;
   const std::size_t rows = 3000;
   write_cases(folder / "whole.h5", rows, 50, rows);
@@ -469,12 +470,12 @@ TEST_CASE("a disk that gets full while cases are written is an error and leaves 
   }
   CHECK(content_of(file) == "old");
   CHECK(folder.entries() == 2);
-  write_cases(file, rows, 50, 500);  // HDF5 is none the worse for it
+  write_cases(file, rows, 50, 500);  // HDF5 still works afterwards
   const bool equal = same_files(folder / "whole.h5", file);
   CHECK(equal);
 }
 
-TEST_CASE("a process that met a full disk while it wrote cases ends as it should") {
+TEST_CASE("a process that met a full disk while it wrote cases ends normally") {
   const Folder folder;
   for (const rlim_t bytes : {1000, 20000, 400000}) {
     const pid_t child = fork();
@@ -482,7 +483,7 @@ TEST_CASE("a process that met a full disk while it wrote cases ends as it should
       const FileSizeLimit limit(bytes);
       const std::string message =
           message_of<OutputError>([&] { write_cases(folder / "a.h5", 3000, 50, 3000); });
-      std::exit(message.empty() ? 1 : 0);  // with what HDF5 does at exit
+      std::exit(message.empty() ? 1 : 0);  // runs HDF5's exit handlers
     }
     int status = -1;
     waitpid(child, &status, 0);
@@ -491,7 +492,7 @@ TEST_CASE("a process that met a full disk while it wrote cases ends as it should
   CHECK(folder.entries() == 0);
 }
 
-TEST_CASE("after a failure a table of cases is not completed") {
+TEST_CASE("after a failure a table of cases cannot be completed") {
   const Folder folder;
   Hdf5TableWriter writer(folder / "a.h5", three_kinds(50));
   {
@@ -503,7 +504,7 @@ TEST_CASE("after a failure a table of cases is not completed") {
   CHECK_FALSE(std::filesystem::exists(folder / "a.h5"));
 }
 
-TEST_CASE("what cannot hold a table of cases is refused") {
+TEST_CASE("outputs that cannot contain a table of cases are refused") {
   const Folder folder;
   const auto message = [](const std::string& target) {
     return message_of<OutputError>([&] { Hdf5TableWriter(target, three_kinds(3)); });
@@ -518,7 +519,7 @@ TEST_CASE("what cannot hold a table of cases is refused") {
   CHECK_THAT(message(folder.name()), Contains("is a directory"));
 }
 
-TEST_CASE("columns and blocks that make no table are refused") {
+TEST_CASE("columns and blocks that do not form a table are refused") {
   const Folder folder;
   const std::string file = folder / "a.h5";
   const auto message = [&](const Columns& columns, const std::vector<Hdf5Axis>& axes) {
@@ -538,7 +539,7 @@ TEST_CASE("columns and blocks that make no table are refused") {
   CHECK(folder.entries() == 0);
 }
 
-TEST_CASE("a run's HDF5 file is a table of cases, too") {
+TEST_CASE("a run's HDF5 file is also a table of cases") {
   const Folder folder;
   const auto table = random_table(3, 2000);
   write_table(folder / "a.h5", {{"t", "x", "y"}, table.columns}, {{"title", "run"}});
@@ -553,7 +554,7 @@ TEST_CASE("a run's HDF5 file is a table of cases, too") {
   CHECK(same(block, {2000, table.columns, {{}, {}, {}}}));
 }
 
-TEST_CASE("a table of cases is read as a table if it has nothing but numbers") {
+TEST_CASE("a table of cases is read as a table if it has only numbers") {
   const Folder folder;
   const auto written = [&](const Columns& columns, const std::vector<Hdf5Axis>& axes) {
     Hdf5TableWriter(folder / "a.h5", columns, axes).finish({});
@@ -609,7 +610,7 @@ TEST_CASE("files that are no table of cases are refused") {
       Contains("dataset cube is not a column: it has 3 dimensions; numbers may have 1 or 2"));
 }
 
-TEST_CASE("attributes of other kinds and of fixed length") {
+TEST_CASE("attributes of other types and of fixed length") {
   const Folder folder;
   write_cases(folder / "a.h5", 3, 3, 3);
   const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
@@ -676,7 +677,7 @@ TEST_CASE("files of earlier versions are read: texts of any length, numbers as t
   CHECK(reader.read_inputs().empty());
 }
 
-TEST_CASE("texts of one length are texts") {
+TEST_CASE("texts of equal length are read as texts") {
   const Folder folder;
   const hid_t id = H5Fcreate((folder / "a.h5").c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT);
   const hid_t text = H5Tcopy(H5T_C_S1);
@@ -696,7 +697,7 @@ TEST_CASE("texts of one length are texts") {
   CHECK(block.texts[0] == std::vector<std::string>{"done", "", "ab"});
 }
 
-TEST_CASE("attributes and names of all kinds come back as they were") {
+TEST_CASE("attributes and names of all kinds round-trip") {
   const Folder folder;
   const double infinity = std::numeric_limits<double>::infinity();
   const Attributes attributes{{"a", "line\nand \"quote\" \\ \t é"},
@@ -743,7 +744,7 @@ TEST_CASE("several files are read by one process, in order") {
     CHECK(reader.read_inputs().empty());
   }
 
-  // A file among them that is none is an error about it.
+  // An invalid file among them gives an error that names it.
   files[2] = folder.put("text.h5", "t,x\n1,2\n");
   Hdf5TableReaders others(files, {1, 1});
   for (int i = 0; i < 2; ++i) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Nothing that a command writes to is another of its files, whatever it is called.
+// No output of a command may be another of its files, whatever its name.
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -20,7 +20,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// Why an output is refused beside one file that is read and one that is written.
+// Why an output is refused, given one input and another output.
 std::string refusal(const std::string& read, const std::string& written, const std::string& file) {
   return message_of<InputError>([&] {
     Outputs outputs;
@@ -30,7 +30,7 @@ std::string refusal(const std::string& read, const std::string& written, const s
   });
 }
 
-// Runs `action` in a process of its own; whether it returned true.
+// Runs `action` in a child process and returns whether it returned true.
 bool in_child(const std::function<bool()>& action) {
   const pid_t child = fork();
   if (child == 0) _exit(action() ? 0 : 1);
@@ -41,7 +41,7 @@ bool in_child(const std::function<bool()>& action) {
 
 }  // namespace
 
-TEST_CASE("two outputs to standard output are refused, whatever it is") {
+TEST_CASE("two outputs to standard output are refused, whatever it is connected to") {
   CHECK_THAT(refusal("", "-", "-"), Contains("it is the same file as standard output (-o)"));
   CHECK(refusal("", "/dev/null", "-").empty());
 }
@@ -65,7 +65,7 @@ TEST_CASE("an output that is an input is refused, by any path and through any li
   CHECK(refusal(file, "", folder / "sub/a.yaml").empty());
 }
 
-TEST_CASE("two outputs into one file are refused, be it there or not") {
+TEST_CASE("two outputs into one file are refused, existing or not") {
   const Folder folder;
   std::filesystem::create_directory(folder / "sub");
   std::filesystem::create_symlink("sub/new.csv", folder / "link.csv");
@@ -78,7 +78,7 @@ TEST_CASE("two outputs into one file are refused, be it there or not") {
   CHECK(refusal("", folder / "none/a.csv", folder / "none/a.csv").empty());  // cannot be written
 }
 
-TEST_CASE("devices and pipes are nobody's") {
+TEST_CASE("devices and pipes never conflict") {
   const Folder folder;
   REQUIRE(mkfifo((folder / "fifo").c_str(), 0600) == 0);
   for (const std::string& name : {std::string("/dev/null"), folder / "fifo"}) {
@@ -86,7 +86,7 @@ TEST_CASE("devices and pipes are nobody's") {
   }
 }
 
-TEST_CASE("a standard stream that goes to a file is that file") {
+TEST_CASE("a standard stream redirected to a file counts as that file") {
   const Folder folder;
   const std::string file = folder.put("a.yaml", "x");
   CHECK(in_child([&] {

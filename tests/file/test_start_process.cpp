@@ -17,7 +17,7 @@ using namespace bbsim::file;
 
 namespace {
 
-// What a shell says on its standard output; its standard input is empty.
+// Standard output of a shell command; its standard input is empty.
 std::string said(const std::string& command, const std::string& folder, const std::string& mark) {
   std::array<int, 2> input{}, output{};
   REQUIRE(pipe(input.data()) == 0);
@@ -43,13 +43,13 @@ std::string said(const std::string& command, const std::string& folder, const st
 
 }  // namespace
 
-TEST_CASE("a process has its streams, its folder and no other descriptors") {
+TEST_CASE("a process has its streams, its folder and no other descriptor") {
   CHECK(said("cat; echo lost >&2; pwd", "/usr", "") == "/usr\n");
   CHECK(said("for f in 3 4 5 6 7 8 9; do test -e /proc/$$/fd/$f && echo $f; done; true", "", "")
             .empty());
 }
 
-TEST_CASE("a process with a mark has it in its environment, once, and leads a group") {
+TEST_CASE("a process with a mark has it in its environment once and leads a group") {
   const std::string mark = new_mark();
   CHECK(said("env | grep ^BBSIM_CONTROLLER", "", mark) == mark + "\n");
   CHECK(said("set -- $(cut -d' ' -f5 /proc/$$/stat); test $1 = $$ && echo leads", "", mark) ==
@@ -58,7 +58,7 @@ TEST_CASE("a process with a mark has it in its environment, once, and leads a gr
         "follows\n");
 }
 
-TEST_CASE("what cannot be started says why") {
+TEST_CASE("a process that cannot be started has a reason") {
   int error = 0;
   CHECK(start_process({{"no-such-program-as-this"}, 0, 1}, error) == 0);
   CHECK(error == ENOENT);

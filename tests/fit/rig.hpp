@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A rig whose numbers are known, and its logs.
+// A rig with known parameters, and its logs.
 #pragma once
 
 #include <cmath>
@@ -15,8 +15,8 @@
 #include "scenario/family.hpp"
 #include "support/folder.hpp"
 
-// The true rig: two servos that follow sines, not of one period. They begin at their greatest
-// angles, so that the ball does not drift.
+// The true rig: two servos follow sines of different periods, starting at their greatest angles so
+// that the ball does not drift.
 inline const std::string true_rig = R"(
 ball: {radius: 1 cm, position: [2 cm, -1 cm], inertia_factor: 0.43}
 gimbal:
@@ -31,7 +31,7 @@ time: {end: 20, step: 50 ms}
 output: {columns: [t, x, y, phi, theta]}
 )";
 
-// What its owner believes.
+// The rig as its owner believes it to be.
 inline const std::string assumed_rig = R"(# A rig, as bought.
 ball: {radius: 1 cm}  # solid
 gimbal:
@@ -41,8 +41,8 @@ gimbal:
 time: {end: 10, step: 50 ms}
 )";
 
-// Rows of the true rig, with noise of `sd` (m) on the ball, rounded to `step` (m); phi as a gauge
-// gives it that reads (phi - offset) / scale.
+// Rows of the true rig, with noise of `sd` (m) on the ball, rounded to `step` (m), and phi from a
+// gauge that reads (phi - offset) / scale.
 inline std::string log_text(double sd, double scale = 1, double offset = 0, unsigned seed = 1,
                             const std::string& scenario = true_rig, double step = 0) {
   const bbsim::ScenarioFamily family(bbsim::Source{"true.yaml", scenario, {}});

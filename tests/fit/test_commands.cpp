@@ -57,7 +57,7 @@ output: {columns: [t, x, y, phi, theta, phi_command, theta_command]}
 
 }  // namespace
 
-TEST_CASE("commands of a run that are played again give the run") {
+TEST_CASE("replaying the recorded commands of a run gives the run") {
   const Folder folder;
   const ScenarioFamily loop(Source{"rig.yaml",
                                    rig + R"(
@@ -83,8 +83,8 @@ controller:
   const Columns played = rows_of(ScenarioFamily(folder / "played.yaml", {}));
   REQUIRE(played.front().size() == run.front().size());
   for (std::size_t row = 0; row < run.front().size(); ++row) {
-    // At its rows the table has the commands, to rounding; nothing corrects the ball, whose errors
-    // grow with the square of time.
+    // At its rows the table equals the commands up to rounding. Nothing corrects the ball, so its
+    // errors grow quadratically with time.
     for (const std::size_t servo : {3U, 4U, 5U, 6U}) {
       CHECK(played[servo][row] == Approx(run[servo][row]).margin(1e-14));
     }
@@ -124,7 +124,7 @@ output: {columns: [phi, theta, phi_rate, theta_rate]}
   for (const std::string name : {"phi", "theta", "phi_rate", "theta_rate"}) {
     columns.push_back(scenario::find_column(name));
   }
-  // Windows that begin between samples, at one, and before the first command comes.
+  // Windows that begin between samples, at a sample, and before the first command arrives.
   for (const int first : {2013, 2020, 2507, 33, 0}) {
     CAPTURE(first);
     std::vector<double> times;
@@ -134,8 +134,7 @@ output: {columns: [phi, theta, phi_rate, theta_rate]}
     const std::vector<double> part = fit::run_window(
         fit::window_of(scene, begin, begin + times.back()), {}, times, columns, why);
     REQUIRE(part.size() == 4 * times.size());
-    // The servos have forgotten what was before the second that leads to the window: exp(-25) of 4
-    // degrees and 2 rad/s.
+    // The servos settle in the second before the window: exp(-25) of 4 degrees and 2 rad/s remains.
     const double tolerances[] = {1e-10, 1e-10, 1e-9, 1e-9};
     for (std::size_t c = 0; c < columns.size(); ++c) {
       double most = 0;
@@ -173,7 +172,7 @@ controller:
   for (std::size_t row = 0; row < log.front().size(); ++row) {
     log[1][row] += noise(random);
     log[2][row] += noise(random);
-    log[3][row] = (log[3][row] - 0.005) / 1.1;  // the horn is off, and so is the pulse
+    log[3][row] = (log[3][row] - 0.005) / 1.1;  // the horn and the pulse are both off
   }
   const Folder folder;
   folder.put("log.csv", csv("t,x,y,u,v", log));
@@ -197,7 +196,7 @@ controller:
   const double truth[] = {8 * std::acos(-1.0), 0.7, 1.1, 0.005};
   REQUIRE(made.fitted.parameters.size() == 4);
   CHECK(made.fitted.windows == 10);
-  // An ideal rig has no servos: what they do to the ball is more than the noise.
+  // An ideal rig has no servos; the effect on the ball exceeds the noise.
   for (const fit::ColumnResidual& column : made.fitted.columns) {
     REQUIRE(column.ideal);
     CHECK(*column.ideal > 1.2 * column.rms);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Windows that are joined: bbsim fit --continuity.
+// Joined windows: bbsim fit --continuity.
 
 #include <array>
 #include <atomic>
@@ -34,7 +34,7 @@ api::FitResult fitted(const Folder& folder, const std::vector<std::string>& free
   return api::fit(request, false, watch != nullptr ? *watch : nobody);
 }
 
-// Ends a fit after some iterations.
+// Stops a fit after the given number of iterations.
 class Patience : public api::Watch {
  public:
   explicit Patience(std::size_t iterations) : left_(iterations) {}
@@ -54,7 +54,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("joined windows have the fit of one long window") {
+TEST_CASE("joined windows give the fit of one long window") {
   const Folder folder;
   folder.put("log.csv", log_text(5e-4, 1.1, 0.01));
   folder.put("rig.yaml", assumed_rig);
@@ -74,11 +74,11 @@ TEST_CASE("joined windows have the fit of one long window") {
     const fit::Parameter &one = joined.fitted.parameters[k], &same = whole.fitted.parameters[k];
     CAPTURE(free[k], one.estimate, same.estimate, same.sd);
     CHECK(std::abs(one.estimate - same.estimate) < 1e-6 * same.sd);
-    // Derivatives are differences over 1e-3 of a start: of a run of 20 s to 1e-5.
+    // Differences over 1e-3 of a start give derivatives to 1e-5 over a run of 20 s.
     CHECK(one.sd == Approx(same.sd).epsilon(1e-4));
     CHECK(one.low == Approx(same.low).margin(1e-3 * same.sd));
     CHECK(one.high == Approx(same.high).margin(1e-3 * same.sd));
-    // What the free starts throw away.
+    // Free starts discard this information.
     CHECK(one.sd < 0.5 * apart.fitted.parameters[k].sd);
   }
   for (std::size_t c = 0; c < 2; ++c) {
@@ -86,7 +86,7 @@ TEST_CASE("joined windows have the fit of one long window") {
   }
 }
 
-TEST_CASE("joined windows are found from where one long window goes astray") {
+TEST_CASE("joined windows converge from where one long window fails") {
   const auto loop = [](const std::string& gains) {
     return R"(
 ball: {radius: 1 cm, position: [2 cm, -1 cm]}
@@ -128,11 +128,11 @@ output: {columns: [t, x, y, phi, theta]}
   for (std::size_t k = 0; k < 2; ++k) {
     const fit::Parameter &one = joined.fitted.parameters[k], &same = whole.fitted.parameters[k];
     CAPTURE(free[k], one.estimate, same.estimate, same.sd);
-    // Each ends where the sum of squares, 1604, changes by less than 1e-12 of it.
+    // Each fit ends when the sum of squares, 1604, changes by a relative 1e-12.
     CHECK(std::abs(one.estimate - same.estimate) < 4e-5 * same.sd);
     CHECK(one.sd == Approx(same.sd).epsilon(1e-4));
   }
-  // The joined windows take fewer iterations than one long window is given here.
+  // The joined windows need fewer iterations than one long window gets here.
   Patience patience(joined.fitted.iterations);
   const api::FitResult astray = fitted(folder, free, "20 s", false, 0, &patience);
   CAPTURE(joined.fitted.iterations, astray.text);
@@ -140,7 +140,7 @@ output: {columns: [t, x, y, phi, theta]}
   CHECK(astray.fitted.columns[0].rms > 1);
 }
 
-TEST_CASE("windows join where no gap is between them") {
+TEST_CASE("windows join if no gap is between them") {
   const Folder folder;
   std::istringstream lines(log_text(5e-4, 1.1));
   std::string text;
@@ -158,7 +158,7 @@ TEST_CASE("windows join where no gap is between them") {
   CHECK(made.fitted.joints == 8U);
   CHECK(std::abs(made.fitted.parameters[0].estimate - 0.43) < 3.9 * made.fitted.parameters[0].sd);
   CHECK(std::abs(made.fitted.parameters[1].estimate - 1.1) < 3.9 * made.fitted.parameters[1].sd);
-  // A window that is held out is a gap.
+  // A held-out window is a gap.
   folder.put("log.csv", log_text(5e-4, 1.1));
   const api::FitResult held = fitted(folder, free, "2 s", true, 0.2);
   CHECK(held.fitted.windows == 8);
@@ -167,7 +167,7 @@ TEST_CASE("windows join where no gap is between them") {
   CHECK(*held.fitted.columns[0].held == Approx(5e-4).epsilon(0.25));
 }
 
-TEST_CASE("windows are not joined where their starts are not the whole state") {
+TEST_CASE("windows are not joined if their starts are not the whole state") {
   const auto refused = [](const std::string& controller, const std::string& ball = "") {
     const Folder folder;
     folder.put("log.csv", log_text(5e-4));

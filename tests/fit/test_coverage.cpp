@@ -26,7 +26,7 @@ fit::Fitted fitted_to(const std::string& log, const std::string& scenario,
 
 }  // namespace
 
-TEST_CASE("over 500 logs, the 95 % intervals hold the truth as often as they should", "[slow]") {
+TEST_CASE("over 500 logs, the 95 % intervals contain the truth as often as they should", "[slow]") {
   const std::vector<std::string> free = {"ball.inertia_factor", "gimbal.motion.phi.table.scale",
                                          "gimbal.motion.phi.table.offset"};
   const double truth[] = {0.43, 1.1, 0.01};
@@ -46,13 +46,13 @@ TEST_CASE("over 500 logs, the 95 % intervals hold the truth as often as they sho
     CHECK(holds[k] >= 458);
     CHECK(holds[k] <= 489);
   }
-  // A right model's residuals pass; the test is one-sided at three standard deviations.
+  // A correct model passes the residual test, one-sided at three standard deviations.
   CHECK(white >= 490);
 }
 
 TEST_CASE("residuals of a wrong model are not white") {
-  // The log's ball is slowed by rolling losses; the scenario's is not, and no key that is free can
-  // do it.
+  // Rolling losses slow the ball in the log but not in the scenario, and no free key can imitate
+  // them.
   std::string slowed = true_rig;
   slowed.replace(slowed.find("inertia_factor: 0.43"), 20,
                  "inertia_factor: 0.43, mass: 3 g, losses: {viscous: 2e-7}");

@@ -48,7 +48,7 @@ class Case {
   Folder folder_;
 };
 
-// As 99.99 % of all logs are; those of a test are always the same.
+// Holds for 99.99 % of all logs; the logs of a test never change.
 bool is_near(const fit::Parameter& one, double value) {
   return std::abs(one.estimate - value) < 3.9 * one.sd;
 }
@@ -87,11 +87,11 @@ TEST_CASE("keys of a rig are found from its log, within their intervals") {
   CHECK(made.fitted.untold.empty());
   CHECK(made.fitted.windows == 10);
   REQUIRE(made.fitted.columns.size() == 2);
-  // Two starts of four numbers in 41 rows of each window take a share of the noise.
+  // Each window's two starts, four numbers in 41 rows, absorb part of the noise.
   for (const fit::ColumnResidual& column : made.fitted.columns) {
     CHECK(column.rms == Approx(5e-4).epsilon(0.12));
   }
-  // The assumed rig is an ideal one. Its starts are fitted with other weights of the columns.
+  // The assumed rig is ideal, and its starts are fitted with other column weights.
   for (const fit::ColumnResidual& column : made.fitted.columns) {
     REQUIRE(column.ideal);
     CHECK(*column.ideal == Approx(column.before).epsilon(1e-3));
@@ -103,12 +103,12 @@ TEST_CASE("keys of a rig are found from its log, within their intervals") {
   CHECK(made.fitted.white);
   CHECK(contains(made.json, R"("identifiable": true)"));
 
-  SECTION("the same for any number of threads") {
+  SECTION("the result is the same for any number of threads") {
     Case alone(log_text(5e-4, 1.1, 0.01));
     alone.threads = 1;
     CHECK(alone.fit(free).json == made.json);
   }
-  SECTION("the fitted scenario is the user's, with the estimates in it") {
+  SECTION("the fitted scenario is the user's with the estimates") {
     CHECK(contains(made.scenario, "# A rig, as bought.\n"));
     CHECK(contains(made.scenario, "  # solid\n"));
     const ScenarioFamily fitted(Source{rig.folder() / "fitted.yaml", made.scenario, {}});
@@ -121,7 +121,7 @@ TEST_CASE("keys of a rig are found from its log, within their intervals") {
   }
 }
 
-TEST_CASE("eight keys of a rig are found at once, from a log with noise and rounding") {
+TEST_CASE("eight keys of a rig are found together, from a log with noise and rounding") {
   std::string slowed = true_rig;
   slowed.replace(slowed.find("inertia_factor: 0.43"), 20,
                  "inertia_factor: 0.43, mass: 3 g, losses: {viscous: 2e-7}");
@@ -142,7 +142,7 @@ TEST_CASE("eight keys of a rig are found at once, from a log with noise and roun
     CAPTURE(one.key, one.estimate, one.sd);
     CHECK(one.told);
     CHECK(is_near(one, truth[k]));
-    // Of a friction torque, whose scale nothing tells before: to a tenth.
+    // A friction torque, whose scale is unknown beforehand: to a tenth.
     if (k == 1) CHECK(one.sd < 0.1 * truth[1]);
   }
   CHECK(made.fitted.white);
@@ -152,13 +152,13 @@ TEST_CASE("without noise, the fit is exact") {
   const Case rig(log_text(0, 0.9));
   const api::FitResult made = rig.fit({"ball.inertia_factor", "gimbal.motion.phi.table.scale"});
   CAPTURE(made.text);
-  // The spline through rows 50 ms apart is 1e-6 rad from the sines.
+  // The spline through rows 50 ms apart differs from the sines by 1e-6 rad.
   CHECK(made.fitted.parameters[0].estimate == Approx(0.43).epsilon(2e-3));
   CHECK(made.fitted.parameters[1].estimate == Approx(0.9).epsilon(2e-3));
 }
 
 TEST_CASE("a delay of the table is found") {
-  // The gimbal moves 60 ms after its command.
+  // The gimbal follows its command 60 ms late.
   std::string late = true_rig;
   const auto shift = [&](const std::string& from, const std::string& to) {
     const auto at = late.find(from);
@@ -168,7 +168,7 @@ TEST_CASE("a delay of the table is found") {
   shift("5.3 rad/s, phase: 1.5708 rad", "5.3 rad/s, phase: 1.2528 rad");
   shift("2.9 rad/s, phase: 1.5708 rad", "2.9 rad/s, phase: 1.3968 rad");
   const std::string delayed = log_text(3e-4, 1, 0, 3, late);
-  // The log has the command: phi of the rig without the delay.
+  // The log contains the command: phi of the rig without the delay.
   const std::string command = log_text(0);
   std::string log;
   const auto line = [](const std::string& text, std::size_t& at) {
@@ -194,12 +194,12 @@ TEST_CASE("a delay of the table is found") {
       rig.fit({"gimbal.motion.phi.table.delay=0:200 ms", "ball.inertia_factor"});
   CAPTURE(made.text);
   const fit::Parameter& delay = made.fitted.parameters[0];
-  // The first rows, before the delayed table begins, are not the sines.
+  // Before the delayed table begins, the first rows are not the sines.
   CHECK(delay.estimate == Approx(0.06).margin(0.004));
   CHECK(delay.unit == "s");
 }
 
-TEST_CASE("keys that trade off exactly are not given small bars") {
+TEST_CASE("keys that trade off exactly do not get small error bars") {
   const Case rig(log_text(5e-4, 1, 0.01));
   const api::FitResult made = rig.fit(
       {"gimbal.motion.phi.table.offset", "gimbal.mounting.phi_offset", "ball.inertia_factor"});
@@ -250,7 +250,7 @@ TEST_CASE("several logs, each with its own table") {
 }
 
 TEST_CASE("a log's own scale and offset are found, where the table is right") {
-  // Gravity and the angles are known, so that the path is, too; the screen's counts are not.
+  // Gravity and the angles, and hence the path, are known; the scale of the screen's counts is not.
   std::string text = "t,x,y,phi,theta\n";
   {
     std::istringstream lines(log_text(2e-4));
@@ -266,7 +266,7 @@ TEST_CASE("a log's own scale and offset are found, where the table is right") {
   const Case rig(text);
   const api::FitResult made = rig.fit({"log.x.scale", "ball.inertia_factor", "log.x.offset"});
   CAPTURE(made.text, made.json);
-  // An offset is undone by the starts, as long as the plate's curvature does not tell.
+  // The starts absorb an offset as long as the plate's curvature is not observable.
   REQUIRE(made.fitted.parameters.size() == 3);
   const fit::Parameter& scale = made.fitted.parameters[1];
   CHECK(scale.key == "log.x.scale");
@@ -277,7 +277,7 @@ TEST_CASE("a log's own scale and offset are found, where the table is right") {
   CHECK(contains(made.scenario, "# log.x.scale: 0."));
 }
 
-TEST_CASE("a mirrored axis has a scale below 0") {
+TEST_CASE("a mirrored axis has a negative scale") {
   const std::string log = log_text(3e-4);
   std::string mirrored;
   std::istringstream lines(log);
@@ -293,7 +293,7 @@ TEST_CASE("a mirrored axis has a scale below 0") {
   CHECK(is_near(made.fitted.parameters[1], -1));
 }
 
-TEST_CASE("the key that a fit lacks most is suggested") {
+TEST_CASE("the most useful additional key is suggested") {
   const Case rig(log_text(5e-4, 1, 0.01));
   const api::FitResult made = rig.fit({"ball.inertia_factor"});
   CAPTURE(made.text);
@@ -332,8 +332,8 @@ TEST_CASE("a sensor's delay is found") {
   CHECK(made.fitted.parameters[1].sd < 0.002);
 }
 
-TEST_CASE("outliers are told, and Huber's loss gives them less weight") {
-  // Five rows of x are 0.3 m off: the screen was not touched.
+TEST_CASE("outliers are reported, and Huber's loss reduces their weight") {
+  // Five rows of x are 0.3 m off, as when the screen is not touched.
   std::istringstream lines(log_text(5e-4));
   std::string line, text;
   for (int row = 0; std::getline(lines, line); ++row) {
@@ -360,13 +360,13 @@ TEST_CASE("outliers are told, and Huber's loss gives them less weight") {
   }
   CHECK(is_near(huber.fitted.parameters[0], 0.43));
   CHECK(is_near(huber.fitted.parameters[1], 1));
-  // Without outliers it loses 5 % of the efficiency.
+  // Without outliers Huber's loss costs 5 % of the efficiency.
   const Case clean(log_text(5e-4));
   const api::FitResult best = clean.fit(free);
   CHECK(huber.fitted.parameters[0].sd < 1.3 * best.fitted.parameters[0].sd);
 }
 
-TEST_CASE("a stop request keeps the best so far") {
+TEST_CASE("a stop request keeps the best result so far") {
   class Impatient : public api::Watch {
    public:
     void update(double, const std::string& detail) override {
@@ -390,22 +390,22 @@ TEST_CASE("a stop request keeps the best so far") {
   CHECK(contains(made.scenario, "Fitted by bbsim"));
 }
 
-TEST_CASE("an interval is that of the profile") {
-  // Where the problem is almost linear, the ends are those of the standard deviation.
+TEST_CASE("an interval is a profile interval") {
+  // If the problem is nearly linear, its ends agree with the standard deviation.
   const Case rig(log_text(5e-4, 1.1));
   const api::FitResult made = rig.fit({"gimbal.motion.phi.table.scale"});
   const fit::Parameter& scale = made.fitted.parameters[0];
   const double t = 1.96;
   CHECK(scale.high - scale.estimate == Approx(t * scale.sd).epsilon(0.03));
   CHECK(scale.estimate - scale.low == Approx(t * scale.sd).epsilon(0.03));
-  // Of a bounded key, it ends at the bound.
+  // The interval of a bounded key ends at the bound.
   const api::FitResult bounded = rig.fit({"gimbal.motion.phi.table.scale=0.5:1.1001"});
   CHECK(bounded.fitted.parameters[0].high <= 1.1001);
 }
 
-TEST_CASE("an end of an interval has the growth of 95 %, with the other keys at their best") {
-  // The inertia goes with the sensor's scale, and may be held at its bound, which it leaves as the
-  // scale goes on.
+TEST_CASE("at an interval's end the growth is that of 95 %, with the other keys refitted") {
+  // The inertia correlates with the sensor's scale. It may be held at its bound, which it leaves
+  // again as the scale changes.
   const std::string inertia = GENERATE("ball.inertia_factor", "ball.inertia_factor=0.3:0.38");
   CAPTURE(inertia);
   const Case rig(log_text(4e-3));
@@ -418,19 +418,19 @@ TEST_CASE("an end of an interval has the growth of 95 %, with the other keys at 
     const std::string held =
         "log.x.scale=" + number_text(end - 1e-7) + ":" + number_text(end + 1e-7);
     const fit::Fitted there = rig.fit({held, "log.y.scale", inertia}).fitted;
-    double growth = 0;  // over the variance of a residual
+    double growth = 0;  // relative to the variance of a residual
     for (std::size_t c = 0; c < 2; ++c) {
       const double ratio = there.columns[c].rms / best.columns[c].rms;
       growth += degrees / 2 * (ratio * ratio - 1);
     }
     CAPTURE(scale.estimate, scale.sd, end);
-    // Ends are told to a twentieth of the half-width, of which the growth is the square.
+    // Ends are found to a twentieth of the half-width, and the growth is its square.
     CHECK(growth == Approx(std::pow(fit::student_95(degrees), 2)).epsilon(0.1));
   }
 }
 
-TEST_CASE("several starts find what one does not") {
-  // The nearest minimum to a delay of 0.9 s is another period of the motion.
+TEST_CASE("several starts find what one start misses") {
+  // The minimum nearest to a delay of 0.9 s is another period of the motion.
   const std::string late = R"(
 ball: {radius: 1 cm, inertia_factor: 0.43}
 gimbal:
@@ -449,7 +449,7 @@ time: {end: 10, step: 50 ms}
   CHECK(made.fitted.parameters[0].estimate == Approx(0).margin(2e-3));
 }
 
-TEST_CASE("a unit of the upper bound alone is that of both") {
+TEST_CASE("a unit on the upper bound alone applies to both bounds") {
   const Case rig(log_text(0));
   const ScenarioFamily family(rig.folder() / "rig.yaml", {});
   const auto bounds = [&](const std::string& range) {
@@ -469,7 +469,7 @@ TEST_CASE("a key at its bound stays there") {
   CHECK(made.fitted.parameters[0].at_bound);
 }
 
-TEST_CASE("what a fit cannot use is refused") {
+TEST_CASE("input that a fit cannot use is refused") {
   const Case rig(log_text(5e-4));
   const auto refused = [&](const std::vector<std::string>& free, const std::string& window = "",
                            double hold_out = 0) {

@@ -63,7 +63,7 @@ class Shown {
 
 }  // namespace
 
-TEST_CASE("series of a fit are what its residuals are of") {
+TEST_CASE("the series of a fit are those behind its residuals") {
   const Shown rig(1);
   const fit::Fitted made = rig.fit();
   REQUIRE(made.series.size() == made.windows + made.held);
@@ -75,7 +75,7 @@ TEST_CASE("series of a fit are what its residuals are of") {
       REQUIRE(window.times.size() == window.modelled[c].size());
       CHECK(window.times.front() == window.begin);
       for (std::size_t i = 0; i < window.times.size(); ++i) {
-        // The model has numbers where the log has none.
+        // The model has values even if the log has none.
         REQUIRE(std::isfinite(window.modelled[c][i]));
         if (std::isnan(window.measured[c][i])) continue;
         squares[window.held ? 1 : 0] += std::pow(window.modelled[c][i] - window.measured[c][i], 2);
@@ -84,7 +84,7 @@ TEST_CASE("series of a fit are what its residuals are of") {
     }
     // Row 0 is at t = 0; of 401 rows 80 lack x.
     CHECK(counts[0] + counts[1] == (c == 0 ? 321 : 401));
-    // The starts are settled to a part in 1e12 of the squares.
+    // The starts are converged to a relative 1e-12 of the sum of squares.
     CHECK(std::sqrt(squares[0] / counts[0]) == Approx(made.columns[c].rms).epsilon(1e-6));
     REQUIRE(made.columns[c].held);
     CHECK(std::sqrt(squares[1] / counts[1]) == Approx(*made.columns[c].held).epsilon(1e-6));
@@ -115,7 +115,7 @@ TEST_CASE("the page of a fit has its tables and the numbers of each log") {
     CHECK(run["rows"] == 401);
     CHECK(run["every"] == 1);
     const auto times = bbsim_test::numbers_of<double>(run["time"]);
-    // A row parts each window from the next.
+    // An empty row separates the windows.
     REQUIRE(run["windows"].size() == 10);
     REQUIRE(times.size() == 401 + 9);
     REQUIRE(run["columns"].size() == 6);
@@ -129,7 +129,7 @@ TEST_CASE("the page of a fit has its tables and the numbers of each log") {
       CHECK(times[first] == Approx(2.0 * static_cast<double>(w)).margin(1e-9));
       for (std::size_t row = first; row <= last; ++row) {
         if (row > 0) REQUIRE(times[row] > times[row - 1]);
-        // Both are rounded to a float, by a part in 2^24 at most.
+        // Both are rounded to float, by at most a relative 2^-24.
         const double rounding = 6e-8 * (std::abs(modelled[row]) + std::abs(measured[row]));
         REQUIRE(residual[row] == Approx(modelled[row] - measured[row]).margin(rounding));
       }
@@ -141,7 +141,7 @@ TEST_CASE("the page of a fit has its tables and the numbers of each log") {
   CHECK(held == made.held);
 }
 
-TEST_CASE("the page of a fit of one axis has no picture from above") {
+TEST_CASE("the page of a single-axis fit has no top view") {
   const Shown rig(1);
   api::FitRequest request = rig.request(true);
   request.choice.maps = {"x=x"};

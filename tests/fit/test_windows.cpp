@@ -28,7 +28,7 @@ fit::Log even_log(double end, double step) {
   return log;
 }
 
-// x, y, vx, vy and spin over a window that begins at `begin` of the scene's clock.
+// x, y, vx, vy and spin over a window that begins at `begin` of the scene's time.
 std::vector<double> run_from(const Scenario& scenario, double begin, double end,
                              const fit::Start& start, const std::vector<double>& times) {
   fit::Window window;
@@ -53,7 +53,7 @@ TEST_CASE("a log is cut into windows, and a share of them is held out") {
   CHECK(ten[0].first);
   CHECK_FALSE(ten[1].first);
   CHECK(ten[1].begin == Approx(2));
-  CHECK(ten[4].times.size() == 21);  // the log's last row, too
+  CHECK(ten[4].times.size() == 21);  // includes the log's last row
   CHECK_FALSE(ten[0].held);
   CHECK(ten[1].held);
   CHECK_FALSE(ten[2].held);
@@ -68,7 +68,7 @@ TEST_CASE("a log is cut into windows, and a share of them is held out") {
   CHECK(fit::cut({even_log(4, 1)}, 2, 0, 4).empty());
 }
 
-TEST_CASE("a scene from a later time is the rest of the scene") {
+TEST_CASE("a scene started at a later time continues the scene") {
   const std::string scene = GENERATE(
       as<std::string>{}, true_rig,
       std::string("ball: {radius: 1 cm, position: [2 cm, 1 cm]}\n"

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The optimum of `bbsim fit` is that of SciPy's least_squares, which sees runs alone.
+"""Compares the optimum of `bbsim fit` with that of SciPy's least_squares, which only sees runs.
 
 Four logs of 2 s are four windows. SciPy has the keys and the windows' starts as unknowns, side by
 side; bbsim eliminates the starts. BBSIM is the program; needs the Python package, numpy and SciPy.
@@ -25,12 +25,12 @@ import bbsim
 KEYS = ["ball.inertia_factor", "gimbal.motion.phi.table.scale", "gimbal.motion.phi.table.offset"]
 LOGS, ROWS, STEP = 4, 41, 0.05
 
-# Errors of runs should be far below 1e-6 of a standard deviation, which is about 1e-3 here.
+# Run errors should be far below 1e-6 of a standard deviation, which is about 1e-3 here.
 SOLVER = {"rtol": 1e-12, "atol": 1e-14}
 
 
 def scenario(log, values, start):
-    """The believed rig that plays a log."""
+    """The assumed rig, which plays a log."""
     table = {"file": str(log), "time": "t"}
     return {
         "ball": {"radius": 0.01, "inertia_factor": float(values[0]),
@@ -45,7 +45,7 @@ def scenario(log, values, start):
 
 
 def write_logs(folder):
-    """Logs of a rig with other values, with noise; each ball begins elsewhere."""
+    """Noisy logs of a rig with other values; each ball starts elsewhere."""
     random = np.random.default_rng(1)
     t = STEP * np.arange(ROWS)
     files, measured = [], []
@@ -64,7 +64,7 @@ def write_logs(folder):
 
 
 def fitted(folder, files):
-    """Estimates and standard deviations of bbsim."""
+    """Estimates and standard deviations from bbsim."""
     table = "{{table: {{file: log0.csv, time: t, value: {0}}}}}"
     (folder / "rig.yaml").write_text(
         "ball: {radius: 0.01}\n"
@@ -80,7 +80,7 @@ def fitted(folder, files):
 
 
 def optimum(files, measured):
-    """Estimates and standard deviations of SciPy, with weights that follow the residuals."""
+    """Estimates and standard deviations from SciPy, with weights updated from the residuals."""
     size = len(KEYS)
 
     def differences(unknown):

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The command line, in process: main() with words and files of an input, in a folder of its own.
+// The command line, in process: runs main() with arguments and files from an input, in its own
+// folder.
 //
-// An input has a word a line, up to a line "== NAME", after which comes the content of a file of
-// that name, and so on. Slashes that could lead out of the folder become underscores. What takes
-// longer than a quarter of a second of the processor is interrupted, as by Ctrl-C.
+// An input has one argument per line, up to a line "== NAME", followed by the content of a file of
+// that name, and so on. Slashes that could lead out of the folder become underscores. After a
+// quarter of a second of processor time a run is interrupted, as by Ctrl-C.
 #include <fcntl.h>
 #include <sanitizer/common_interface_defs.h>
 #include <sys/mman.h>
@@ -25,7 +26,7 @@
 #include "fuzz.hpp"
 #include "signals.hpp"
 
-int bbsim_main(int argc, char** argv);  // apps/bbsim/main.cpp, by this name
+int bbsim_main(int argc, char** argv);  // main() of apps/bbsim/main.cpp, renamed
 
 namespace {
 
@@ -35,8 +36,8 @@ bool is_plain(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0;
 }
 
-// The program runs as whoever fuzzes, and writes where it is told to: only into its own folder,
-// then.
+// The program runs with the user's rights and writes wherever it is told, so outputs are confined
+// to its own folder.
 std::string kept_in(std::string_view word) {
   std::string result(word.substr(0, word.find('\0')));
   const bool option = result.starts_with('-');
@@ -84,13 +85,13 @@ void use_at_most(suseconds_t microseconds) {
   setitimer(ITIMER_VIRTUAL, &timer, nullptr);
 }
 
-// Where the program's words go instead of a terminal.
+// Receives the program's messages in place of a terminal.
 class Messages {
  public:
   Messages()
       : standard_error_(dup(STDERR_FILENO)), messages_(memfd_create("messages", MFD_CLOEXEC)) {
     must(standard_error_ >= 0 && messages_ >= 0);
-    // NOLINTNEXTLINE(performance-no-int-to-ptr): what the function takes
+    // the function's interface
     __sanitizer_set_report_fd(reinterpret_cast<void*>(static_cast<std::intptr_t>(standard_error_)));
   }
 
@@ -121,7 +122,7 @@ struct Surroundings {
     sigaction(SIGVTALRM, &action, nullptr);
   }
 
-  // The program's working folder is its own; libFuzzer's, with the inputs, is where it was started.
+  // Enters the program's own folder; libFuzzer's, with the inputs, is where it was started.
   void enter() const {
     must(chdir(folder.path().c_str()) == 0);
     messages.begin();
@@ -143,14 +144,13 @@ const Surroundings& surroundings() {
 
 }  // namespace
 
-// Instead of apps/bbsim/signals.cpp, all of it: the time is what ends a run.
+// Replaces apps/bbsim/signals.cpp entirely: the time limit ends a run.
 void bbsim::app::end_at_signals() {}
 const std::atomic<bool>& bbsim::app::watch_signals() {
   return time_is_up;
 }
 
-// Instead of src/controller/foreign_code.cpp, all of it: nobody has looked at what an input would
-// run.
+// Replaces src/controller/foreign_code.cpp entirely, because an input could run anything.
 pid_t bbsim::controller::start_program(const std::vector<std::string>& /*words*/,
                                        const std::string& /*folder*/, const Streams& /*streams*/,
                                        const std::string& /*mark*/, int& error) {
@@ -188,9 +188,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string messages = here.leave();
 
   must(code == 0 || code == 1 || code == 2 || code == 3 || code == 130);
-  // At the start of a line: elsewhere it may be a word of the input.
+  // Only at the start of a line; elsewhere it may come from the input.
   const bool internal = ('\n' + messages).find("\ninternal error: ") != std::string::npos;
   must(code != 1 || !internal);
-  must(code != 2 || !messages.empty());  // a refusal says why
+  must(code != 2 || !messages.empty());  // a refusal gives a reason
   return 0;
 }

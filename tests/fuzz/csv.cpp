@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// CSV: a table read back and compared with itself, and the quoting of a sweep's rows.
+// CSV: reads a table back and compares it, and checks the quoting of a sweep's rows.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -25,7 +25,7 @@ using bbsim::number_text;
 namespace file = bbsim::file;
 namespace record = bbsim::record;
 
-// A file in memory with a name, so that the disk sets no pace.
+// A named file in memory, so that the disk does not limit the speed.
 class NamedMemory {
  public:
   explicit NamedMemory(std::string_view content)
@@ -44,7 +44,7 @@ class NamedMemory {
   int descriptor_;
 };
 
-// What is written of a number reads back to the same bits.
+// The text of a number reads back to the same bits.
 void must_round_trip(double number) {
   const std::string text = number_text(number);
   double back = 0;
@@ -71,7 +71,7 @@ void must_be_like_itself(const file::CellTable& table) {
   must(!record::to_text(comparison, "a", "b", {}).empty());
 }
 
-// A log has as many numbers in each column, and increasing times.
+// A log has equally many numbers in each column and increasing times.
 void must_be_a_log(const std::string& name) {
   std::vector<std::string> notes;
   const bbsim::results::Result log =
@@ -82,7 +82,7 @@ void must_be_a_log(const std::string& name) {
   for (std::size_t i = 1; i < log.rows; ++i) must(t->numbers[i] >= t->numbers[i - 1]);
 }
 
-// The fields of a line are the same again once they are written as a row has them.
+// The fields of a line are unchanged after they are written as a row and read back.
 void must_split_again(std::string_view line) {
   std::vector<std::string> fields, again;
   if (!file::split_fields(line, fields)) return;
@@ -92,7 +92,7 @@ void must_split_again(std::string_view line) {
     file::append_text(written, field);
   }
   must(file::split_fields(written, again));
-  for (std::string& field : fields) {  // a row is a line: breaks become spaces
+  for (std::string& field : fields) {  // a row is one line: line breaks become spaces
     for (char& c : field) {
       if (c == '\n' || c == '\r') c = ' ';
     }

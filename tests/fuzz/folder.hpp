@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A folder of a fuzz target's own, empty before each input, and removed when the target ends.
+// A fuzz target's own folder, emptied before each input and removed when the target ends.
 #pragma once
 
 #include <filesystem>

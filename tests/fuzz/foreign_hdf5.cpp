@@ -12,7 +12,7 @@
 namespace bbsim_fuzz {
 namespace {
 
-// Any identifier; negative where HDF5 refused, which whatever is given it refuses in turn.
+// Any identifier; negative if HDF5 refused, in which case later calls with it are refused too.
 class Id {
  public:
   explicit Id(hid_t id) : id_(id) {}
@@ -27,7 +27,7 @@ class Id {
   hid_t id_;
 };
 
-// Names that the program looks for, or any other.
+// Names that the program looks for, or arbitrary ones.
 std::string name_from(FuzzedDataProvider& bytes) {
   static const std::vector<std::string> known{
       "t",    "x",    "case",        "status",         "unit",           "units", "description",
@@ -101,7 +101,7 @@ struct Extent {
   std::vector<hsize_t> size;
   bool null = false;
 
-  // Whether so little is there that it may be written.
+  // Whether the dataset is small enough to write.
   [[nodiscard]] bool small() const {
     hsize_t all = null ? 0 : 1;
     for (const hsize_t one : size) all = one > 64 ? 65 : all * one;
@@ -129,7 +129,7 @@ Id space_of(const Extent& extent, bool extendible) {
                              extendible ? most.data() : nullptr));
 }
 
-// Values for `space`, of a type that holds no references to memory.
+// Values for `space`, of a type without pointers.
 std::vector<std::uint8_t> values_from(FuzzedDataProvider& bytes, hid_t type, hid_t space) {
   const hssize_t points = std::max<hssize_t>(H5Sget_simple_extent_npoints(space), 0);
   std::vector<std::uint8_t> values(static_cast<std::size_t>(points) * H5Tget_size(type) + 1);
@@ -138,7 +138,7 @@ std::vector<std::uint8_t> values_from(FuzzedDataProvider& bytes, hid_t type, hid
   return values;
 }
 
-// Calls write(values) with what fits the type.
+// Calls write(values) with values of the type.
 template <class Write>
 void write_values(FuzzedDataProvider& bytes, hid_t type, hid_t space, const Extent& extent,
                   Write write) {

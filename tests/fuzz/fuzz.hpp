@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the fuzz targets share. Each is a function that libFuzzer calls with one input after the
-// other; an exception that leaves it, a report of a sanitizer and a broken promise are findings.
+// Shared by the fuzz targets. libFuzzer calls each with one input after another; an uncaught
+// exception, a sanitizer report or a broken promise is a finding.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-// Takes a line, without its line break, from the front of `text`.
+// Removes a line with its line break from the front of `text`; returns it without the break.
 inline std::string_view take_line(std::string_view& text) {
   const std::size_t end = text.find('\n');
   const std::string_view line = text.substr(0, end);
@@ -33,7 +33,7 @@ inline std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-// Runs `action`, which may refuse its input: then with words for each problem.
+// Runs `action`, which may refuse its input if every problem has a text.
 template <class Action>
 void may_refuse(Action action) {
   try {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The reader of HDF5 files on sound files of all kinds (foreign_hdf5.hpp): that HDF5 itself fails
-// on damaged ones is another matter (hdf5_file.cpp).
+// The HDF5 reader on valid files of all kinds (foreign_hdf5.hpp). HDF5 itself fails on damaged
+// ones, which hdf5_file.cpp covers.
 #include <cstdlib>
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// HDF5 files byte by byte, as the program reads them: damaged ones most of all, on which HDF5
-// itself may fail, but not the program.
+// HDF5 files byte by byte, through the program's reader. HDF5 itself may fail on damaged files, the
+// program may not.
 #include <cstdlib>
 #include <string>
 

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The C++ library's way in, which is Python's too: text or a dict, keys that are set, and check().
+// The entry points shared by the C++ library and Python: text or a dict, settings, and check().
 //
 // An input is YAML, with lines "--set KEY=VALUE" and "--number KEY=VALUE". If its first line is
-// "dict", what else it has is JSON, which becomes text as python/bbsim/_scenario.py makes text of a
-// dict; numbers beyond 1e300, and 1e-301, stand for those that JSON has not. A line "--check" asks
-// for check(), which takes a second of a loop under sanitizers; without it, a run reads the
-// scenario, and is ended as soon as it begins.
+// "dict", the rest is JSON, converted to text as python/bbsim/_scenario.py converts a dict; numbers
+// beyond 1e300, and 1e-301, stand for those that JSON lacks. A line "--check" calls check(), which
+// takes a second for a loop under sanitizers; without it, a run reads the scenario and is stopped
+// as it begins.
 #include <sys/types.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ namespace {
 using namespace bbsim_fuzz;
 using Json = nlohmann::ordered_json;
 
-// Python has it as str.
+// Whether Python can represent it as str.
 bool is_unicode(const std::string& text) {
   try {
     static_cast<void>(Json(text).dump());
@@ -60,7 +60,7 @@ std::string text_of(const Json& value) {
   return value.dump();
 }
 
-// YAML's keys are short, so that a reader knows soon whether something is one.
+// YAML limits the length of keys, so that a reader can recognize one early.
 bool has_short_keys(const Json& value) {
   if (!value.is_structured()) return true;
   for (const auto& [key, one] : value.items()) {
@@ -77,7 +77,7 @@ int height_of(const Json& value) {
   return most;
 }
 
-// The node is what the text of the value says.
+// Whether the node equals the value.
 bool holds(const bbsim::yaml::Node& node, const Json& value) {
   using Kind = bbsim::yaml::Node::Kind;
   if (value.is_null()) return node.kind == Kind::null;
@@ -103,13 +103,13 @@ bool holds(const bbsim::yaml::Node& node, const Json& value) {
   return node.kind == Kind::scalar && !node.quoted && node.text == text_of(value);
 }
 
-// Python's text of a dict is the dict.
+// Python's text of a dict must be read as that dict.
 void must_be_read_as(const std::string& text, const Json& dict) {
   using namespace bbsim::yaml;
   try {
     static_cast<void>(check_text(text, 0));
   } catch (const TextFault&) {
-    return;  // control characters, which it refuses by their names
+    return;  // control characters, which are refused by name
   }
   if (height_of(dict) > deepest || !has_short_keys(dict)) return;
   Nodes nodes;
@@ -158,7 +158,7 @@ void must_be_read(const Input& input) {
     }
   }
   if (input.is_checked) {
-    // Its cases are the target variation's, and may be many.
+    // The target variation covers the sweep's cases, which may be many.
     const std::string said = scenario.set("sweep", "null").check();
     must(!said.empty() && is_unicode(said));
     return;
@@ -174,8 +174,7 @@ void must_be_read(const Input& input) {
 
 }  // namespace
 
-// Instead of src/controller/foreign_code.cpp, all of it: nobody has looked at what an input would
-// run.
+// Replaces src/controller/foreign_code.cpp entirely, because an input could run anything.
 pid_t bbsim::controller::start_program(const std::vector<std::string>& /*words*/,
                                        const std::string& /*folder*/, const Streams& /*streams*/,
                                        const std::string& /*mark*/, int& error) {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Memory as on a machine that is full: what is asked for in one piece beyond a bound is refused, by
-// std::bad_alloc, as the sanitizers' own operator new never does. So an input that makes the
-// program ask for too much tries the program's answer to that.
+// Simulates a machine with full memory: a request beyond a bound throws std::bad_alloc, which the
+// sanitizers' operator new never does. Inputs that request too much thus test how the program
+// handles it.
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -28,7 +28,7 @@ void* allocate(std::size_t size, std::align_val_t alignment) {
 
 }  // namespace
 
-// All forms, since the sanitizers have all.
+// All forms, because the sanitizers define all.
 void* operator new(std::size_t size) {
   return allocate(size);
 }

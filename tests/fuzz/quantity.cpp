@@ -3,7 +3,7 @@
 
 // Quantities: "10 cm", 1e-3, "0.5 Hz".
 //
-// The first byte of an input picks what is measured and whether the text is quoted, the rest is the
+// The first byte of an input selects the dimension and whether the text is quoted; the rest is the
 // text.
 #include "yaml/quantity.hpp"
 
@@ -24,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       read_quantity(bbsim_fuzz::text_of(data + 1, size - 1), quoted, dimension);
   if (!quantity.value) return 0;
   must(std::isfinite(*quantity.value));
-  // What is a value is one again, the same, once it is written in SI units.
+  // A valid value written in SI units reads back as the same value.
   const Quantity again = read_quantity(number_text(*quantity.value), false, dimension);
   must(again.value.has_value() && *again.value == *quantity.value);
   return 0;

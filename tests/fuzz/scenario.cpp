@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Scenario text with overrides, up to the model that is made of it and its explanation.
+// Scenario text with overrides, up to the model and its description.
 //
-// An input is YAML; lines of it that begin with "--set " are overrides, as on a command line.
+// An input is YAML; its lines that begin with "--set " are overrides, as on a command line.
 #include <algorithm>
 #include <cmath>
 #include <string>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What varies in a sweep: KEY=SPEC, the plan that is made of it, and the scenarios of its cases.
+// The variations of a sweep: KEY=SPEC, the resulting plan, and the scenarios of its cases.
 //
-// An input is a line for each --vary. If the first line is "zip", they go on together.
+// An input has one line per --vary. If the first line is "zip", the keys vary together.
 #include "scenario/variation.hpp"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The C++ library as its header promises it, through the shared library.
+// The C++ library as its header documents it, through the shared library.
 #include <algorithm>
 #include <bbsim/bbsim.hpp>
 #include <span>
@@ -19,7 +19,7 @@ bbsim::Scenario circle() {
   return bbsim::Scenario::from_file(configs + "fig2b.yaml").set("time.end", 1);
 }
 
-// The faults that the call is refused with.
+// The faults with which the call is refused.
 template <class Call>
 std::vector<bbsim::Fault> faults_of(const Call& call) {
   try {
@@ -34,7 +34,7 @@ std::vector<bbsim::Fault> faults_of(const Call& call) {
 
 }  // namespace
 
-TEST_CASE("a scenario is a value, and its copies have settings of their own") {
+TEST_CASE("a scenario is a value, and copies have their own settings") {
   const bbsim::Scenario small = circle();
   bbsim::Scenario large = small;
   large.set("ball.radius", "3 cm");
@@ -47,7 +47,7 @@ TEST_CASE("a scenario is a value, and its copies have settings of their own") {
   CHECK(moved.check() == small.check());
 }
 
-TEST_CASE("text with a key removed by null is the scenario without it") {
+TEST_CASE("text with a key removed by null equals the scenario without the key") {
   const bbsim::Scenario text = bbsim::Scenario::from_text(
       "ball: {radius: \"2 cm\", spin: 3}\ngimbal: {motion: {phi: \"1 deg\"}}\n"
       "time: {end: 1, step: 0.1}\n");
@@ -57,7 +57,7 @@ TEST_CASE("text with a key removed by null is the scenario without it") {
   CHECK(text.check() != without.check());
 }
 
-TEST_CASE("a refusal has every fault, with place, key and hint") {
+TEST_CASE("a refusal lists every fault with place, key and hint") {
   const auto faults = faults_of([] {
     (void)bbsim::run(
         bbsim::Scenario::from_text("ball: {radius: -1}\ntime: {ende: 1}\n", "mine.yaml"));
@@ -69,17 +69,17 @@ TEST_CASE("a refusal has every fault, with place, key and hint") {
   CHECK(radius->hint.starts_with("allowed: "));
 }
 
-TEST_CASE("what cannot be done is refused as a scenario is") {
+TEST_CASE("impossible requests are refused like faulty scenarios") {
   CHECK_FALSE(faults_of([] { (void)bbsim::run(circle(), {.measures = {"max_tild"}}); }).empty());
   CHECK_FALSE(faults_of([] { (void)bbsim::linearize(circle(), "plan"); }).empty());
   CHECK_FALSE(faults_of([] { (void)bbsim::Scenario::from_file(configs + "none.yaml"); }).empty());
   CHECK_FALSE(faults_of([] { (void)bbsim::Scenario::from_text("a: [1").check(); }).empty());
   CHECK_FALSE(faults_of([] { (void)bbsim::run(circle()).column("z"); }).empty());
-  // It has no samples.
+  // The scene has no samples.
   CHECK_FALSE(faults_of([] { const bbsim::Stepper stepper(circle()); }).empty());
 }
 
-TEST_CASE("rows go to the result, to a function, or nowhere, and are the same") {
+TEST_CASE("rows to the result, to a callback or to neither are the same") {
   const bbsim::Result whole = bbsim::run(circle(), {.measures = {"max_tilt"}});
   CHECK(whole.status == bbsim::Status::done);
   REQUIRE(whole.values.size() == whole.columns.size());
@@ -99,11 +99,11 @@ TEST_CASE("rows go to the result, to a function, or nowhere, and are the same") 
   }
 }
 
-TEST_CASE("a file that cannot be written is an error of its own") {
+TEST_CASE("a file that cannot be written has its own kind of error") {
   CHECK_THROWS_AS(bbsim::run(circle(), {.file = "/dev/null/x.csv"}), bbsim::FileError);
 }
 
-TEST_CASE("work ends where its caller says so, and what the caller throws comes through") {
+TEST_CASE("work stops when its caller asks, and exceptions of callbacks pass through") {
   bbsim::RunOptions options;
   options.goes_on = [](double) { return false; };
   CHECK(bbsim::run(circle().set("time.end", 1e7), options).status == bbsim::Status::interrupted);
@@ -112,7 +112,7 @@ TEST_CASE("work ends where its caller says so, and what the caller throws comes 
   CHECK_THROWS_AS(bbsim::run(circle(), options), std::string);
 }
 
-TEST_CASE("a stepper given the commands of a run repeats it") {
+TEST_CASE("a stepper given the commands of a run repeats the run") {
   const bbsim::Scenario rig = bbsim::Scenario::from_file(configs + "rig.yaml").set("time.end", 1);
   bbsim::Stepper stepper(rig);
   CHECK_FALSE(faults_of([&] { (void)stepper.result(); }).empty());
@@ -121,14 +121,14 @@ TEST_CASE("a stepper given the commands of a run repeats it") {
     CHECK(stepper.sample().number == samples);
     stepper.step({0.01, -0.01});
   }
-  CHECK(samples == 51);  // each 20 ms, with the first and the last
+  CHECK(samples == 51);  // every 20 ms, including both ends
   bbsim::Stepper again(rig);
   while (!again.is_over()) again.step({0.01, -0.01});
   CHECK(again.result().values == stepper.result().values);
   CHECK_FALSE(faults_of([&] { stepper.step({0, 0}); }).empty());
 }
 
-TEST_CASE("a sweep has a row for each case: a grid, or values together") {
+TEST_CASE("a sweep has one row per case: a grid, or values together") {
   bbsim::SweepOptions options;
   options.vary = {{"ball.radius", "list:0.01,0.02"}, {"gravity", "list:9,10"}};
   options.measures = {"max_tilt"};
@@ -148,7 +148,7 @@ TEST_CASE("a sweep has a row for each case: a grid, or values together") {
 TEST_CASE("a linear system has its names and sizes") {
   const bbsim::LinearSystem plant = bbsim::linearize(circle(), "plant");
   const std::size_t n = plant.states.size();
-  CHECK(n == 8);  // position, rate and two of each servo
+  CHECK(n == 8);  // position, rate and two servo states per axis
   REQUIRE(plant.a.size() == n);
   CHECK(plant.a[0].size() == n);
   REQUIRE(plant.b.size() == n);

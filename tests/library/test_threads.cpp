@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Eight threads use the library at once, and get what one thread gets. scripts/test --threads runs
-// these under the thread sanitizer.
+// Eight threads use the library together and get the results of one thread. scripts/test --threads
+// runs these tests under the thread sanitizer.
 #include <array>
 #include <atomic>
 #include <barrier>
@@ -23,7 +23,7 @@ namespace {
 constexpr std::size_t threads = 8;
 const std::string configs = BBSIM_SOURCE_DIR "/configs/";
 
-// Calls work(0) to work(7) in threads that begin together. Catch2's own checks are for one thread.
+// Calls work(0) to work(7) in threads that start together. Catch2's checks are for one thread only.
 template <class Work>
 void at_once(const Work& work) {
   std::barrier start(static_cast<std::ptrdiff_t>(threads));
@@ -46,7 +46,7 @@ void at_once(const Work& work) {
   }
 }
 
-// What work(i) returns in each of eight threads is what it returns in this one.
+// Checks that work(i) in each of eight threads returns what it returns in this one.
 template <class Work>
 void same_at_once(const Work& work) {
   std::array<std::optional<decltype(work(0))>, threads> found;
@@ -74,7 +74,7 @@ TEST_CASE("eight threads run scenarios of their own") {
   same_at_once([&](std::size_t i) { return shipped(names[i]).check(); });
 }
 
-TEST_CASE("eight threads share a scenario that none of them changes") {
+TEST_CASE("eight threads share a scenario that none modifies") {
   const bbsim::Scenario traced = shipped("traced");
   same_at_once([&](std::size_t) { return bbsim::run(traced).values; });
   const bbsim::Scenario rig = shipped("rig");
@@ -86,7 +86,7 @@ TEST_CASE("eight threads share a scenario that none of them changes") {
       [&](std::size_t i) { return bbsim::linearize(rig, i % 2 == 0 ? "plant" : "sampled").json; });
 }
 
-TEST_CASE("eight threads sweep, each in threads of its own") {
+TEST_CASE("eight threads sweep, each with its own threads") {
   const auto tilts = [](const std::string& name, const std::string& vary) {
     bbsim::SweepOptions options;
     options.vary = {{"ball.radius", vary}};
@@ -95,12 +95,12 @@ TEST_CASE("eight threads sweep, each in threads of its own") {
     const bbsim::Table table = bbsim::sweep(shipped(name), options);
     return std::pair(table.column("max_tilt").numbers, table.column("rms_x").numbers);
   };
-  // Superposed, in lanes, rigs in lanes, single runs.
+  // Superposition, lanes, rigs in lanes, single runs.
   const std::array<std::string, 4> names{"fig2a", "fig2b", "rig", "slides"};
   same_at_once([&](std::size_t i) { return tilts(names[i % 4], "linear:0.01:0.02:20"); });
 }
 
-TEST_CASE("eight threads step, and a stepper goes from thread to thread") {
+TEST_CASE("eight threads step, and a stepper moves between threads") {
   const bbsim::Scenario rig = shipped("rig");
   std::vector<bbsim::Stepper> steppers;
   for (std::size_t i = 0; i < threads; ++i) steppers.emplace_back(rig);
@@ -116,13 +116,13 @@ TEST_CASE("eight threads step, and a stepper goes from thread to thread") {
     while (!stepper.is_over()) stepper.step({0.01, 0});
     CHECK(stepper.result().values == alone.result().values);
   }
-  at_once([&](std::size_t) {  // given up half-way
+  at_once([&](std::size_t) {  // abandoned half-way
     bbsim::Stepper stepper(rig);
     stepper.step({0, 0});
   });
 }
 
-TEST_CASE("eight threads are refused, each with its own faults") {
+TEST_CASE("eight threads get refusals, each with its own faults") {
   same_at_once([](std::size_t i) {
     const std::string key = i % 2 == 0 ? "ball.radius" : "no" + std::to_string(i);
     try {
@@ -134,7 +134,7 @@ TEST_CASE("eight threads are refused, each with its own faults") {
   });
 }
 
-TEST_CASE("eight threads write files, and leave the process its signals") {
+TEST_CASE("eight threads write files and leave the process's signal handlers alone") {
   const Folder folder;
   const bbsim::Scenario rig = shipped("rig");
   const auto name = [&](std::size_t i, const std::string& ending) {
@@ -163,7 +163,7 @@ TEST_CASE("eight threads write files, and leave the process its signals") {
   CHECK(folder.entries() == 2 * std::ptrdiff_t(threads));
 }
 
-TEST_CASE("eight threads run a controller of the scenario's own, from a library") {
+TEST_CASE("eight threads run your own controller from a library") {
   const bbsim::Scenario own =
       bbsim::Scenario::from_file(BBSIM_SOURCE_DIR "/examples/controllers/library.yaml")
           .set("controller.library.file", BBSIM_EXAMPLE_LIBRARY)
@@ -192,7 +192,7 @@ TEST_CASE("one thread ends the work of seven others") {
       begin();
       return goes_on.load();
     };
-    // Days of a circle, which nobody waits for.
+    // A circle of several days, which would never finish in time.
     try {
       found[i] = bbsim::run(shipped("fig2b").set("time.end", 1e7), options).status;
     } catch (...) {

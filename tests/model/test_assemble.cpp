@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a scene is given, and what it is spared.
+// Which equations and states a scene gets.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -32,7 +32,7 @@ Scenario tilt_about_y() {
 
 }  // namespace
 
-TEST_CASE("an open loop has the ball's five states and none of the gimbal") {
+TEST_CASE("an open loop has the ball's five states and no gimbal states") {
   const Model model = assemble(fig2a(), true);
   CHECK(model.state_names() == Names{"x", "y", "vx", "vy", "r*spin"});
   CHECK_FALSE(model.closed_loop());
@@ -40,11 +40,11 @@ TEST_CASE("an open loop has the ball's five states and none of the gimbal") {
   CHECK_FALSE(assemble(fig2a(), false).gamma);
 }
 
-TEST_CASE("gamma is no number where it was not integrated, and 0 where symmetry keeps it") {
+TEST_CASE("gamma is NaN if it was not integrated, and 0 if symmetry keeps it zero") {
   const Model with = assemble(fig2a(), true), without = assemble(fig2a(), false);
   std::vector<double> row = with.initial;
   row.push_back(0.02);
-  CHECK(with.sample(0, row.data()).gamma == 2);  // over a radius of 1 cm
+  CHECK(with.sample(0, row.data()).gamma == 2);  // with a radius of 1 cm
   CHECK(std::isnan(without.sample(0, row.data()).gamma));
   for (const bool asked : {true, false}) {
     const Model planar = assemble(tilt_about_y(), asked);
@@ -52,7 +52,7 @@ TEST_CASE("gamma is no number where it was not integrated, and 0 where symmetry 
   }
 }
 
-TEST_CASE("a planar scene may be carried as any other") {
+TEST_CASE("a planar scene may also be solved in full") {
   const Model model = assemble(tilt_about_y(), false, Form::full);
   CHECK(model.state_names() == Names{"x", "y", "vx", "vy", "r*spin"});
   CHECK(model.initial[0] == tilt_about_y().ball.position[0]);
@@ -68,7 +68,7 @@ TEST_CASE("a planar scene has two states") {
     std::swap(scene.ball.position[0], scene.ball.position[1]);
     CHECK(assemble(scene, false).state_names() == Names{"y", "vy"});
   }
-  SECTION("spin, a velocity or an offset across makes it full") {
+  SECTION("spin, a cross velocity or a cross offset makes it full") {
     scene.ball.spin = 1;
     CHECK(assemble(scene, false).size() == 5);
     scene.ball.spin = 0;
@@ -78,7 +78,7 @@ TEST_CASE("a planar scene has two states") {
     scene.gimbal.motion->theta = {Sinusoid{1e-9, 1, 0, 0}};
     CHECK(assemble(scene, false).size() == 5);
   }
-  SECTION("a motion of amplitude zero is none") {
+  SECTION("a motion of amplitude zero does not count") {
     scene.gimbal.motion->theta = {Sinusoid{0, 1, 0, 0}, Ramp{0, 0}, 0.0};
     CHECK(assemble(scene, false).size() == 2);
   }
@@ -95,12 +95,12 @@ TEST_CASE("a closed loop adds angles and rates of the axes that move") {
   CHECK(assemble(beam, false).size() == 9);
 }
 
-TEST_CASE("a planar system gives what the full one gives") {
+TEST_CASE("a planar system gives the full system's result") {
   Scenario beam = fig2b();
   beam.controller->kv[1] = beam.controller->kp[1] = {0, 0};
   const auto small =
       std::get<ClosedLoop<Shape::along_x, Drives::angle>>(assemble(beam, false).system);
-  beam.ball.spin = 1;  // forces the full system; the state below has none
+  beam.ball.spin = 1;  // forces the full system; the state below has no spin
   const auto full = std::get<ClosedLoop<Shape::full, Drives::angle>>(assemble(beam, false).system);
 
   const double z[4] = {0.03, -0.2, 0.1, -1.5};
@@ -157,14 +157,14 @@ TEST_CASE("the poles of the closed loop are the roots of its characteristic poly
 
   SECTION("driving acceleration: s^4 + (a - r s^2)(k_v s + k_p), unstable") {
     Scenario scene = fig2b_literal();
-    scene.controller->kv[1][1] = -100;  // the sign of theta corrected
+    scene.controller->kv[1][1] = -100;  // with the sign of theta corrected
     scene.controller->kp[1][1] = -0.1;
     const Eigenvalues poles = closed_loop_poles(assemble(scene, false));
     REQUIRE(poles.size() == 8);
     CHECK_FALSE(stable(poles));
     for (const auto& s : poles) {
       const double scale = std::pow(std::abs(s) + 1, 4);
-      // A pair of equal axes gives double roots: the square root of rounding is what is left.
+      // Two equal axes give double roots, found only to the square root of rounding.
       CHECK(residual(s, -r * 100, -r * 0.1, a * 100, a * 0.1) < 1e-6 * scale);
     }
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Newton's and Euler's equations with couples, at random states:
+// Newton-Euler equations with couples, at random states:
 // docs/explanation/losses-and-torques.md.
 #include <cmath>
 
@@ -52,7 +52,7 @@ void fill(Random& random, double (&z)[model::CoupledLoop<>::size]) {
 
 }  // namespace
 
-TEST_CASE("without couples a ball rolls as in the general form of equation (27)") {
+TEST_CASE("without couples a ball rolls by the general form of equation (27)") {
   Random random(1);
   double largest = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -82,10 +82,10 @@ TEST_CASE("without couples a ball rolls as in the general form of equation (27)"
     largest = largest_finite(largest, {std::abs(answer.x - rates.x), std::abs(answer.y - rates.y),
                                        std::abs(answer.u - rates.u)});
   }
-  CHECK(largest < 1e-13);  // of some 20 m/s^2
+  CHECK(largest < 1e-13);  // relative to some 20 m/s^2
 }
 
-TEST_CASE("the inertia that motors feel is symmetric and positive definite") {
+TEST_CASE("the motors' inertia matrix is symmetric and positive definite") {
   Random random(2);
   for (int i = 0; i < 1000; ++i) {
     const model::Model model = model::assemble(torque_driven(random), false);
@@ -93,7 +93,7 @@ TEST_CASE("the inertia that motors feel is symmetric and positive definite") {
     double z[model::CoupledLoop<>::size];
     fill(random, z);
     for (const bool rests : {false, true}) {
-      loop.parts.contact.rests = rests;  // held by friction the ball is a part of the plate
+      loop.parts.contact.rests = rests;  // a ball held by friction is part of the plate
       const auto h = loop.inertia(z);
       CAPTURE(i, rests);
       CHECK(std::abs(h[0][1] - h[1][0]) < 1e-14 * (h[0][0] + h[1][1]));
@@ -103,7 +103,7 @@ TEST_CASE("the inertia that motors feel is symmetric and positive definite") {
   }
 }
 
-TEST_CASE("the jacobian of a coupled scene is that of its differences") {
+TEST_CASE("the Jacobian of a coupled scene agrees with differences") {
   Random random(3);
   const Scenario scene = torque_driven(random);
   const model::Model model = model::assemble(scene, false);
@@ -123,13 +123,13 @@ TEST_CASE("the jacobian of a coupled scene is that of its differences") {
     z[j] = kept;
     for (int i = 0; i < n; ++i) {
       CAPTURE(i, j);
-      // Third derivatives of some hundreds times the step's square.
+      // Third derivatives of some hundreds times the squared step.
       CHECK(std::abs(exact(i, j) - (up[i] - down[i]) / (2 * step)) < 1e-5);
     }
   }
 }
 
-TEST_CASE("scenes without losses, sliding and torques are what they were") {
+TEST_CASE("scenes without losses, sliding and torques are unchanged") {
   const Scenario scene = test::parse(test::open_loop);
   CHECK_FALSE(std::holds_alternative<model::CoupledGiven<>>(model::assemble(scene, false).system));
   Scenario with = scene;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where dry friction holds, and which way it acts, against closed forms.
+// When dry friction holds and its direction, against closed forms.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double gravity = 9.81;
 
-// A ball with dry losses on a plate that is tilted by theta.
+// A ball with dry losses on a plate tilted by theta.
 std::string ball_on(double theta, const std::string& losses, const std::string& more = "") {
   return "gravity: 9.81\n"
          "ball: {radius: 0.02, mass: 0.05, losses: {" +
@@ -30,7 +30,7 @@ std::string ball_on(double theta, const std::string& losses, const std::string& 
          more;
 }
 
-// A run at its start, from these velocities of the ball.
+// A run at its start, with the given ball velocities.
 struct Start {
   explicit Start(const std::string& text, double vx = 0, double vy = 0)
       : model(assemble(test::parse(text), false)), run(model, 1e-8), z(model.initial) {
@@ -57,8 +57,8 @@ struct Start {
 
 }  // namespace
 
-// Forces are those on a ball of 1 kg.
-TEST_CASE("rolling resistance holds a ball while the slope is below its number") {
+// Forces act on a ball of 1 kg.
+TEST_CASE("rolling resistance holds a ball while the slope is below its coefficient") {
   Start start(ball_on(0.0019, "rolling: 0.002"));
   CHECK(start.contact().rests);
   CHECK(start.guards()[0] ==
@@ -79,7 +79,7 @@ TEST_CASE("a ball on a steeper slope starts downhill") {
         Approx(gravity * (std::sin(0.003) - 0.002 * std::cos(0.003)) / 1.4).epsilon(1e-9));
 }
 
-TEST_CASE("a moving ball is braked against its velocity") {
+TEST_CASE("friction opposes a moving ball's velocity") {
   Start start(ball_on(0, "rolling: 0.002"), 0.3, -0.4);
   CHECK_FALSE(start.contact().rests);
   CHECK(start.contact().roll.moving == 1);
@@ -89,7 +89,7 @@ TEST_CASE("a moving ball is braked against its velocity") {
   CHECK(rates[3] == Approx(0.8 * 0.002 * gravity / 1.4).epsilon(1e-12));
 }
 
-TEST_CASE("a velocity that has passed zero against its held direction becomes zero") {
+TEST_CASE("a velocity that has crossed zero against its held direction becomes zero") {
   Start start(ball_on(0, "rolling: 0.002"), 1e-9, 0);  // below the resolution
   CHECK(start.contact().roll.moving == 0);
   CHECK(start.guards()[0] == Approx(1e-9));
@@ -99,7 +99,7 @@ TEST_CASE("a velocity that has passed zero against its held direction becomes ze
   CHECK(start.contact().rests);
 }
 
-TEST_CASE("pivoting friction takes a spin to rest") {
+TEST_CASE("pivoting friction stops a spin") {
   Start start(ball_on(0, "pivoting: 0.0001"));
   CHECK(start.contact().held);
   start.z[4] = 0.1;
@@ -109,8 +109,8 @@ TEST_CASE("pivoting friction takes a spin to rest") {
   CHECK(start.guards()[4] == 0.1);
 }
 
-TEST_CASE("a ball slides where rolling needs more than static friction") {
-  // Rolling down a slope needs 2/7 of its tangent.
+TEST_CASE("a ball slides if rolling needs more than static friction") {
+  // Rolling down a slope needs a friction coefficient of 2/7 of its tangent.
   const std::string slip =
       "events: {slip: {friction: 0.1, sliding_friction: 0.08, action: slide}}\n";
   Start rolls(ball_on(0.3, "rolling: 0", slip));
@@ -124,7 +124,7 @@ TEST_CASE("a ball slides where rolling needs more than static friction") {
       .derivative(0.0, slides.z.data(), rates.data());
   CHECK(std::abs(rates[3]) ==
         Approx(gravity * (std::sin(0.4) - 0.08 * std::cos(0.4))).epsilon(1e-9));
-  // The start of sliding is an event of its own.
+  // The start of sliding is a separate event.
   CHECK(slides.run.check_events(0, slides.z.data()) == Effect::none);
   REQUIRE(slides.run.log().occurrences().size() == 1);
   CHECK(slides.run.log().occurrences()[0].name == "slip");
@@ -141,7 +141,7 @@ TEST_CASE("a motor's friction holds its axis against a smaller torque") {
   };
   Start held(text(0.01, "friction: 0.02"));
   CHECK(held.motor(0).free == 0);
-  CHECK(held.guards()[5] == Approx(0.01));  // 0.02 less what is needed
+  CHECK(held.guards()[5] == Approx(0.01));  // 0.02 minus the required torque
   Start turns(text(0.03, "friction: 0.02"));
   CHECK(turns.motor(0).free == 1);
   CHECK(turns.motor(0).opposed == 1);
@@ -155,7 +155,7 @@ TEST_CASE("a motor's torque stays within its limit") {
       "gimbal: {motor: {torque_limit: 0.1}}\n"
       "controller: {pd: {kp: 10, kv: 0}, drives: torque, reference: {point: [0, 0]}}\n"
       "time: {end: 1, step: 0.1}\n";
-  Start start(text);  // asks for 0.5 N m of phi
+  Start start(text);  // demands 0.5 N m of phi
   const std::size_t phi = std::abs(start.motor(0).side) == 1 ? 0 : 1;
   CHECK(start.motor(phi).factor == 0);
   CHECK(std::abs(start.motor(phi).set) == Approx(0.1));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Contact force, torques and energy, against statics and against each other.
+// Contact force, torques and energy, against statics and each other.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr double epsilon = 2.3e-16;
 
-// A dozen roundings of the size of the value.
+// Within a dozen rounding errors of the value.
 bool near(double value, double expected) {
   return std::abs(value - expected) <= 12 * epsilon * std::abs(expected);
 }
@@ -82,7 +82,7 @@ TEST_CASE("the energy changes by the power of the motor torques") {
     const Sample now = system.sample(t, z);
     const Dynamics d = dynamics(now, constants);
     const double power = d.torque_phi * now.gimbal.phi_dot + d.torque_theta * now.gimbal.theta_dot;
-    // h^4 times the fifth derivative of the energy, itself up to 10^3 J/s^5 here; rounding 1e-12.
+    // h^4 times the fifth derivative of the energy, up to 10^3 J/s^5 here; rounding 1e-12.
     CHECK(std::abs(rate - power) < 1e-9);
   }
 }

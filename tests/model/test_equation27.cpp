@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Equation (27) in its compact form against the paper's twist form, and its symmetries.
+// Equation (27) in compact form against the paper's twist form, and its symmetries.
 #include <array>
 #include <cmath>
 
@@ -42,9 +42,9 @@ TEST_CASE("equation (27) agrees with the twist form, (7)-(26)") {
     const double r = random.uniform(0.005, 0.05), g = 9.81;
     const Eigen::Vector3d expected = twist_form::accelerations(q, r, random.uniform(0.01, 2), g);
     const auto [x_ddot, y_ddot, gamma_ddot] = compact(q, r, g);
-    // The twist form subtracts momenta about the origin, whose terms are larger than their
-    // difference by (distance / r)^2 at most: 0.42 m over 5 mm, squared, times the size of the
-    // terms (about 100 m/s^2) and a hundred roundings.
+    // The twist form subtracts momenta about the origin, which exceed their difference by up to
+    // (distance / r)^2: 0.42 m over 5 mm, squared, times the terms (about 100 m/s^2) and a hundred
+    // rounding errors.
     const double bound = 100 * epsilon * 100 * std::pow(0.45 / r, 2);
     CHECK(std::abs(x_ddot - expected[0]) < bound);
     CHECK(std::abs(y_ddot - expected[1]) < bound);
@@ -52,7 +52,7 @@ TEST_CASE("equation (27) agrees with the twist form, (7)-(26)") {
   }
 }
 
-TEST_CASE("mirror symmetries of equation (27) hold to the bit") {
+TEST_CASE("mirror symmetries of equation (27) hold bit for bit") {
   Random random(3);
   for (int i = 0; i < 200; ++i) {
     const twist_form::State q = random_state(random);
@@ -80,11 +80,11 @@ TEST_CASE("mirror symmetries of equation (27) hold to the bit") {
   }
 }
 
-TEST_CASE("lengths by L and times by sqrt(L) leave equation (27) unchanged") {
+TEST_CASE("scaling lengths by L and times by sqrt(L) leaves equation (27) unchanged") {
   Random random(4);
   for (int i = 0; i < 200; ++i) {
     const twist_form::State q = random_state(random);
-    const double scale = 4, root = 2;  // exact in binary, so the bit is kept
+    const double scale = 4, root = 2;  // exact in binary, so all bits agree
     const twist_form::State scaled{scale * q.x,
                                    scale * q.y,
                                    root * q.x_dot,
@@ -104,7 +104,7 @@ TEST_CASE("lengths by L and times by sqrt(L) leave equation (27) unchanged") {
   }
 }
 
-TEST_CASE("terms known to be zero do not change what is left") {
+TEST_CASE("omitting terms known to be zero does not change the rest") {
   Random random(5);
   for (int i = 0; i < 200; ++i) {
     const twist_form::State q = random_state(random);

@@ -40,7 +40,7 @@ struct Chain {
     for (const double pole : poles) value /= s - pole;
     return value;
   }
-  // `closed`: poles of 1 + L, near which something may happen.
+  // `closed`: the poles of 1 + L, near which the response may have features.
   [[nodiscard]] Margins margins(const std::vector<Complex>& closed, double period = 0) const {
     const std::vector<Complex> open(poles.begin(), poles.end());
     return model::margins_of(response(period), model::frequencies_to_look_at(open, closed, period));
@@ -49,7 +49,7 @@ struct Chain {
 
 }  // namespace
 
-TEST_CASE("a frequency response is C (sI - A)^-1 B + D, and knows its rounding") {
+TEST_CASE("a frequency response is C (sI - A)^-1 B + D, with a bound on its rounding") {
   const Chain chain{{-1, -3, -1e4, 0.5}, 2e4};
   const FrequencyResponse response = chain.response();
   for (const double w : {0.0, 1e-3, 1.0, 40.0, 1e5}) {
@@ -66,7 +66,7 @@ TEST_CASE("a frequency response is C (sI - A)^-1 B + D, and knows its rounding")
   CHECK(only_d.at(7, 0, 0) == Complex(3));
 }
 
-TEST_CASE("from sample to sample a response ends at half the sampling rate, and is real there") {
+TEST_CASE("a discrete response ends at half the sampling rate and is real there") {
   const Chain chain{{0.5, -0.2}, 1};
   const double period = 0.1;
   const FrequencyResponse response = chain.response(period);
@@ -78,7 +78,7 @@ TEST_CASE("from sample to sample a response ends at half the sampling rate, and 
 }
 
 TEST_CASE("margins of a loop with an integrator and two lags") {
-  // k / (s (s + 1) (s + 2)): the phase is -180 degrees at sqrt(2), where the size is k / 6.
+  // k / (s (s + 1) (s + 2)): the phase is -180 degrees at sqrt(2), where the magnitude is k / 6.
   const Margins margins = Chain{{0, -1, -2}, 1.5}.margins({{-0.3, 0.7}, {-0.3, -0.7}, -2.4});
   CHECK(margins.gain == Approx(4).epsilon(1e-12));
   CHECK(margins.gain_at == Approx(std::numbers::sqrt2).epsilon(1e-12));
@@ -90,8 +90,8 @@ TEST_CASE("margins of a loop with an integrator and two lags") {
   CHECK(margins.delay_at == w);
 }
 
-TEST_CASE("a loop around an unstable plant may lose gain until a pole passes through 0") {
-  // 2 / (s - 1): -2 at 0, and of size 1 at sqrt(3), 120 degrees behind.
+TEST_CASE("gain around an unstable plant may fall until a pole passes through 0") {
+  // 2 / (s - 1): -2 at 0, and magnitude 1 at sqrt(3), with a phase lag of 120 degrees.
   const Margins margins = Chain{{1}, 2}.margins({-1});
   CHECK(std::isinf(margins.gain));
   CHECK(margins.reduction == Approx(0.5).epsilon(1e-14));
@@ -100,7 +100,7 @@ TEST_CASE("a loop around an unstable plant may lose gain until a pole passes thr
   CHECK(margins.phase_at == Approx(std::sqrt(3.0)).epsilon(1e-12));
 }
 
-TEST_CASE("a loop of samples bears gain until a pole passes through z = -1") {
+TEST_CASE("the gain of a sampled loop may rise until a pole passes through z = -1") {
   const double period = 0.02;
   const Margins margins = Chain{{1}, 0.5}.margins({0.5}, period);
   CHECK(margins.gain == Approx(4).epsilon(1e-13));
@@ -110,7 +110,7 @@ TEST_CASE("a loop of samples bears gain until a pole passes through z = -1") {
   CHECK(margins.phase == Approx(pi / 2 - margins.phase_at * period / 2).epsilon(1e-12));
 }
 
-TEST_CASE("gain margins below the slowest frequency that counts are none") {
+TEST_CASE("gain margins below the lowest relevant frequency are ignored") {
   const Chain chain{{1}, 2};
   const auto frequencies = model::frequencies_to_look_at({1}, {-1}, 0);
   const Chain third{{0, -1, -2}, 1.5};
@@ -121,24 +121,24 @@ TEST_CASE("gain margins below the slowest frequency that counts are none") {
   CHECK(model::margins_of(chain.response(), frequencies, 0).reduction == Approx(0.5));
 }
 
-TEST_CASE("bandwidths are where the size falls by a half of its square") {
+TEST_CASE("the bandwidth is where the magnitude falls by 3 dB") {
   const auto width = [](const FrequencyResponse& of, const std::vector<Complex>& poles) {
     return model::bandwidth_of([&](double w) { return of.at(w, 0, 0); },
                                model::frequencies_to_look_at({}, poles, 0));
   };
   CHECK(width(Chain{{-5}, 35}.response(), {-5}) == Approx(5).epsilon(1e-12));
-  // Two lags of one rate: (1 + w^2)^2 = 2.
+  // Two equal lags: (1 + w^2)^2 = 2.
   CHECK(width(Chain{{-1, -1}, 1}.response(), {-1, -1}) ==
         Approx(std::sqrt(std::numbers::sqrt2 - 1)).epsilon(1e-12));
   const MatrixXd one = MatrixXd::Ones(1, 1);
   // (s + 2) / (s + 1) falls from 2 to 1, which is below 2 / sqrt(2); (s + 1.1) / (s + 1) does not.
   CHECK(width({-one, one, one, one, 0}, {-1}) == Approx(std::numbers::sqrt2).epsilon(1e-12));
   CHECK(std::isinf(width({-one, 0.1 * one, one, one, 0}, {-1})));
-  // From 0, no size is left to fall from.
+  // If the response is 0 at frequency 0, it cannot fall.
   CHECK(std::isinf(width({-one, one, -one, one, 0}, {-1})));
 }
 
-TEST_CASE("frequencies to look at are in order, and no resonance is between them") {
+TEST_CASE("frequencies to look at are sorted and resolve every resonance") {
   const Complex narrow(-1e-6, 50), wide(-3, 1);
   const auto frequencies =
       model::frequencies_to_look_at({narrow, std::conj(narrow)}, {wide, std::conj(wide)}, 0);
@@ -148,7 +148,7 @@ TEST_CASE("frequencies to look at are in order, and no resonance is between them
   const auto near =
       std::ranges::count_if(frequencies, [](double w) { return std::abs(w - 50) <= 4.1e-6; });
   CHECK(near >= 9);
-  // Of samples, up to half their rate.
+  // Sampled: up to half the sampling rate.
   const auto sampled = model::frequencies_to_look_at({0.5}, {0.9}, 0.1);
   CHECK(sampled.back() <= pi / 0.1);
   CHECK(sampled.back() > 0.99 * pi / 0.1);

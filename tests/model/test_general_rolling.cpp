@@ -39,13 +39,13 @@ Motion motion_of(const twist_form::State& q, double r) {
 
 }  // namespace
 
-TEST_CASE("with the paper's rig the general equation is (27)") {
+TEST_CASE("with the paper's rig the general equation equals (27)") {
   Random random(18);
   for (int i = 0; i < 1000; ++i) {
     const double r = random.uniform(0.005, 0.05), g = 9.81;
     const Motion m = motion_of(random_state(random), r);
     const auto rates = GeneralRolling{}.rates<double>(m.phi, m.theta, m.ball, r, g);
-    // A few dozen roundings of terms up to 60 m/s^2.
+    // A few dozen rounding errors of terms up to 60 m/s^2.
     const double bound = 30 * epsilon * 60;
     CHECK(std::abs(rates.x - x_acceleration<double>(m.phi, m.theta, m.ball, r, g)) < bound);
     CHECK(std::abs(rates.y - y_acceleration<double>(m.phi, m.theta, m.ball, r, g)) < bound);
@@ -71,8 +71,8 @@ TEST_CASE("the general equation agrees with the twist form on rigs of all kinds"
         twist_form::accelerations(q, r, random.uniform(0.01, 2), g,
                                   {scene.ball.inertia_factor, mounting.height, mounting.skew,
                                    mounting.yaw, mounting.base_tilt});
-    // As for (27): momenta about the origin, 0.45 m away, with terms of 100 m/s^2; and an inertia
-    // down to a tenth, by which they are divided.
+    // As for (27): momenta about the origin, 0.45 m away, with terms of 100 m/s^2, divided by an
+    // inertia down to a tenth.
     const double bound = 100 * epsilon * 100 * std::pow(0.45 / r, 2) / 0.1;
     CHECK(std::abs(rates.x - expected[0]) < bound);
     CHECK(std::abs(rates.y - expected[1]) < bound);
@@ -95,7 +95,7 @@ TEST_CASE("a fixed incline: s'' = g sin / (1 + k), at any height") {
   }
 }
 
-TEST_CASE("on any rig the motors' power is the rate of the energy") {
+TEST_CASE("on any rig the motors' power equals the rate of change of the energy") {
   Random random(20);
   Scenario scene = bbsim_test::fig2a();
   scene.ball.inertia_factor = 2.0 / 3;
@@ -105,7 +105,7 @@ TEST_CASE("on any rig the motors' power is the rate of the energy") {
   for (int i = 0; i < 100; ++i) {
     twist_form::State q = random_state(random);
     q.gamma_dot /= 10;
-    // The instant a time h later, to second order; the energy's rate by central differences.
+    // The state a time h later, to second order; central differences give the energy's rate.
     const auto sample_at = [&](double h) {
       const Motion m = motion_of(q, r);
       const auto rates = constants.rolling.rates<double>(m.phi, m.theta, m.ball, r, g);
@@ -127,7 +127,7 @@ TEST_CASE("on any rig the motors' power is the rate of the energy") {
     const Dynamics now = dynamics(sample_at(0), constants);
     const double power = now.torque_phi * q.phi_dot + now.torque_theta * q.theta_dot;
     // Differences: h^2 times the third derivative, of energies of some joules that change within
-    // 1/20 s; and their rounding over h.
+    // 1/20 s, and their rounding divided by h.
     CHECK(std::abs(rate - power) < h * h * 20 * 8000 + 1e-15 * 20 / h);
   }
 }

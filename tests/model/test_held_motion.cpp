@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Servos under a held command in closed form: the motion itself, and when a line in it falls.
+// Servos under a held command in closed form: the motion, and when a linear function of it falls.
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -13,13 +13,13 @@ using namespace bbsim::model;
 
 namespace {
 
-// Springs and dampers from none to stiff, under-, over- and critically damped.
+// Springs and dampers from none to stiff; under-, over- and critically damped.
 const std::vector<HeldLaw> laws{
     {0, 0},       {0, 1e-7},   {0, 20},     {0, 1e4},      {1e-8, 0},     {1e-8, 10},
     {100, 0},     {100, 10},   {100, 20},   {100, 20.001}, {100, 19.999}, {100, 500},
     {986.96, 50}, {4e6, 4000}, {4e6, 3200}, {4e6, 1e5},    {1e-3, 1000}};
 
-// h, h' and the integral of h after t, in 64 bits: a series to where it is short, then doubled.
+// h, h' and the integral of h at t, in 64 bits: a series over a short time, then doubling.
 struct Doubled {
   long double integral, value, slope;
 };
@@ -53,7 +53,7 @@ Doubled by_doubling(const HeldLaw& law, double time) {
 
 }  // namespace
 
-TEST_CASE("the answer of a held servo to an impulse, for any spring and damper") {
+TEST_CASE("the impulse response of a held servo, for any spring and damper") {
   const bool known = GENERATE(false, true);
   KnownAnswers answers;
   for (const HeldLaw& law : laws) {
@@ -61,7 +61,7 @@ TEST_CASE("the answer of a held servo to an impulse, for any spring and damper")
       INFO(law.stiffness << " " << law.damping << " " << t << ", known: " << known);
       const ImpulseAnswer found = known ? answers.at(law, t) : answer(law, t);
       const Doubled wanted = by_doubling(law, t);
-      // Doubling loses some digits where the motion turns many times; 64 bits of them are there.
+      // Doubling loses some digits if the motion has many periods, of its 64 bits.
       const double turns = 1 + std::sqrt(law.stiffness) * t;
       const double rounding = 20 * 2.2e-16 * turns;
       const double time = std::min({t, law.stiffness > 0 ? 1 / std::sqrt(law.stiffness) : t,
@@ -75,7 +75,7 @@ TEST_CASE("the answer of a held servo to an impulse, for any spring and damper")
   }
 }
 
-TEST_CASE("a held servo moves as its equation says, from mode to mode") {
+TEST_CASE("a held servo follows its equation in every mode") {
   const ServoResponse servo{986.96, 986.96, 50.27};
   AxisMode free, pushed, at_rate;
   pushed.demand_factor = at_rate.demand_factor = 0;
@@ -94,13 +94,13 @@ TEST_CASE("a held servo moves as its equation says, from mode to mode") {
   CHECK(held_motion(servo, pushed, 0.2, 0.05, -1.3).after(0.1).angle == Approx(-0.14));
 }
 
-TEST_CASE("the first fall of a line in a held motion is found wherever it is") {
+TEST_CASE("the first fall of a linear function in a held motion is found") {
   const auto value = [](const MotionLine& line, const HeldMotion& motion, double t) {
     const HeldMotion::Instant at = motion.after(t);
     return line.at(at.angle, at.rate);
   };
   int falls = 0, dips = 0;
-  KnownAnswers answers;  // of one law after the other
+  KnownAnswers answers;  // for one law after the other
   for (const HeldLaw& law : laws) {
     for (const double rate : {-2.0, 0.0, 0.7}) {
       for (const double acceleration : {-30.0, 0.0, 8.0}) {
@@ -112,7 +112,7 @@ TEST_CASE("the first fall of a line in a held motion is found wherever it is") {
           const double at = first_crossing(line, motion, 1e-12, 0, end, answers);
           INFO(law.stiffness << " " << law.damping << ": " << rate << " " << acceleration << ": "
                              << line.constant << " " << line.by_angle << " " << line.by_rate);
-          // Never below before, by a look from close by.
+          // Dense sampling finds no earlier fall.
           const double until = std::min(at, end);
           constexpr int looks = 4000;
           double least = std::numeric_limits<double>::infinity();
@@ -122,7 +122,7 @@ TEST_CASE("the first fall of a line in a held motion is found wherever it is") {
           if (at > end) continue;
           ++falls;
           CHECK(std::abs(value(line, motion, at)) <= 1e-9);
-          // To the rounding of the time and of what the line is the sum of.
+          // Up to rounding of the time and of the terms of the line.
           const HeldMotion::Instant there = motion.after(at);
           const double slope = line.by_angle * there.rate + line.by_rate * there.acceleration;
           const double turns = 1 + std::sqrt(law.stiffness) * at;
@@ -139,14 +139,14 @@ TEST_CASE("the first fall of a line in a held motion is found wherever it is") {
     }
   }
   CHECK(falls > 100);
-  CHECK(dips > 10);  // those that are above again at the end
+  CHECK(dips > 10);  // dips that have ended by the end
 }
 
-TEST_CASE("a dip is found that has died away by the end, to nothing at all") {
+TEST_CASE("a dip is found even if it has died away completely by the end") {
   KnownAnswers answers;
   const double frequency = GENERATE(100.0, 740.0, 760.0, 2000.0, 1e5);
   const double damping = GENERATE(0.7, 1.0, 1.01, 3.0);
-  // A command that jumps by a radian; from rest the rate goes up to its limit, and beyond.
+  // A command that jumps by a radian: from rest the rate rises to its limit and beyond.
   const HeldLaw law{frequency * frequency, 2 * damping * frequency};
   const HeldMotion motion{law, 0, 0, law.stiffness};
   const MotionLine below_limit{1, 0, -1};
@@ -158,22 +158,22 @@ TEST_CASE("a dip is found that has died away by the end, to nothing at all") {
   }
 }
 
-TEST_CASE("a line that starts where it fell waits until it was clearly above, or is below") {
+TEST_CASE("a line that starts at its fall waits until it was clearly above, or is below") {
   const auto fall = [](const MotionLine& line, const HeldMotion& motion, double start) {
     KnownAnswers answers;
     return first_crossing(line, motion, 1e-12, start, 1, answers);
   };
-  // Free from a rate limit: the rate falls off at once.
+  // Released from a rate limit, the rate falls immediately.
   const HeldMotion slows{{100, 20}, 0, 1, -3};
   const MotionLine at_limit{1, 0, -1};
   CHECK(std::isinf(fall(at_limit, slows, 0)));
-  // A rate that grows has fallen by what is clear.
+  // A growing rate has clearly fallen.
   const HeldMotion grows{{0, 0}, 0, 1, 3};
   CHECK(fall(at_limit, grows, 0) == Approx(1e-12 / 3).epsilon(1e-3));
-  // Up first, and then back: it falls where it passes zero again.
+  // Up first, then back: it falls when it passes zero again.
   const HeldMotion returns{{0, 0}, 0, 1, -4};
   const MotionLine angle{0, 1, 0};
   CHECK(fall(angle, returns, 0) == Approx(0.5).epsilon(1e-14));
-  // Times count from the piece's start: it is found to the rounding of the time itself.
+  // Times count from the piece's start, so it is found up to rounding of the time itself.
   CHECK(fall({0.25, -1, 0}, {{0, 0}, 0, 1, 0}, 1e6) == Approx(0.25).epsilon(1e-9));
 }

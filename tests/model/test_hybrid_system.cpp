@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A run of a scene with switches: the instants of its time events, its guards, and its jumps.
+// A run of a scene with switches: its time events, guards and jumps.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -64,7 +64,7 @@ std::string saved(Object& object) {
 
 }  // namespace
 
-TEST_CASE("a sampled rig has time events at its samples and its commands") {
+TEST_CASE("a sampled rig has time events at its samples and command arrivals") {
   const Model model = model_of(sampled);
   HybridSystem run(model, 1e-8);
   std::vector<double> z = model.initial;
@@ -81,12 +81,12 @@ TEST_CASE("a sampled rig has time events at its samples and its commands") {
     CHECK_FALSE(run.is_due(t - 1e-6));
     CHECK(run.changes_at(t) == commands);
     run.handle_time_event(t, z.data());
-    // A sample alone does not change the motion.
+    // A sample alone does not affect the motion.
     CHECK(run.touched() == commands);
   }
 }
 
-TEST_CASE("only the parts that switch have guards") {
+TEST_CASE("only switching parts have guards") {
   const auto guards = [](const std::string& text) {
     return HybridSystem(model_of(text), 0).guards();
   };
@@ -100,10 +100,10 @@ TEST_CASE("only the parts that switch have guards") {
   for (const double scale : run.guard_scales()) CHECK(scale > 0);
 }
 
-TEST_CASE("a command beyond its limit is cut off, and is free again within") {
+TEST_CASE("a command saturates at its limit and is free again within it") {
   const Model model = model_of(continuous);
   HybridSystem run(model, 0);
-  std::vector<double> z = model.initial;  // asks for 0.2 rad
+  std::vector<double> z = model.initial;  // demands 0.2 rad
   run.handle_time_event(0, z.data());
   const auto axis = [&] { return std::get<RigLoop<>>(run.model().system).mode.axis[0]; };
   CHECK(std::abs(axis().side) == 1);
@@ -154,7 +154,7 @@ TEST_CASE("monitors note an event once, until it ends") {
   CHECK(run.log().occurrences()[0].name == "edge");
   CHECK(run.log().occurrences()[0].t == 0.1);
   CHECK(run.occurring()[0] == 1);
-  CHECK(guards_of(run, 0.2, z)[0] == Approx(0.01));  // of the event's end
+  CHECK(guards_of(run, 0.2, z)[0] == Approx(0.01));  // guard of the event's end
   CHECK(run.handle_state_event(0, 0.3, z.data()) == Effect::none);
   CHECK(run.occurring()[0] == 0);
   // The other event stops the run.
@@ -165,7 +165,7 @@ TEST_CASE("monitors note an event once, until it ends") {
   CHECK_FALSE(run.stops(1));
 }
 
-TEST_CASE("stops of the input are passed in turn") {
+TEST_CASE("stops of the input are passed in order") {
   const Model model = model_of(prescribed);
   HybridSystem run(model, 0);
   std::vector<double> z = model.initial;
@@ -178,7 +178,7 @@ TEST_CASE("stops of the input are passed in turn") {
   CHECK(run.next_time_event() == unlimited);
 }
 
-TEST_CASE("a run goes on from its saved state") {
+TEST_CASE("a run continues from its saved state") {
   const Model model = model_of(sampled);
   HybridSystem run(model, 0), other(model, 0);
   std::vector<double> z = model.initial;

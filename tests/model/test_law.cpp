@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The list of a law's numbers, from which lanes and derivatives by keys take them.
+// The list of a law's numbers, which lanes and derivatives by keys use.
 #include <cstddef>
 
 #include "catch.hpp"
@@ -10,11 +10,11 @@
 using bbsim::model::ControlLaw;
 using bbsim::model::for_each_number;
 
-TEST_CASE("the list of a law's numbers has each of them, once") {
+TEST_CASE("the list of a law's numbers has each of them once") {
   ControlLaw law, other;
   double count = 0;
   for_each_number(law, law, [&count](double& number, double&) { number = ++count; });
-  // The kind takes the room of one more.
+  // The law's kind takes the space of one more number.
   CHECK(static_cast<std::size_t>(count + 1) * sizeof(double) == sizeof(ControlLaw));
 
   for_each_number(other, law, [](double& to, const double& from) { to = from; });

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Scenes as linear systems: against differences in quad precision, closed forms, and the poles that
-// the loop has otherwise.
+// Scenes as linear systems: against differences in quad precision, closed forms and independently
+// computed poles of the loop.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -48,7 +48,7 @@ Scenario sampled_scene() {
   return scene;
 }
 
-// Nothing about it is symmetrical.
+// A scene without any symmetry.
 Scenario crooked_scene() {
   Scenario scene = pd_scene();
   scene.ball.inertia_factor = 0.6;
@@ -62,7 +62,7 @@ Linearization linear(const Scenario& scene, LinearKind kind,
   return model::linearize(scene, model::assemble(scene, false), kind, at);
 }
 
-// The largest distance from a value to the nearest of the others, relative to 1 + its size.
+// Largest distance from a value to the nearest of the others, relative to 1 + its magnitude.
 double distance(const model::Eigenvalues& values, model::Eigenvalues others) {
   REQUIRE(values.size() == others.size());
   double worst = 0;
@@ -88,7 +88,7 @@ model::LinearPoint somewhere() {
 
 }  // namespace
 
-TEST_CASE("poles of a linear loop are those that check prints") {
+TEST_CASE("poles of a linear loop equal those that check prints") {
   Scenario scene = pd_scene();
   SECTION("PD") {}
   SECTION("PD of accelerations, unstable") {
@@ -117,12 +117,12 @@ TEST_CASE("poles of a linear loop are those that check prints") {
   }
   const model::Model model = model::assemble(scene, false);
   const Linearization made = linear(scene, LinearKind::loop);
-  // Rounding of a non-symmetric matrix's eigenvalues, of two ways to the same matrix.
+  // Rounding in eigenvalues of a nonsymmetric matrix that was computed in two ways.
   CHECK(distance(made.poles, model::closed_loop_poles(model)) < 1e-10);
   CHECK_FALSE(made.system.period);
 }
 
-TEST_CASE("poles of a sampled loop are those that check prints") {
+TEST_CASE("poles of a sampled loop equal those that check prints") {
   Scenario scene = sampled_scene();
   SECTION("PD") {}
   SECTION("PID with a servo of first order, no delay") {
@@ -136,7 +136,7 @@ TEST_CASE("poles of a sampled loop are those that check prints") {
   const model::Model model = model::assemble(scene, false);
   const Linearization made = linear(scene, LinearKind::loop);
   CHECK(made.system.period == 0.02);
-  // Poles at zero of the delays are defective: rounding moves them by its root of their number.
+  // The delays' poles at zero are defective: rounding moves n of them by its n-th root.
   const auto large = [](model::Eigenvalues poles) {
     std::erase_if(poles, [](const Complex& pole) { return std::abs(pole) < 0.05; });
     return poles;
@@ -175,16 +175,17 @@ TEST_CASE(
     return large_ones(sampled ? model::sampled_poles(model) : model::closed_loop_poles(model));
   };
   const auto expected = poles_of(ideal);
-  // theta's home is not its curve's zero, and a ratio is that of home: 1e-9 is of eigenvalues.
+  // theta's home is not its curve's zero, and the ratio is that at home; eigenvalues are good to
+  // 1e-9.
   CHECK(distance(poles_of(linked), expected) < 1e-7);
   CHECK(distance(large_ones(linear(linked, LinearKind::loop).poles), expected) < 1e-7);
   CHECK(distance(large_ones(linear(three, LinearKind::loop).poles), expected) < 1e-7);
-  // The three have a heave of their own: twice the servo's poles, once more.
+  // Three servos have heave as an extra motion, with the servo's poles once more.
   auto of_three = poles_of(three);
   if (!sampled) CHECK(of_three.size() == expected.size() + 2);
 }
 
-TEST_CASE("behind a linkage A is the derivative of the system, where it rests too") {
+TEST_CASE("with a linkage A is the derivative of the system, also at rest away from home") {
   Scenario scene = pd_scene();
   scene.gimbal.linkage = {RodLinkage{0.025, 0.08, {}, {0.06, 0.09}},
                           RodLinkage{0.03, 0.06, 0.08, {0.02, 0.06}}};
@@ -198,7 +199,7 @@ TEST_CASE("behind a linkage A is the derivative of the system, where it rests to
   std::copy(at.state.begin(), at.state.end(), z);
   double rates[model::CoupledLoopLayout::states];
   system.derivative(0.0, z, rates);
-  for (int i = 0; i < 9; ++i) CHECK(std::abs(rates[i]) < 1e-10);  // it rests
+  for (int i = 0; i < 9; ++i) CHECK(std::abs(rates[i]) < 1e-10);  // it is at rest
   constexpr int size = model::CoupledLoopLayout::states;
   Eigen::Matrix<double, size, size> full;
   model::jacobian(model.system, 0.0, z, full.data());
@@ -209,7 +210,7 @@ TEST_CASE("behind a linkage A is the derivative of the system, where it rests to
         1e-9 * full.cwiseAbs().maxCoeff());
 }
 
-TEST_CASE("a turned sensor is in the poles, and in where the ball comes to rest") {
+TEST_CASE("a rotated sensor affects the poles and the ball's resting place") {
   Scenario scene = sampled_scene();
   scene.controller->sensor->delay = 0.005;
   const auto straight = model::sampled_poles(model::assemble(scene, false));
@@ -225,7 +226,7 @@ TEST_CASE("a turned sensor is in the poles, and in where the ball comes to rest"
   CHECK(at.state[1] == Approx(0.003 * std::sin(0.4)).epsilon(1e-9));
 }
 
-TEST_CASE("A and B of a plant are its differences in quad precision") {
+TEST_CASE("A and B of a plant agree with differences in quad precision") {
   const Scenario scene = crooked_scene();
   const model::LinearPoint at = somewhere();
   const Linearization made = linear(scene, LinearKind::plant, at);
@@ -233,7 +234,8 @@ TEST_CASE("A and B of a plant are its differences in quad precision") {
   model::RigLoop<> held(built.loop.radius(), built.loop.gravity(), built.loop.rolling(), {},
                         built.loop.servo(), {}, built.loop.mode);
   constexpr int n = model::RigLoop<>::size;
-  REQUIRE(made.system.a.rows() == n);  // with the spin, which acts on others where the plane turns
+  REQUIRE(made.system.a.rows() ==
+          n);  // with the spin, which acts on other states if the plane turns
   const auto rates = [&](int state, double step, int command, double push) {
     Quad z[n], dz[n];
     for (int i = 0; i < n; ++i) z[i] = Quad(at.state[static_cast<std::size_t>(i)]);
@@ -243,7 +245,7 @@ TEST_CASE("A and B of a plant are its differences in quad precision") {
     held.derivative_of(std::array<model::Jet<Quad>, 2>{}, z, dz);
     return std::vector<Quad>(dz, dz + n);
   };
-  // Central differences leave out the square of the step times the third derivative, some 1e3.
+  // Central differences omit the squared step times the third derivative, some 1e3.
   const double step = std::ldexp(1.0, -40);
   for (int j = 0; j < n; ++j) {
     const auto more = rates(j, step, -1, 0), less = rates(j, -step, -1, 0);
@@ -254,7 +256,7 @@ TEST_CASE("A and B of a plant are its differences in quad precision") {
       CHECK(std::abs(made.system.a(i, j) - difference) <= 1e-12 * (1 + std::abs(difference)));
     }
   }
-  // The command enters linearly; the step is so large that the doubles it is added to are exact.
+  // The command enters linearly; the step is large enough to be added to the doubles exactly.
   for (int j = 0; j < 2; ++j) {
     const auto more = rates(-1, 0, j, 1), less = rates(-1, 0, j, 0);
     const double push =
@@ -268,7 +270,7 @@ TEST_CASE("A and B of a plant are its differences in quad precision") {
   }
 }
 
-TEST_CASE("A and B of a loop are its differences in quad precision") {
+TEST_CASE("A and B of a loop agree with differences in quad precision") {
   Scenario scene = crooked_scene();
   const bool compensates = GENERATE(false, true);
   if (compensates) {
@@ -313,13 +315,13 @@ TEST_CASE("A and B of a loop are its differences in quad precision") {
   }
 }
 
-TEST_CASE("margins are those of the closed form (M13)") {
+TEST_CASE("margins agree with the closed form (M13)") {
   const Scenario scene = pd_scene();
   const Linearization made = linear(scene, LinearKind::loop);
   // s^2 (s^2 + P s + Q) + (Kv s + Kp)(a - r s^2), K = Q k.
   const double r = 0.02, a = 5 * scene.gravity / 7, wn = 30, zeta = 0.8;
   const double p = 2 * zeta * wn, q = wn * wn, kp = q * 0.4, kv = q * 0.35;
-  // Where a factor on both gains makes a3 a2 a1 = a1^2 + a3^2 a0: its square cancels.
+  // A factor on both gains gives a3 a2 a1 = a1^2 + a3^2 a0, in which its square cancels.
   const double gain = p * (q * kv - p * kp) / (kv * (kv * (q * r + a) - p * r * kp));
   const double at = std::sqrt(gain * a * kv / (p - gain * r * kv));
   REQUIRE(made.margins.size() == 2);
@@ -333,11 +335,11 @@ TEST_CASE("margins are those of the closed form (M13)") {
     const double numerator = (kv * kv * w2 + kp * kp) * (a + r * w2) * (a + r * w2);
     const double denominator = w2 * w2 * ((q - w2) * (q - w2) + p * p * w2);
     CHECK(numerator == Approx(denominator).epsilon(1e-11));
-    const double phase = std::atan2(kv * w, kp) - std::atan2(p * w, q - w2);  // and pi of 1/s^2
+    const double phase = std::atan2(kv * w, kp) - std::atan2(p * w, q - w2);  // and pi from 1/s^2
     CHECK(margins.phase == Approx(phase).epsilon(1e-11));
     CHECK(margins.delay == Approx(phase / w).epsilon(1e-11));
   }
-  // The border is where they say: the loop with that gain has poles on the axis.
+  // At the margins the loop has poles on the imaginary axis.
   Scenario border = scene;
   for (auto* matrix : {&border.controller->kp, &border.controller->kv}) {
     for (auto& row : *matrix) {
@@ -353,7 +355,7 @@ TEST_CASE("margins are those of the closed form (M13)") {
   CHECK(std::abs(l / (1.0 + l)) == Approx(1 / std::numbers::sqrt2).epsilon(1e-11));
 }
 
-TEST_CASE("a law that is told accelerations has the bandwidth of its feedback") {
+TEST_CASE("a law that gets accelerations has the bandwidth of its feedback") {
   Scenario scene = pd_scene();
   scene.controller->law = Law::gravity_compensation;
   scene.controller->kp = {{{4, 0}, {0, 4}}};
@@ -367,7 +369,7 @@ TEST_CASE("a law that is told accelerations has the bandwidth of its feedback") 
   };
   REQUIRE(made.bandwidths.size() == 2);
   for (const model::Bandwidth& one : made.bandwidths) {
-    // The plane's own accelerations throw the ball: at high frequencies by r wn^2 / a.
+    // The plane's accelerations push the ball: at high frequencies by r wn^2 / a.
     CHECK(std::isinf(one.value));
     CHECK(std::abs(response(1e4, 1)) > 1);
     CHECK(std::abs(response(one.of_feedback, 0)) == Approx(1 / std::numbers::sqrt2).epsilon(1e-11));
@@ -376,16 +378,16 @@ TEST_CASE("a law that is told accelerations has the bandwidth of its feedback") 
   CHECK(plain.bandwidths[0].of_feedback == plain.bandwidths[0].value);
 }
 
-TEST_CASE("zeros of plant and loop are those of equation (27) about home") {
+TEST_CASE("zeros of plant and loop agree with equation (27) about home") {
   const Scenario scene = pd_scene();
   const double beyond = std::sqrt(5 * scene.gravity / 7 / 0.02);  // a = r s^2
   const model::Eigenvalues plant = linear(scene, LinearKind::plant).zeros;
-  // Two alike, which rounding may part by its root.
+  // Double zeros, which rounding may split by its square root.
   CHECK(distance(plant, {beyond, beyond, -beyond, -beyond}) < 1e-7);
   const double law = -0.4 / 0.35;
   const model::Eigenvalues loop = linear(scene, LinearKind::loop).zeros;
   CHECK(distance(loop, {beyond, beyond, -beyond, -beyond, law, law}) < 1e-7);
-  // No number of zeros is an accident: one output without, one with a direct term.
+  // The number of zeros is exact: none for one output without, two with a direct term.
   MatrixXd a(2, 2), b(2, 1), c(1, 2);
   a << 0, 1, -2, -3;
   b << 0, 1;
@@ -393,12 +395,12 @@ TEST_CASE("zeros of plant and loop are those of equation (27) about home") {
   CHECK(distance(model::transmission_zeros(a, b, c, MatrixXd::Zero(1, 1)), {-5}) < 1e-13);
   c << 1, 0;
   CHECK(model::transmission_zeros(a, b, c, MatrixXd::Zero(1, 1)).empty());
-  // s^2 + 3 s + 2 + 1 over the same.
+  // s^2 + 3 s + 2 + 1 with the same denominator.
   CHECK(distance(model::transmission_zeros(a, b, c, MatrixXd::Ones(1, 1)),
                  {Complex(-1.5, std::sqrt(0.75)), Complex(-1.5, -std::sqrt(0.75))}) < 1e-13);
 }
 
-TEST_CASE("a sampled loop's margins are those of its lifted matrix") {
+TEST_CASE("margins of a sampled loop agree with its lifted matrix") {
   const Scenario scene = sampled_scene();
   const Linearization made = linear(scene, LinearKind::loop);
   REQUIRE(made.margins.size() == 2);
@@ -408,14 +410,14 @@ TEST_CASE("a sampled loop's margins are those of its lifted matrix") {
   const auto largest_with = [&](double factor) {
     Scenario changed = scene;
     for (auto* matrix : {&changed.controller->kp, &changed.controller->kv}) {
-      for (double& one : (*matrix)[0]) one *= factor;  // of phi's loop alone
+      for (double& one : (*matrix)[0]) one *= factor;  // only phi's loop
     }
     return std::abs(linear(changed, LinearKind::loop).poles.front());
   };
   CHECK(largest_with(margins.gain) == Approx(1).epsilon(1e-10));
   CHECK(largest_with(0.99 * margins.gain) < 1);
 
-  // The plant under a held command, and the law's own polynomial of z.
+  // The plant under a held command, and the law's polynomial in z.
   const Linearization plant = linear(scene, LinearKind::sampled);
   CHECK(plant.system.outputs[0].name == "x_measured");
   const model::FrequencyResponse response(plant.system.a, plant.system.b, plant.system.c,
@@ -432,7 +434,7 @@ TEST_CASE("a plant under a held command is the plant's exponential, delayed") {
   const Scenario scene = sampled_scene();
   const Linearization plant = linear(scene, LinearKind::plant);
   const Linearization sampled = linear(scene, LinearKind::sampled);
-  // At low frequency the two differ by delays and half a period of the hold alone.
+  // At low frequency they differ only by the delays and half a hold period.
   const double w = 0.05;
   const model::FrequencyResponse slow(plant.system.a, plant.system.b, plant.system.c,
                                       plant.system.d, 0);
@@ -451,11 +453,11 @@ TEST_CASE("a plant under a held command is the plant's exponential, delayed") {
                                      return std::abs(a - expected) < std::abs(b - expected);
                                    }) -
                  expected);
-    CHECK(nearest < 1e-6);  // the plant's four at zero are two double ones
+    CHECK(nearest < 1e-6);  // the plant's four poles at zero are two double ones
   }
 }
 
-TEST_CASE("about an equilibrium everything rests") {
+TEST_CASE("at an equilibrium everything rests") {
   Scenario scene = crooked_scene();
   scene.controller->reference = PointReference{{0.04, -0.03}};
   const auto law = GENERATE(Law::pd, Law::pid, Law::gravity_compensation);
@@ -471,20 +473,20 @@ TEST_CASE("about an equilibrium everything rests") {
       [&](const auto& system) {
         std::vector<double> rates(static_cast<std::size_t>(system.size));
         system.derivative(0.0, at.state.data(), rates.data());
-        // Newton's last step leaves rounding, which the servo multiplies by 900 1/s^2.
+        // Newton's last step leaves rounding errors, which the servo multiplies by 900 1/s^2.
         for (const double one : rates) CHECK(std::abs(one) < 1e-12);
       },
       model.system);
   if (law == Law::pid) {
     CHECK(at.state[0] == Approx(0.04).epsilon(1e-14));
   } else {
-    CHECK(std::abs(at.state[0] - 0.04) > 1e-3);  // its offsets drive the ball away
+    CHECK(std::abs(at.state[0] - 0.04) > 1e-3);  // the sensor offsets move the ball away
   }
   CHECK(linear(scene, LinearKind::loop, at).poles.size() ==
         linear(scene, LinearKind::loop).poles.size());
 }
 
-TEST_CASE("what a scene does not have cannot be linear") {
+TEST_CASE("a scene is refused if it lacks what a linear model needs") {
   Scenario scene = fig2a();
   CHECK_THROWS_AS(linear(scene, LinearKind::loop), InputError);
   CHECK_THROWS_AS(linear(scene, LinearKind::sampled), InputError);
@@ -506,7 +508,7 @@ TEST_CASE("what a scene does not have cannot be linear") {
 
 namespace {
 
-// A gimbal that motors move, and a ball that loses by its speed.
+// A gimbal driven by motors, and a ball with viscous losses.
 const std::string body =
     "gravity: 9.81\n"
     "ball: {radius: 0.02, mass: 0.05, position: [0.06, -0.04], losses: {viscous: 4e-6}}\n"
@@ -534,7 +536,7 @@ std::string three_legs(const std::string& beside = "") {
          beside + "}\n";
 }
 
-// The states of the scene's own system at random, near home.
+// Random states of the scene's own system, near home.
 template <class Loop>
 model::LinearPoint somewhere_of(int seed, double size) {
   std::mt19937 random(static_cast<unsigned>(seed));
@@ -548,7 +550,7 @@ model::LinearPoint somewhere_of(int seed, double size) {
   return at;
 }
 
-// A of a loop against the system's own derivative, of the states that it has by name.
+// Compares A of a loop with the system's derivative, for the states that share a name.
 template <class Loop>
 void check_loop(const Scenario& scene, model::LinearPoint at, const std::vector<int>& states) {
   const model::Model model = model::assemble(scene, false);
@@ -564,7 +566,7 @@ void check_loop(const Scenario& scene, model::LinearPoint at, const std::vector<
 
 }  // namespace
 
-TEST_CASE("three servos off home are what their closed chain makes of them") {
+TEST_CASE("three servos off home follow their closed chain") {
   using Loop = model::CoupledLoop<model::SignalPair, model::ThreeServos>;
   const Scenario scene = test::parse(three_legs());
   const model::LinearPoint at = somewhere_of<Loop>(3, 0.2);
@@ -572,8 +574,8 @@ TEST_CASE("three servos off home are what their closed chain makes of them") {
   const Linearization away = linear(scene, LinearKind::loop, at);
   CHECK(away.system.states[5].name == "servo_phi");
   CHECK(away.system.states[10].name == "servo_third_rate");
-  // Where the plate is level and everything rests, all six states of the servos have the poles of
-  // two ideal ones, and of the height, which nothing feels.
+  // If the plate is level and everything rests, the servos' six states have the poles of two ideal
+  // servos and of the height, which affects nothing.
   model::LinearPoint rest = model::equilibrium(scene);
   for (const double one : rest.state) CHECK(std::abs(one) < 1e-12);
   model::Eigenvalues expected = linear(scene, LinearKind::loop).poles;
@@ -581,20 +583,20 @@ TEST_CASE("three servos off home are what their closed chain makes of them") {
     expected.emplace_back(-0.9 * 40, sign * 40 * std::sqrt(1 - 0.9 * 0.9));
   }
   CHECK(distance(linear(scene, LinearKind::loop, rest).poles, expected) < 1e-6);
-  // Off it they are others: the slowest one is.
+  // Off home at least the slowest pole changes.
   rest.state[6] = 0.3;
   const auto tilted = linear(scene, LinearKind::loop, rest).poles;
   CHECK(std::abs(tilted.front() - linear(scene, LinearKind::loop).poles.front()) > 1e-3);
 }
 
-TEST_CASE("three servos under samples have the poles of two, where they rest") {
+TEST_CASE("three sampled servos at rest have the poles of two") {
   const Scenario scene =
       test::parse(three_legs(", sampling: {period: 0.02, delay: 0.005}, sensor: {delay: 0.01}"));
   const auto poles = linear(scene, LinearKind::loop, model::equilibrium(scene)).poles;
-  // Two states more than at home: of the plate's height.
+  // Two more states than at home: those of the plate's height.
   CHECK(poles.size() == linear(scene, LinearKind::loop).poles.size() + 2);
   CHECK(std::abs(poles.front() - linear(scene, LinearKind::loop).poles.front()) < 1e-9);
-  // First-order servos kick the ball as they do.
+  // Impulses of first-order servos kick the ball in the same way.
   Scenario kicks = scene;
   kicks.gimbal.servo = Servo{};
   kicks.gimbal.servo->time_constant = 0.04;
@@ -614,17 +616,18 @@ TEST_CASE("a gimbal under torques is linear with the ball's losses and the plate
   CHECK(plant.system.inputs[0].unit == "N m");
   const Linearization loop = linear(scene, LinearKind::loop);
   REQUIRE(loop.margins.size() == 2);
-  // A regulator of LQR bears half the gain and 60 degrees.
+  // An LQR regulator tolerates half the gain and 60 degrees.
   for (const model::LoopMargins& one : loop.margins) {
     CHECK(one.margins.reduction < 0.5);
     CHECK(std::abs(one.margins.phase) > std::numbers::pi / 3 - 1e-6);
   }
 }
 
-TEST_CASE("what torques and commands of three servos add to the rates is their difference") {
+TEST_CASE("B of torques and of three servos' commands agrees with differences") {
   const auto check = [](const Scenario& scene, auto loop, const model::LinearPoint& at) {
     const Linearization made = linear(scene, LinearKind::plant, at);
-    // Under a held command the system is the plant; what it tells three servos is the law's matter.
+    // Under a held command the system is the plant; how three servos are commanded is the law's
+    // part.
     const double step = 1e-5;
     for (int j = 0; j < 2; ++j) {
       std::vector<double> more(at.state.size()), less(at.state.size());
@@ -642,10 +645,10 @@ TEST_CASE("what torques and commands of three servos add to the rates is their d
         loop.derivative(0.0, at.state.data(), (side > 0 ? more : less).data());
       }
       for (int i = 0; i < made.system.b.rows(); ++i) {
-        const auto k = static_cast<std::size_t>(i);  // all states are there, in their order
+        const auto k = static_cast<std::size_t>(i);  // all states exist, in order
         const double difference = (more[k] - less[k]) / (2 * step);
         CAPTURE(i, j);
-        // The step's square, and rounding of rates of up to 1e3 over the step.
+        // The squared step, and rounding of rates up to 1e3 divided by the step.
         CHECK(std::abs(made.system.b(i, j) - difference) < 1e-6 * (1 + std::abs(difference)));
       }
     }
@@ -667,7 +670,7 @@ TEST_CASE("what torques and commands of three servos add to the rates is their d
         somewhere_of<Legs>(9, 0.15));
 }
 
-TEST_CASE("a motor's own integral, and what samples make of torques, are in the poles") {
+TEST_CASE("a motor's integrator and sampled torques are in the poles") {
   const Scenario holds = test::parse(
       body +
       "gimbal: {motor: {rotor_inertia: 1e-3, viscous: 0.02, position_loop: {kp: 4, kd: 0.3, ki: "
@@ -683,7 +686,7 @@ TEST_CASE("a motor's own integral, and what samples make of torques, are in the 
   CHECK(linear(sampled, LinearKind::sampled).system.inputs[0].unit == "N m");
 }
 
-TEST_CASE("a plant that loses by its speed has that for a pole") {
+TEST_CASE("a plant with viscous losses has the corresponding pole") {
   Scenario scene = fig2a();
   scene.ball.mass = 0.05;
   scene.ball.losses.viscous = 4e-6;
@@ -695,7 +698,7 @@ TEST_CASE("a plant that loses by its speed has that for a pole") {
   CHECK(plant.system.a(2, 4) == Approx(5.0 / 7 * scene.gravity).epsilon(1e-14));
 }
 
-TEST_CASE("where a push and the plate's weight are balanced everything rests") {
+TEST_CASE("everything rests if a push and the plate's weight are balanced") {
   const std::string text =
       GENERATE(torque_lqr(),
                body +
@@ -713,15 +716,15 @@ TEST_CASE("where a push and the plate's weight are balanced everything rests") {
       [&](const auto& system) {
         std::vector<double> rates(static_cast<std::size_t>(system.size));
         system.derivative(0.0, at.state.data(), rates.data());
-        // Newton's last step leaves rounding, which servos multiply by 1600 1/s^2.
+        // Newton's last step leaves rounding errors, which servos multiply by 1600 1/s^2.
         for (const double one : rates) CHECK(std::abs(one) < 1e-11);
       },
       model.system);
   if (pushed) CHECK(std::abs(at.state[5]) > 1e-4);
 }
 
-TEST_CASE("a loss of next to nothing, by other equations, leaves every pole where it was") {
-  // The one is differentiated as a rig, the other as a scene with forces.
+TEST_CASE("a tiny loss switches to other equations but moves no pole") {
+  // One is differentiated as a rig, the other as a scene with forces.
   const std::string name = GENERATE("pushrod", "hold", "step", "rig");
   const bool rests = GENERATE(false, true);
   const Scenario scene = read_scenario(BBSIM_SOURCE_DIR "/configs/" + name + ".yaml");
@@ -732,11 +735,11 @@ TEST_CASE("a loss of next to nothing, by other equations, leaves every pole wher
         linear(of, LinearKind::loop, rests ? model::equilibrium(of) : model::home_point()).poles);
   };
   CAPTURE(name, rests);
-  // Double poles, of two axes that are alike, are apart by a root of rounding.
+  // Double poles, of two equal axes, differ by the square root of rounding.
   CHECK(distance(poles(loses), poles(scene)) < 1e-6);
 }
 
-TEST_CASE("what is dry is not linear, and says why") {
+TEST_CASE("dry friction is refused as nonlinear, with the reason") {
   const auto refusal = [](const Scenario& scene) -> std::string {
     try {
       static_cast<void>(linear(scene, LinearKind::plant));

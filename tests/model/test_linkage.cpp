@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What stands between servos and plane: push rods, measured curves, three servos.
+// Linkages between servos and plane: push rods, measured curves, three servos.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,12 +24,12 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// Horn, arm and rod of a rig on a desk, each different.
+// Horn, arm and rod of a desktop rig, all different.
 RodLinkage desk() {
   return {0.025, 0.08, {}, {0.06, 0.09}};
 }
 
-// Linkages that close and are well away from a dead point at home.
+// Linkages that close at home, well away from a dead point.
 std::vector<RodLinkage> some_linkages() {
   std::mt19937_64 draw(12);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -50,7 +50,7 @@ double rod_between(const Rods& rods, double servo, double arm) {
                     rods.z + rods.arm * std::sin(arm) - rods.horn * std::sin(servo));
 }
 
-// Some angles within the curve, none next to its ends.
+// Some angles within the curve, none near its ends.
 std::vector<double> angles_within(const LinkCurve& curve) {
   std::vector<double> angles;
   const double low = std::max(curve.low, -1.5), high = std::min(curve.high, 1.5);
@@ -64,23 +64,23 @@ TEST_CASE("a push rod keeps its length, and home is where both angles are zero")
   for (const RodLinkage& one : some_linkages()) {
     const Linkage linkage = make_linkage(one, Assumed::exact);
     const Rods& rods = linkage.curve.rods;
-    CHECK(std::abs(linkage.angle(0)) < 1e-14);  // rounding, next to a dead point magnified
+    CHECK(std::abs(linkage.angle(0)) < 1e-14);  // rounding, magnified near a dead point
     for (const double servo : angles_within(linkage.curve)) {
-      // Rounding of sums of lengths of at most 0.4 m.
+      // Rounding of sums of lengths up to 0.4 m.
       CHECK(std::abs(rod_between(rods, servo, linkage.angle(servo)) - rods.rod) < 2e-15);
     }
   }
 }
 
-TEST_CASE("the inverse of a push rod is its inverse, to 1e-13") {
+TEST_CASE("the inverse of a push rod is accurate to 1e-13") {
   for (const RodLinkage& one : some_linkages()) {
     const Linkage linkage = make_linkage(one, Assumed::exact);
     for (const double servo : angles_within(linkage.curve)) {
       const double slope = linkage.curve.plain_turn(servo).slope;
-      // What rounds the plane's angle is magnified by the inverse's slope.
+      // The inverse's slope magnifies rounding of the plane's angle.
       CHECK(std::abs(linkage.servo_for(linkage.angle(servo)) - servo) <
             1e-13 * std::max(1.0, 0.05 / std::abs(slope)));
-      // The same for any number type.
+      // The same for every number type.
       const simd::WithGradient<1> wanted(linkage.angle(servo), simd::WithGradient<1>::Gradient(1));
       const auto told = linkage.curve.told(wanted);
       CHECK(std::abs(told.value - servo) < 1e-13 * std::max(1.0, 0.05 / std::abs(slope)));
@@ -89,7 +89,7 @@ TEST_CASE("the inverse of a push rod is its inverse, to 1e-13") {
   }
 }
 
-TEST_CASE("the inverse of a push rod holds for servos that turn beyond half a turn") {
+TEST_CASE("the inverse of a push rod works for servos beyond half a turn") {
   int beyond = 0;
   for (const RodLinkage& one : some_linkages()) {
     const Linkage linkage = make_linkage(one, Assumed::exact);
@@ -116,12 +116,12 @@ TEST_CASE("slope and bend of a push rod are its derivatives") {
     for (const double servo : angles_within(curve)) {
       const Turn<Number> turn = curve.turn(Number::variable(servo, 0));
       const double slope = turn.slope.value;
-      // d sin(beta) = cos(beta) beta', and so on: exact, but for rounding.
+      // d sin(beta) = cos(beta) beta', and so on: exact up to rounding.
       const double size = 1 + std::abs(slope) + std::abs(turn.bend.value);
       CHECK(std::abs(turn.sin.gradient[0] - turn.cos.value * slope) < 1e-11 * size);
       CHECK(std::abs(turn.slope.gradient[0] - turn.bend.value) < 1e-10 * size * size);
-      // Differences of the angle itself, of the fourth order: h^4 times the fifth derivative, which
-      // next to a dead point is large, and rounding over h.
+      // Fourth-order differences of the angle: h^4 times the fifth derivative, which is large near
+      // a dead point, and rounding divided by h.
       if (servo < curve.low + 0.3 || servo > curve.high - 0.3) continue;
       const double h = 1e-3;
       const auto angle = [&](double at) { return curve.angle(at); };
@@ -133,7 +133,7 @@ TEST_CASE("slope and bend of a push rod are its derivatives") {
   }
 }
 
-TEST_CASE("where opposite bars are of one length the plane turns as the servo does") {
+TEST_CASE("with opposite bars of equal length the plane turns as the servo does") {
   std::mt19937_64 draw(5);
   std::uniform_real_distribution<double> unit(0, 1);
   for (int i = 0; i < 200; ++i) {
@@ -153,21 +153,21 @@ TEST_CASE("where opposite bars are of one length the plane turns as the servo do
     CHECK(linkage.reach.high == linkage.curve.high);
     CHECK(linkage.reach.low == linkage.curve.low);
     CHECK(linkage.high_end == "horn, rod and arm are in line");
-    // The same with a rod that is given.
+    // The same with an explicit rod.
     const Linkage given =
         make_linkage(RodLinkage{length, length, std::hypot(x, z), {x, z}}, Assumed::exact);
     CHECK(given.curve.high == linkage.curve.high);
   }
 }
 
-TEST_CASE("a curve ends before all three bars are in line, whatever their lengths") {
+TEST_CASE("a curve ends before all three bars are in line, for any lengths") {
   std::mt19937_64 draw(6);
   std::uniform_real_distribution<double> unit(0, 1);
   int ends = 0;
   for (int i = 0; i < 400; ++i) {
     const double horn = 0.01 + 0.05 * unit(draw), arm = 0.01 + 0.08 * unit(draw);
     const double x = 0.2 * unit(draw) - 0.1, z = 0.02 + 0.1 * unit(draw);
-    // The longest and the shortest bar are together as long as the other two.
+    // The longest plus the shortest bar equals the sum of the other two.
     const double distance = std::hypot(x, z), sign = i % 2 == 0 ? 1 : -1;
     const double rod = std::abs(distance + sign * (horn - arm));
     Linkage linkage;
@@ -185,7 +185,7 @@ TEST_CASE("a curve ends before all three bars are in line, whatever their length
       const Turn<double> turn = rods.arm_at(end + inside);
       const double angle = std::atan2(turn.sin, turn.cos);
       CHECK(std::abs(rod_between(rods, end, angle) - rod) < 1e-12);
-      // The bend is that of differences of the slope, to what rounding leaves of it there.
+      // The bend agrees with differences of the slope, up to rounding there.
       const double h = 1e-4;
       const double before = end + (inside > 0 ? h : -h);
       const double difference =
@@ -197,8 +197,8 @@ TEST_CASE("a curve ends before all three bars are in line, whatever their length
   CHECK(ends > 100);
 }
 
-TEST_CASE("with a long upright rod it is Quanser's: sin(plate) = (horn / arm) sin(servo)") {
-  // The distance falls as one over the rod's length.
+TEST_CASE("with a long upright rod it approaches Quanser's: sin(plate) = (horn / arm) sin(servo)") {
+  // The difference is inversely proportional to the rod's length.
   const double horn = 0.0254, arm = 0.1375;
   double last = 0;
   for (const double rod : {1.0, 10.0, 100.0, 1000.0}) {
@@ -215,7 +215,7 @@ TEST_CASE("with a long upright rod it is Quanser's: sin(plate) = (horn / arm) si
   CHECK(last < 1e-5);
 }
 
-TEST_CASE("a curve ends where two of the three bars are in line, to rounding") {
+TEST_CASE("a curve ends where two of the three bars are in line, up to rounding") {
   int ends = 0;
   for (const RodLinkage& one : some_linkages()) {
     const Linkage linkage = make_linkage(one, Assumed::exact);
@@ -224,8 +224,8 @@ TEST_CASE("a curve ends where two of the three bars are in line, to rounding") {
       const double end = up ? linkage.curve.high : linkage.curve.low;
       if (!std::isfinite(end)) continue;
       ++ends;
-      // A little before it, where all is well, the angle in question is small: as the root of the
-      // distance for rod and arm, in proportion to it for horn and rod.
+      // Slightly before the end the angle in question is small: proportional to the root of the
+      // distance for rod and arm, to the distance for horn and rod.
       const double near = end + (up ? -1e-8 : 1e-8);
       const Turn<double> turn = rods.arm_at(near);
       const double px = rods.x + rods.arm * turn.cos - rods.horn * std::cos(near),
@@ -261,7 +261,7 @@ TEST_CASE("a linkage that cannot close, or is in line at home, is refused") {
   CHECK_THAT(message({0.02, 0.02, {}, {0, 0}}), Contains("a rod of zero length"));
 }
 
-TEST_CASE("a rod that home does not need puts the plate at an angle there") {
+TEST_CASE("a rod that does not fit home tilts the plate there") {
   RodLinkage one = desk();
   const double needed = make_linkage(one, Assumed::exact).curve.rods.rod;
   one.rod = needed + 0.002;
@@ -287,7 +287,7 @@ CurveLinkage measured(const RodLinkage& of, int rows, double from, double to) {
 
 }  // namespace
 
-TEST_CASE("a measured curve is smooth, inverted exactly, and nears what was measured") {
+TEST_CASE("a measured curve is smooth, has an exact inverse and approaches the measured relation") {
   const Linkage exact = make_linkage(desk(), Assumed::exact);
   double last = 0;
   for (const int rows : {11, 21, 41}) {
@@ -296,7 +296,7 @@ TEST_CASE("a measured curve is smooth, inverted exactly, and nears what was meas
     for (double servo = -0.85; servo < 0.51; servo += 0.0371) {
       worst = std::max(worst, std::abs(curve.angle(servo) - exact.angle(servo)));
       CHECK(std::abs(curve.servo_for(curve.angle(servo)) - servo) < 1e-13);
-      // The piece that a mode holds says the same.
+      // The piece that a mode holds agrees.
       LinkCurve at = curve.curve;
       const std::size_t piece = curve.piece_at(0, servo, 1);
       at.piece = at.command_piece = curve.table->view().pieces[piece];
@@ -304,13 +304,13 @@ TEST_CASE("a measured curve is smooth, inverted exactly, and nears what was meas
       CHECK(std::abs(at.told(curve.angle(servo)) - servo) < 1e-13);
       CHECK(std::abs(at.plain_turn(servo).slope - curve.table->at(servo).rate) < 1e-15);
     }
-    if (last > 0) CHECK(worst < last / 8);  // the fourth order, and a half of it next to the ends
+    if (last > 0) CHECK(worst < last / 8);  // fourth order, except half of it near the ends
     last = worst;
   }
   CHECK(last < 1e-7);
 }
 
-TEST_CASE("a measured curve that turns back, or has no home, is refused") {
+TEST_CASE("a measured curve that turns back or has no home is refused") {
   CHECK_THROWS_WITH(
       make_linkage(CurveLinkage{"", {-1, -0.5, 0.5, 1}, {0, -0.2, 0.1, 0.3}}, Assumed::exact),
       Contains("turns back"));
@@ -319,12 +319,12 @@ TEST_CASE("a measured curve that turns back, or has no home, is refused") {
       Contains("home, 0, between its ends"));
 }
 
-TEST_CASE("a calibration with noise, flat ends and repetitions nears the curve that was measured") {
+TEST_CASE("a calibration with noise, flat ends and repetitions approaches the measured curve") {
   const Linkage exact = make_linkage(desk(), Assumed::exact);
   CurveLinkage curve;
   unsigned state = 1;
   const double noise = 5e-3;
-  // Downwards, each angle twice; above 0.5 and below -0.8 the plate rests on its stops.
+  // Downward, each angle twice; above 0.5 and below -0.8 the plate rests on its stops.
   for (int i = 140; i >= 0; --i) {
     const double servo = -0.9 + 1.5 * (i / 2) / 70;
     state = state * 1664525U + 1013904223U;
@@ -344,7 +344,7 @@ TEST_CASE("a calibration with noise, flat ends and repetitions nears the curve t
   }
 }
 
-TEST_CASE("a knot belongs to the piece that the servo goes to") {
+TEST_CASE("at a knot the servo's direction selects the piece") {
   const Linkage curve = make_linkage(measured(desk(), 19, -0.9, 0.55), Assumed::exact);
   const double knot = curve.table->knots()[5];
   CHECK(curve.piece_at(4, knot, 1) == 5);
@@ -361,7 +361,7 @@ ThreeServoPlate hobby_plate() {
   return {0.06, 0.09, 0.04, 0.1, 0.11};
 }
 
-// Three legs of which no two are alike.
+// Three different legs.
 ThreeServoPlate unequal_plate() {
   ThreeServoPlate plate = hobby_plate();
   auto& legs = plate.legs.emplace();
@@ -371,9 +371,9 @@ ThreeServoPlate unequal_plate() {
   return plate;
 }
 
-// The pose of the plate from the legs' lengths alone: phi, theta, the turn about the normal, and
-// the place of the center. Newton's iteration in quad precision on the distances in space, with
-// differences for derivatives.
+// The plate's pose from leg lengths alone: phi, theta, the rotation about the normal, and the
+// center. Newton's iteration in quad precision on the distances in space, with derivatives by
+// differences.
 std::array<Quad, 6> pose_in_space(const ThreeServoPlate& plate, const std::array<Quad, 3>& horn) {
   const auto residuals = [&](const std::array<Quad, 6>& x, std::array<Quad, 6>& out) {
     const auto phi = sin_cos(x[0]), theta = sin_cos(x[1]), turn = sin_cos(x[2]);
@@ -411,7 +411,7 @@ std::array<Quad, 6> pose_in_space(const ThreeServoPlate& plate, const std::array
       for (std::size_t i = 0; i < 6; ++i) a[i][j] = (moved[i] - at[i]) / Quad(h);
     }
     for (std::size_t i = 0; i < 6; ++i) a[i][6] = -at[i];
-    for (int k = 0; k < 6; ++k) {  // Gauss and Jordan, with pivots
+    for (int k = 0; k < 6; ++k) {  // Gauss-Jordan with pivoting
       int best = k;
       for (int i = k + 1; i < 6; ++i) {
         if (abs(a[i][k]) > abs(a[best][k])) best = i;
@@ -445,7 +445,7 @@ TEST_CASE(
       three.told(wanted, servo);
       three.angles(servo, plane);
       ++poses;
-      // Rounding, magnified where a leg is nearly stretched: by 1/sine of the knee's angle.
+      // Rounding, magnified by 1/sine of the knee angle if a leg is nearly stretched.
       CHECK(std::abs(plane[0] - wanted[0]) < 1e-13);
       CHECK(std::abs(plane[1] - wanted[1]) < 1e-13);
       CHECK(three.margin(servo) > 0);
@@ -459,13 +459,13 @@ TEST_CASE(
   for (const double one : servo) CHECK(std::abs(one) < 1e-15);
 }
 
-TEST_CASE("three servos: a leg's ends stay apart by the rod's length, in its own plane") {
+TEST_CASE("three servos: a leg's ends stay a rod's length apart, in the leg's plane") {
   const ThreeServos three = make_three_servos(hobby_plate(), Assumed::exact);
   const double servo[3] = {0.3, -0.25, 0.1};
   double sine[3], cosine[3];
   three.directions(servo, sine, cosine);
   const auto at = three.pose(sine, cosine);
-  // The joints in space, by the rotation that takes the vertical to the normal the shortest way.
+  // The joints in space, by the shortest rotation of the vertical to the normal.
   const double n[3] = {at.p, at.q, std::sqrt(1 - at.p * at.p - at.q * at.q)};
   const double w = 1 / (1 + n[2]);
   const ThreeServos::Leg& leg = three.leg[0];
@@ -518,7 +518,7 @@ TEST_CASE("three servos: rates and accelerations of the plane are derivatives of
   }
 }
 
-TEST_CASE("unequal legs: the closed chain is the one that quad precision finds in space") {
+TEST_CASE("unequal legs: the closed chain agrees with the pose in quad precision") {
   const ThreeServoPlate plate = unequal_plate();
   const ThreeServos three = make_three_servos(plate, Assumed::none);
   CHECK_FALSE(three.equal);
@@ -542,7 +542,7 @@ TEST_CASE("unequal legs: the closed chain is the one that quad precision finds i
   }
   CHECK(largest > 0.2);
   CHECK(twist > 1e-3);
-  // Level at home, where the offsets are made up for.
+  // Level at home, where the offsets are compensated.
   const double level[2] = {0, 0};
   double servo[3], plane[2];
   three.told(level, servo);
@@ -554,8 +554,8 @@ TEST_CASE("unequal legs: the closed chain is the one that quad precision finds i
   CHECK(std::abs(plane[1]) < 1e-15);
 }
 
-TEST_CASE("unequal legs of equal lengths are equal legs") {
-  // A little off, so that the general equations are used.
+TEST_CASE("unequal legs with equal lengths behave as equal legs") {
+  // Slightly off, so that the general equations are used.
   ThreeServoPlate plate = hobby_plate();
   auto& legs = plate.legs.emplace();
   for (std::size_t i = 0; i < 3; ++i) legs[i] = hobby_plate().leg(i);
@@ -582,7 +582,7 @@ TEST_CASE("unequal legs of equal lengths are equal legs") {
   CHECK(greatest_twist(general, 0.1) < 1e-12);
 }
 
-TEST_CASE("firmware that takes its legs for others has a table that is not level") {
+TEST_CASE("firmware with wrong leg dimensions has a table that is not level") {
   Scenario scene;
   scene.gimbal.three_servos = hobby_plate();
   auto& legs = scene.gimbal.three_servos->legs.emplace();
@@ -592,7 +592,7 @@ TEST_CASE("firmware that takes its legs for others has a table that is not level
   scene.controller->assumed_legs = hobby_plate();
   const Between between = between_of(scene);
   const std::array<double, 3> servo = between.told({0, 0});
-  // The horns point where level would be with the legs that it takes them for.
+  // The horns are set for a level plate with the assumed legs.
   const ThreeServos taken = make_three_servos(hobby_plate(), Assumed::exact);
   for (std::size_t i = 0; i < 3; ++i) {
     CHECK(between.three->leg[i].home + servo[i] == Approx(taken.leg[i].home).epsilon(1e-14));
@@ -600,7 +600,7 @@ TEST_CASE("firmware that takes its legs for others has a table that is not level
   const Pair tilt = between.tilt(servo);
   CHECK(std::abs(tilt[0]) > 0.01);  // a longer rod lifts its side
   CHECK(std::abs(tilt[1]) < 1e-12);
-  // And it takes the plate for level.
+  // The firmware believes the plate to be level.
   const double resting[3] = {0, 0, 0};
   double into[4];
   between.believed(servo.data(), resting, into);
@@ -610,9 +610,9 @@ TEST_CASE("firmware that takes its legs for others has a table that is not level
   CHECK(std::abs(between_of(scene).tilt(between_of(scene).told({0, 0}))[0]) < 1e-14);
 }
 
-TEST_CASE("three servos: the edge of the workspace is where a leg is stretched or folded") {
+TEST_CASE("three servos: the workspace ends where a leg is stretched or folded") {
   const ThreeServos three = make_three_servos(hobby_plate(), Assumed::exact);
-  // Down on the first leg's side until the margin is nothing.
+  // Downward on the first leg's side until the margin is zero.
   double low = 0, high = 1.2;
   for (int k = 0; k < 60; ++k) {
     const double middle = (low + high) / 2;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The measures of the loop are the numbers of `bbsim linearize` and `bbsim check`.
+// The measures of the loop equal the numbers of `bbsim linearize` and `bbsim check`.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -25,7 +25,7 @@ scenario::Measure named(const std::string& name) {
   return *measure;
 }
 
-// Asked for alone, so that nothing else is worked out.
+// Requests a single measure, so that nothing else is computed.
 LoopAnalysis::Value value_of(const std::string& name, const Scenario& scene) {
   const scenario::Measure measure = named(name);
   REQUIRE_FALSE(scenario::missing(measure, scene));
@@ -40,7 +40,7 @@ Scenario config(const std::string& name, const std::vector<std::string>& set = {
 
 }  // namespace
 
-TEST_CASE("margins and bandwidths are those of the linear loop, to the bit") {
+TEST_CASE("margins and bandwidths equal those of the linear loop bit for bit") {
   const std::string name = GENERATE("rig", "fig2b", "step", "hold", "pushrod", "three-servos",
                                     "torque-lqr", "catch", "falls");
   CAPTURE(name);
@@ -63,7 +63,7 @@ TEST_CASE("margins and bandwidths are those of the linear loop, to the bit") {
   CHECK(value_of("stable", scene).value == 1);
 }
 
-TEST_CASE("spectra are of the poles that check tells") {
+TEST_CASE("spectral measures come from the poles that check prints") {
   SECTION("in continuous time") {
     const Scenario scene = config("fig2b");
     const model::Eigenvalues poles = model::closed_loop_poles(model::assemble(scene, false));
@@ -75,10 +75,10 @@ TEST_CASE("spectra are of the poles that check tells") {
     CHECK(value_of("spectral_radius", scene).value == std::abs(poles.front()));
     CHECK(value_of("spectral_abscissa", scene).value == std::log(std::abs(poles.front())) / 0.02);
   }
-  SECTION("per sample where the sensor's frames make a cycle of several") {
+  SECTION("per sample if the sensor's frames make a cycle of several samples") {
     const Scenario scene = config("rig", {"controller.sensor.period=30 ms"});
     const model::Eigenvalues poles = model::sampled_poles(model::assemble(scene, false));
-    // 20 and 30 ms meet again after three samples.
+    // 20 and 30 ms coincide again after three samples.
     CHECK(value_of("spectral_radius", scene).value == std::pow(std::abs(poles.front()), 1 / 3.0));
     const LoopAnalysis::Value margin = value_of("phi_delay_margin", scene);
     CHECK(std::isnan(margin.value));
@@ -99,12 +99,12 @@ TEST_CASE("phi's gain times its gain margin is the border of stability") {
     }
     return value_of("stable", scene).value;
   };
-  // The poles move by some 1e-10 there, and are known to rounding.
+  // The poles move by some 1e-10 there, and are accurate to rounding.
   CHECK(scaled(margin * (1 - 1e-9)) == 1);
   CHECK(scaled(margin * (1 + 1e-9)) == 0);
 }
 
-TEST_CASE("an unstable loop has spectra, but no margins") {
+TEST_CASE("an unstable loop has spectral measures but no margins") {
   Scenario scene = fig2b();
   scene.controller->kv = {{{-1, 0}, {0, 1}}};
   CHECK(value_of("stable", scene).value == 0);
@@ -116,7 +116,7 @@ TEST_CASE("an unstable loop has spectra, but no margins") {
   }
 }
 
-TEST_CASE("along one axis the other one has no margin") {
+TEST_CASE("with one axis the other one has no margin") {
   const Scenario scene = config("beam");
   CHECK(std::isfinite(value_of("phi_gain_margin", scene).value));
   const LoopAnalysis::Value other = value_of("theta_gain_margin", scene);

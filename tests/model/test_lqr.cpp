@@ -61,14 +61,14 @@ TEST_CASE("Riccati equations with known solutions") {
   CHECK(continuous.gain(0, 0) == Approx(1).epsilon(1e-13));
   CHECK(continuous.gain(0, 1) == Approx(std::sqrt(2.0)).epsilon(1e-13));
 
-  // What nothing sees and grows has a gain, but none that stabilises.
+  // An unobserved growing mode has a gain, but no stabilizing one.
   MatrixXd modes(2, 2), first(2, 1), seen(2, 2);
   modes << 0.5, 0, 0, 2;
   first << 1, 0;
   seen << 1, 0, 0, 0;
   CHECK_THROWS_AS(model::solve_discrete_riccati(modes, first, seen, one(1)), InputError);
 
-  // What nothing moves and does not decay has no solution.
+  // An uncontrollable mode that does not decay has no solution.
   CHECK_THROWS_AS(model::solve_continuous_riccati(a, MatrixXd::Zero(2, 1), q, one(1)), InputError);
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("LQR gains of the rig solve their equation and stabilize it") {
   const MatrixXd map = step.a - step.b * sampled;
   for (const auto& pole : map.eigenvalues()) CHECK(std::abs(pole) < 0.999);
 
-  // The residual of the continuous equation, by the cost of this gain.
+  // The residual of the continuous equation, with the cost matrix of this gain.
   MatrixXd q = MatrixXd::Zero(8, 8);
   q.diagonal() << 100, 100, 1, 1, 0, 0, 0, 0;
   const auto solved =
@@ -93,11 +93,11 @@ TEST_CASE("LQR gains of the rig solve their equation and stabilize it") {
   const MatrixXd& x = solved.cost;
   const MatrixXd residual =
       plant.a.transpose() * x + x * plant.a - x * plant.b * plant.b.transpose() * x + q;
-  // Rounding of the largest term, through the conditioning of the doubling: some thousand.
+  // Rounding of the largest term, times the doubling's conditioning of some thousand.
   CHECK(residual.norm() < 1e-12 * (x * plant.b * plant.b.transpose() * x).norm());
 }
 
-TEST_CASE("LQR brings the ball home, sampled or not") {
+TEST_CASE("LQR brings the ball home, sampled or continuous") {
   const bool sampled = GENERATE(false, true);
   const Run run = run_in_memory(lqr_scene(sampled), Method::automatic, {1e-9, 1e-11}, false);
   REQUIRE(run.outcome.ending == solve::Ending::done);
@@ -106,13 +106,13 @@ TEST_CASE("LQR brings the ball home, sampled or not") {
 
 namespace {
 
-// Without errors of sensor and servo a small motion is linear: a cycle of so many samples
-// multiplies the state by a matrix M, so x from cycle to cycle satisfies the recurrence whose
-// coefficients are those of M's characteristic polynomial (Cayley and Hamilton).
+// Without sensor and servo errors a small motion is linear: a cycle of samples multiplies the state
+// by a matrix M. From cycle to cycle x then satisfies the recurrence with the coefficients of M's
+// characteristic polynomial (Cayley-Hamilton).
 void check_recurrence(const Scenario& scene, std::size_t samples) {
   const model::Model model = model::assemble(scene, false);
   const auto poles = model::sampled_poles(model);
-  std::vector<std::complex<double>> polynomial{1};  // by falling powers
+  std::vector<std::complex<double>> polynomial{1};  // by descending powers
   for (const auto& pole : poles) {
     polynomial.push_back(0);
     for (std::size_t i = polynomial.size() - 1; i > 0; --i)
@@ -122,7 +122,7 @@ void check_recurrence(const Scenario& scene, std::size_t samples) {
   REQUIRE(run.outcome.ending == solve::Ending::done);
   const std::size_t n = poles.size();
   int instants = 0;
-  // From a time at which all that was exposed before the start has passed through the delays.
+  // Start when all exposures from before the start have passed the delays.
   for (std::size_t from = 5; from + n * samples < run.samples.size(); ++from) {
     if (from % samples != 0) continue;
     double sum = 0, sizes = 0;
@@ -131,9 +131,9 @@ void check_recurrence(const Scenario& scene, std::size_t samples) {
       sum += term;
       sizes += std::abs(term);
     }
-    // A loop that its delays make unstable grows out of what is small.
+    // An unstable loop, because of its delays, leaves the linear range.
     if (std::abs(run.samples[from + n * samples].gimbal.phi) > 1e-4) break;
-    // The tolerance, times a hundred; what is not linear is smaller by the squares of the angles.
+    // A hundred times the tolerance; nonlinear terms, quadratic in the angles, are smaller.
     CHECK(std::abs(sum) < 1e-9 * sizes);
     ++instants;
   }
@@ -159,8 +159,8 @@ Scenario small_motion(Law law, bool first_order) {
 
 }  // namespace
 
-TEST_CASE("from sample to sample a small motion obeys the polynomial of the sampled poles") {
-  // An LQR wants a servo of second order.
+TEST_CASE("from sample to sample a small motion satisfies the polynomial of the sampled poles") {
+  // An LQR needs a second-order servo.
   const auto [law, first_order] =
       GENERATE(std::pair{Law::pd, false}, std::pair{Law::pd, true}, std::pair{Law::pid, false},
                std::pair{Law::pid, true}, std::pair{Law::lqr, false});
@@ -174,10 +174,11 @@ TEST_CASE("from sample to sample a small motion obeys the polynomial of the samp
   check_recurrence(scene, 1);
 }
 
-TEST_CASE("from cycle to cycle of samples and frames a small motion obeys the sampled poles too") {
+TEST_CASE(
+    "from cycle to cycle of samples and frames a small motion satisfies the sampled poles too") {
   struct Camera {
     double period, phase, delay;  // s
-    std::size_t samples;          // of 20 ms, after which its frames meet them again
+    std::size_t samples;  // per cycle: 20 ms each, after which frames and samples coincide again
   };
   const auto camera = GENERATE(Camera{0.02, 0.001, 0, 1}, Camera{0.02, 0, 0, 1},
                                Camera{0.02, 0.013, 0.03, 1}, Camera{0.005, 0.003, 0.004, 1},
@@ -199,7 +200,7 @@ TEST_CASE("from cycle to cycle of samples and frames a small motion obeys the sa
   check_recurrence(scene, camera.samples);
 }
 
-TEST_CASE("frames that never meet the samples again, or uneven ones, are not in the poles") {
+TEST_CASE("frames that never coincide with samples, or jitter, are not in the poles") {
   Scenario scene = small_motion(Law::pd, false);
   scene.controller->sampling = Sampling{0.02, 0.004, 0, 0.03};
   const auto plain = model::sampled_poles(model::assemble(scene, false));
@@ -214,7 +215,7 @@ TEST_CASE("frames that never meet the samples again, or uneven ones, are not in 
   CHECK(model::sampled_poles(model::assemble(scene, false)) == plain);
 }
 
-TEST_CASE("delays make a sampled loop unstable where its poles say so") {
+TEST_CASE("delays make a sampled loop unstable when its poles say so") {
   Scenario scene = lqr_scene(true);
   scene.controller->law = Law::pd;
   scene.controller->kp = {{{1.5, 0}, {0, -1.5}}};

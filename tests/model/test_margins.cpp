@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What loops bear, held against their own poles; poles that rounding must not move; zeros.
+// Stability margins against the loop's own poles; poles that rounding must not move; zeros.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -40,7 +40,7 @@ bool is_stable(const Scenario& scene) {
                                          : model::stable(model::closed_loop_poles(model));
 }
 
-// With all that the law says of an axis times a factor.
+// All the law's gains of one axis times a factor.
 Scenario with_row(Scenario scene, std::size_t row, double factor) {
   Controller& law = *scene.controller;
   for (Matrix2* gain : {&law.kp, &law.kv, &law.ki}) {
@@ -50,7 +50,7 @@ Scenario with_row(Scenario scene, std::size_t row, double factor) {
   return scene;
 }
 
-// Loops of all kinds, most of them stable.
+// Loops of all kinds, mostly stable.
 class Loops {
  public:
   Scenario draw() {
@@ -121,8 +121,8 @@ class Loops {
 
 }  // namespace
 
-TEST_CASE("margins of gain are where the poles of 500 random loops cross the border") {
-  // Ten times slower under sanitizers, where a part of them shows as much.
+TEST_CASE("gain margins are where the poles of 500 random loops cross the stability limit") {
+  // Ten times slower under sanitizers, where a part is enough.
   const int count = bbsim_test::under_sanitizers ? 50 : 500;
   Loops loops;
   int tried = 0, sampled = 0, at_zero = 0, at_half_rate = 0, between = 0, down = 0, none = 0;
@@ -154,18 +154,18 @@ TEST_CASE("margins of gain are where the poles of 500 random loops cross the bor
     } else {
       CHECK(stable_with(1e-3));
     }
-    // And nowhere between them.
+    // No crossing in between.
     const double low = std::log(std::max(margins.reduction, 1e-3)),
                  high = std::log(std::min(margins.gain, 1e3));
     for (int i = 0; i < 3; ++i) CHECK(stable_with(std::exp(loops.between(low, high))));
   }
   CAPTURE(sampled, at_zero, at_half_rate, between, down, none);
-  // Of each kind there are some.
+  // Every kind occurs.
   CHECK(std::min({sampled, count - sampled, at_zero, at_half_rate, between, down, none}) >
         count / 25);
 }
 
-TEST_CASE("a margin of phase below 0 is of lead: so much of it brings the loop to the border") {
+TEST_CASE("a negative phase margin is a lead: that much brings the loop to the stability limit") {
   Scenario scene = fig2b();
   scene.ball.radius = 0.032;
   scene.gimbal.servo = Servo{130, 0.717};
@@ -176,7 +176,7 @@ TEST_CASE("a margin of phase below 0 is of lead: so much of it brings the loop t
   REQUIRE(is_stable(scene));
   const Margins margins = loop_of(scene).margins[0].margins;
   REQUIRE(margins.phase < 0);
-  // L = K(z) G(z), of the plant that a command is held for.
+  // L = K(z) G(z), with the plant under a held command.
   const Linearization plant = model::linearize(scene, model::assemble(scene, false),
                                                LinearKind::sampled, model::home_point());
   const auto& system = plant.system;
@@ -186,7 +186,7 @@ TEST_CASE("a margin of phase below 0 is of lead: so much of it brings the loop t
   CHECK(std::abs(1.0 + l * std::polar(1.0, -margins.phase)) < 1e-9);
 }
 
-TEST_CASE("where the plane turns, what the spin does is no margin") {
+TEST_CASE("the spin of a ball on a turning plane does not count as a margin") {
   const Scenario scene = read_scenario(BBSIM_SOURCE_DIR "/configs/hold.yaml");
   const Margins home = loop_of(scene).margins[0].margins;
   model::LinearPoint at;
@@ -201,19 +201,19 @@ TEST_CASE("where the plane turns, what the spin does is no margin") {
       CAPTURE(sampled, one.command);
       CHECK(one.margins.reduction == 0);
     }
-    // So slow a turn of a ball that spins at 10 rad/s changes little else.
+    // So slow a turn changes little else for a ball that spins at 10 rad/s.
     if (!sampled) CHECK(made.margins[0].margins.gain == Approx(home.gain).epsilon(0.03));
   }
 }
 
-TEST_CASE("a loss that stops the ball makes no pole unstable by its rounding") {
+TEST_CASE("rounding of a loss that stops the ball makes no pole unstable") {
   for (const double viscous : {1e3, 1e6, 1e9}) {
     Scenario scene = read_scenario(BBSIM_SOURCE_DIR "/configs/hold.yaml");
     scene.ball.losses.viscous = viscous;
     CAPTURE(viscous);
     const Eigenvalues poles = model::closed_loop_poles(model::assemble(scene, false));
     CHECK(model::stable(poles));
-    // x' = g m r^2 / viscous phi, but for 1e-8 under the least loss; quads leave 1e-20 1/s of 2e14.
+    // x' = g m r^2 / viscous phi, but for 1e-8 with the least loss; quads leave 1e-20 1/s of 2e14.
     const double slow = -0.7 * scene.gravity * scene.ball.mass * 1e-4 / viscous;
     for (const std::size_t i : {0U, 1U}) CHECK(poles[i].real() == Approx(slow).epsilon(1e-5));
     const auto margins = loop_of(scene).margins;
@@ -228,9 +228,9 @@ TEST_CASE("a loss that stops the ball makes no pole unstable by its rounding") {
   }
 }
 
-TEST_CASE("eigenvalues in quads are right beside others 1e25 times as large") {
+TEST_CASE("eigenvalues in quads are accurate beside others 1e25 times as large") {
   MatrixXd a(4, 4);
-  // Two blocks of (-1e12, -1e-13) and (2 +- 3i), of which the first one acts on the second.
+  // Two blocks with (-1e12, -1e-13) and (2 +- 3i); the first acts on the second.
   a << -1e12, 1e-3, 0, 0, 0, -1e-13, 0, 0, 1e6, 1, 2, 9, -1e5, 3, -1, 2;
   auto values = model::exact_eigenvalues(a);
   std::ranges::sort(values, {}, [](const Complex& one) { return std::abs(one); });
@@ -262,7 +262,7 @@ double worst_of(const Eigenvalues& found, Eigenvalues expected) {
 
 }  // namespace
 
-TEST_CASE("zeros are those of the plant behind servos of any speed, and of the law before them") {
+TEST_CASE("zeros are those of the plant with servos of any speed, and of the law") {
   for (const char* name : {"fig2b", "hold", "lissajous", "waypoints"}) {
     Scenario scene = read_scenario(std::string(BBSIM_SOURCE_DIR "/configs/") + name + ".yaml");
     const Controller& controller = *scene.controller;
@@ -270,7 +270,7 @@ TEST_CASE("zeros are those of the plant behind servos of any speed, and of the l
     for (const double speed : {10.0, 1e3, 1e4, 1e5, 1e6, 1e7}) {
       scene.gimbal.servo = Servo{speed, 0.9};
       CAPTURE(name, speed);
-      // 5/7 g is beside r speed^2 in an entry of A: so much of its digits is left.
+      // An entry of A sums 5/7 g and r speed^2, which costs these digits.
       const double conditioning = 1e-15 * (1 + r * speed * speed / (5 * scene.gravity / 7));
       const auto plant = model::linearize(scene, model::assemble(scene, false), LinearKind::plant,
                                           model::home_point());
@@ -283,7 +283,7 @@ TEST_CASE("zeros are those of the plant behind servos of any speed, and of the l
       CHECK(worst_of(loop_of(scene).zeros, of_loop) < 1e-12 + 1e3 * conditioning);
     }
   }
-  // Nothing is left of 5/7 g beside this: any answer, but an answer.
+  // 5/7 g vanishes beside this: any answer, as long as there is one.
   for (const double speed : {1e9, 1e15, 1e60}) {
     Scenario scene = read_scenario(BBSIM_SOURCE_DIR "/configs/hold.yaml");
     scene.gimbal.servo = Servo{speed, 0.9};
@@ -294,9 +294,9 @@ TEST_CASE("zeros are those of the plant behind servos of any speed, and of the l
   CHECK(loop_of(steep).zeros.size() == 6);
 }
 
-TEST_CASE("zeros are known whatever the units of states, inputs, outputs and time") {
+TEST_CASE("zeros do not depend on the units of states, inputs, outputs and time") {
   // Two outputs with the zeros 2, -3e-4 and -5e3, and -7, of s^3 + ... and s^2 + ...; the second
-  // input acts on the first output too.
+  // input also acts on the first output.
   const double zeros[3] = {2, -3e-4, -5e3};
   const double sum = zeros[0] + zeros[1] + zeros[2],
                pairs = zeros[0] * zeros[1] + zeros[1] * zeros[2] + zeros[2] * zeros[0],
@@ -332,10 +332,10 @@ TEST_CASE("zeros are known whatever the units of states, inputs, outputs and tim
     scaled_c.row(1) *= unit(20);
     Eigenvalues all = model::transmission_zeros(scaled_a, scaled_b, scaled_c, d);
     for (Complex& one : all) one /= time;
-    // Of sums of entries, of which the largest is 1e4 times the least.
+    // Sums of entries, the largest 1e4 times the smallest.
     CHECK(worst_of(all, expected) < 1e-11);
   }
-  // No states, no inputs, nothing that is seen.
+  // No states, no inputs, no outputs.
   CHECK(model::transmission_zeros(MatrixXd(0, 0), MatrixXd(0, 1), MatrixXd(1, 0),
                                   MatrixXd::Ones(1, 1))
             .empty());
@@ -344,7 +344,7 @@ TEST_CASE("zeros are known whatever the units of states, inputs, outputs and tim
   CHECK_NOTHROW(model::transmission_zeros(a, MatrixXd::Zero(6, 2), c, d));
 }
 
-TEST_CASE("a plant under a held command keeps what is slow beside what is 1e13 times as fast") {
+TEST_CASE("a plant under a held command keeps slow modes beside modes 1e13 times as fast") {
   model::LinearPlant plant{MatrixXd::Zero(3, 3), MatrixXd::Zero(3, 2)};
   plant.a(0, 0) = -1e13;
   plant.a(0, 1) = 1e13;
@@ -361,7 +361,7 @@ TEST_CASE("a plant under a held command keeps what is slow beside what is 1e13 t
 
 namespace {
 
-// A PID as people write it, of one axis.
+// A typical handwritten PID for one axis.
 struct OwnPid {
   double kp, ki, kd, filter, period;
   double last = 0, velocity = 0, sum = 0;
@@ -389,7 +389,7 @@ model::PulseResponse answers(const std::array<OwnPid, 2>& controllers, double pu
 
 }  // namespace
 
-TEST_CASE("margins of an own controller, from its pulses, are those of the built-in law") {
+TEST_CASE("an external controller's margins from its pulses equal those of the built-in law") {
   for (const double ki : {0.0, 0.05}) {
     for (const double filter : {0.0, 0.03}) {
       Scenario scene = fig2b();
@@ -422,7 +422,7 @@ TEST_CASE("margins of an own controller, from its pulses, are those of the built
         CHECK(of.phase == Approx(is.phase).epsilon(1e-3));
         CHECK(of.delay == Approx(is.delay).epsilon(1e-3));
       }
-      // With the noise of single precision.
+      // With the rounding noise of single precision.
       model::PulseResponse noisy = answers({phi, theta}, 1e-3);
       for (MatrixXd& one : noisy) {
         one =

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reference paths: against formulas, finite differences, and what they promise at their knots.
+// Reference paths against formulas and finite differences, and their properties at knots.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,8 +26,8 @@ constexpr double epsilon = 2.3e-16;
 const std::vector<Pair> corners{{0.05, 0}, {0.05, 0.04}, {-0.03, 0.04}, {-0.03, -0.02}};
 const std::vector<double> hours{1, 2, 2.5, 4};
 
-// Central differences: the exact path has a truncation error of h^2/6 times the third derivative of
-// what is differenced, and rounding adds eps (value / h).
+// Central differences: the truncation error is h^2/6 times the third derivative of the function,
+// and rounding adds eps (value / h).
 void check_derivatives(const SignalPair& path, double t, double third, double fourth) {
   const double h = 1e-5, size = 0.2;  // m
   const auto before = path.at(t - h), here = path.at(t), after = path.at(t + h);
@@ -36,7 +36,7 @@ void check_derivatives(const SignalPair& path, double t, double third, double fo
     const double rate = (after[i].value - before[i].value) / (2 * h);
     const double acceleration = (after[i].rate - before[i].rate) / (2 * h);
     CHECK(std::abs(rate - here[i].rate) < h * h * third / 6 + 20 * epsilon * size / h);
-    // Speeds stay below ten sizes a second.
+    // Speeds stay below ten sizes per second.
     CHECK(std::abs(acceleration - here[i].acceleration) <
           h * h * fourth / 6 + 20 * epsilon * 10 * size / h);
   }
@@ -59,12 +59,12 @@ void check_hold(const SignalPair& path) {
 
 }  // namespace
 
-TEST_CASE("a circle turns about its centre") {
+TEST_CASE("a circle turns about its center") {
   const double R = 0.05, w = -0.3, p = 0.7;
   const SignalPair path = reference_path(CircleReference{R, w, p, {0.02, -0.01}}, 20);
   for (const double t : {0.0, 1.3, 17.0}) {
     const auto [x, y] = path.at(t);
-    // The argument carries the rounding of w t and of the quarter turn.
+    // The argument has the rounding of w t and of the quarter turn.
     const double bound = 8 * epsilon * (1 + std::abs(w * t));
     CHECK(std::abs(x.value - (0.02 + R * std::cos(w * t + p))) < bound);
     CHECK(std::abs(y.value - (-0.01 + R * std::sin(w * t + p))) < bound);
@@ -74,7 +74,7 @@ TEST_CASE("a circle turns about its centre") {
   CHECK(path.knots().empty());
 }
 
-TEST_CASE("a Lissajous figure is a cosine and a sine of their own") {
+TEST_CASE("a Lissajous figure is an independent cosine and sine") {
   const LissajousReference figure{{0.06, 0.04}, {3, 2}, {0.3, -0.5}, {0.01, 0.02}};
   const SignalPair path = reference_path(figure, 20);
   for (const double t : {0.0, 0.9, 12.0}) {
@@ -93,7 +93,7 @@ TEST_CASE("a Lissajous figure is a cosine and a sine of their own") {
   CHECK(path.knots().empty());
 }
 
-TEST_CASE("a Lissajous figure of one rate and radius is the circle, to the bit") {
+TEST_CASE("a Lissajous figure with one rate and radius is the circle, bit for bit") {
   const SignalPair circle = reference_path(CircleReference{0.05, -0.3, 0.7, {0.02, 0}}, 20);
   const SignalPair figure =
       reference_path(LissajousReference{{0.05, 0.05}, {-0.3, -0.3}, {0.7, 0.7}, {0.02, 0}}, 20);
@@ -105,10 +105,10 @@ TEST_CASE("a Lissajous figure of one rate and radius is the circle, to the bit")
   }
 }
 
-TEST_CASE("what does not move costs no sine") {
+TEST_CASE("constant components cost no sine") {
   CHECK(reference_path(CircleReference{0, 5, 0, {0.1, 0}}, 20).highest_frequency() == 0);
   CHECK(reference_path(LissajousReference{{0.1, 0}, {2, 5}, {}, {}}, 20).highest_frequency() == 2);
-  // A rate of zero leaves a cos(phase).
+  // With rate zero, a cos(phase) remains.
   const auto [x, y] =
       reference_path(LissajousReference{{0.1, 0.1}, {0, 0}, {1, 1}, {}}, 20).at(3.0);
   CHECK(std::abs(x.value - 0.1 * std::cos(1)) < 4 * epsilon);
@@ -116,7 +116,7 @@ TEST_CASE("what does not move costs no sine") {
   CHECK(x.rate == 0);
 }
 
-TEST_CASE("waypoints: C2 between, at rest at both ends, held outside") {
+TEST_CASE("waypoints: C2 in between, at rest at both ends, constant outside") {
   const SignalPair path = reference_path(WaypointReference{corners, hours, false}, 20);
   CHECK(path.knots() == hours);
   check_hold(path);
@@ -131,7 +131,7 @@ TEST_CASE("waypoints: C2 between, at rest at both ends, held outside") {
       CHECK(std::abs(left[i].rate - right[i].rate) < 2 * h * 10);
       if (k > 0 && k + 1 < hours.size()) {
         CHECK(std::abs(left[i].acceleration - right[i].acceleration) < 2 * h * 10);
-        CHECK(std::abs(here[i].rate) > 1e-3);  // it passes
+        CHECK(std::abs(here[i].rate) > 1e-3);  // it does not stop there
       }
     }
   }
@@ -144,7 +144,7 @@ TEST_CASE("waypoints: C2 between, at rest at both ends, held outside") {
   }
 }
 
-TEST_CASE("waypoints between two points: the cubic at rest at both ends") {
+TEST_CASE("two waypoints: the cubic at rest at both ends") {
   const SignalPair path = reference_path(WaypointReference{{{0, 1}, {2, -1}}, {0, 4}, false}, 20);
   for (const double t : {0.0, 0.5, 2.0, 3.9}) {
     const double tau = t / 4, shape = tau * tau * (3 - 2 * tau);
@@ -154,10 +154,10 @@ TEST_CASE("waypoints between two points: the cubic at rest at both ends") {
   }
 }
 
-TEST_CASE("the clamped spline converges with the fourth power of the step") {
+TEST_CASE("the clamped spline converges with fourth order") {
   const auto error = [](int n) {
     WaypointReference way;
-    for (int i = 0; i <= n; ++i) {  // -cos has no slope at 0 and pi
+    for (int i = 0; i <= n; ++i) {  // -cos has slope zero at 0 and pi
       way.times.push_back(std::numbers::pi * i / n);
       way.points.push_back({-std::cos(way.times.back()), 0});
     }
@@ -172,14 +172,14 @@ TEST_CASE("the clamped spline converges with the fourth power of the step") {
   CHECK(std::log2(error(20) / error(40)) > 3.7);  // observed order, one-sided
 }
 
-TEST_CASE("waypoints with rest: minimum-jerk quintics") {
+TEST_CASE("waypoints with rests: minimum-jerk quintics") {
   const SignalPair path = reference_path(WaypointReference{corners, hours, true}, 20);
   CHECK(path.knots() == hours);
   check_hold(path);
   for (std::size_t k = 0; k + 1 < hours.size(); ++k) {
     const double T = hours[k + 1] - hours[k];
     for (const double tau : {0.0, 0.1, 0.5, 0.77, 1.0 - 1e-12}) {
-      const double t = hours[k] + tau * T, s = (t - hours[k]) / T;  // as the time rounds it
+      const double t = hours[k] + tau * T, s = (t - hours[k]) / T;  // with the rounding of time
       const auto at = path.at(t);
       for (std::size_t i = 0; i < 2; ++i) {
         CAPTURE(k, i, tau);
@@ -188,7 +188,7 @@ TEST_CASE("waypoints with rest: minimum-jerk quintics") {
         const double rate = step / T * 30 * s * s * (1 - s) * (1 - s);
         const double acceleration = step / (T * T) * 60 * s * (1 - s) * (1 - 2 * s);
         // Coefficients up to 180 (of the acceleration) over T^2, at least 0.25 s^2, and a step of
-        // up to 0.08 m cancel to nothing at the end.
+        // up to 0.08 m cancel to zero at the end.
         const double bound = 4 * epsilon * 180 * 0.08 / 0.25;
         CHECK(std::abs(at[i].value - value) < bound);
         CHECK(std::abs(at[i].rate - rate) < bound);
@@ -224,7 +224,7 @@ TEST_CASE("a table of a path reproduces cubics") {
   }
 }
 
-TEST_CASE("the knots of a reference path inside the scene are stops") {
+TEST_CASE("knots of a reference path within the scene are stops") {
   Scenario scene = fig2b();
   CHECK(assemble(scene, false).stops.empty());
   scene.time.end = 4;
@@ -238,7 +238,7 @@ TEST_CASE("the knots of a reference path inside the scene are stops") {
   CHECK(assemble(scene, false).stops == std::vector<double>{1, 3});
 }
 
-TEST_CASE("a staircase holds each point, and has jumped at an instant that rounding moves") {
+TEST_CASE("a staircase holds each point, and has jumped at an instant subject to rounding") {
   const SignalPair path =
       reference_path(StaircaseReference{{{0.01, 0}, {0.02, 0}, {0.02, 0.03}}, {0.9, 2}}, 5);
   const auto is_at = [&](double t, double x, double y) {
@@ -253,7 +253,7 @@ TEST_CASE("a staircase holds each point, and has jumped at an instant that round
   is_at(-3, 0.01, 0);
   is_at(0, 0.01, 0);
   is_at(0.9 * (1 - 1e-14), 0.01, 0);
-  const double ninth = 30 * 0.03;  // of a sampler with a period of 30 ms
+  const double ninth = 30 * 0.03;  // time of a sampler with a period of 30 ms
   CHECK(ninth < 0.9);
   is_at(ninth, 0.02, 0);
   is_at(0.9, 0.02, 0);
@@ -263,13 +263,13 @@ TEST_CASE("a staircase holds each point, and has jumped at an instant that round
   CHECK(path.jumps() == path.knots());
 }
 
-TEST_CASE("a jump to the same value is none") {
+TEST_CASE("a jump to the same value does not count") {
   const SignalPair path =
       reference_path(StaircaseReference{{{1, 0}, {1, 0}, {2, 0}, {2, 0}}, {1, 2, 3}}, 5);
   CHECK(path.jumps() == std::vector<double>{2});
 }
 
-TEST_CASE("a jump at the end of the run does not happen, and one at its start has happened") {
+TEST_CASE("a jump at the run's end does not happen, one at its start has happened") {
   const StaircaseReference stairs{{{1, 0}, {2, 0}, {3, 0}}, {0, 2}};
   CHECK(reference_path(stairs, 2).at(2.0)[0].value == 2);
   CHECK(reference_path(stairs, 2.5).at(2.0)[0].value == 3);
@@ -299,7 +299,7 @@ TEST_CASE("a square wave is the sign of a sine, with phases and a duty") {
   CHECK(quarter.at(3.0)[1].value == 5);
 }
 
-TEST_CASE("the jumps of a reference inside the scene are stops, with their moments before") {
+TEST_CASE("jumps of a reference within the scene are stops, with the moments just before them") {
   Scenario scene = fig2b();
   scene.time.end = 4;
   scene.controller->reference = SquareReference{{0.05, 0.05}, 2, {0, 0}, {0, 0}, 0.5};
@@ -313,7 +313,7 @@ TEST_CASE("the jumps of a reference inside the scene are stops, with their momen
   CHECK_FALSE(model.jumps_at(std::numeric_limits<double>::infinity()));
   const auto path = reference_path(scene.controller->reference, 4);
   CHECK(path.at(2.0)[0].value == 0.05);
-  // Also where a sum of times that should end there is rounded.
+  // Also at a rounded sum of times that should end there.
   CHECK(path.at(model.just_before(2) * (1 + epsilon))[0].value == -0.05);
   CHECK(2 - model.just_before(2) < 1e-14);
   CHECK(model.just_before(1.5) == std::nextafter(1.5, 0.0));

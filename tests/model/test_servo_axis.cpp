@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The modes of one servo, its guards, and when they cross zero, against closed forms.
+// The modes of one servo, its guards and their zero crossings, against closed forms.
 #include <cmath>
 #include <vector>
 
@@ -12,7 +12,7 @@ using namespace bbsim::model;
 
 namespace {
 
-// A servo of second order with stiffness 100 / s^2 and damping 10 / s, and with these limits.
+// A second-order servo with stiffness 100 / s^2, damping 10 / s and these limits.
 const ServoResponse response{100, 100, 10};
 
 RigServo limited(double angle, double rate, double acceleration) {
@@ -72,9 +72,9 @@ TEST_CASE("a servo at its acceleration limit leaves it when less is demanded") {
   CHECK(mode.demand_factor == 1);
 }
 
-TEST_CASE("a servo at its rate limit turns evenly until it is driven back") {
+TEST_CASE("a servo at its rate limit turns at a constant rate until the demand reverses") {
   ServoAxis axis(limited(unlimited, 2, unlimited), response);
-  AxisState state = state_of(0, 2 - 1e-13, 1);  // a crossing is found to rounding
+  AxisState state = state_of(0, 2 - 1e-13, 1);  // crossings are found up to rounding
   AxisMode mode;
   axis.settle(state, mode);
   CHECK(state.rate == 2);
@@ -87,7 +87,7 @@ TEST_CASE("a servo at its rate limit turns evenly until it is driven back") {
   CHECK(state.rate == 2);
 }
 
-TEST_CASE("a stop takes a servo's rate, and holds it while it is pressed") {
+TEST_CASE("a stop stops a servo and holds it while it is pressed") {
   const double sign = GENERATE(1, -1);
   ServoAxis axis(limited(0.5, unlimited, unlimited), response);
   AxisState state = state_of(sign * 0.5, sign * 3, sign * 0.7);
@@ -95,17 +95,17 @@ TEST_CASE("a stop takes a servo's rate, and holds it while it is pressed") {
   axis.settle(state, mode);
   CHECK(state.rate == 0);
   CHECK(state.angle == sign * 0.5);
-  CHECK(state.demand == Approx(sign * 20));  // without the damping of the rate
+  CHECK(state.demand == Approx(sign * 20));  // without the rate's damping
   CHECK(mode.demand_factor == 0);
   CHECK(guards_of(axis, state)[sign > 0 ? ServoAxis::stop_up : ServoAxis::stop_down] == Approx(20));
-  // A command within the stop takes the servo off it.
+  // A command within the stop moves the servo off it.
   state = state_of(sign * 0.5, 0, sign * 0.4);
   axis.settle(state, mode);
   CHECK(mode.demand_factor == 1);
   CHECK(state.angle == sign * 0.5);
 }
 
-TEST_CASE("a servo of first order takes its rate from the command") {
+TEST_CASE("a first-order servo takes its rate from the command") {
   RigServo servo = limited(unlimited, 2, unlimited);
   servo.time_constant = 0.1;
   ServoAxis axis(servo, {0, 0, 10});
@@ -114,7 +114,7 @@ TEST_CASE("a servo of first order takes its rate from the command") {
   axis.settle(state, mode);
   CHECK(state.rate == Approx(1));
   CHECK(mode.demand_factor == 1);
-  state = {0.1, 0, 0, 0.5};  // wants 4 rad/s
+  state = {0.1, 0, 0, 0.5};  // demands 4 rad/s
   axis.settle(state, mode);
   CHECK(state.rate == 2);
   CHECK(mode.demand_factor == 0);
@@ -138,14 +138,14 @@ TEST_CASE("the plane rests in the gap until the servo has taken up the backlash"
   CHECK(mode.ratio == 1);
   CHECK(mode.ratio * state.angle + mode.offset == Approx(0.4));  // no jump
   CHECK(guards_of(axis, state)[ServoAxis::gap_up] == 1);         // the rate
-  // The servo turns back. The plane stays.
+  // The servo turns back, the plane stays.
   state = state_of(0.2, -1e-6, -1);
   axis.settle(state, mode);
   CHECK(mode.ratio == 0);
   CHECK(mode.offset == Approx(0.49));
 }
 
-TEST_CASE("a servo follows commands beyond its dead band only") {
+TEST_CASE("a servo only follows commands beyond its dead band") {
   RigServo servo;
   servo.dead_band = 0.01;
   ServoAxis axis(servo, response);
@@ -155,7 +155,7 @@ TEST_CASE("a servo follows commands beyond its dead band only") {
   CHECK(axis.follow(-0.1) == -0.1);
 }
 
-TEST_CASE("under a held acceleration the guards cross where a parabola says") {
+TEST_CASE("under a held acceleration the guards cross at the roots of a parabola") {
   ServoAxis axis(limited(0.5, 3, unlimited), {1, 0, 0});
   AxisState state{0, 0, 10, 10};
   AxisMode mode;
@@ -165,7 +165,7 @@ TEST_CASE("under a held acceleration the guards cross where a parabola says") {
   const ServoAxis::Crossing rate = axis.first_crossing(from_rest, 10, 0, 1, answers);
   CHECK(rate.guard == ServoAxis::rate_up);
   CHECK(rate.after == Approx(0.3).epsilon(1e-12));
-  // From nearer the stop, the angle is first.
+  // If the stop is closer, the angle limit is reached first.
   const HeldMotion nearer{{0, 0}, 0.3, 0, 10};
   const ServoAxis::Crossing angle = axis.first_crossing(nearer, 10, 0, 1, answers);
   CHECK(angle.guard == ServoAxis::stop_up);
@@ -186,13 +186,13 @@ TEST_CASE("a motion within a servo's clearance needs no search") {
   CHECK(axis.stays_free(0.1, 0.1));
   CHECK_FALSE(axis.stays_free(0.5, 0.1));
   CHECK_FALSE(axis.stays_free(0.45, 0));  // 45 rad/s^2 back to its command
-  // None at a limit.
+  // No clearance at a limit.
   state = state_of(0.6, 0, 1);
   axis.settle(state, mode);
   CHECK(axis.clearance().angle == 0);
 }
 
-TEST_CASE("a servo rests where its equation says, and one without stiffness at its command") {
+TEST_CASE("a servo rests where its equation says, without stiffness at its command") {
   const auto rests_at = [](const ServoResponse& servo) {
     const ServoResponse at_rest = servo.at_rest();
     CHECK(at_rest.from_rate == 0);
@@ -200,5 +200,5 @@ TEST_CASE("a servo rests where its equation says, and one without stiffness at i
   };
   CHECK(rests_at(response) == 1);
   CHECK(rests_at({90, 100, 10}) == 0.9);
-  CHECK(rests_at({0, 0, 20}) == 1);  // of first order
+  CHECK(rests_at({0, 0, 20}) == 1);  // first order
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Profiles and splines: values, derivatives, and what they share.
+// Profiles and splines: values, derivatives and common properties.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -26,7 +26,7 @@ TEST_CASE("a profile is the sum of its terms, with two derivatives") {
   for (const double t : {0.0, 0.37, 12.5}) {
     const auto [phi, theta] = pair.at(t);
     const double a = 5 * t + 0.7, b = 5 * t - 1;
-    // The argument 5 t carries the rounding of t, the sum a few more.
+    // The argument 5 t has the rounding of t, the sum adds a few errors.
     const double bound = 8 * epsilon * (1 + 5 * t) * 25;
     CHECK(std::abs(phi.value - (0.61 + 2 * t + 0.3 * std::sin(a) + 0.2 * std::sin(b))) < bound);
     CHECK(std::abs(phi.rate - (2 + 1.5 * std::cos(a) + 1.0 * std::cos(b))) < bound);
@@ -37,7 +37,7 @@ TEST_CASE("a profile is the sum of its terms, with two derivatives") {
   CHECK(pair.highest_frequency() == 5);
 }
 
-TEST_CASE("zero is known as zero") {
+TEST_CASE("a zero profile is recognized as zero") {
   SignalPair pair;
   CHECK(pair.is_zero(0));
   pair.add(0, {Sinusoid{0, 1, 0, 0}, 0.0, Ramp{0, 0}});
@@ -46,7 +46,7 @@ TEST_CASE("zero is known as zero") {
   CHECK_FALSE(pair.is_zero(1));
 }
 
-TEST_CASE("a spline reproduces a cubic, its derivatives included") {
+TEST_CASE("a spline reproduces a cubic and its derivatives") {
   const std::vector<double> times{0, 0.5, 0.7, 2, 3.5, 4};
   const auto cubic = [](double t) { return 1 + t * (-2 + t * (0.5 + t * 0.25)); };
   std::vector<double> values;
@@ -73,13 +73,13 @@ TEST_CASE("a spline passes through its table and is C2") {
   for (std::size_t i = 1; i + 1 < times.size(); ++i) {
     const double h = 1e-9;
     const Jet<double> left = spline.at(times[i] - h), right = spline.at(times[i] + h);
-    // Across 2 h the derivatives change by 2 h times the next one, at most 100 here.
+    // Across 2 h a derivative changes by 2 h times the next one, at most 100 here.
     CHECK(std::abs(left.rate - right.rate) < 2 * h * 100);
     CHECK(std::abs(left.acceleration - right.acceleration) < 2 * h * 100);
   }
 }
 
-TEST_CASE("a spline of a smooth function converges with the fourth power of the step") {
+TEST_CASE("a spline of a smooth function converges with fourth order") {
   const auto error = [](int n) {
     std::vector<double> times, values;
     for (int i = 0; i <= n; ++i) {

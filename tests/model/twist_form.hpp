@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The paper's own derivation, equations (2)-(26), evaluated numerically: twists, the 6x6 inertia
-// and the pairing with s3, s4, s5. Shares nothing with src/model but the meaning of the symbols.
+// and the pairing with s3, s4, s5. Shares only the meaning of the symbols with src/model.
 #pragma once
 
 #include <Eigen/Dense>
@@ -19,8 +19,8 @@ struct State {
   double phi, theta, phi_dot, theta_dot, phi_ddot, theta_ddot;
 };
 
-// A rig that need not be the paper's: the ball's moment of inertia over m r^2, the plane's height
-// above the gimbal's centre, and errors of the axes (docs/explanation/model.md, (M15)).
+// A rig that may differ from the paper's: the ball's moment of inertia over m r^2, the plane's
+// height above the gimbal's center, and axis errors (docs/explanation/model.md, (M15)).
 struct Rig {
   double k = 0.4, height = 0, skew = 0, yaw = 0, base_tilt = 0;
 };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Results as tests need them, and what a reader of a picture would object to.
+// Results for tests, and checks of the resulting pictures.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace bbsim_test {
 
 using Function = std::function<double(double)>;
 
-// A run over `rows` rows from 0 to `end`, a column a function of time.
+// A run with `rows` rows from 0 to `end`; each column is a function of time.
 inline bbsim::results::Result run_of(const std::vector<std::pair<std::string, Function>>& columns,
                                      double end = 10, std::size_t rows = 101) {
   bbsim::results::Result run;
@@ -40,7 +40,7 @@ inline bbsim::results::Result run_of(const std::vector<std::pair<std::string, Fu
   return run;
 }
 
-// What gnuplot draws of a picture, after what it complains of.
+// gnuplot's SVG of a picture, preceded by its complaints.
 inline std::string svg_of(const bbsim::plot::Picture& picture) {
   using namespace bbsim::plot;
   const std::string script =
@@ -49,13 +49,13 @@ inline std::string svg_of(const bbsim::plot::Picture& picture) {
   return drawn && drawn->well() ? drawn->complaint + drawn->output : "gnuplot failed";
 }
 
-// What collides where gnuplot draws a picture (svg_texts.hpp), and what it complains of.
+// Collisions in gnuplot's picture (svg_texts.hpp), and gnuplot's complaints.
 inline std::string collisions(const bbsim::plot::Picture& picture) {
   const std::string svg = svg_of(picture);
   return svg.substr(0, svg.find("<?xml")) + collisions_in(svg);
 }
 
-// Whether one of the picture's texts, as its author has it, is this.
+// Whether the picture contains this text.
 inline bool says(const bbsim::plot::Picture& picture, const std::string& text) {
   const auto named = [&](const std::vector<bbsim::plot::Entry>& legend) {
     return std::ranges::find(legend, text, &bbsim::plot::Entry::name) != legend.end();

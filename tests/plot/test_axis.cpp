@@ -29,7 +29,7 @@ std::vector<double> tics_of(const Axis& axis) {
   return tics;
 }
 
-// As gnuplot writes them by the format that it is given.
+// The labels as gnuplot writes them with the given format.
 std::set<std::string> labels_of(const Axis& axis) {
   std::set<std::string> labels;
   for (const double tic : tics_of(axis)) {
@@ -42,7 +42,7 @@ std::set<std::string> labels_of(const Axis& axis) {
 
 }  // namespace
 
-TEST_CASE("labels are short and unlike each other, whatever the size of the values") {
+TEST_CASE("labels are short and distinct for values of any size") {
   for (const char* unit : {"m", "s", "N m", "m/s", "", "rad"}) {
     for (int exponent = -274; exponent <= 300; exponent += 7) {
       for (const double part : {0.0, 1e-12, 1e-7, 1e-5, 3e-3, 0.4, 2.0}) {
@@ -57,7 +57,7 @@ TEST_CASE("labels are short and unlike each other, whatever the size of the valu
         const std::set<std::string> labels = labels_of(axis);
         CHECK(labels.size() >= 2);
         CHECK(labels.size() <= 10);
-        // What a panel's margin has room for; all labels differ.
+        // The space of a panel's margin; all labels differ.
         for (const std::string& label : labels) CHECK(width_of(label, 13) <= 58);
         CHECK(labels.size() == tics_of(axis).size());
       }
@@ -65,7 +65,7 @@ TEST_CASE("labels are short and unlike each other, whatever the size of the valu
   }
 }
 
-TEST_CASE("units suit the values") {
+TEST_CASE("units fit the values") {
   const auto unit = [](const char* base, double largest) {
     return choose_scale({base}, range_of(-largest, largest)).unit;
   };
@@ -84,12 +84,12 @@ TEST_CASE("units suit the values") {
   CHECK(unit("", 0.006) == "10⁻³");
 }
 
-TEST_CASE("what differs by little is drawn as a difference from a round value") {
+TEST_CASE("values that differ little are drawn as differences from a round value") {
   const Scale scale = choose_scale({"m"}, range_of(-0.1, -0.1 + 1e-9));
   CHECK(scale.heading("y") == "y + 0.1 m (nm)");
   CHECK(scale(-0.1 + 1e-9) == Approx(1).margin(1e-6));
   CHECK(choose_scale({"m"}, range_of(-0.1, -0.1 + 1e-9), 0).shift.empty());
-  // What differs by rounding alone is constant.
+  // Values that differ only by rounding count as constant.
   CHECK(choose_scale({"m"}, range_of(0.1, std::nextafter(0.1, 1))).shift.empty());
 }
 
@@ -100,7 +100,7 @@ TEST_CASE("the two axes of a plane have one factor") {
   CHECK(scales.y.heading("y") == "y + 0.1 m (nm)");
 }
 
-TEST_CASE("a constant, and nothing at all, still have an axis") {
+TEST_CASE("constant and missing values still have an axis") {
   const Axis constant = linear_axis({5, 5}, Along::y, 100);
   CHECK(constant.low < 5);
   CHECK(constant.high > 5);
@@ -125,7 +125,7 @@ TEST_CASE("logarithmic axes have tics over any number of decades") {
   CHECK_FALSE(better_by_log({-1, 1e9}));
 }
 
-TEST_CASE("labels below a panel are not nearer than a letter, however long they are") {
+TEST_CASE("labels below a panel keep a letter's distance, however long they are") {
   for (const double pixels : {120.0, 300.0, 480.0}) {
     const Axis axis = linear_axis({64.00465, 64.02571}, Along::x, pixels, 0);
     const std::set<std::string> labels = labels_of(axis);

@@ -37,7 +37,7 @@ results::Result run_with(const std::vector<std::string>& names) {
 
 }  // namespace
 
-TEST_CASE("what belongs together shares a panel") {
+TEST_CASE("related columns share a panel") {
   CHECK(text_of(plot::plan_panels({run_with({"x", "y", "gamma", "phi", "theta"})})) ==
         "x, y: x y | γ: gamma | φ, θ: phi theta");
   CHECK(text_of(plot::plan_panels(
@@ -60,22 +60,22 @@ TEST_CASE("what belongs together shares a panel") {
       "φ motor's torque: phi_torque phi_torque_asked | θ motor's torque: theta_torque");
 }
 
-TEST_CASE("a run without y, or without any column that is known, is drawn") {
+TEST_CASE("a run without y, or without any known column, is drawn") {
   CHECK(text_of(plot::plan_panels({run_with({"x", "vx", "phi", "phi_rate", "x_reference"})})) ==
         "x: x x_reference | vx: vx | φ: phi | φ': phi_rate");
   CHECK(text_of(plot::plan_panels({run_with({"voltage", "x_cam"})})) ==
         "voltage: voltage | x_cam: x_cam");
 }
 
-TEST_CASE("lines of very different size get panels of their own") {
+TEST_CASE("lines of very different size get separate panels") {
   const results::Result run = run_of({{"x", wave}, {"y", [](double t) { return 1e-4 * wave(t); }}});
   CHECK(text_of(plot::plan_panels({run})) == "x: x | y: y");
-  // One that does not move is as flat anywhere.
+  // A constant one is flat in any panel.
   const results::Result still = run_of({{"x", wave}, {"y", [](double) { return 0.0; }}});
   CHECK(text_of(plot::plan_panels({still})) == "x, y: x y");
 }
 
-TEST_CASE("commands stand beside what they command: angles, or accelerations") {
+TEST_CASE("commands are drawn with what they command: angles or accelerations") {
   const Function angle = [](double t) { return 0.1 * std::sin(3 * t); };
   const Function acceleration = [](double t) { return -0.9 * std::sin(3 * t); };
   const results::Result driven =
@@ -85,7 +85,7 @@ TEST_CASE("commands stand beside what they command: angles, or accelerations") {
   const results::Result servo = run_of({{"phi", angle}, {"phi_command", angle}});
   CHECK(plot::driven_quantity(servo) == Drives::angle);
 
-  // The scenario knows.
+  // The scenario decides.
   results::Result told = servo;
   told.scenario.emplace();
   told.scenario->controller.emplace().drives = Drives::acceleration;
@@ -106,13 +106,13 @@ TEST_CASE("commands stand beside what they command: angles, or accelerations") {
         "θ'': theta_acceleration theta_command");
 }
 
-TEST_CASE("in a comparison each panel has one quantity") {
+TEST_CASE("a comparison has one quantity per panel") {
   const results::Result run = run_with({"x", "y", "x_reference", "vx", "vy", "phi", "phi_command"});
   CHECK(text_of(plot::plan_panels({run, run})) ==
         "x: x x_reference | y: y | vx: vx | vy: vy | φ: phi | φ command: phi_command");
 }
 
-TEST_CASE("columns are drawn as asked, or the reason is told") {
+TEST_CASE("columns are drawn as requested, or the reason is given") {
   const results::Result run = run_with({"x", "y", "phi", "theta", "vx"});
   CHECK(text_of(plot::plan_panels({run}, {{"y", "x"}, {"theta"}})) == "y, x: y x | θ: theta");
   CHECK_THROWS_WITH(plot::plan_panels({run}, {{"x", "phi"}}), Contains("has another unit"));
@@ -134,7 +134,7 @@ TEST_CASE("angles are drawn in degrees, turns of the ball in radians") {
   CHECK(plot::unit_of("voltage").text.empty());
 }
 
-TEST_CASE("of a table that nobody tells of no unit is known, whatever its names are") {
+TEST_CASE("no unit is assumed for a table of unknown origin, whatever its column names") {
   std::vector<results::Result> runs{run_with({"t", "x", "phi"})};
   CHECK(plot::unit_of(runs, "x").text == "m");
   runs.push_back(runs.front());
@@ -145,7 +145,7 @@ TEST_CASE("of a table that nobody tells of no unit is known, whatever its names 
   }
 }
 
-TEST_CASE("a column that only a file knows has the unit that the file tells") {
+TEST_CASE("a column known only to the file has the file's unit") {
   results::Result run = run_with({"x", "position_error", "angle"});
   run.columns[2].unit = "m";
   run.columns[3].unit = "rad";

@@ -29,7 +29,7 @@ bool has_curve(const Picture& picture, Curve::Shape shape) {
   });
 }
 
-// A line through the panel at the instant of an event.
+// Whether the curve is the vertical line at an event.
 bool is_upright(const Curve& curve) {
   return curve.stroke.dash == Dash::dotted && curve.x.size() == 2 && curve.x[0] == curve.x[1];
 }
@@ -57,7 +57,7 @@ Result rig_run() {
 
 }  // namespace
 
-TEST_CASE("a rig's run shows plate, events, limit, reference, what was seen, and steps") {
+TEST_CASE("a rig's run shows plate, events, limit, reference, measurements and steps") {
   const Picture picture = run_picture({rig_run()}, {});
   CHECK(collisions(picture) == "");
   for (const char* text :
@@ -77,14 +77,14 @@ TEST_CASE("a rig's run shows plate, events, limit, reference, what was seen, and
   }
 }
 
-TEST_CASE("a law without samples has no steps") {
+TEST_CASE("a law without samples is not drawn in steps") {
   Result run = rig_run();
   run.scenario->controller->sampling.reset();
   std::erase_if(run.columns, [](const Column& column) { return column.name == "x_measured"; });
   CHECK_FALSE(has_curve(run_picture({run}, {}), Curve::Shape::steps));
 }
 
-TEST_CASE("a plate that would hide the path is left out, a limit that is far away is told") {
+TEST_CASE("a plate that would hide the path is omitted, and a distant limit is stated") {
   Result run = rig_run();
   run.events.clear();
   for (Column& column : run.columns) {
@@ -96,7 +96,7 @@ TEST_CASE("a plate that would hide the path is left out, a limit that is far awa
   CHECK(says(picture, "coefficient 0.3, far above"));
 }
 
-TEST_CASE("the test of collisions sees one") {
+TEST_CASE("the collision test detects a collision") {
   Picture picture = run_picture({rig_run()}, {});
   picture.panels[1].box = picture.panels[2].box;
   CHECK_THAT(collisions(picture), Contains("\"x (cm)\" over \"y (cm)\""));
@@ -104,7 +104,7 @@ TEST_CASE("the test of collisions sees one") {
   CHECK_THAT(collisions(picture), Contains("outside: 10"));
 }
 
-TEST_CASE("nothing collides, whatever the values, the names and the number of panels") {
+TEST_CASE("nothing collides, for any values, names and number of panels") {
   const std::vector<std::string> names = {"x",
                                           "y",
                                           "gamma",
@@ -126,7 +126,7 @@ TEST_CASE("nothing collides, whatever the values, the names and the number of pa
                                           "a_column_of_somebody_else_with_a_very_long_name_indeed",
                                           "energy",
                                           "singularity_distance"};
-  // Every size, number of panels and end comes with several of the others.
+  // Every size, number of panels and end time occurs with several of the others.
   const std::vector<double> sizes = {1e-300, 1e-9, 1e-4, 0.1, 3, 86, 1e5, 1.4e6, 1e300};
   const std::vector<double> offsets = {0, 1, 1e6}, ends = {1e-9, 0.3, 10, 1e6};
   for (std::size_t n = 0; n < 36; ++n) {
@@ -146,7 +146,7 @@ TEST_CASE("nothing collides, whatever the values, the names and the number of pa
   }
 }
 
-TEST_CASE("comparisons name each run, and tell them apart without colour") {
+TEST_CASE("comparisons name each run and distinguish them without color") {
   std::vector<Result> runs;
   for (int i = 0; i < 4; ++i) {
     runs.push_back(rig_run());
@@ -164,7 +164,7 @@ TEST_CASE("comparisons name each run, and tell them apart without colour") {
   }
 }
 
-TEST_CASE("the names of many runs have room, whether their letters are wide or narrow") {
+TEST_CASE("the names of many runs fit, with wide or narrow letters") {
   for (const char letter : {'i', 'n', 'W'}) {
     for (const std::size_t length : {1, 8, 20, 40, 200}) {
       std::vector<Result> runs(17, run_of({{"x", wave(0.05)}, {"y", wave(0.04)}}));
@@ -177,7 +177,7 @@ TEST_CASE("the names of many runs have room, whether their letters are wide or n
   }
 }
 
-TEST_CASE("all runs of a comparison are drawn equally wide, and what was seen hides nothing") {
+TEST_CASE("all runs of a comparison are drawn equally wide, and measurements hide nothing") {
   const std::vector<Result> runs(8, rig_run());
   const Picture picture = run_picture(runs, {});
   for (const Panel& panel : picture.panels) {
@@ -188,7 +188,7 @@ TEST_CASE("all runs of a comparison are drawn equally wide, and what was seen hi
     }
   }
   const Picture one = run_picture({rig_run()}, {});
-  const std::vector<Curve>& x = one.panels[1].curves;  // after the path
+  const std::vector<Curve>& x = one.panels[1].curves;  // the path comes first
   const auto seen = std::ranges::find(x, Curve::Shape::steps, &Curve::shape);
   const auto main = std::ranges::find(x, "#0072b2", [](const Curve& c) { return c.stroke.colour; });
   REQUIRE(seen != x.end());
@@ -196,7 +196,7 @@ TEST_CASE("all runs of a comparison are drawn equally wide, and what was seen hi
   CHECK(seen < main);
 }
 
-TEST_CASE("a run that an event stopped is drawn to the event") {
+TEST_CASE("a run stopped by an event is drawn up to the event") {
   Result run = run_of({{"x", wave(0.1)}, {"y", wave(0.2)}, {"phi", wave(0.1)}}, 1, 11);
   run.status = "stopped";
   run.events = {{"edge", true, 1.04, 0.16, 0.01, {{"phi", 0.3}, {"vx", 2}}}};
@@ -214,7 +214,7 @@ TEST_CASE("a run that an event stopped is drawn to the event") {
   CHECK_FALSE(at_a_row.has_end_row);
 }
 
-TEST_CASE("a ball along one axis has no picture of the plane, unless a plate is in it") {
+TEST_CASE("a ball along one axis has no picture of the plane unless it shows a plate") {
   const Function none = [](double) { return 0.0; };
   Result beam = run_of({{"x", wave(0.1)}, {"y", none}});
   CHECK(run_picture({beam}, {}).panels.size() == 1);
@@ -233,7 +233,7 @@ TEST_CASE("a number between two gaps is a dot") {
   CHECK(curves[0].x.size() == 1);
 }
 
-TEST_CASE("many events are marked at the top only") {
+TEST_CASE("many events are marked only at the top") {
   Result run = rig_run();
   run.events.assign(500, {"slip", false, 4, 0.01, 0.02});
   const Picture picture = run_picture({run}, {});
@@ -242,7 +242,7 @@ TEST_CASE("many events are marked at the top only") {
   CHECK(picture.panels.back().curves.back().x.size() == 500);
 }
 
-TEST_CASE("a run that stands still, has one row, gaps, infinities or no time is drawn") {
+TEST_CASE("a run that is constant, or has one row, gaps, infinities or no time, is drawn") {
   const Function still = [](double) { return 0.1; };
   CHECK(collisions(run_picture({run_of({{"x", still}, {"y", still}})}, {})) == "");
 
@@ -267,14 +267,14 @@ TEST_CASE("a run that stands still, has one row, gaps, infinities or no time is 
   CHECK(says(run_picture({timeless}, {}), "row"));
 }
 
-TEST_CASE("there is nothing to draw of a run without finite numbers") {
+TEST_CASE("a run without finite numbers cannot be drawn") {
   const Result run = run_of({{"x", [](double) { return NAN; }}});
   CHECK_THROWS_WITH(run_picture({run}, {}), Contains("nothing to draw"));
   CHECK_THROWS_WITH(run_picture({run_of({{"x", wave(1)}})}, {{"path"}}),
                     Contains("no numbers x and y"));
 }
 
-TEST_CASE("the path can be asked for, alone or with columns") {
+TEST_CASE("the path can be requested, alone or with columns") {
   const Result run = run_of({{"x", wave(1)}, {"y", wave(2)}, {"phi", wave(1)}});
   CHECK(run_picture({run}, {{"path"}}).panels.size() == 1);
   CHECK(run_picture({run}, {{"phi"}, {"path"}}).panels.size() == 2);

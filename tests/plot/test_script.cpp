@@ -23,7 +23,7 @@ Picture picture_saying(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a text is nothing but text to gnuplot") {
+TEST_CASE("gnuplot receives any text as plain text") {
   const std::string script =
       gnuplot_script(picture_saying("it's `id` \"$(id)\" @m ''two''\n!rm x\nset output 'y'\\"),
                      Format::svg, no_letter);
@@ -37,13 +37,13 @@ TEST_CASE("a text is nothing but text to gnuplot") {
   }
 }
 
-TEST_CASE("letters that no font has do not reach the formats that draw them") {
+TEST_CASE("letters missing from every font are kept from formats that draw letters") {
   CHECK_THAT(gnuplot_script(picture_saying("漢"), Format::svg, no_letter), Contains("'漢'"));
   CHECK_THAT(gnuplot_script(picture_saying("漢"), Format::png, no_letter), Contains("'�'"));
   CHECK_THAT(gnuplot_script(picture_saying("漢"), Format::pdf, no_letter), Contains("'�'"));
 }
 
-TEST_CASE("data keep their gaps") {
+TEST_CASE("gaps in the data stay gaps") {
   Picture picture;
   Panel panel;
   panel.box = {0, 0, 100, 100};
@@ -54,11 +54,11 @@ TEST_CASE("data keep their gaps") {
   picture.panels.push_back(panel);
   CHECK_THAT(gnuplot_script(picture, Format::png, no_letter),
              Contains("0 -1e+30\n1.25 1\n5e+29 NaN\n"));
-  // What gnuplot takes for missing it draws a line over.
+  // gnuplot would draw a line across missing values.
   CHECK_THAT(gnuplot_script(picture, Format::png, no_letter), !Contains("missing"));
 }
 
-TEST_CASE("what gnuplot leaves of XML in a text is mended") {
+TEST_CASE("invalid XML that gnuplot leaves in a text is repaired") {
   CHECK(mended("<text>a ]]> b</text>", Format::svg) == "<text>a ]]&gt; b</text>");
   CHECK(mended("a ]]> b", Format::png) == "a ]]> b");
   CHECK(mended("<![CDATA[ x ]]>", Format::svg) == "<![CDATA[ x ]]>");
@@ -67,7 +67,7 @@ TEST_CASE("what gnuplot leaves of XML in a text is mended") {
 TEST_CASE("a picture's mark is a comment of its format") {
   CHECK(marked("<svg></svg>\n", Format::svg) == "<svg></svg>\n<!-- drawn by bbsim plot -->\n");
   CHECK(marked("%%EOF\n", Format::pdf) == "%%EOF\n% drawn by bbsim plot\n");
-  // A chunk has its length before it, and behind it a check sum, as of zlib's crc32().
+  // A chunk is preceded by its length and followed by a checksum, as of zlib's crc32().
   const std::string end("\0\0\0\0IEND\xAE\x42\x60\x82", 12);
   const std::string chunk =
       std::string("\0\0\0\x1BtEXtComment\0", 16) + "drawn by bbsim plot" + "\xC0\x73\x7D\x55";

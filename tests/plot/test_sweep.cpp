@@ -16,7 +16,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// A sweep over keys with their values a case; x_end is `measure` of the case's number.
+// A sweep with the given key values per case; x_end is `measure` of the case number.
 Result sweep_of(
     const std::vector<Column>& keys,
     const Function& measure = [](double n) { return std::cos(n); }) {
@@ -51,7 +51,7 @@ Column repeated(const std::string& name, std::size_t cases, std::size_t inner, s
   return column;
 }
 
-// Without order: multiples of the golden ratio, modulo 1.
+// Unordered: multiples of the golden ratio, modulo 1.
 Column drawn(const std::string& name, std::size_t cases) {
   Column column{name, {}};
   for (std::size_t i = 0; i < cases; ++i) {
@@ -73,7 +73,7 @@ bool has_band(const Picture& picture) {
 
 }  // namespace
 
-TEST_CASE("keys that are listed, drawn, tied or constant are told apart") {
+TEST_CASE("listed, random, tied and constant keys are distinguished") {
   const std::size_t cases = 60;
   const SweepTable table = sweep_table(
       sweep_of({repeated("a", cases, 10, 6), repeated("b", cases, 10, 6), drawn("c", cases),
@@ -85,11 +85,11 @@ TEST_CASE("keys that are listed, drawn, tied or constant are told apart") {
   CHECK(table.followers(table.keys[0]) == std::vector<std::string>{"b"});
   CHECK(table.keys[2].drawn);
   CHECK(table.keys[3].drawn);
-  CHECK(table.keys[3].leader == 3);   // draws do not go along, though none comes twice
-  CHECK(table.measures.size() == 1);  // all ended at one time
+  CHECK(table.keys[3].leader == 3);   // random values are never tied, though all are distinct
+  CHECK(table.measures.size() == 1);  // all ended at the same time
 }
 
-TEST_CASE("a file that tells which keys were drawn is believed") {
+TEST_CASE("a file that states its random keys is believed") {
   Result sweep = sweep_of({drawn("a", 20), repeated("b", 20, 1, 20)});
   sweep.tells_drawn = true;
   sweep.drawn_keys = {"b"};
@@ -98,7 +98,7 @@ TEST_CASE("a file that tells which keys were drawn is believed") {
   CHECK(table.keys[1].drawn);
 }
 
-TEST_CASE("of a status the first word counts") {
+TEST_CASE("only the first word of a status counts") {
   Result sweep = sweep_of({repeated("a", 4, 1, 4)});
   end_as(sweep, 0, "failed at 0.744 s: the step shrank");
   end_as(sweep, 1, "refused: ball.radius");
@@ -107,7 +107,7 @@ TEST_CASE("of a status the first word counts") {
         std::vector<std::string>{"failed", "refused", "stopped", "done"});
 }
 
-TEST_CASE("one key gives lines, with cases that are not done marked at the foot") {
+TEST_CASE("one key gives lines, with unfinished cases marked at the bottom") {
   Result sweep = sweep_of({repeated("ball.radius", 20, 1, 20)});
   end_as(sweep, 3, "failed");
   end_as(sweep, 4, "failed");
@@ -117,16 +117,16 @@ TEST_CASE("one key gives lines, with cases that are not done marked at the foot"
   REQUIRE(picture.panels.size() == 1);
   const auto& curves = picture.panels[0].curves;
   REQUIRE(curves.size() == 3);
-  CHECK(std::isnan(curves[0].y[3]));  // a case that failed has no part in the line
+  CHECK(std::isnan(curves[0].y[3]));  // a failed case is not part of the line
   CHECK(curves[1].x.size() == 2);
   CHECK(curves[2].x.size() == 1);
   CHECK(curves[1].stroke.marker != curves[2].stroke.marker);
   CHECK(says(picture, "failed: 2 cases"));
   CHECK(says(picture, "stopped: 1 case"));
-  CHECK(says(picture, "ball.radius"));  // no unit that nobody told
+  CHECK(says(picture, "ball.radius"));  // the file gives no unit
 }
 
-TEST_CASE("a key has the unit that its file tells, and no other") {
+TEST_CASE("a key has only the unit that its file gives") {
   Result sweep = sweep_of({repeated("ball.radius", 20, 1, 20)});
   sweep.columns[1].unit = "m";
   CHECK(says(sweep_picture(sweep, {}), "ball.radius (m)"));
@@ -134,7 +134,7 @@ TEST_CASE("a key has the unit that its file tells, and no other") {
   CHECK(says(sweep_picture(sweep, {}), "ball.radius"));
 }
 
-TEST_CASE("two keys give a map; one with few values gives a line for each") {
+TEST_CASE("two keys give a map; a key with few values gives one line each") {
   Result grid = sweep_of({repeated("a", 120, 12, 10), repeated("b", 120, 1, 12)});
   end_as(grid, 7, "failed");
   const Picture map = sweep_picture(grid, {});
@@ -151,7 +151,7 @@ TEST_CASE("two keys give a map; one with few values gives a line for each") {
   CHECK(sweep_picture(grid, {{}, {"b"}}).panels[0].cells.empty());
 }
 
-TEST_CASE("draws give histograms, a median and a band over listed keys, or points") {
+TEST_CASE("random values give histograms, a median and a band over listed keys, or points") {
   const Picture histogram = sweep_picture(sweep_of({drawn("a", 200), drawn("b", 200)}), {});
   CHECK(collisions(histogram) == "");
   double counted = 0;
@@ -167,7 +167,7 @@ TEST_CASE("draws give histograms, a median and a band over listed keys, or point
   CHECK(points.panels[0].curves[0].stroke.width == 0);
 }
 
-TEST_CASE("a key of words stands beside the words") {
+TEST_CASE("a key with text values is drawn with its texts") {
   Column method{"solver.method",
                 std::vector<double>(6, NAN),
                 {"radau", "bdf", "50 %s", "radau", "bdf", "50 %s"}};
@@ -177,11 +177,11 @@ TEST_CASE("a key of words stands beside the words") {
   REQUIRE(picture.panels[0].x.tics.size() == 3);
   CHECK(picture.panels[0].x.tics[1].label == "bdf");
   CHECK(picture.panels[0].curves[0].stroke.width == 0);
-  // gnuplot would take the label for a format.
+  // gnuplot must not take the label for a format.
   CHECK_THAT(svg_of(picture), Contains(">50 %s<"));
 }
 
-TEST_CASE("measures over decades, constant ones, and none that is done are drawn") {
+TEST_CASE("measures over decades, constant measures and unfinished sweeps are drawn") {
   const Result decades =
       sweep_of({repeated("a", 20, 1, 20)}, [](double n) { return std::pow(10.0, n - 5); });
   CHECK(sweep_picture(decades, {}).panels[0].y.log);
@@ -197,7 +197,7 @@ TEST_CASE("measures over decades, constant ones, and none that is done are drawn
   CHECK(says(sweep_picture(draws, {}), "failed: 50 cases"));
 }
 
-TEST_CASE("numbers beside a histogram are told apart, and one that all share stands once") {
+TEST_CASE("numbers beside a histogram are distinguishable, and a common one appears once") {
   const Result near =
       sweep_of({drawn("a", 200)}, [](double n) { return 1.304 + 2e-5 * std::sin(n); });
   Result same = sweep_of({drawn("a", 200)}, [](double) { return 1.304; });
@@ -207,10 +207,10 @@ TEST_CASE("numbers beside a histogram are told apart, and one that all share sta
   CHECK_FALSE(says(picture, "median 1.304"));
   CHECK(says(constant, "all 1.304"));
   CHECK_FALSE(says(constant, "median"));
-  CHECK(picture.panels[0].x.decimals() <= 2);  // so tics have labels of their own
+  CHECK(picture.panels[0].x.decimals() <= 2);  // so all tics have different labels
 }
 
-TEST_CASE("a map's colours and cells differ in three digits") {
+TEST_CASE("a map's colors and cells are distinct to three digits") {
   const Result sweep = sweep_of({repeated("a", 100, 10, 10), repeated("b", 100, 1, 10)},
                                 [](double n) { return 0.2966 + 2e-6 * n; });
   const Picture picture = sweep_picture(sweep, {});
@@ -218,14 +218,14 @@ TEST_CASE("a map's colours and cells differ in three digits") {
   CHECK(collisions(picture) == "");
 }
 
-TEST_CASE("a map of a million cases has no more cells than can be seen") {
+TEST_CASE("a map of a million cases has no more cells than are visible") {
   const Picture picture =
       sweep_picture(sweep_of({repeated("a", 250000, 500, 500), repeated("b", 250000, 1, 500)}), {});
   CHECK(cells(picture) <= 160 * 160);
   CHECK(cells(picture) >= 100 * 100);
 }
 
-TEST_CASE("nothing collides, whatever the keys are called and however large they are") {
+TEST_CASE("nothing collides, for keys of any name and size") {
   for (const double size : {1e-300, 1e-9, 1e-3, 1.0, 1e7, 1e300}) {
     for (const std::size_t inner : {std::size_t{1}, std::size_t{3}, std::size_t{12}}) {
       Column a = repeated(std::string(120, 'k') + ".0", 144, inner, 144 / inner);
@@ -240,7 +240,7 @@ TEST_CASE("nothing collides, whatever the keys are called and however large they
   }
 }
 
-TEST_CASE("what a sweep has not cannot be drawn") {
+TEST_CASE("keys and measures missing from a sweep cannot be drawn") {
   const Result sweep = sweep_of({repeated("a", 12, 4, 3), repeated("b", 12, 1, 4)});
   CHECK_THROWS_WITH(sweep_picture(sweep, {{"y_end"}, {}}),
                     Contains("measures of sweep.csv: x_end"));

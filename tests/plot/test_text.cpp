@@ -6,7 +6,7 @@
 
 using namespace bbsim::plot;
 
-TEST_CASE("a text becomes one line of valid UTF-8 without letters that act on others") {
+TEST_CASE("a text becomes one line of valid UTF-8 without control characters") {
   CHECK(clean("plain, 'quoted' {_a} ^b @c `d` \\n") == "plain, 'quoted' {_a} ^b @c `d` \\n");
   CHECK(clean("two\nlines\t\tand a tab\r\n") == "two lines and a tab");
   CHECK(clean("\x1b[31mred") == "[31mred");
@@ -16,7 +16,7 @@ TEST_CASE("a text becomes one line of valid UTF-8 without letters that act on ot
   CHECK(clean("φ − ⁻³ 漢字 😀") == "φ − ⁻³ 漢字 😀");
 }
 
-TEST_CASE("a text that is too wide is cut at a letter's edge") {
+TEST_CASE("a text that is too wide is cut between letters") {
   const std::string long_text = "Ein ziemlich langer Titel mit Umlauten: äöü äöü äöü";
   for (const double room : {20.0, 50.0, 100.0, 300.0}) {
     CAPTURE(room);
@@ -30,14 +30,14 @@ TEST_CASE("a text that is too wide is cut at a letter's edge") {
   CHECK(cut("anything", 0, 12) == "…");
 }
 
-TEST_CASE("numbers have a minus sign, powers of ten superscripts") {
+TEST_CASE("numbers have a proper minus sign and superscript powers of ten") {
   CHECK(number(-0.25) == "−0.25");
   CHECK(number(1e-7) == "1e−07");
   CHECK(power_of_ten(-12) == "10⁻¹²");
   CHECK(power_of_ten(303) == "10³⁰³");
 }
 
-TEST_CASE("what has no letter in any font is replaced") {
+TEST_CASE("characters missing from every font are replaced") {
   const auto none = [](std::uint32_t) { return false; };
   const auto all = [](std::uint32_t) { return true; };
   CHECK(with_letters("ä φ − ⁻³ ⁰ °", none) == "ä φ − ⁻³ ⁰ °");

@@ -21,7 +21,7 @@ Panel panel_to(double x_high, double y_low, double y_high) {
 
 }  // namespace
 
-TEST_CASE("no spike and no gap is lost, however many rows there are") {
+TEST_CASE("no spike and no gap is lost, for any number of rows") {
   constexpr std::size_t rows = 1000000;
   Curve curve;
   for (std::size_t i = 0; i < rows; ++i) {
@@ -41,7 +41,7 @@ TEST_CASE("no spike and no gap is lost, however many rows there are") {
   CHECK(std::ranges::is_sorted(thin.x));
 }
 
-TEST_CASE("few rows, and times that go back, stay as they are") {
+TEST_CASE("few rows, and times that go backward, stay unchanged") {
   Curve few;
   few.x = {0, 1, 2};
   few.y = {3, 4, 5};
@@ -54,7 +54,7 @@ TEST_CASE("few rows, and times that go back, stay as they are") {
   CHECK(thin_over_time(back, panel_to(100, 0, 10000)).x.size() == back.x.size());
 }
 
-TEST_CASE("a path keeps its shape to a part of a pixel, and its ends") {
+TEST_CASE("a path keeps its ends, and its shape to a fraction of a pixel") {
   Curve path;
   constexpr int rows = 200000;
   for (int i = 0; i < rows; ++i) {
@@ -70,7 +70,7 @@ TEST_CASE("a path keeps its shape to a part of a pixel, and its ends") {
   CHECK(thin.x.back() == path.x.back());
 }
 
-TEST_CASE("a path that is mostly gaps is thinned in finite time") {
+TEST_CASE("a path of mostly gaps is thinned in finite time") {
   Curve path;
   for (int i = 0; i < 200000; ++i) {
     path.x.push_back(i % 2 == 0 ? NAN : 50);

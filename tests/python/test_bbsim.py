@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Python package against the program. Needs BBSIM (the program) and BBSIM_SOURCE in the environment."""
+"""The Python package compared with the program. Needs BBSIM (the program) and BBSIM_SOURCE in the environment."""
 
 import contextlib
 import csv
@@ -38,7 +38,7 @@ def numbers_of(text):
     return {name: np.array([float(one) for one in column]) for name, column in rows_of(text).items()}
 
 
-# The circle of fig2b by a sampled PD, which SampledPd repeats.
+# The circle of fig2b with a sampled PD, which SampledPd repeats.
 LOOP = {
     "gravity": 9.81,
     "ball": {"radius": "1 cm", "position": ["5 cm", 0]},
@@ -57,7 +57,7 @@ LOOP = {
 
 
 class SampledPd:
-    """The built-in pd, operation by operation."""
+    """The built-in PD, operation by operation."""
 
     def __init__(self, kp=0.7, kv=0.5, period=0.02, filter=0.03):
         self.kp, self.kv, self.period, self.filter = kp, kv, period, filter
@@ -93,7 +93,7 @@ def with_callable(function, **more):
     return {**LOOP, "controller": {"callable": function, **controller}, **more}
 
 
-# As much of Gymnasium as an environment touches, where it is not installed.
+# The parts of Gymnasium that an environment uses, in case it is not installed.
 GYMNASIUM = {
     "__init__.py": """
 from . import spaces, vector
@@ -323,8 +323,8 @@ class Linear(unittest.TestCase):
         made = bbsim.run(CONFIGS / "rig.yaml", {"time.end": 1}, measures=["phi_delay_margin", "x_bandwidth", "max_tilt"])
         margin = made.measures["phi_delay_margin"]
         self.assertGreater(margin, 0)
-        self.assertEqual(made.measures["x_bandwidth"], float("inf"))  # feedforward ends at no frequency
-        # No case is run for these.
+        self.assertEqual(made.measures["x_bandwidth"], float("inf"))  # feedforward has unlimited bandwidth
+        # These need no run of a case.
         gains = bbsim.sweep(CONFIGS / "rig.yaml", {"controller.gravity_compensation.kp": [10.0, 90.0]},
                             ["phi_delay_margin", "stable"])  # fmt: skip
         self.assertEqual(gains["phi_delay_margin"][0], margin)
@@ -488,7 +488,7 @@ class Environments(unittest.TestCase):
         envs.reset(seed=3), single.reset(seed=3)
         for _ in range(50):
             one, other = (each.step(np.zeros((8, 2)))[0] for each in (envs, single))
-            # A difference of rounding may cross a step of the sensor; it does not here.
+            # A rounding difference could cross a sensor step, but does not here.
             np.testing.assert_array_equal(one[:, :3], other[:, :3])
 
     def test_what_lanes_cannot_carry(self):
@@ -576,7 +576,7 @@ class Environments(unittest.TestCase):
             bbsim.VectorEnv(self.SCENE, 0)
 
     def keeps_the_rules(self, env):
-        """Those of Gymnasium's documentation, as its own checker has them."""
+        """Checks from Gymnasium's documentation, as in its own checker."""
         with self.assertRaises(RuntimeError):
             env.step([0, 0])
         first, info = env.reset(seed=2)
@@ -594,7 +594,7 @@ class Environments(unittest.TestCase):
                 observation, reward, terminated, truncated, info = env.step(action)
                 self.assertTrue(env.observation_space.contains(observation))
                 self.assertEqual([type(one) for one in (reward, terminated, truncated, info)], [float, bool, bool, dict])
-                np.testing.assert_array_equal(before, kept)  # nobody writes into what was given
+                np.testing.assert_array_equal(before, kept)  # the caller's arrays are not modified
                 before, kept = observation, observation.copy()
                 over = terminated or truncated
             with self.assertRaises(RuntimeError):
@@ -650,7 +650,7 @@ class Faults(unittest.TestCase):
             with self.assertRaises(bbsim.InputError) as caught:
                 bbsim.check({"ball": {"radius": "1 cm", key: 1}, "time": {"end": 1}})
             self.assertIn("unknown key", str(caught.exception))
-        half = "\ud83d"  # of a character
+        half = "\ud83d"  # of a surrogate pair
         for given in ({"title": half}, {half: 1}, f"title: {half}\n"):
             with self.assertRaises(bbsim.InputError) as caught:
                 bbsim.check(given)
@@ -685,7 +685,7 @@ class Faults(unittest.TestCase):
 
 class Interruptions(unittest.TestCase):
     def interrupted(self, work):
-        """How long after a Ctrl-C a process that does this work ends, by KeyboardInterrupt."""
+        """How soon after Ctrl-C a process that does this work ends with KeyboardInterrupt."""
         script = f"import bbsim, sys\nprint('ready', flush=True)\ntry:\n    {work}\nexcept KeyboardInterrupt:\n    sys.exit(42)"
         with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True) as child:
             self.assertEqual(child.stdout.readline(), "ready\n")
@@ -725,7 +725,7 @@ class Examples(unittest.TestCase):
         self.assertEqual(len(said), 2)
         learned, built_in = cross_entropy.compared(rig, weights, rigs=64)
         self.assertLess(learned, 0.95 * built_in)
-        self.assertLess(built_in, 60)  # mm^2: the law does not drop the ball
+        self.assertLess(built_in, 60)  # mm^2: the law keeps the ball on the plate
 
 
 class Documents(unittest.TestCase):

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Columns ball_qw to ball_qz: the ball's orientation against closed forms and against its twist.
+// Columns ball_qw to ball_qz: the ball's orientation against closed forms and its twist.
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
@@ -58,7 +58,7 @@ Eigen::Quaterniond orientation(const file::TableData& table, std::size_t row) {
 
 }  // namespace
 
-TEST_CASE("a ball that rolls straight turns by distance over radius, once round and on") {
+TEST_CASE("a ball that rolls straight turns by distance over radius, beyond a full turn") {
   record::BallTurn turn(0.02);
   const double length = 2 * std::numbers::pi * 0.02;
   CHECK(eigen(turn.go_to(moving(0, 0, 0, 0, 0))).isApprox(Eigen::Quaterniond::Identity()));
@@ -66,14 +66,14 @@ TEST_CASE("a ball that rolls straight turns by distance over radius, once round 
     const double s = i / 8.0;
     const Eigen::Quaterniond expected(
         Eigen::AngleAxisd(2 * std::numbers::pi * s * s, Eigen::Vector3d::UnitY()));
-    // Faster and faster: on a line the integral of the twist is all there is to it.
+    // At growing speed along a line, the orientation is exactly the integral of the twist.
     const auto q = eigen(turn.go_to(moving(s, length * s * s, 2 * length * s, 0, 0)));
     CHECK(q.angularDistance(expected) < 1e-7);
   }
 }
 
-TEST_CASE("round a circle the orientation is off by the fourth power of the rows' distance") {
-  // In the frame that turns with the contact point the ball turns at a constant rate.
+TEST_CASE("around a circle the orientation error is fourth order in the row spacing") {
+  // In the frame that rotates with the contact point the ball turns at a constant rate.
   const double r = 0.01, big = 0.05, angle = 2;
   const auto error = [&](int rows) {
     record::BallTurn turn(r);
@@ -93,9 +93,9 @@ TEST_CASE("round a circle the orientation is off by the fourth power of the rows
   CHECK(std::log2(coarse / fine) > 3.8);
 }
 
-TEST_CASE("the columns turn at the ball's twist") {
-  // Central differences over two rows of 1 ms: off by h^2/6 times the third derivative, of
-  // |w|^3 / 8 and its like; |w| stays below 60 rad/s in both.
+TEST_CASE("the columns turn with the ball's twist") {
+  // Central differences over two rows of 1 ms have an error of h^2/6 times the third derivative,
+  // about |w|^3 / 8; |w| stays below 60 rad/s in both.
   for (const char* name : {"fig2a", "fig2b"}) {
     const file::TableData table = run(name, all, "0.001");
     const Scenario scene =
@@ -123,7 +123,7 @@ TEST_CASE("the columns turn at the ball's twist") {
   }
 }
 
-TEST_CASE("rows far apart give the orientation of rows near each other") {
+TEST_CASE("coarse rows give the same orientation as dense rows") {
   for (const char* name : {"fig2a", "fig2b"}) {
     const file::TableData coarse = run(name, all, "0.02"), fine = run(name, all, "0.001");
     double worst = 0;
@@ -131,11 +131,11 @@ TEST_CASE("rows far apart give the orientation of rows near each other") {
       worst = std::max(worst, orientation(coarse, i).angularDistance(orientation(fine, 20 * i)));
     }
     CAPTURE(name, worst);
-    CHECK(worst < 2e-6);  // docs/reference/columns.md says 1e-6 of fig2a
+    CHECK(worst < 2e-6);  // docs/reference/columns.md says 1e-6 for fig2a
   }
 }
 
-TEST_CASE("a ball that slides turns at its own rate, and not as if it rolled") {
+TEST_CASE("a sliding ball turns at its own rate, and not as if it rolled") {
   const std::vector<std::string> whole{"events.rest=note", "time.end=1"};
   const file::TableData fine =
       run("slides", "[t,ball_qw,ball_qx,ball_qy,ball_qz,vx,vy,spin,slip_x,slip_y]", "0.001", whole);
@@ -144,22 +144,23 @@ TEST_CASE("a ball that slides turns at its own rate, and not as if it rolled") {
     const auto& c = fine.columns;
     return Eigen::Vector3d((c[9][i] - c[6][i]) / r, (c[5][i] - c[8][i]) / r, c[7][i]);
   };
-  // The scene says how it turns at the start.
+  // The scene gives the initial rotation.
   CHECK((twist(0) - Eigen::Vector3d(20, -110, 15)).norm() < 1e-9);
   for (std::size_t i = 1; i + 1 < fine.columns[0].size(); i += 7) {
     const Eigen::AngleAxisd turned(orientation(fine, i + 1) * orientation(fine, i - 1).inverse());
-    // Central differences over 2 ms at 112 rad/s: (0.112)^2 / 24 of it by its turning, and where
-    // the friction changes between two rows, what it changes in 2 ms, 0.2 rad/s.
+    // Central differences over 2 ms at 112 rad/s: (0.112)^2 / 24 of it from its turning and, if
+    // friction changes between two rows, its effect in 2 ms, 0.2 rad/s.
     CHECK((turned.angle() / 0.002 * turned.axis() - twist(i)).norm() < 0.3);
   }
-  // Rows of 20 ms: where sliding ends between two rows, its slope of 6.9 m/s^2 h^2 / (8 r) = 0.013.
+  // Rows every 20 ms: if sliding ends between two rows, its slope of 6.9 m/s^2 gives h^2 / (8 r) =
+  // 0.013.
   const file::TableData coarse = run("slides", all, "0.02", whole);
   for (std::size_t i = 0; i < coarse.columns[0].size(); ++i) {
     CHECK(orientation(coarse, i).angularDistance(orientation(fine, 20 * i)) < 0.015);
   }
 }
 
-TEST_CASE("asking for the orientation changes no other column") {
+TEST_CASE("requesting the orientation changes no other column") {
   const file::TableData with = run("fig2b", "[t,x,y,vx,phi,ball_qw]", "0.02");
   const file::TableData without = run("fig2b", "[t,x,y,vx,phi]", "0.02");
   for (std::size_t c = 0; c < without.columns.size(); ++c) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What counts as alike, and what is told about what does not.
+// Which values count as equal, and how differences are reported.
 #include <cmath>
 #include <limits>
 #include <string>
@@ -42,7 +42,7 @@ const CellTable three_rows{{"t", "x"}, {{0, 0.5, 1}, {1, 2, 4}}};
 }  // namespace
 
 TEST_CASE("values are alike within atol + rtol max(|a|, |b|)") {
-  // Powers of two, so that every sum and product is exact and the border is met exactly.
+  // Powers of two, so that sums and products are exact and the limit is met exactly.
   const Allowance allowance{0.25, 0.5};
   CHECK(alike(4, 5.5, allowance));  // 1.5 <= 0.5 + 0.25 * 5.5 = 1.875
   CHECK(alike(0, 0.5, {0, 0.5}));
@@ -54,20 +54,20 @@ TEST_CASE("values are alike within atol + rtol max(|a|, |b|)") {
   CHECK_FALSE(alike(-4, 4, {0.25, 0}));
 }
 
-TEST_CASE("the default allowance forgives rounding only") {
+TEST_CASE("the default allowance tolerates only rounding") {
   CHECK(alike(1, 1 + 1e-10));
   CHECK_FALSE(alike(1, 1 + 1e-8));
   CHECK(alike(0, 1e-13));
   CHECK_FALSE(alike(0, 1e-11));
 }
 
-TEST_CASE("without allowance only equal values are alike") {
+TEST_CASE("without an allowance only equal values match") {
   CHECK(alike(1, 1, {0, 0}));
   CHECK(alike(0.0, -0.0, {0, 0}));
   CHECK_FALSE(alike(0, 5e-324, {0, 0}));
 }
 
-TEST_CASE("NaN is like NaN, an infinity like itself, whatever the allowance") {
+TEST_CASE("NaN equals NaN, and an infinity itself, for any allowance") {
   for (const Allowance& allowance : {Allowance{0, 0}, Allowance{1e308, 1e308}}) {
     CHECK(alike(not_a_number, not_a_number, allowance));
     CHECK(alike(infinity, infinity, allowance));
@@ -82,7 +82,7 @@ TEST_CASE("NaN is like NaN, an infinity like itself, whatever the allowance") {
   CHECK_FALSE(alike(largest, -largest, {1, 0}));  // the difference overflows
 }
 
-TEST_CASE("columns go by name, whatever their order") {
+TEST_CASE("columns match by name, in any order") {
   const CellTable swapped{{"x", "t"}, {three_rows.columns[1], three_rows.columns[0]}};
   const Comparison result = compare(three_rows, swapped);
   CHECK(result.alike());
@@ -92,8 +92,9 @@ TEST_CASE("columns go by name, whatever their order") {
   CHECK(result.columns[1].worst.excess == 0);
 }
 
-TEST_CASE("the worst value is the one furthest beyond what is allowed") {
-  // Allowed is 0.5 of the larger value. y differs most, but small z is further off its allowance.
+TEST_CASE("the worst value exceeds its allowance by most") {
+  // The allowance is 0.5 of the larger value. y differs most, but small z exceeds its allowance
+  // more.
   const CellTable a{{"t", "y", "z"}, {{0, 0.5, 1}, {100, 100, 100}, {1, 1, 0.125}}};
   const CellTable b{{"t", "y", "z"}, {{0, 0.5, 1}, {100, 400, 100}, {1, 1.5, 0.5}}};
   const Comparison result = compare(a, b, {0.5, 0});
@@ -112,20 +113,20 @@ TEST_CASE("the worst value is the one furthest beyond what is allowed") {
   CHECK(z.largest.difference == 0.5);
   CHECK(z.worst.row == 2);
   CHECK(z.worst.excess == 0.375 / 0.25);
-  // y and z tie at 1.5: the larger difference counts.
+  // y and z tie at 1.5: the larger difference wins.
   REQUIRE(result.worst.has_value());
   CHECK(*result.worst == 1);
   REQUIRE(result.worst_time.has_value());
   CHECK(*result.worst_time == 0.5);
 }
 
-TEST_CASE("what is not finite is worse than any number") {
+TEST_CASE("a nonfinite value is worse than any number") {
   const Comparison result =
       compare({{"x"}, {{0, not_a_number, 0}}}, {{"x"}, {{1e300, 1, 1e300}}}, {0, 1e-300});
   CHECK(result.columns[0].worst.row == 1);
   CHECK(result.columns[0].worst.difference == infinity);
   CHECK(result.columns[0].different_rows == 3);
-  CHECK_FALSE(result.worst_time.has_value());  // there is no t
+  CHECK_FALSE(result.worst_time.has_value());  // no column t
 }
 
 TEST_CASE("a column on one side only is a difference") {
@@ -146,7 +147,7 @@ TEST_CASE("tables without a common column differ") {
   CHECK_FALSE(result.worst.has_value());
 }
 
-TEST_CASE("different numbers of rows are a difference; the common ones are compared") {
+TEST_CASE("different numbers of rows are a difference; the common rows are compared") {
   const CellTable shorter{{"t", "x"}, {{0, 0.5}, {1, 3}}};
   const Comparison result = compare(three_rows, shorter);
   CHECK_FALSE(result.alike());
@@ -160,13 +161,13 @@ TEST_CASE("different numbers of rows are a difference; the common ones are compa
   CHECK(compare(empty, empty).alike());
 }
 
-TEST_CASE("only the columns asked for are compared") {
+TEST_CASE("only the requested columns are compared") {
   const CellTable other{{"t", "x"}, {{0, 0.5, 1}, {9, 9, 9}}};
   CHECK(compare(three_rows, other, {}, {"t"}).alike());
   CHECK_FALSE(compare(three_rows, other, {}, {"t", "x"}).alike());
 }
 
-TEST_CASE("a column that is not there is refused by name") {
+TEST_CASE("a missing column is refused by name") {
   const CellTable other{{"t"}, {{0, 0.5, 1}}};
   CHECK(message_of<InputError>([&] {
           (void)compare(three_rows, other, {}, {"t", "vz"});
@@ -199,7 +200,7 @@ TEST_CASE("the report names column, row, time and both values") {
         "is 0.5, the tolerance 0.312\n");
 }
 
-TEST_CASE("the report of tables that are alike") {
+TEST_CASE("the report of equal tables") {
   CHECK_THAT(to_text(compare(three_rows, three_rows), "a.csv", "b.csv", {}),
              Contains("\nalike: a.csv and b.csv, 2 columns, 3 rows, within rtol 1e-09 and atol "
                       "1e-12\n") &&
@@ -214,7 +215,7 @@ TEST_CASE("the report names missing columns and rows") {
                  Contains("different: a.csv has 3 rows, b.csv has 1 row\n") && !Contains("alike:"));
 }
 
-TEST_CASE("texts are compared for equality, numbers within the tolerance") {
+TEST_CASE("texts must be equal, numbers within the tolerance") {
   const CellTable a = cells("case,status,x\n0,done,1\n1,\"failed at 1 s: no, \"\"never\"\"\",2\n");
   CHECK(a.columns[1].texts == std::vector<std::string>{"done", "failed at 1 s: no, \"never\""});
   CHECK(compare(a, a).alike());
@@ -230,7 +231,7 @@ TEST_CASE("texts are compared for equality, numbers within the tolerance") {
   CHECK(compare(a, b, {}, {"case", "x"}).alike());
 }
 
-TEST_CASE("a number in the place of a text is a difference") {
+TEST_CASE("a number in place of a text is a difference") {
   const CellTable a = cells("kp,x\n2,0\nnone,0\n,0\n"), b = cells("kp,x\n2,0\n3,0\n,0\n");
   CHECK(compare(a, a).alike());
   const Comparison result = compare(a, b);
@@ -238,7 +239,7 @@ TEST_CASE("a number in the place of a text is a difference") {
   CHECK_THAT(to_text(result, "a", "b", {}), Contains("\"none\" in a, 3 in b\n"));
 }
 
-TEST_CASE("only the columns that are named are parsed") {
+TEST_CASE("only the named columns are parsed") {
   const std::string huge = "when,x,y\nMonday,1,1e999\nTuesday,2,1e999\n";
   CHECK_THAT(message_of<InputError>([&] { (void)cells(huge); }), Contains("too large"));
   const CellTable a = cells(huge, {"x"});
@@ -249,7 +250,7 @@ TEST_CASE("only the columns that are named are parsed") {
   CHECK(compare(a, a, {}, {"x"}).alike());
 }
 
-TEST_CASE("a file that is no table of cells is refused with its place") {
+TEST_CASE("a file that is not a table is refused with its place") {
   CHECK_THAT(message_of<InputError>([&] { (void)cells("a,b\n1,2\nx\n"); }),
              Contains("a.csv:3:1: found 1 field; the header names 2 columns"));
   CHECK_THAT(message_of<InputError>([&] { (void)cells("a,b\n1,\"x\n"); }),
@@ -259,7 +260,7 @@ TEST_CASE("a file that is no table of cells is refused with its place") {
   CHECK_THAT(more.notes[0], Contains("a.csv:2: found 3 fields; the header names 2 columns"));
 }
 
-TEST_CASE("several numbers a row are compared one by one, with the time that goes along them") {
+TEST_CASE("several numbers per row are compared one by one, with their times") {
   CellTable a{{"case", "x", "t"},
               {{0, 1}, CellColumn({1, 2, 3, 4, 5, 6}, 3), CellColumn({0, 0.5, 1}, 3)}};
   CellTable b = a;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a run was greatest at between its rows, against closed forms.
+// Extremes of a run between its rows, against closed forms.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -53,7 +53,7 @@ Measured measure(const Scenario& scene, const std::vector<std::string>& names,
   });
 }
 
-// Rows at the start and at the end alone.
+// Rows only at the start and the end.
 Scenario plane_at(double phi, double theta, double end) {
   Scenario scene;
   scene.ball.radius = 0.01;
@@ -64,7 +64,7 @@ Scenario plane_at(double phi, double theta, double end) {
 
 const auto every_method = [] { return GENERATE(Method::radau, Method::bdf, Method::adams); };
 
-// The motors' loads as they are, at many points of each piece of a run and at both its ends.
+// The motors' true loads at many points of each piece of a run, including both ends.
 class Loads : public solve::StateSink, public solve::PieceSink {
  public:
   Loads(const model::Model& model, const model::BallConstants& constants)
@@ -121,7 +121,7 @@ record::MotorPeaks peaks_of(const Scenario& scene, solve::Tolerances tolerances)
 
 }  // namespace
 
-TEST_CASE("the top of a throw lies between two rows") {
+TEST_CASE("the top of a throw between two rows is found") {
   const Method method = every_method();
   const bool planar = GENERATE(true, false);
   Scenario scene = plane_at(-0.2, 0, 2);
@@ -139,7 +139,7 @@ TEST_CASE("the top of a throw lies between two rows") {
   CHECK(measured.of.at("max_t") == 2);
 }
 
-TEST_CASE("the extremes of a given motion are its own, whatever the integrator's steps") {
+TEST_CASE("extremes of a prescribed motion do not depend on the integrator's steps") {
   const Method method = every_method();
   Scenario scene = plane_at(0, 0, 10);
   scene.gimbal.motion->phi = {Sinusoid{0.3, 2, 0.4, 0}};
@@ -153,8 +153,8 @@ TEST_CASE("the extremes of a given motion are its own, whatever the integrator's
   CHECK(measured.of.at("max_phi_acceleration") == Approx(1.2).epsilon(1e-12));
 }
 
-TEST_CASE("a small motion that is fast is followed, though the ball hardly feels it") {
-  // At a tolerance at which the integrator need not see it.
+TEST_CASE("a fast small motion is followed, though it hardly affects the ball") {
+  // At this tolerance the integrator need not resolve it.
   Scenario scene = plane_at(0, 0, 3);
   scene.gimbal.motion->phi = {Sinusoid{1e-7, 400, 1, 0}};
   const Measured measured =
@@ -164,8 +164,8 @@ TEST_CASE("a small motion that is fast is followed, though the ball hardly feels
   CHECK(measured.of.at("max_phi_rate") == Approx(4e-5).epsilon(1e-10));
 }
 
-TEST_CASE("a maximum is one of the motion, not of what was guessed between points") {
-  // Long steps, and a tilt that is all but level about its maximum.
+TEST_CASE("a maximum is one of the motion, not of the interpolant between points") {
+  // Long steps, and a tilt that is nearly flat about its maximum.
   Scenario scene;
   scene.ball.radius = 0.01;
   scene.ball.position = {0, -0.1};
@@ -180,7 +180,7 @@ TEST_CASE("a maximum is one of the motion, not of what was guessed between point
     most = std::max(most, 2 * std::asin(std::sqrt(a + b - 2 * a * b)));
   }
   const auto measured = measure(scene, {"max_tilt", "max_x"}, Method::radau, {1e-13, 1e-15});
-  // From one of these times to the next the tilt changes by less than 0.01 (1e-3)^2.
+  // Between two of these times the tilt changes by less than 0.01 (1e-3)^2.
   CHECK(std::abs(measured.of.at("max_tilt") - most) < 1e-8);
 }
 
@@ -191,12 +191,12 @@ TEST_CASE("a corner of a column is found as well") {
   scene.ball.position = {-1, aside};
   scene.ball.velocity = {1, 0};
   const Measured measured = measure(scene, {"min_distance", "max_distance"}, method);
-  // The place of a corner is found to 1e-7 of the distance of the points looked at.
+  // A corner is located to 1e-7 of the distance between points.
   CHECK(measured.of.at("min_distance") == Approx(aside).margin(1e-8));
   CHECK(measured.of.at("max_distance") == Approx(std::hypot(2, aside)).epsilon(1e-8));
 }
 
-TEST_CASE("what is no number is left out") {
+TEST_CASE("NaN is left out") {
   Scenario scene = plane_at(0, 0, 1);
   scene.gravity = 0;
   scene.ball.position = {0.1, 0};
@@ -207,7 +207,7 @@ TEST_CASE("what is no number is left out") {
   CHECK(measured.of.at("max_x") == 0.1);
 }
 
-TEST_CASE("extremes of a run that an event stops are those until then") {
+TEST_CASE("extremes of a run stopped by an event end there") {
   Scenario scene = plane_at(0, 0, 10);
   scene.plate.size = {{0.3, 0.2}};
   scene.events.edge = OnEvent::stop;
@@ -218,7 +218,7 @@ TEST_CASE("extremes of a run that an event stops are those until then") {
   CHECK(measured.of.at("max_y") == Approx(0.03).epsilon(1e-12));
   CHECK(measured.of.at("max_t") == Approx(1.5).epsilon(1e-12));
   CHECK(measured.of.at("end_x") == Approx(0.15).epsilon(1e-12));
-  // Nothing but the start is left of one that is stopped at once.
+  // A run that is stopped immediately has only its start.
   scene.ball.position = {0.2, 0.01};
   const Measured none = measure(scene, {"max_x", "max_y", "min_t"});
   REQUIRE(none.outcome.ending == solve::Ending::stopped);
@@ -227,19 +227,19 @@ TEST_CASE("extremes of a run that an event stops are those until then") {
   CHECK(none.of.at("min_t") == 0);
 }
 
-TEST_CASE("extremes of a run that fails are those of the motion that it came to") {
+TEST_CASE("extremes of a failed run are those up to the failure") {
   Scenario scene = fig2b_literal();
   scene.time.step = 21;
   const Measured measured = measure(scene, {"max_vy", "max_t", "max_phi_rate"});
   REQUIRE(measured.outcome.ending == solve::Ending::failed);
   REQUIRE(measured.outcome.rows == 1);
   CHECK(measured.of.at("max_t") == measured.outcome.reached);
-  // The end of a step's polynomial and the next step's start differ by what iterations leave.
+  // The end of a step's polynomial and the start of the next differ by iteration errors.
   CHECK(measured.of.at("max_vy") == Approx(measured.outcome.last_state[3]).epsilon(1e-9));
   CHECK(measured.of.at("max_vy") > 1e6);
 }
 
-TEST_CASE("a command that jumps counts on both its sides") {
+TEST_CASE("both sides of a jumping command count") {
   Scenario scene = read_scenario(BBSIM_SOURCE_DIR "/configs/rig.yaml");
   scene.time.end = 6;
   scene.time.step = GENERATE(0.02, 6.0);
@@ -250,25 +250,25 @@ TEST_CASE("a command that jumps counts on both its sides") {
   const solve::OutputGrid grid(scene.time);
   REQUIRE(solve::integrate(model, Method::automatic, tolerances, grid, loads).ending ==
           solve::Ending::done);
-  CHECK(loads.until >= std::nextafter(6.0, 0.0));  // where the last command comes
+  CHECK(loads.until >= std::nextafter(6.0, 0.0));  // time of the last command
   CHECK(loads.count > 590);  // a sample's exposure and its command, 10 ms apart
   const record::MotorPeaks peaks = peaks_of(scene, tolerances);
   CHECK(peaks.with_plate);
   const double found[3] = {peaks.torque_phi.value, peaks.torque_theta.value, peaks.power.value};
   for (int k = 0; k < 3; ++k) {
     CAPTURE(k);
-    // Right after a command has come, where no row before it looks.
+    // Just after a command, which no row precedes by less.
     CHECK(found[k] == loads.after_switches[k]);
     CHECK(found[k] == loads.most[k]);
     CHECK(found[k] > 1.3 * loads.before_switches[k]);
   }
-  // When a command comes: 10 ms after a sample.
+  // Commands arrive 10 ms after a sample.
   const double since = std::fmod(peaks.torque_phi.at, 0.02);
   CHECK(since == Approx(0.01).margin(1e-9));
 }
 
-TEST_CASE("peaks between switches are those of many points") {
-  // A servo that is limited, and nothing that is sampled.
+TEST_CASE("peaks between switches agree with dense sampling") {
+  // A limited servo, without sampling.
   Scenario scene = fig2b();
   scene.gimbal.servo->rate_limit = 0.05;
   scene.plate.inertia = {{4e-3, 6e-3, 1e-2}};
@@ -285,12 +285,12 @@ TEST_CASE("peaks between switches are those of many points") {
   for (int k = 0; k < 3; ++k) {
     CAPTURE(k);
     CHECK(found[k] >= loads.most[k] * (1 - 1e-14));
-    // Fifty points a piece miss a parabola's top by a part in 1e4 of its height over a piece.
+    // Fifty points per piece miss a parabola's top by 1e-4 of its height over a piece.
     CHECK(found[k] == Approx(loads.most[k]).epsilon(1e-3));
   }
 }
 
-TEST_CASE("under a bound on the error extremes are those of the run that is given") {
+TEST_CASE("with a bound on the error extremes belong to the returned run") {
   const double bound = GENERATE(1e-5, 1e-9);
   const Scenario scene = [] {
     Scenario one = fig2b();
@@ -309,7 +309,7 @@ TEST_CASE("under a bound on the error extremes are those of the run that is give
   for (const std::string& name : names) CHECK(measured.of.at(name) == same.of.at(name));
 }
 
-TEST_CASE("a bound that is out of reach gives the extremes of the best run too") {
+TEST_CASE("an unattainable bound also gives the extremes of the best run") {
   // The last run is not the best one.
   Scenario scene = read_scenario(BBSIM_SOURCE_DIR "/tests/data/scenarios/fast.yaml");
   const std::vector<std::string> names{"max_x", "min_y", "end_x"};
@@ -324,7 +324,7 @@ TEST_CASE("a bound that is out of reach gives the extremes of the best run too")
   for (const std::string& name : names) CHECK(measured.of.at(name) == same.of.at(name));
 }
 
-TEST_CASE("a peak that half of the points do not show is found, however low all else is") {
+TEST_CASE("a peak that half of the points miss is found, however low everything else is") {
   struct Along : solve::Piece {
     double (*x)(double s);
     Along(double from, double (*of)(double s)) : Piece(from, from + 1, 16), x(of) {}

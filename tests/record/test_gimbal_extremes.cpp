@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The greatest tilt and rate of given motions, against many times.
+// The greatest tilt and rate of prescribed motions, against dense sampling.
 #include <cmath>
 #include <random>
 #include <vector>
@@ -16,7 +16,7 @@ using bbsim_test::greatest_of;
 
 namespace {
 
-// The greatest tilt and rate at so many times.
+// The greatest tilt and rate at the sampled times.
 GimbalExtremes::Greatest at_many_times(const model::SignalPair& motion, double end) {
   constexpr std::size_t times = 400000;
   std::vector<double> tilts, rates;
@@ -39,7 +39,7 @@ void check_gimbal(const model::SignalPair& motion, double end) {
 
 }  // namespace
 
-TEST_CASE("a given motion's greatest tilt and rate are those at many times") {
+TEST_CASE("a prescribed motion's greatest tilt and rate agree with dense sampling") {
   model::SignalPair motion;
   SECTION("at rest") {
     motion.add_constant(0, 0.2);
@@ -47,7 +47,7 @@ TEST_CASE("a given motion's greatest tilt and rate are those at many times") {
     CHECK(found.tilt == Approx(0.2).epsilon(1e-14));
     CHECK(found.rate == 0);
   }
-  SECTION("one frequency, a part of a turn or many") {
+  SECTION("one frequency, part of a period or many") {
     const double end = GENERATE(0.1, 1.0, 2.5, 40.0);
     const double level = GENERATE(0.0, 0.1);
     const double size = GENERATE(0.01, 1.2);
@@ -63,11 +63,11 @@ TEST_CASE("a given motion's greatest tilt and rate are those at many times") {
     motion.add_ramp(1, 0.1, 0.02);
     check_gimbal(motion, 20);
   }
-  SECTION("over and over") {
+  SECTION("turning over and over") {
     motion.add_ramp(0, 0, 3);
     motion.add_constant(1, 0.3);
     const GimbalExtremes::Greatest found = GimbalExtremes().of(motion, 20);
-    // The normal is furthest from the vertical where phi is half a turn.
+    // The normal is furthest from the vertical at half a turn of phi.
     CHECK(found.tilt == Approx(M_PI - 0.3).epsilon(1e-10));
     CHECK(found.rate == Approx(3).epsilon(1e-14));
   }
@@ -85,7 +85,7 @@ TEST_CASE("a given motion's greatest tilt and rate are those at many times") {
   }
 }
 
-TEST_CASE("what was evaluated for one motion does not stay for another") {
+TEST_CASE("cached values of one motion are not used for another") {
   GimbalExtremes gimbal;
   std::mt19937 random(4);
   std::uniform_real_distribution<double> uniform(0.1, 1);

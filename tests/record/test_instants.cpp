@@ -31,7 +31,7 @@ struct SecondOrder {
     return 1 -
            std::exp(-zeta * w * t) * (std::cos(wd() * t) + zeta * w / wd() * std::sin(wd() * t));
   }
-  // Where it is at the level, in an interval in which it rises or falls.
+  // The time at which it reaches the level, in an interval in which it is monotonic.
   [[nodiscard]] double time_of(double level, double low, double high) const {
     const bool rises = at(low) < level;
     for (int i = 0; i < 200; ++i) {
@@ -59,7 +59,7 @@ std::vector<double> measure_run(const Scenario& scene, const std::vector<std::st
   return values;
 }
 
-// A command at its limit, 0.1 rad, throughout: what follows is the servo's step response.
+// The command stays at its limit, 0.1 rad: the servo gives its step response.
 Scenario servo_step(double w, double zeta) {
   return parse_scenario(
       "ball: {radius: 0.01}\n"
@@ -74,7 +74,7 @@ Scenario servo_step(double w, double zeta) {
 
 }  // namespace
 
-TEST_CASE("step metrics of a servo are those of the closed form") {
+TEST_CASE("step metrics of a servo agree with the closed form") {
   const double zeta = GENERATE(0.3, 0.5, 0.7);
   const SecondOrder exact{5, zeta};
   const auto values =
@@ -84,13 +84,13 @@ TEST_CASE("step metrics of a servo are those of the closed form") {
                    "phi.SteadyStateValue", "theta.Overshoot", "theta.Peak", "when phi=0.05 rise=1",
                    "find phi_rate when phi=0.1 fall=1", "find phi at 0.25"},
                   {1e-12, 1e-14});
-  // What the end of the run, 12 s, leaves of the motion is 1e-8 of it at most: a final value of its
-  // own, to which the metrics refer.
+  // At the run's end, 12 s, at most 1e-8 of the motion remains, so the final value, to which the
+  // metrics refer, differs by that.
   const double last = exact.at(12), first_peak = exact.peak_time(1);
   const auto level = [&](double part) { return exact.time_of(part * last, 0, first_peak); };
   CAPTURE(zeta);
   CHECK(values[0] == Approx(level(0.9) - level(0.1)).epsilon(1e-9));
-  // The last time at 2 % is after the last extreme that is beyond it.
+  // The last time at 2 % follows the last extreme outside that band.
   int number = 1;
   while (std::abs(exact.at(exact.peak_time(number + 1)) / last - 1) >= 0.02) ++number;
   const double border = exact.at(exact.peak_time(number)) > last ? 1.02 * last : 0.98 * last;
@@ -102,11 +102,11 @@ TEST_CASE("step metrics of a servo are those of the closed form") {
   CHECK(values[3] == Approx(0.1 * high).epsilon(1e-9));
   CHECK(values[4] == Approx(100 * (high / last - 1)).epsilon(1e-9));
   CHECK(high == Approx(1 + exact.overshoot()).epsilon(1e-12));
-  CHECK(values[5] < 1e-10);  // the rounding of a polynomial that begins at 0
+  CHECK(values[5] < 1e-10);  // rounding of a polynomial that begins at 0
   CHECK(values[6] == Approx(0.1 * high).epsilon(1e-9));
   CHECK(values[7] == Approx(first_peak).epsilon(1e-9));
   CHECK(values[8] == Approx(0.1 * last).epsilon(1e-9));
-  // The other axis goes the other way.
+  // The other axis moves in the opposite direction.
   CHECK(values[9] == Approx(values[4]).epsilon(1e-9));
   CHECK(values[10] == Approx(values[6]).epsilon(1e-9));
   CHECK(values[11] == Approx(exact.time_of(0.5, 0, first_peak)).epsilon(1e-9));
@@ -117,13 +117,13 @@ TEST_CASE("step metrics of a servo are those of the closed form") {
   CHECK(values[13] == Approx(0.1 * exact.at(0.25)).epsilon(1e-9));
 }
 
-TEST_CASE("a response to the other side first has an undershoot") {
-  // The ball of a rolling plane goes the wrong way before it goes the right one: x'' = a phi - r
-  // phi''. Against rows that are very dense.
+TEST_CASE("a response that starts in the wrong direction has an undershoot") {
+  // A ball on a tilting plane first moves the wrong way: x'' = a phi - r phi''. Compared with very
+  // dense rows.
   Scenario scene = servo_step(5, 0.7);
   scene.ball.radius = 0.3;
   scene.time = {1, 1e-5};
-  // The step is to just beyond where the ball comes to, so that the command stays at its limit.
+  // The step ends just beyond the ball's final position, so that the command stays at its limit.
   const double reference = (1 + 1e-4) * measure_run(scene, {"end_x"}, {1e-11, 1e-13})[0];
   scene.controller->reference = PointReference{{reference, -1000}};
   scene.controller->kp = {{{1e6, 0}, {0, 1e6}}};
@@ -145,12 +145,12 @@ TEST_CASE("a response to the other side first has an undershoot") {
   CHECK(values[0] > 1);
   for (std::size_t m = 0; m < measures.size(); ++m) {
     CAPTURE(names[m]);
-    // A straight line between rows is off by the square of their distance.
+    // Linear interpolation has a second-order error in the row distance.
     CHECK(stored.value_of(measures[m]).value == Approx(values[m]).epsilon(1e-6));
   }
 }
 
-TEST_CASE("crossings are counted, and a touch is none") {
+TEST_CASE("crossings are counted, touches are not") {
   // -(t - 1)^2 + 1 on [0, 2] touches 1; then a jump to 2, and down to -1 on [2, 5].
   ChebyshevTables tables;
   const ChebyshevPoints& points = tables.points(8);
@@ -171,7 +171,7 @@ TEST_CASE("crossings are counted, and a touch is none") {
   CHECK(curve.crossing(0.75, Way::either, 2)->t == Approx(1.5).epsilon(1e-14));
   CHECK(curve.crossing(0.75, Way::either, 0)->t == Approx(3.25).epsilon(1e-14));
   CHECK(curve.crossing(0.75, Way::rise, 0)->t == 2);
-  // It begins at 0: that is no crossing, and neither is the end of the first piece.
+  // It begins at 0, which is no crossing; neither is the end of the first piece.
   CHECK(curve.crossing(0, Way::either, 1)->t == Approx(4).epsilon(1e-14));
   CHECK_FALSE(curve.crossing(0, Way::either, 2));
   const Curve::Extreme greatest = curve.greatest(1), least = curve.greatest(-1);
@@ -184,7 +184,7 @@ TEST_CASE("crossings are counted, and a touch is none") {
   CHECK_FALSE(curve.place_at(-1));
 }
 
-TEST_CASE("measures of stored rows are on straight lines between them") {
+TEST_CASE("measures of stored rows use linear interpolation") {
   const StoredRun run({{"t", "u_integral", "x"}, {{0, 1, 2, 3}, {0, 1, 4, 4}, {-2, 0, 2, 1}}},
                       "own.csv");
   const auto value = [&](const std::string& name) {
@@ -192,7 +192,7 @@ TEST_CASE("measures of stored rows are on straight lines between them") {
   };
   CHECK(value("u_integral.RiseTime") == Approx((1 + 2.6 / 3) - 0.4).epsilon(1e-15));
   CHECK(value("u_integral.SettlingTime") == Approx(1 + 2.92 / 3).epsilon(1e-15));
-  CHECK(value("x.Overshoot") == Approx(100.0 / 3));  // of a step from -2 to 1
+  CHECK(value("x.Overshoot") == Approx(100.0 / 3));  // step from -2 to 1
   CHECK(value("x.Undershoot") == 0);
   CHECK(value("x.Peak") == 2);
   CHECK(value("x.PeakTime") == 2);
@@ -211,7 +211,7 @@ TEST_CASE("measures of stored rows are on straight lines between them") {
   CHECK_THROWS_AS(StoredRun({{"x"}, {{1}}}, "no-times.csv"), InputError);
   CHECK_THROWS_AS(StoredRun({{"t", "x"}, {{1, 0}, {1, 1}}}, "back.csv"), InputError);
   CHECK_THROWS_AS(StoredRun({{"t"}, {{}}}, "empty.csv"), InputError);
-  // A step to 0 is one; one row is a run that ended at once, and no step.
+  // A step to 0 is valid; one row is a run that ended immediately, without a step.
   const StoredRun back({{"t", "x"}, {{0, 1}, {3, 0}}}, "zero.csv");
   CHECK(back.value_of(back.measures_named({"x.SettlingTime"}).front()).value == Approx(0.98));
   const StoredRun still({{"t", "x"}, {{0}, {3}}}, "still.csv");
@@ -220,8 +220,8 @@ TEST_CASE("measures of stored rows are on straight lines between them") {
   CHECK(none.why == std::string("it should end where it starts, so its step is 0"));
 }
 
-TEST_CASE("step metrics count from the start to the reference") {
-  // From -3 cm to +3 cm, with 2.47 cm too much: 41 % of 6 cm.
+TEST_CASE("step metrics are relative to the step from start to reference") {
+  // From -3 cm to +3 cm, 2.47 cm too far: 41 % of 6 cm.
   const std::vector<double> t{0, 1, 2, 3, 4}, x{-0.03, -0.035, 0.0547, 0.03, 0.03};
   const StoredRun run({{"t", "x", "x_reference"}, {t, x, {0, 0, 0.03, 0.03, 0.03}}}, "step.csv");
   const auto value = [](const StoredRun& of, const std::string& name) {
@@ -237,7 +237,7 @@ TEST_CASE("step metrics count from the start to the reference") {
   CHECK(value(run, "x.Peak").value == 0.0547);
   CHECK(value(run, "x.PeakTime").value == 2);
   CHECK(value(run, "x.SteadyStateValue").value == 0.03);
-  // A reference that is not reached: what there is no number of has a reason.
+  // If the reference is not reached, a missing number has a reason.
   const StoredRun far({{"t", "x", "x_reference"}, {t, x, {1, 1, 1, 1, 1}}}, "far.csv");
   for (const char* name : {"x.RiseTime", "x.SettlingTime", "x.SettlingMin"}) {
     CAPTURE(name);
@@ -246,7 +246,7 @@ TEST_CASE("step metrics count from the start to the reference") {
     CHECK(none.why != nullptr);
   }
   CHECK(value(far, "x.Overshoot").value == 0);
-  // The same step from elsewhere, and to the other side, has the same metrics.
+  // The same step from another start, or in the other direction, has the same metrics.
   const StoredRun plain({{"t", "u"}, {t, x}}, "plain.csv");
   std::vector<double> moved = x;
   for (double& one : moved) one = 0.07 - one;
@@ -255,7 +255,7 @@ TEST_CASE("step metrics count from the start to the reference") {
     CAPTURE(name);
     CHECK(value(plain, name).value == Approx(value(other, name).value).epsilon(1e-12));
   }
-  // A scene's step from elsewhere too.
+  // A scene's step from another start too.
   Scenario scene = servo_step(5, 0.5);
   const std::vector<std::string> names{"phi.Overshoot", "phi.RiseTime", "phi.SettlingTime",
                                        "phi.PeakTime"};
@@ -264,11 +264,11 @@ TEST_CASE("step metrics count from the start to the reference") {
   const auto from_elsewhere = measure_run(scene, names, {1e-11, 1e-13});
   for (std::size_t i = 0; i < names.size(); ++i) {
     CHECK(from_elsewhere[i] ==
-          Approx(from_zero[i]).epsilon(1e-8));  // of two runs with their own errors
+          Approx(from_zero[i]).epsilon(1e-8));  // two runs, each with its own error
   }
 }
 
-TEST_CASE("a step of a distance of zero has no metrics, with the reason") {
+TEST_CASE("a step of zero has no metrics, with the reason") {
   const StoredRun run({{"t", "x", "x_reference"}, {{0, 1, 2}, {0.3, 0.5, 0.4}, {0, 0.1, 0.3}}},
                       "none.csv");
   for (const char* name :
@@ -281,7 +281,7 @@ TEST_CASE("a step of a distance of zero has no metrics, with the reason") {
   }
 }
 
-TEST_CASE("stays above is stays below, turned over, also from the level itself") {
+TEST_CASE("stays above mirrors stays below, also from the level itself") {
   const auto when = [](std::vector<double> values, const std::string& condition) {
     std::vector<double> times;
     for (std::size_t i = 0; i < values.size(); ++i) times.push_back(static_cast<double>(i));
@@ -300,7 +300,7 @@ TEST_CASE("stays above is stays below, turned over, also from the level itself")
     CHECK((above == below || (std::isnan(above) && std::isnan(below))));
     CHECK((above == Approx(right[i]) || (std::isnan(above) && std::isnan(right[i]))));
   }
-  // A motion that begins at the level.
+  // A motion that starts at the level.
   const Scenario ramps = parse_scenario(
       "ball: {radius: 0.01}\n"
       "gimbal: {motion: {phi: {ramp: {start: -0.1, rate: 0.1}},\n"
@@ -313,11 +313,11 @@ TEST_CASE("stays above is stays below, turned over, also from the level itself")
   CHECK(values[1] == 0);
 }
 
-TEST_CASE("a level that rounding alone goes beyond is touched") {
+TEST_CASE("a level exceeded only by rounding counts as touched") {
   ChebyshevTables tables;
   const ChebyshevPoints& points = tables.points(8);
   using Way = scenario::Instant::Way;
-  // Up to the level, where a switch comes so much too late, along it, and down again.
+  // Up to the level, switched late by `too_much`, along it, and down again.
   const auto plateau = [&](double too_much) {
     Curve curve;
     const auto add = [&](double from, double to, auto f) {
@@ -330,7 +330,7 @@ TEST_CASE("a level that rounding alone goes beyond is touched") {
     add(11, 11.01, [](double s) { return 1 - s; });
     return curve;
   };
-  // A time of 10 s is rounded to 1e-15 s, in which the curve goes 1e-13.
+  // A time of 10 s is rounded to 1e-15 s, in which the curve moves 1e-13.
   const Curve touched = plateau(1e-13);
   CHECK_FALSE(touched.crossing(1, Way::either, 1));
   CHECK(touched.last_at_least(1, 1)->t == Approx(11).epsilon(1e-15));
@@ -359,8 +359,8 @@ TEST_CASE("a level that rounding alone goes beyond is touched") {
   CHECK(values[3] > 0);
 }
 
-TEST_CASE("measures of a window are those of a run that is no more than it") {
-  // phi of the servo's step response; the window's ends are no ends of pieces.
+TEST_CASE("measures of a window equal those of a run over the window only") {
+  // phi of the servo's step response; the window's ends are not ends of pieces.
   const SecondOrder exact{5, 0.3};
   const double from = 0.37, to = 2.11;
   const auto values = measure_run(
@@ -386,14 +386,14 @@ TEST_CASE("measures of a window are those of a run that is no more than it") {
   CHECK(values[8] == Approx(exact.peak_time(1) - from).epsilon(1e-8));
   CHECK(values[9] == values[0]);
   CHECK(std::isnan(values[10]));
-  // Rows are at whole seconds: three of them, both ends included, or none.
+  // Rows are at whole seconds: the window has three, both ends included, or none.
   double sum = 0;
   for (const int t : {3, 4, 5}) sum += exact.at(t) * exact.at(t);
   CHECK(values[11] == Approx(0.1 * std::sqrt(sum / 3)).epsilon(1e-9));
   CHECK(std::isnan(values[12]));
 }
 
-TEST_CASE("a window of stored rows is cut on the straight lines between them") {
+TEST_CASE("a window of stored rows is cut by linear interpolation") {
   const StoredRun run({{"t", "x"}, {{0, 1, 2, 3, 4}, {0, 2, 1, 5, 3}}}, "rows.csv");
   const auto value = [&](const std::string& name) {
     return run.value_of(run.measures_named({name}).front()).value;

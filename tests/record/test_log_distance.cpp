@@ -22,7 +22,7 @@ double motion(double t) {
   return std::sin(t) * std::exp(-0.2 * t);
 }
 
-// Rows `step` apart of the motion from `start` on, on a clock that is `early`.
+// Rows `step` apart of the motion from `start` on, with a clock that is `early`.
 TableData rows(double start, double end, double step, double early, double wrong) {
   TableData table{{"t", "x"}, {{}, {}}};
   for (double t = start; t <= end; t += step) {
@@ -34,7 +34,7 @@ TableData rows(double start, double end, double step, double early, double wrong
 
 }  // namespace
 
-TEST_CASE("the distance of a log is taken at its rows, within the run") {
+TEST_CASE("the distance of a log is measured at its rows within the run") {
   const TableData run = rows(0, 10, 0.01, 0, 0);
   const LogDistance made = log_distance(rows(-1, 12, 0.3, 0, 0.25), "log", run, "run");
   REQUIRE(made.columns.size() == 1);
@@ -48,7 +48,7 @@ TEST_CASE("the distance of a log is taken at its rows, within the run") {
   CHECK_THAT(to_text(made, "log", "run"), Contains("column") && Contains("log from run: "));
 }
 
-TEST_CASE("rates of the run bend the lines between its rows") {
+TEST_CASE("rates of the run curve the interpolation between its rows") {
   const TableData line{{"t", "x"}, {{0, 1}, {0, 1}}};
   const TableData curve{{"t", "x", "vx"}, {{0, 1}, {0, 1}, {0, 2}}};  // t^2
   const TableData log{{"t", "x"}, {{0.5}, {0.25}}};
@@ -65,7 +65,7 @@ TEST_CASE("cross-correlation finds the offset of a log's clock") {
   }
 }
 
-TEST_CASE("what cannot be compared is refused with the cure") {
+TEST_CASE("logs that cannot be compared are refused with the remedy") {
   const TableData run = rows(0, 1, 0.1, 0, 0);
   CHECK_THROWS_WITH(log_distance(rows(0, 1, 0.1, 100, 0), "log", run, "run"),
                     Contains("no time in common") && Contains("--time-offset"));

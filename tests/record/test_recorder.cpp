@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Measures of a run, at the ends of the range of doubles too.
+// Measures of a run, also at the ends of the range of doubles.
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -26,25 +26,25 @@ double root_mean_square(const std::vector<double>& values) {
 
 }  // namespace
 
-TEST_CASE("the root of a mean square neither overflows nor vanishes") {
+TEST_CASE("the root mean square neither overflows nor underflows") {
   for (const double size : {1e-300, 1e-234, 1e-150, 1.0, 1e150, 1e234, 1e300}) {
     CAPTURE(size);
-    // Root, division and scaling: a rounding each.
+    // One rounding error each for root, division and scaling.
     CHECK(root_mean_square({3 * size, -4 * size}) == Approx(size * std::sqrt(12.5)).epsilon(1e-15));
     CHECK(root_mean_square({size, 0, 0, 0}) == Approx(size / 2).epsilon(1e-15));
   }
   CHECK(root_mean_square({0, 0}) == 0);
-  // What is far smaller than the rest adds nothing, and what is near the borders is not lost.
+  // Much smaller values add nothing, and values near the limits are kept.
   CHECK(root_mean_square({1e200, 1}) == Approx(1e200 / std::sqrt(2)).epsilon(1e-15));
   CHECK(root_mean_square({0.9e-140, 1.1e-140}) == Approx(std::sqrt(1.01) * 1e-140).epsilon(1e-14));
   CHECK(root_mean_square({0.9e140, 1.1e140}) == Approx(std::sqrt(1.01) * 1e140).epsilon(1e-14));
-  // Elsewhere, to the bit what it is without care.
+  // Elsewhere, bit for bit the plain formula.
   const double a = 0.1, b = 0.7;
   CHECK(root_mean_square({a, b}) == std::sqrt((a * a + b * b) / 2));
   CHECK(std::isinf(root_mean_square({std::numeric_limits<double>::infinity(), 1})));
 }
 
-TEST_CASE("rms_ of a motion of 1e234 m is a number") {
+TEST_CASE("rms_ of a motion of 1e234 m is finite") {
   const Scenario scene = parse_scenario(
       "gravity: 0\nball: {radius: 0.01, position: [1e234, 0]}\n"
       "gimbal: {motion: {}}\ntime: {end: 1, step: 0.5}\n",
@@ -60,7 +60,7 @@ TEST_CASE("rms_ of a motion of 1e234 m is a number") {
   CHECK(rms == Approx(1e234).epsilon(1e-15));
 }
 
-TEST_CASE("a measure that is no finite number has its reason") {
+TEST_CASE("a nonfinite measure has its reason") {
   const std::vector<Measure> measures{*find_measure("end_x"), *find_measure("max_motor_power"),
                                       *find_measure("max_energy")};
   const double nan = std::nan(""), infinite = std::numeric_limits<double>::infinity();
@@ -73,7 +73,7 @@ TEST_CASE("a measure that is no finite number has its reason") {
         "max_motor_power is not a number; max_energy is infinite");
 }
 
-TEST_CASE("a recorder knows why a measure has no number") {
+TEST_CASE("a recorder knows why a measure has no value") {
   const Scenario scene = parse_scenario(
       "ball: {radius: 0.01}\ngimbal: {motion: {}}\ntime: {end: 1, step: 0.5}\n", "still.yaml");
   const std::vector<Measure> measures =

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How far two HDF5 files may be apart by what their solver was asked for.
+// How far two HDF5 files may differ, given their solvers' tolerances.
 #include <string>
 
 #include "catch.hpp"
@@ -20,7 +20,7 @@ const std::string scenario =
     "ball: {radius: 1 cm}\n"
     "gimbal: {servo: {natural_frequency: 30, damping: 1}}\n"
     "time: {end: 20, step: 1}\n"
-    "controller: {table: {file: none.csv}}\n";  // neither read nor looked for
+    "controller: {table: {file: none.csv}}\n";  // neither read nor searched for
 
 CellTable table(const Attributes& attributes) {
   CellTable made{
@@ -35,18 +35,18 @@ const Attributes tolerances{
 
 }  // namespace
 
-TEST_CASE("nothing is allowed by files that say nothing of a solver") {
+TEST_CASE("files without solver information allow nothing") {
   CHECK_FALSE(solver_allowances(table({}), table({})).has_value());
   CHECK_FALSE(solver_allowances(table({{"rtol", "1e-8"}}), table({})).has_value());
   CHECK_FALSE(solver_allowances(table({{"rtol", "-1"}, {"atol", "nan"}}), table({})).has_value());
 }
 
-TEST_CASE("tolerances become an allowance of each column, by its kind and unit") {
+TEST_CASE("tolerances become an allowance for each column, by its kind and unit") {
   const auto both = solver_allowances(table(tolerances), table(tolerances));
   REQUIRE(both.has_value());
   const auto allowed = [&](const char* column) { return both->of(column).atol; };
-  // 1e-12 for rounding; of each file 100 (rtol size + atol unit).
-  CHECK(allowed("x") == Approx(1e-12 + 200 * (1e-8 * 2 + 1e-10)));  // y is of x's kind
+  // 1e-12 for rounding; for each file 100 (rtol size + atol unit).
+  CHECK(allowed("x") == Approx(1e-12 + 200 * (1e-8 * 2 + 1e-10)));  // y is of the same kind as x
   CHECK(allowed("y") == allowed("x"));
   CHECK(allowed("x_end") == allowed("x"));
   CHECK(allowed("vx") == Approx(1e-12 + 200 * (1e-8 * 3 + 1e-10)));
@@ -59,13 +59,13 @@ TEST_CASE("tolerances become an allowance of each column, by its kind and unit")
   CHECK(both->of("x").rtol == 1e-9);
   CHECK_THAT(both->reason, Contains("rtol 1e-08, atol 1e-10"));
 
-  // A file that cannot say, such as CSV, adds nothing.
+  // A file without tolerances, such as CSV, adds nothing.
   const auto one = solver_allowances(table(tolerances), table({}));
   REQUIRE(one.has_value());
   CHECK(one->of("x").atol == Approx(1e-12 + 100 * (1e-8 * 2 + 1e-10)));
 }
 
-TEST_CASE("an override of the radius counts") {
+TEST_CASE("an override of the radius is used") {
   Attributes set = tolerances;
   set[3].second = "ball.mass=2\nball.radius=2 cm";
   const auto allowances = solver_allowances(table(set), table({}));
@@ -73,7 +73,7 @@ TEST_CASE("an override of the radius counts") {
   CHECK(allowances->of("spin").atol == Approx(1e-12 + 100 * (1e-8 * 8 + 1e-10 / 0.02)));
 }
 
-TEST_CASE("a bound on the error is the allowance of positions, all else is by the tolerances") {
+TEST_CASE("an error bound is the allowance of positions; everything else uses the tolerances") {
   const Attributes bound{{"rtol", "1e-08"}, {"atol", "1e-10"}, {"error_bound", "1e-06"}};
   Attributes missed = bound;
   missed.emplace_back("error_estimate", "5e-06");

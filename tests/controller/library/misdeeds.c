@@ -1,14 +1,14 @@
 /* SPDX-FileCopyrightText: 2026 the bbsim authors
  * SPDX-License-Identifier: BSD-3-Clause */
 
-/* A library for tests, which does what its parameter `mode` says:
- * 0 its part; 1 no controller; 2 an error at sample 5; 3 NaN at sample 5; 4 like 0, without reset;
- * 5 exit(0) at sample 5; 6 _exit(0) there; 7 exit(0) in create; 8 exit(0) in destroy; 9 a child of
- * its own that calls exit(9) at sample 5, and then its part; 10 a thread of its own that calls
- * exit(0) at sample 5; 11 more bytes to save than there are; 12 err(0, ...) at sample 5, in which
- * the C library ends the process itself.
- * Compiled with MISDEED_ABI it is of that version, with MISDEED_NO_STEP it lacks a function, with
- * MISDEED_OPENED it calls exit(0) as it is opened. */
+/* A library for tests; its parameter `mode` selects its behavior:
+ * 0 normal; 1 no controller; 2 an error at sample 5; 3 NaN at sample 5; 4 like 0, without reset;
+ * 5 exit(0) at sample 5; 6 _exit(0) there; 7 exit(0) in create; 8 exit(0) in destroy; 9 a child
+ * process that calls exit(9) at sample 5, then normal; 10 a thread that calls exit(0) at sample 5;
+ * 11 more bytes to save than exist; 12 err(0, ...) at sample 5, with which the C library itself
+ * ends the process.
+ * MISDEED_ABI sets its version, MISDEED_NO_STEP omits a function, MISDEED_OPENED calls exit(0)
+ * while the library is opened. */
 #define _DEFAULT_SOURCE
 #include <bbsim/controller.h>
 #include <err.h>
@@ -25,7 +25,7 @@ struct controller {
 
 static const char *last_error = NULL;
 
-/* Those that are left alone once they have called exit(), for who looks for leaks. */
+/* Keeps controllers reachable that remain after exit(), for leak checkers. */
 static struct controller *volatile made_last[64];
 static size_t made_so_far = 0;
 
