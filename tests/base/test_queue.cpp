@@ -15,7 +15,7 @@ TEST_CASE("a queue returns its elements in order, however full it was") {
   unsigned state = 1;
   for (int i = 0; i < 10000; ++i) {
     state = state * 1664525U + 1013904223U;
-    // Runs of pushes, then runs of pops.
+    // Phases of mostly pushes alternate with phases of mostly pops.
     const bool push = same.empty() || ((state >> 16U) % 8 < (i / 100 % 2 == 0 ? 6U : 2U));
     if (push) {
       queue.push() = i;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// CSV: written and read back bit for bit; input that is no table of numbers is refused, with its
+// CSV, written and read back bit for bit; bad input is refused with its place.
 // place.
 #include <sys/stat.h>
 

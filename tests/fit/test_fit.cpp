@@ -316,7 +316,7 @@ TEST_CASE("a sensor's delay is found") {
     REQUIRE(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf", row.data(), &row[1], &row[2], &row[3],
                         &row[4]) == 5);
   }
-  // Two rows of 50 ms late.
+  // Delayed by two rows of 50 ms.
   for (std::size_t i = 2; i < rows.size(); ++i) {
     for (const double value : {rows[i - 2][0], rows[i - 2][1], rows[i - 2][2], rows[i][3]}) {
       text += number_text(value) + ",";

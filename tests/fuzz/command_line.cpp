@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The command line, in process: runs main() with arguments and files from an input, in its own
+// The command line, in process: main() with an input's arguments and files, in its own folder.
 // folder.
 //
 // An input has one argument per line, up to a line "== NAME", followed by the content of a file of

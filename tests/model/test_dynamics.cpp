@@ -46,7 +46,7 @@ TEST_CASE("a ball at rest on a level plane weighs m g and needs no friction") {
   const Dynamics d = dynamics(sample, {0.01, 0.2, 9.81});
   CHECK(near(d.normal_force(), 0.2 * 9.81));
   CHECK(d.friction_force() == 0);
-  // Carrying m g at x = 5 cm: positive phi lowers x, so the motor holds against it.
+  // The weight m g at x = 5 cm: positive phi lowers x, so the motor must hold against it.
   CHECK(near(d.torque_phi, -0.05 * 0.2 * 9.81));
   CHECK(d.torque_theta == 0);
   CHECK(near(d.energy(), 0.2 * 9.81 * 0.01));

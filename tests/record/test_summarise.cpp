@@ -36,7 +36,7 @@ TEST_CASE("a sweep's cases by group") {
   REQUIRE(groups[1].figures.size() == 2);
   const GroupFigures& peak = groups[1].figures[0];
   CHECK(peak.measure == "x.Peak");
-  CHECK(peak.count == 3);  // of the case that failed nothing is told
+  CHECK(peak.count == 3);  // the failed case has no value
   CHECK(peak.mean == Approx(7.0 / 3));
   CHECK(peak.deviation == Approx(std::sqrt(7.0 / 3)));
   CHECK(peak.least == 1);
@@ -52,7 +52,7 @@ TEST_CASE("a sweep's cases by group") {
         "2,max_y,2,2,1,0,1,1,1,1\n");
 }
 
-TEST_CASE("all cases are one group, and columns may be named") {
+TEST_CASE("all cases form one group, and columns may be named") {
   const auto groups = summarise(table(), "sweep.csv", {}, {"max_y"}, {});
   REQUIRE(groups.size() == 1);
   CHECK(groups[0].cases == 6);
@@ -61,7 +61,7 @@ TEST_CASE("all cases are one group, and columns may be named") {
   CHECK_THROWS_AS(summarise(table(), "sweep.csv", {}, {"status"}, {}), InputError);
 }
 
-TEST_CASE("large values that are alike keep their deviation") {
+TEST_CASE("large values that are nearly equal keep their deviation") {
   file::CellTable large;
   large.names = {"v"};
   large.columns = {{1e9 + 1, 1e9 + 2, 1e9 + 3}};

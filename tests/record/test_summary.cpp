@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The summary says the same in JSON and in attributes.
+// The summary agrees in JSON and in attributes.
 #include <bit>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -86,7 +86,7 @@ TEST_CASE("the summary's JSON text") {
 )");
 }
 
-TEST_CASE("the summary's numbers read back to the bit, or are null") {
+TEST_CASE("the summary's numbers round-trip bit for bit or are null") {
   RunSummary run = a_run();
   for (const double value : {1.0 / 3, 5e-324, -0.0, 1.7976931348623157e308, 0.1 + 0.2}) {
     run.end_time = value;
@@ -100,13 +100,13 @@ TEST_CASE("the summary's numbers read back to the bit, or are null") {
   }
 }
 
-TEST_CASE("a file name that is no UTF-8 does not spoil the summary") {
+TEST_CASE("a file name that is not UTF-8 leaves the summary valid") {
   RunSummary run = a_run();
   run.output = "fig\xff.csv";
   CHECK(nlohmann::json::parse(to_json(run)).at("output") == "fig\xEF\xBF\xBD.csv");
 }
 
-TEST_CASE("the attributes have the summary's names and values, numbers as numbers") {
+TEST_CASE("attributes have the summary's names and values, with numbers as numbers") {
   const auto attributes = to_attributes(a_run(), "ball: {radius: 0.01}\n");
   const auto json = nlohmann::json::parse(to_json(a_run()));
   const auto value = [&](const std::string& name) -> AttributeValue {
@@ -117,7 +117,7 @@ TEST_CASE("the attributes have the summary's names and values, numbers as number
   };
   const auto same = [&](const std::string& name, const nlohmann::json& member) {
     CAPTURE(name);
-    if (name == "output" || name == "cpu_seconds") {  // alike runs differ in them
+    if (name == "output" || name == "cpu_seconds") {  // equal runs differ in these
       CHECK(value(name) == AttributeValue("absent"));
     } else if (member.is_string()) {
       CHECK(value(name) == AttributeValue(member.get<std::string>()));
@@ -135,14 +135,14 @@ TEST_CASE("the attributes have the summary's names and values, numbers as number
   CHECK(value("scenario_text") == AttributeValue("ball: {radius: 0.01}\n"));
 }
 
-TEST_CASE("runs that are alike have the same attributes, wherever they go") {
+TEST_CASE("equal runs have equal attributes, whatever the output") {
   RunSummary other = a_run();
   other.output = "elsewhere.h5";
   other.statistics.cpu_seconds = 7;
   CHECK(to_attributes(other, "") == to_attributes(a_run(), ""));
 }
 
-TEST_CASE("the summary is written whole or not at all") {
+TEST_CASE("the summary is written completely or not at all") {
   const Folder folder;
   write_summary(folder / "a.json", a_run());
   CHECK(content_of(folder / "a.json") == to_json(a_run()));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Makes a page, or a .glb, of results: what browser tests look at.
+// Makes a page, or a .glb, of results for browser tests.
 //
 //   make_page [--title TEXT] [--template FILE] -o FILE RUN...
 //   make_page [--title TEXT] [--template FILE] -o FILE --sweep SWEEP.csv SCENARIO.yaml

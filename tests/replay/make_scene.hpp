@@ -15,10 +15,10 @@ bbsim::replay::Run run_of(const std::string& files);
 
 bbsim::replay::Sweep sweep_of(const std::string& table, const std::string& scenario);
 
-// A ball that goes round a circle of 5 cm in `rows` rows of 10 ms, on a plate that tilts.
+// A ball on a tilting plate that moves around a circle of 5 cm in `rows` rows of 10 ms.
 bbsim::replay::Run circling(std::size_t rows);
 
-// From 41 x 21 cases of a sweep over two keys, of which some failed.
+// A sweep of 41 x 21 cases over two keys, with some failed cases.
 bbsim::replay::Sweep swept();
 
 }  // namespace bbsim_test

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a page says, read back.
+// Reads the data of a page back.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@
 
 namespace bbsim_test {
 
-// A template like the real one, in little.
+// A small template like the real one.
 inline const std::string small_template =
     "<title>@BBSIM_TITLE@</title><!--runs-->three "
     "dimensions<!--/runs--><!--sweeps-->maps<!--/sweeps-->"
     "<script type=\"application/json\">@BBSIM_DATA@</script>";
 
-// The JSON in a page of it.
+// The JSON in a page made from it.
 inline nlohmann::json data_of(const std::string& page) {
   const std::string begin = "<script type=\"application/json\">";
   const std::size_t from = page.find(begin) + begin.size();

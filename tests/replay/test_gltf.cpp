@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A .glb read back by the rules of glTF 2.0. scripts/check-gltf asks Khronos' validator as well.
+// A .glb read back by the rules of glTF 2.0. scripts/check-gltf also runs Khronos' validator.
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -41,7 +41,7 @@ struct File {
                 values.size() * sizeof(float));
     return values;
   }
-  // Times and values of the channel of a node's path.
+  // Times and values of the channel that animates a path of a node.
   [[nodiscard]] std::pair<std::vector<float>, std::vector<float>> channel(
       const std::string& node, const std::string& path) const {
     const auto& animation = json.at("animations").at(0);
@@ -80,7 +80,7 @@ Scene scene() {
 
 }  // namespace
 
-TEST_CASE("a .glb moves ring, hinge and ball as the rows say") {
+TEST_CASE("a .glb moves ring, hinge and ball by the rows") {
   const Scene from = scene();
   const File file = read(gltf(from));
   CHECK(file.json.at("asset").at("version") == "2.0");
@@ -100,7 +100,7 @@ TEST_CASE("a .glb moves ring, hinge and ball as the rows say") {
   const auto [hinge_times, hinge] = file.channel("hinge", "rotation");
   REQUIRE(ring.size() == 1200);
   for (std::size_t i = 0; i < 300; ++i) {
-    // x, y, z, w: phi about y, theta about x. To the rounding of floats of size 1.
+    // x, y, z, w: phi about y, theta about x. Within float rounding of values of size 1.
     CHECK(ring[4 * i + 1] == Approx(std::sin(columns[3].values[i] / 2)).margin(1e-7));
     CHECK(hinge[4 * i] == Approx(std::sin(columns[4].values[i] / 2)).margin(1e-7));
     CHECK(ring[4 * i + 3] == Approx(std::cos(columns[3].values[i] / 2)));
@@ -114,7 +114,7 @@ TEST_CASE("a .glb moves ring, hinge and ball as the rows say") {
   }
 }
 
-TEST_CASE("accessors' bounds are those of their numbers, and their bytes are there") {
+TEST_CASE("accessors' bounds match their numbers, and their bytes exist") {
   const File file = read(gltf(scene()));
   for (std::size_t a = 0; a < file.json.at("accessors").size(); ++a) {
     const auto& accessor = file.json.at("accessors").at(a);
@@ -132,7 +132,7 @@ TEST_CASE("accessors' bounds are those of their numbers, and their bytes are the
   }
 }
 
-TEST_CASE("the ball's octants face outwards and cover the ball") {
+TEST_CASE("the ball's octants face outward and cover the ball") {
   const File file = read(gltf(scene()));
   double area = 0;
   for (const auto& mesh : file.json.at("meshes")) {
@@ -165,13 +165,13 @@ TEST_CASE("the ball's octants face outwards and cover the ball") {
       }
     }
   }
-  // The area is that of the sphere, less what flat faces cut off: below 2 % with 8 steps to the
+  // The area is that of the sphere, minus the effect of flat faces: below 2 % with 8 steps per
   // eighth.
   CHECK(area > 0.98 * 4 * 3.14159);
   CHECK(area < 4 * 3.1416);
 }
 
-TEST_CASE("a ball of which nobody knows how it turns has one colour, and does not turn") {
+TEST_CASE("a ball of unknown orientation has one color and does not turn") {
   Scene unknown = scene();
   unknown.runs[0].rolls = false;
   const File file = read(gltf(unknown));
@@ -186,7 +186,7 @@ TEST_CASE("a ball of which nobody knows how it turns has one colour, and does no
   }
 }
 
-TEST_CASE("a second run has its ghost: on a gimbal of its own, or on the first one's plate") {
+TEST_CASE("a second run has its ghost, on its own gimbal or on the first one's plate") {
   Scene two = scene();
   two.runs.push_back(circling(200));
   two.runs[1].name = "log.csv";
@@ -202,7 +202,7 @@ TEST_CASE("a second run has its ghost: on a gimbal of its own, or on the first o
   CHECK(file.channel("ball of log.csv", "translation").first.size() == 200);
 }
 
-TEST_CASE("times begin with the first run's start and increase as floats, too") {
+TEST_CASE("times start at the first run's start and increase also as floats") {
   Scene late = scene();
   std::vector<double>& t = late.runs[0].columns[0].values;
   for (std::size_t i = 0; i < t.size(); ++i) t[i] = 1e6 + 1e-9 * static_cast<double>(i);
@@ -213,7 +213,7 @@ TEST_CASE("times begin with the first run's start and increase as floats, too") 
   for (std::size_t i = 1; i < times.size(); ++i) CHECK(times[i] > times[i - 1]);
 }
 
-TEST_CASE("a round plate has a round frame, and a sweep no motion") {
+TEST_CASE("a round plate has a round frame, and a sweep has no motion") {
   Scene round = scene();
   round.runs[0].plate = {{}, 0.3};
   CHECK(gltf(round).find("\"ring\"") != std::string::npos);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What is left out of a long run is not missed: no peak in a plot, no turn in the motion.
+// Thinning a long run loses no peak in a plot and no turn in the motion.
 #include <algorithm>
 #include <cmath>
 
@@ -19,7 +19,7 @@ using bbsim_test::circling;
 
 namespace {
 
-// The largest distance of a column from straight lines between the kept rows.
+// Largest deviation of a column from linear interpolation between the kept rows.
 double worst_error(const Run& run, const char* name, const std::vector<std::size_t>& kept) {
   const auto& t = find_series(run, "t")->values;
   const auto& v = find_series(run, name)->values;
@@ -36,7 +36,7 @@ double worst_error(const Run& run, const char* name, const std::vector<std::size
 
 }  // namespace
 
-TEST_CASE("a run that is short enough keeps all of its rows") {
+TEST_CASE("a short run keeps all its rows") {
   const Run run = circling(1000);
   const KeptRows kept = kept_rows(run, {}, 1000);
   REQUIRE(kept.rows.size() == 1000);
@@ -58,7 +58,7 @@ TEST_CASE("the motion between kept rows is within its tolerances") {
   CHECK(worst_error(run, "x", kept.rows) <= 0.05 * position_tolerance * (1 + 1e-9));
   CHECK(worst_error(run, "y", kept.rows) <= 0.05 * position_tolerance * (1 + 1e-9));
   CHECK(worst_error(run, "phi", kept.rows) <= angle_tolerance * (1 + 1e-9));
-  // The ball never turns so far from row to row that the way round is in doubt.
+  // Between kept rows the ball turns little enough for the direction to be unambiguous.
   for (std::size_t k = 1; k < kept.rows.size(); ++k) {
     double turned = 0;
     for (std::size_t i = kept.rows[k - 1] + 1; i <= kept.rows[k]; ++i) {
@@ -69,7 +69,7 @@ TEST_CASE("the motion between kept rows is within its tolerances") {
   }
 }
 
-TEST_CASE("each stretch keeps the least and the greatest value of every column") {
+TEST_CASE("each stretch keeps every column's least and greatest value") {
   Run run = circling(50'000);
   std::vector<double> noise(50'000);
   for (std::size_t i = 0; i < noise.size(); ++i) {
@@ -96,7 +96,7 @@ TEST_CASE("each stretch keeps the least and the greatest value of every column")
   }
 }
 
-TEST_CASE("rows without numbers do not stop the choice of rows") {
+TEST_CASE("rows of NaN do not prevent the choice of rows") {
   Run run = circling(30'000);
   for (std::size_t i = 10'000; i < 12'000; ++i) run.columns[1].values[i] = std::nan("");
   run.columns[2].values[20'000] = INFINITY;
@@ -105,7 +105,7 @@ TEST_CASE("rows without numbers do not stop the choice of rows") {
   CHECK(kept.rows.back() == 29'999);
 }
 
-TEST_CASE("where there is no room the worst is mended first, and what is left is told") {
+TEST_CASE("if space is short the worst errors are fixed first, and the rest is reported") {
   const Run run = circling(100'000);
   const auto orientation = orientation_of(run, 1e-5);  // turns 3 rad from row to row
   const KeptRows kept = kept_rows(run, orientation, 500);
@@ -113,7 +113,7 @@ TEST_CASE("where there is no room the worst is mended first, and what is left is
   CHECK(kept.motion_error > 1);
 }
 
-TEST_CASE("a large grid is thinned to a grid, other sweeps evenly") {
+TEST_CASE("a large grid is thinned to a grid, and other sweeps evenly") {
   Sweep sweep;
   for (int i = 0; i < 100; ++i) {
     for (int k = 0; k < 50; ++k) {
@@ -128,9 +128,9 @@ TEST_CASE("a large grid is thinned to a grid, other sweeps evenly") {
   }
   CHECK(cases_kept(sweep, 5000).size() == 5000);
   const auto grid = cases_kept(sweep, 2000);
-  CHECK(grid.size() == 1250);  // every 4th value of the key that has 100, all of the other's
+  CHECK(grid.size() == 1250);  // every 4th value of the key with 100 values, all of the other's
   for (const std::size_t i : grid) CHECK(i / 50 % 4 == 0);
-  sweep.keys[0].values[7] = 0.123;  // no grid any more
+  sweep.keys[0].values[7] = 0.123;  // no longer a grid
   const auto others = cases_kept(sweep, 2000);
   CHECK(others.size() == 1667);
   CHECK(others[1] == 3);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A scene arrives in its page: numbers as exact as they are meant to be, texts as texts.
+// A scene in its page: numbers with their intended precision, texts as texts.
 #include <cmath>
 #include <limits>
 #include <map>
@@ -59,7 +59,7 @@ TEST_CASE("base64 as in RFC 4648") {
   CHECK(of("\xff\xfe\xfd") == "//79");
 }
 
-TEST_CASE("numbers that no float holds are infinite in a page, and no undefined conversion") {
+TEST_CASE("numbers too large for a float are infinite in a page, without undefined conversions") {
   const std::vector<double> values{1e300, -1e300, 0.1, std::nan("")};
   const auto back = numbers_of<float>(bbsim::replay::base64_of_floats(values));
   CHECK(back[0] == std::numeric_limits<float>::infinity());
@@ -78,7 +78,7 @@ TEST_CASE("a run's rows read back from its page") {
   CHECK(made.at("ball").at("radius") == 0.01);
   CHECK(data.at("stage").at("width") == 0.3);
   CHECK(data.at("stage").at("plateGiven") == true);
-  REQUIRE(made.at("columns").size() == run.columns.size() - 1);  // t apart
+  REQUIRE(made.at("columns").size() == run.columns.size() - 1);  // t is stored separately
   for (std::size_t c = 1; c < run.columns.size(); ++c) {
     const auto& column = made.at("columns").at(c - 1);
     CHECK(column.at("name") == run.columns[c].name);
@@ -94,7 +94,7 @@ TEST_CASE("a run's rows read back from its page") {
   CHECK(quaternions[1] == 0);
 }
 
-TEST_CASE("times are exact: three numbers where they are evenly spaced, else all of them") {
+TEST_CASE("times are exact: three numbers if evenly spaced, else all of them") {
   Run run = circling(100);
   std::vector<double>& t = run.columns[0].values;
   const auto time_of = [&] {
@@ -112,7 +112,7 @@ TEST_CASE("times are exact: three numbers where they are evenly spaced, else all
   CHECK(numbers_of<double>(time) == t);
 }
 
-TEST_CASE("hostile texts stay texts, wherever they stand") {
+TEST_CASE("hostile text stays text everywhere") {
   const std::string hostile =
       "</script><script>alert(1)</script><!-- \" ' ` & \\ \x1b[31m \xE2\x80\xA8 \xE2\x80\xA9 "
       "\xE2\x80\xAE @BBSIM_DATA@ \xff";
@@ -142,7 +142,7 @@ TEST_CASE("hostile texts stay texts, wherever they stand") {
   CHECK(count("</script>") == 1);  // the template's own
   CHECK(count("<script") == 1);
   CHECK(count("<!--") == 4);          // the template's own
-  CHECK(count("\xE2\x80\xA8") == 1);  // in the title, where it is a character like others
+  CHECK(count("\xE2\x80\xA8") == 1);  // in the title, where it is an ordinary character
   CHECK(made.find('\x1b') == std::string::npos);
   CHECK(made.find('\xff') == std::string::npos);
   CHECK(made.find("&lt;/script&gt;") != std::string::npos);
@@ -156,7 +156,7 @@ TEST_CASE("hostile texts stay texts, wherever they stand") {
   CHECK(data.at("sweeps").at(0).at("statuses").at(0) == arrived);
 }
 
-TEST_CASE("a page has the libraries that it needs") {
+TEST_CASE("a page has the libraries that it uses") {
   Scene run = scene_of(circling(3)), sweep, both = run;
   sweep.sweeps.push_back(swept());
   both.sweeps.push_back(swept());
@@ -168,9 +168,9 @@ TEST_CASE("a page has the libraries that it needs") {
   CHECK(page(both, small_template).find("maps") != std::string::npos);
 }
 
-TEST_CASE("a million rows of many columns stay under 5 MB, and lose no peak") {
+TEST_CASE("a million rows of many columns stay below 5 MB and lose no peak") {
   Run run = circling(1'000'000);
-  // Noise, and one peak of a single row.
+  // Noise and a single-row peak.
   for (int extra = 0; extra < 10; ++extra) {
     std::vector<double> noise(1'000'000);
     unsigned state = 1U + static_cast<unsigned>(extra);
@@ -189,14 +189,14 @@ TEST_CASE("a million rows of many columns stay under 5 MB, and lose no peak") {
   CHECK(std::count(values.begin(), values.end(), 5.0F) == 1);
 }
 
-TEST_CASE("several runs share a page's room") {
+TEST_CASE("several runs share a page's space") {
   Scene scene = scene_of(circling(30'000));
   const std::size_t alone = bbsim::replay::rows_allowed(scene);
   scene.runs.push_back(scene.runs.front());
   CHECK(bbsim::replay::rows_allowed(scene) == alone / 2);
 }
 
-TEST_CASE("the plate is the scene's, or one that the path fits on") {
+TEST_CASE("the plate is the scene's, or one that holds the path") {
   Scene scene = scene_of(circling(2100));
   auto stage = bbsim::replay::stage_of(scene);
   CHECK(stage.width == 0.3);
@@ -208,18 +208,18 @@ TEST_CASE("the plate is the scene's, or one that the path fits on") {
   CHECK(stage.width == Approx(2 * 1.2 * 0.05));
   scene.runs[0].plate.diameter = 0.25;
   CHECK(bbsim::replay::stage_of(scene).round);
-  // It holds the whole path, wherever the ball is mostly.
+  // The path fits even if the ball is mostly in one place.
   scene.runs[0].plate = {};
   scene.runs[0].columns[1].values.front() = 50;
   CHECK(bbsim::replay::stage_of(scene).width == Approx(2 * 1.2 * 50));
   scene.runs[0].columns[1].values.front() = 0.05;
-  // A last row on its way to infinity does not shrink the rest: that far nothing is drawn.
+  // A last row that diverges does not shrink the rest; so far out nothing is drawn.
   scene.runs[0].plate = {};
   scene.runs[0].columns[1].values.back() = 1e200;
   CHECK(bbsim::replay::stage_of(scene).width <= 2 * 1.2 * 20 * 0.05);
 }
 
-TEST_CASE("a scene along one axis has a plate like a beam") {
+TEST_CASE("a scene along one axis has a beam-shaped plate") {
   Scene scene = scene_of(circling(2100));
   scene.runs[0].plate = {};
   scene.runs[0].columns[2].values.assign(2100, 0.0);
@@ -230,7 +230,7 @@ TEST_CASE("a scene along one axis has a plate like a beam") {
   CHECK(stage.depth >= 4 * 0.01);  // wider than the ball
 }
 
-TEST_CASE("a page says what is known of turns, units and the end") {
+TEST_CASE("a page gives what is known of turns, units and the end") {
   Run run = circling(50);
   run.rolls = false;
   run.units_known = false;
@@ -244,7 +244,7 @@ TEST_CASE("a page says what is known of turns, units and the end") {
   CHECK(made.at("reached") == 0.495);
 }
 
-TEST_CASE("what cannot be replayed is refused with what is wrong") {
+TEST_CASE("unusable replay input is refused with the reason") {
   CHECK(refusal({}) == "nothing to replay: neither a run nor a sweep");
   Scene scene = scene_of(circling(3));
   scene.runs[0].columns[2].values.pop_back();
@@ -274,7 +274,7 @@ TEST_CASE("a beam without y is on its axis") {
   CHECK_NOTHROW(page(scene_of(run), small_template));
 }
 
-TEST_CASE("a template that is none, or is not there") {
+TEST_CASE("an invalid or missing template") {
   const Scene scene = scene_of(circling(3));
   CHECK_THROWS_AS(page(scene, "<title></title>@BBSIM_DATA@"), InputError);
   CHECK_THROWS_AS(page(scene, small_template + small_template), InputError);
@@ -289,7 +289,7 @@ TEST_CASE("a template that is none, or is not there") {
   }
 }
 
-TEST_CASE("a sweep's cases read back: keys exact, each way to end once") {
+TEST_CASE("a sweep's cases read back: exact keys, each kind of ending once") {
   Scene scene;
   scene.sweeps.push_back(swept());
   const auto data = data_of(page(scene, small_template)).at("sweeps").at(0);
@@ -302,7 +302,7 @@ TEST_CASE("a sweep's cases read back: keys exact, each way to end once") {
   }
 }
 
-TEST_CASE("a page knows the plots of all columns, and commands beside what they command") {
+TEST_CASE("a page has the plots of all columns, with commands beside their targets") {
   const auto plots = data_of(page(scene_of(circling(50)), small_template)).at("plots");
   std::map<std::string, std::string> found;  // titles by column and unit
   for (const auto& plot : plots) {

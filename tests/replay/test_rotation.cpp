@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The ball's and the plane's orientation against what they stand for.
+// The ball's and the plane's orientation against their definitions.
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
@@ -20,15 +20,14 @@ Eigen::Quaterniond eigen(const Quaternion& q) {
   return {q[0], q[1], q[2], q[3]};
 }
 
-// The angle of the rotation that takes one to the other, rad. It is from products of doubles of
-// size 1.
+// Angle of the rotation from one to the other, in rad, from products of doubles of size 1.
 double apart(const Quaternion& a, const Eigen::Quaterniond& b) {
   return eigen(a).angularDistance(b);
 }
 
 }  // namespace
 
-TEST_CASE("the plane's orientation is the chain of (M15)") {
+TEST_CASE("the plane's orientation is the product in (M15)") {
   const Mounting mounting{0.01, 0.1, -0.3, 0.2};
   const double phi = 0.4, theta = -0.7;
   const auto about = [](double angle, const Eigen::Vector3d& axis) {
@@ -45,12 +44,12 @@ TEST_CASE("the plane's orientation is the chain of (M15)") {
   CHECK((eigen(tilted) * Eigen::Vector3d::UnitY()).z() > 0);
 }
 
-TEST_CASE("a ball that rolls along x turns about y, once a circumference") {
+TEST_CASE("a ball that rolls along x turns about y, once per circumference") {
   const double r = 0.02;
   const std::vector<double> x{0, pi * r / 2, pi * r, 2 * pi * r}, y{0, 0, 0, 0};
   const auto turned = rolled(x, y, nullptr, r);
   CHECK(apart(turned[0], Eigen::Quaterniond::Identity()) < 1e-7);
-  // After a quarter its top points along x.
+  // After a quarter turn its top points along x.
   const Eigen::Vector3d top = eigen(turned[1]) * Eigen::Vector3d::UnitZ();
   CHECK((top - Eigen::Vector3d::UnitX()).norm() < 1e-12);
   CHECK(apart(turned[3], Eigen::Quaterniond::Identity()) < 1e-7);
@@ -63,9 +62,9 @@ TEST_CASE("gamma turns the ball about the normal") {
         1e-7);
 }
 
-TEST_CASE("round a circle the error of rolling from row to row falls with its square") {
-  // Rolling round a circle of radius R with w = angle: in the frame that turns with the contact
-  // point the ball turns at a constant rate, so that its orientation is known in closed form.
+TEST_CASE("around a circle the error of rolling from row to row is second order") {
+  // Rolling around a circle of radius R with w = angle: in the frame that rotates with the contact
+  // point the ball turns at a constant rate, so its orientation has a closed form.
   const double r = 0.01, big = 0.05, angle = 2;
   const auto error = [&](int rows) {
     std::vector<double> x, y;
@@ -87,8 +86,8 @@ TEST_CASE("round a circle the error of rolling from row to row falls with its sq
   CHECK(std::log2(coarse / fine) > 1.9);
 }
 
-TEST_CASE("a ball that slips turns by what it has not slipped") {
-  // It goes on at 1 m/s and slips at 3 - 2 t m/s: in a second it turns by -1 m over its radius.
+TEST_CASE("a slipping ball turns by its distance minus the slip") {
+  // It moves at 1 m/s and slips at 3 - 2 t m/s: in a second it turns by -1 m over its radius.
   Run run;
   run.rolls = false;
   run.ball_radius = 1;
@@ -102,18 +101,18 @@ TEST_CASE("a ball that slips turns by what it has not slipped") {
     const double values[] = {t, t, 0, 3 - 2 * t, 0};
     for (std::size_t c = 0; c < run.columns.size(); ++c) run.columns[c].values.push_back(values[c]);
   }
-  CHECK(orientation_of(run, 1).empty());  // how it pivots is not known
+  CHECK(orientation_of(run, 1).empty());  // its pivoting is unknown
   run.columns.push_back({"spin", "", "", std::vector<double>(11, 0.0)});
   const Quaternion last = orientation_of(run, 1).back();
   CHECK(apart(last, Eigen::Quaterniond(Eigen::AngleAxisd(-1, Eigen::Vector3d::UnitY()))) < 1e-7);
-  // Its spin is integrated.
+  // A recorded spin is integrated.
   run.columns.back().values.assign(11, 0.5);
   run.columns[3].values.assign(11, 1.0);
   CHECK(apart(orientation_of(run, 1).back(),
               Eigen::Quaterniond(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()))) < 1e-7);
 }
 
-TEST_CASE("a row without numbers keeps the last orientation, and the next goes on") {
+TEST_CASE("a row of NaN keeps the last orientation, and the next row continues") {
   const std::vector<double> x{0, std::nan(""), 0.01, 0.02}, y{0, 0, 0, 0};
   const auto turned = rolled(x, y, nullptr, 0.01);
   CHECK(turned[1] == turned[0]);

@@ -32,7 +32,7 @@ Run described(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("a scenario says what a replay shows") {
+TEST_CASE("a scenario determines what a replay shows") {
   const Run rig = described("rig");
   CHECK(rig.title == "A hobby rig on the circle of Fig. 2(b)");
   CHECK(rig.plate.size == std::array<double, 2>{0.32, 0.24});
@@ -43,7 +43,7 @@ TEST_CASE("a scenario says what a replay shows") {
   CHECK(rig.poles->period == 0.02);
   CHECK(rig.poles->values.size() == 16);
   CHECK(rig.scenario_text.find("A hobby rig") != std::string::npos);
-  // One lap of the circle, closed.
+  // One closed lap of the circle.
   REQUIRE(rig.reference.size() > 100);
   CHECK(rig.reference.front()[0] == Approx(rig.reference.back()[0]));
   for (const auto& point : rig.reference) CHECK(std::hypot(point[0], point[1]) == Approx(0.05));
@@ -68,7 +68,7 @@ TEST_CASE("a table's columns have their units") {
   CHECK(row_count(run) == 2);
 }
 
-TEST_CASE("of a table that nobody tells of neither units nor turns are known") {
+TEST_CASE("neither units nor turns are assumed for a table of unknown origin") {
   const Folder folder;
   const std::string file = folder.put("log.csv", "t,x,y,gamma\n0,-12,3,0\n1,-11,3,0\n");
   const Run run = run_of_result(results::read_result(file, {}), "log.csv");
@@ -76,7 +76,7 @@ TEST_CASE("of a table that nobody tells of neither units nor turns are known") {
   for (const Series& series : run.columns) CHECK(series.unit.empty());
   CHECK_FALSE(run.rolls);
   CHECK(orientation_of(run, 0.01).empty());
-  // Its scenario tells both.
+  // Its scenario gives both.
   results::Result told = results::read_result(file, {"", config("fig2a"), {}});
   const Scenario scenario = *told.scenario;
   Run known = run_of_result(std::move(told), "log.csv");
@@ -84,7 +84,7 @@ TEST_CASE("of a table that nobody tells of neither units nor turns are known") {
   CHECK(find_series(known, "x")->unit == "m");
   CHECK(known.rolls);
   CHECK(orientation_of(known, 0.01).size() == 2);
-  // But not that a ball rolls that may slide, nor how one pivots of which it is not recorded.
+  // But neither rolling of a ball that may slide, nor pivoting if it is not recorded.
   Run sliding = known;
   describe(sliding, read_scenario(config("slides")));
   CHECK_FALSE(sliding.rolls);
@@ -94,7 +94,7 @@ TEST_CASE("of a table that nobody tells of neither units nor turns are known") {
       run_of_result(results::read_result(bare, {"", config("fig2a"), {}}), "bare.csv").rolls);
 }
 
-TEST_CASE("commands have the unit of what they command") {
+TEST_CASE("commands have the unit of their target") {
   const auto unit = [](const char* scene) {
     Run run = run_of_table({{"t", "x", "phi_command"}, {{0, 1}, {0, 1}, {0, 1}}}, "a");
     describe_sight(run, read_scenario(config(scene)));
@@ -126,7 +126,7 @@ TEST_CASE(
   CHECK(find_series(run, "phi")->values.back() == 0.3);
   run.rolls = true;
   describe_sight(run, scenario);
-  // One centimetre on a ball of one: one radian about y.
+  // One centimeter with a radius of one: one radian about y.
   CHECK(run.orientation.back()[0] == Approx(std::cos(0.5)));
   CHECK(run.orientation.back()[2] == Approx(std::sin(0.5)));
 }
@@ -155,7 +155,7 @@ TEST_CASE("a sweep's table: keys, status and measures") {
   CHECK(sweep.measures[2].unit == "s");
 }
 
-TEST_CASE("a sweep's keys: which go along with another, and which were drawn") {
+TEST_CASE("a sweep's keys: which are tied and which are random") {
   const Folder folder;
   std::ostringstream table;
   table << "case,a,b,c,status,max_tilt\n";
@@ -174,7 +174,7 @@ TEST_CASE("a sweep's keys: which go along with another, and which were drawn") {
   CHECK(sweep.keys[2].drawn);
 }
 
-TEST_CASE("a result brings what its summary tells, and the ball's orientation") {
+TEST_CASE("a result includes its summary's data and the ball's orientation") {
   const Folder folder;
   const std::string file = folder.put("r.csv",
                                       "t,x,y,ball_qw,ball_qx,ball_qy,ball_qz\n"
@@ -195,5 +195,5 @@ TEST_CASE("a result brings what its summary tells, and the ball's orientation") 
   CHECK(run.columns.size() == 3);
   REQUIRE(run.orientation.size() == 3);
   CHECK(run.orientation[1] == Quaternion{0, 0, 1, 0});
-  CHECK(run.orientation[2] == run.orientation[1]);  // nothing is known: the last one
+  CHECK(run.orientation[2] == run.orientation[1]);  // unknown, so the last one is kept
 }

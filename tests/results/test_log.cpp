@@ -24,7 +24,7 @@ struct Log {
   std::string content;
   LogChoice choice{};
   std::vector<double> t{}, x{};  // as read
-  std::string says{};            // a part of a note; or of the refusal, if t is empty
+  std::string says{};            // part of a note, or of the refusal if t is empty
 };
 
 bool same(const std::vector<double>& a, const std::vector<double>& b) {
@@ -119,7 +119,7 @@ const std::vector<Log> logs = {
 
 }  // namespace
 
-TEST_CASE("logs of many styles are read, or refused with row and cure") {
+TEST_CASE("logs of many styles are read, or refused with row and remedy") {
   for (const Log& log : logs) {
     const Folder folder;
     const std::string file = folder.put("log.csv", log.content);
@@ -141,7 +141,7 @@ TEST_CASE("logs of many styles are read, or refused with row and cure") {
   }
 }
 
-TEST_CASE("a map is refused where its place is wrong") {
+TEST_CASE("a map is refused if its place is wrong") {
   const Folder folder;
   const std::string file = folder.put("log.csv", "t,px\n0,1\n1,2\n");
   const auto refused = [&](const LogChoice& choice) {

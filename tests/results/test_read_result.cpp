@@ -28,7 +28,7 @@ results::Result read(const std::string& file, const results::Beside& beside = {}
 
 }  // namespace
 
-TEST_CASE("CSV of any origin: gaps, quotes, marks of other systems, text") {
+TEST_CASE("CSV of any origin: gaps, quotes, byte order marks and line ends, text") {
   const Folder folder;
   const results::Result result = read(folder.put(
       "a.csv",
@@ -43,7 +43,7 @@ TEST_CASE("CSV of any origin: gaps, quotes, marks of other systems, text") {
   CHECK_FALSE(result.is_sweep());
 }
 
-TEST_CASE("what is no CSV of rows is refused with its place") {
+TEST_CASE("invalid CSV is refused with its place") {
   const Folder folder;
   const auto refused = [&](const std::string& content) {
     try {
@@ -67,7 +67,7 @@ TEST_CASE("what is no CSV of rows is refused with its place") {
   CHECK_THROWS_WITH(read("scene.yaml"), Contains("is a scenario; draw its result"));
 }
 
-TEST_CASE("a summary beside a CSV tells of its scene, if it is of that very run") {
+TEST_CASE("a summary beside a CSV describes its scene if it is of the same run") {
   const Folder folder;
   const std::string csv = folder.put("run.csv", "t,x\n0,1\n0.25,2\n");
   CHECK(read(csv).title.empty());
@@ -79,17 +79,17 @@ TEST_CASE("a summary beside a CSV tells of its scene, if it is of that very run"
   CHECK(result.events[0].name == "edge");
   CHECK(result.events[0].stopped);
   CHECK(result.events[0].y == -0.2);
-  // The table that the scenario reads is gone; the rest is known, with what was set.
+  // The scenario's table is gone; everything else is known, including settings.
   REQUIRE(result.scenario);
   REQUIRE(result.scenario->plate.size);
   CHECK((*result.scenario->plate.size)[0] == 0.4);
   CHECK(result.scenario->events.slip->friction == 0.3);
 
-  // The summary of another run is not taken up unasked, and refused if named.
+  // Another run's summary is ignored by default, and refused if named.
   const std::string other = folder.put("other.csv", "t,x\n0,1\n0.25,2\n0.5,3\n");
   folder.put("other.json", summary_of_two_rows);
   CHECK(read(other).title.empty());
-  CHECK(read(other).left_out.empty());  // it does not say that it is of that file
+  CHECK(read(other).left_out.empty());  // it does not claim to be of that file
   CHECK_THROWS_WITH(read(other, {folder / "run.json", "", {}}),
                     Contains("of another run: it has 2 rows"));
   CHECK_THROWS_WITH(read(csv, {csv, "", {}}), Contains("is not a summary"));
@@ -98,7 +98,7 @@ TEST_CASE("a summary beside a CSV tells of its scene, if it is of that very run"
   CHECK(read(csv).title.empty());
   CHECK_THAT(read(csv).left_out, Contains("run.json: left out, since it has another number"));
   folder.put("run.csv", "t,x\n0,1\n0.25,2\n");
-  // One that was there when the file was written again is an earlier run's.
+  // A summary older than the rewritten file is from an earlier run.
   namespace fs = std::filesystem;
   fs::last_write_time(csv, fs::last_write_time(folder / "run.json") + std::chrono::seconds(3));
   CHECK(read(csv).events.empty());
@@ -111,12 +111,12 @@ TEST_CASE("a summary beside a CSV tells of its scene, if it is of that very run"
   CHECK(read(csv).title.empty());
 }
 
-TEST_CASE("units are those of bbsim where something tells that bbsim wrote the table") {
+TEST_CASE("units are bbsim's if the table is known to be from bbsim") {
   const Folder folder;
   const auto known = [&](const std::string& text) {
     return read(folder.put("a.csv", text)).units_known;
   };
-  // A log may have bbsim's names, or a double's digits.
+  // A log may have bbsim's column names, or all digits of a double.
   CHECK_FALSE(known("t,x,y\n0,-12.5,3\n0.1,-12.25,3\n"));
   CHECK_FALSE(known("t,x,y\n0,-12.345678901234567,3\n"));
   CHECK_FALSE(known("t,x,y,x_reference\n0,-12.5,3,0\n"));
@@ -129,7 +129,7 @@ TEST_CASE("units are those of bbsim where something tells that bbsim wrote the t
   CHECK(read(csv).units_known);
 }
 
-TEST_CASE("an event that stopped a run tells of its state") {
+TEST_CASE("an event that stopped a run gives its state") {
   const Folder folder;
   const std::string csv = folder.put("run.csv", "t,x\n0,1\n0.25,2\n");
   folder.put("run.json",
@@ -139,12 +139,12 @@ TEST_CASE("an event that stopped a run tells of its state") {
   results::Result result = read(csv);
   CHECK(result.events.at(0).state ==
         std::map<std::string, double>{{"t", 0.3}, {"x", 0.1}, {"y", -0.2}, {"phi", 0.5}});
-  CHECK(result.rows == 2);  // as the file has them, until asked
+  CHECK(result.rows == 2);  // the file's rows, until requested
   results::add_end_row(result);
   CHECK(result.find("x")->numbers == std::vector<double>{1, 2, 0.1});
 }
 
-TEST_CASE("a scenario that is named comes before what is beside") {
+TEST_CASE("a named scenario takes precedence over the one beside the file") {
   const Folder folder;
   const std::string csv = folder.put("run.csv", "t,x\n0,1\n0.25,2\n");
   folder.put("run.json", summary_of_two_rows);

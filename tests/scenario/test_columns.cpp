@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The tables of docs/reference/columns.md are the catalogue's. With BBSIM_WRITE_DOCS in the
+// Checks the tables of docs/reference/columns.md against the catalog. With BBSIM_WRITE_DOCS in the
 // environment the test writes them.
 #include <algorithm>
 #include <cstdlib>
@@ -99,7 +99,7 @@ std::string with_tables(std::string page) {
 
 }  // namespace
 
-TEST_CASE("the page of columns has the catalogue's names, units and meanings") {
+TEST_CASE("the page of columns has the catalog's names, units and meanings") {
   const std::string file = std::string(BBSIM_SOURCE_DIR) + "/docs/reference/columns.md";
   std::stringstream page;
   page << std::ifstream(file).rdbuf();
@@ -123,7 +123,7 @@ TEST_CASE("each column but time has a panel, and each panel's plot is among the 
   CHECK(used.size() == plots.size());
 }
 
-TEST_CASE("commands stand beside what they command") {
+TEST_CASE("commands are placed with their targets") {
   const Column& command = *find_column("theta_command");
   CHECK(panel_of(command, "rad") == Panel::theta);
   CHECK(panel_of(command, "rad/s^2") == Panel::accelerations);
@@ -132,7 +132,7 @@ TEST_CASE("commands stand beside what they command") {
   CHECK(panel_of(*find_column("torque_phi"), "N m") == Panel::torques);
 }
 
-TEST_CASE("a column's name tells its axis") {
+TEST_CASE("a column's name gives its axis") {
   for (const char* name : {"x", "vx", "phi_rate", "motor_torque_phi", "slip_x", "x_measured"}) {
     CHECK(axis_of(name) == 1);
   }

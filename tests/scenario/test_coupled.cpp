@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What scenes with losses, torques and sliding may say, and what they may not.
+// Valid and invalid scenes with losses, torques and sliding.
 #include "catch.hpp"
 #include "scenario/coupled.hpp"
 #include "support/reading.hpp"
@@ -50,7 +50,7 @@ TEST_CASE("losses, torques and sliding are read") {
   CHECK_FALSE(scenario::is_coupled(parse(open_loop)));
 }
 
-TEST_CASE("losses that mean nothing are refused with a reason") {
+TEST_CASE("invalid losses are refused with a reason") {
   CHECK_THAT(errors(open_loop, {"ball.losses.viscous=1e-6"}),
              Contains("ball.losses.viscous: found, but no ball.mass"));
   CHECK(errors(open_loop, {"ball.losses.rolling=1e-3"}).empty());
@@ -68,7 +68,7 @@ TEST_CASE("losses that mean nothing are refused with a reason") {
              Contains("the ball rolls without losses"));
 }
 
-TEST_CASE("sliding that means nothing is refused with a reason") {
+TEST_CASE("invalid sliding is refused with a reason") {
   CHECK_THAT(errors(open_loop, {"events.slip={friction: 0.3, action: slide}"}),
              Contains("sliding_friction: missing"));
   CHECK_THAT(errors(open_loop, {"events.slip={friction: 0.3, sliding_friction: 0.2}"}),
@@ -89,7 +89,7 @@ TEST_CASE("sliding that means nothing is refused with a reason") {
       Contains("a servo that jolts the plate"));
 }
 
-TEST_CASE("torques that mean nothing are refused with a reason") {
+TEST_CASE("invalid torques are refused with a reason") {
   CHECK(errors(torque_driven).empty());
   CHECK(errors(commanded).empty());
   CHECK_THAT(errors(torque_driven, {"ball={radius: 0.02}"}),
@@ -129,7 +129,7 @@ TEST_CASE("torques that mean nothing are refused with a reason") {
              Contains("position_loop.ki: found beside lqr"));
 }
 
-TEST_CASE("moments of inertia that no body has draw a warning") {
+TEST_CASE("impossible moments of inertia give a warning") {
   const auto remarks = [](const std::string& plate) {
     return parse(
                "ball: {radius: 0.02, mass: 0.1}\n"

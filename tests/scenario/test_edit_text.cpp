@@ -11,7 +11,7 @@
 
 using namespace bbsim;
 
-TEST_CASE("numbers change in a scenario's text, and nothing else does") {
+TEST_CASE("numbers change in a scenario's text, and nothing else") {
   const std::string text =
       "# mine\n"
       "ball:\n"
@@ -30,7 +30,7 @@ TEST_CASE("numbers change in a scenario's text, and nothing else does") {
   CHECK(with("gimbal.motion.phi.1", "0.7") == changed("0.5", "0.7"));
   CHECK(with("gimbal.motion.phi.0.sinusoid.frequency", "3") ==
         changed("frequency: 2", "frequency: 3"));
-  // A new key joins its neighbors.
+  // A new key is placed with its neighbors.
   CHECK(with("ball.mass", "2 g") == changed("# a marble\n", "# a marble\n  mass: 2 g\n"));
   CHECK(with("gimbal.motion.phi.0.sinusoid.phase", "1") ==
         changed("{amplitude", "{phase: 1, amplitude"));
@@ -43,7 +43,7 @@ TEST_CASE("numbers change in a scenario's text, and nothing else does") {
   CHECK_THROWS_AS(with("ball.radius.0", "1"), InputError);
 }
 
-TEST_CASE("a section of a scenario's text is replaced as a whole") {
+TEST_CASE("a section of a scenario's text is replaced completely") {
   const std::string text =
       "ball: {radius: 1 cm, position: [\"2 cm\", 0]}  # a marble\n"
       "gimbal:\n"
@@ -80,9 +80,9 @@ TEST_CASE("a section of a scenario's text is replaced as a whole") {
   CHECK(with("gimbal.motion.phi", "0") ==
         changed("phi:\n      - {sinusoid: {amplitude: 1, frequency: 2}}\n\n      - 0.5", "phi: 0"));
   CHECK(edited_text("list:\n- 1\n- 2\nnext: 3", {{"list", "[4]"}}) == "list: [4]\nnext: 3");
-  // --set KEY=null removes a section; a text keeps it.
+  // --set KEY=null removes a section, but text edits cannot.
   CHECK_THROWS_AS(with("gimbal.motion", "null"), InputError);
-  // Another key has the same section.
+  // Another key is an alias of the same section.
   CHECK_THROWS_AS(edited_text("a: &it {b: 1}\nc: *it\n", {{"c", "{b: 2}"}}), InputError);
   CHECK_THROWS_AS(edited_text("a: &it {b: 1}\nc: *it\n", {{"a", "{b: 2}"}}), InputError);
   CHECK_THROWS_AS(edited_text("a: &it {b: 1}\nc: *it\n", {{"c.b", "2"}}), InputError);
@@ -98,7 +98,7 @@ TEST_CASE("a section of a scenario's text is replaced as a whole") {
   CHECK_THROWS_AS(edited_text("a:\n", {{"a", "{b: 2}"}}), InputError);
 }
 
-TEST_CASE("an offset in the unit of its table is a number of the scenario") {
+TEST_CASE("an offset in its table's unit is a number of the scenario") {
   const ScenarioFamily family(
       Source{std::string(BBSIM_SOURCE_DIR) + "/configs/scene.yaml",
              "ball: {radius: 1 cm}\n"
@@ -111,7 +111,7 @@ TEST_CASE("an offset in the unit of its table is a number of the scenario") {
   CHECK(*offset == Approx(0.034906585));
 }
 
-TEST_CASE("a family finds a table that it was given") {
+TEST_CASE("a family finds a table that it got") {
   ScenarioFamily family(Source{"nowhere/scene.yaml",
                                "ball: {radius: 1 cm}\n"
                                "gimbal: {motion: {theta: 0, phi: {table: {file: it.csv, time: t, "

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Keys whose numbers are put in place instead of being read anew.
+// Keys whose numbers are inserted without reading the scenario again.
 #include <string>
 #include <vector>
 
@@ -14,7 +14,7 @@ using namespace bbsim;
 
 namespace {
 
-// What the scene's model is made of, as far as rows can show it.
+// Numbers that characterize the scene's model, as far as rows show it.
 std::vector<double> traits(const Scenario& scenario) {
   const model::Model model = model::assemble(scenario, false);
   std::vector<double> numbers = model.initial;
@@ -47,7 +47,7 @@ void check_keys(const std::string& text, const std::vector<std::string>& keys) {
 
 }  // namespace
 
-TEST_CASE("a number put in place is the number read: prescribed motion") {
+TEST_CASE("an inserted number equals the number read: prescribed motion") {
   check_keys(
       "ball: {radius: 0.01, position: [0.1, 0.2], velocity: [0.3, 0.4], spin: 5}\n"
       "time: {end: 10, step: 0.1}\n"
@@ -64,7 +64,7 @@ TEST_CASE("a number put in place is the number read: prescribed motion") {
        "gimbal.motion.theta.2.sinusoid.amplitude"});
 }
 
-TEST_CASE("a number put in place is the number read: a loop") {
+TEST_CASE("an inserted number equals the number read: a loop") {
   const std::string text =
       "ball: {radius: 0.01, position: [0.1, 0.2]}\n"
       "time: {end: 10, step: 0.1}\n"
@@ -81,7 +81,7 @@ TEST_CASE("a number put in place is the number read: a loop") {
              "controller.reference.circle.phase", "controller.reference.circle.centre.0"});
 }
 
-TEST_CASE("other keys are read anew") {
+TEST_CASE("other keys need the scenario read again") {
   Scenario scene = test::parse(test::open_loop);
   for (const char* key : {"time.end", "solver.rtol", "ball.inertia_factor", "ball", "ball.position",
                           "ball.position.2", "ball.position.x", "gimbal.motion.phi", "nothing"}) {

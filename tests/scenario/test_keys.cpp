@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The tables of keys in docs/reference are those that the readers declare. With BBSIM_WRITE_DOCS in
-// the environment the test writes them.
+// Checks the tables of keys in docs/reference against the readers' declarations. With
+// BBSIM_WRITE_DOCS in the environment the test writes them.
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -25,7 +25,7 @@ namespace {
 
 using KeysByPath = std::map<std::string, const DeclaredKey*>;
 
-// All keys below a value, under the paths of the tables.
+// Collects all keys below a value, by the paths of the tables.
 void collect(const Declared& value, const std::string& path, KeysByPath& into) {
   for (const DeclaredKey& key : value.keys) {
     const std::string its = path_in_tables(path.empty() ? key.name : path + '.' + key.name);
@@ -110,7 +110,7 @@ std::string range_cell(const Declared& value) {
   return text;
 }
 
-// The cell that a row gives, or else what the declaration says.
+// The cell given in a row, or else the declaration's text.
 std::string cell(std::string_view given, const std::string& declared) {
   if (given == "-") return "";
   return given.empty() ? declared : std::string(given);
@@ -138,7 +138,7 @@ std::string text_of_table(const KeyTable& table) {
 
 }  // namespace
 
-TEST_CASE("the tables of keys in the documents are what the readers declare") {
+TEST_CASE("the tables of keys in the documents match the readers' declarations") {
   std::set<std::string_view> pages;
   for (const KeyTable& table : key_tables()) pages.insert(table.page);
   for (const std::string_view page : pages) {
@@ -159,7 +159,7 @@ TEST_CASE("the tables of keys in the documents are what the readers declare") {
   }
 }
 
-TEST_CASE("each key that is read is declared, and has a row in the documents") {
+TEST_CASE("each key that is read is declared and has a row in the documents") {
   for (const auto& [path, key] : all_keys()) {
     INFO(path);
     CHECK(key->value.kind != Declared::Kind::none);
@@ -168,7 +168,7 @@ TEST_CASE("each key that is read is declared, and has a row in the documents") {
   }
 }
 
-TEST_CASE("each row in the documents is of keys that are read, and repeats no declaration") {
+TEST_CASE("each row in the documents describes keys that are read, and repeats no declaration") {
   for (const KeyTable& table : key_tables()) {
     for (const KeyText& row : table.rows) {
       for (const std::string& path : row.paths(table.prefix)) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Keys of linkages, three servos, servos by axis, clocks, frames and pushes: what they read as, and
-// what is refused.
+// Keys of linkages, three servos, servos by axis, clocks, frames and pushes: their values, and
+// refused input.
 #include <utility>
 #include <vector>
 
@@ -31,7 +31,7 @@ const std::string three =
 
 }  // namespace
 
-TEST_CASE("a linkage is read for both axes, or for each") {
+TEST_CASE("a linkage is read for both axes or for each one") {
   const Scenario both = parse(base, {"gimbal.linkage=" + rods, "controller.assumes=exact"});
   for (const auto& one : both.gimbal.linkage) {
     REQUIRE(one);
@@ -60,14 +60,14 @@ TEST_CASE("a linkage is read for both axes, or for each") {
   CHECK(of_three.gimbal.three_servos->radius_plate == 0.09);
 }
 
-TEST_CASE("a calibration is taken as it was measured") {
+TEST_CASE("a calibration is used as measured") {
   const auto calibrated = [](std::vector<double> servo, std::vector<double> plate) {
     CurveLinkage curve{"", std::move(servo), std::move(plate)};
     const scenario::Calibration made = scenario::calibrate(curve);
     return std::pair{curve, made};
   };
   const std::vector<double> five{-2, -1, 0, 1, 2};
-  SECTION("strictly monotone: as it is") {
+  SECTION("strictly monotone: unchanged") {
     for (const double sign : {1.0, -1.0}) {
       std::vector<double> plate{-0.9, -0.5, 0, 0.4, 0.7};
       for (double& one : plate) one *= sign;
@@ -91,7 +91,7 @@ TEST_CASE("a calibration is taken as it was measured") {
     CHECK(curve.servo == five);
     CHECK(curve.plate == std::vector<double>{0.75, 0.5, 0, -0.5, -0.75});
   }
-  SECTION("a flat end with noise of its own") {
+  SECTION("a flat end with its own noise") {
     const auto [curve, made] =
         calibrated({-2, -1, 0, 1, 2, 3, 4, 5}, {-2, -1, 0, 1, 2.01, 2.03, 1.99, 2.02});
     CHECK_THAT(made.done, Contains("flat from 114.592 deg: a stop"));
@@ -108,13 +108,13 @@ TEST_CASE("a calibration is taken as it was measured") {
     CHECK(curve.servo == std::vector<double>{-3, -2, -1, 0.125, 1, 2, 3});
     CHECK(curve.plate == std::vector<double>{-3, -2, -1, 0.1875, 1, 2, 3});
   }
-  SECTION("what turns back is left for the model to refuse") {
+  SECTION("a curve that turns back is left for the model to refuse") {
     const std::vector<double> plate{-1, 0, 1, 0.5, 0};
     const auto [curve, made] = calibrated(five, plate);
     CHECK(made.done.empty());
     CHECK(curve.plate == plate);
   }
-  SECTION("by a scenario, in degrees by a column's name") {
+  SECTION("from a scenario, in degrees because of a column's name") {
     TemporaryFolder folder;
     const std::string table = folder.write(
         "curve.csv", "servo_deg,plate [deg]\n40,10\n30,10\n20,8\n0,0\n0,0.5\n-20,-8\n-30,-10\n");
@@ -131,7 +131,7 @@ TEST_CASE("a calibration is taken as it was measured") {
   }
 }
 
-TEST_CASE("what a servo has in common, an axis may have of its own") {
+TEST_CASE("common servo keys can be overridden by axis") {
   const Scenario scene =
       parse(base, {"gimbal.servo={natural_frequency: 30, damping: 0.8, rate_limit: 5, theta: "
                    "{natural_frequency: 20, angle_limit: 0.4}}"});
@@ -142,7 +142,7 @@ TEST_CASE("what a servo has in common, an axis may have of its own") {
   CHECK(theta.damping == 0.8);
   CHECK(*theta.rate_limit == 5);
   CHECK(*theta.angle_limit == 0.4);
-  // All apart.
+  // All keys by axis.
   const Scenario apart = parse(base, {"gimbal.servo={phi: {natural_frequency: 30, damping: 1}, "
                                       "theta: {natural_frequency: 20, damping: 0.7}}"});
   CHECK(apart.gimbal.servo_of(0).damping == 1);
@@ -195,7 +195,7 @@ TEST_CASE("clocks, frames and sensors are read in SI units") {
   CHECK(std::get<double>(pushed.ball.push->x[0]) == 0.01);
 }
 
-TEST_CASE("servo numbers are read as they are sold") {
+TEST_CASE("servo data are read in the units of data sheets") {
   const Scenario sold = parse(
       base, {"gimbal.servo={model: hobby-standard, speed: \"0.17 s/60deg\", dead_band: \"4 us\", "
              "scale: \"0.1 deg\"}",
@@ -222,7 +222,7 @@ TEST_CASE("servo numbers are read as they are sold") {
              Contains("controller.sampling.period: found \"0 Hz\""));
 }
 
-TEST_CASE("legs take what they lack from all legs") {
+TEST_CASE("each leg inherits keys from all legs") {
   const Scenario scene = parse(
       base,
       {"gimbal.three_servos={radius_base: \"6 cm\", radius_plate: 0.09, horn: 0.04, rod: 0.1, "
@@ -245,7 +245,7 @@ TEST_CASE("legs take what they lack from all legs") {
   CHECK(legs[2].joint_height == 0.004);
 }
 
-TEST_CASE("a ball in a groove is a smaller one with more inertia, along one axis") {
+TEST_CASE("a ball in a groove is a smaller one with more inertia, on one axis") {
   const std::string beam =
       "ball: {radius: 0.02, mass: 0.05, rolling_radius: \"1.2 cm\", position: [0.1, 0]}\n"
       "gimbal: {servo: {natural_frequency: \"5 Hz\", damping: 0.8}}\n"
@@ -284,7 +284,7 @@ TEST_CASE("a ball in a groove is a smaller one with more inertia, along one axis
              Contains("the law's gains move both axes"));
 }
 
-TEST_CASE("what makes no sense of these keys is refused, with why") {
+TEST_CASE("invalid values of these keys are refused with a reason") {
   struct Case {
     std::vector<std::string> overrides;
     const char* expected;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Single keys of a scenario's text: where they stand, and what number they hold.
+// Single keys of a scenario's text: their places and their numbers.
 #include <string>
 
 #include "catch.hpp"
@@ -27,12 +27,12 @@ TEST_CASE("a key's place is its line and column, or the override that sets it") 
   CHECK(place_of(source, "controller.lqr") == "a.yaml:3:3");
   CHECK(place_of(source, "controller.lqr.position") == "a.yaml:3:9");
   CHECK(place_of(source, "controller.lqr.command") == "--set controller.lqr.command=3");
-  CHECK(place_of(source, "controller.pd.kv") == "a.yaml:2:1");  // the nearest above it
+  CHECK(place_of(source, "controller.pd.kv") == "a.yaml:2:1");  // the nearest key above it
   CHECK(place_of(source, "sweep") == "a.yaml:1:1");
   CHECK(place_of({"b.yaml", "", {}}, "ball") == "b.yaml:1:1");
 }
 
-TEST_CASE("a key's number is found, whatever else is wrong with the text") {
+TEST_CASE("a key's number is found despite other errors in the text") {
   CHECK(number_at(source, "ball.radius", Dimension::length) == 0.02);
   CHECK(number_at(source, "controller.lqr.command", Dimension::number) == 3.0);
   CHECK_FALSE(number_at(source, "ball.radius", Dimension::time).has_value());

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The names of measures. The table of docs/reference/measures.md is that of the code: with
-// BBSIM_WRITE_DOCS in the environment, the page is written.
+// Names of measures, and the table of docs/reference/measures.md against the code. With
+// BBSIM_WRITE_DOCS in the environment the test writes the page.
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -17,7 +17,7 @@
 using namespace bbsim::scenario;
 using Kind = Measure::Kind;
 
-TEST_CASE("measures have names in SI, whatever the units they were given in") {
+TEST_CASE("measures have names in SI, whatever the units given") {
   const auto name = [](const char* text) {
     const auto measure = find_measure(text);
     return measure ? measure->name : "none";
@@ -29,7 +29,7 @@ TEST_CASE("measures have names in SI, whatever the units they were given in") {
   CHECK(name("when tracking_error stays below 2 mm") == "when tracking_error stays below 0.002");
   CHECK(name("find vy when x stays above 0.1") == "find vy when x stays above 0.1");
   CHECK(name("find y at 20 ms") == "find y at 0.02");
-  // A window's text stays as it is.
+  // A window's text is unchanged.
   CHECK(name(" rms_x from 5 s ") == "rms_x from 5 s");
   CHECK(name("x.Overshoot to 20 s") == "x.Overshoot to 20 s");
   CHECK(name("when x=5 cm from 500 ms to 20 s") == "when x=0.05 cross=1 from 500 ms to 20 s");
@@ -66,7 +66,7 @@ TEST_CASE("measures have names in SI, whatever the units they were given in") {
   }
 }
 
-TEST_CASE("measures have units and meanings, and know what they need") {
+TEST_CASE("measures have units and meanings, and know their requirements") {
   CHECK(find_measure("x.RiseTime")->unit() == "s");
   CHECK(find_measure("x.Overshoot")->unit() == "%");
   CHECK(find_measure("x.Peak")->unit() == "m");
@@ -89,7 +89,7 @@ TEST_CASE("measures have units and meanings, and know what they need") {
   CHECK_THROWS_AS(measures_named({"when x=1 cm", "when x=0.01"}, open), bbsim::InputError);
 }
 
-TEST_CASE("a measure that is none has a hint at the one that was meant") {
+TEST_CASE("an unknown measure gets a hint at the likely one") {
   CHECK(measure_hint("x.RizeTime") == " (did you mean x.RiseTime?)");
   CHECK(measure_hint("x.risetime") == " (did you mean x.RiseTime?)");
   CHECK(measure_hint(" max_titl") == " (did you mean max_tilt?)");
@@ -101,7 +101,7 @@ TEST_CASE("a measure that is none has a hint at the one that was meant") {
   CHECK(measure_hint("max_titl", columns) == "");
 }
 
-TEST_CASE("a window is read, and refused where the run does not have it") {
+TEST_CASE("a window is read, and refused if it is outside the run") {
   const auto measure = find_measure("max_x from 500 ms to 20 s");
   REQUIRE(measure);
   CHECK(measure->window.from == 0.5);
@@ -117,13 +117,13 @@ TEST_CASE("a window is read, and refused where the run does not have it") {
     CAPTURE(wrong);
     CHECK_THROWS_AS(measures_named({wrong}, scene), bbsim::InputError);
   }
-  // 3 * 0.1 is 0.3, and the row there is of both.
+  // 3 * 0.1 rounds above 0.3, but the row there belongs to both.
   CHECK(Window{{}, 0.3}.holds(3 * 0.1));
   CHECK(Window{0.3, {}}.holds(3 * 0.1));
   CHECK_FALSE(Window{{}, 0.3}.holds(0.3 + 1e-12));
 }
 
-TEST_CASE("expectations are read, with units, and are judged") {
+TEST_CASE("expectations are read with units and judged") {
   bbsim::Scenario scene;
   scene.time = {20, 1};
   const auto read = [&](const char* text) { return read_expectation("--expect", text, scene); };
@@ -149,7 +149,7 @@ TEST_CASE("expectations are read, with units, and are judged") {
   }
 }
 
-TEST_CASE("the page of measures has the names, units and meanings of those of the loop") {
+TEST_CASE("the page of measures has the loop measures' names, units and meanings") {
   const std::string file = std::string(BBSIM_SOURCE_DIR) + "/docs/reference/measures.md";
   std::stringstream read;
   read << std::ifstream(file).rdbuf();
@@ -168,7 +168,7 @@ TEST_CASE("the page of measures has the names, units and meanings of those of th
   CHECK(page == wanted);
 }
 
-TEST_CASE("measures of the loop are of a scene with a law, and of no window") {
+TEST_CASE("measures of the loop need a scene with a law, and no window") {
   const auto measure = find_measure(" phi_delay_margin ");
   CHECK_FALSE(find_measure("phi_delay_margin from 1 s"));
   CHECK_FALSE(find_measure("max_phi_delay_margin"));
@@ -183,7 +183,7 @@ TEST_CASE("measures of the loop are of a scene with a law, and of no window") {
   CHECK(split.loop_places == std::vector<std::size_t>{0, 2});
   CHECK(split.motion_places == std::vector<std::size_t>{1});
   CHECK(split.of_motion.at(0).name == "max_tilt");
-  // A margin that any change leaves needs no excuse; one that is not there does.
+  // An infinite margin needs no reason, a missing one does.
   const double infinite = std::numeric_limits<double>::infinity();
   const double numbers[] = {1, 0.1, infinite};
   CHECK(why_not_finite(mixed, numbers, {}).empty());

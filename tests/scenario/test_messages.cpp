@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The exact words of the commonest errors.
+// Exact texts of the most common errors.
 #include "catch.hpp"
 #include "support/reading.hpp"
 
@@ -29,7 +29,7 @@ TEST_CASE("an unknown key names the nearest known one") {
         "scenario.yaml:3:3: ball.raduis: unknown key; did you mean ball.radius?");
 }
 
-TEST_CASE("an unknown key that other tools have names bbsim's") {
+TEST_CASE("a key of other tools gets bbsim's name for it") {
   CHECK_THAT(errors("servo: {damping: 1}\n"),
              Contains("servo: unknown key; did you mean gimbal.servo?"));
   CHECK_THAT(errors("controller: {pd: {kp: 1, kd: 1}}\n"),
@@ -57,7 +57,7 @@ TEST_CASE("a missing key is reported at the mapping that lacks it") {
         "or \"1 cm\"");
 }
 
-TEST_CASE("missing sections are reported by the keys that they need") {
+TEST_CASE("missing sections are reported by their required keys") {
   CHECK(errors("{}") ==
         "scenario.yaml:1:1: ball.radius: missing; allowed: a length greater than 0, such as 0.01 "
         "or \"1 cm\"\n"
@@ -96,7 +96,7 @@ TEST_CASE("a wrong type") {
         "Hz\"");
 }
 
-TEST_CASE("a key without a value is where the key stands, whatever comes below") {
+TEST_CASE("a key without a value is reported at the key, whatever follows") {
   const std::string more = "time: {end: 1, step: 1}\n";
   CHECK(errors("ball:\n  radius: 0.01\n  mass:\n\n# a comment\ngimbal: {motion: {}}\n" + more) ==
         "scenario.yaml:3:3: ball.mass: found nothing; allowed: a mass greater than 0, such as 0.1 "
@@ -113,7 +113,7 @@ TEST_CASE("a quantity of another dimension, and a number in quotes") {
         "as 0.02 or \"20 ms\"");
 }
 
-TEST_CASE("a value that was not found breaks no rule with others") {
+TEST_CASE("a missing value gives no errors from rules with other keys") {
   const std::string loop =
       "ball: {radius: 0.01}\ntime: {end: 1, step: 1}\n"
       "gimbal: {servo: {natural_frequency: 5, damping: 0.8}}\n"

@@ -59,11 +59,11 @@ TEST_CASE("a program and a library are read, with their parameters") {
   CHECK(with_library.controller->own->folder == "some/folder");
 }
 
-TEST_CASE("columns of other names are the controller's, where it is one's own") {
+TEST_CASE("unknown columns belong to the controller if it is your own") {
   const Scenario own = parse(scene(program, "output: {columns: [t, u_integral, x, V2]}"));
   CHECK(scenario::own_columns(own) == std::vector<std::string>{"u_integral", "V2"});
   CHECK(scenario::find_column("u_integral")->needs == scenario::Needs::own);
-  // Known by now, and still not for scenes without such a controller.
+  // The names are now known, but still invalid for scenes without such a controller.
   const std::string built_in =
       scene("pd: {kv: 1, kp: 1}", "output: {columns: [t, u_integral, phi_comand]}");
   CHECK(contains(errors(built_in), "output.columns.1: found u_integral; allowed: one of t, x"));
@@ -73,7 +73,7 @@ TEST_CASE("columns of other names are the controller's, where it is one's own") 
   CHECK(contains(errors(scene(program, "output: {columns: [t, u, u]}")), "found u again"));
 }
 
-TEST_CASE("what a controller of one's own cannot be is refused at its key") {
+TEST_CASE("invalid settings of your own controller are refused at their keys") {
   struct Wrong {
     std::string text, told;
   };
@@ -101,7 +101,7 @@ TEST_CASE("what a controller of one's own cannot be is refused at its key") {
   CHECK(contains(found, told));
 }
 
-TEST_CASE("a controller of one's own needs samples") {
+TEST_CASE("your own controller needs samples") {
   std::string text = scene(program);
   text.replace(text.find("  sampling"), std::string("  sampling: {period: 0.02}\n").size(), "");
   CHECK(errors(text) ==

@@ -95,7 +95,7 @@ TEST_CASE("a term is exactly one of the shapes") {
                                        Contains("or a list of these: their sum"));
 }
 
-TEST_CASE("a table is read from beside the scenario") {
+TEST_CASE("a table is read relative to the scenario") {
   const TemporaryFolder folder;
   static_cast<void>(folder.write("motion.csv", five_rows("5,3,4")));
   const std::string scenario =
@@ -173,7 +173,7 @@ TEST_CASE("a table is moved, scaled and delayed") {
   CHECK(delayed.values.back() == delayed.values[4]);
 }
 
-TEST_CASE("a clock of 32 bits that wraps drives a scene") {
+TEST_CASE("a wrapping 32-bit clock drives a scene") {
   const TemporaryFolder folder;
   static_cast<void>(
       folder.write("log.csv", "us,a\n4290000000,1\n4294000000,2\n32704,3\n9032704,4\n"));
@@ -185,7 +185,7 @@ TEST_CASE("a clock of 32 bits that wraps drives a scene") {
   CHECK(std::get<Table>(read.gimbal.motion->phi[0]).times == std::vector<double>{0, 4, 5, 14});
 }
 
-TEST_CASE("a table must cover a run that an override makes longer") {
+TEST_CASE("a table must cover a run that an override lengthens") {
   const TemporaryFolder folder;
   static_cast<void>(folder.write("motion.csv", five_rows("5,3,4")));
   const std::string scenario =
@@ -196,7 +196,7 @@ TEST_CASE("a table must cover a run that an override makes longer") {
                              "to 11 s"));
 }
 
-TEST_CASE("the tables that were read are told, as the scenario names them") {
+TEST_CASE("the tables read are reported under the scenario's names") {
   const TemporaryFolder folder;
   const std::string table = "t,angle,other\n0,0,1\n1,0.1,2\n2,0,3\n3,0.1,4\n";
   static_cast<void>(folder.write("a.csv", table));
@@ -216,7 +216,7 @@ TEST_CASE("the tables that were read are told, as the scenario names them") {
   CHECK(inputs[1].data->columns[2] == std::vector<double>{1, 2, 3, 4});
 }
 
-TEST_CASE("what a table calls its columns is shown fit for a terminal") {
+TEST_CASE("a table's column names are shown safe for a terminal") {
   const TemporaryFolder folder;
   static_cast<void>(folder.write("a.csv", "t,x\u009b2J\n0,0\n1,1\n2,2\n3,3\n"));
   const std::string text =

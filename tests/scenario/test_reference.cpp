@@ -23,7 +23,7 @@ Kind read_as(const std::string& reference) {
   return std::get<Kind>(scenario.controller->reference);
 }
 
-// The problems of a reference, without the place, which is the override.
+// The problems of a reference without their place, which is the override.
 std::string problem(const std::string& reference) {
   const std::string place = "--set " + key + "=" + reference + ": ";
   const std::string text = errors(closed_loop, {key + "=" + reference});
@@ -57,7 +57,7 @@ TEST_CASE("a point") {
         key + ".point: found 1; allowed: two lengths [x, y], such as [0.1, 0]");
 }
 
-TEST_CASE("a circle has a centre, by default the origin") {
+TEST_CASE("a circle's center is the origin by default") {
   const auto circle = read_as<CircleReference>("{circle: {radius: 0, rate: -0.3, phase: 1}}");
   CHECK(circle.radius == 0);
   CHECK(circle.rate == -0.3);
@@ -108,7 +108,7 @@ TEST_CASE("waypoints, with units and defaults") {
   CHECK(problem(rest + "yes}}") == waypoints + "rest: found yes; allowed: one of true, false");
 }
 
-TEST_CASE("waypoints that make no path are refused") {
+TEST_CASE("waypoints that form no path are refused") {
   const std::string points = "; allowed: a list of 2 to 10000 points [x, y]";
   const std::string times = "; allowed: a list of 2 to 10000 times, one for each point";
   CHECK(problem(way("[[0, 0]]", "[0, 1]")) == waypoints + "points: found a list of 1" + points);
@@ -130,7 +130,7 @@ TEST_CASE("waypoints that make no path are refused") {
             "\"20 ms\"");
 }
 
-TEST_CASE("a reference table is read from beside the scenario") {
+TEST_CASE("a reference table is read relative to the scenario") {
   const TemporaryFolder folder;
   const auto scenario = [&](const std::string& table) {
     return folder.write("scenario.yaml",
@@ -184,7 +184,7 @@ TEST_CASE("a reference table is read from beside the scenario") {
             "time_unit, scale, offset, delay, time_offset");
 }
 
-TEST_CASE("a step is from the origin at the start, unless it says otherwise") {
+TEST_CASE("a step starts at the origin at t = 0 unless given otherwise") {
   const auto all = read_as<StaircaseReference>("{step: {from: [1 cm, 0], to: [0, 2 cm], at: 3 s}}");
   CHECK(all.points == std::vector<Pair>{{0.01, 0}, {0, 0.02}});
   CHECK(all.jumps == std::vector<double>{3});
@@ -201,7 +201,7 @@ TEST_CASE("a step is from the origin at the start, unless it says otherwise") {
         step + "time: unknown key; known keys here: from, to, at");
 }
 
-TEST_CASE("a square wave has a period, and its axes have amplitudes and phases of their own") {
+TEST_CASE("a square wave has one period, and an amplitude and phase per axis") {
   const auto all = read_as<SquareReference>(
       "{square: {amplitude: [5 cm, -0.03], period: 500 ms, phase: [0, 90 deg], center: [0, 1 cm], "
       "duty: 0.25}}");
@@ -226,7 +226,7 @@ TEST_CASE("a square wave has a period, and its axes have amplitudes and phases o
                                "longer period"));
 }
 
-TEST_CASE("a staircase has a time for each point, from which it holds") {
+TEST_CASE("a staircase holds each point from its time on") {
   const auto stairs = read_as<StaircaseReference>(
       "{staircase: {points: [[0, 0], [1 cm, 0], [0, 2 cm]], times: [0, 1, 2500 ms]}}");
   CHECK(stairs.points == std::vector<Pair>{{0, 0}, {0.01, 0}, {0, 0.02}});

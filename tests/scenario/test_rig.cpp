@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Keys of built rigs: what they read as, and which combinations are refused, with why.
+// Keys of real rigs: their values, and refused combinations with reasons.
 #include "catch.hpp"
 #include "support/reading.hpp"
 
@@ -26,7 +26,7 @@ const std::string prescribed =
 
 }  // namespace
 
-TEST_CASE("commands that are known beforehand take no path and no sensor") {
+TEST_CASE("prerecorded commands take no path and no sensor") {
   const std::string played =
       "ball: {radius: 0.02}\n"
       "gimbal: {servo: {natural_frequency: \"5 Hz\", damping: 0.8}}\n"
@@ -110,7 +110,7 @@ TEST_CASE("each law reads its own gains") {
   CHECK(law("gravity_compensation: {kp: 4, kv: 4}").law == Law::gravity_compensation);
 }
 
-TEST_CASE("combinations that mean nothing are refused, with why") {
+TEST_CASE("inconsistent combinations are refused with a reason") {
   struct Case {
     std::string text;
     std::vector<std::string> overrides;
@@ -162,7 +162,7 @@ TEST_CASE("combinations that mean nothing are refused, with why") {
   }
 }
 
-TEST_CASE("a seed goes with what is drawn, be it switched off") {
+TEST_CASE("a seed is allowed with random parts, even if they are switched off") {
   for (const char* drawn : {"noise=0.001", "noise=0", "dropout=0.1"}) {
     CHECK(errors(base, {"controller.sampling.period=0.01", "controller.sensor.seed=3",
                         std::string("controller.sensor.") + drawn})
@@ -170,7 +170,7 @@ TEST_CASE("a seed goes with what is drawn, be it switched off") {
   }
 }
 
-TEST_CASE("feedback linearisation and gravity compensation drive what they give") {
+TEST_CASE("feedback linearization and gravity compensation drive their own outputs") {
   const auto error_with = [](const std::string& law, const std::string& rest) {
     return errors(
         "ball: {radius: 0.02}\n"
@@ -186,7 +186,7 @@ TEST_CASE("feedback linearisation and gravity compensation drive what they give"
              Catch::Matchers::Contains("controller.gravity_compensation: found, but"));
 }
 
-TEST_CASE("measured periods count in the number of samples") {
+TEST_CASE("measured periods count toward the number of samples") {
   const TemporaryFolder folder;
   const auto problems = [&](const std::string& period) {
     const std::string file = folder.write("p.csv", "p\n" + period + "\n");

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The scenarios of tests/data, value by value. Decimal values and whole fractions of pi convert
-// exactly, so they are compared exactly.
+// The scenarios of tests/data, value by value. Decimal values and simple fractions of pi convert
+// exactly and are compared exactly.
 #include <numbers>
 
 #include "catch.hpp"

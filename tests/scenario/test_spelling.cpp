@@ -52,7 +52,7 @@ TEST_CASE("both spellings of a key are read") {
   }
 }
 
-TEST_CASE("both spellings of a key beside each other are one key twice") {
+TEST_CASE("the two spellings of a key count as a duplicate") {
   CHECK(
       errors(scene("      centre: [0, 0]\n      center: [0, 1]\n")) ==
       "scenario.yaml:10:7: " + circle +
@@ -77,7 +77,7 @@ TEST_CASE("a message names the key as it is written") {
   }
 }
 
-TEST_CASE("a misspelt key is told the nearest spelling") {
+TEST_CASE("a misspelled key gets the nearest spelling") {
   const auto hint = [](const std::string& key, const std::string& nearest) {
     return errors(scene("      " + key + ": [0, 0]\n")) == "scenario.yaml:9:7: " + circle + key +
                                                                ": unknown key; did you mean " +
@@ -113,7 +113,7 @@ TEST_CASE("a family reads a key in either spelling") {
   CHECK(family.unit_of(circle + "centre.1", {}) == "m");
 }
 
-TEST_CASE("parameters of a user's own controller have one spelling") {
+TEST_CASE("parameters of your own controller have one spelling") {
   const std::string text =
       "ball: {radius: 0.01}\ntime: {end: 1, step: 0.1}\n"
       "gimbal: {servo: {natural_frequency: 10, damping: 1}}\n"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Units of tables: what they are said to be in, and what they look like if nothing is said.
+// Units of tables: declared units, and guesses if none are declared.
 #include <cmath>
 #include <numbers>
 
@@ -16,7 +16,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// Degrees, millimetres and milliseconds: what a log of a rig has.
+// Degrees, millimeters and milliseconds, as in a rig's log.
 const char* const rows =
     "t,phi,x,y,f\n"
     "0,0,0,-30,0\n2500,2,100,0,5\n5000,-4,50,30,10\n7500,1,0,0,5\n10000,0,0,0,0\n";
@@ -48,7 +48,7 @@ std::string told(const Scenario& scenario) {
 
 }  // namespace
 
-TEST_CASE("a table is in the units that it says") {
+TEST_CASE("a table has the units that it declares") {
   const Scene scene(rows);
   const Scenario motion = scene.read("motion", ", unit: deg, time_unit: ms");
   const auto& phi = std::get<Table>(motion.gimbal.motion->phi[0]);
@@ -77,7 +77,7 @@ TEST_CASE("a table is in the units that it says") {
                                                          "one of m, km, cm, mm, um, nm"));
   CHECK_THAT(wrong("motion", ", time_unit: Hz"),
              Contains("table.time_unit: found Hz; allowed: one of s, ms, us, ns, min, h"));
-  // In milliseconds the same times do not cover the run.
+  // Read in microseconds, the same times do not cover the run.
   CHECK_THAT(wrong("motion", ", time_unit: us"), Contains("found times from 0 to 0.01 s"));
 }
 
@@ -95,10 +95,10 @@ TEST_CASE("torques and forces of a table have units too") {
         std::vector<double>{0, 0.005, 0.01, 0.5});
   CHECK(std::get<Table>(scenario.gimbal.torque->phi[0]).values ==
         std::vector<double>{0, 0.005, 0.01, 0.5});
-  CHECK(told(scenario).empty());  // neither looks like anything
+  CHECK(told(scenario).empty());  // neither looks like another unit
 }
 
-TEST_CASE("a table that says no unit is warned of where it looks like another") {
+TEST_CASE("a table without units gives a warning if it looks like another unit") {
   const Scene scene(rows);
   const std::string motion = told(scene.read("motion", ""));
   CHECK_THAT(motion, Contains("warning: gimbal.motion.phi.table: log.csv: value goes up to 4, read "
@@ -113,13 +113,13 @@ TEST_CASE("a table that says no unit is warned of where it looks like another") 
       Contains("controller.reference.table: log.csv: x goes up to 100, read in m: it looks like "
                "millimeters or centimeters; say unit: mm or cm, or unit: m if that is right"));
   CHECK_THAT(path, Contains("time_unit: ms"));
-  // What is said is believed, and says nothing of the other.
+  // A declared unit is believed; the other column still gives a warning.
   CHECK_THAT(told(scene.read("motion", ", unit: rad")), !Contains("degrees"));
   CHECK_THAT(told(scene.read("motion", ", unit: rad")), Contains("milliseconds"));
   CHECK_THAT(told(scene.read("motion", ", time_unit: s")), !Contains("milliseconds"));
   CHECK_THAT(told(scene.read("motion", ", time_unit: s")), Contains("degrees"));
 
-  // At the thresholds nothing is said.
+  // Exactly at the thresholds there is no warning.
   const Scene plain("t,phi,x,y\n0,0,0,-1\n1,1.6,1,0\n2,-1.6,0,0\n100,0,0,0\n");
   CHECK(told(plain.read("motion", "")).empty());
   CHECK(told(plain.read("reference", "")).empty());
@@ -169,12 +169,12 @@ TEST_CASE("periods of a clock and angles of a linkage have units") {
   CHECK_THROWS_WITH(read(", unit: deg", ""), Contains("jitter.unit: found deg; allowed: one of s"));
 }
 
-TEST_CASE("columns of a log look like other units by the names that they have") {
+TEST_CASE("log columns are checked for other units by their names") {
   CHECK(doubt_of(1.7, "phi")->looks_like == "degrees");
   CHECK_FALSE(doubt_of(1.6, "phi"));
   CHECK(doubt_of(1.1, "x_reference")->looks_like == "millimeters or centimeters");
   CHECK_FALSE(doubt_of(1, "x"));
-  CHECK_FALSE(doubt_of(100, "gamma"));  // a ball that has turned often
+  CHECK_FALSE(doubt_of(100, "gamma"));  // a ball may turn often
   CHECK_FALSE(doubt_of(100, "vx"));
   CHECK_FALSE(doubt_of(100, "phi_deg"));
   CHECK(largest_size({1, -3, std::nan(""), 2}) == 3);

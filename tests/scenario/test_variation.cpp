@@ -41,7 +41,7 @@ TEST_CASE("specs are read") {
   CHECK(read("normal:1 cm:1 mm").values == std::vector<std::string>{"1 cm", "1 mm"});
 }
 
-TEST_CASE("the commas of a value part no list") {
+TEST_CASE("commas inside a value do not split a list") {
   const VariationSpec list = read("list:[[1, 0], [0, -1]], 2, \"a, b\", {c: [3, 4]}");
   CHECK(list.values ==
         std::vector<std::string>{"[[1, 0], [0, -1]]", "2", "\"a, b\"", "{c: [3, 4]}"});
@@ -49,7 +49,7 @@ TEST_CASE("the commas of a value part no list") {
   CHECK(read("list:5").values == std::vector<std::string>{"5"});
 }
 
-TEST_CASE("a spec that is none says what is allowed") {
+TEST_CASE("an invalid spec gets the allowed forms") {
   for (const char* wrong :
        {"", "1:2:3", "linear:1:2", "linear:1:2:3:4", "linear", "uniform:1", "normal:1:2:3",
         "list:", "list:1,,2", "linear::2:3", "quadratic:1:2:3"}) {
@@ -64,7 +64,7 @@ TEST_CASE("a spec that is none says what is allowed") {
   }
 }
 
-TEST_CASE("a bound that is no number is refused with the spec, before a case is read") {
+TEST_CASE("an invalid bound is refused with the spec, before any case is read") {
   for (const char* wrong : {"linear:null:1:3", "linear:0.01:~:3", "log:*a:1:3", "linear:{}:1:3",
                             "uniform:a:b", "normal:0:true"}) {
     INFO(wrong);
@@ -76,7 +76,7 @@ TEST_CASE("a bound that is no number is refused with the spec, before a case is 
   }
 }
 
-TEST_CASE("KEY=SPEC is parted at its first equals sign") {
+TEST_CASE("KEY=SPEC is split at its first equals sign") {
   const Variation variation = split_variation("a.b=list:x=1");
   CHECK(variation.key == "a.b");
   CHECK(variation.spec == "list:x=1");

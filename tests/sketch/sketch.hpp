@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sketches that are compiled by the program, and run by it.
+// Sketches compiled and run by the program.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-// A sketch of the folder sketches/, compiled into a library of its own.
+// A sketch in the folder sketches/, compiled into its own library.
 class Sketch {
  public:
   explicit Sketch(const std::string& name, const std::vector<std::string>& more_files = {})
@@ -29,13 +29,13 @@ class Sketch {
     words.insert(words.end(), {"-I", sketches("libraries"), "-o", library()});
     made = bbsim(words);
   }
-  // One whose text is given, with its wiring.
+  // A sketch with the given text and wiring.
   Sketch(const std::string& text, const std::string& wiring)
       : wiring_(folder_.write("wiring.yaml", wiring)) {
     made = bbsim({"sketch", folder_.write("own.ino", text), "-o", library()});
   }
 
-  // The program's words: what it does with the rig, driven by the sketch.
+  // The arguments that run a command on the rig, driven by the sketch.
   [[nodiscard]] std::vector<std::string> words(const std::string& command,
                                                std::vector<std::string> more = {}) const {
     std::vector<std::string> words{

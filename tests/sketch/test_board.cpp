@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a board has and what it lacks, and what is said where a sketch, its wiring or its scenario
-// is at fault.
+// Features of the board, missing features, and messages about faulty sketches, wirings or
+// scenarios.
 #include <string>
 #include <vector>
 
@@ -17,7 +17,7 @@ const char* const plain_wiring = "servos: {phi: {pin: 9}, theta: {pin: 10}}\n";
 
 }  // namespace
 
-TEST_CASE("a board has what sketches use, as the boards have it") {
+TEST_CASE("a board has what sketches use, as on real boards") {
   const Sketch sketch("board");
   CAPTURE(sketch.made.err);
   REQUIRE(sketch.made.exit_code == 0);
@@ -27,11 +27,11 @@ TEST_CASE("a board has what sketches use, as the boards have it") {
   CAPTURE(result.err);
   CHECK(result.exit_code == 0);
   CHECK(contains(result.err, "controller: printf 7\ncontroller: all is well\n"));
-  // Both servos are level; setup() took half a second of serial lines and ended before t = 0.
+  // Both servos are level; setup() took half a second for serial output and ended before t = 0.
   CHECK(contains(result.out, "t,phi_command,theta_command,loops\n0,0,0,"));
 }
 
-TEST_CASE("screens and a servo driver give the numbers that their libraries give") {
+TEST_CASE("screens and a servo driver give their libraries' numbers") {
   const Folder folder;
   const Sketch sketch(
       "#include <Adafruit_PWMServoDriver.h>\n#include <Adafruit_STMPE610.h>\n#include "
@@ -58,7 +58,7 @@ TEST_CASE("screens and a servo driver give the numbers that their libraries give
                                       "output.columns=[t, phi_command, theta_command]", "--set",
                                       "time.end=0.02", "-o", "-", "-q"}));
   };
-  // A step is 132 of 27e6 s; 307 of them are 1500.9 us, 28.9 us above level.
+  // A step is 132 of 27e6 s; 307 steps are 1500.9 us, 28.9 us above level.
   const Result wires = run(
       "inputs: {7: 0}\nscreen:\n  four_wire: {x_plus: A0, y_plus: A1, x_minus: A2, y_minus: A3}\n"
       "  x: {counts: [112, 912], position: [-0.16, 0.16]}\n"
@@ -73,7 +73,7 @@ TEST_CASE("screens and a servo driver give the numbers that their libraries give
   CHECK(contains(chip.err, "controller: 1469 2425 64\n"));
 }
 
-TEST_CASE("a global variable that uses the board is refused, with where to use it") {
+TEST_CASE("a global variable that uses the board is refused, with the right place for it") {
   const std::string use = GENERATE("EEPROM.read(0)", "analogRead(A5)", "digitalRead(7)");
   const Sketch sketch(
       "#include <EEPROM.h>\nint start = " + use + ";\nvoid setup() {}\nvoid loop() {}\n",
@@ -84,7 +84,7 @@ TEST_CASE("a global variable that uses the board is refused, with where to use i
   CHECK(contains(run.err, "a global variable uses the board before setup()"));
 }
 
-TEST_CASE("what a board lacks is an error of the compiler, with a hint") {
+TEST_CASE("a missing board feature is a compiler error with a hint") {
   const Sketch sketch(
       "#include <Wire.h>\n#include <SPI.h>\nvoid tick() {}\nvoid setup() {\n"
       "  attachInterrupt(2, tick, 1);\n  Wire.requestFrom(0x68, 6);\n  SPI.transfer(3);\n"
@@ -104,7 +104,7 @@ TEST_CASE("what a board lacks is an error of the compiler, with a hint") {
   CHECK(sketch.folder().files() == std::vector<std::string>{"own.ino", "wiring.yaml"});
 }
 
-TEST_CASE("the compiler's messages show the sketch's own lines, and warnings stay warnings") {
+TEST_CASE("compiler messages show the sketch's own lines, and warnings stay warnings") {
   const Sketch wrong(
       "void loop() {\n  later();\n  nobody();\n}\nvoid setup() {}\nvoid later() {}\n",
       plain_wiring);
@@ -117,7 +117,7 @@ TEST_CASE("the compiler's messages show the sketch's own lines, and warnings sta
   CHECK(contains(missing.made.err, "name the folder of a library with -I"));
 }
 
-TEST_CASE("what a sketch does that its wiring has nothing for ends the run, with the cure") {
+TEST_CASE("a sketch that uses something not in its wiring ends the run, with the remedy") {
   const Folder folder;
   const Sketch sketch(
       "#include <Servo.h>\n#include <EEPROM.h>\n#include <Adafruit_PWMServoDriver.h>\n"
@@ -152,7 +152,7 @@ TEST_CASE("what a sketch does that its wiring has nothing for ends the run, with
   }
 }
 
-TEST_CASE("a sketch that waits for what cannot come is found out", "[slow]") {
+TEST_CASE("a sketch that waits forever is detected", "[slow]") {
   const Sketch sketch("void setup() {}\nvoid loop() { if (millis() > 100) while (1); }\n",
                       plain_wiring);
   const Result result = bbsim(sketch.words("run", {"-o", "-"}));
@@ -160,10 +160,10 @@ TEST_CASE("a sketch that waits for what cannot come is found out", "[slow]") {
   CHECK(result.exit_code == 1);
   CHECK(contains(result.err,
                  "it is in an endless loop: 5 s of processor time without a call that takes time"));
-  CHECK(contains(result.out, "\n0.08,"));  // the rows before
+  CHECK(contains(result.out, "\n0.08,"));  // the rows before it
 }
 
-TEST_CASE("a scenario that a sketch cannot serve is refused") {
+TEST_CASE("a scenario unsuitable for a sketch is refused") {
   const Sketch sketch("void setup() {}\nvoid loop() {}\n", plain_wiring);
   struct Wrong {
     std::vector<std::string> settings;
@@ -191,13 +191,13 @@ TEST_CASE("a scenario that a sketch cannot serve is refused") {
       bbsim(sketch.words("run", {"--save-state", sketch.folder() / "state", "-o", "-"}));
   CHECK(parts.exit_code == 2);
   CHECK(contains(parts.err, "found with a controller that cannot save its state"));
-  // What it reads is not written over.
+  // Input files are not overwritten.
   for (const char* name : {"sketch.so", "wiring.yaml"}) {
     CHECK(bbsim(sketch.words("run", {"-o", sketch.folder() / name})).exit_code == 2);
   }
 }
 
-TEST_CASE("the library has a name by default, which replaces nothing else") {
+TEST_CASE("the library has a default name, which replaces no other file") {
   const Folder folder;
   folder.write("a.ino", "void setup() {}\nvoid loop() {}\n");
   CHECK(bbsim({"sketch", "a.ino"}, folder.path()).err == "a.so: a controller.library\n");

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Files of a sketch as one source; and where libraries are found.
+// A sketch's files as one source, and the search for libraries.
 #include <filesystem>
 #include <string>
 
@@ -24,14 +24,14 @@ const std::string start = "#include <Arduino.h>\n#line 1 \"a.ino\"\n";
 
 }  // namespace
 
-TEST_CASE("a sketch that needs no prototypes is only joined") {
+TEST_CASE("a sketch that needs no prototypes is only concatenated") {
   const std::string text = "int f(int a) { return a; }\nvoid setup() { f(1); }\nvoid loop() {}\n";
   CHECK(of(text) == start + text + "\n");
   CHECK(joined({{"a \"b\".ino", "int a;"}, {"c.ino", "int b;"}}) ==
         "#include <Arduino.h>\n#line 1 \"a \\\"b\\\".ino\"\nint a;\n#line 1 \"c.ino\"\nint b;\n");
 }
 
-TEST_CASE("a function that is used above its definition has a prototype above the use") {
+TEST_CASE("a function used before its definition gets a prototype before the use") {
   CHECK(
       of("struct P { int x; };\nvoid loop() { f({1}, 2); }\nint f(P p, int b = 3) { return b; "
          "}\n") ==
@@ -40,7 +40,7 @@ TEST_CASE("a function that is used above its definition has a prototype above th
           "void loop() { f({1}, 2); }\nint f(P p, int b = 3) { return b; }\n\n");
 }
 
-TEST_CASE("what only looks like a function, or a use, has none") {
+TEST_CASE("text that only resembles a function or a use gets no prototype") {
   const std::string text =
       GENERATE(as<std::string>{}, "void loop() { /* f(); */ } // f()\nvoid f() {}",
                "const char* t = \"f() { \"; char c = '{';\nvoid f() {}",
@@ -53,7 +53,7 @@ TEST_CASE("what only looks like a function, or a use, has none") {
   CHECK(of(text) == start + text + "\n");
 }
 
-TEST_CASE("a prototype within a condition is repeated for those outside of it") {
+TEST_CASE("a prototype inside a conditional is repeated for uses outside") {
   const std::string made =
       of("#if A\nvoid g() { f(); }\n#endif\nvoid loop() { f(); }\nvoid f() {}\n");
   std::size_t count = 0;
@@ -61,12 +61,12 @@ TEST_CASE("a prototype within a condition is repeated for those outside of it") 
   CHECK(count == 2);
 }
 
-TEST_CASE("includes are found, and only those") {
+TEST_CASE("includes are found, and nothing else") {
   CHECK(includes_of("#include <A.h>\n # include \"b/B.h\" // <C.h>\n// #include "
                     "<D.h>\n/*\n#include <E.h>\n*/") == std::vector<std::string>{"A.h", "b/B.h"});
 }
 
-TEST_CASE("libraries are found as the IDE finds them") {
+TEST_CASE("libraries are found as in the IDE") {
   namespace fs = std::filesystem;
   const bbsim_test::Folder folder;
   const auto put = [&](const std::string& name, const std::string& text) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The sketches of sketches/, each in the style of those that people publish, run unchanged and
-// balance.
+// The sketches of sketches/, each in a style that people publish, run unchanged and balance the
+// ball.
 #include <cstdlib>
 #include <string>
 #include <vector>
@@ -20,7 +20,7 @@ struct Style {
   std::vector<std::string> settings{};
 };
 
-// Inverse kinematics need a plate behind rods; commands are then the servos' angles.
+// Inverse kinematics need a plate with rods; commands are then the servos' angles.
 const Style styles[] = {
     {"pid_touch"},
     {"busy_wait"},
@@ -45,7 +45,7 @@ TEST_CASE(
   std::vector<std::string> words = sketch.words("run", style.settings);
   words.insert(words.end(), {"-o", "-", "-q"});
   std::vector<std::string> strict = words;
-  // Without noise, what is left is the cycle that the counts of the screen make.
+  // Without noise, only the limit cycle from the screen's resolution remains.
   for (const char* axis : {"x", "y"}) {
     strict.insert(strict.end(), {"--expect", std::string("rms_") + axis + " from 7 s < 0.004"});
   }
@@ -64,7 +64,7 @@ TEST_CASE("a hundred runs of a sketch give the same bytes", "[slow]") {
   for (int i = 0; i < 100; ++i) REQUIRE(bbsim(words).out == first);
 }
 
-TEST_CASE("a state machine drives the ball around its square, and prints columns") {
+TEST_CASE("a state machine moves the ball around its square and prints columns") {
   const Sketch sketch("square");
   CAPTURE(sketch.made.err);
   REQUIRE(sketch.made.exit_code == 0);
@@ -78,7 +78,7 @@ TEST_CASE("a state machine drives the ball around its square, and prints columns
   CHECK(result.exit_code == 0);
 }
 
-TEST_CASE("threads of a sweep have boards of their own") {
+TEST_CASE("threads of a sweep have their own boards") {
   const Sketch sketch("pid_touch");
   const std::vector<std::string> cases{
       "--vary",    "ball.position.0=list:-0.06,-0.03,0,0.03,0.05,0.07",
@@ -99,8 +99,8 @@ TEST_CASE("threads of a sweep have boards of their own") {
   CHECK(contains(alone.out, end_x.substr(0, end_x.find('\n'))));
 }
 
-TEST_CASE("the public PID_v1 compiles as it is") {
-  const char* const folder = std::getenv("BBSIM_PID_V1");  // it is not in the repository
+TEST_CASE("the public PID_v1 compiles unchanged") {
+  const char* const folder = std::getenv("BBSIM_PID_V1");  // not in the repository
   if (folder == nullptr) return;
   const Folder into;
   const Result made = bbsim(

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The wiring's file.
+// The wiring file.
 #include <string>
 
 #include "app/process.hpp"
@@ -13,7 +13,7 @@ using bbsim::sketch::Wiring;
 
 namespace {
 
-// What is wrong with a wiring of that text.
+// The faults of a wiring with the given text.
 std::string fault_of(const std::string& text) {
   const bbsim_test::Folder folder;
   try {
@@ -93,7 +93,7 @@ costs: {analog: "20 us"}
   CHECK(c.costs.analog == 20e-6);
 }
 
-TEST_CASE("what is wrong with a wiring is told with its place, all of it at once") {
+TEST_CASE("all faults of a wiring are reported together, each with its place") {
   const std::string fault = fault_of(
       "servos: {phi: {pin: 99}, theta: {pni: 3}, ignore: [4]}\n"
       "screen: {four_wire: {x_plus: A0}, x: {counts: [1, 2], position: [1, 1]}, y: 3}\n"

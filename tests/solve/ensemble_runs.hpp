@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Runs lists of cases in an ensemble, and keeps what became of each.
+// Runs lists of cases in an ensemble and records each outcome.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the hard cases share: scenarios of configs/hard, quad references, and an argued bound.
+// Shared by the hard cases: scenarios of configs/hard, quad references and a derived error bound.
 #pragma once
 
 #include <algorithm>
@@ -33,9 +33,9 @@ inline double size_until(const Run& run, double radius, std::size_t last) {
   return size;
 }
 
-// What the tolerances allow at row i. Each step may leave an error of rtol |z| + atol in each
-// state; in a speed it makes the position drift by that times the time left; where a scene grows
-// exponentially, errors grow as the solution does, which `size_until` counts.
+// Error that the tolerances allow at row i. Each step may leave rtol |z| + atol in each state; in a
+// speed it makes the position drift by that times the remaining time. In an exponentially growing
+// scene errors grow like the solution, which `size_until` includes.
 inline double allowance(const Run& run, bbsim::solve::Tolerances tolerances, double radius,
                         std::size_t i) {
   return static_cast<double>(run.outcome.statistics.steps) *
@@ -66,12 +66,12 @@ inline ExactRun quad_reference(const bbsim::Scenario& scene) {
   return reference;
 }
 
-// The run came to its end, and every row is within what the tolerances allow.
+// Checks that the run is complete and every row within the tolerances' allowance.
 inline void check_against(const ExactRun& reference, const Run& run,
                           bbsim::solve::Tolerances tolerances, double radius) {
   REQUIRE(run.outcome.ending == bbsim::solve::Ending::done);
   REQUIRE(run.samples.size() == reference.x.size());
-  double worst = 0;  // error relative to what is allowed
+  double worst = 0;  // error relative to the allowance
   for (std::size_t i = 1; i < run.samples.size(); ++i) {
     const bbsim::model::BallMotion& ball = run.samples[i].ball;
     const double error =

@@ -1,9 +1,8 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# Kernels must be compiled with the options meant for them (cmake/kernels.cmake), which those of every
-# other target would take back if they came later: products are fused where the instructions for it
-# exist, and sanitizers leave kernels alone.
+# Kernels must be compiled with their own options (cmake/kernels.cmake), which the common options of other targets would
+# undo if they came later: fused products if the instruction set has them, and no sanitizers.
 #
 #   cmake -DNM=nm -DOBJDUMP=objdump "-DOBJECTS=a.o|b.o" -P kernel_options.cmake
 string(REPLACE "|" ";" OBJECTS "${OBJECTS}")

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# The kernels of different instruction sets must share no code: a function that two objects define
-# would be linked from either, and run where its instructions do not exist.
+# Kernels for different instruction sets must share no code: the linker would pick one definition of a shared function,
+# and it could run on a machine without its instructions.
 #
 #   cmake -DNM=nm "-DOBJECTS=a.o|b.o" -P kernel_symbols.cmake
 string(REPLACE "|" ";" OBJECTS "${OBJECTS}")

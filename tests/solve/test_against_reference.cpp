@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Every integrator against quad-precision solutions of every scenario that has one.
+// Every integrator against the quad-precision solutions of all scenarios that have one.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -58,30 +58,30 @@ TEST_CASE("with rtol 1e-10 every scenario is within its bound, and the error fol
     const char* name;
     double position_bound;  // m
   };
-  // A tolerance of 1e-10 leaves about 1e-8 m on scenes that stay within a metre. `fast` and
-  // `tumble` grow exponentially, to 1263 m and 2948 m, and their errors with them.
+  // A tolerance of 1e-10 leaves about 1e-8 m on scenes within a meter. `fast` and `tumble` grow
+  // exponentially, to 1263 m and 2948 m, and so do their errors.
   const auto [name, position_bound] = GENERATE(
       Case{"fig2a", 1e-7}, Case{"fig2b", 1e-7}, Case{"small-ball", 1e-7}, Case{"spin", 1e-7},
       Case{"stiff-servo", 1e-7}, Case{"fast", 1e-4}, Case{"tumble", 1e-5});
   const Method method = GENERATE(Method::automatic, Method::radau, Method::bdf, Method::adams);
   CAPTURE(name, static_cast<int>(method));
-  // Adams takes 500,000 steps for the stiff servo; it is not what anyone would choose.
+  // Adams takes 500,000 steps for the stiff servo; nobody would choose it.
   if (std::string(name) == "stiff-servo" && method == Method::adams) return;
 
   const Scenario scene = scenario_named(name);
   const Run tight_run = run_in_memory(scene, method, {1e-10, 1e-12});
   const Errors tight = errors_against(name, tight_run);
   const Errors loose = errors_against(name, run_in_memory(scene, method, {1e-5, 1e-7}));
-  // BDF and Adams may leave a relative error of rtol in each step, and the largest position bears
-  // the sum of them all, since it and its error grow alike.
+  // BDF and Adams may leave a relative error of rtol in each step. The largest position contains
+  // the sum of all of them, because it and its error grow alike.
   const double of_all_steps =
       1e-10 * static_cast<double>(tight_run.outcome.statistics.steps) * farthest(tight_run);
   const bool multistep = method == Method::bdf || method == Method::adams;
   CHECK(tight.position < (multistep ? std::max(position_bound, of_all_steps) : position_bound));
   CHECK(tight.spin < 1e-6);
   CHECK(tight.gamma < 1e-6);
-  // Five decades of tolerance. Where stability holds the steps down, a loose tolerance is met with
-  // decades to spare: at least two remain.
+  // Five decades of tolerance. If stability limits the steps, a loose tolerance is met with decades
+  // to spare; at least two remain.
   CHECK(tight.position < 1e-2 * loose.position);
 }
 
@@ -91,12 +91,12 @@ TEST_CASE("the printed law follows the exact solution until it blows up") {
   const Run run = run_in_memory(scenario_named("fig2b-literal"), method, {1e-10, 1e-12});
   CHECK(run.outcome.ending == solve::Ending::failed);
   CHECK_FALSE(run.outcome.reason.empty());
-  CHECK(run.outcome.reached > 0.748);  // infinity lies near 0.7488 s
+  CHECK(run.outcome.reached > 0.748);  // the singularity is near 0.7488 s
   CHECK(run.outcome.reached < 0.749);
   REQUIRE(run.samples.size() >= 75);               // up to t = 0.74 s
   const QuadReference reference("fig2b-literal");  // up to t = 0.6 s
   for (std::size_t i = 0; i < reference["t"].size(); ++i) {
-    // The deviation grows as the solution does: 1e5 times from the start to 0.6 s.
+    // The deviation grows like the solution: 1e5 times from the start to 0.6 s.
     CHECK(std::abs(run.samples[i].ball.x - reference["x"][i]) < 1e-5);
     CHECK(std::abs(run.samples[i].ball.y - reference["y"][i]) < 1e-5);
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Closed forms of docs/explanation/model.md, and the manners of an integration.
+// Closed forms of docs/explanation/model.md, and properties of every integration.
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -41,7 +41,7 @@ TEST_CASE("a fixed incline: constant acceleration, constant spin") {
     const double t = sample.t;
     const double x = 0.1 + 0.3 * t + 5.0 / 14 * g * std::sin(0.2) * t * t;
     const double y = -0.2 + 0.4 * t - 5.0 / 14 * g * std::cos(0.2) * std::sin(-0.3) * t * t;
-    // Lengths up to 10 m at rtol 1e-10, a factor ten for the sum of the local errors.
+    // Lengths up to 10 m at rtol 1e-10, times ten for the sum of local errors.
     CHECK(std::abs(sample.ball.x - x) < 1e-8);
     CHECK(std::abs(sample.ball.y - y) < 1e-8);
     CHECK(std::abs(sample.ball.gamma_dot - 20) < 1e-8);
@@ -49,7 +49,7 @@ TEST_CASE("a fixed incline: constant acceleration, constant spin") {
   }
 }
 
-TEST_CASE("a plane turning at a constant rate: hyperbolic along, circular across") {
+TEST_CASE("a plane turning at a constant rate: hyperbolic along it, circular across it") {
   const Method method = every_method();
   const double rate = 2, g = 9.80665, x0 = 0.05, vy0 = 0.1, r = 0.01, spin0 = 5;
   Scenario scene = still_plane(0, 0);
@@ -90,7 +90,7 @@ TEST_CASE("a ball at rest on a level plane stays there, exactly") {
   }
 }
 
-TEST_CASE("output times are multiples of the step, and the end") {
+TEST_CASE("output times are multiples of the step, and the end time") {
   Scenario scene = still_plane(0, 0);
   const auto times = [&](double end, double step) {
     const solve::OutputGrid grid(OutputTimes{end, step});
@@ -101,14 +101,14 @@ TEST_CASE("output times are multiples of the step, and the end") {
   CHECK(times(1, 0.25) == std::vector<double>{0, 0.25, 0.5, 0.75, 1});
   CHECK(times(1, 0.4) == std::vector<double>{0, 0.4, 0.8, 1});
   CHECK(times(1, 5) == std::vector<double>{0, 1});
-  CHECK(times(10, 0.01).size() == 1001);  // not 1,002 for the rounding of 0.01
+  CHECK(times(10, 0.01).size() == 1001);  // not 1,002 because of the rounding of 0.01
   CHECK(times(10, 0.01)[700] == 700 * 0.01);
   CHECK(times(21, 0.1).size() == 211);
   CHECK(times(0.3, 0.1).size() == 4);  // 0.3 / 0.1 is 2.9999999999999996
   CHECK(times(1e-9, 1e-10).size() == 11);
 }
 
-TEST_CASE("the answer does not depend on which rows are asked for") {
+TEST_CASE("the result does not depend on the requested rows") {
   const Method method = every_method();
   Scenario scene = scenario_named("fig2a");
   const Run coarse = run_in_memory(scene, method, {1e-9, 1e-11});
@@ -121,11 +121,11 @@ TEST_CASE("the answer does not depend on which rows are asked for") {
   }
 }
 
-TEST_CASE("a pulse in a table is not stepped over") {
+TEST_CASE("the integrator does not step over a pulse in a table") {
   const Method method = every_method();
-  // Level for 500 s, a bump of 1 ms and 0.1 rad that is over in 4 ms, level again. The ball gains
-  // the integral of (5/7) g sin(phi) and of the rocking terms, which cancel over the whole bump
-  // but for x phi'^2: a step over it would leave the ball at rest.
+  // Level for 500 s, a bump of 0.1 rad that lasts 4 ms, level again. The ball gains the integral of
+  // (5/7) g sin(phi) and of the rocking terms, which cancel over the whole bump except for x
+  // phi'^2. A step across it would leave the ball at rest.
   Table bump{"bump.csv", {}, {}};
   for (const double t : {0.0, 100.0, 200.0, 300.0, 400.0, 499.0, 499.9, 499.99, 499.998, 499.999,
                          500.0, 500.001, 500.002, 500.01, 500.1, 501.0, 600.0, 700.0, 1000.0}) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Loops in lanes: against the collocation integrator, one by one.
+// Loops in lanes against the collocation integrator run one by one.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -62,7 +62,7 @@ Actuation actuation_of(const Scenario& scene) {
                                                    : Actuation::by_acceleration;
 }
 
-// Scenes whose gains are within 30 % of the given one's.
+// Scenes with gains within 30 % of the given scene's.
 std::vector<Scenario> with_other_gains(const Scenario& scene, std::size_t count) {
   std::mt19937_64 random(42);
   std::uniform_real_distribution<double> factor(0.7, 1.3);
@@ -92,7 +92,7 @@ solve::Trajectory truth(const Scenario& scene) {
   return rows;
 }
 
-// The error of the ball's place, over all rows, m.
+// Largest position error over all rows, m.
 double error_of(const Course& run, const Scenario& scene) {
   const solve::Trajectory exact = truth(scene);
   REQUIRE(run.x.size() == exact.rows());
@@ -100,13 +100,13 @@ double error_of(const Course& run, const Scenario& scene) {
   for (std::size_t row = 0; row < exact.rows(); ++row) {
     for (const double apart :
          {std::abs(run.x[row] - exact.row(row)[0]), std::abs(run.y[row] - exact.row(row)[1])}) {
-      worst = apart <= worst ? worst : apart;  // not a maximum of NaN
+      worst = apart <= worst ? worst : apart;  // a maximum would ignore NaN
     }
   }
   return worst;
 }
 
-// A local error of this tolerance, m, where the ball is within 0.1 m.
+// Local error at this tolerance, m, with the ball within 0.1 m.
 double local_error(solve::Tolerances tolerances) {
   return tolerances.rtol * 0.1 + tolerances.atol;
 }
@@ -123,7 +123,7 @@ TEST_CASE("loops in lanes follow collocation at every tolerance") {
   const char* name = GENERATE("fig2b", "stiff-servo", "fig2b-literal");
   const double rtol = GENERATE(1e-4, 1e-7, 1e-10, 1e-12);
   Scenario scene = scenario_named(name);
-  // As printed the loop grows without bound; long before 0.7 s it is a loop like others.
+  // The loop as printed diverges, but long before 0.7 s it behaves like others.
   if (scene.controller->drives == Drives::acceleration) scene.time = {0.3, 0.01};
   const std::vector<Scenario> scenes = with_other_gains(scene, group);
   const int nodes = GENERATE(8, 12);
@@ -133,12 +133,12 @@ TEST_CASE("loops in lanes follow collocation at every tolerance") {
   CHECK(are_done(runs));
   for (std::size_t i = 0; i < group; ++i) {
     CAPTURE(name, rtol, nodes, i);
-    // Some tens of steps, whose errors a stable loop forgets.
+    // Some tens of steps, whose errors a stable loop damps out.
     CHECK(error_of(runs[i], scenes[i]) < 10 * local_error(tolerances));
   }
 }
 
-TEST_CASE("a step's error falls with the order of the method") {
+TEST_CASE("the error of a step has the order of the method") {
   const Scenario base = scenario_named("fig2b");
   const auto error_at = [&](double h) {
     Scenario scene = base;
@@ -169,32 +169,32 @@ TEST_CASE("a step's error falls with the order of the method") {
     const solve::Trajectory exact = truth(scene);
     return std::hypot(state.state[0] - exact.row(1)[0], state.state[1] - exact.row(1)[1]);
   };
-  // At the ends of steps Radau IIA of eight nodes has order 15; and between nodes 8.
+  // At step ends Radau IIA with eight nodes has order 15, between nodes 8.
   CHECK(std::log2(error_at(1) / error_at(0.5)) > 10);
 }
 
-TEST_CASE("a stiff servo costs loops in lanes no order") {
+TEST_CASE("a stiff servo reduces no order of loops in lanes") {
   const Scenario scene = scenario_named("stiff-servo");
   const std::vector<Case> cases = cases_of(with_other_gains(scene, group));
   const auto steps_at = [&](double rtol) {
     Ensemble lanes({Actuation::by_servo, solve::OutputGrid(scene.time)}, 8, {rtol, rtol / 100});
     CHECK(are_done(carry(lanes, cases)));
-    // A Jacobian that is not near all nodes' takes ten turns.
+    // A Jacobian far from those of the nodes would take ten iterations.
     CHECK(static_cast<double>(lanes.statistics().nonlinear_iterations) <
           3.5 * static_cast<double>(lanes.statistics().jacobian_evaluations));
     return static_cast<double>(lanes.statistics().steps) / group;
   };
-  // Four times with order 8, and ten times with the order of a method that suffers.
+  // A factor of four with order 8, and ten with a method that loses order.
   CHECK(steps_at(1e-10) / steps_at(1e-5) < 5);
   CHECK(steps_at(1e-4) < 25);
 }
 
-TEST_CASE("what becomes of a loop depends neither on its companions nor on what ran before") {
+TEST_CASE("the result of a loop depends neither on its companions nor on earlier runs") {
   const char* const set = GENERATE("sse2", "avx2", "avx512");
   if (!simd::find_instruction_set(set)) return;
   setenv("BBSIM_SIMD", set, 1);
-  // Gains of both signs, some large: of the slow servo's loops one in three explodes, and angles
-  // are then beyond what packs take sines of. One loop has a reference as fast.
+  // Gains of both signs, some large: a third of the loops with the slow servo diverge, to angles
+  // too large for the packs' sine. One loop has a reference as fast.
   const std::string name = GENERATE("fig2b", "stiff-servo");
   const Scenario scene = scenario_named(name);
   std::vector<Scenario> scenes = with_other_gains(scene, 40);
@@ -225,9 +225,9 @@ TEST_CASE("what becomes of a loop depends neither on its companions nor on what 
   CHECK(unbounded < 25);
 }
 
-TEST_CASE("a loop that grows without bound ends where a single run does, and others go on") {
+TEST_CASE("a diverging loop ends where a single run does, and others continue") {
   const bool alone = GENERATE(false, true);
-  Scenario literal = short_literal();  // infinite at 0.75 s
+  Scenario literal = short_literal();  // singular at 0.75 s
   Scenario mild = literal;
   mild.controller->kv = {{{2, 0}, {0, -2}}};
   mild.controller->kp = {{{1, 0}, {0, -1}}};
@@ -251,7 +251,7 @@ TEST_CASE("a loop that grows without bound ends where a single run does, and oth
       continue;
     }
     CHECK(runs[i].ending == Ending::unbounded);
-    // Both end when a step is a hundred thousandth of the time.
+    // Both end when a step is shorter than 1e-5 of the time.
     CHECK(runs[i].reached == Approx(outcome.reached).epsilon(1e-4));
     REQUIRE(runs[i].x.size() == single.rows());
     for (std::size_t row = 0; row < single.rows(); ++row) {
@@ -261,7 +261,7 @@ TEST_CASE("a loop that grows without bound ends where a single run does, and oth
   }
 }
 
-TEST_CASE("loops end where they are told to stop") {
+TEST_CASE("loops stop on request") {
   const Scenario scene = scenario_named("fig2b");
   const std::vector<Case> cases = cases_of(with_other_gains(scene, 3 * group));
   // Becomes true when the first loop has ended.
@@ -282,9 +282,9 @@ TEST_CASE("loops end where they are told to stop") {
   CHECK(are_done(carry(lanes, cases)));
 }
 
-TEST_CASE("a loop that explodes ends long before its steps are nothing") {
-  // Near such an instant each step is a twentieth shorter than the one before: 600 of them, from
-  // start to rounding.
+TEST_CASE("a loop that explodes ends long before its steps vanish") {
+  // Near the singularity each step is 5 % shorter than the previous one: 600 steps from the start
+  // to rounding.
   const double gain = GENERATE(-10.0, -1.0, -0.1);
   Scenario scene = scenario_named("fig2b");
   scene.controller->kv[0][0] = gain;
@@ -294,7 +294,7 @@ TEST_CASE("a loop that explodes ends long before its steps are nothing") {
   CHECK(lanes.statistics().steps < 200);
 }
 
-TEST_CASE("a loop of no numbers is given up, and the others are not") {
+TEST_CASE("a loop of NaN is abandoned, the others continue") {
   const Scenario scene = scenario_named("fig2b");
   const std::vector<Scenario> scenes = with_other_gains(scene, group);
   std::vector<Case> cases = cases_of(scenes);
@@ -310,7 +310,7 @@ TEST_CASE("a loop of no numbers is given up, and the others are not") {
   }
 }
 
-TEST_CASE("loops in lanes follow BBSIM_SIMD, and agree to the tolerance") {
+TEST_CASE("loops in lanes obey BBSIM_SIMD, and agree to the tolerance") {
   const Scenario scene = scenario_named("stiff-servo");
   const std::vector<Scenario> scenes = with_other_gains(scene, group);
   const std::vector<Case> cases = cases_of(scenes);
@@ -330,7 +330,7 @@ TEST_CASE("loops in lanes follow BBSIM_SIMD, and agree to the tolerance") {
   unsetenv("BBSIM_SIMD");
 }
 
-TEST_CASE("loops whose gains cross from axis to axis are no harder") {
+TEST_CASE("loops whose gains couple the axes cost no more") {
   Scenario scene = scenario_named("fig2b");
   scene.controller->kv = {{{0.8, 0.5}, {0.4, -0.9}}};
   const solve::Tolerances tolerances{1e-9, 1e-11};
@@ -341,7 +341,7 @@ TEST_CASE("loops whose gains cross from axis to axis are no harder") {
   CHECK(lanes.statistics().nonlinear_iterations < 4 * lanes.statistics().jacobian_evaluations);
 }
 
-TEST_CASE("loops in lanes know what they were greatest at, between rows") {
+TEST_CASE("loops in lanes find their extremes between rows") {
   const char* name = GENERATE("fig2b", "stiff-servo", "fig2b-literal");
   Scenario scene = scenario_named(name);
   if (scene.controller->drives == Drives::acceleration) scene.time.end = 0.5;
@@ -380,21 +380,21 @@ TEST_CASE("loops in lanes know what they were greatest at, between rows") {
     }
     for (std::size_t look = 0; look < looks; ++look) {
       CAPTURE(name, i, look);
-      // Of rows h apart the greatest is below the true one by h^2 / 8 of its curvature, in servos
-      // of 2000 rad/s some 1e-4; and never above it.
+      // The greatest row value is below the true one by at most h^2 / 8 times its curvature, some
+      // 1e-4 for servos of 2000 rad/s; never above it.
       CHECK(runs[i].greatest[look] >= most[look] * (1 - 1e-8));
       CHECK(runs[i].greatest[look] <= most[look] * (1 + 1e-3));
     }
   }
 }
 
-TEST_CASE("the last row of a loop in lanes is its last state") {
+TEST_CASE("the last row of a loop in lanes equals its last state") {
   const Scenario scene = scenario_named("fig2b");
   const std::vector<Scenario> scenes = with_other_gains(scene, group);
   Ensemble lanes({Actuation::by_servo, solve::OutputGrid(scene.time)}, 12, {1e-9, 1e-11});
   const auto runs = carry(lanes, cases_of(scenes));
   for (std::size_t i = 0; i < group; ++i) {
-    // The polynomial's end and the last node are the same but for rounding.
+    // The polynomial's end and the last node agree up to rounding.
     CHECK(runs[i].x.back() == Approx(runs[i].state[0]).epsilon(1e-12).margin(1e-16));
     CHECK(runs[i].y.back() == Approx(runs[i].state[1]).epsilon(1e-12).margin(1e-16));
     const solve::Trajectory exact = truth(scenes[i]);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Losses and torques against quad-precision solutions, by every integrator.
+// Losses and torques against quad-precision solutions, with every integrator.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -34,7 +34,7 @@ constexpr Compared compared[] = {
     {"theta_rate", [](const model::Sample& s) { return s.gimbal.theta_dot; }},
 };
 
-// The worst difference of a column, relative to its largest value.
+// Worst difference of a column, relative to its largest value.
 double worst_difference(const std::string& name, const Run& run) {
   const QuadReference reference(name);
   REQUIRE(run.samples.size() == reference["t"].size());

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// States that somebody has changed: a run that goes on from one ends, or is refused.
+// Modified states: a run that continues from one ends or is refused.
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -49,7 +49,7 @@ Scenario filmed() {
   return scene;
 }
 
-// The rest of the run, from a state after a half of it.
+// The second half of a run, from a saved state.
 class Halved {
  public:
   explicit Halved(const Scenario& scene) : model_(model::assemble(scene, true)), grid_(scene.time) {
@@ -62,7 +62,7 @@ class Halved {
     next_row_ = first.next_row;
   }
 
-  // How a run from that state ends: false if the state is refused.
+  // Whether a run from the state starts and ends; false if the state is refused.
   [[nodiscard]] bool goes_on_from(const std::string& changed) const {
     solve::Part second;
     second.first_row = next_row_;
@@ -102,7 +102,7 @@ std::string bytes_of(T value) {
   return writer.bytes();
 }
 
-// Not inlined: GCC would warn of what it knows to be too short.
+// Not inlined, because GCC would warn that the buffer is too short.
 template <class T>
 [[gnu::noinline]] bool reads(const std::string& bytes, T into) {
   StateReader reader(bytes);
@@ -116,7 +116,7 @@ template <class T>
 
 }  // namespace
 
-TEST_CASE("no word of a state, whatever it is, makes a run crash, hang or take all memory") {
+TEST_CASE("no changed word of a state makes a run crash, hang or use all memory") {
   const Scenario scene = GENERATE(fig2a(), fig2b(), rig(), jittering(), filmed());
   const Halved run(scene);
   REQUIRE(run.state.size() > 100);
@@ -132,7 +132,7 @@ TEST_CASE("no word of a state, whatever it is, makes a run crash, hang or take a
   std::size_t refused = 0;
   for (std::size_t at = 0; at + sizeof(std::uint64_t) <= run.state.size(); at += 7) {
     for (const std::uint64_t word : words) {
-      // Most of a generator's numbers are as good as others.
+      // Most numbers of a random generator behave alike.
       if (at > 400 && at + 400 < run.state.size() && at % 5 != 0) continue;
       std::string changed = run.state;
       std::memcpy(changed.data() + at, &word, sizeof word);
@@ -146,7 +146,7 @@ TEST_CASE("no word of a state, whatever it is, makes a run crash, hang or take a
   CHECK_FALSE(run.goes_on_from(run.state + '\0'));
 }
 
-TEST_CASE("what is read of a state is one of its type's values, and within its bounds") {
+TEST_CASE("values read from a state are valid for their type and within bounds") {
   CHECK(reads(std::string(1, '\1'), false));
   CHECK_FALSE(reads(std::string(1, '\2'), false));
   CHECK(reads(bytes_of(std::optional(1.5)), std::optional<double>()));
@@ -156,6 +156,6 @@ TEST_CASE("what is read of a state is one of its type's values, and within its b
 
   const std::string noise = bytes_of(Noise(1));
   CHECK(reads(noise, Noise(2)));
-  const std::string drawn = bytes_of(std::size_t{17});  // of 16 that are drawn together
+  const std::string drawn = bytes_of(std::size_t{17});  // one of 16 that are generated together
   CHECK_FALSE(reads(noise.substr(0, noise.size() - drawn.size()) + drawn, Noise(2)));
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What is watched for: found when it happens, by every integrator.
+// Monitored events: every integrator finds them when they happen.
 #include <cmath>
 #include <fstream>
 
@@ -37,7 +37,7 @@ Case edge() {
   return {"edge", scene};
 }
 
-// A rocking plane asks for more friction than there is.
+// A rocking plane demands more friction than is available.
 Case slip() {
   Scenario scene = fig2a();
   scene.ball.position = {0.1, 0.05};
@@ -57,8 +57,8 @@ Case lift_off() {
   return {"lift_off", scene};
 }
 
-// When the margin of the scene's one monitor falls through zero, near `about`, by quad precision:
-// the root of the polynomial through the margins at twelve times around it.
+// Time at which the margin of the scene's one monitor falls through zero, near `about`: the root of
+// the quad-precision interpolant of the margins at twelve times around it.
 double quad_time(const Scenario& scene, double about) {
   Scenario near = scene;
   constexpr int rows = 2000;
@@ -102,7 +102,7 @@ double quad_time(const Scenario& scene, double about) {
 
 }  // namespace
 
-TEST_CASE("event times agree with quad precision to 1e-9 s, by every integrator") {
+TEST_CASE("event times agree with quad precision to 1e-9 s, with every integrator") {
   const Case what = GENERATE(edge(), slip(), lift_off());
   const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
   CAPTURE(what.name, int(method));
@@ -115,14 +115,14 @@ TEST_CASE("event times agree with quad precision to 1e-9 s, by every integrator"
   CHECK(event.t == run.outcome.reached);
   CHECK(event.t > 0.01);
   CHECK(std::abs(event.t - quad_time(what.scene, event.t)) < 1e-9);
-  // All rows before it, none after.
+  // All rows before the event, none after it.
   const solve::OutputGrid grid(what.scene.time);
   REQUIRE(run.samples.size() < grid.size());
   CHECK(grid[run.samples.size() - 1] <= event.t);
   CHECK(grid[run.samples.size()] > event.t);
 }
 
-TEST_CASE("what is noted does not change the run") {
+TEST_CASE("noting an event does not change the run") {
   const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
   Scenario noted = slip().scene;
   noted.events.slip->action = OnEvent::note;
@@ -138,7 +138,7 @@ TEST_CASE("what is noted does not change the run") {
     CHECK(with.samples[i].gamma == without.samples[i].gamma);
   }
   CHECK(with.outcome.statistics.steps == without.outcome.statistics.steps);
-  // Each onset once: as often as a fine look finds the margin falling through zero.
+  // Each onset once: as often as dense sampling finds the margin falling through zero.
   const model::EventMonitors watched = model::event_monitors(noted);
   Scenario fine = silent;
   fine.time.step = 1e-4;
@@ -163,8 +163,8 @@ TEST_CASE("what is noted does not change the run") {
   }
 }
 
-TEST_CASE("a dip below zero between two looks of a step is found") {
-  // The ball swings to and fro along x and just touches the edge: beyond it for 2 ms.
+TEST_CASE("a dip below zero between two checks of a step is found") {
+  // The ball oscillates along x and just passes the edge: it is beyond it for 2 ms.
   Scenario scene = fig2a();
   scene.ball.position = {0, 0};
   scene.ball.velocity = {0.2, 0};
@@ -179,12 +179,12 @@ TEST_CASE("a dip below zero between two looks of a step is found") {
     const Run run = run_in_memory(scene, method, {1e-9, 1e-11}, false);
     CAPTURE(int(method));
     REQUIRE(run.outcome.occurrences.size() == 1);
-    // The edge is met at a slope of slowing * half_time: an error of 1e-9 m is one of 3e-6 s.
+    // The edge is crossed at a slope of slowing * half_time: a 1e-9 m error is 3e-6 s.
     CHECK(std::abs(run.outcome.occurrences.front().t - (turn - half_time)) < 1e-5);
   }
 }
 
-TEST_CASE("an event at the very start is one") {
+TEST_CASE("an event at the very start counts") {
   Scenario scene = edge().scene;
   scene.ball.position = {0.5, 0};
   const Run run = run_in_memory(scene, Method::automatic, {1e-9, 1e-11}, false);
@@ -216,7 +216,7 @@ TEST_CASE("a one-axis tilt at a constant rate from rest: the closed form, at any
   }
 }
 
-TEST_CASE("a watched motion that leaves the range of doubles ends with a reason") {
+TEST_CASE("a monitored motion that overflows ends with a reason") {
   // Rocking throws the ball out; its margins reach 1e300 before its position does.
   Scenario scene = fig2a();
   scene.ball.radius = 0.02;
@@ -230,7 +230,7 @@ TEST_CASE("a watched motion that leaves the range of doubles ends with a reason"
   CHECK_FALSE(run.outcome.reason.empty());
 }
 
-TEST_CASE("what stopped a run has the ball's turn, and what the controller saw") {
+TEST_CASE("the state at a stop has the ball's turn and the controller's measurement") {
   SECTION("gamma") {
     Scenario scene = edge().scene;
     scene.ball.spin = 3;
@@ -242,7 +242,7 @@ TEST_CASE("what stopped a run has the ball's turn, and what the controller saw")
     until.time = {stop.t, stop.t};
     const Run whole = run_in_memory(until, Method::automatic, {1e-11, 1e-13});
     CHECK(std::abs(stop.sample.gamma - whole.samples.back().gamma) < 1e-8);
-    // Not asked for, it is not known.
+    // It is unknown unless requested.
     const Run without = run_in_memory(scene, Method::automatic, {1e-11, 1e-13}, false);
     CHECK(std::isnan(without.outcome.occurrences.back().sample.gamma));
   }
@@ -251,7 +251,7 @@ TEST_CASE("what stopped a run has the ball's turn, and what the controller saw")
     const Run run = run_in_memory(scene, Method::automatic, {1e-8, 1e-10});
     REQUIRE(run.outcome.ending == solve::Ending::stopped);
     const model::Sample& at = run.outcome.occurrences.back().sample;
-    // Less than a period and a delay of the sensor before, 0.14 s at some 0.5 m/s.
+    // Less than a period and a sensor delay before, 0.14 s at some 0.5 m/s.
     CHECK(at.measured[0] != 0);
     CHECK(std::abs(at.measured[0] - at.ball.x) < 0.1);
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Runs whose controller is not built in: when it is asked, what it is told, and what its faults do.
+// Runs with an external controller: when it is called, its input, and the effect of its faults.
 #include <algorithm>
 #include <atomic>
 #include <limits>
@@ -25,7 +25,7 @@ using namespace bbsim_test;
 
 namespace {
 
-// The rig of configs/step.yaml, roughly, with all that a sensor does.
+// Roughly the rig of configs/step.yaml, with every sensor effect.
 Scenario step() {
   Scenario scene = fig2b();
   scene.ball.radius = 0.02;
@@ -46,7 +46,7 @@ Scenario step() {
   return scene;
 }
 
-// The built-in law behind the interface, without its limit and resolution, which are the rig's.
+// The built-in law behind the interface, without its limit and resolution, which belong to the rig.
 class BuiltIn : public model::ExternalController {
  public:
   explicit BuiltIn(const Scenario& scene)
@@ -118,7 +118,7 @@ Scenario with_own(Scenario scene, std::vector<std::string> columns = {}) {
 
 }  // namespace
 
-TEST_CASE("the built-in law behind the interface gives its own trajectory, to the bit") {
+TEST_CASE("the built-in law behind the interface gives the same trajectory bit for bit") {
   const Scenario scene = step();
   const model::Model built_in = model::assemble(scene, true);
   model::Model own = model::assemble(with_own(scene), true);
@@ -133,12 +133,12 @@ TEST_CASE("the built-in law behind the interface gives its own trajectory, to th
   for (std::size_t i = 0; i < controller->times.size(); ++i) {
     CHECK(controller->times[i] == double(i) * 0.02);
   }
-  // Another run of the same model begins anew.
+  // Another run of the same model starts anew.
   CHECK(run(own, scene).rows == wanted.rows);
   CHECK(controller->runs == 2);
 }
 
-TEST_CASE("a controller's numbers are in the rows from their sample to the next") {
+TEST_CASE("a controller's numbers are in the rows from one sample to the next") {
   Scenario scene = with_own(step(), {"count"});
   scene.time = {0.2, 0.005};
   model::Model model = model::assemble(scene, false);
@@ -153,7 +153,7 @@ TEST_CASE("a controller's numbers are in the rows from their sample to the next"
   }
 }
 
-TEST_CASE("a controller that fails ends the run at its sample, with the rows before") {
+TEST_CASE("a controller that fails ends the run at that sample and keeps the rows before") {
   const Scenario scene = step();
   model::Model model = model::assemble(with_own(scene), true);
   const auto controller = std::make_shared<BuiltIn>(scene);
@@ -177,7 +177,7 @@ TEST_CASE("a controller that fails ends the run at its sample, with the rows bef
   }
 }
 
-TEST_CASE("a run that is interrupted goes on with what its controller remembers") {
+TEST_CASE("an interrupted run continues with its controller's memory") {
   const Scenario scene = step();
   model::Model model = model::assemble(with_own(scene), true);
   const auto begin = [&] {
@@ -214,7 +214,7 @@ TEST_CASE("a run that is interrupted goes on with what its controller remembers"
   }
 }
 
-TEST_CASE("a run whose controller nobody has attached is a fault of the program") {
+TEST_CASE("a run without an attached controller is an internal error") {
   const Scenario scene = step();
   const model::Model model = model::assemble(with_own(scene), true);
   CHECK_THROWS_AS(run(model, scene), std::logic_error);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Balls under given motions in lanes, against the reference and against what is known of them.
+// Balls under prescribed motions in lanes, against references and known properties.
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -53,7 +53,7 @@ Case fig2a(const model::SignalPair& motion = fig2a_motion()) {
 
 }  // namespace
 
-TEST_CASE("balls in lanes are where the reference says, with any number of nodes") {
+TEST_CASE("balls in lanes agree with the reference, for any number of nodes") {
   const auto last = read_reference_table("fig2a").back();
   const int nodes = GENERATE(8, 12, 16);
   Ensemble lanes = lanes_of(nodes, 1e-12);
@@ -61,7 +61,7 @@ TEST_CASE("balls in lanes are where the reference says, with any number of nodes
   REQUIRE(are_done(runs));
   for (const Course& run : runs) {
     CAPTURE(nodes);
-    // The tolerance, of distances up to 0.7 m, and of speeds.
+    // The tolerance, for distances up to 0.7 m and for speeds.
     for (std::size_t i = 0; i < 4; ++i) {
       CHECK(run.state[i] == Approx(static_cast<double>(last[1 + i])).margin(3e-12));
     }
@@ -70,7 +70,7 @@ TEST_CASE("balls in lanes are where the reference says, with any number of nodes
   }
 }
 
-TEST_CASE("a looser tolerance takes fewer steps in lanes, and errs more") {
+TEST_CASE("a looser tolerance takes fewer steps in lanes and gives larger errors") {
   const auto last = read_reference_table("fig2a").back();
   double error_before = 0;
   std::size_t steps_before = std::numeric_limits<std::size_t>::max();
@@ -86,7 +86,7 @@ TEST_CASE("a looser tolerance takes fewer steps in lanes, and errs more") {
   }
 }
 
-TEST_CASE("under a given motion, hardly any step is taken twice") {
+TEST_CASE("under a prescribed motion, hardly any step is repeated") {
   std::vector<Case> cases;
   for (int i = 0; i < 8; ++i) {
     model::SignalPair motion = fig2a_motion();
@@ -103,7 +103,7 @@ TEST_CASE("under a given motion, hardly any step is taken twice") {
   CHECK(statistics.steps < 8 * 12);
 }
 
-TEST_CASE("what becomes of a ball depends neither on its companions nor on what ran before") {
+TEST_CASE("the result of a ball depends neither on its companions nor on earlier runs") {
   std::vector<Case> cases;
   for (int i = 0; i < 27; ++i) {
     model::SignalPair motion = fig2a_motion();
@@ -125,12 +125,12 @@ TEST_CASE("what becomes of a ball depends neither on its companions nor on what 
   }
 }
 
-TEST_CASE("lanes see the farthest place between two nodes, of each lane its own") {
-  // Free balls on a level plane go straight on: the least of a parabola is between, its greatest
-  // value at an end; under a tilt to and fro, the greatest is where the ball turns round.
+TEST_CASE("each lane finds its own farthest place between nodes") {
+  // Free balls on a level plane move in straight lines: a parabola's minimum is inside, its maximum
+  // at an end. On an oscillating plane the maximum is where the ball turns around.
   std::vector<Case> cases;
   for (int i = 0; i < 8; ++i) {
-    // x'' = -5/7 g a t (27), without rates: none is so exactly, but a ramp is slow enough to be.
+    // x'' = -5/7 g a t (27), without rates; a slow ramp is close enough.
     model::SignalPair motion;
     motion.add_ramp(0, -1e-3 * (1 + 0.1 * i), 0);
     cases.push_back(ball_under(motion));
@@ -153,7 +153,7 @@ TEST_CASE("lanes see the farthest place between two nodes, of each lane its own"
   }
 }
 
-TEST_CASE("a lane that cannot go on is given up, and spoils nothing of the others") {
+TEST_CASE("a lane that cannot continue is abandoned without affecting the others") {
   std::vector<Case> cases(8, fig2a());
   // A plane that turns at 1e4 rad/s throws its ball beyond the range of doubles.
   cases[2].rate[0] = 1e4;
@@ -170,13 +170,13 @@ TEST_CASE("a lane that cannot go on is given up, and spoils nothing of the other
   }
 }
 
-TEST_CASE("the greatest tilt and rate are those of the motion, whatever it is made of") {
+TEST_CASE("the greatest tilt and rate are those of the motion, for any terms") {
   const int which = GENERATE(range(0, 4));
   model::SignalPair motion;
   if (which < 3) motion.add_sinusoid(0, 0.7, 1.3, 0.2);
   if (which == 1) motion.add_sinusoid(1, 0.4, 2.1, 1.0);
   if (which == 2) motion.add_ramp(1, 0.2, -0.05);
-  if (which == 3) {  // as far in all directions, but for the fourth power of the angle
+  if (which == 3) {  // equally far in all directions, up to the fourth power of the angle
     motion.add_sinusoid(0, 0.5, 3, 0);
     motion.add_sinusoid(1, 0.5, 3, std::numbers::pi / 2);
   }
@@ -191,7 +191,7 @@ TEST_CASE("the greatest tilt and rate are those of the motion, whatever it is ma
     tilted = std::max(tilted, 2 * (a * a + b * b) - 4 * a * a * b * b);
     rate = std::max(rate, angles[0].rate * angles[0].rate + angles[1].rate * angles[1].rate);
   }
-  // A look every 1e-5 s is beside the top by 1e-10 of it at most.
+  // Sampling every 1e-5 s misses the maximum by at most a relative 1e-10.
   CHECK(runs[0].greatest[versine] == Approx(tilted).epsilon(1e-9));
   CHECK(runs[0].greatest[rate_squared] == Approx(rate).epsilon(1e-9));
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Rows, samples and stops at times that are nearly, or but for their rounding, the same.
+// Rows, samples and stops at times that are nearly equal, or equal up to rounding.
 #include <cmath>
 #include <limits>
 #include <string>
@@ -39,7 +39,7 @@ void check_whole(const Scenario& scene, std::size_t rows) {
     CHECK(run.outcome.ending == solve::Ending::done);
     REQUIRE(run.samples.size() == rows);
     CHECK(solve::OutputGrid(scene.time).size() == rows);
-    // The ball rolls along x, which its controller hardly changes in so short a time.
+    // The ball rolls along x, which its controller hardly affects in so short a time.
     for (std::size_t i = 1; i < rows; ++i) {
       const double t = run.samples[i].t;
       CHECK(t > run.samples[i - 1].t);
@@ -50,19 +50,19 @@ void check_whole(const Scenario& scene, std::size_t rows) {
 
 }  // namespace
 
-TEST_CASE("a row next to the end, and to a sample there, is not left out") {
+TEST_CASE("a row next to the end and its sample is kept") {
   // The tenth row is 5e-15 s before the end.
   check_whole(sampled(1e-7, 10, 0.999999995, 1), 12);
-  // Between two samples, 1e-15 s apart from either.
+  // Between two samples, 1e-15 s from each.
   check_whole(sampled(1e-15, 100, 0.5, 1), 201);
 }
 
-TEST_CASE("scenes of any length are sampled alike") {
+TEST_CASE("scenes of any length are sampled in the same way") {
   const double unit = GENERATE(1e-12, 1e-9, 1e-3, 1.0, 1e3);
   Scenario scene = sampled(unit, 1, 0.1, 0.02, 0.03);
   scene.ball.velocity = {1e-3 / unit, 0};
-  scene.controller->kv = scene.controller->kp = {};  // it rolls on as it was
-  // A delay of a period and a half: what is seen between samples.
+  scene.controller->kv = scene.controller->kp = {};  // without gains it rolls on
+  // A delay of a period and a half: the measurement lies between samples.
   const Run run = run_in_memory(scene, Method::radau, {1e-8, 1e-10});
   REQUIRE(run.outcome.ending == solve::Ending::done);
   REQUIRE(run.samples.size() == 11);
@@ -72,8 +72,8 @@ TEST_CASE("scenes of any length are sampled alike") {
   }
 }
 
-TEST_CASE("rows and samples that are one but for their rounding are one") {
-  // 0.1 i and 0.02 n: each row is of the instant after its sample, which it is at.
+TEST_CASE("rows and samples equal up to rounding coincide") {
+  // 0.1 i and 0.02 n: each row shows the state after the sample of the same time.
   const Run run = run_in_memory(sampled(1, 3, 0.1, 0.02), Method::radau, {1e-8, 1e-10});
   REQUIRE(run.samples.size() == 31);
   for (const model::Sample& row : run.samples) {
@@ -81,7 +81,7 @@ TEST_CASE("rows and samples that are one but for their rounding are one") {
   }
 }
 
-TEST_CASE("stops an ulp apart, and next to the end, are one") {
+TEST_CASE("stops an ulp apart, or next to the end, coincide") {
   const double here = 0.3, next = std::nextafter(here, 1.0), last = std::nextafter(1.0, 0.0);
   Scenario scene;
   scene.ball.radius = 0.01;
@@ -89,7 +89,7 @@ TEST_CASE("stops an ulp apart, and next to the end, are one") {
   scene.gimbal.motion = {{Table{"", {0, here, 0.6, last, 2}, {0, 0.1, 0, 0.1, 0}}},
                          {Table{"", {0, next, 0.7, 1.5, 2}, {0, -0.1, 0, 0.1, 0}}}};
   CHECK(model::assemble(scene, false).stops == std::vector<double>{here, 0.6, 0.7});
-  // Watched for, the scene is driven from switch to switch.
+  // A monitored scene is integrated from switch to switch.
   scene.events.lift_off = GENERATE(std::optional<OnEvent>{}, std::optional(OnEvent::note));
   const Run first = run_in_memory(scene, Method::radau, {1e-10, 1e-12});
   for (const Method method : methods) {
@@ -103,7 +103,7 @@ TEST_CASE("stops an ulp apart, and next to the end, are one") {
   }
 }
 
-TEST_CASE("an output grid has no time twice, however many there are") {
+TEST_CASE("an output grid has no time twice, for any number of rows") {
   for (const double count : {1e6, 1e8, 999999999.0}) {
     for (const double off : {0.0, 1e-9, -1e-9, 1e-16, -1e-16, 2.3e-16}) {
       const double step = 1e-3, end = count * step * (1 + off);

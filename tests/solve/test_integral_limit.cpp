@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Integrals that wait at a limit (docs/explanation/rig-model.md, (M64)): a run agrees with the law
-// smoothed over a width, whose solution tends to it as the width goes to 0, with an error in
-// proportion to it.
+// smoothed over a width, whose solution converges to it linearly as the width tends to 0.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -82,14 +81,14 @@ time: {end: 3, step: 0.02}
 )"},
 };
 
-// How much of an error is integrated that drives u outward: all within, none beyond, and a part
-// over `width` before the limit.
+// Fraction of an outward error that is integrated: 1 within the limit, 0 beyond, and linear over
+// `width` before it.
 double share(double u, double low, double high, double push, double width) {
   const double room = push > 0 ? high - u : u - low;
   return std::isfinite(room) ? std::clamp(room / width, 0.0, 1.0) : 1.0;
 }
 
-// Puts a system into the mode of the smoothed law at a state.
+// Sets a system to the mode of the smoothed law at a state.
 void smooth(const model::Model& model, model::RigLoop<true>& loop, double t, const double* z,
             double width) {
   const auto reference = loop.inputs(t);
@@ -122,7 +121,7 @@ void smooth(const model::Model& model, model::CoupledLoop<>& loop, double t, con
   }
 }
 
-// The states at the rows' times, by the classical Runge-Kutta method in steps of `step` or less.
+// States at the rows' times, with the classical Runge-Kutta method in steps of at most `step`.
 template <class System>
 std::vector<std::vector<double>> smoothed(const model::Model& model, const OutputTimes& times,
                                           double width, double step) {
@@ -163,7 +162,7 @@ std::vector<std::vector<double>> smoothed(const model::Model& model, const Outpu
 
 }  // namespace
 
-TEST_CASE("a run whose integral waits at a limit is what the smoothed law tends to") {
+TEST_CASE("a run whose integral waits at a limit is the limit of the smoothed law") {
   const Case& one = cases[GENERATE(0, 1, 2, 3, 4)];
   CAPTURE(one.what);
   const Scenario scene = test::parse(one.text);
@@ -182,13 +181,13 @@ TEST_CASE("a run whose integral waits at a limit is what the smoothed law tends 
     }
   }
   CAPTURE(own, apart);
-  CHECK(own > 1e-8);  // it waits somewhere
-  // Extrapolation takes out what is in proportion to the width. What is left falls faster, but not
-  // by much where a command leaves its limit tangentially.
+  CHECK(own > 1e-8);  // it waits at some time
+  // Extrapolation removes the error linear in the width. The rest falls faster, but not by much if
+  // a command leaves its limit tangentially.
   CHECK(apart < 0.5 * own);
 }
 
-TEST_CASE("the integral of a position loop moves no faster than its error, nor does a row say so") {
+TEST_CASE("the integral of a position loop moves no faster than its error, in rows too") {
   const char* const sampling = GENERATE("", "  sampling: {period: 0.00781}\n");
   CAPTURE(sampling);
   const std::string text =
@@ -222,7 +221,7 @@ time: {end: 1, step: 0.0005}
     const double dt = run.samples[row].t - run.samples[row - 1].t;
     for (int axis = 0; axis < 2; ++axis) {
       const At from = at(row - 1, axis), to = at(row, axis);
-      // Between two rows the error is at most that of either, and what either command changes.
+      // Between two rows the error is at most the larger of the two plus the change by the command.
       const double error = std::max(std::abs(from.error), std::abs(to.error)) +
                            std::max(std::abs(from.rate), std::abs(to.rate)) * dt +
                            std::abs(to.command - from.command);
@@ -230,15 +229,15 @@ time: {end: 1, step: 0.0005}
       steepest = largest_finite(steepest, {std::abs(run.samples[row].coupled->asked[axis])});
     }
   }
-  CHECK(steepest > 0.0566);  // of the motors more is asked than they give
-  CHECK(most < 1.01);        // rates change between rows by a hundredth at most
+  CHECK(steepest > 0.0566);  // the motors are asked for more than they can give
+  CHECK(most < 1.01);        // rates change between rows by at most 1 %
 }
 
 TEST_CASE(
     "an integral waits while its error drives outward, also where a motor turns too fast to brake "
     "less") {
-  // From rest the voltage gives 0.0019 N m; at 1.2 rad/s it takes 0.022 N m at least. Whatever is
-  // asked, the motor then gives its limit, and the two limits of what is asked are one.
+  // At rest the voltage gives 0.0019 N m; at 1.2 rad/s it draws at least 0.022 N m. The motor then
+  // always gives its limit, so the two limits of the demand coincide.
   const Scenario scene = test::parse(
       R"(ball: {radius: 0.0067, mass: 0.035, position: [-0.04, -0.024]}
 plate: {inertia: [0.00069, 0.00052, 0.00108]}
@@ -258,7 +257,7 @@ time: {end: 0.4, step: 0.0001}
   REQUIRE(run.outcome.ending == solve::Ending::done);
   const double from_rate = 0.2 * 0.2 / 2, stall = 0.2 * 0.019 / 2;
   struct At {
-    double error, integral, beyond;  // what is asked, above what is given
+    double error, integral, beyond;  // the demand minus the actual torque
     bool overruns;
   };
   const auto at = [&](std::size_t row, std::size_t axis) {
@@ -274,7 +273,7 @@ time: {end: 0.4, step: 0.0001}
   for (std::size_t row = 1; row < run.samples.size(); ++row) {
     for (const std::size_t axis : {0U, 1U}) {
       const At from = at(row - 1, axis), to = at(row, axis);
-      // No switch is between two rows that are alike.
+      // Two rows in the same mode have no switch between them.
       const bool alike =
           from.overruns && to.overruns && from.beyond * to.beyond > 0 && from.error * to.error > 0;
       if (!alike) continue;
@@ -287,14 +286,14 @@ time: {end: 0.4, step: 0.0001}
   }
   CHECK(waits > 100);
   CHECK(moves > 100);
-  CHECK(apart < 1e-9);  // of some 1e-6 between rows; the trapezoidal rule is off by 1e-10
+  CHECK(apart < 1e-9);  // relative to some 1e-6 between rows; the trapezoidal error is 1e-10
 }
 
-TEST_CASE("at a limit, what is left waiting and what the error adds say how a command goes on") {
+TEST_CASE("at a limit, the waiting rest and the error's rate determine how a command continues") {
   using model::AtLimit;
   using model::OutwardRate;
   CHECK(OutwardRate{1, 1}.at_limit() == AtLimit::beyond);
-  CHECK(OutwardRate{1, -0.5}.at_limit() == AtLimit::beyond);  // and its integral comes back
+  CHECK(OutwardRate{1, -0.5}.at_limit() == AtLimit::beyond);  // and its integral returns
   CHECK(OutwardRate{1, -2}.at_limit() == AtLimit::within);
   CHECK(OutwardRate{-1, 2}.at_limit() == AtLimit::along);
   CHECK(OutwardRate{-1, 0.5}.at_limit() == AtLimit::within);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Runs of gimbals whose servos turn the plane through something.
+// Runs of gimbals with linkages between servos and plane.
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -57,7 +57,7 @@ double distance(const Run& a, const Run& b) {
 
 }  // namespace
 
-TEST_CASE("behind a push rod the plane is where the curve puts it, with its rates") {
+TEST_CASE("with a push rod the plane follows the curve, and so do its rates") {
   const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
   Scenario scene = linked();
   scene.ball.position = {0.15, 0.1};
@@ -82,8 +82,8 @@ TEST_CASE("the integrators agree on linked scenes") {
   CHECK(distance(run_of(scene), run_of(scene, Method::bdf)) < 1e-8);
 }
 
-TEST_CASE("a parallelogram is no linkage at all") {
-  // Horn and arm alike and side by side: the plate's angle is the servo's.
+TEST_CASE("a parallelogram has no effect as a linkage") {
+  // Equal parallel horn and arm: the plate's angle is the servo's.
   Scenario parallel = linked(), ideal = linked();
   parallel.gimbal.linkage = {RodLinkage{0.03, 0.03, {}, {0.02, 0.05}},
                              RodLinkage{0.03, 0.03, {}, {0.02, 0.05}}};
@@ -92,14 +92,14 @@ TEST_CASE("a parallelogram is no linkage at all") {
   const Run without = run_of(ideal);
   for (const Assumes assumes : {Assumes::exact, Assumes::ratio}) {
     parallel.controller->assumes = assumes;
-    // The tolerance, over four seconds.
+    // The tolerance, accumulated over four seconds.
     CHECK(distance(run_of(parallel), without) < 1e-8);
   }
   parallel.controller->sampling = ideal.controller->sampling = Sampling{0.02, 0.01, 0.0, 0.03};
   CHECK(distance(run_of(parallel), run_of(ideal)) < 1e-8);
 }
 
-TEST_CASE("a measured curve runs as what was measured, the better the more rows it has") {
+TEST_CASE("a measured curve behaves as the measured linkage, better with more rows") {
   const model::Linkage exact = make_linkage(desk(), model::Assumed::exact);
   const bool sampled = GENERATE(false, true);
   Scenario scene = linked();
@@ -134,7 +134,7 @@ TEST_CASE(
   const model::Linkage linkage = make_linkage(desk(), model::Assumed::exact);
   const model::Sample last = run_of(scene).samples.back();
   const double slope = linkage.curve.slope;
-  // exp(-0.8 * 30 * 2) of the servo's way is left.
+  // exp(-0.8 * 30 * 2) of the servo's motion remains.
   if (assumes == Assumes::exact) {
     CHECK(std::abs(last.gimbal.phi - 0.08) < 1e-12);
     CHECK(std::abs(last.gimbal.theta + 0.08) < 1e-12);
@@ -146,11 +146,11 @@ TEST_CASE(
   CHECK(std::abs(last.command[0] - last.servo[0]) < 1e-12);
 }
 
-TEST_CASE("a dead point ends the run, at its time to rounding") {
-  // A command beyond it under a servo at its rate limit: the horn turns at 2 rad/s.
+TEST_CASE("a dead point ends the run, at its time up to rounding") {
+  // A command beyond it, with a servo at its rate limit: the horn turns at 2 rad/s.
   const bool up = GENERATE(true, false);
-  // Horn and rod come in line; rod and arm, where the plane's rate grows without bound; and all
-  // three, of a parallelogram.
+  // Horn and rod become aligned; rod and arm, where the plane's rate diverges; and all three, in a
+  // parallelogram.
   const auto [rods, why] = GENERATE(values<std::pair<RodLinkage, const char*>>({
       {desk(), "horn and rod are in line"},
       {{0.08, 0.03, {}, {0.05, 0.09}}, "rod and arm are in line"},
@@ -169,7 +169,7 @@ TEST_CASE("a dead point ends the run, at its time to rounding") {
   scene.controller->assumes = Assumes::ratio;
   scene.controller->kp = {{{0, 0}, {0, 0}}};
   scene.controller->kv = {{{0, 0}, {0, 0}}};
-  // A constant command: feedback of nothing but a reference far away.
+  // A constant command: proportional feedback to a distant reference.
   scene.controller->kp[0][0] = up ? 1 : -1;
   scene.controller->reference = PointReference{{1000, 0}};
   const Run run = run_in_memory(scene, Method::automatic, {1e-9, 1e-11});
@@ -183,15 +183,15 @@ TEST_CASE("a dead point ends the run, at its time to rounding") {
 
 TEST_CASE(
     "next to a dead point, where the plane turns without bound, it goes where the curve says") {
-  // The arm is shorter than the horn: where it is in line with the rod a servo's angle e away has
-  // turned the plane by a root of e, and by e its rate grows as one over that root.
+  // The arm is shorter than the horn. Where it aligns with the rod, a servo angle e away has turned
+  // the plane by sqrt(e), and its rate grows as 1 / sqrt(e).
   const RodLinkage rods{0.05, 0.02, {}, {0.03, 0.06}};
   const model::Linkage linkage = make_linkage(rods, model::Assumed::exact);
   REQUIRE(linkage.high_end == "rod and arm are in line");
   const double away = GENERATE(1e-2, 1e-4, 1e-6);
   const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
   CAPTURE(away, static_cast<int>(method));
-  // A servo of first order comes from there at its highest rate, whatever the curve.
+  // A first-order servo leaves that point at its highest rate, for any curve.
   Scenario scene = linked();
   scene.gimbal.linkage = {rods, rods};
   scene.gimbal.servo = Servo{};
@@ -218,7 +218,7 @@ TEST_CASE(
   CHECK(energy_gap(scene, run) < 1e-9);
 }
 
-TEST_CASE("stops and backlash are the servo's, not the plane's") {
+TEST_CASE("stops and backlash belong to the servo, not to the plane") {
   Scenario scene = linked();
   scene.gimbal.servo->angle_limit = 0.05;
   scene.gimbal.servo->backlash = 0.01;
@@ -234,12 +234,12 @@ TEST_CASE("stops and backlash are the servo's, not the plane's") {
   CHECK(play == Approx(0.005).epsilon(1e-9));
 }
 
-TEST_CASE("energy balances behind linkages, with losses") {
+TEST_CASE("energy balances with linkages and losses") {
   Scenario scene = linked();
   scene.ball.losses = {0.002, 1e-6, 1e-5};
   scene.plate.inertia = {1e-3, 2e-3, 3e-3};
   CHECK(energy_gap(scene, run_of(scene)) < 1e-9);
-  // Gears that engage give plate and ball a blow, by which the energy changes at once.
+  // Engaging gears hit plate and ball, so the energy jumps.
   scene.gimbal.servo->backlash = 0.02;
   CHECK(energy_gap(scene, run_of(scene)) < 1e-9);
   // So do stops.
@@ -248,7 +248,7 @@ TEST_CASE("energy balances behind linkages, with losses") {
   CHECK(energy_gap(scene, run_of(scene)) < 1e-9);
 }
 
-TEST_CASE("three servos lead the ball as two ideal ones do, with fast servos") {
+TEST_CASE("three fast servos move the ball as two ideal ones do") {
   Scenario ideal = linked();
   ideal.gimbal.linkage = {};
   ideal.controller->assumes.reset();
@@ -260,9 +260,9 @@ TEST_CASE("three servos lead the ball as two ideal ones do, with fast servos") {
     ideal.controller->sampling = three.controller->sampling = Sampling{0.02, 0.01, 0.0, 0.03};
   }
   ideal.ball.position = three.ball.position = {0.15, 0.1};
-  // What a servo's dynamics leave: its lag is the same, but not along the same curve.
+  // The servos' dynamics remain: the same lag, but along another curve.
   CHECK(distance(run_of(ideal), run_of(three)) < 1e-3);
-  // About home they are the same, whatever the servos: the smaller the tilt, the more so.
+  // Near home they agree for any servos, better for smaller tilts.
   double last = 0;
   for (const double size : {1.0, 0.1}) {
     for (Scenario* one : {&ideal, &three}) {
@@ -275,7 +275,7 @@ TEST_CASE("three servos lead the ball as two ideal ones do, with fast servos") {
   }
 }
 
-TEST_CASE("an axis may have a servo and limits of its own") {
+TEST_CASE("an axis may have its own servo and limits") {
   Scenario scene = linked();
   scene.gimbal.linkage = {};
   scene.controller->assumes.reset();
@@ -295,7 +295,7 @@ TEST_CASE("an axis may have a servo and limits of its own") {
   CHECK(rate[0] > 0.2);
   CHECK(rate[1] == 0.1);
 
-  // Both alike, written one by one, are both alike.
+  // Equal axes written separately behave as common ones.
   Scenario alike = linked();
   alike.gimbal.linkage = {};
   alike.controller->assumes.reset();
@@ -307,7 +307,7 @@ TEST_CASE("an axis may have a servo and limits of its own") {
   CHECK(distance(run_of(alike), run_of(apart)) == 0);
 }
 
-TEST_CASE("behind a linkage the command's resolution stays within the controller's limit") {
+TEST_CASE("with a linkage the command's resolution stays within the controller's limit") {
   const bool exact = GENERATE(false, true);
   Scenario scene = test::parse(
       "ball: {radius: 0.01, position: [-0.5, 0]}\n"
@@ -319,7 +319,7 @@ TEST_CASE("behind a linkage the command's resolution stays within the controller
       "time: {end: 0.1, step: 0.02}\n");
   scene.controller->assumes = exact ? Assumes::exact : Assumes::ratio;
   const Run run = run_in_memory(scene, Method::radau, {1e-9, 1e-11});
-  // The greatest multiples of 0.003 rad of the servo within 0.0634 rad of the plane: by the slope
-  // 0.4 it is 0.1585 rad, by the curve 0.1745 rad.
+  // The greatest multiples of 0.003 rad of the servo within 0.0634 rad of the plane: with the slope
+  // 0.4 it is 0.1585 rad, with the curve 0.1745 rad.
   CHECK(run.samples.back().command[0] == Approx(exact ? 0.174 : 0.156).epsilon(1e-14));
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Very long, very short and very still scenes, extreme tolerances, and time run backwards.
+// Very long, very short and nearly still scenes, extreme tolerances, and reversed time.
 #include <cmath>
 #include <cstdlib>
 
@@ -17,7 +17,8 @@ TEST_CASE("a hundred thousand periods: the error does not grow") {
     double end;  // s, and periods
     solve::Tolerances tolerances;
   };
-  // Multistep methods take some 100 steps a period: fewer periods, and looser, for their sake.
+  // Multistep methods take some 100 steps per period, so they get fewer periods and looser
+  // tolerances.
   const auto [method, end, tolerances] =
       GENERATE(Case{Method::automatic, 1e5, {1e-9, 1e-11}}, Case{Method::radau, 1e5, {1e-6, 1e-8}},
                Case{Method::bdf, 5e3, {1e-6, 1e-8}}, Case{Method::adams, 5e3, {1e-6, 1e-8}});
@@ -27,8 +28,8 @@ TEST_CASE("a hundred thousand periods: the error does not grow") {
   const Run run = run_in_memory(scene, method, tolerances, false);
   REQUIRE(run.outcome.ending == solve::Ending::done);
   REQUIRE(run.samples.size() == 1001);
-  // At whole periods, once the start is forgotten, the ball is always in one place: where the quad
-  // reference is after 40. The slowest mode decays as e^(-2 t).
+  // Once the transient has decayed, the ball returns to one place every period: that of the quad
+  // reference after 40 periods. The slowest mode decays as e^(-2 t).
   static const ExactRun reference =
       quad_reference(hard_case("many-periods", {"time.end=40", "time.step=40"}));
   double early = 0, late = 0;
@@ -39,18 +40,18 @@ TEST_CASE("a hundred thousand periods: the error does not grow") {
     double& half = i <= 500 ? early : late;
     half = std::max(half, error);
   }
-  // The loop forgets an error within some seconds, a hundred steps of either method at most, each
-  // with rtol of the gimbal's and ball's rates, below 1, and atol.
+  // The loop damps an error within some seconds, at most a hundred steps of either method, each
+  // with rtol of the rates of gimbal and ball, below 1, and atol.
   const double allowed = 100 * (tolerances.rtol + tolerances.atol);
   CAPTURE(early, late, run.outcome.statistics.steps);
   CHECK(early < allowed);
   CHECK(late < allowed);
-  // Phase: t and the frequency are rounded, which at t moves the reference by 2 eps omega t.
+  // Phase: t and the frequency are rounded, which moves the reference at t by 2 eps omega t.
   const double phase = 2 * 2.3e-16 * 6.3 * end * 0.02;
   CHECK(late < 3 * early + phase);
 }
 
-TEST_CASE("at rest for a million seconds: exactly, and nearly free") {
+TEST_CASE("at rest for a million seconds: exact, and nearly free of cost") {
   const Method method = GENERATE(Method::automatic, Method::radau, Method::bdf, Method::adams);
   CAPTURE(name_of(method));
   const Run run = run_in_memory(hard_case("rest"), method, {1e-8, 1e-10});
@@ -65,12 +66,12 @@ TEST_CASE("at rest for a million seconds: exactly, and nearly free") {
   }
 }
 
-TEST_CASE("start values of 1e-300 and denormal ones do not show") {
+TEST_CASE("start values of 1e-300 and denormal ones have no effect") {
   const bool denormal = GENERATE(false, true);
   const Method method = GENERATE(Method::automatic, Method::radau, Method::bdf, Method::adams);
   CAPTURE(name_of(method), denormal);
   Scenario tiny = hard_case("tiny-start");
-  // In a file they are refused, as numbers that are not held in full.
+  // Scenario files refuse denormals, because they lose digits.
   CHECK_THROWS_AS(hard_case("tiny-start", {"ball.velocity.0=5e-324"}), InputError);
   if (denormal) tiny.ball.velocity = {5e-324, -1e-310};
   REQUIRE(tiny.ball.velocity[0] > 0);
@@ -81,7 +82,7 @@ TEST_CASE("start values of 1e-300 and denormal ones do not show") {
   zero.ball.velocity = {0, 0};
   check_against(quad_reference(zero), run, tolerances, tiny.ball.radius);
 
-  // On a level plane nothing else moves: x = x0 + x0' t.
+  // On a level plane the ball moves freely: x = x0 + x0' t.
   Scenario level = tiny;
   level.gimbal.motion = {{0.0}, {0.0}};
   const Run still = run_in_memory(level, method, tolerances);
@@ -107,7 +108,7 @@ TEST_CASE("the finest tolerance is met, or refused with a reason; 1 is refused")
   } else {
     CHECK(run.outcome.ending == solve::Ending::failed);
     CHECK_FALSE(run.outcome.reason.empty());
-    CHECK(method != Method::automatic);  // whose order makes it reachable
+    CHECK(method != Method::automatic);  // its order makes the tolerance attainable
     CHECK(method != Method::radau);
   }
   CHECK_THROWS_AS(hard_case("finest", {"solver.rtol=1"}), InputError);
@@ -123,7 +124,7 @@ TEST_CASE("a scene of a nanosecond") {
   CHECK(run.samples.back().t == 1e-9);
   for (const model::Sample& sample : run.samples) {
     const double t = sample.t;
-    // x = x0' t + x'' t^2 / 2, whose last term is below 1e-18 m; a few roundings of 1e-9 m.
+    // x = x0' t + x'' t^2 / 2, whose last term is below 1e-18 m; a few rounding errors of 1e-9 m.
     CHECK(std::abs(sample.ball.x - t) < 1e-18);
     CHECK(std::abs(sample.ball.y + 0.1) < 1e-16);
     // 7 x'' = 5 g sin phi - 7 r c phi'' + ..., 7 y'' = ...: accelerations of order 0.1 m/s^2.
@@ -131,7 +132,7 @@ TEST_CASE("a scene of a nanosecond") {
   }
 }
 
-TEST_CASE("a million seconds that leave the range of doubles end with a reason") {
+TEST_CASE("a million seconds that overflow end with a reason") {
   const Scenario scene = hard_case("overflow");
   const Run run = run_in_memory(scene, Method::automatic, {1e-6, 1e-8});
   CHECK(run.outcome.ending == solve::Ending::failed);
@@ -146,8 +147,8 @@ TEST_CASE("a million seconds that leave the range of doubles end with a reason")
 
 TEST_CASE("a million seconds under control") {
   const Method method = GENERATE(Method::automatic, Method::radau);
-  // The paper's circle, 47,746 times round: its slowest mode decays in 1000 s, and the circle is
-  // held from then on.
+  // The paper's circle, 47,746 times around: its slowest mode decays in 1000 s, and the circle is
+  // steady from then on.
   const Scenario scene =
       read_scenario(BBSIM_SOURCE_DIR "/configs/fig2b.yaml", {"time.end=1e6", "time.step=1000"});
   const Run run = run_in_memory(scene, method, {1e-7, 1e-9}, false);
@@ -163,7 +164,7 @@ TEST_CASE("a million seconds under control") {
   }
 }
 
-TEST_CASE("there and back again") {
+TEST_CASE("forward and back again") {
   const Method method = GENERATE(Method::automatic, Method::radau, Method::bdf, Method::adams);
   CAPTURE(name_of(method));
   const solve::Tolerances tolerances{1e-10, 1e-12};
@@ -188,7 +189,7 @@ TEST_CASE("there and back again") {
   const Run backwards = run_in_memory(back, method, tolerances);
   REQUIRE(backwards.outcome.ending == solve::Ending::done);
   const double r = there.ball.radius;
-  // What the run there may leave drifts on the way back for as long again; and the way back's own.
+  // The error of the way forward drifts for as long again; the way back adds its own.
   const std::size_t last = forwards.samples.size() - 1;
   const double allowed = allowance(forwards, tolerances, r, last) * (1 + end) +
                          allowance(backwards, tolerances, r, last);
@@ -201,7 +202,7 @@ TEST_CASE("there and back again") {
     CHECK(std::abs(a.y_dot + b.y_dot) < allowed);
     CHECK(std::abs(a.gamma_dot + b.gamma_dot) * r < allowed);
   }
-  CHECK(allowed < 1e-2);  // of a metre: coming back is no accident
-  // gamma turns back as far as it turned.
+  CHECK(allowed < 1e-2);  // in meters: returning is no coincidence
+  // gamma returns by the same amount.
   CHECK(std::abs(forwards.samples.back().gamma + backwards.samples.back().gamma) * r < allowed);
 }

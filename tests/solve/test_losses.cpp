@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What dry and viscous losses do to a ball, against closed forms:
+// Dry and viscous losses of a ball against closed forms:
 // docs/explanation/losses-and-torques.md.
 #include <cmath>
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr solve::Tolerances tight{1e-11, 1e-13};
 
-// A ball on a plate that stands still.
+// A ball on a stationary plate.
 Scenario at_rest(double rolling, double viscous, double pivoting) {
   Scenario scene;
   scene.gravity = 9.81;
@@ -39,7 +39,7 @@ std::size_t count(const Run& run, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("a ball coasts down to rest on a level plate, and stays") {
+TEST_CASE("a ball coasts to rest on a level plate and stays") {
   const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
   const double factor = GENERATE(0.4, 2.0 / 3, 0.0);
   CAPTURE(static_cast<int>(method), factor);
@@ -67,7 +67,7 @@ TEST_CASE("a ball coasts down to rest on a level plate, and stays") {
   CHECK(energy_gap(scene, run) < 1e-11);
 }
 
-TEST_CASE("an incline moves a ball where the tangent of its tilt is the coefficient") {
+TEST_CASE("an incline moves a ball once the tangent of its tilt exceeds the coefficient") {
   const double c = 0.003;
   for (const double beyond : {-1e-12, 1e-12, 0.5}) {
     Scenario scene = at_rest(c, 0, 0);
@@ -89,7 +89,7 @@ TEST_CASE("an incline moves a ball where the tangent of its tilt is the coeffici
   }
 }
 
-TEST_CASE("a ball sticks on a plate that tilts slowly, and lets go") {
+TEST_CASE("a ball sticks to a slowly tilting plate and breaks away") {
   const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
   CAPTURE(static_cast<int>(method));
   const double c = 0.005, w = 0.001;
@@ -97,7 +97,7 @@ TEST_CASE("a ball sticks on a plate that tilts slowly, and lets go") {
   scene.gimbal.motion->phi = {Ramp{0, w}};
   scene.time = {10, 0.01};
   const Run run = run_in_memory(scene, method, tight);
-  // Needed is g sin phi, there is c (g cos phi - r w^2): the plane turns at a constant rate.
+  // Required is g sin phi, available c (g cos phi - r w^2): the plane turns at a constant rate.
   const double r = scene.ball.radius, g = scene.gravity;
   const double lets_go = (std::atan(c) - std::asin(c * r * w * w / (g * std::sqrt(1 + c * c)))) / w;
   REQUIRE(lets_go > 4.9);
@@ -107,8 +107,8 @@ TEST_CASE("a ball sticks on a plate that tilts slowly, and lets go") {
     if (s.t < lets_go) {
       CHECK(s.ball.x == 0);
     } else {
-      // x'' grows by g w cos phi / (1 + k) a second from nothing: x = jerk t^3 / 6, to the parts
-      // that phi and c make of it.
+      // x'' grows from zero by g w cos phi / (1 + k) per second: x = jerk t^3 / 6, up to the
+      // effects of phi and c.
       const double t = s.t - lets_go, expected = g * w / 1.4 * t * t * t / 6;
       CHECK(std::abs(s.ball.x - expected) < 1e-2 * expected + 1e-12);
     }
@@ -116,7 +116,7 @@ TEST_CASE("a ball sticks on a plate that tilts slowly, and lets go") {
   CHECK(energy_gap(scene, run) < 1e-9);
 }
 
-TEST_CASE("pivoting friction takes the spin, and the ball stays") {
+TEST_CASE("pivoting friction stops the spin, and the ball stays") {
   Scenario scene = at_rest(0, 0, 5e-4);
   scene.ball.spin = -30;
   scene.time = {5, 0.1};
@@ -133,7 +133,7 @@ TEST_CASE("pivoting friction takes the spin, and the ball stays") {
   CHECK(energy_gap(scene, run) < 1e-11);
 }
 
-TEST_CASE("viscous loss alone lets the velocity decay") {
+TEST_CASE("viscous loss alone makes the velocity decay") {
   Scenario scene = at_rest(0, 3e-6, 0);
   scene.ball.velocity = {0.3, 0.1};
   const Run run = run_in_memory(scene, Method::radau, tight);
@@ -145,7 +145,7 @@ TEST_CASE("viscous loss alone lets the velocity decay") {
   CHECK(energy_gap(scene, run) < 1e-11);
 }
 
-TEST_CASE("a ball at rest stays there to the bit for 1e5 s, in one step") {
+TEST_CASE("a ball at rest stays there bit for bit for 1e5 s, in one step") {
   Scenario scene = at_rest(0.002, 1e-6, 1e-4);
   scene.ball.position = {0.1, -0.3};
   scene.gimbal.motion->phi = {0.001};
@@ -163,9 +163,9 @@ TEST_CASE("a ball at rest stays there to the bit for 1e5 s, in one step") {
   }
 }
 
-TEST_CASE("rolling resistance that switches thousands of times keeps the balance of energy") {
-  // A plate that rocks across the angle of friction and back, in both axes: the ball starts and
-  // comes to rest on each swing.
+TEST_CASE("rolling resistance that switches thousands of times conserves the energy balance") {
+  // A plate that rocks across the friction angle in both axes: the ball starts and stops in each
+  // swing.
   Scenario scene = at_rest(0.01, 1e-6, 2e-5);
   scene.ball.spin = 3;
   scene.gimbal.motion->phi = {Sinusoid{0.013, 7, 0.3, 0}};
@@ -188,7 +188,7 @@ TEST_CASE("rolling resistance that switches thousands of times keeps the balance
   }
 }
 
-TEST_CASE("losses act under servos and sampled controllers as well") {
+TEST_CASE("losses also act under servos and sampled controllers") {
   const std::string servo =
       "gravity: 9.81\n"
       "ball: {radius: 0.02, mass: 0.05, position: [0.05, 0.02], losses: {rolling: 0.002}}\n"
@@ -203,8 +203,8 @@ TEST_CASE("losses act under servos and sampled controllers as well") {
   ideal.ball.losses = {};
   const Run with = run_in_memory(scene, Method::radau, {1e-10, 1e-12});
   const Run without = run_in_memory(ideal, Method::radau, {1e-10, 1e-12});
-  // The ideal ball creeps on towards its place, the other is held before it: at a tilt of less than
-  // its coefficient, and so within c g / ((1 + k) kp) of it.
+  // The ideal ball creeps to its place. The other stops before it, where the tilt is below its
+  // coefficient: within c g / ((1 + k) kp).
   CHECK(std::abs(without.samples.back().ball.x) < 1e-3);
   const model::Sample& last = with.samples.back();
   CHECK(last.ball.x_dot == 0);
@@ -214,7 +214,7 @@ TEST_CASE("losses act under servos and sampled controllers as well") {
   if (sampling == "}\n") CHECK(energy_gap(scene, with) < 1e-9);
 }
 
-TEST_CASE("losses of nothing are none") {
+TEST_CASE("losses of zero have no effect") {
   Scenario scene = scenario_named("fig2a");
   const Run ideal = run_in_memory(scene, Method::radau, {1e-10, 1e-12});
   scene.ball.losses.viscous = 1e-30;
@@ -225,8 +225,8 @@ TEST_CASE("losses of nothing are none") {
   }
 }
 
-TEST_CASE("a ball that breaks away feels resistance against the acceleration it starts with") {
-  // The light plate gives way to the ball: it starts 23 degrees beside the force that held it.
+TEST_CASE("a ball that breaks away feels resistance against its initial acceleration") {
+  // The light plate yields to the ball, which starts 23 degrees off the force that held it.
   const Scenario scene = test::parse(
       "ball: {radius: 0.02, mass: 0.5, position: [0.1, 0.06], losses: {rolling: 0.05}}\n"
       "plate: {inertia: [0.001, 0.003, 0.0035]}\n"
@@ -240,12 +240,13 @@ TEST_CASE("a ball that breaks away feels resistance against the acceleration it 
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const double at_start = accelerations(0)[axis], soon = accelerations(1)[axis];
     const double drift = accelerations(2)[axis] - soon;
-    // The acceleration at t = 0 is the limit from later: it changes by t^2, a third from 1 to 0 us.
+    // The acceleration at t = 0 is the limit from later times: linear extrapolation to 0 must beat
+    // the drift.
     CHECK(std::abs(soon - at_start) < std::abs(drift));
   }
 }
 
-TEST_CASE("a ball that comes near rest on a plate lighter than it goes on") {
+TEST_CASE("a ball nearly at rest on a plate lighter than itself continues") {
   const Scenario scene = test::parse(
       "ball: {radius: 0.0946502233951858, mass: 3, velocity: [-0.27123241728303826, -0.02],\n"
       "       spin: -24.82340520375807, inertia_factor: 0.6455335337945438,\n"
@@ -264,7 +265,7 @@ TEST_CASE("a ball that comes near rest on a plate lighter than it goes on") {
 }
 
 TEST_CASE("a ball that slides without turning is not at rest") {
-  // c_rr > mu_k: resistance stops the turning first, and the ball slides on.
+  // c_rr > mu_k: resistance first stops the turning, and the ball slides on.
   const Scenario scene = test::parse(
       "gravity: 9.81\n"
       "ball: {radius: 0.02, velocity: [0.5, 0], losses: {rolling: 0.05}}\n"

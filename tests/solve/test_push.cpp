@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A force on the ball's centre.
+// A force on the ball's center.
 #include <cmath>
 
 #include "catch.hpp"
@@ -30,7 +30,7 @@ Run run_of(const Scenario& scene, Method method = Method::automatic) {
   return run;
 }
 
-// The work of the push and of the motors, by Simpson's rule, against the energy that there is.
+// Difference of the work of push and motors, from Simpson's rule, and the energy gained.
 double work_gap(const Scenario& scene, const Run& run) {
   const model::BallConstants constants = model::constants_of(scene);
   double work = 0, gap = 0, size = 0, first = 0;
@@ -51,7 +51,8 @@ double work_gap(const Scenario& scene, const Run& run) {
 
 }  // namespace
 
-TEST_CASE("on a level plate a push gives P / ((1 + k) m), and friction k / (1 + k) of it back") {
+TEST_CASE(
+    "on a level plate a push gives P / ((1 + k) m), and friction opposes it with k / (1 + k)") {
   const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
   Scenario scene = level();
   scene.ball.push = BallPush{{0.01}, {Sinusoid{0.02, 3, 0, 0}}};
@@ -69,7 +70,7 @@ TEST_CASE("on a level plate a push gives P / ((1 + k) m), and friction k / (1 + 
   }
 }
 
-TEST_CASE("a push that is nothing changes nothing, in any kind of loop") {
+TEST_CASE("a push of zero has no effect in any kind of loop") {
   for (const int kind : {0, 1, 2, 3}) {
     Scenario scene = kind == 0 ? fig2a() : fig2b();
     scene.time = {4, 0.1};
@@ -92,7 +93,7 @@ TEST_CASE("a push that is nothing changes nothing, in any kind of loop") {
   }
 }
 
-TEST_CASE("the energy that a push gives is its power, whatever moves the gimbal") {
+TEST_CASE("the energy gained from a push is its work, for any drive of the gimbal") {
   Scenario scene = level();
   scene.time = {3, 0.002};
   SECTION("a given motion") {
@@ -112,13 +113,13 @@ TEST_CASE("the energy that a push gives is its power, whatever moves the gimbal"
   CHECK(work_gap(scene, run_of(scene)) < 1e-8);
 }
 
-TEST_CASE("a push moves a ball that rolling resistance holds once it is greater than c_rr N") {
+TEST_CASE("a push moves a ball held by rolling resistance once it exceeds c_rr N") {
   Scenario scene = level();
   scene.ball.losses.rolling = 0.01;
   scene.ball.push = BallPush{{Ramp{0, 0.01}}, {}};
   scene.time = {1, 0.01};
   const Run run = run_of(scene);
-  // The couple that rest needs is P r.
+  // Rest needs a couple of P r.
   const double starts = 0.01 * 0.05 * 9.81 / 0.01;
   for (const model::Sample& now : run.samples) {
     if (now.t < starts) CHECK(now.ball.x == 0);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The collocation integrator: against quad-precision solutions, at its limits, and its parts.
+// The collocation integrator: against quad-precision solutions, at its limits, and in parts.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -41,8 +41,8 @@ Rows integrate(const model::Model& model, const Scenario& scene, double rtol,
   return {run, std::move(rows)};
 }
 
-// The largest difference of all states in all rows, in units of rtol: relative to the largest value
-// of each state, and where that is below atol / rtol = 0.01, to 0.01.
+// Largest difference of all states in all rows, in units of rtol: relative to the largest value of
+// each state, but at least to atol / rtol = 0.01.
 double difference(const solve::Trajectory& a, const solve::Trajectory& b, std::size_t row_size) {
   REQUIRE(a.rows() == b.rows());
   double worst = 0;
@@ -74,8 +74,8 @@ TEST_CASE("collocation follows the quad-precision solutions at every tolerance")
     const char* name;
     double amplification;  // of a local error of rtol, over the run
   };
-  // A tolerance bounds the error of a step, relative to the state; a run of some ten steps may add
-  // them up, and `fast` and `tumble` carry them through states that grow 10^4 times.
+  // A tolerance bounds the error of a step relative to the state. A run of some ten steps may add
+  // these up, and `fast` and `tumble` carry them through states that grow by 1e4.
   const auto [name, amplification] =
       GENERATE(Case{"fig2a", 10}, Case{"fig2b", 10}, Case{"small-ball", 10}, Case{"spin", 10},
                Case{"stiff-servo", 10}, Case{"fast", 1e4}, Case{"tumble", 1e4});
@@ -105,12 +105,12 @@ TEST_CASE("collocation follows the quad-precision solutions at every tolerance")
   }
 }
 
-TEST_CASE("a step's error falls at least with the order of its stages") {
+TEST_CASE("a step's error has at least the order of its stages") {
   const Scenario scene = scenario_named("fast");
   const model::Model model = model::assemble(scene, false);
-  // Steps of 0.8 and 0.4 s, 2 and 1 rad either side of the middle of the sinusoid: the method's
-  // order at the end of a step of 8 stages is 15; one-sided, with room for the first step to be
-  // outside the asymptotic range, the 9 of its polynomial.
+  // Steps of 0.8 and 0.4 s, 2 and 1 rad on either side of the sinusoid's middle. The order at the
+  // end of an 8-stage step is 15; the bound is the 9 of its polynomial, in case the first step is
+  // outside the asymptotic range.
   const auto error_of = [&](double h) {
     Scenario one = scene;
     one.time = {h, h};
@@ -133,7 +133,7 @@ TEST_CASE("a step's error falls at least with the order of its stages") {
   CHECK(std::log2(error_of(0.8) / error_of(0.4)) > 9);
 }
 
-TEST_CASE("a servo's speed costs collocation no steps") {
+TEST_CASE("a fast servo costs collocation no steps") {
   Scenario scene = scenario_named("stiff-servo");
   const double natural_frequency = GENERATE(2000.0, 20000.0);
   scene.gimbal.servo->natural_frequency = natural_frequency;
@@ -146,10 +146,10 @@ TEST_CASE("a servo's speed costs collocation no steps") {
   const Rows usual = integrate(model, scene, 1e-6);
   const Rows tight = integrate(model, scene, 1e-11);
   CHECK(usual.run.ending == solve::Ending::done);
-  // Following the servo itself would take 21 s * 20000 / s = 420,000 of its times.
+  // Resolving the servo itself would take 21 s * 20000 / s = 420,000 time constants.
   CHECK(usual.run.statistics.steps < 100);
   CHECK(tight.run.statistics.steps < 500);
-  // Ten local errors of 1e-6 m, and of the ball alone: the servo's own motion is not smooth.
+  // Ten local errors of 1e-6 m, for the ball only, because the servo's motion is not smooth.
   for (std::size_t i = 0; i < usual.rows.rows(); ++i) {
     CHECK(std::abs(usual.rows.row(i)[0] - tight.rows.row(i)[0]) < 1e-5);
     CHECK(std::abs(usual.rows.row(i)[1] - tight.rows.row(i)[1]) < 1e-5);
@@ -161,7 +161,7 @@ TEST_CASE("collocation stops at the knots of a table") {
   Table table;
   for (int i = 0; i <= 20; ++i) {
     table.times.push_back(0.5 * i);
-    table.values.push_back(0.05 * ((i * 7) % 5) / 4.0);  // jagged on purpose
+    table.values.push_back(0.05 * ((i * 7) % 5) / 4.0);  // deliberately jagged
   }
   scene.gimbal.motion = {{table}, {0.02}};
   const model::Model model = model::assemble(scene, true);
@@ -174,11 +174,11 @@ TEST_CASE("collocation stops at the knots of a table") {
   REQUIRE(outcome.ending == solve::Ending::done);
   CHECK(ours.run.statistics.steps >= 20);
   CHECK(ours.run.reached == 10);
-  // CVODE restarts 19 times at an rtol of 1e-12, and adds up some hundred local errors.
+  // CVODE restarts 19 times at an rtol of 1e-12 and accumulates some hundred local errors.
   CHECK(difference(ours.rows, theirs, model.size() + 1) < 1e-9);
 }
 
-TEST_CASE("collocation ends where the solution reaches infinity") {
+TEST_CASE("collocation ends where the solution diverges") {
   const Scenario scene = scenario_named("fig2b-literal");
   const model::Model model = model::assemble(scene, true);
   solve::Trajectory rows(model.size() + 1);
@@ -187,8 +187,8 @@ TEST_CASE("collocation ends where the solution reaches infinity") {
       solve::integrate(model, Method::radau, {1e-9, 1e-11}, grid, rows, {});
   CHECK(outcome.ending == solve::Ending::failed);
   CHECK_FALSE(outcome.reason.empty());
-  // Where BDF at an rtol of 1e-12 ends. The steps are parts of what is left to there, and end the
-  // run when they are less than 1e-5 of the time.
+  // The end of BDF at an rtol of 1e-12. Steps are fractions of the remaining time, and end the run
+  // below 1e-5 of the time.
   CHECK(outcome.reached < 0.7487576252);
   CHECK(outcome.reached > 0.7487576252 * (1 - 1e-5));
   CHECK(outcome.rows == 75);  // 0 to 0.74 s
@@ -217,13 +217,13 @@ TEST_CASE("a ball at rest stays there exactly, in a few steps") {
   }
 }
 
-TEST_CASE("a fast, small sinusoid beside a slow one is not stepped over") {
+TEST_CASE("the integrator does not step over a fast small sinusoid beside a slow one") {
   Scenario scene = scenario_named("fig2a");
   scene.gimbal.motion->phi.emplace_back(Sinusoid{1e-3, 300, 0, 0});
   const model::Model model = model::assemble(scene, false);
   const Rows loose = integrate(model, scene, 1e-5);
   const Rows tight = integrate(model, scene, 1e-11);
-  // 10 s * 300 rad/s at fewer than two nodes a radian.
+  // 10 s * 300 rad/s with fewer than two nodes per radian.
   CHECK(loose.run.statistics.steps * 8 > 1500);
   CHECK(difference(loose.rows, tight.rows, model.size()) < 1e-3);  // a hundred local errors
 }
@@ -241,12 +241,12 @@ TEST_CASE("instruction sets agree to the tolerance") {
     const StepKernels& kernels = simd::kernels_by(
         [](auto isa) -> const auto& { return solve::radau::kernels<decltype(isa)>(); }, *found);
     const Rows other = integrate(model, scene, 1e-9, kernels, stages);
-    // Both within ten local errors of the truth; where they take the same steps, far closer.
+    // Both are within ten local errors of the truth; with equal steps they are far closer.
     CHECK(difference(other.rows, chosen.rows, model.size() + (model.gamma ? 1 : 0)) < 2e-8);
   }
 }
 
-TEST_CASE("BBSIM_SIMD names the kernels, or is refused") {
+TEST_CASE("BBSIM_SIMD selects the kernels, or is refused") {
   setenv("BBSIM_SIMD", "abacus", 1);
   CHECK_THROWS_WITH(solve::radau::choose_kernels(), Catch::Contains("BBSIM_SIMD") &&
                                                         Catch::Contains("'abacus'") &&
@@ -285,14 +285,14 @@ TEST_CASE("the first step's rate is the norm of the exact Jacobian") {
         std::size_t space = memory.size() * sizeof(double);
         void* const workspace = std::align(64, kernel.workspace, place, space);
         kernel.start(workspace, {&view, model.initial.data(), 1e-8, 1e-10, false});
-        // Sums of the same numbers, in another order.
+        // The same sum in another order.
         CHECK(kernel.rate(workspace, 0) ==
               Approx(std::max(of_velocities, std::sqrt(of_positions))).epsilon(1e-14));
       },
       model.system);
 }
 
-TEST_CASE("a run of collocation can be stopped from outside") {
+TEST_CASE("a collocation run can be stopped from outside") {
   const Scenario scene = scenario_named("fast");
   const model::Model model = model::assemble(scene, false);
   std::atomic<bool> stop{true};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The constants of the collocation, and its sine and cosine.
+// The constants of the collocation, and the lanes' sine and cosine.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -21,8 +21,8 @@ void check_tables() {
   using T = RadauTable<s>;
   CAPTURE(s);
   CHECK(T::c[s - 1] == 1);
-  // Order conditions of a collocation: powers up to s - 1 are integrated exactly. Bounds are s
-  // roundings of numbers below 1, and one for each multiplication of a power.
+  // Order conditions of a collocation: powers up to s - 1 are integrated exactly. The bound is s
+  // rounding errors of numbers below 1, and one for each multiplication of a power.
   const double rounding = 4 * s * 2.3e-16;
   for (int i = 0; i < s; ++i) {
     for (int q = 1; q <= s; ++q) {
@@ -41,7 +41,7 @@ void check_tables() {
     for (int j = 0; j < s; ++j) sum += T::a[j][s - 1] * std::pow(T::c[j], q - 1);
     CHECK(std::abs(sum - 1.0 / q) < rounding);
   }
-  // back * lambda * forward = a. The eigenvectors are nearly parallel: rounding is magnified by
+  // back * lambda * forward = a. The eigenvectors are nearly parallel, so rounding is magnified by
   // the size of their inverse.
   double magnified = 1;
   for (int j = 0; j < s; ++j) {
@@ -78,7 +78,7 @@ TEST_CASE("the tables satisfy the order conditions and their factors multiply to
   check_tables<16>();
 }
 
-TEST_CASE("sine and cosine in lanes are within two units in the last place") {
+TEST_CASE("sine and cosine in lanes are accurate to two units in the last place") {
   using P = bbsim::simd::Pack<TestLanes, 2>;
   double worst = 0;
   const auto look = [&](double angle) {
@@ -94,7 +94,7 @@ TEST_CASE("sine and cosine in lanes are within two units in the last place") {
   for (int i = -40000; i <= 40000; ++i) look(i * 2.5e-4 + 1e-5);  // -10 to 10
   CHECK(worst < 2);
   worst = 0;
-  for (int i = 0; i < 20000; ++i) look(9e4 + i * 1.37);  // across the end of the fast reduction
+  for (int i = 0; i < 20000; ++i) look(9e4 + i * 1.37);  // across the limit of the fast reduction
   CHECK(worst < 2);
   CHECK(sin_cos(P(0.0)).sin[0] == 0);
   CHECK(sin_cos(P(0.0)).cos[0] == 1);

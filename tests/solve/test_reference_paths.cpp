@@ -44,7 +44,7 @@ std::vector<Path> paths() {
       {"square", SquareReference{{0.02, 0.01}, 1.5, {0, std::numbers::pi}, {0.01, 0}, 0.25}, 21}};
 }
 
-// Poles about home by (M13), 1/s: -22.4 +- 14.6i of the servo, -3.84 and -1.48.
+// Poles about home from (M13), in 1/s: -22.4 +- 14.6i from the servo, -3.84 and -1.48.
 Scenario follows(const Reference& reference) {
   Scenario scene;
   scene.ball.radius = 0.01;
@@ -76,20 +76,20 @@ TEST_CASE("radau and BDF agree along every reference path") {
   REQUIRE(theirs.outcome.ending == solve::Ending::done);
   REQUIRE(ours.samples.size() == theirs.samples.size());
 
-  double largest = 0;  // of any state that the tolerance is relative to
+  double largest = 0;  // largest state, for the relative tolerance
   for (const model::Sample& sample : theirs.samples) {
     largest = std::max({largest, std::abs(sample.ball.x), std::abs(sample.ball.y),
                         std::abs(sample.ball.x_dot), std::abs(sample.ball.y_dot),
                         std::abs(sample.gimbal.phi), std::abs(sample.gimbal.theta),
                         std::abs(sample.gimbal.phi_dot), std::abs(sample.gimbal.theta_dot)});
   }
-  // The loop is stable, so that each step leaves no more than its local error, rtol |z| + atol, in
-  // each of the nine states. What it moves the ball by in the end is largest for the angles: 5 g /
-  // 7 over the square of the slowest pole, 3.2 m/rad, rounded up to 5.
+  // In a stable loop each step leaves at most its local error, rtol |z| + atol, in each of the nine
+  // states. Its eventual effect on the ball is largest for angles: 5 g / 7 over the square of the
+  // slowest pole, 3.2 m/rad, rounded up to 5.
   const double steps =
       static_cast<double>(ours.outcome.statistics.steps + theirs.outcome.statistics.steps);
   const double bound = 5 * steps * (rtol * largest + atol);
-  CHECK(bound < 1e-5);  // else the comparison would say little
+  CHECK(bound < 1e-5);  // otherwise the comparison would be weak
   const model::SignalPair* reference = nullptr;
   const model::Model model = model::assemble(scene, false);
   std::visit(
@@ -103,7 +103,7 @@ TEST_CASE("radau and BDF agree along every reference path") {
     CAPTURE(a.t);
     CHECK(std::abs(a.ball.x - b.ball.x) < bound);
     CHECK(std::abs(a.ball.y - b.ball.y) < bound);
-    // The columns show the path itself.
+    // The columns contain the path itself.
     CHECK(a.reference[0] == reference->at(a.t)[0].value);
     CHECK(a.reference[1] == reference->at(a.t)[1].value);
   }
@@ -117,13 +117,13 @@ TEST_CASE("the ball comes to rest where the waypoints end") {
   const Run run = run_in_memory(scene, Method::radau, {1e-8, 1e-10});
   const model::Sample& last = run.samples.back();
   CHECK(last.reference == Pair{-0.04, 0.01});
-  // After 16 s the slowest pole has left e^-23.7 of what was there at 4 s, at most 0.2 m. A
-  // local error, rtol of 0.2 m, is what the integration itself may leave, ten times over.
+  // After 16 s the slowest pole has left e^-23.7 of what existed at 4 s, at most 0.2 m. The
+  // integration may leave ten local errors of rtol times 0.2 m.
   CHECK(std::abs(last.ball.x + 0.04) < 0.2 * (std::exp(-23.0) + 1e-7));
   CHECK(std::abs(last.ball.y - 0.01) < 0.2 * (std::exp(-23.0) + 1e-7));
 }
 
-TEST_CASE("a run over a jump of the reference is two runs, one from the other's end") {
+TEST_CASE("a run across a jump of the reference equals two runs joined there") {
   const auto method = GENERATE(Method::radau, Method::bdf);
   const double at = 2.125;
   const Pair before{0.01, 0.02}, after{-0.04, 0.01};
@@ -158,19 +158,19 @@ TEST_CASE("a run over a jump of the reference is two runs, one from the other's 
     CHECK(a.reference == after);
   }
   CHECK(stepped.samples[jump - 1].reference == before);
-  // At rest on its reference, the ball does not know of the jump to come. The tolerance leaves 5
-  // steps of the loop, as above.
+  // At rest on its reference, the ball does not anticipate the jump. The tolerance leaves 5 steps
+  // of the loop, as above.
   CHECK(std::abs(stepped.samples[jump].ball.x - before[0]) < bound);
-  // The command jumps with the reference: the row at the jump is from after it.
+  // The command jumps with the reference: the row at the jump shows the value after it.
   CHECK(std::abs(stepped.samples[jump].command[0] - 0.6 * (after[0] - before[0])) < bound);
   CHECK(std::abs(stepped.samples[jump - 1].command[0]) < bound);
 }
 
-TEST_CASE("commands beyond a limit by a jump of the reference") {
+TEST_CASE("commands that a jump of the reference drives beyond a limit") {
   Scenario scene = follows(SquareReference{{0.04, 0.03}, 4, {0, 1}, {0, 0}, 0.5});
   scene.controller->law = Law::pid;
   scene.controller->ki = {{{0.2, 0}, {0, -0.2}}};
-  scene.controller->limit = 0.02;  // rad; kp asks for 0.6 rad/m of jumps of 8 cm
+  scene.controller->limit = 0.02;  // rad; kp demands 0.6 rad/m for jumps of 8 cm
   const Run ours = run_in_memory(scene, Method::radau, {1e-9, 1e-11});
   const Run theirs = run_in_memory(scene, Method::bdf, {1e-9, 1e-11});
   REQUIRE(ours.outcome.ending == solve::Ending::done);
@@ -179,13 +179,13 @@ TEST_CASE("commands beyond a limit by a jump of the reference") {
   for (std::size_t i = 0; i < ours.samples.size(); ++i) {
     const model::Sample &a = ours.samples[i], &b = theirs.samples[i];
     CAPTURE(a.t);
-    // BDF's thousands of steps leave a local error each, of 1e-10 at most.
+    // Each of BDF's thousands of steps leaves a local error of at most 1e-10.
     CHECK(std::abs(a.ball.x - b.ball.x) < 1e-6);
     CHECK(std::abs(a.ball.y - b.ball.y) < 1e-6);
     limited = limited || std::abs(a.command[0]) == 0.02;
   }
   CHECK(limited);
-  // A jump needs few steps, since none crosses it.
+  // No step crosses a jump, so few steps are needed.
   CHECK(ours.outcome.statistics.steps < 600);
 }
 
@@ -193,13 +193,14 @@ TEST_CASE("a sampled law sees a jump of the reference at the next sample") {
   Scenario scene = follows(StaircaseReference{{{0.01, 0.02}, {0.03, 0.02}}, {0.9}});
   scene.controller->sampling = Sampling{0.03, 0};
   scene.time = {1.5, 0.01};
-  const double asked = 0.6 * 0.02;  // kp; a difference of positions is zero at rest
+  const double asked = 0.6 * 0.02;  // kp; at rest a difference of positions is zero
   const auto command_at = [&](double at, double t) {
     std::get<StaircaseReference>(scene.controller->reference).jumps = {at};
     const Run run = run_in_memory(scene, Method::radau, {1e-9, 1e-11});
     return run.samples[static_cast<std::size_t>(std::lround(t / 0.01))].command[0];
   };
-  // Of 30 samples of 30 ms, a rounding before 0.9 s: this one sees the jump, and none before it.
+  // 30 samples of 30 ms end a rounding error before 0.9 s: this sample is the first to see the
+  // jump.
   CHECK(30 * 0.03 < 0.9);
   CHECK(command_at(0.9, 0.89) == 0);
   CHECK(std::abs(command_at(0.9, 0.9) - asked) < 1e-15);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Controllers in discrete time: what they compute, and when.
+// Controllers in discrete time: their results and their timing.
 #include <cmath>
 
 #include "catch.hpp"
@@ -49,7 +49,7 @@ bool same(const model::Sample& a, const model::Sample& b) {
 
 }  // namespace
 
-TEST_CASE("a sampled run does not depend on the output step, to the bit") {
+TEST_CASE("a sampled run does not depend on the output step, bit for bit") {
   const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
   const Run coarse = run_of(rig(), method);
   for (const std::size_t parts : {2, 5, 8}) {
@@ -59,7 +59,7 @@ TEST_CASE("a sampled run does not depend on the output step, to the bit") {
     const Run other = run_of(fine, method);
     std::size_t compared = 0;
     for (std::size_t i = 0; i < coarse.samples.size(); ++i) {
-      // Only where both times are the same double.
+      // Only if both times are the same double.
       if (grid[parts * i] != coarse_grid[i]) continue;
       ++compared;
       CHECK(same(coarse.samples[i], other.samples[parts * i]));
@@ -68,7 +68,7 @@ TEST_CASE("a sampled run does not depend on the output step, to the bit") {
   }
 }
 
-TEST_CASE("a noisy run repeats to the bit for a seed, and differs for another") {
+TEST_CASE("a noisy run repeats bit for bit with a seed, and differs with another") {
   const Run first = run_of(rig()), again = run_of(rig());
   Scenario other = rig();
   other.controller->sensor->seed = 2;
@@ -81,7 +81,7 @@ TEST_CASE("a noisy run repeats to the bit for a seed, and differs for another") 
   CHECK(differs);
 }
 
-TEST_CASE("the command is held between samples, and comes its delay after them") {
+TEST_CASE("the command is held between samples and arrives its delay after them") {
   Scenario scene = rig();
   scene.time = {0.2, 0.001};
   const Run run = run_of(scene);
@@ -90,15 +90,15 @@ TEST_CASE("the command is held between samples, and comes its delay after them")
     const double since = std::fmod(sample.t - 0.01 + 1e-9, 0.02);
     if (sample.command[0] != before) CHECK(std::abs(since) < 1.1e-3);
     before = sample.command[0];
-    // In steps of the command's resolution.
+    // In units of the command's resolution.
     const double steps = sample.command[0] / 0.002;
     CHECK(std::abs(steps - std::round(steps)) < 1e-9);
   }
-  // Before the first command has come, the servos are told nothing.
+  // Before the first command arrives, the servos have none.
   CHECK(run.samples[5].command == Pair{0, 0});
 }
 
-TEST_CASE("a limit that is no multiple of the command's resolution is kept") {
+TEST_CASE("a limit that is not a multiple of the command's resolution holds") {
   Scenario scene = rig();
   scene.controller->limit = 0.005;
   scene.controller->sampling->resolution = 0.002;
@@ -109,12 +109,13 @@ TEST_CASE("a limit that is no multiple of the command's resolution is kept") {
   CHECK(most == 0.004);
 }
 
-TEST_CASE("a fast sampled PD tends to the continuous one") {
-  // The derivative from differences is half a period late, the hold another half: the distance
-  // shrinks with the period, to first order.
+TEST_CASE("a fast sampled PD converges to the continuous one") {
+  // The difference quotient lags half a period, the hold another half: the distance is first order
+  // in the period.
   Scenario continuous = fig2b();
   continuous.ball.radius = 0.02;
-  continuous.ball.velocity = {0, -0.015};  // that of the reference: no first kick of the estimate
+  continuous.ball.velocity = {
+      0, -0.015};  // the reference's velocity, so that the estimate has no first kick
   continuous.gimbal.servo = Servo{30, 0.8};
   continuous.controller->kp = {{{0.4, 0}, {0, -0.4}}};
   continuous.controller->kv = {{{0.4, 0}, {0, -0.4}}};
@@ -133,17 +134,17 @@ TEST_CASE("a fast sampled PD tends to the continuous one") {
   };
   const double slow = distance(4e-3), fast = distance(1e-3);
   CHECK(fast < 1e-3);
-  CHECK(fast < slow / 3);  // of 4, at first order
+  CHECK(fast < slow / 3);  // first order would give 4
 }
 
 TEST_CASE("PID with a limited command does not wind up") {
-  // The ball starts far off; the integral waits while the command is at its limit.
+  // The ball starts far away; the integral waits while the command is at its limit.
   const bool sampled = GENERATE(false, true);
   Scenario scene = fig2b();
   scene.ball.radius = 0.02;
   scene.ball.position = {0.3, 0};
   scene.gimbal.servo = Servo{30, 0.8};
-  scene.gimbal.mounting.phi_offset = 0.02;  // what the integral is for
+  scene.gimbal.mounting.phi_offset = 0.02;  // the offset that the integral must remove
   scene.controller->law = Law::pid;
   scene.controller->kp = {{{0.6, 0}, {0, -0.6}}};
   scene.controller->kv = {{{0.5, 0}, {0, -0.5}}};
@@ -158,10 +159,10 @@ TEST_CASE("PID with a limited command does not wind up") {
     CHECK(std::abs(sample.command[0]) <= 0.1 * (1 + 1e-9));
     furthest = std::min(furthest, sample.ball.x);
   }
-  // The offset is integrated away.
+  // The integral has removed the offset.
   CHECK(std::abs(run.samples.back().ball.x) < 1e-3);
   CHECK(std::abs(run.samples.back().gimbal.phi) < 1e-3);
-  // The overshoot stays well below the way it came.
+  // The overshoot stays well below the initial distance.
   CHECK(furthest > -0.15);
 }
 
@@ -181,7 +182,7 @@ TEST_CASE("gravity compensation and feedback linearisation follow a circle") {
   };
   CHECK(error_of(run_of(scene), 10) < 1e-3);
 
-  // Exactly, for as long as the tilt, its unstable internal state, stays small.
+  // Exactly, as long as the tilt, the unstable internal state, stays small.
   scene.controller->law = Law::feedback_linearisation;
   scene.controller->drives = Drives::acceleration;
   scene.gimbal.servo.reset();
@@ -190,7 +191,7 @@ TEST_CASE("gravity compensation and feedback linearisation follow a circle") {
   const Run run = run_in_memory(scene, Method::automatic, {1e-10, 1e-12});
   CHECK(run.outcome.ending == solve::Ending::done);
   CHECK(error_of(run, 0) < 1e-9);
-  // Let run on, the plane turns over, and the run stops there.
+  // Later the plane turns over, and the run stops there.
   scene.time = {10, 0.01};
   const Run on = run_in_memory(scene, Method::automatic, {1e-10, 1e-12});
   CHECK(on.outcome.ending == solve::Ending::stopped);
@@ -199,7 +200,7 @@ TEST_CASE("gravity compensation and feedback linearisation follow a circle") {
   CHECK(error_of(on, 0) < 1e-6);
 }
 
-TEST_CASE("feedback linearisation stops short of its singularity") {
+TEST_CASE("feedback linearization stops before its singularity") {
   const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
   Scenario scene = fig2b();
   scene.controller->law = Law::feedback_linearisation;
@@ -224,7 +225,7 @@ TEST_CASE("feedback linearisation stops short of its singularity") {
         Approx(0.05).epsilon(1e-6));
 }
 
-TEST_CASE("dropouts do not change the noise of the samples that are seen") {
+TEST_CASE("dropouts do not change the noise of the remaining samples") {
   Scenario scene = rig();
   scene.controller->sensor->dropout = 0;
   const Run without = run_of(scene);

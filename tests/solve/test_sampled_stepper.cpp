@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sampled rigs by pieces between instants, beside the general way: radau's steps, guards looked at.
+// Sampled rigs piece by piece between instants, compared with radau's steps with guards.
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -54,7 +54,7 @@ Both run_of(const model::Model& model, const solve::OutputGrid& grid,
   return run;
 }
 
-// The largest difference of any number of any row, in units of the number's size.
+// Largest difference of any number in any row, relative to its size.
 double largest_difference(const model::Model& model, const Both& a, const Both& b) {
   REQUIRE(a.rows.rows() == b.rows.rows());
   std::vector<double> size(model.row_size(), 1e-3);
@@ -72,11 +72,11 @@ double largest_difference(const model::Model& model, const Both& a, const Both& 
   return largest;
 }
 
-// Of every kind of servo, with every limit; of every law and drive; rigs beyond the paper's.
+// Every kind of servo with every limit, every law and drive, and rigs beyond the paper's.
 struct Case {
   const char* what;
   const char* servo;       // and mounting
-  const char* controller;  // but its sampling
+  const char* controller;  // without its sampling
   const char* more = "";
 };
 
@@ -127,14 +127,15 @@ std::string text_of(const Case& one, const std::string& sampling, const std::str
          columns + "]}\n" + one.more;
 }
 
-// No quantisation: what switches a command by its least step would turn rounding into a difference.
+// Without quantization, because a switch of the command by one step would amplify rounding.
 const char* const sampling =
     "sampling: {period: 0.02, delay: 0.006, derivative_filter: 0.03}, "
     "sensor: {delay: 0.011, noise: 2e-4, seed: 3, dropout: 0.1}";
 
 }  // namespace
 
-TEST_CASE("a rig by pieces is the rig in general, whatever its servos, law and mounting") {
+TEST_CASE(
+    "a rig solved by pieces agrees with the general method, for all servos, laws and mountings") {
   for (const Case& one : cases) {
     INFO(one.what);
     const Scenario scene = scene_of(text_of(one, sampling, "t, x, gamma"));
@@ -156,7 +157,7 @@ TEST_CASE("a rig by pieces is the rig in general, whatever its servos, law and m
   }
 }
 
-TEST_CASE("integrate() takes sampled rigs by pieces, and leaves others alone") {
+TEST_CASE("integrate() solves sampled rigs by pieces, and no others") {
   const Scenario scene = scene_of(text_of(cases[0], sampling, "t, x"));
   const model::Model sampled = model::assemble(scene, false);
   const solve::OutputGrid grid(scene.time);
@@ -169,7 +170,7 @@ TEST_CASE("integrate() takes sampled rigs by pieces, and leaves others alone") {
   CHECK_FALSE(solve::sampled::knows(model::assemble(continuous, false)));
 }
 
-TEST_CASE("pieces that are longer than their tolerance allows are cut") {
+TEST_CASE("pieces too long for their tolerance are split") {
   // Four commands in eight seconds, and a stiff servo that jumps at each.
   const Scenario scene = scene_of(text_of(
       cases[7], "sampling: {period: 0.8, delay: 0.1, derivative_filter: 1}", "t, x, gamma"));
@@ -180,7 +181,7 @@ TEST_CASE("pieces that are longer than their tolerance allows are cut") {
   CHECK(pieces.outcome.ending == general.outcome.ending);
   CHECK(largest_difference(model, general, pieces) < 1e-8);
   CHECK(pieces.outcome.statistics.error_test_failures > 0);
-  // A looser tolerance is kept to, with fewer steps.
+  // A looser tolerance is met with fewer steps.
   Both loose(model.row_size());
   loose.outcome = solve::integrate_hybrid(model, by_pieces(grid, {1e-6, 1e-8}), {1e-6, 1e-8}, grid,
                                           loose.rows, {});
@@ -188,7 +189,7 @@ TEST_CASE("pieces that are longer than their tolerance allows are cut") {
   CHECK(loose.outcome.statistics.steps < pieces.outcome.statistics.steps);
 }
 
-TEST_CASE("events of a rig by pieces are found where they lie, between instants and at them") {
+TEST_CASE("events of a rig solved by pieces are found between instants and at them") {
   // The ball leaves the plate, slips on the way, and a jump of the command makes it slip at once.
   struct Watched {
     const char* what;

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Takes the pictures of docs/how-to/replay.md: pictures.py BBSIM MAKE_PAGE TEMPLATE SOURCE FOLDER"""
+"""Makes the pictures of docs/how-to/replay.md: pictures.py BBSIM MAKE_PAGE TEMPLATE SOURCE FOLDER"""
 
 import os
 import subprocess

@@ -45,10 +45,10 @@ class Files:
         return os.path.join(self.folder, name)
 
     def config(self, name):
-        return f"configs/{name}.yaml"  # from SOURCE, where all is run
+        return f"configs/{name}.yaml"  # relative to SOURCE, where everything runs
 
     def run(self, name, config, *options):
-        """The result NAME.csv with NAME.json and NAME.txt, as make_page takes it."""
+        """The result NAME.csv with NAME.json and NAME.txt, as make_page expects it."""
         if name not in self.made:
             self.made.add(name)
             subprocess.run([BBSIM, "run", self.config(config), "-o", self(name + ".csv"), "--summary",
@@ -77,7 +77,7 @@ files = Files()
 
 
 def multiply(matrix, vector):
-    """Of a matrix in columns, as WebGL has them."""
+    """Applies a column-major matrix, as WebGL stores it."""
     return [sum(matrix[4 * column + row] * vector[column] for column in range(4)) for row in range(4)]
 
 
@@ -94,7 +94,7 @@ def on_screen(view, row, radius, factor=1):
 
 
 class InBrowser(unittest.TestCase):
-    options = {}  # of a browser that is like no other's; those without share one
+    options = {}  # browser options of a test class; classes without any share one browser
     shared = None
 
     @classmethod
@@ -110,7 +110,7 @@ class InBrowser(unittest.TestCase):
             unittest.addModuleCleanup(cls.browser.__exit__, None, None, None)
 
     def open(self, page):
-        """Opens a page afresh, and asserts that it needs nothing and complains of nothing."""
+        """Opens a fresh page, and asserts that it needs no network and reports no errors."""
         self.browser.call("POST", "/url", {"url": "about:blank"})
         self.browser.console()
         self.browser.requests()
@@ -135,7 +135,7 @@ class TheBall(InBrowser):
             self.js("bbsim.seek(arguments[0])", row["t"])
             seen = self.js("bbsim.ballOnScreen()")
             x, y = on_screen(self.js("bbsim.view()"), row, radius, factor)
-            # floats, of which a picture has a few hundred pixels
+            # floats, over a few hundred pixels
             self.near(seen[0], x, 0.05)
             self.near(seen[1], y, 0.05)
 
@@ -153,7 +153,7 @@ class TheBall(InBrowser):
         self.assertEqual(self.browser.text("#exaggerated"), "Tilt drawn ×5")
 
     def test_is_drawn_there(self):
-        """The pixels that change when the ball is taken away are about where it is said to be."""
+        """Checks that removing the ball changes pixels only near the ball's computed place."""
         self.open(files.replay("rig"))
         rows = rows_of(files("rig.csv"))
         self.js("bbsim.picture.eyes.go('above')")
@@ -174,7 +174,7 @@ class TheBall(InBrowser):
                        if max(abs(a - b) for a, b in zip(shots[0][j][i], shots[1][j][i])) > 24]
             columns, lines = [i for i, _ in changed], [j for _, j in changed]
             self.assertGreater(len(changed), 200)
-            # Seen from above and beside its middle the ball's outline is off by less than a pixel.
+            # Seen from above, away from the middle, perspective shifts the ball's outline by less than a pixel.
             self.near(clip[0] + (min(columns) + max(columns) + 1) / 2, x, 1.5)
             self.near(clip[1] + (min(lines) + max(lines) + 1) / 2, y, 1.5)
 
@@ -183,7 +183,7 @@ class TheBall(InBrowser):
         rows = rows_of(files("fig2a.csv"))
         self.js("bbsim.seek(arguments[0])", rows[-1]["t"])
         self.js("bbsim.picture.draw()")
-        # From row to row, as the page says where no orientation was recorded; the turn by gamma is in it.
+        # The orientation is computed from row to row, as the page says if none was recorded; it includes gamma.
         self.assertIn("rolls straight from row to row", self.browser.text("#details"))
         q = self.js("bbsim.picture.actors[0].ball.mesh.quaternion.toArray()")
         self.near(math.sqrt(sum(c * c for c in q)), 1, 1e-6)
@@ -191,7 +191,7 @@ class TheBall(InBrowser):
 
 
 class TheProgram(InBrowser):
-    """Pages as bbsim itself writes them."""
+    """Pages that bbsim itself writes."""
 
     def made(self, name, *command):
         file = files(name + ".html")
@@ -207,7 +207,7 @@ class TheProgram(InBrowser):
             self.js("[bbsim.seek(arguments[0]), bbsim.picture.draw()]", row["t"])
             drawn = self.js("bbsim.picture.actors[0].ball.mesh.quaternion.toArray()")
             wanted = [row[f"ball_q{part}"] for part in "xyzw"]
-            # In steps of 1/32767, and of either sign.
+            # Quantized in steps of 1/32767; the sign is arbitrary.
             self.near(abs(sum(a * b for a, b in zip(drawn, wanted))), 1, 1e-4)
         self.assertNotIn("rolls straight from row to row", self.browser.text("#details"))
         self.assertIn("equation (27)", self.browser.text("#details"))
@@ -242,13 +242,13 @@ class Time(InBrowser):
                 }, 100);""", "args": []})
             (wall_a, a), (wall_b, b) = stretch
             self.assertGreater(wall_b - wall_a, 0.3)
-            # Both clocks are that of the browser's frames.
+            # Both clocks are those of the browser's frames.
             self.near((b - a) / (wall_b - wall_a), speed, 0.001 * speed)
 
     def test_ends_or_begins_again(self):
         self.open(files.replay("falls"))
         last = rows_of(files("falls.csv"))[-1]["t"]
-        # Until it has ended, or has begun again; what its clock says then.
+        # Waits until playback ends or restarts, and returns the clock.
         play = """const done = arguments[1], from = arguments[0], began = performance.now();
             bbsim.clock.seek(from); bbsim.clock.setSpeed(1); bbsim.clock.play();
             const look = setInterval(() => {
@@ -296,7 +296,7 @@ class Time(InBrowser):
             self.assertEqual(self.js("bbsim.picture.eyes.view"), view)
         self.browser.keys("?")
         self.assertTrue(self.js("document.getElementById('keys').open"))
-        self.browser.keys(" ")  # a dialogue's keys are its own
+        self.browser.keys(" ")  # a dialog handles its own keys
         self.assertFalse(self.js("bbsim.clock.playing"))
         self.js("document.getElementById('keys').close()")
         self.browser.keys("t")
@@ -328,7 +328,7 @@ class Time(InBrowser):
         self.assertEqual(self.js("bbsim.clock.now"), 12.34)
         self.assertEqual(self.js("bbsim.picture.eyes.view"), "above")
         self.assertEqual(self.js("bbsim.picture.factor"), 2)
-        # Turned by hand, the eye itself is kept.
+        # Turning by hand keeps the eye itself.
         box = self.js("document.getElementById('canvas').getBoundingClientRect().toJSON()")
         self.browser.drag((box["left"] + 200, box["top"] + 300), (box["left"] + 260, box["top"] + 330))
         eye = self.js("bbsim.picture.eyes.state()")
@@ -336,7 +336,7 @@ class Time(InBrowser):
         self.open(files.replay("rig") + self.js("location.hash"))
         for found, wanted in zip(self.js("bbsim.picture.eyes.state()"), eye):
             self.near(found, wanted, 1e-3)
-        # Nonsense is left alone.
+        # Invalid values are ignored.
         self.open(files.replay("rig") + "#t=abc&view=nowhere&eye=1,2&tilt=-3&x")
         self.assertEqual(self.js("bbsim.clock.now"), 0)
         self.assertEqual(self.js("bbsim.picture.eyes.view"), "free")
@@ -361,7 +361,7 @@ class Plots(InBrowser):
         shown = self.browser.text(".plot .legend li:first-child output").replace("−", "-")
         self.near(float(shown), row["x"] * 1e3, 0.006)
         self.assertEqual(self.browser.text(".plot h3 small").strip(), "mm")
-        # The other plots read at the same time.
+        # The other plots show readings of the same time.
         phi = self.js("bbsim.plots.plots[1].readings[0].textContent").replace("−", "-")
         self.near(float(phi), math.degrees(row["phi"]), 0.0006)
         self.assertEqual(self.js("bbsim.clock.now"), t)
@@ -453,14 +453,14 @@ class Sweeps(InBrowser):
         self.assertEqual(self.browser.text(".case h3"), "Case 8")
         command = self.browser.text("#rerun")
         self.assertIn(f"controller.pd.kv.0.0={float(case['controller.pd.kv.0.0'])!r}".removesuffix(".0"), command)
-        # It runs that case again.
+        # The command repeats that case.
         words = shlex.split(command.replace("\\\n", " "))
         self.assertEqual(words[:2], ["bbsim", "run"])
         output = files("again.csv")
         words[words.index("-o") + 1] = output
         subprocess.run([BBSIM, *words[1:], "--set", "time.end=3", "-q"], cwd=SOURCE, check=True)
         self.near(rows_of(output)[-1]["x"], float(case["x_end"]), 1e-6)
-        # Keys go from case to case, along the axes: as in a plot, the first key goes across.
+        # Keys move between cases along the axes; as in a plot, the first key is horizontal.
         self.js("document.querySelector('.drawing canvas').focus()")
         self.browser.keys("\ue014")
         self.assertEqual(self.browser.text(".case h3"), "Case 13")
@@ -492,7 +492,7 @@ class Sweeps(InBrowser):
         shown = "Array.from({length: 24}, (_, i) => bbsim.sweeps[0].placeOf(i)).map((at, i) => at ? i : -1).filter((i) => i >= 0)"
         with open(table, newline="") as stream:
             cases = list(csv.DictReader(stream))
-        # Of the two with the most values, as in a plot, are the axes; the third one has a slider.
+        # The two keys with the most values are the axes, as in a plot; the third one has a slider.
         self.assertEqual(self.js(f"[{state}.x, {state}.y]"), [0, 1])
         for level, place in [(0, "0.01"), (1, "0.03")]:
             self.js(f"[{state}.fixed.set('ball.position.0', {level}), bbsim.sweeps[0].refresh()]")
@@ -509,7 +509,7 @@ class Sweeps(InBrowser):
                                   "--samples", "7", "--set", "time.end=2")
         self.open(page)
         self.assertIn("the median of its 7 cases, over draws of ball.position.0", self.browser.text(".remark"))
-        # The case in the middle of those in its cell is the one that is chosen.
+        # The middle one of the cases in a cell is selected.
         with open(table, newline="") as stream:
             cases = list(csv.DictReader(stream))
         cell = [case for case in cases if case["controller.pd.kv.0.0"] == cases[9]["controller.pd.kv.0.0"]
@@ -573,7 +573,7 @@ class Texts(InBrowser):
         self.assertIn("failed at", self.browser.text("#subtitle"))
         self.browser.keys("\ue010")
         self.assertIn("grows without bound", self.browser.text("#ended"))
-        # As one that Ctrl-C ended.
+        # Like a run ended by Ctrl-C.
         arguments = files.run("interrupted", "fig2a")
         with open(files("interrupted.json")) as stream:
             summary = json.load(stream)
@@ -597,7 +597,7 @@ class Texts(InBrowser):
             a, b = [float(v) for v in a.split(",")], [float(v) for v in b.split(",")]
             self.assertEqual(a[0], b[0])
             for found, wanted in zip(a, b):
-                self.near(found, wanted, 1.2e-7 * abs(wanted) + 1e-37)  # rounded to a float, and to its digits
+                self.near(found, wanted, 1.2e-7 * abs(wanted) + 1e-37)  # rounded to a float and to its digits
         png = self.browser.call("POST", "/execute/async", {"script": """
             const done = arguments[0], make = URL.createObjectURL;
             URL.createObjectURL = (blob) => { blob.arrayBuffer().then((b) => done(
@@ -625,10 +625,10 @@ def self_sweep():
 
 
 class Made(InBrowser):
-    """Pages that bbsim itself makes, of anything that it takes."""
+    """Pages that bbsim itself makes, from any valid input."""
 
     def page_of(self, name, *arguments):
-        """Of these files; what is to be told of them is told by code 0 or 1."""
+        """Makes a page of these files; expects exit code 0 or 1 and these words."""
         file = files("made-" + name + ".html")
         if not os.path.exists(file):
             made = subprocess.run([BBSIM, "replay", *arguments, "-o", file, "-q"], cwd=SOURCE, capture_output=True)
@@ -642,7 +642,7 @@ class Made(InBrowser):
         return self.js("[bbsim.picture.draw(), ...bbsim.picture.actors[0].ball.mesh.quaternion.toArray()].slice(1)")
 
     def wait(self, condition, seconds=20):
-        """Until it is true in the page; what it was at last."""
+        """Waits until the expression is true in the page, and returns its last value."""
         return self.browser.call("POST", "/execute/async", {"script": f"""
             const done = arguments[0], until = Date.now() + {seconds} * 1000;
             const look = () => {{ const is = {condition}; if (is || Date.now() > until) done(is); else setTimeout(look, 20); }};
@@ -651,12 +651,12 @@ class Made(InBrowser):
 
 class Turns(Made):
     def test_of_a_ball_that_slides_are_its_own(self):
-        """20 rad/s about x and -110 about y at the start, as the scene says, where rolling would be 34.6 about y."""
+        """20 rad/s about x and -110 about y at the start, from the scene; rolling would be 34.6 about y."""
         self.show("slides", "configs/slides.yaml")
         self.js("bbsim.seek(0.02)")
         x, y, z, w = self.quaternion()
         turned = 2 * math.acos(min(1, abs(w)))
-        # In 20 ms friction takes 6.9 m/s^2 / 0.026 m * 20 ms = 5 rad/s of it.
+        # In 20 ms friction changes it by 6.9 m/s^2 / 0.026 m * 20 ms = 5 rad/s.
         self.near(turned, 0.02 * math.sqrt(20**2 + 110**2 + 15**2), 0.06)
         size = math.copysign(math.sqrt(1 - w * w), w)
         self.near(y / size, -110 / math.sqrt(20**2 + 110**2 + 15**2), 0.05)
@@ -671,7 +671,7 @@ class Turns(Made):
         self.assertEqual(self.quaternion(), [0, 0, 0, 1])
         self.assertIn("How the ball turns is not known", self.browser.text("#details"))
         self.assertIn("how the ball turns is not known", self.browser.text(".scale"))
-        # A log tells no more.
+        # A log contains nothing else.
         with open(files("xy.csv"), "w") as stream:
             stream.write("t,x,y\n0,0,0\n1,0.01,0\n2,0.02,0.01\n")
         self.show("xy", files("xy.csv"))
@@ -700,7 +700,7 @@ class ManyRuns(Made):
         self.assertEqual(self.js("bbsim.picture.actors.length"), 7)
         looks = self.js("bbsim.data.runs.map((run) => bbsim.palette.run(run.index) + bbsim.palette.dash(run.index))")
         self.assertEqual(len(set(looks)), 7)
-        # All over one stretch of time, which is named.
+        # All plots share one time range, which is stated.
         ranges = self.js("bbsim.plots.plots.filter((p) => p.graph).map((p) => p.graph.xAxisRange())")
         self.assertEqual(len({tuple(one) for one in ranges}), 1)
         self.assertEqual(self.js("document.querySelector('.dygraph-xlabel').textContent"), "t (s)")
@@ -724,7 +724,7 @@ class ManyRuns(Made):
         self.assertNotIn("mm", self.browser.text(".scale"))
         self.assertNotIn(" m", self.browser.text(".scale"))
         self.assertEqual(self.js("document.querySelector('.dygraph-xlabel').textContent"), "t")
-        # Every column has its plot all the same, in the numbers of the file.
+        # Every column still has its plot, in the numbers of the file.
         shown = set(self.js("bbsim.plots.plots.flatMap((p) => p.curves.map((c) => c.name))"))
         self.assertEqual(shown, {"x", "y", "phi", "phi_command", "torque_phi", "mine"})
         self.js("bbsim.seek(0.5)")
@@ -733,7 +733,7 @@ class ManyRuns(Made):
 
 class TheStage(Made):
     def inside(self, t):
-        """Whether the ball is in the picture at that time, and on the plate that is drawn."""
+        """Whether the ball is visible at that time, and on the drawn plate."""
         self.js("bbsim.seek(arguments[0])", t)
         x, y = self.js("bbsim.ballOnScreen()")
         left, top, width, height = self.js("bbsim.view().canvas")
@@ -750,7 +750,7 @@ class TheStage(Made):
                 end = self.js("bbsim.data.end")
                 for k in range(9):
                     self.inside(end * k / 8)
-                # Its corners, too, at every tilt.
+                # Its corners are visible too, at every tilt.
                 for k in range(9):
                     self.js("[bbsim.seek(arguments[0]), bbsim.picture.draw()]", end * k / 8)
                     corners = self.js("""[[-1, -1], [-1, 1], [1, -1], [1, 1]].map(([x, y]) => {
@@ -796,7 +796,7 @@ class TheStage(Made):
             self.assertFalse(self.js("bbsim.picture.actors[0].marker.visible"))
 
     def test_what_is_ahead_is_seen(self):
-        """The dashes of the way to come, against the plate: as far from it as a line of text has to be."""
+        """The dashes of the future path need the contrast of a line of text against the plate."""
         self.show("fig2a", "configs/fig2a.yaml")
         apart = self.js("""(() => { const c = bbsim.picture.actors[0].future.material.color, p = new THREE.Color(bbsim.palette.now().plate);
             const light = (k) => { const f = (v) => (v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
@@ -835,7 +835,7 @@ class Missing(Made):
         self.assertEqual(self.js("document.getElementById('level-bubble').getAttribute('visibility')"), "hidden")
         self.js("bbsim.seek(9)")
         self.assertEqual(self.browser.text("#level-tilt"), "2.066°")
-        # None at all: a log of places.
+        # No orientation at all: a log of positions.
         with open(files("places.csv"), "w") as stream:
             stream.write("t,x,y\n0,0,0\n1,0.1,0.1\n")
         self.show("places", files("places.csv"))
@@ -868,7 +868,7 @@ class TheEnd(Made):
         self.show("creep", "configs/hard/creep.yaml")
         _, _, place = self.browser.text("#subtitle").partition("failed at ")
         shown = place.removesuffix(" s of 13 s")
-        # The summary has the time at which the integrator gave up; the page shows six digits of it.
+        # The summary has the time at which the integrator gave up; the page shows six digits.
         subprocess.run([BBSIM, "run", "configs/hard/creep.yaml", "-q", "-o", files("creep.csv"), "--summary", files("creep.json")],
                        cwd=SOURCE, check=False)
         with open(files("creep.json")) as summary:
@@ -978,7 +978,7 @@ class Words(Made):
             [True, False])
 
     def test_of_marks_are_above_their_rims(self):
-        """Rims drawn later than what they surround had hidden it."""
+        """Regression: rims drawn later than what they surround used to hide it."""
         self.show("slides", "configs/slides.yaml")
         orders = self.js("bbsim.picture.rig.plane.children.flatMap((group) => group.children).filter((mark) => mark.children.length === 2)"
                          ".map((mark) => mark.children.map((part) => part.renderOrder))")
@@ -997,7 +997,7 @@ class Words(Made):
 class Pace(Made):
     def test_slow_pictures_have_fewer_pixels_and_then_are_flat(self):
         self.show("rig", "configs/rig.yaml")
-        # As many pictures as are looked at, each after this time; the page's own frames stand still.
+        # Draws as many pictures as are examined, each after this time; the page's own frames are stopped.
         self.js("[window.fake = 0, performance.now = () => window.fake, window.requestAnimationFrame = () => 0, bbsim.clock.play()]")
         frames = "Array.from({length: arguments[0]}, () => [window.fake += arguments[1], bbsim.seek(bbsim.clock.now + 1e-3)]).length"
         self.js(frames, 30, 20)
@@ -1007,14 +1007,14 @@ class Pace(Made):
         self.assertEqual(self.js(ratio), 0.5)
         self.assertFalse(self.js("bbsim.screen.isFlat"))
         self.js("bbsim.clock.pause()")
-        self.assertEqual(self.js(ratio), 1)  # what stands still has all of them
+        self.assertEqual(self.js(ratio), 1)  # a still picture has full resolution
         self.js("bbsim.clock.play()")
         self.js(frames, 8, 120)
         self.assertTrue(self.js("bbsim.screen.isFlat"))
         self.assertFalse(self.js("document.getElementById('flat').hidden"))
         self.assertTrue(self.js("document.getElementById('picture').hidden"))
         self.assertIn("pictures a second", self.browser.text("#hint"))
-        # Who asks for three dimensions gets them, and keeps them.
+        # A user who chooses three dimensions keeps them.
         self.browser.click("[data-view=above]")
         self.assertFalse(self.js("bbsim.screen.isFlat"))
         self.js(frames, 30, 120)
@@ -1059,7 +1059,7 @@ class Flat(Made):
             scale = scale or math.hypot(dx, dy) / math.hypot(px, py)
             self.near(dx, scale * px, 0.05)
             self.near(dy, -scale * py, 0.05)
-        # And draws it there.
+        # The ball is drawn there.
         self.browser.frame()
         piece = self.js("""(() => { const b = [...document.querySelectorAll('#flat .piece')].pop().getBoundingClientRect();
             return [b.left + b.width / 2, b.top + b.height / 2]; })()""")
@@ -1087,20 +1087,20 @@ class Paper(Made):
             for (let i = 3; i < bytes.length; i += 4) inked += bytes[i] > 0; return inked / (bytes.length / 4); })""")
         self.assertGreater(len(drawn), 4)
         self.assertGreater(min(drawn), 0.005)
-        # As wide for its height as it was drawn.
+        # The printed aspect ratio is the drawn one.
         width, height, shown_width, shown_height = self.js("""(() => { const c = document.querySelector('#screen > canvas.printed'),
             b = c.getBoundingClientRect(); return [c.width, c.height, b.width, b.height]; })()""")
         self.near(width / height, shown_width / shown_height, 0.01)
         self.js("bbsim.print.end()")
         self.assertEqual(self.js("document.querySelectorAll('canvas.printed').length"), 0)
         self.assertEqual(self.js("document.documentElement.className"), "")
-        # So it is where a browser only shows what it would print.
+        # Print preview gives the same.
         self.browser.devtools("Emulation.setEmulatedMedia", {"media": "print"})
         self.assertTrue(self.wait("document.querySelectorAll('canvas.printed').length > 5"))
         self.browser.devtools("Emulation.setEmulatedMedia", {"media": "", "features": [
             {"name": "prefers-color-scheme", "value": "light"}, {"name": "prefers-reduced-motion", "value": "reduce"}]})
         self.assertTrue(self.wait("document.querySelectorAll('canvas.printed').length === 0"))
-        # The picture on the screen is as it was.
+        # The picture on the screen is unchanged.
         left, top, width, height = self.js("bbsim.view().canvas")
         self.near(self.js("bbsim.picture.eyes.camera.aspect"), width / height, 0.01)
 
@@ -1115,7 +1115,7 @@ class SweepPages(Made):
         rows = "".join(f"{i},{i // 300},{i % 300},done,1,{(i % 7) / 7}\n" for i in range(90000))
         self.sweep_page("thinned", "case,a,b,status,end_time,max_tilt\n" + rows)
         self.assertIn("22,500 of 90,000 shown", self.browser.text("#sweeps"))
-        # As in a plot, the first of two keys goes across; what the colours are of is said.
+        # As in a plot, the first of two keys is horizontal; the page says what the colors show.
         self.assertEqual(self.js("[bbsim.sweeps[0].state.x, bbsim.sweeps[0].state.y]"), [0, 1])
         self.assertEqual(self.js("[...document.querySelectorAll('.over .name')].map((e) => e.textContent)").count("max tilt, rad"), 1)
 
@@ -1123,7 +1123,7 @@ class SweepPages(Made):
         self.sweep_page("one-done", "case,a,status,end_time,max_distance\n0,1,failed,0.1,9\n1,2,done,1,0.02\n2,3,failed,0.1,9\n")
         self.assertEqual(self.browser.text(".case h3"), "Case 1")
         ticks = [float(text.replace("−", "-")) for text in self.js("[...document.querySelectorAll('.over text[text-anchor=end]')].map((e) => e.textContent)")]
-        self.assertTrue(0 < min(ticks) and max(ticks) < 0.05, ticks)  # an axis about 0.02, and not from -1 to 1
+        self.assertTrue(0 < min(ticks) and max(ticks) < 0.05, ticks)  # an axis about 0.02, not from -1 to 1
 
 
 class LongRuns(InBrowser):
@@ -1133,7 +1133,7 @@ class LongRuns(InBrowser):
         self.open(page)
         self.assertEqual(self.js("bbsim.data.runs[0].rows"), 1_000_001)
         self.assertIn("Of 1000001 rows", self.browser.text("#details"))
-        # Between kept rows, too, the ball is where the file says: within a half pixel.
+        # Between kept rows too, the ball is within half a pixel of the file's place.
         rows = rows_of(files("long.csv"))
         for index in [123_456, 500_000, 876_543]:
             row = rows[index]
@@ -1146,7 +1146,7 @@ class LongRuns(InBrowser):
 
 class Legs(InBrowser):
     def test_end_where_the_joints_are(self):
-        """Rods and horns have their lengths, horns the servos' angles, and joints their place in the plate."""
+        """Rods and horns have their lengths, horns the servos' angles, and joints their places in the plate."""
         files.run("three-servos", "three-servos")
         rows = rows_of(files("three-servos.csv"))
         self.open(files.replay("three-servos"))
@@ -1165,14 +1165,14 @@ class Legs(InBrowser):
                 out = math.hypot(knee[0], knee[1]) - base
                 self.near(math.atan2(knee[2] - axis[2], out), home + row[names[i]], 1e-4)
                 self.near(math.dist(joint, legs[(i + 1) % 3][2]), math.sqrt(3) * plate, 1e-7)
-            # The plane of the joints has the plate's normal.
+            # The plane through the joints has the plate's normal.
             a, b, c = (leg[2] for leg in legs)
             u, v = [b[k] - a[k] for k in range(3)], [c[k] - a[k] for k in range(3)]
             normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
             size = math.hypot(*normal)
             self.near(normal[0] / size, math.sin(row["phi"]) * math.cos(row["theta"]), 1e-5)
             self.near(normal[1] / size, -math.sin(row["theta"]), 1e-5)
-            # What is drawn is there: the ends of the meshes.
+            # The meshes' ends are at the computed places.
             ends = self.js("bbsim.picture.rig.legs.group.children.filter((mesh) => mesh.geometry.type.startsWith('Sphere'))"
                            ".map((mesh) => mesh.position.toArray())")
             for end, (_, _, joint) in zip(ends, legs):
@@ -1180,7 +1180,7 @@ class Legs(InBrowser):
 
 
 def fit_page():
-    """Of two logs, of a rig whose ball is hollow, in windows of which a third are held out."""
+    """The page of a fit of two logs: a rig with a hollow ball, with a third of the windows held out."""
     page = files("fit.html")
     if not os.path.exists(page):
         for number in [1, 2]:
@@ -1190,7 +1190,7 @@ def fit_page():
                            cwd=SOURCE, check=True)
             with open(log, "w") as stream:
                 stream.write("t,x,y\n")
-                # An error like a sensor's, and rows that lack x.
+                # An error like a sensor's, and rows without x.
                 for i, row in enumerate(rows_of(made)):
                     x = "" if i % 50 == 7 else row["x"] + 5e-4 * math.sin(7.3 * i * i)
                     stream.write(f"{row['t']},{x},{row['y'] + 5e-4 * math.cos(5.9 * i * i)}\n")
@@ -1223,13 +1223,13 @@ class AFit(InBrowser):
         self.js("bbsim.seek(arguments[0])", row["t"])
         read = self.js("bbsim.plots.plots.map((plot) => plot.readings.map((one) => one.textContent))")
         numbers = [[float(words.replace("−", "-")) for words in plot] for plot in read]
-        # In mm, with four digits of the largest one.
+        # In mm, with four digits of the largest number.
         self.near(numbers[0][0], 1e3 * row["x"], 0.06)
         self.near(numbers[2][0], 1e3 * row["y"], 0.06)
         modelled = self.js("bbsim.data.runs[0].values('x_modelled')[bbsim.data.runs[0].nearest(arguments[0])]", row["t"])
         self.near(numbers[0][1], 1e3 * modelled, 0.06)
         self.near(numbers[1][0], 1e3 * (modelled - row["x"]), 0.006)
-        # The curves' colours are in every plot's canvas.
+        # Each plot's canvas contains its curves' colors.
         for index, colours in enumerate([["x", "run"], ["reference"], ["x", "run"], ["reference"]]):
             for colour in colours:
                 painted = self.js("""(() => {
@@ -1269,11 +1269,11 @@ class AFit(InBrowser):
         self.near(self.js("bbsim.clock.now"), rows[40]["t"], 1e-12)
         for before, after in zip(begin, places()):
             self.assertNotEqual(before, after)
-        # How far they are apart is how far the numbers are.
+        # The balls' distance agrees with the numbers.
         far = self.js("""(() => { const [run] = bbsim.data.runs, row = run.nearest(bbsim.clock.now);
             return Math.hypot(run.values('x_residual')[row], run.values('y_residual')[row]); })()""")
         self.assertIn(f"{1e3 * far:.2f} mm apart", self.browser.text("#plan"))
-        # In a row without x, there is no ball of the log.
+        # A row without x has no ball of the log.
         self.js("bbsim.seek(arguments[0])", rows[57]["t"])
         self.assertEqual([is_shown for _, is_shown in places()], ["hidden", "visible"])
 
@@ -1321,7 +1321,7 @@ def rows_of_log(file):
 
 class FirstPicture(InBrowser):
     def test_is_drawn(self):
-        """A figure to read, in milliseconds since the page was requested; no bound, which would depend on the machine."""
+        """Prints a time in milliseconds since the request; no bound, because it would depend on the machine."""
         self.open(files.replay("rig"))
         first = self.js("bbsim.firstPicture")
         print(f"first picture after {first:.0f} ms", file=sys.stderr)

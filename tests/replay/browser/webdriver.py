@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""A headless Chromium, driven by WebDriver with nothing but Python's standard library."""
+"""A headless Chromium, controlled through WebDriver with Python's standard library only."""
 
 import base64
 import json
@@ -15,13 +15,13 @@ import urllib.error
 import urllib.request
 import zlib
 
-# Software rendering for WebGL, and nothing that asks for the network by itself.
+# Software rendering for WebGL, without network access of its own.
 FLAGS = [
     "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
     "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
     "--disable-sync", "--disable-extensions", "--hide-scrollbars", "--force-device-scale-factor=1",
     "--disable-dev-shm-usage", "--mute-audio",
-    # Whatever a page may ask for, nobody answers.
+    # No network request is answered.
     "--proxy-server=http://127.0.0.1:9", "--proxy-bypass-list=<-loopback>",
 ]
 ELEMENT = "element-6066-11e4-a52e-4f735466cecf"
@@ -78,13 +78,13 @@ class Browser:
             raise
         self.session = answer["sessionId"]
         width, height = self.size
-        # The window's own frame does not count: what the page sees is what was asked for.
+        # The size of the page, without the window's own frame.
         self.devtools("Emulation.setDeviceMetricsOverride",
                       {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": self.phone})
         self.devtools("Emulation.setEmulatedMedia", {"features": [
             {"name": "prefers-color-scheme", "value": "dark" if self.dark else "light"},
             {"name": "prefers-reduced-motion", "value": "reduce" if self.still else "no-preference"}]})
-        # Off: what is not in the file is not there.
+        # Offline, so that the page has only what its file contains.
         self.devtools("Network.enable", {})
         self.devtools("Network.emulateNetworkConditions",
                       {"offline": True, "latency": 0, "downloadThroughput": 0, "uploadThroughput": 0})
@@ -129,7 +129,7 @@ class Browser:
         return self.call("POST", "/execute/sync", {"script": script, "args": list(arguments)})
 
     def frame(self):
-        """Lets the page draw what it has to."""
+        """Waits until the page has drawn its pending changes."""
         self.call("POST", "/execute/async", {
             "script": "const done = arguments[0];"
                       "requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 0)));",
@@ -179,11 +179,11 @@ class Browser:
         return base64.b64decode(self.devtools("Page.captureScreenshot", parameters)["data"])
 
     def console(self):
-        """What the console said since it was last asked: level and message."""
+        """New console messages since the last call: level and message."""
         return [(entry["level"], entry["message"]) for entry in self.call("POST", "/se/log", {"type": "browser"})]
 
     def requests(self):
-        """Addresses that were asked for since this was last asked."""
+        """Addresses requested since the last call."""
         asked = []
         for entry in self.call("POST", "/se/log", {"type": "performance"}):
             message = json.loads(entry["message"])["message"]
@@ -226,14 +226,14 @@ def pixels(png):
 
 
 def small_png(png):
-    """The same picture in fewer bytes: six bits a colour, which nobody sees, and without transparency."""
+    """The same picture in fewer bytes: six bits per color, which looks the same, and no transparency."""
     width, height, rows = pixels(png)
     raw, previous = bytearray(), bytes(3 * width)
     for row in rows:
         line = bytes(value & 0xFC | value >> 6 for pixel in row for value in pixel)
         up = bytes((a - b) & 255 for a, b in zip(line, previous))
         left = line[:3] + bytes((a - b) & 255 for a, b in zip(line[3:], line))
-        # Of three filters the one that leaves the least.
+        # The filter among three with the smallest residual.
         kind, best = min(((0, line), (1, left), (2, up)), key=lambda way: sum(min(b, 256 - b) for b in way[1]))
         raw.append(kind)
         raw += best

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""bbsim and its JSON Schema agree: test_schema.py BBSIM CONFIGS REFUSED [CASES]
+"""Checks that bbsim and its JSON Schema agree: test_schema.py BBSIM CONFIGS REFUSED [CASES]
 
 Both accept every scenario of the folder CONFIGS, and both refuse every scenario of the file REFUSED;
 those under `program_alone` are the exceptions, which the schema accepts. The file CASES gets all of
@@ -20,7 +20,7 @@ import yaml
 
 
 class Core(yaml.SafeLoader):
-    """Reads scalars as YAML 1.2 does: 1e-3 is a number, and yes is a text."""
+    """Reads scalars as YAML 1.2 does: 1e-3 is a number, yes is a string."""
 
 
 Core.yaml_implicit_resolvers = {}
@@ -36,7 +36,7 @@ Core.add_constructor("tag:yaml.org,2002:float", lambda loader, node: float(node.
 
 
 def with_changes(scenario, changes):
-    """The scenario with keys set, or removed where the value is null."""
+    """The scenario with keys set, or removed if the value is null."""
     scenario = copy.deepcopy(scenario)
     for path, value in changes.items():
         *names, last = path.split(".")
@@ -62,7 +62,7 @@ def main(program, configs, refused, cases_file=None):
             shutil.copy(table, folder)
 
         def program_refuses(scenario):
-            # JSON is YAML.
+            # JSON is valid YAML.
             (folder / "scenario.yaml").write_text(json.dumps(scenario))
             checked = subprocess.run([program, "check", str(folder / "scenario.yaml")], capture_output=True)
             if checked.returncode not in (0, 1, 2):

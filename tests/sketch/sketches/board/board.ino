@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What sketches use of a board, checked on the board: prints what is not as it should be.
+// Checks on the board what sketches use of it, and prints each failure.
 #include <EEPROM.h>
 #include <SPI.h>
 #include <Servo.h>
@@ -15,7 +15,7 @@ int failures = 0;
     Serial.print(__LINE__); \
     Serial.println(F(": " #what)); \
   }
-// What a text prints as.
+// Captures printed text.
 class Text : public Print {
  public:
   using Print::write;
@@ -35,7 +35,7 @@ class Text : public Print {
   }
 
 const int table[] PROGMEM = {3, 1, 4};
-float y0 = 1, y1 = 2, gamma = 3, index = 4, time = 5;  // names that C's library has taken
+float y0 = 1, y1 = 2, gamma = 3, index = 4, time = 5;  // names that are taken in the C library
 Servo s, t;
 
 void numbers() {
@@ -111,7 +111,7 @@ void servos() {
   s.write(90);
   EXPECT(s.readMicroseconds() == 1472 && s.read() == 90);
   s.write(91);
-  EXPECT(s.readMicroseconds() == 1482);  // 10.3 us a degree
+  EXPECT(s.readMicroseconds() == 1482);  // 10.3 us per degree
   s.write(1610);
   EXPECT(s.readMicroseconds() == 1610);
   s.write(543);  // 180 degrees
@@ -137,7 +137,7 @@ void clocks() {
   while (millis() - now < 20)
     ;
   EXPECT(millis() - now == 20);
-  // 200 bytes at 9600 baud hold the sketch up, once 64 wait.
+  // 200 bytes at 9600 baud block the sketch once 64 are buffered.
   Serial1.begin(9600);
   start = micros();
   for (int i = 0; i < 200; i++) Serial1.print(' ');

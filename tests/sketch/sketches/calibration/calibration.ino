@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Calibration is in the EEPROM, written by another sketch; without it the plate stays level.
+// Another sketch wrote the calibration to the EEPROM; without it the plate stays level.
 #include <EEPROM.h>
 #include <Servo.h>
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reads "x,y" lines of a camera at 30 frames per second on Serial1; pixels of a 640 x 480 picture.
+// Reads "x,y" lines from a camera at 30 frames per second on Serial1, in pixels of a 640 x 480
+// image.
 #include <Servo.h>
 
 Servo sx;

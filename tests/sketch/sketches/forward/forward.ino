@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Functions are used before they are defined, and stand in two files; helpers.ino has some.
+// Functions are used before they are defined, partly in another file, helpers.ino.
 #include <Servo.h>
 #include "gains.h"
 
@@ -35,7 +35,7 @@ void move(int *pulse) {
 }
 #endif
 
-// A "quoted { brace" and a comment with loop() { must not confuse anybody.
+// A "quoted { brace" and a comment with loop() { must not confuse the parser.
 const char *text = "} void fake() {";
 
 static bool isTime(unsigned long period) {

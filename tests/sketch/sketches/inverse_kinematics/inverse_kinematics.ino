@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Two servos push the plate by horn, rod and arm; the servo angles come from inverse kinematics.
-// The servos hang on a PCA9685, and the touch screen has 4 wires.
+// Two servos move the plate through horn, rod and arm; servo angles come from inverse kinematics.
+// The servos are connected to a PCA9685, and the touch screen has 4 wires.
 #include <Wire.h>
 #include <Adafruit_PWMServoDriver.h>
 #include "TouchScreen.h"
@@ -21,7 +21,7 @@ float rod;
 float ballX, ballY, oldX, oldY, speedX, speedY;
 unsigned long timer;
 
-// Angle of the servo for an angle of the plate, both in radians.
+// Servo angle for a plate angle, both in radians.
 float inverse(float plate) {
   float px = DX + ARM * cos(plate), pz = DZ + ARM * sin(plate);
   float distance = sqrt(sq(px) + sq(pz));
