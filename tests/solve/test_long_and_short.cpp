@@ -158,8 +158,8 @@ TEST_CASE("a million seconds under control") {
     return std::hypot(run.samples[i].ball.x, run.samples[i].ball.y);
   };
   for (std::size_t i = 20; i < run.samples.size(); ++i) {
-    // The radii are those of one circle to what a hundred steps of 1e-7 leave, times the 1000 s in
-    // which the slow mode forgets them, over the 20 s in which the ball goes round.
+    // The radii agree to the effect of a hundred steps of 1e-7, times the 1000 s in which the slow
+    // mode decays, over the 20 s of a lap.
     CHECK(std::abs(radius(i) - radius(20)) < 5e-4);
   }
 }

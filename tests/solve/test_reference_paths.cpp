@@ -40,7 +40,7 @@ std::vector<Path> paths() {
       {"table", table, 15},
       {"step", StaircaseReference{{{0, 0}, {0.05, -0.02}}, {2.125}}, 1},
       {"staircase", StaircaseReference{points, {2, 3.5, 6}}, 3},
-      // Up at 1.5 k s; down a quarter later, y half a period earlier.
+      // Up at 1.5 k s; down a quarter period later, y half a period earlier.
       {"square", SquareReference{{0.02, 0.01}, 1.5, {0, std::numbers::pi}, {0.01, 0}, 0.25}, 21}};
 }
 

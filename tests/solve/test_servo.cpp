@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Servos at their limits: when they switch, and what that does to the ball.
+// Servos at their limits: when they switch, and the effect on the ball.
 #include <cmath>
 
 #include "catch.hpp"
@@ -20,7 +20,7 @@ Scenario step_scene(double command) {
   Scenario scene = fig2b();
   scene.controller->kv = {};
   scene.controller->kp = {{{1, 0}, {0, 0}}};
-  // A sampled controller that sees the ball once, at x = 0: the command is held for good.
+  // A sampled controller sees the ball only once, at x = 0, so the command stays constant.
   scene.ball.position = {0, 0};
   scene.controller->reference = PointReference{{command, 0}};
   scene.controller->sampling = Sampling{1e3, 0, 0, 0};
@@ -36,7 +36,7 @@ Run run_of(const Scenario& scene, Method method) {
   return run;
 }
 
-// q'' = w^2 (u - q) - 2 zeta w q' from (q, v), after a time.
+// q'' = w^2 (u - q) - 2 zeta w q' from (q, v), after the given time.
 std::pair<double, double> free_servo(double q, double v, double u, double w, double zeta,
                                      double time) {
   const double wd = w * std::sqrt(1 - zeta * zeta), e = std::exp(-zeta * w * time);
@@ -48,7 +48,7 @@ std::pair<double, double> free_servo(double q, double v, double u, double w, dou
 
 }  // namespace
 
-TEST_CASE("a servo at its acceleration limit switches at the very time") {
+TEST_CASE("a servo at its acceleration limit switches at the exact time") {
   const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
   Scenario scene = step_scene(0.2);
   const double u = 0.2, w = 10, zeta = 0.5, most = 12;
@@ -58,7 +58,7 @@ TEST_CASE("a servo at its acceleration limit switches at the very time") {
   const double a = w * w * most / 2, b = 2 * zeta * w * most, c = most - w * w * u;
   const double t1 = (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);
   const double q1 = most * t1 * t1 / 2, v1 = most * t1;
-  // Then free, as long as the demand stays above -most: it is -12 at about a quarter of a turn.
+  // Then it is free while the demand stays above -most; it is -12 at about a quarter of a turn.
   for (const model::Sample& sample : run.samples) {
     if (sample.t > t1 + 0.1) break;
     const auto [q, v] = sample.t < t1 ? std::pair{most * sample.t * sample.t / 2, most * sample.t}
@@ -97,7 +97,7 @@ TEST_CASE("a servo at its rate limit keeps that rate, then leaves it") {
   CHECK(t2 < 0.6);
 }
 
-TEST_CASE("a hard stop takes the servo's rate, and kicks the ball by r times it") {
+TEST_CASE("a hard stop stops the servo and kicks the ball by r times its rate") {
   const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
   Scenario scene = step_scene(0.2);
   const double u = 0.2, w = 10, zeta = 0.5, stop = 0.15, r = scene.ball.radius;
@@ -116,7 +116,7 @@ TEST_CASE("a hard stop takes the servo's rate, and kicks the ball by r times it"
     CHECK(sample.gimbal.phi_ddot == 0);
   }
   // Equation (27) with y = 0 = theta is (x' + r phi')' = 5/7 (g sin phi + x phi'^2), without a
-  // jump. It is integrated over the run by Simpson's rule, apart before and after the stop.
+  // jump. Simpson's rule integrates it over the run, separately before and after the stop.
   const auto integrand = [&](const model::Sample& s) {
     return 5.0 / 7 *
            (scene.gravity * std::sin(s.gimbal.phi) +
@@ -134,7 +134,7 @@ TEST_CASE("a hard stop takes the servo's rate, and kicks the ball by r times it"
   }
   const model::Sample& end = run.samples.back();
   momentum += 5.0 / 7 * scene.gravity * std::sin(stop) * (end.t - t1);
-  // A hundred times what the tolerances allow for a step; BDF and Adams take thousands of steps.
+  // A hundred times the tolerance of a step; BDF and Adams take thousands of steps.
   const double bound = method == Method::radau ? 1e-9 : 1e-7;
   CHECK(end.ball.x_dot + r * end.gimbal.phi_dot == Approx(momentum).epsilon(bound));
 }
@@ -145,17 +145,17 @@ TEST_CASE("backlash: the plane follows only where the servo pushes it") {
   const double gap = 0.04;
   scene.gimbal.servo->backlash = gap;
   const Run run = run_of(scene, method);
-  // The servo overshoots (zeta 0.5) and comes back by less than the gap: the plane stays where the
-  // overshoot left it, half a gap behind its largest angle.
+  // The servo overshoots (zeta 0.5) and returns by less than the gap: the plane stays where the
+  // overshoot left it, half a gap behind the servo's largest angle.
   const double overshoot = 0.2 * (1 + std::exp(-std::acos(-1.0) * 0.5 / std::sqrt(0.75)));
   CHECK(overshoot - 0.2 < gap);
   CHECK(run.samples.back().gimbal.phi == Approx(overshoot - gap / 2).epsilon(1e-9));
   CHECK(run.samples.back().gimbal.phi_dot == 0);
-  // At first it does not move at all, until the servo has crossed half the gap.
+  // It does not move until the servo has crossed half the gap.
   CHECK(run.samples[3].gimbal.phi == 0);
 }
 
-TEST_CASE("a servo of first order follows its command exponentially, and kicks the ball at once") {
+TEST_CASE("a first-order servo follows its command exponentially, and kicks the ball immediately") {
   const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
   Scenario scene = step_scene(0.01);
   Servo servo;
@@ -172,7 +172,7 @@ TEST_CASE("a servo of first order follows its command exponentially, and kicks t
   }
 }
 
-TEST_CASE("a dead band keeps small changes of the command from the servo") {
+TEST_CASE("a dead band keeps small command changes from the servo") {
   Scenario scene = fig2b();
   scene.ball.radius = 0.02;
   scene.controller->kp = {{{0.5, 0}, {0, -0.5}}};

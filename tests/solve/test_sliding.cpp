@@ -39,7 +39,7 @@ double time_of(const Run& run, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("a ball that starts without rotation slides, and rolls when friction has turned it") {
+TEST_CASE("a ball that starts without rotation slides, and rolls once friction has turned it") {
   const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
   const double k = GENERATE(0.4, 2.0 / 3);
   CAPTURE(static_cast<int>(method), k);
@@ -58,7 +58,7 @@ TEST_CASE("a ball that starts without rotation slides, and rolls when friction h
     CHECK(std::abs(s.ball.x - 0.6 * way) < 1e-11);
     CHECK(std::abs(s.ball.y - 0.8 * way) < 1e-11);
     CHECK(std::abs(s.ball.x_dot - 0.6 * speed) < 1e-11);
-    // What is left of the slip.
+    // The remaining slip.
     const double slip = std::max(0.0, 1 - a * (1 + 1 / k) * s.t);
     CHECK(std::abs(std::hypot(s.coupled->slip[0], s.coupled->slip[1]) - slip) < 1e-10);
     if (s.t > rolls) CHECK(s.coupled->slip[0] == 0);
@@ -80,7 +80,7 @@ TEST_CASE("backspin brings a ball back") {
   CHECK(energy_gap(scene, run) < 1e-11);
 }
 
-TEST_CASE("a rotation that is rolling's own slides no step") {
+TEST_CASE("a ball that starts with rolling's own rotation never slides") {
   Scenario scene = level(0.3, 0.2);
   scene.ball.velocity = {0.5, -0.25};
   scene.ball.rotation = Pair{0.25 / 0.02, 0.5 / 0.02};
@@ -89,8 +89,8 @@ TEST_CASE("a rotation that is rolling's own slides no step") {
   CHECK(run.samples.back().coupled->lost == 0);
 }
 
-TEST_CASE("an incline too steep for its friction is slid down") {
-  // Rolling needs k/(1 + k) tan(tilt) of the normal force: 2/7 of it.
+TEST_CASE("a ball slides down an incline too steep for its friction") {
+  // Rolling needs a friction force of k/(1 + k) tan(tilt) of the normal force: 2/7 of it.
   const double limit = 2.0 / 7 * std::tan(0.9);
   for (const double beyond : {-1e-12, 1e-12}) {
     Scenario scene = level(limit * (1 - beyond), 0.2);
@@ -105,7 +105,7 @@ TEST_CASE("an incline too steep for its friction is slid down") {
   }
 }
 
-TEST_CASE("a plate that rocks makes a ball slide and roll by turns") {
+TEST_CASE("a rocking plate makes a ball slide and roll alternately") {
   Scenario scene = level(0.055, 0.045);
   scene.ball.losses.rolling = GENERATE(0.0, 0.003);
   scene.ball.losses.pivoting = scene.ball.losses.rolling / 30;
@@ -134,9 +134,9 @@ TEST_CASE("a plate that rocks makes a ball slide and roll by turns") {
   CHECK(apart < 1e-7);
 }
 
-TEST_CASE("rolling that only just needs the friction there is") {
-  // The demand grazes the limit at the top of each swing: the ball may slide there for an instant,
-  // and rolls on as if it had not.
+TEST_CASE("rolling that needs exactly the available friction") {
+  // The demand touches the limit at the top of each swing: the ball may slide for an instant, and
+  // then rolls on as before.
   Scenario scene = level(0.3, 0.3);
   scene.gimbal.motion->phi = {Sinusoid{0.1, 4, 0, 0}};
   scene.time = {1.5, 0.01};
@@ -164,14 +164,14 @@ TEST_CASE("rolling that only just needs the friction there is") {
   }
 }
 
-TEST_CASE("sliding goes over to rolling at the tightest tolerances") {
+TEST_CASE("sliding changes to rolling at the tightest tolerances") {
   const std::string name = GENERATE("slides-late-steep", "slides-late-slow");
   Scenario scene = scenario_named(name);
   CAPTURE(name);
   const Run run = run_in_memory(scene, Method::radau, {scene.solver.rtol, scene.solver.atol});
   CHECK(run.outcome.ending != solve::Ending::failed);
   CHECK(run.outcome.statistics.steps < 2000);
-  // The same motion at an ordinary tolerance, within that.
+  // The same motion at an ordinary tolerance agrees within that tolerance.
   const Run plain = run_in_memory(scene, Method::radau, {1e-9, 1e-11});
   REQUIRE(plain.samples.size() == run.samples.size());
   for (std::size_t i = 0; i < run.samples.size(); ++i) {
@@ -191,7 +191,7 @@ TEST_CASE(
   CHECK(now.friction_demand() == scene.events.slip->sliding);
 }
 
-TEST_CASE("what slips and lifts off does not depend on the ball's mass") {
+TEST_CASE("slipping and lift-off do not depend on the ball's mass") {
   const auto events = [](double mass) {
     Scenario scene = read_scenario(BBSIM_SOURCE_DIR "/configs/slips.yaml");
     scene.ball.mass = mass;

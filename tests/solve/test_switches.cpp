@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Rigs in which much switches at once: every integrator finds the same switches.
+// Rigs with many switches: every integrator finds the same ones.
 #include <cmath>
 #include <string>
 
@@ -71,7 +71,7 @@ output: {columns: [t,x,y,vx,vy,phi,theta,phi_rate,theta_rate,phi_acceleration,ph
 
 }  // namespace
 
-TEST_CASE("integrators agree on when a rig switches") {
+TEST_CASE("integrators agree on a rig's switching times") {
   const Case& one = cases[GENERATE(0, 1, 2, 3, 4)];
   CAPTURE(one.what);
   Scenario scene = parse_scenario(one.text, "rig.yaml");
@@ -93,13 +93,13 @@ TEST_CASE("integrators agree on when a rig switches") {
         CHECK(std::abs(command) <= limit * (1 + 1e-9));
       }
     }
-    // Thousands of steps of the multistep methods, each with 1e-10, through unstable loops that
-    // amplify it a few hundred times. A switch that one of them missed leaves a centimetre.
+    // Multistep methods take thousands of steps, each with 1e-10, through unstable loops that
+    // amplify it a few hundred times. A missed switch would leave a centimeter.
     CHECK(apart < 2e-5);
   }
 }
 
-TEST_CASE("a servo that moves between two nodes of a piece, and not at them, moves the ball") {
+TEST_CASE("a servo that moves only between two nodes of a piece moves the ball") {
   const double frequency = GENERATE(300.0, 1000.0, 2000.0, 1e4);
   const double damping = GENERATE(0.5, 0.7, 1.0, 2.0);
   const std::string limit = GENERATE("rate_limit: 1", "acceleration_limit: 10");
@@ -114,7 +114,7 @@ TEST_CASE("a servo that moves between two nodes of a piece, and not at them, mov
           "time: {end: 0.5, step: 0.05}\n"
           "output: {columns: [t, x, y, vx]}\n",
       "fast.yaml");
-  // As it leaves its rate limit it gives the ball 2 cm/s, within milliseconds of a second.
+  // When it leaves its rate limit it gives the ball 2 cm/s, within milliseconds.
   const Run pieces = run_in_memory(scene, Method::radau, {1e-8, 1e-10});
   const Run general = run_in_memory(scene, Method::bdf, {1e-10, 1e-12});
   REQUIRE(pieces.samples.size() == general.samples.size());
@@ -128,7 +128,7 @@ TEST_CASE("a servo that moves between two nodes of a piece, and not at them, mov
 
 TEST_CASE(
     "backlash: a servo that has come to rest and is driven back leaves the plane where it is") {
-  // At 0.2 s its command turns; the plane waits until the gap is crossed, 2 ms later.
+  // At 0.2 s its command reverses; the plane waits until the gap is crossed, 2 ms later.
   const double end = GENERATE(0.2, 0.21);
   const Scenario scene = parse_scenario(
       R"(ball: {radius: 0.01, position: [-0.00912498342463637, -0.0004788716859636874],
@@ -148,7 +148,7 @@ time: {step: 0.1, end: )" +
   CHECK(run.samples[2].gimbal.phi_ddot == 0);
 }
 
-TEST_CASE("backlash: a servo that starts with a rate does not move the plane, nor the ball") {
+TEST_CASE("backlash: a servo that starts with a rate moves neither plane nor ball") {
   Scenario scene = parse_scenario(cases[2].text, "rig.yaml");
   scene.ball.velocity = {0, 0};
   scene.controller->law = Law::pd;
@@ -161,8 +161,8 @@ TEST_CASE("backlash: a servo that starts with a rate does not move the plane, no
   CHECK(run.samples.front().gimbal.phi_dot == 0);
 }
 
-TEST_CASE("a run that ends at a switch is the beginning of a longer one") {
-  // Samples, commands and rows fall on the same instants, the last of them on the end.
+TEST_CASE("a run that ends at a switch is the start of a longer run") {
+  // Samples, commands and rows coincide, the last of them at the end.
   Scenario whole = parse_scenario(
       "ball: {radius: 0.02, position: [0.05, 0.01]}\n"
       "gimbal: {servo: {natural_frequency: 30, damping: 0.8}}\n"
@@ -204,7 +204,7 @@ TEST_CASE("a check run has other stages and more steps between samples, on any r
     REQUIRE(outcome.ending == solve::Ending::done);
     const double* const last = rows.row(rows.rows() - 1);
     ends.emplace_back(last, last + rig.size());
-    // A piece of such a rig is a step, or few.
+    // A piece of such a rig takes one step or few.
     if (how.parts == 3 && !smooth) CHECK(outcome.statistics.steps > 2 * steps);
     steps = outcome.statistics.steps;
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What threads share, they do not change.
+// Threads do not modify shared data.
 #include <cmath>
 
 #include "catch.hpp"
@@ -10,8 +10,8 @@
 using namespace bbsim;
 using namespace bbsim_test;
 
-TEST_CASE("a run leaves the C library's shared sign of the gamma function alone") {
-  // std::lgamma writes it: cases of a sweep would race on it.
+TEST_CASE("a run does not write signgam, the C library's shared sign of the gamma function") {
+  // std::lgamma would write it, and cases of a sweep would race on it.
   signgam = 7;
   CHECK(run_in_memory(scenario_named("fig2a"), Method::radau, {1e-8, 1e-10}).samples.size() == 101);
   CHECK(signgam == 7);

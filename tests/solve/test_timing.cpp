@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Clocks that jitter, frames of a camera, and sensors that are not aligned.
+// Clocks with jitter, camera frames and misaligned sensors.
 #include <cmath>
 
 #include "catch.hpp"
@@ -14,7 +14,7 @@ using namespace bbsim_test;
 
 namespace {
 
-// A ball that rolls over a level plate, and a controller that only looks: x = 0.1 t.
+// A ball that rolls over a level plate, with a controller that only observes: x = 0.1 t.
 Scenario onlooker() {
   Scenario scene = fig2b();
   scene.ball.radius = 0.02;
@@ -36,21 +36,21 @@ Run run_of(const Scenario& scene) {
 
 }  // namespace
 
-TEST_CASE("measured periods follow one another, and begin anew after the last") {
+TEST_CASE("measured periods are used in order and start again after the last") {
   Scenario scene = onlooker();
   scene.controller->sampling->periods = {0.02, 0.03, 0.013};
   for (const model::Sample& now : run_of(scene).samples) {
     double sampled = 0;
     for (std::size_t i = 0;; ++i) {
       const double next = sampled + std::array{0.02, 0.03, 0.013}[i % 3];
-      if (next > now.t + 1e-9) break;  // a row at a sample is after it
+      if (next > now.t + 1e-9) break;  // a row at a sample comes after it
       sampled = next;
     }
     CHECK(std::abs(now.measured[0] - 0.1 * sampled) < 1e-12);
   }
 }
 
-TEST_CASE("a clock that jitters has the mean and deviation asked for, and repeats to the bit") {
+TEST_CASE("a clock with jitter has the requested mean and deviation, and repeats bit for bit") {
   Sampling sampling{0.02, 0, 0, 0};
   sampling.jitter = 0.001;
   model::SampleTimes one(sampling, 7), again(sampling, 7), other(sampling, 8);
@@ -66,16 +66,16 @@ TEST_CASE("a clock that jitters has the mean and deviation asked for, and repeat
     one.forget_before(i - 2);
   }
   CHECK(differs);
-  // Four standard deviations of either.
+  // Four standard deviations each.
   CHECK(std::abs(sum / n - 0.02) < 4 * 0.001 / std::sqrt(n));
   CHECK(std::abs(std::sqrt(square / n) - 0.001) < 4 * 0.001 / std::sqrt(2.0 * n));
-  // However large the deviation, time goes on.
+  // Time always advances, however large the deviation.
   sampling.jitter = 1;
   model::SampleTimes wild(sampling, 7);
   for (int i = 1; i < 100; ++i) CHECK(wild.at(i) - wild.at(i - 1) >= 0.0019);
 }
 
-TEST_CASE("jitter draws from a sequence of its own: noise is what it was") {
+TEST_CASE("jitter has its own random sequence and does not change the noise") {
   Scenario scene = onlooker();
   scene.ball.velocity = {0, 0};
   scene.controller->sensor->noise = 1e-3;
@@ -83,17 +83,17 @@ TEST_CASE("jitter draws from a sequence of its own: noise is what it was") {
   Scenario jittered = scene;
   jittered.controller->sampling->jitter = 1e-5;
   const Run a = run_of(scene), b = run_of(jittered), c = run_of(jittered);
-  // The ball rests, so that a sample is its noise alone.
+  // The ball is at rest, so a sample is only its noise.
   for (std::size_t i = 0; i + 1 < a.samples.size(); ++i) {
     CHECK(b.samples[i].measured == c.samples[i].measured);
-    // A row at a sample's nominal time may be before the jittered one.
+    // A row at a sample's nominal time may precede the jittered sample.
     const bool same = b.samples[i].measured == a.samples[i].measured;
     const bool last = i > 0 && b.samples[i].measured == a.samples[i - 1].measured;
     CHECK((same || last));
   }
 }
 
-TEST_CASE("a jittered run does not depend on the output step, nor on where it is cut") {
+TEST_CASE("a run with jitter does not depend on the output step, nor on where it is split") {
   Scenario scene = onlooker();
   scene.controller->kp = {{{0.7, 0}, {0, -0.7}}};
   scene.controller->kv = {{{0.6, 0}, {0, -0.6}}};
@@ -111,7 +111,7 @@ TEST_CASE("a jittered run does not depend on the output step, nor on where it is
   }
 }
 
-TEST_CASE("of a camera's frames a sample sees the last that has come") {
+TEST_CASE("a sample sees the last camera frame that has arrived") {
   Scenario scene = onlooker();
   scene.controller->sensor->period = 0.033;
   scene.controller->sensor->phase = 0.005;
@@ -123,7 +123,7 @@ TEST_CASE("of a camera's frames a sample sees the last that has come") {
   }
 }
 
-TEST_CASE("frames at the samples are the samples, to the bit") {
+TEST_CASE("frames at the samples equal the samples bit for bit") {
   Scenario scene = onlooker();
   scene.controller->kp = {{{0.7, 0}, {0, -0.7}}};
   scene.controller->kv = {{{0.6, 0}, {0, -0.6}}};
@@ -136,7 +136,7 @@ TEST_CASE("frames at the samples are the samples, to the bit") {
   }
 }
 
-TEST_CASE("a sensor that is turned, scaled and off says scale R(rotation) p + offset") {
+TEST_CASE("a rotated, scaled and offset sensor reports scale R(rotation) p + offset") {
   Scenario scene = onlooker();
   scene.ball.velocity = {0.1, -0.2};
   Sensor& sensor = *scene.controller->sensor;
@@ -151,7 +151,7 @@ TEST_CASE("a sensor that is turned, scaled and off says scale R(rotation) p + of
   }
 }
 
-TEST_CASE("where an offset sensor leads the ball, it says that the target is") {
+TEST_CASE("a ball controlled with an offset sensor rests where the sensor reports the target") {
   Scenario scene = onlooker();
   scene.ball.velocity = {0, 0};
   scene.controller->kp = {{{0.7, 0}, {0, -0.7}}};

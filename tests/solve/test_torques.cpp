@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Gimbals that torques move: docs/explanation/losses-and-torques.md.
+// Gimbals driven by torques: docs/explanation/losses-and-torques.md.
 #include <cmath>
 #include <string>
 
@@ -19,7 +19,7 @@ namespace {
 
 constexpr solve::Tolerances tight{1e-11, 1e-13};
 
-// A plate without a ball to speak of: J = 5e-3 kg m^2 about both axes while it is level.
+// A plate with a negligible ball: J = 5e-3 kg m^2 about both axes while it is level.
 std::string bare(const std::string& gimbal) {
   return "gravity: 9.81\n"
          "ball: {radius: 0.02, mass: 1e-12}\n"
@@ -53,7 +53,7 @@ TEST_CASE("a motor's dry friction holds its axis until the torque exceeds it") {
   CHECK(run.outcome.occurrences[1].name == "stick_theta");
 }
 
-TEST_CASE("a gimbal whose both axes stick holds plate and ball to the bit, in one step") {
+TEST_CASE("a gimbal with both axes stuck holds plate and ball bit for bit, in one step") {
   Scenario scene =
       test::parse(bare("motor: {friction: 0.05}, torque: {phi: 0.02, theta: -0.03}, start: {phi: "
                        "0.001, theta: 0.002}"));
@@ -70,7 +70,7 @@ TEST_CASE("a gimbal whose both axes stick holds plate and ball to the bit, in on
   CHECK(last.ball.y == 0.02);
 }
 
-TEST_CASE("a plate that swings comes to rest by the friction of its motors") {
+TEST_CASE("friction of its motors brings a swinging plate to rest") {
   Scenario scene = test::parse(
       "gravity: 9.81\n"
       "ball: {radius: 0.02, mass: 1e-9, losses: {rolling: 0.5}}\n"
@@ -85,16 +85,16 @@ TEST_CASE("a plate that swings comes to rest by the friction of its motors") {
   CHECK(last.gimbal.phi_dot == 0);
   CHECK(last.gimbal.theta_dot == 0);
   CHECK(last.ball.x == 0);
-  // Where the weight is held.
+  // Friction holds the weight here.
   CHECK(std::abs(last.gimbal.phi) <= 0.003 / (9.81 * 0.04) * 1.01);
   CHECK(energy_gap(scene, run) < 1e-9);
 }
 
-TEST_CASE("a direct-current motor under its highest voltage comes to its idle speed") {
+TEST_CASE("a DC motor at its highest voltage reaches its idle speed") {
   const Scenario scene = test::parse(
       bare("motor: {dc: {resistance: 2, torque_constant: 0.05, gear: 4, voltage_limit: 6}}, "
            "torque: {theta: 1}"));
-  // Later the plate spins so fast that even this ball is thrown.
+  // Later the plate turns so fast that even this ball is thrown off.
   const Run run = run_in_memory(
       [&] {
         Scenario first = scene;
@@ -102,7 +102,7 @@ TEST_CASE("a direct-current motor under its highest voltage comes to its idle sp
         return first;
       }(),
       Method::radau, tight);
-  // Asked for is more than 6 V give: gear k_t V / R = 0.6 N m at rest.
+  // The demand exceeds what 6 V give: gear k_t V / R = 0.6 N m at rest.
   const double by_current = 0.2, rate = by_current * by_current / (2 * 4e-3), idle = 6 / by_current;
   const model::BallConstants constants = model::constants_of(scene);
   for (const model::Sample& s : run.samples) {
@@ -115,7 +115,7 @@ TEST_CASE("a direct-current motor under its highest voltage comes to its idle sp
   }
 }
 
-TEST_CASE("a torque limit holds both ways") {
+TEST_CASE("a torque limit applies in both directions") {
   const Scenario scene = test::parse(bare(
       "motor: {torque_limit: 0.03}, torque: {theta: {sinusoid: {amplitude: 0.05, frequency: 9}}}"));
   const Run run = run_in_memory(scene, Method::radau, tight);
@@ -131,8 +131,8 @@ TEST_CASE("a torque limit holds both ways") {
 }
 
 TEST_CASE("a stiff position loop is a second-order servo") {
-  // kp = J w^2, kd = 2 zeta w J. What is left is the ball's weight over kp: ten times as stiff, a
-  // tenth.
+  // kp = J w^2, kd = 2 zeta w J. The remaining difference is the ball's weight over kp: with ten
+  // times the stiffness, a tenth.
   double before = 0;
   for (const double stiffness : {1e2, 1e3, 1e4}) {
     const double w = std::sqrt(stiffness / 5e-3), kd = 2 * 0.7 * w * 5e-3;
@@ -162,7 +162,7 @@ TEST_CASE("a stiff position loop is a second-order servo") {
   }
 }
 
-TEST_CASE("laws over torques and voltages stabilise the plate and the ball") {
+TEST_CASE("laws over torques and voltages stabilize the plate and the ball") {
   const std::string law = GENERATE(
       std::string(
           "lqr: {position: 200, velocity: 1, angle: 1, rate: 0.1, command: 20}, drives: torque"),
@@ -198,7 +198,7 @@ TEST_CASE("laws over torques and voltages stabilise the plate and the ball") {
   CHECK(energy_gap(scene, run) < 1e-9);
 }
 
-TEST_CASE("a position loop's integral takes out what the ball's weight bends") {
+TEST_CASE("a position loop's integral removes the deflection by the ball's weight") {
   const auto scene = [](const char* ki) {
     return test::parse(
         std::string(
@@ -211,7 +211,7 @@ TEST_CASE("a position loop's integral takes out what the ball's weight bends") {
         "controller: {pd: {kv: 0, kp: 0}, drives: angle, reference: {point: [0, 0]}}\n"
         "time: {end: 10, step: 0.1}\n");
   };
-  // m g x / (kp - m g (r + h) ...): the plate bends under the ball's weight at 0.1 m.
+  // m g x / (kp - m g (r + h) ...): the plate's deflection by the ball's weight at 0.1 m.
   const Run bent = run_in_memory(scene(""), Method::radau, {1e-10, 1e-12});
   const Run level = run_in_memory(scene(", ki: 20"), Method::radau, {1e-10, 1e-12});
   CHECK(bent.samples.back().gimbal.phi == Approx(0.3 * 9.81 * 0.1 / 10).epsilon(0.02));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Stiff, unstable and exploding scenes, extreme sizes, and a pulse.
+// Stiff, unstable and diverging scenes, extreme sizes, and a pulse.
 #include <cmath>
 
 #include "solve/hard_cases.hpp"
@@ -15,9 +15,9 @@ constexpr solve::Tolerances usual{1e-9, 1e-11};
 
 }  // namespace
 
-TEST_CASE("servos of 2000 and 20000 rad/s: the loop's accuracy, in few steps") {
+TEST_CASE("servos of 2000 and 20000 rad/s: accuracy of the slow loop, in few steps") {
   const char* const frequency = GENERATE("2000", "20000");
-  // Not Adams: stability would hold its steps below 1/20000 s.
+  // Not Adams, whose steps stability would keep below 1/20000 s.
   const Method method = GENERATE(Method::automatic, Method::radau, Method::bdf);
   CAPTURE(frequency, name_of(method));
   const Scenario scene =
@@ -27,27 +27,27 @@ TEST_CASE("servos of 2000 and 20000 rad/s: the loop's accuracy, in few steps") {
       quad_reference(hard_case("stiff-servo", {"gimbal.servo.natural_frequency=20000"}))};
   const Run run = run_in_memory(scene, method, usual);
   check_against(references[std::string(frequency) == "20000"], run, usual, scene.ball.radius);
-  // Not one step for each 1/omega_n: that would be 42000 or 420000.
+  // One step per 1/omega_n would be 42000 or 420000.
   CHECK(run.outcome.statistics.steps < 4000);
 }
 
-TEST_CASE("a solution that reaches infinity ends there, with its rows and a reason") {
+TEST_CASE("a solution that diverges ends at its singularity, with its rows and a reason") {
   const Method method = GENERATE(Method::automatic, Method::radau, Method::bdf, Method::adams);
   CAPTURE(name_of(method));
   const Scenario scene = hard_case("blow-up");
   const Run run = run_in_memory(scene, method, usual);
   CHECK(run.outcome.ending == solve::Ending::failed);
   CHECK_FALSE(run.outcome.reason.empty());
-  // The solution's size at t is about 1/(T - t)^p: the end is as sharp as the last step is short.
+  // The solution near T is about 1/(T - t)^p, so the end is as sharp as the last step is short.
   CHECK(std::abs(run.outcome.reached - 0.7488) < 1e-3);
   CHECK(run.samples.size() == 75);
   CHECK(run.outcome.statistics.steps < 20000);
-  // Up to t = 0.6 s it is a scene like any other, that grows.
+  // Up to t = 0.6 s it is an ordinary growing scene.
   Scenario before = scene;
   before.time.end = 0.6;
   const ExactRun reference = quad_reference(before);
   for (std::size_t i = 1; i < reference.x.size() - 1; ++i) {
-    // The growth is not of the ball alone: its errors pass through the gimbal, whose gain of
+    // The ball is not the only part that grows: its errors pass through the gimbal, whose gain of
     // kv = 100 multiplies them.
     const double allowed = 100 * allowance(run, usual, scene.ball.radius, i);
     CHECK(std::abs(run.samples[i].ball.x - reference.x[i]) < allowed);
@@ -55,8 +55,8 @@ TEST_CASE("a solution that reaches infinity ends there, with its rows and a reas
   }
 }
 
-TEST_CASE("tolerances below what rounding lets a run reach are no explosion") {
-  // Steps shrink there for as long as a rounding passes for an error, and grow again.
+TEST_CASE("tolerances below the rounding errors of a run are not taken for divergence") {
+  // Steps shrink there while rounding is taken for an error, and grow again.
   const Scenario scene = read_scenario(
       BBSIM_SOURCE_DIR "/tests/data/scenarios/stiff-servo.yaml",
       {"controller.pd.kv.0.0=0.06189348835829111", "controller.pd.kp.1.1=-0.05043124306458094"});
@@ -82,17 +82,17 @@ TEST_CASE("exponential instability keeps its relative error, over 15 decades") {
     const double x =
         0.05 * std::cosh(k * t) + b * std::sinh(k * t) - 5 * g / (12 * w * w) * std::sin(w * t);
     const double vy = 0.1 * std::cos(q * t) + c * std::sin(q * t);
-    // The closed form itself: k t up to 34, rounded, and the same for the solver's constants.
+    // Rounding of the closed form, with k t up to 34, and of the solver's constants.
     const double rounding = 40 * 4 * 2.3e-16 * std::abs(x);
     CHECK(std::abs(run.samples[i].ball.x - x) < allowance(run, usual, r, i) + rounding);
-    // Across it does not grow, but BDF's local error is measured over all states together.
+    // The cross direction does not grow, but BDF measures its local error over all states.
     if (method == Method::bdf || method == Method::adams) continue;
     const double steps = static_cast<double>(run.outcome.statistics.steps);
     CHECK(std::abs(run.samples[i].ball.y_dot - vy) < steps * (usual.rtol + usual.atol));
   }
 }
 
-TEST_CASE("theta through 90 degrees and phi round and round") {
+TEST_CASE("theta passes 90 degrees and phi turns over and over") {
   const Method method = GENERATE(Method::automatic, Method::radau, Method::bdf, Method::adams);
   CAPTURE(name_of(method));
   const Scenario scene = hard_case("overhead");
@@ -107,7 +107,7 @@ TEST_CASE("theta through 90 degrees and phi round and round") {
   CHECK(run.samples.back().gimbal.phi == 25);
 }
 
-TEST_CASE("balls of 10 micrometres and of 10 metres") {
+TEST_CASE("balls of 10 micrometers and of 10 meters") {
   const char* const name = GENERATE("ball-10um", "ball-10m");
   const Method method = GENERATE(Method::automatic, Method::radau, Method::bdf, Method::adams);
   CAPTURE(name, name_of(method));
@@ -117,7 +117,7 @@ TEST_CASE("balls of 10 micrometres and of 10 metres") {
   CHECK(run.outcome.statistics.steps < 5000);
 }
 
-TEST_CASE("a pulse of 1 ms in 1000 s is felt") {
+TEST_CASE("a pulse of 1 ms in 1000 s has its effect") {
   const Method method = GENERATE(Method::automatic, Method::radau, Method::bdf, Method::adams);
   CAPTURE(name_of(method));
   const Scenario scene = hard_case("pulse");
@@ -125,12 +125,12 @@ TEST_CASE("a pulse of 1 ms in 1000 s is felt") {
   const Run run = run_in_memory(scene, method, tolerances);
   static const ExactRun reference = quad_reference(hard_case("pulse"));
   check_against(reference, run, tolerances, scene.ball.radius);
-  // Before it nothing: the table's zeros are zeros, what the spline rings is below 3.7^-60.
+  // Nothing before it: the table's zeros are exact, and the spline's ringing is below 3.7^-60.
   CHECK(std::abs(run.samples[499].ball.x - 0.05) < 1e-15);
-  // After it, of 7 x'' = 5 g sin phi - 7 r phi'' + 5 x phi'^2: the first term gives 5/7 g times
-  // the area 0.02 * 0.5 ms * 256/315, the second nothing, and the third 5/7 x times
-  // 0.02^2 / 0.5 ms * 64 B, B the integral of s^2 (1 - s^2)^6 over [-1, 1], which is 2048/45045.
-  // It is to a percent: x moves by r phi = 0.2 mm of 50 mm on the way.
+  // After it, 7 x'' = 5 g sin phi - 7 r phi'' + 5 x phi'^2: the first term gives 5/7 g times the
+  // area 0.02 * 0.5 ms * 256/315, the second nothing, and the third 5/7 x times 0.02^2 / 0.5 ms *
+  // 64 B, where B is the integral of s^2 (1 - s^2)^6 over [-1, 1], 2048/45045. Accurate to a
+  // percent: x moves by r phi = 0.2 mm of 50 mm on the way.
   const double speed =
       5.0 / 7 *
       (scene.gravity * 0.02 * 0.5e-3 * 256 / 315 * 1 + 0.05 * 4e-4 / 0.5e-3 * 64 * 2048 / 45045);

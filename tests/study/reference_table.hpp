@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The reference trajectories of tests/data/reference, with all of their 21 digits.
+// The reference trajectories of tests/data/reference, with all their 21 digits.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 #include "base/quad.hpp"
 
-// A decimal number to quad precision.
+// Converts a decimal number to quad precision.
 inline bbsim::Quad parse_quad(const std::string& text) {
   const std::size_t e = text.find_first_of("eE");
   int exponent = e == std::string::npos ? 0 : std::atoi(text.c_str() + e + 1);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What accuracy costs: errors against an independent reference, and the choice among points.
+// The cost of accuracy: errors against an independent reference, and the choice of the best point.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -38,7 +38,7 @@ AccuracyPoint point(Method method, double rtol, double error, double seconds) {
 
 }  // namespace
 
-TEST_CASE("measured errors are those against an independent reference") {
+TEST_CASE("measured errors agree with an independent reference") {
   const bbsim::Scenario scenario = scene("fig2a");
   const auto model = bbsim::model::assemble(scenario, true);
   const bbsim::solve::OutputGrid grid(scenario.time);
@@ -50,7 +50,7 @@ TEST_CASE("measured errors are those against an independent reference") {
 
   REQUIRE(study.points.size() == 4);
   CHECK(study.reference_complete);
-  CHECK(study.reference_error < 1e-20);  // what the reference promises for tame scenes
+  CHECK(study.reference_error < 1e-20);  // the reference's accuracy for well-behaved scenes
   CHECK_FALSE(study.interrupted);
   CHECK(std::is_sorted(progress.begin(), progress.end()));
   CHECK(progress.back() == Approx(1));
@@ -76,15 +76,15 @@ TEST_CASE("measured errors are those against an independent reference") {
         error = std::max(error, std::abs(plain(rows.row(row)[c] - table[row][1 + c])));
       }
     }
-    // The table solves for 0.01 m and 0.3 exactly, the model for the doubles next to them; in this
-    // scene that makes less than 1e-15 m (test_reference.cpp).
+    // The table uses exactly 0.01 m and 0.3, the model the nearest doubles. In this scene the
+    // effect is less than 1e-15 m (test_reference.cpp).
     CHECK(measured.error == Approx(error).margin(1e-15));
   }
   CHECK(study.points[1].error < study.points[0].error);
   CHECK(study.points[3].error < study.points[2].error);
 }
 
-TEST_CASE("runs that end early are told apart, up to where the reference goes") {
+TEST_CASE("runs that end early are marked, and compared as far as the reference goes") {
   bbsim::Scenario scenario = scene("fig2b-literal");
   const auto model = bbsim::model::assemble(scenario, false);
   const bbsim::solve::OutputGrid grid(scenario.time);
@@ -92,18 +92,18 @@ TEST_CASE("runs that end early are told apart, up to where the reference goes") 
   REQUIRE(study.points.size() == 1);
   CHECK(study.points[0].ending == bbsim::solve::Ending::failed);
   CHECK_FALSE(study.reference_complete);
-  CHECK(study.reference_reached == Approx(0.7488).epsilon(1e-4));  // where the solution is infinite
+  CHECK(study.reference_reached == Approx(0.7488).epsilon(1e-4));  // time of the singularity
   CHECK_FALSE(study.reference_reason.empty());
   CHECK(best_by_decade(study).empty());
   CHECK(accuracy_csv(study).find(",failed\n") != std::string::npos);
 }
 
-TEST_CASE("a study may be interrupted") {
+TEST_CASE("a study can be interrupted") {
   const bbsim::Scenario scenario = scene("fig2a");
   const auto model = bbsim::model::assemble(scenario, false);
   const bbsim::solve::OutputGrid grid(scenario.time);
   std::atomic<bool> stop = false;
-  // After the reference, which takes the first twentieth, and the first point.
+  // After the reference, which takes the first twentieth of the progress, and the first point.
   const AccuracyStudy study =
       bbsim::study::measure_accuracy(model, grid, {Method::adams}, {1e-3, 1e-4, 1e-5},
                                      {&stop, [&](double part) { stop = part > 0.06; }});
@@ -111,7 +111,7 @@ TEST_CASE("a study may be interrupted") {
   CHECK(study.points.size() == 1);
 }
 
-TEST_CASE("the best choice of a decade is the fastest that is accurate enough") {
+TEST_CASE("the best choice of a decade is the fastest accurate one") {
   AccuracyStudy study;
   study.points = {point(Method::bdf, 1e-4, 3e-4, 1e-4), point(Method::bdf, 1e-6, 2e-6, 2e-4),
                   point(Method::adams, 1e-4, 1e-5, 3e-4), point(Method::adams, 1e-6, 5e-7, 1.5e-4),
@@ -125,7 +125,7 @@ TEST_CASE("the best choice of a decade is the fastest that is accurate enough") 
   CHECK(best[0].error == Approx(1e-3));
   CHECK(best[0].point == &study.points[0]);
   CHECK(best[1].error == Approx(1e-4));
-  CHECK(best[1].point == &study.points[3]);  // more accurate than asked, and faster
+  CHECK(best[1].point == &study.points[3]);  // more accurate than requested, and faster
   CHECK(best[3].error == Approx(1e-6));
   CHECK(best[3].point == &study.points[3]);
   CHECK(best[4].error == Approx(1e-7));
@@ -136,7 +136,7 @@ TEST_CASE("the best choice of a decade is the fastest that is accurate enough") 
   CHECK(best_by_decade(study).empty());
 }
 
-TEST_CASE("the CSV of a study has its columns by their names") {
+TEST_CASE("the CSV of a study has its columns by name") {
   AccuracyStudy study;
   study.points = {point(Method::bdf, 1e-5, 2.5e-7, 1.25e-4)};
   study.points.push_back(point(Method::adams, 0.001, std::numeric_limits<double>::infinity(), 1));
@@ -147,7 +147,7 @@ TEST_CASE("the CSV of a study has its columns by their names") {
         "adams,0.001,1e-05,inf,1e+06,12,34,5,failed\n");
 }
 
-TEST_CASE("the plot of a study has a curve for each method that came to the end") {
+TEST_CASE("the plot of a study has a curve for each method that finished") {
   AccuracyStudy study;
   study.points = {point(Method::bdf, 1e-5, 2.5e-7, 1.25e-4), point(Method::bdf, 1e-6, 0, 2e-4),
                   point(Method::adams, 1e-5, 1e-7, 1)};

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Thousands of bounds over scenes drawn by chance: whether they are met, and what estimates are
-// worth. Takes minutes, so it is run by its tag: test_study "[wide]".
-// docs/explanation/error-control.md has its figures.
+// Thousands of bounds on random scenes: whether they are met, and how good the estimates are. Takes
+// minutes, so it only runs by tag: test_study "[wide]". docs/explanation/error-control.md has the
+// results.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -122,7 +122,7 @@ Scenario sampled(Draw& draw) {
   return scene;
 }
 
-// With a watch on it a scene is driven from switch to switch; its motion is the same.
+// With a monitor a scene is integrated from switch to switch; its motion is unchanged.
 Scenario watched(Draw& draw) {
   Scenario scene = draw.chance(0.5) ? tabulated(draw) : open_loop(draw);
   scene.events.slip = SlipEvent{0.05, OnEvent::note};
@@ -131,7 +131,7 @@ Scenario watched(Draw& draw) {
 
 using Positions = std::vector<std::vector<double>>;
 
-// Empty of a scene that is not followed to its end. In quad precision where nothing switches.
+// Empty if the scene ends early. In quad precision if nothing switches.
 Positions exact(Scenario scene) {
   scene.events = {};
   const model::Model model = model::assemble(scene, false);
@@ -156,12 +156,12 @@ Positions exact(Scenario scene) {
 
 struct Figures {
   int runs = 0, met = 0, bounds_broken = 0, below_third = 0, integrations = 0;
-  std::vector<double> ratios;  // estimate over error, beyond rounding
+  std::vector<double> ratios;  // estimate over error, excluding rounding
 };
 
 }  // namespace
 
-TEST_CASE("bounds and estimates over thousands of scenes", "[.][wide]") {
+TEST_CASE("bounds and estimates over thousands of random scenes", "[.][wide]") {
   struct Kind {
     const char* name;
     Scenario (*make)(Draw&);
@@ -183,7 +183,7 @@ TEST_CASE("bounds and estimates over thousands of scenes", "[.][wide]") {
       for (const auto& row : truth) {
         for (const double x : row) extent = std::max(extent, std::abs(x));
       }
-      // What is known of the truth of a sampled loop, from how it was made; a double of quad.
+      // Accuracy of the truth of a sampled loop, given its method; otherwise a double of a quad.
       const double known_to = (kind.make == sampled ? 1e-13 : 1.2e-16) * extent;
       for (int b = 0; b < bounds; ++b) {
         const double bound = draw.magnitude(1e-12, 1e-3);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The error that a user asks for, against quad-precision solutions.
+// User error bounds, against quad-precision solutions.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -19,8 +19,8 @@ namespace {
 
 struct Asked {
   study::ErrorControlled result;
-  double error = 0;   // true, of x and y at the worst output time, m
-  double extent = 0;  // the largest coordinate, m
+  double error = 0;   // true error of x and y at the worst output time, m
+  double extent = 0;  // largest coordinate, m
 };
 
 Asked ask(const std::string& name, double bound) {
@@ -44,7 +44,7 @@ Asked ask(const std::string& name, double bound) {
 // Positions at the output times: the states x and y, or one of them.
 using Positions = std::vector<std::vector<double>>;
 
-// In quad precision; of what switches, by many more steps than any run takes, of 8 or 12 stages.
+// In quad precision; for scenes that switch, with many more steps than any run, of 8 or 12 stages.
 Positions exact(const model::Model& model, const solve::OutputGrid& grid) {
   const auto n = static_cast<std::size_t>(study::coordinates(model));
   Positions rows;
@@ -64,7 +64,7 @@ Positions exact(const model::Model& model, const solve::OutputGrid& grid) {
   return rows;
 }
 
-// What is asked of a scene of configs/.
+// Runs a scene of configs/ with a bound.
 Asked ask(const model::Model& model, const solve::OutputGrid& grid, const Positions& truth,
           double bound, Method method = Method::automatic) {
   solve::Trajectory rows(model.row_size());
@@ -81,7 +81,7 @@ Asked ask(const model::Model& model, const solve::OutputGrid& grid, const Positi
 
 }  // namespace
 
-TEST_CASE("errors asked for are met with losses and under torques") {
+TEST_CASE("error bounds are met with losses and under torques") {
   const std::string name = GENERATE("losses", "torque-open", "torque-loop");
   for (const double bound : {1e-5, 1e-7, 1e-9, 1e-11}) {
     const Asked asked = ask(name, bound);
@@ -93,9 +93,9 @@ TEST_CASE("errors asked for are met with losses and under torques") {
   }
 }
 
-TEST_CASE("where stops dictate the steps the estimate is honest too") {
-  // Tables, samples, a path past points, and what is watched for. Steps are as long as the pieces
-  // at any tolerance, and so is what a check at a finer one would take.
+TEST_CASE("the estimate is also honest if stops determine the steps") {
+  // Tables, samples, a path through points, and monitors. Steps are as long as the pieces at any
+  // tolerance, and so are those of a check at a finer one.
   const auto [name, end] =
       GENERATE(std::pair("recorded", "4"), std::pair("traced", "12"), std::pair("waypoints", "18"),
                std::pair("step", "2"), std::pair("catch", "1.5"), std::pair("falls", "8"));
@@ -112,15 +112,15 @@ TEST_CASE("where stops dictate the steps the estimate is honest too") {
     CHECK(asked.result.outcome.ending != solve::Ending::failed);
     CHECK(asked.result.met);
     CHECK(asked.error <= bound);
-    // The truth of what switches is itself known to some roundings, amplified by the loop.
+    // The truth of a switching scene has a few rounding errors, amplified by the loop.
     const double known_to = (model.hybrid() ? 1e-13 : 4e-16) * asked.extent;
     CHECK(asked.result.estimate >= (asked.error - known_to) / 3);
     CHECK(asked.result.estimate <= 30 * asked.error + 100 * known_to);
   }
 }
 
-TEST_CASE("estimates are honest at every number of stages, and of other methods") {
-  // Tolerances in the ranges of 8, 12 and 16 stages, at both ends of each.
+TEST_CASE("estimates are honest for every number of stages, and for other methods") {
+  // Tolerances at both ends of the ranges of 8, 12 and 16 stages.
   const std::string name = GENERATE("fig2a", "fig2b", "spin");
   const Scenario scene = scenario_named(name);
   const model::Model model = model::assemble(scene, false);
@@ -138,21 +138,21 @@ TEST_CASE("estimates are honest at every number of stages, and of other methods"
   }
 }
 
-TEST_CASE("runs that do not end alike are far apart") {
-  // A ball that comes to rest on the very edge, or a tolerance beyond it.
+TEST_CASE("runs with different endings are far apart") {
+  // A ball that stops exactly at the edge, or a tolerance beyond it.
   const Scenario scene = read_scenario(BBSIM_SOURCE_DIR "/configs/falls.yaml");
   const model::Model model = model::assemble(scene, false);
   const solve::OutputGrid grid(scene.time);
   const Asked asked = ask(model, grid, exact(model, grid), 1e-9);
   REQUIRE(asked.result.outcome.ending == solve::Ending::stopped);
-  // Where the ball leaves the plate is known as well as where it is.
+  // The time of leaving the plate is as accurate as the position.
   const auto fine = run_in_memory(scene, Method::radau, {1e-13, 1e-15});
   const double speed = std::hypot(asked.result.outcome.occurrences.back().sample.ball.x_dot,
                                   asked.result.outcome.occurrences.back().sample.ball.y_dot);
   CHECK(std::abs(asked.result.outcome.reached - fine.outcome.reached) * speed <= 1e-9);
 }
 
-TEST_CASE("an error asked for is met, and its estimate is honest") {
+TEST_CASE("an error bound is met, and its estimate is honest") {
   const std::string name =
       GENERATE("fig2a", "fast", "fig2b", "small-ball", "spin", "stiff-servo", "tumble");
   const double bound = GENERATE(1e-4, 1e-6, 1e-8, 1e-10);
@@ -163,15 +163,15 @@ TEST_CASE("an error asked for is met, and its estimate is honest") {
   CHECK(asked.result.met);
   CHECK(asked.result.estimate <= bound);
   CHECK(asked.error <= bound);
-  // Never below a third of the true error, beyond what the reference itself is read with.
+  // Never below a third of the true error, beyond the rounding of the reference.
   const double rounding = 4e-16 * asked.extent;
   CHECK(asked.result.estimate >= (asked.error - rounding) / 3);
-  // And not far above it, unless both are roundings.
+  // Nor far above it, unless both are rounding errors.
   CHECK(asked.result.estimate <= 30 * asked.error + 10 * rounding);
 }
 
-TEST_CASE("an error below what double precision can give is refused with what it can") {
-  // Rounding of 1e-16 grows with the solution of `fast`, to 1263 m: nothing finds it to 1e-14 m.
+TEST_CASE("an error bound beyond double precision is refused with the attainable one") {
+  // Rounding of 1e-16 grows with the solution of `fast`, to 1263 m, so 1e-14 m is unattainable.
   const Asked asked = ask("fast", 1e-14);
   CHECK(asked.result.outcome.ending == solve::Ending::done);
   CHECK_FALSE(asked.result.met);
@@ -180,7 +180,7 @@ TEST_CASE("an error below what double precision can give is refused with what it
   CHECK(asked.result.estimate >= asked.error / 3);
 }
 
-TEST_CASE("a scene that ends early ends early whatever error is asked for") {
+TEST_CASE("a scene that ends early does so for any error bound") {
   const Scenario scene = scenario_named("fig2b-literal");
   const model::Model model = model::assemble(scene, false);
   const solve::OutputGrid grid(scene.time);
@@ -191,7 +191,7 @@ TEST_CASE("a scene that ends early ends early whatever error is asked for") {
   CHECK(rows.rows() >= 75);
 }
 
-TEST_CASE("each row has an estimate, of which the greatest is that of the run") {
+TEST_CASE("each row has an estimate, and the greatest is that of the run") {
   const Scenario scene = scenario_named("fig2b");
   const model::Model model = model::assemble(scene, false);
   const solve::OutputGrid grid(scene.time);
@@ -205,6 +205,6 @@ TEST_CASE("each row has an estimate, of which the greatest is that of the run") 
     greatest = std::max(greatest, estimate);
   }
   CHECK(greatest == result.estimate);
-  // Nothing is wrong at the start, where both runs begin, but for rounding.
+  // At the start, where both runs begin, only rounding differs.
   CHECK(result.row_estimates.front() < 1e-3 * result.estimate);
 }

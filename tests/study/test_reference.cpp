@@ -32,7 +32,7 @@ ReferenceSolution solve(const Scenario& scenario, double tolerance = 1e-22) {
   return bbsim::study::solve_reference(bbsim::model::assemble(scenario, true), grid, tolerance);
 }
 
-// The scenario's numbers that a decimal text gives only rounded: 0.3, but not 5 or 0.25.
+// The scenario's numbers that are not exact as doubles: 0.3, but not 5 or 0.25.
 std::vector<double*> rounded_parameters(Scenario& scenario) {
   std::vector<double*> all{&scenario.gravity,          &scenario.ball.radius,
                            &scenario.ball.position[0], &scenario.ball.position[1],
@@ -71,9 +71,9 @@ bbsim::solve::Trajectory solve_in_double(const Scenario& scenario) {
   return rows;
 }
 
-// The largest change in x or y that roundings of the parameters make, in m: each parameter is
-// changed by a part in 1e6, and the change of the solution scaled down to half a unit in the last
-// place, 1.1e-16. Double precision sees that change to three digits or more.
+// The largest change in x or y, in m, from rounding the parameters: each one is changed by 1e-6,
+// and the change of the solution scaled down to half a unit in the last place, 1.1e-16. Double
+// precision gives that change to three digits or more.
 double effect_of_rounding(Scenario scenario) {
   const int coordinates = bbsim::study::coordinates(bbsim::model::assemble(scenario, false));
   const auto base = solve_in_double(scenario);
@@ -100,7 +100,7 @@ TEST_CASE("the reference agrees with solutions by an independent method") {
   const auto name = GENERATE(as<std::string>{}, "fig2a", "small-ball", "spin", "fast", "tumble",
                              "fig2b", "stiff-servo", "fig2b-literal");
   CAPTURE(name);
-  // One table ends before its scene does, which reaches infinity.
+  // This table ends before its scene, which diverges.
   const Scenario scenario = name == "fig2b-literal" ? scene(name, {"time.end=0.6"}) : scene(name);
   const auto model = bbsim::model::assemble(scenario, true);
   const bbsim::solve::OutputGrid grid(scenario.time);
@@ -109,14 +109,14 @@ TEST_CASE("the reference agrees with solutions by an independent method") {
   REQUIRE(solution.complete);
   REQUIRE(solution.rows() == table.size());
 
-  // Parameters round once when read, and once more in products such as 7 r or omega_n^2, of which
-  // each enters at most three terms: four times the first rounding's effect covers both.
+  // Parameters round once when read, and once more in products such as 7 r or omega_n^2, each of
+  // which enters at most three terms: four times the effect of the first rounding covers both.
   const double allowed = 4 * effect_of_rounding(scenario);
   CAPTURE(allowed);
   double worst = 0;
   for (std::size_t i = 0; i < table.size(); ++i) {
-    // The grid's times are rounded, too: 49 * 0.1 is no double. To first order that moves x by vx
-    // times the difference; the second order, 1e-31 of an acceleration, is nothing.
+    // The grid's times are rounded too: 49 * 0.1 is no double. To first order that moves x by vx
+    // times the difference; the second order, 1e-31 of an acceleration, is negligible.
     const Quad late = Quad(grid[i]) - table[i][0];
     for (std::size_t c = 0; c < 2; ++c) {
       const Quad expected = table[i][1 + c] + table[i][3 + c] * late;
@@ -124,28 +124,28 @@ TEST_CASE("the reference agrees with solutions by an independent method") {
     }
   }
   CHECK(worst < allowed);
-  // What makes the comparison worth having: it sees the sixteenth digit of the scene's size.
+  // This makes the comparison significant: it sees the sixteenth digit of the scene's size.
   double size = 0.1;
   for (const auto& row : table) size = std::max(size, plain(abs(row[1])));
   CHECK(allowed < 1e-12 * size);
 
-  // Steps keep to 1e-22 and 1e-21 of 1 + |z|; in none of the scenes do errors grow by more than
-  // the 1e5 by which the states do.
+  // Steps meet 1e-22 and 1e-21 of 1 + |z|, and in no scene do errors grow by more than the 1e5 by
+  // which the states do.
   CHECK(solution.error_estimate < 1e-16 * size);
   if (name == "fig2a" || name == "fig2b" || name == "stiff-servo" || name == "small-ball") {
-    CHECK(solution.error_estimate < 1e-20);  // tame: nothing grows
+    CHECK(solution.error_estimate < 1e-20);  // well-behaved: nothing grows
   }
 }
 
-TEST_CASE("the reference's gamma and states agree with the independent method's") {
+TEST_CASE("the reference's gamma and states agree with the independent method") {
   const Scenario scenario = scene("spin");
   const auto table = read_reference_table("spin");
   const ReferenceSolution solution = solve(scenario);
   const double radius = scenario.ball.radius;
   for (std::size_t i = 0; i < table.size(); ++i) {
     const Quad* row = solution.row(i);
-    // Roundings, of relative 1.1e-16 each, in a handful of parameters and in t; values up to 500,
-    // which the table gives to 21 digits.
+    // Rounding errors, 1.1e-16 each, in a handful of parameters and in t; values up to 500, which
+    // the table gives to 21 digits.
     CHECK(plain(abs(row[2] - table[i][3])) < 1e-14);
     CHECK(plain(abs(row[3] - table[i][4])) < 1e-14);
     CHECK(plain(abs(row[4] / radius - table[i][5])) < 5e-14);
@@ -154,9 +154,8 @@ TEST_CASE("the reference's gamma and states agree with the independent method's"
 }
 
 TEST_CASE("the reference agrees with a closed form to twenty digits and more") {
-  // phi = 2 t, all numbers exact in binary: x = A cosh kt + B sinh kt - (5 g / 48) sin 2t with
-  // k = 2 sqrt(5/7), from docs/explanation/model.md. The sums below are of cosh and sinh
-  // themselves.
+  // phi = 2 t, with all numbers exact in binary: x = A cosh kt + B sinh kt - (5 g / 48) sin 2t with
+  // k = 2 sqrt(5/7), from docs/explanation/model.md. The sums below evaluate cosh and sinh.
   const double g = 9.8125, x0 = 0.0625;
   Scenario scenario;
   scenario.gravity = g;
@@ -184,13 +183,13 @@ TEST_CASE("the reference agrees with a closed form to twenty digits and more") {
     }
     const Quad x = x0 * cosh + 2 * forced / k * sinh - forced * sin_cos(2 * t).sin;
     // The step's tolerance, 1e-22 of 1 + |z|, in each of a few steps; |z| reaches 5000, and an
-    // early error grows as fast as x itself.
+    // early error grows as fast as x.
     CHECK(plain(abs(solution.row(i)[0] - x)) < 1e-21 * (1 + std::abs(plain(x))));
   }
   CHECK(solution.error_estimate < 1e-17);
 }
 
-TEST_CASE("a looser tolerance of the reference costs fewer steps, and its error keeps to it") {
+TEST_CASE("a looser tolerance of the reference takes fewer steps and is met") {
   const Scenario scenario = scene("fast");
   const ReferenceSolution fine = solve(scenario);
   const ReferenceSolution loose = solve(scenario, 1e-12);
@@ -203,12 +202,12 @@ TEST_CASE("a looser tolerance of the reference costs fewer steps, and its error 
   }
   // The estimate is the error of a solution with ten times the tolerance.
   CHECK(error < loose.error_estimate);
-  // Steps keep to 1e-11 of 1 + |z|, and |z| reaches 7000.
+  // Steps meet 1e-11 of 1 + |z|, and |z| reaches 7000.
   CHECK(loose.error_estimate < 1e-11 * 7000);
 }
 
-TEST_CASE("a servo of 20000 rad/s takes the reference hardly more steps than one of 2000") {
-  // Gains a tenth of the scene's: r k_v omega_n must stay below 2 zeta.
+TEST_CASE("for the reference a servo of 20000 rad/s takes hardly more steps than one of 2000") {
+  // A tenth of the scene's gains: r k_v omega_n must stay below 2 zeta.
   const std::vector<std::string> gains{"controller.pd.kv=[[0.005, 0], [0, -0.005]]",
                                        "controller.pd.kp=[[0.005, 0], [0, -0.005]]"};
   auto stiffer = gains;
@@ -220,7 +219,7 @@ TEST_CASE("a servo of 20000 rad/s takes the reference hardly more steps than one
   CHECK(tenfold.steps < 3 * once.steps);
 }
 
-TEST_CASE("the reference of a solution that reaches infinity ends before it") {
+TEST_CASE("the reference of a diverging solution ends before the singularity") {
   const ReferenceSolution solution = solve(scene("fig2b-literal"));
   CHECK_FALSE(solution.complete);
   CHECK(solution.rows() == 75);  // t = 0 ... 0.74 s, steps of 0.01 s
@@ -238,9 +237,9 @@ TEST_CASE("the reference stops at every knot of a table") {
   scenario.time = {2, 0.125};
   const ReferenceSolution solution = solve(scenario);
   REQUIRE(solution.complete);
-  CHECK(solution.steps >= 5);  // one a piece at least
-  // Nothing grows here. Two sequences of steps that went over the jumps of the third derivative
-  // would not agree to 1e-6.
+  CHECK(solution.steps >= 5);  // at least one per piece
+  // Nothing grows here. Two step sequences across the jumps of the third derivative would not agree
+  // to 1e-6.
   CHECK(solution.error_estimate < 1e-20);
 }
 
@@ -250,19 +249,19 @@ TEST_CASE("the reference does not step over a jump of the controller's reference
   scenario.time = {1.5, 0.125};
   const ReferenceSolution solution = solve(scenario);
   REQUIRE(solution.complete);
-  // Two rules with other nodes agree only if neither has a node beyond the jump.
+  // Two rules with different nodes agree only if neither has a node beyond the jump.
   CHECK(solution.error_estimate < 1e-20);
   const auto rows = solve_in_double(scenario);
   for (std::size_t i = 0; i < rows.rows(); ++i) {
     for (int c = 0; c < 2; ++c) {
       CAPTURE(i, c);
-      // Some tens of steps, each with an error of 1e-12 of states below 1.
+      // Some tens of steps, each with an error of 1e-12 for states below 1.
       CHECK(std::abs(rows.row(i)[c] - plain(solution.row(i)[c])) < 1e-10);
     }
   }
 }
 
-TEST_CASE("a reference may be interrupted, and says how far it is") {
+TEST_CASE("a reference can be interrupted, and reports its progress") {
   const Scenario scenario = scene("fast");
   const bbsim::solve::OutputGrid grid(scenario.time);
   const auto model = bbsim::model::assemble(scenario, false);

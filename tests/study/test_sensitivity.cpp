@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Derivatives of runs by keys: closed forms, differences of quad-precision solutions, and
-// differences of runs, with sampled controllers too.
+// Derivatives of runs with respect to keys: closed forms, differences of quad-precision solutions
+// and differences of runs, including sampled controllers.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -63,11 +63,11 @@ double gradient(const api::RunResult& made, const std::string& measure, const st
   return 0;
 }
 
-// By central differences of order 4 of the quad-precision solution. `change` is a power of two, so
+// Fourth-order central differences of the quad-precision solution. `change` is a power of two, so
 // that the key's values are exact doubles.
 struct Difference {
   std::vector<std::string> states;
-  std::vector<std::vector<double>> of;  // for each state, a number for each row
+  std::vector<std::vector<double>> of;  // a number per state and row
 };
 
 Difference quad_difference(const std::string& name, const Overrides& overrides,
@@ -109,7 +109,7 @@ const std::string tight_rtol = "solver.rtol=1e-13", tight_atol = "solver.atol=1e
 
 }  // namespace
 
-TEST_CASE("derivatives on an incline are those of the closed form", "[sensitivity]") {
+TEST_CASE("derivatives on an incline agree with the closed form", "[sensitivity]") {
   // x = (5/14) g sin(phi) t^2
   const std::string time = "find x at 1.25";
   const auto made =
@@ -123,12 +123,12 @@ TEST_CASE("derivatives on an incline are those of the closed form", "[sensitivit
     return column(made, gradient_name(of, key));
   };
   for (std::size_t i = 0; i < t.size(); ++i) {
-    const double end = slope * 4;  // the size at the end of 2 s
+    const double end = slope * 4;  // value at the end of 2 s
     CHECK(by("x", "gravity")[i] == Approx(slope * t[i] * t[i]).margin(1e-12 * end));
     CHECK(by("vx", "gravity")[i] == Approx(2 * slope * t[i]).margin(1e-12 * end));
     CHECK(std::abs(by("phi", "gravity")[i]) < 1e-12);
     CHECK(std::abs(by("x", "ball.radius")[i]) < 1e-12);
-    // The reduced system has no y: the run takes the full one.
+    // The reduced system has no y, so the run uses the full one.
     CHECK(by("y", "ball.position.1")[i] == Approx(1));
     CHECK(std::abs(by("x", "ball.position.1")[i]) < 1e-12);
   }
@@ -147,7 +147,8 @@ TEST_CASE("derivatives on an incline are those of the closed form", "[sensitivit
         Approx(-std::sqrt(0.1 / (slope * g)) / (2 * g)).epsilon(1e-7));
 }
 
-TEST_CASE("a key that the paper's equation lacks gives the run the general one", "[sensitivity]") {
+TEST_CASE("a key missing from the paper's equation makes the run use the general one",
+          "[sensitivity]") {
   // x = g sin(phi) t^2 / (2 (1 + k)), at k = 0.4
   const auto made = run("configs/incline", {"ball.position=[0, 0]", "output.columns=[t, x]"},
                         {"ball.inertia_factor"}, {"end_x"});
@@ -157,7 +158,7 @@ TEST_CASE("a key that the paper's equation lacks gives the run the general one",
   for (std::size_t i = 0; i < x.size(); ++i) {
     CHECK(by[i] == Approx(-x[i] / 1.4).margin(1e-12 * std::abs(x.back())));
   }
-  // A closed loop: those of runs beside.
+  // A closed loop, compared with runs at nearby values.
   const auto end = [](const std::string& k) {
     return column(run("configs/fig2b",
                       {"ball.inertia_factor=" + k, tight_rtol, tight_atol, "time.end=5"}, {}, {}),
@@ -171,7 +172,7 @@ TEST_CASE("a key that the paper's equation lacks gives the run the general one",
         Approx((end("0.4001") - end("0.3999")) / 2e-4).epsilon(1e-6));
 }
 
-TEST_CASE("derivatives are those of quad-precision solutions", "[sensitivity]") {
+TEST_CASE("derivatives agree with quad-precision solutions", "[sensitivity]") {
   struct Case {
     std::string scene;
     Overrides overrides;
@@ -214,7 +215,7 @@ TEST_CASE("derivatives are those of quad-precision solutions", "[sensitivity]") 
         apart = std::max(apart, std::abs(found[row] - exact.of[i][row]));
       }
       CAPTURE(name, scale, apart);
-      // Beside the bound, what symmetry keeps at zero may have rounding.
+      // Components that symmetry keeps at zero may have rounding errors beyond the bound.
       CHECK(apart <= 1e-9 * scale + 1e-13);
     }
     CHECK(largest > 0);
@@ -223,7 +224,7 @@ TEST_CASE("derivatives are those of quad-precision solutions", "[sensitivity]") 
 
 namespace {
 
-// A key of a scene, its value, and a change that is small beside what is smooth in it.
+// A key of a scene, its value, and a change that is small for the smooth parts.
 struct Beside {
   std::string scene;
   Overrides overrides;
@@ -247,8 +248,8 @@ double fourth_order_difference(double a, double b, double c, double d, double ch
   return (8 * (c - b) - (d - a)) / (12 * change);
 }
 
-// Rounding has no derivative. Rows, samples, exposures and commands are at instants apart: at an
-// instant that moves, differences are of both sides.
+// Quantization has no derivative. Rows, samples, exposures and commands are at different instants,
+// because differences at a moving instant mix both its sides.
 const Overrides plain_rig = {"controller.sensor.resolution=0", "controller.sampling.resolution=0",
                              "gimbal.servo.dead_band=0",       "controller.sampling.delay=6.9 ms",
                              "controller.sensor.delay=8.3 ms", "time.end=3"};
@@ -258,7 +259,7 @@ Overrides operator+(Overrides a, const Overrides& b) {
   return a;
 }
 
-// Compares the derivatives of all states with differences of runs beside.
+// Compares derivatives of all states with differences of runs at nearby values.
 void require_runs_beside(const Beside& one) {
   CAPTURE(one.scene, one.key, one.overrides);
   const Overrides states = {"x", "y", "vx", "vy", "spin", "phi", "theta", "phi_rate", "theta_rate"};
@@ -281,13 +282,13 @@ void require_runs_beside(const Beside& one) {
     }
     largest = std::max(largest, scale);
     CAPTURE(state, scale, apart);
-    // Runs are good to some 1e-13 of the state, which the difference divides by the change.
+    // Runs are accurate to some 1e-13 of the state, which the difference divides by the change.
     CHECK(apart <= 1e-6 * scale + 1e-13 * largest_size(column(made, state)) / one.change);
   }
   CHECK(largest > 0);
 }
 
-// Compares the gradients of measures with differences of runs beside.
+// Compares gradients of measures with differences of runs at nearby values.
 void require_gradients_beside(const Beside& one, const Overrides& measures) {
   const Overrides overrides = one.overrides + Overrides{tight_rtol, tight_atol};
   const auto made = run(one.scene, overrides, {one.key}, measures);
@@ -305,7 +306,8 @@ void require_gradients_beside(const Beside& one, const Overrides& measures) {
 
 }  // namespace
 
-TEST_CASE("derivatives through a sampled controller are those of runs beside", "[sensitivity]") {
+TEST_CASE("derivatives through a sampled controller agree with differences of runs",
+          "[sensitivity]") {
   const Overrides frames = {"controller.sensor.period=27 ms", "controller.sensor.phase=0.0031"};
   const Overrides turned = {"controller.sensor.rotation=0.05", "controller.sensor.scale=[1.02, 1]",
                             "controller.sensor.dropout=0.1"};
@@ -366,13 +368,13 @@ TEST_CASE("derivatives through a sampled controller are those of runs beside", "
   for (const Beside& one : cases) require_runs_beside(one);
 }
 
-TEST_CASE("derivatives pass switches as runs beside do", "[sensitivity]") {
+TEST_CASE("derivatives across switches agree with differences of runs", "[sensitivity]") {
   const Overrides slide = {"events.slip={friction: 0.1, sliding_friction: 0.08, action: slide}",
                            "time.end=0.5"};
   const Overrides voltage = {"gimbal.motor.dc.voltage_limit=0.15", "time.end=8"};
   const Overrides torque = {"gimbal.motor.torque_limit=0.02",
                             "gimbal.motor.position_loop={kp: 4, kd: 0.12, ki: 2}", "time.end=8"};
-  // On a circle that the plate cannot follow without its limits.
+  // A circle that the plate can only follow at its limits.
   const auto circle = [](const std::string& servo, const std::string& rest = {}) {
     return Overrides{"gimbal={servo: {natural_frequency: 30, damping: 0.8" + servo + "}}",
                      "controller={gravity_compensation: {kp: 6, kv: 5}, drives: angle, "
@@ -412,22 +414,23 @@ TEST_CASE("derivatives pass switches as runs beside do", "[sensitivity]") {
       {"fig2b", gap, "gimbal.servo.backlash", 0.01, 0x1p-21},
       {"fig2b", gap, law + "kp", 6, 0x1p-12},
       {"fig2b", limit, "controller.limit", 0.02, 0x1p-20},
-      // From piece to piece of a measured curve.
+      // Across the pieces of a measured curve.
       {"fig2b", curve, "ball.radius", 0.01, 0x1p-21},
   };
   for (const Beside& one : cases) require_runs_beside(one);
 }
 
-TEST_CASE("gradients of measures pass switches as runs beside do", "[sensitivity]") {
+TEST_CASE("gradients of measures across switches agree with differences of runs", "[sensitivity]") {
   require_gradients_beside(
       {"configs/slides", {"events.rest=note", "time.end=5"}, "gravity", 9.81, 0x1p-11},
       {"rms_x", "max_x", "end_y", "max_friction_demand"});
 }
 
-TEST_CASE("gradients of measures of a sampled rig are those of runs beside", "[sensitivity]") {
+TEST_CASE("gradients of measures of a sampled rig agree with differences of runs",
+          "[sensitivity]") {
   const Overrides measures = {"max_tilt", "rms_x",  "rms_phi_command",          "end_theta_command",
                               "x.Peak",   "end_vy", "rms_tracking_error from 1"};
-  // Whatever moves the instants of commands, also where the servos' rates jump with them.
+  // Keys that move the instants of commands, also if the servos' rates jump with them.
   for (const Overrides& servo : {Overrides{}, Overrides{"gimbal.servo={time_constant: 0.04}"}}) {
     const Overrides rig = plain_rig + servo + Overrides{"time.end=3.01"};
     for (const Beside& one :
@@ -439,7 +442,7 @@ TEST_CASE("gradients of measures of a sampled rig are those of runs beside", "[s
   }
 }
 
-TEST_CASE("derivatives pass through rounding", "[sensitivity]") {
+TEST_CASE("derivatives pass through quantization", "[sensitivity]") {
   const Overrides fine = {"controller.sensor.resolution=1e-9",
                           "controller.sampling.resolution=1e-9"};
   const auto rounded = run("configs/rig", plain_rig + fine, {"gravity"});
@@ -450,11 +453,11 @@ TEST_CASE("derivatives pass through rounding", "[sensitivity]") {
   for (std::size_t row = 0; row < other.size(); ++row) {
     CHECK(one[row] == Approx(other[row]).margin(1e-5 * scale));
   }
-  // As it is, too: with its steps, noise and dead band.
+  // Also unchanged: with its quantization, noise and dead band.
   CHECK(run("configs/rig", {"time.end=5"}, {"gravity"}).code == ExitCode::done);
 }
 
-TEST_CASE("gradients of measures are those of runs beside", "[sensitivity]") {
+TEST_CASE("gradients of measures agree with differences of runs", "[sensitivity]") {
   const Overrides measures = {"max_tilt", "rms_x",         "max_tracking_error",
                               "x.Peak",   "find y at 1.5", "rms_tracking_error from 1",
                               "min_x"};
@@ -477,14 +480,15 @@ TEST_CASE("gradients of measures are those of runs beside", "[sensitivity]") {
       const double expected = (8 * (beside[2][m].second - beside[1][m].second) -
                                (beside[3][m].second - beside[0][m].second)) /
                               (12 * change);
-      // Extremes are good to 1e-12 of their size or so.
+      // Extremes are accurate to a relative 1e-12 or so.
       CHECK(gradient(made, name, key) ==
             Approx(expected).epsilon(1e-6).margin(1e-11 * std::abs(at) / change));
     }
   }
 }
 
-TEST_CASE("where an event stops the run, the measures' end moves with the key", "[sensitivity]") {
+TEST_CASE("if an event stops the run, the end of the measures moves with the key",
+          "[sensitivity]") {
   // The ball leaves the plate at x = size / 2 with vx = sqrt(a size), a = (5/7) g sin(phi).
   const auto made = run("configs/incline",
                         {"plate.size=[0.4, 0.4]", "events.edge=stop", "output.columns=[t, x]",
@@ -499,11 +503,11 @@ TEST_CASE("where an event stops the run, the measures' end moves with the key", 
   CHECK(gradient(made, "end_vx", "plate.size.0") == Approx(end / 0.8).epsilon(1e-9));
   CHECK(gradient(made, "max_x", "plate.size.0") == Approx(0.5).epsilon(1e-9));
   CHECK(std::abs(gradient(made, "max_x", "gravity")) < 1e-10);
-  // In the rows the plate's edge makes no difference.
+  // The plate's edge does not affect the rows.
   for (const double one : column(made, gradient_name("x", "plate.size.0"))) CHECK(one == 0);
 }
 
-TEST_CASE("rows with derivatives are those without", "[sensitivity]") {
+TEST_CASE("rows with derivatives equal those without", "[sensitivity]") {
   const auto with = run("fig2b", {}, {"ball.radius"}, {"max_tilt"});
   const auto without = run("fig2b", {}, {}, {"max_tilt"});
   CHECK(with.summary.measures == without.summary.measures);

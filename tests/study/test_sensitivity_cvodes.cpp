@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Derivatives by keys beside those of CVODES, which integrates the states and their derivatives
-// together by its Adams methods.
+// Derivatives with respect to keys, compared with CVODES, which integrates the states and their
+// derivatives together with its Adams methods.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -24,16 +24,16 @@ namespace {
 
 using Overrides = std::vector<std::string>;
 
-// A scene, and the same beside the value of one of its keys.
+// A scene, and the same scene with a key at nearby values.
 struct Scene {
   model::Model model, above, below;
   double change;
 
-  // Writes ds/dt = df/dz s + df/dp, both by central differences.
+  // Writes ds/dt = df/dz s + df/dp, both with central differences.
   void slope_rates(double t, const double* z, const double* s, double* into) const {
     const std::size_t n = model.size();
     std::vector<double> up(n), down(n), plus(n), minus(n);
-    // Small beside 1, the size of what is smooth in the states, and of any size in s.
+    // Small compared with 1, the scale of the smooth states, for any size of s.
     double size = 1;
     for (std::size_t i = 0; i < n; ++i) size = std::max(size, std::abs(s[i]));
     const double share = 1e-5 / size;
@@ -107,7 +107,7 @@ std::vector<double> by_cvodes(Scene& scene, double end) {
 
 }  // namespace
 
-TEST_CASE("derivatives are those of CVODES", "[sensitivity]") {
+TEST_CASE("derivatives agree with those of CVODES", "[sensitivity]") {
   struct Case {
     std::string scene, key;
     double value;
@@ -145,7 +145,7 @@ TEST_CASE("derivatives are those of CVODES", "[sensitivity]") {
       if (found == made.rows.names.end()) continue;
       const auto index = static_cast<std::size_t>(found - made.rows.names.begin());
       CAPTURE(states[i], expected[i]);
-      // CVODES' error over the run, by its tolerance.
+      // CVODES' error over the run, from its tolerance.
       CHECK(made.rows.columns[index].back() == Approx(expected[i]).margin(1e-7 * largest));
       ++compared;
     }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The stage equations of derivatives by keys: block by block as well as at once.
+// The stage equations of derivatives by keys, solved in blocks and as a whole.
 
 #include <Eigen/LU>
 #include <random>
@@ -13,12 +13,12 @@
 
 using namespace bbsim;
 
-TEST_CASE("stage equations in blocks have the solution of the whole", "[sensitivity]") {
+TEST_CASE("stage equations in blocks have the solution of the whole system", "[sensitivity]") {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> number(-1, 1);
   constexpr Eigen::Index n = 7, s = 4, columns = 3;
   constexpr double h = 0.3;
-  // Numbers 4 and 6 drive each other, 5 is alone, and they drive all others.
+  // Numbers 4 and 6 drive each other, 5 is alone, and all three drive the others.
   const auto depends = [](Eigen::Index i, Eigen::Index k) {
     if (i == 5) return k == 5;
     if (i == 4 || i == 6) return k == 4 || k == 6;
@@ -56,7 +56,7 @@ TEST_CASE("stage equations in blocks have the solution of the whole", "[sensitiv
   }
 }
 
-TEST_CASE("steps of a length that failed take more stages", "[sensitivity]") {
+TEST_CASE("step lengths that failed get more stages", "[sensitivity]") {
   study::StageChoice choice;
   CHECK(choice.of(1) == 0);
   choice.fail(0, 1);
@@ -65,7 +65,7 @@ TEST_CASE("steps of a length that failed take more stages", "[sensitivity]") {
   CHECK(choice.of(0.5) == 0);
   for (std::size_t i = 0; i < study::StageChoice::last; ++i) choice.fail(i, 1e-3);
   CHECK(choice.of(1) == study::StageChoice::last);
-  // In the long run fewer are tried again.
+  // In the long run fewer steps are repeated.
   int steps = 0;
   while (choice.of(1e-3) == study::StageChoice::last && steps < 1000) {
     choice.pass(study::StageChoice::last);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// bbsim verify: its checks, and the simpler models against what is known of them.
+// bbsim verify: its checks, and the simpler models against their known errors.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -29,21 +29,21 @@ Scenario moved(Profile phi, Profile theta) {
 
 }  // namespace
 
-TEST_CASE("all checks of this build hold, and none is vacuous") {
+TEST_CASE("all checks of this build pass, and none is vacuous") {
   const study::Verification made = study::verify();
   std::set<std::string> names;
   for (const Check& check : made.checks) {
     CAPTURE(check.name, check.error, check.bound);
     CHECK(check.holds());
     CHECK(check.bound > 0);
-    // Below the smallest effect that a wrong model would have in these scenes, relative to
-    // positions of up to 3 km in the ones that grow.
+    // Below the smallest effect of a wrong model in these scenes, relative to positions of up to 3
+    // km in the growing ones.
     CHECK(check.bound < 0.1);
     names.insert(check.name);
   }
   CHECK(made.holds());
   CHECK(names.size() == made.checks.size());
-  // Of linked servos, whose geometry and whose blows a wrong sign would show.
+  // Linked servos, whose geometry and impulses would reveal a wrong sign.
   for (const char* part : {"Quanser", "push rod: inverse", "push rod: slope", "servo's ramp",
                            "with backlash: energy", "over the workspace", "three servos: rates"}) {
     CAPTURE(part);
@@ -57,7 +57,7 @@ TEST_CASE("all checks of this build hold, and none is vacuous") {
   }
 }
 
-TEST_CASE("a check fails when its error is above the bound, or no number") {
+TEST_CASE("a check fails if its error exceeds the bound or is NaN") {
   CHECK(Check{"", 1, 1, "m"}.holds());
   CHECK_FALSE(Check{"", 1.1, 1, "m"}.holds());
   CHECK_FALSE(Check{"", std::numeric_limits<double>::quiet_NaN(), 1, "m"}.holds());
@@ -75,9 +75,10 @@ TEST_CASE("a stop request ends the verification") {
   CHECK_FALSE(made.holds());
 }
 
-// The simpler models run at rtol 1e-9: over 2 s and a few metres, some hundred steps of BDF leave
+// The simpler models run at rtol 1e-9: over 2 s and a few meters, some hundred steps of BDF leave
 // less than 1e-6 m.
-TEST_CASE("simpler models on a fixed incline: the textbook's lacks a cosine, the slope nothing") {
+TEST_CASE(
+    "simpler models on a fixed incline: the textbook's lacks a cosine, the slope model is exact") {
   const Scenario scene = moved({0.2}, {-0.3});
   const study::FullModelStudy made = study::compare_simpler(scene);
   REQUIRE(made.simpler.size() == 2);
@@ -90,7 +91,8 @@ TEST_CASE("simpler models on a fixed incline: the textbook's lacks a cosine, the
   CHECK(made.simpler[1].at_dy == 2);
 }
 
-TEST_CASE("simpler models on a turning plane: the slope lacks x phi'^2, the textbook nothing") {
+TEST_CASE(
+    "simpler models on a turning plane: the slope model lacks x phi'^2, the textbook's is exact") {
   const Scenario scene = moved({Ramp{0, 1}}, {});
   const study::FullModelStudy made = study::compare_simpler(scene);
   const double g = scene.gravity, k = std::sqrt(5.0 / 7), t = 2;
@@ -110,14 +112,14 @@ TEST_CASE("the same controller acts on the simpler ball") {
   const study::FullModelStudy made = study::compare_simpler(scene);
   for (const study::SimplerModel& model : made.simpler) {
     CHECK(model.reached == 30);
-    // A stable loop leads either ball round the same circle of 5 cm: what is left is less than
-    // a hundredth of it. Without the loop the models part as t^2.
+    // A stable loop moves either ball around the same circle of 5 cm, with a difference below a
+    // hundredth of it. Without the loop the models diverge as t^2.
     CHECK(std::max(model.dx, model.dy) < 5e-4);
     CHECK(std::max(model.dx, model.dy) > 1e-6);
   }
 }
 
-TEST_CASE("models that blow up are compared as far as they go") {
+TEST_CASE("diverging models are compared as far as they go") {
   const study::FullModelStudy made = study::compare_simpler(
       read_scenario(BBSIM_SOURCE_DIR "/tests/data/scenarios/fig2b-literal.yaml"));
   CHECK(made.reached < 0.75);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The energy of everything that moves, with what was lost and less what the motors gave: constant.
+// Total energy of all moving parts, plus losses and minus the motors' work: constant.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace bbsim_test {
 
-// How far it strays from its first value over a run, relative to the largest of its parts.
+// Largest deviation from the initial value over a run, relative to the largest part.
 inline double energy_gap(const bbsim::Scenario& scene, const Run& run) {
   const bbsim::model::BallConstants constants = bbsim::model::constants_of(scene);
   double first = 0, gap = 0, size = 0;

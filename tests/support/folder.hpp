@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A folder of a test's own, and what the tests look at in it.
+// A test's own folder, with functions to examine it.
 #pragma once
 
 #include <sys/stat.h>
@@ -30,12 +30,12 @@ class Folder {
   [[nodiscard]] std::string operator/(const std::string& name) const { return path_ / name; }
   [[nodiscard]] std::string name() const { return path_; }
 
-  // Files, hidden ones too, links not followed.
+  // Number of files, including hidden ones; links are not followed.
   [[nodiscard]] std::ptrdiff_t entries() const {
     return std::distance(std::filesystem::directory_iterator(path_), {});
   }
 
-  // Writes name and returns its path.
+  // Writes a file and returns its path.
   std::string put(const std::string& name, const std::string& content) const {
     std::ofstream(path_ / name, std::ios::binary) << content;
     return path_ / name;
@@ -55,7 +55,7 @@ inline unsigned permissions_of(const std::string& file) {
   return stat(file.c_str(), &status) == 0 ? status.st_mode & 07777U : 0U;
 }
 
-// What the message of an Error thrown by `action` says; fails the test by being empty.
+// Message of the Error that `action` throws; empty, which fails the test, if it throws none.
 template <class Error, class Action>
 std::string message_of(Action action) {
   try {

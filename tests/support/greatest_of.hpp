@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What functions that are known at many equidistant places are greatest at.
+// Greatest value of a function that is known at many equidistant points.
 #pragma once
 
 #include <algorithm>
@@ -9,11 +9,11 @@
 
 namespace bbsim_test {
 
-// The greatest of equidistant values, and of the polynomial through the seven about it.
+// The greatest of equidistant values and of the polynomial through the seven around it.
 inline double greatest_of(const std::vector<double>& values) {
   const auto most = std::max_element(values.begin(), values.end());
   if (values.end() - most <= 3 || most - values.begin() < 3) return *most;
-  const auto at = [&](double u) {  // Lagrange's
+  const auto at = [&](double u) {  // Lagrange interpolation
     double sum = 0;
     for (int k = -3; k <= 3; ++k) {
       double factor = most[k];

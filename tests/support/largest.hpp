@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The largest of many numbers, none of which may be anything but one: std::max() passes over NaN.
+// The largest of many numbers, all of which must be numbers: std::max() ignores NaN.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace bbsim_test {
 
-// The largest so far and of these, which have to be finite.
+// The larger of `so_far` and these numbers, which must be finite.
 inline double largest_finite(double so_far, std::initializer_list<double> numbers) {
   for (const double number : numbers) {
     if (!std::isfinite(number)) FAIL("found " << number << " among numbers to be compared");

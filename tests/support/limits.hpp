@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A disk that is nearly full, as far as this process can tell.
+// Simulates a nearly full disk for this process.
 #pragma once
 
 #include <sys/resource.h>
 
 #include <csignal>
 
-// Writing beyond `bytes` of any file fails with EFBIG.
+// Makes writes beyond `bytes` of any file fail with EFBIG.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : signal_(std::signal(SIGXFSZ, SIG_IGN)) {

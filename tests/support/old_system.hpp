@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A system that knows less, as far as this process can tell.
+// Simulates an older system for this process.
 #pragma once
 
 #include <fcntl.h>
@@ -13,14 +13,14 @@
 #include <cerrno>
 #include <cstddef>
 
-// From now on a call with one of these bits set in an argument, from 0, fails with that errno.
-// False if that cannot be had.
+// Makes calls fail with the given errno if one of the bits is set in the given argument, counted
+// from 0. Returns false if this is not possible.
 inline bool refuse_calls(unsigned call, unsigned argument, unsigned bits, unsigned error) {
   const auto place = static_cast<unsigned>(offsetof(seccomp_data, args) + argument * sizeof(__u64));
   sock_filter filter[] = {
       BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
       BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, call, 0, 3),
-      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, place),  // its lower half
+      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, place),  // lower half of the argument
       BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, bits, 0, 1),
       BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | error),
       BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
@@ -30,12 +30,12 @@ inline bool refuse_calls(unsigned call, unsigned argument, unsigned bits, unsign
          prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
 }
 
-// File systems without files that have no name.
+// File systems without unnamed files.
 inline bool refuse_unnamed_files() {
   return refuse_calls(SYS_openat, 2, O_TMPFILE & ~O_DIRECTORY, EOPNOTSUPP);
 }
 
-// Linux before 6.10, to whom has no privileges.
+// Linux before 6.10, for users without privileges.
 inline bool refuse_empty_paths() {
   return refuse_calls(SYS_linkat, 4, AT_EMPTY_PATH, ENOENT);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the tests of the scenario reader share.
+// Shared by the tests of the scenario reader.
 #pragma once
 
 #include <unistd.h>
@@ -20,7 +20,7 @@ inline Scenario parse(const std::string& text, const std::vector<std::string>& o
   return parse_scenario(text, "scenario.yaml", overrides);
 }
 
-// Every problem of the text, one a line; empty if there is none.
+// All problems of the text, one per line; empty if there are none.
 inline std::string errors(const std::string& text, const std::vector<std::string>& overrides = {}) {
   try {
     static_cast<void>(parse(text, overrides));
@@ -42,7 +42,7 @@ inline const std::string closed_loop =
     "time: {end: 10, step: 0.1}\n"
     "controller: {pd: {kv: 100, kp: 0.1}, reference: {point: [0, 0]}}\n";
 
-// A folder of this process's own, gone when the test ends.
+// A folder of this process, removed when the test ends.
 class TemporaryFolder {
  public:
   TemporaryFolder()

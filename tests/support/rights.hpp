@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Root's right to pass by permissions, taken from a process that is to have none but an owner's.
+// Removes root's right to override file permissions, which would hide permission errors.
 #pragma once
 
 #include <linux/capability.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
-// For this process and its threads to come. Does nothing, and need not, for any other user than
-// root.
+// Applies to this process and its future threads. Does nothing for users other than root, who lack
+// the right anyway.
 inline void drop_rights_over_files() {
   __user_cap_header_struct whose{_LINUX_CAPABILITY_VERSION_3, 0};
   __user_cap_data_struct rights[2]{};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Runs a scene and looks at it in the paper's symbols, without files.
+// Runs a scene in memory and presents it in the paper's symbols.
 #pragma once
 
 #include <string>
@@ -41,7 +41,7 @@ inline bbsim::Scenario scenario_named(const std::string& name) {
   return bbsim::read_scenario(data_file("scenarios/" + name + ".yaml"));
 }
 
-// A quad-precision solution: columns t, x, y, vx, vy, spin, gamma, phi, theta, their rates.
+// A quad-precision solution with columns t, x, y, vx, vy, spin, gamma, phi, theta and their rates.
 class QuadReference {
  public:
   explicit QuadReference(const std::string& name)

@@ -6,8 +6,8 @@
 
 namespace bbsim_test {
 
-// Programs under sanitizers are slow, and have memory and descriptors of their own: limits on these
-// are not for them.
+// Programs under sanitizers are slow and use more memory and descriptors, so limits on these do not
+// apply.
 #if defined(__SANITIZE_ADDRESS__)
 inline constexpr bool under_sanitizers = true;
 #elif defined(__has_feature)

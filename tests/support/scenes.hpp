@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Scenes that several tests share, built without YAML.
+// Scenes shared by tests, built without YAML.
 #pragma once
 
 #include <numbers>
@@ -22,7 +22,7 @@ inline bbsim::Scenario fig2a() {
   return scene;
 }
 
-// Fig. 2(b), the gains acting through a position servo.
+// Fig. 2(b), with the gains acting through a position servo.
 inline bbsim::Scenario fig2b() {
   bbsim::Scenario scene;
   scene.gravity = 9.81;

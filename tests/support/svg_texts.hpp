@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a reader of a picture would object to: texts that collide.
+// Finds texts that collide in a picture.
 #pragma once
 
 #include <algorithm>
@@ -11,13 +11,13 @@
 
 namespace bbsim_test {
 
-// Where something is written, in pixels.
+// Place of a text, in pixels.
 struct Written {
   std::string text;
   double left, right, top, bottom;
 };
 
-// What stands behind `name` in a piece of XML, up to a quotation mark or a tag.
+// The text after `name` in a piece of XML, up to a quotation mark or a tag.
 inline std::string behind(const std::string& xml, const std::string& name) {
   const std::size_t at = xml.find(name);
   if (at == std::string::npos) return "";
@@ -25,7 +25,7 @@ inline std::string behind(const std::string& xml, const std::string& name) {
   return xml.substr(start, xml.find_first_of("\"<", start) - start);
 }
 
-// All texts of an SVG that gnuplot wrote, but empty ones.
+// All nonempty texts of an SVG from gnuplot.
 inline std::vector<Written> all_texts(const std::string& svg) {
   std::vector<Written> texts;
   const std::string begin = "<g transform=\"translate(";
@@ -37,7 +37,7 @@ inline std::vector<Written> all_texts(const std::string& svg) {
     const double size = std::stod(behind(group, "font-size=\""));
     const auto letters =
         std::ranges::count_if(text, [](unsigned char c) { return (c & 0xC0U) != 0x80U; });
-    const double width = 0.6 * size * static_cast<double>(letters);  // as a usual letter's
+    const double width = 0.6 * size * static_cast<double>(letters);  // width of an average letter
     const std::string anchor = behind(group, "text-anchor=\"");
     const double before = width * (anchor == "start" ? 0 : anchor == "middle" ? 0.5 : 1);
     if (group.find("rotate(") != std::string::npos) {
@@ -49,7 +49,7 @@ inline std::vector<Written> all_texts(const std::string& svg) {
   return texts;
 }
 
-// What collides in an SVG or leaves the sheet, in words; empty if all can be read.
+// Describes what collides in an SVG or leaves the sheet; empty if everything is readable.
 inline std::string collisions_in(const std::string& svg) {
   const std::string sheet = behind(svg, "viewBox=\"0 0 ");
   if (sheet.empty()) return "no size";

@@ -14,7 +14,7 @@
 
 #include "file/table_writer.hpp"
 
-// Equal to the bit; a NaN is any NaN.
+// Bitwise equality, except that all NaNs are equal.
 inline bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
   if (a.size() != b.size()) return false;
   for (std::size_t i = 0; i < a.size(); ++i) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The results of a sweep on their way into a file: what an earlier run left is looked at, what
-// stands in the way refused, and nothing let go before all is there.
+// A sweep's results on their way into a file: an earlier run's rows are checked, conflicts refused,
+// and nothing is discarded before the result is complete.
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -88,7 +88,7 @@ std::string writing_fails(const std::string& target) {
 
 }  // namespace
 
-TEST_CASE("rows become a file, and a part goes on to the same bytes") {
+TEST_CASE("rows become a file, and a resumed part gives the same bytes") {
   const Folder folder;
   const std::string ending =
       GENERATE(std::string(".csv"), std::string(".h5"), std::string(".HDF5"));
@@ -118,7 +118,7 @@ TEST_CASE("rows become a file, and a part goes on to the same bytes") {
   CHECK(alike);
 }
 
-TEST_CASE("whole groups are kept, the last one perhaps smaller") {
+TEST_CASE("whole groups are kept, and a smaller last one") {
   const Folder folder;
   leave_unfinished(folder / "a.csv", 107);
   CHECK(open_case_file(folder / "a.csv", layout(false, 4), plan, true)->kept().rows == 4);
@@ -129,7 +129,7 @@ TEST_CASE("whole groups are kept, the last one perhaps smaller") {
         std::map<std::string, std::size_t, std::less<>>{{"done", 7}, {"failed", 3}});
 }
 
-TEST_CASE("a part is cut at the first row that is not as it was written, and it is said") {
+TEST_CASE("a part is cut at the first invalid row, and this is reported") {
   const Folder folder;
   const std::string whole = header + rows(100, 108);
   const std::size_t row_103 = whole.find("103,");
@@ -151,12 +151,12 @@ TEST_CASE("a part is cut at the first row that is not as it was written, and it 
       (folder / "a.csv.part") + ": the row of case 103 is not as it was written";
   const std::string& row_of_103 = row(103);
 
-  SECTION("deleted") {
+  SECTION("a deleted row") {
     const KeptRows kept = resumed(changed(row_103, row_of_103.size(), ""));
     CHECK(kept.rows == 3);
     CHECK(kept.trouble == start + " (found case 104); continuing from case 103");
   }
-  SECTION("twice") {
+  SECTION("a repeated row") {
     const KeptRows kept = resumed(changed(row_103, 0, row(102)));
     CHECK(kept.rows == 3);
     CHECK_THAT(kept.trouble, Contains(start + " (found case 102)"));
@@ -167,7 +167,7 @@ TEST_CASE("a part is cut at the first row that is not as it was written, and it 
     CHECK_THAT(resumed(whole.substr(0, row_103) + std::string(4096, '\0')).trouble,
                Contains(start + " (found zero bytes)"));
   }
-  SECTION("a field lost, a number spoilt") {
+  SECTION("a lost field and a damaged number") {
     CHECK_THAT(resumed(changed(whole.find(",done", row_103), 5, "")).trouble, Contains("4 fields"));
     CHECK_THAT(resumed(changed(whole.find("9.103"), 5, "9.1O3")).trouble, Contains("field 2"));
   }
@@ -181,14 +181,14 @@ TEST_CASE("a part is cut at the first row that is not as it was written, and it 
     CHECK(kept.rows == 0);
     CHECK_THAT(kept.trouble, Contains("its header is not as it was written"));
   }
-  SECTION("what a kill leaves is no trouble") {
+  SECTION("the state after a kill is valid") {
     for (std::size_t size = 1; size < whole.size(); ++size) {
       CHECK(resumed(whole.substr(0, size)).trouble.empty());
     }
   }
 }
 
-TEST_CASE("trajectories that are not as they were written are computed again") {
+TEST_CASE("damaged trajectories are computed again") {
   const Folder folder;
   const std::string series_file = folder / "a.h5.part.series";
   const auto resumed = [&](const std::string& content) {
@@ -218,7 +218,7 @@ TEST_CASE("trajectories that are not as they were written are computed again") {
   CHECK(resumed(whole.substr(0, 5 * a_case + 3)).rows == 5);
 }
 
-TEST_CASE("a file with fewer rows than cases is not completed, and its part stays") {
+TEST_CASE("a file with too few rows is not completed, and its part stays") {
   const Folder folder;
   const std::string ending = GENERATE(std::string(".csv"), std::string(".h5"));
   const std::string target = folder / ("a" + ending);
@@ -231,14 +231,14 @@ TEST_CASE("a file with fewer rows than cases is not completed, and its part stay
   {
     const auto file = open_case_file(target, layout(), plan, true);
     append(*file, 108, 110);
-    REQUIRE(truncate((target + ".part").c_str(), 100) == 0);  // by somebody else
+    REQUIRE(truncate((target + ".part").c_str(), 100) == 0);  // by another process
     CHECK_FALSE(message_of<OutputError>([&] { file->finish({}); }).empty());
   }
   CHECK_FALSE(std::filesystem::exists(target));
   CHECK(std::filesystem::exists(target + ".part"));
 }
 
-TEST_CASE("a part that loses its name is neither lost nor taken for another") {
+TEST_CASE("a part that loses its name is neither lost nor mistaken for another") {
   const Folder folder;
   const std::string ending = GENERATE(std::string(".csv"), std::string(".h5"));
   const std::string target = folder / ("a" + ending);
@@ -264,7 +264,7 @@ TEST_CASE("a part that loses its name is neither lost nor taken for another") {
   CHECK(alike);
 }
 
-TEST_CASE("no part is written through what others set up in its place") {
+TEST_CASE("no part is written through a link or special file in its place") {
   const Folder folder;
   const std::string precious = folder.put("precious", "precious");
   const std::string name = GENERATE(std::string(".part"), std::string(".plan"));
@@ -284,7 +284,8 @@ TEST_CASE("no part is written through what others set up in its place") {
   }
   SECTION("another user's file") {
     folder.put("a.csv" + name, "");
-    if (chown((target + name).c_str(), 65534, 65534) != 0) return;  // only root may give it away
+    if (chown((target + name).c_str(), 65534, 65534) != 0)
+      return;  // only root may change the owner
     CHECK_THAT(writing_fails(target), Contains("another user"));
   }
   SECTION("a folder") {
@@ -307,7 +308,7 @@ TEST_CASE("trajectories are not written through a link either") {
   CHECK(folder.entries() == 2);
 }
 
-TEST_CASE("a part is gone on with only by the same plan, and it is said what differs") {
+TEST_CASE("a part is continued only with the same plan, and differences are reported") {
   const Folder folder;
   const std::string target = folder / "a.csv";
   leave_unfinished(target, 103);
@@ -328,7 +329,7 @@ TEST_CASE("a part is gone on with only by the same plan, and it is said what dif
   CHECK(content_of(target + ".part") == header + rows(100, 103));
 }
 
-TEST_CASE("a part belongs to one process") {
+TEST_CASE("a part belongs to one process at a time") {
   const Folder folder;
   const auto file = open_case_file(folder / "a.csv", layout(), plan, false);
   append(*file, 100, 101);
@@ -337,7 +338,7 @@ TEST_CASE("a part belongs to one process") {
   CHECK(content_of(folder / "a.csv.part") == header + row(100));
 }
 
-TEST_CASE("a sweep's file keeps the permissions of the one that it replaces") {
+TEST_CASE("a sweep's file keeps the permissions of the file that it replaces") {
   const Folder folder;
   const std::string file = folder.put("a.csv", "old");
   REQUIRE(chmod(file.c_str(), 0600) == 0);
@@ -351,7 +352,7 @@ TEST_CASE("a sweep's file keeps the permissions of the one that it replaces") {
   CHECK(permissions_of(file) == 0640);
 }
 
-TEST_CASE("what cannot be written is told before any case is run") {
+TEST_CASE("an output that cannot be written is reported before any case runs") {
   const Folder folder;
   std::filesystem::create_symlink("loop.csv", folder / "loop.csv");
   CHECK_THAT(writing_fails(folder / "loop.csv"), Contains("too many levels of symbolic links"));
@@ -365,7 +366,7 @@ TEST_CASE("what cannot be written is told before any case is run") {
   CHECK(folder.entries() == 2);
 }
 
-TEST_CASE("a shard's plan stays beside it, a whole sweep's does not") {
+TEST_CASE("a shard keeps its plan beside it, a whole sweep does not") {
   const Folder folder;
   CaseFileLayout shard = layout();
   shard.is_shard = GENERATE(true, false);
@@ -376,14 +377,14 @@ TEST_CASE("a shard's plan stays beside it, a whole sweep's does not") {
   if (shard.is_shard) CHECK(content_of(folder / "a.csv.plan") == plan);
 }
 
-TEST_CASE("a part without a row goes with its sweep") {
+TEST_CASE("a part without rows is removed with its sweep") {
   const Folder folder;
   static_cast<void>(open_case_file(folder / "a.csv", layout(), plan, false));
   static_cast<void>(open_case_file(folder / "a.h5", layout(true), plan, false));
   CHECK(folder.entries() == 0);
 }
 
-TEST_CASE("what is not a file gets its rows at once") {
+TEST_CASE("an output that is not a regular file gets its rows immediately") {
   int ends[2];
   REQUIRE(pipe(ends) == 0);
   const auto file = open_case_file("/dev/fd/" + std::to_string(ends[1]), layout(), plan, false);

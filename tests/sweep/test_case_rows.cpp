@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Rows of a sweep, read back: whatever is not as it was written is found.
+// Reading back the rows of a sweep: every damage is found.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -36,7 +36,7 @@ const std::string header = "case,ball.radius,solver.method,status,reason,end_tim
 
 }  // namespace
 
-TEST_CASE("lines of any length are read, and a last one without an end is told") {
+TEST_CASE("lines of any length are read, and an unterminated last line is reported") {
   const Folder folder;
   const std::string longest(1000000, 'y');
   bool whole = false;
@@ -52,7 +52,7 @@ TEST_CASE("lines of any length are read, and a last one without an end is told")
   CHECK(lines_of(folder.put("c", ""), whole, end).empty());
 }
 
-TEST_CASE("what cannot be read is an error, never an end") {
+TEST_CASE("a read error is an error, never the end of the file") {
   const Folder folder;
   std::string_view line;
   for (const int descriptor : {-1, open(folder.name().c_str(), O_RDONLY | O_CLOEXEC)}) {
@@ -65,7 +65,7 @@ TEST_CASE("what cannot be read is an error, never an end") {
   }
 }
 
-TEST_CASE("a row is taken apart") {
+TEST_CASE("a row is split into its fields") {
   RowReader reader(header);
   REQUIRE(reader.read("12,0.01,radau,failed,\"it grew, \"\"fast\"\", and out\",0.744,nan").empty());
   CHECK(reader.case_number() == 12);
@@ -78,7 +78,7 @@ TEST_CASE("a row is taken apart") {
   CHECK(std::isinf(reader.number(6)));
 }
 
-TEST_CASE("a row that is not as a sweep writes it is told") {
+TEST_CASE("a row that no sweep would write is reported") {
   RowReader reader(header);
   const std::vector<std::pair<std::string, std::string>> rows{
       {"", "does not begin with the number of a case"},
@@ -101,7 +101,7 @@ TEST_CASE("a row that is not as a sweep writes it is told") {
   }
 }
 
-TEST_CASE("the columns tell numbers from texts") {
+TEST_CASE("the columns determine which fields are numbers and which are texts") {
   RowReader reader(std::vector<Hdf5Column>{{"case", "", ""},
                                            {"gravity", "", ""},
                                            {"status", "", "", Hdf5Kind::text},

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The ways in which a sweep computes its cases, held against single runs.
+// The engines of a sweep, compared with single runs.
 #include <unistd.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ std::vector<scenario::Measure> measures(const std::vector<std::string>& names) {
   return found;
 }
 
-// A sweep with all that it refers to.
+// A sweep with everything it refers to.
 struct Setup {
   Setup(const std::string& scene, std::vector<Variation> vary, const std::vector<std::string>& set,
         const std::vector<std::string>& names, double samples = 0)
@@ -79,7 +79,7 @@ const std::vector<std::string> loop_measures{"x_end",
                                              "rms_tracking_error",
                                              "max_tracking_error"};
 
-// The largest difference of two sweeps' numbers, of those above 1 relative to them.
+// Largest difference between two sweeps' numbers, relative for numbers above 1.
 double largest_difference(const CaseResults& a, const CaseResults& b) {
   REQUIRE(a.numbers.size() == b.numbers.size());
   double largest = 0;
@@ -90,7 +90,7 @@ double largest_difference(const CaseResults& a, const CaseResults& b) {
   return largest;
 }
 
-// From the rows of solve::integrate; unless the manner is quick, by looking at every row by itself.
+// Measures from the rows of solve::integrate; unless the manner is quick, of each row separately.
 CaseResults one_by_one(const SweepTask& task, const record::Manner& manner = {}) {
   CaseResults results;
   results.resize(task.plan.cases(), task);
@@ -122,17 +122,17 @@ TEST_CASE("a case of a sweep has the measures of a run, to the bit") {
   CHECK(results.numbers == one_by_one(setup.task, {true}).numbers);
 }
 
-TEST_CASE("many rows at a time give the measures of each row by itself") {
+TEST_CASE("measures over many rows together equal those row by row") {
   SECTION("under a given motion") {
     const Setup setup("configs/fig2a.yaml",
                       {{"gimbal.motion.phi.sinusoid.amplitude", "uniform:-2:2"},
                        {"gimbal.motion.theta.sinusoid.frequency", "uniform:0.5:3"}},
                       {"time.step=0.07"}, open_measures, 40);
     const auto runner = single_runner(setup.task);
-    // Sums and products of the same numbers in another order; angles beyond a right one too.
+    // The same sums and products in another order; also angles beyond 90 degrees.
     CHECK(largest_difference(run_all(*runner, 40), one_by_one(setup.task)) < 1e-12);
   }
-  SECTION("under one motion, which is evaluated once") {
+  SECTION("under one motion, which is evaluated only once") {
     const Setup setup("configs/fig2a.yaml", {{"ball.spin", "uniform:-5:5"}}, {"time.step=0.3"},
                       open_measures, 10);
     const auto runner = single_runner(setup.task);
@@ -146,14 +146,14 @@ TEST_CASE("many rows at a time give the measures of each row by itself") {
     const auto runner = single_runner(setup.task);
     CHECK(largest_difference(run_all(*runner, 20), one_by_one(setup.task)) < 1e-12);
   }
-  SECTION("of runs that end early") {
+  SECTION("runs that end early") {
     const Setup setup("configs/fig2b-literal.yaml", {{"controller.pd.kv", "linear:60:100:5"}}, {},
                       loop_measures);
     const auto runner = single_runner(setup.task);
     const CaseResults results = run_all(*runner, 5), expected = one_by_one(setup.task);
     const std::size_t numbers = 1 + setup.task.measures.size();
     for (std::size_t i = 0; i < results.numbers.size(); ++i) {
-      // The plane turns over and over in the last steps: no number of points shows each time.
+      // The plane turns over and over in the last steps, too fast for any number of points.
       const std::size_t place = i % numbers;
       const bool tilt = place > 0 && setup.task.measures[place - 1].name == "max_tilt";
       CHECK(results.numbers[i] == Approx(expected.numbers[i]).epsilon(tilt ? 1e-3 : 1e-12));
@@ -162,7 +162,7 @@ TEST_CASE("many rows at a time give the measures of each row by itself") {
   }
 }
 
-TEST_CASE("a key above the motion or the reference changes it from case to case") {
+TEST_CASE("a key of the motion's or reference's group changes it from case to case") {
   const Setup setup(
       "configs/fig2a.yaml",
       {{"gimbal",
@@ -173,7 +173,7 @@ TEST_CASE("a key above the motion or the reference changes it from case to case"
   CHECK(largest_difference(run_all(*runner, 2), one_by_one(setup.task)) < 1e-12);
 }
 
-TEST_CASE("distances neither overflow nor vanish on the way") {
+TEST_CASE("distances neither overflow nor underflow in between") {
   const double size = GENERATE(1e160, 1e-180);
   char far[80];
   std::snprintf(far, sizeof far, "linear:%g:%g:40", size, 2 * size);
@@ -200,7 +200,7 @@ TEST_CASE("superposition agrees with single runs") {
   REQUIRE(can_superpose(setup.task));
   const auto runner = superposition_runner(setup.task, solve_superposed(setup.task));
   const auto single = single_runner(setup.task);
-  // Distances up to some metres, single runs at 1e-12.
+  // Distances up to some meters, single runs at 1e-12.
   CHECK(largest_difference(run_all(*runner, 100), run_all(*single, 100)) < 1e-11);
 }
 
@@ -215,7 +215,7 @@ TEST_CASE("superposition follows tables and planar scenes") {
   CHECK(largest_difference(run_all(*runner, 40), run_all(*single, 40)) < 1e-11);
 }
 
-TEST_CASE("what is not linear is not superposed") {
+TEST_CASE("nonlinear cases are not superposed") {
   const auto superposes = [](const std::string& scene, Variation vary,
                              const std::vector<std::string>& set,
                              const std::vector<std::string>& names) {
@@ -235,7 +235,7 @@ TEST_CASE("what is not linear is not superposed") {
   CHECK_FALSE(superposes("configs/fig2b.yaml", {"gravity", "uniform:1:2"}, {}, loop_measures));
 }
 
-TEST_CASE("trajectories are the rows of each case, and no number beyond its end") {
+TEST_CASE("trajectories are the rows of each case, with NaN beyond its end") {
   Setup setup("configs/fig2b-literal.yaml", {{"controller.pd.kv", "list:0.001,100"}},
               {"time.end=1"}, {"x_end"});
   const solve::OutputGrid grid(setup.family.read(setup.plan.settings(0)).time);
@@ -264,7 +264,7 @@ TEST_CASE("trajectories are the rows of each case, and no number beyond its end"
   }
 }
 
-TEST_CASE("cases come in order, once each, from any number of threads") {
+TEST_CASE("each case is delivered once, in order, for any number of threads") {
   const Setup setup("configs/fig2a.yaml", {{"gimbal.motion.phi.sinusoid.phase", "linear:0:3:301"}},
                     {}, {"x_end"});
   const Engine engine = choose_engine(setup.task);
@@ -281,7 +281,7 @@ TEST_CASE("cases come in order, once each, from any number of threads") {
   }
 }
 
-TEST_CASE("a sweep ends where it is told to, and where its results cannot be kept") {
+TEST_CASE("a sweep stops on request, or if its results cannot be stored") {
   const Setup setup("configs/fig2a.yaml", {{"gimbal.motion.phi.sinusoid.phase", "linear:0:3:5000"}},
                     {}, {"x_end"});
   const Engine engine = choose_engine(setup.task);
@@ -301,7 +301,7 @@ TEST_CASE("a sweep ends where it is told to, and where its results cannot be kep
                   std::runtime_error);
 }
 
-TEST_CASE("shards are whole groups, as even as can be, and make up the sweep") {
+TEST_CASE("shards are whole groups of nearly equal number, and make up the sweep") {
   for (const std::size_t cases : {0, 1, 7, 8, 9, 100, 1000003}) {
     for (const std::size_t group : {1, 8}) {
       for (const std::size_t shards : {1, 2, 3, 10}) {
@@ -323,7 +323,7 @@ TEST_CASE("shards are whole groups, as even as can be, and make up the sweep") {
 
 namespace {
 
-// Within the tolerance of 1e-6 of both, over a loop that amplifies it little.
+// Within both tolerances of 1e-6, over a loop that amplifies it little.
 void check_lanes(const Setup& setup) {
   const Engine engine = choose_engine(setup.task);
   REQUIRE(engine.name == "lanes");
@@ -340,15 +340,15 @@ const std::vector<std::string> coarse{"solver.rtol=1e-6", "solver.atol=1e-8"};
 
 }  // namespace
 
-TEST_CASE("planar cases do not decide how the others are computed") {
-  // Along x alone where the ball starts on that axis.
+TEST_CASE("planar cases do not determine how the others are computed") {
+  // The scene is planar if the ball starts on the x axis.
   const char* const spec =
       GENERATE("linear:0:5 cm:11", "linear:5 cm:0:11", "list:0,0,0,0,0,0,0,0,1 cm");
   CAPTURE(spec);
   check_lanes(Setup("configs/beam.yaml", {{"ball.position.1", spec}}, coarse, loop_measures));
 }
 
-TEST_CASE("loops that explode end in lanes where single runs do, and others as without them") {
+TEST_CASE("loops that diverge in lanes end as single runs do, without affecting others") {
   const Setup setup("configs/fig2b.yaml", {{"controller.pd.kv.0.0", "uniform:-0.4:0.8"}}, {},
                     loop_measures, 60);
   const Engine engine = choose_engine(setup.task);
@@ -368,7 +368,7 @@ TEST_CASE("loops that explode end in lanes where single runs do, and others as w
     for (std::size_t m = 0; m + 1 < width; ++m) {
       const double ours = lanes.numbers[i * width + 1 + m];
       const double theirs = alone.numbers[i * width + 1 + m];
-      // What is greatest on the way to infinity is so in the last step.
+      // A greatest value on the way to infinity occurs in the last step.
       const bool is_greatest = setup.task.measures[m].kind == scenario::Measure::Kind::greatest;
       if (done) CHECK(std::abs(ours - theirs) < 1e-6);
       if (!done && !is_greatest) CHECK(ours == Approx(theirs).epsilon(1e-3));
@@ -377,8 +377,8 @@ TEST_CASE("loops that explode end in lanes where single runs do, and others as w
   CHECK(exploded > 10);
   CHECK(exploded < 30);
 
-  // However they are handed out, to the bit; the states at the end too, of which lanes know nothing
-  // before infinity.
+  // Bit for bit for any distribution; also the states at the end, which lanes do not know before
+  // infinity.
   const auto runner = engine.runner();
   for (std::size_t first = 0; first < 60; first += 7) {
     CaseResults some;
@@ -397,7 +397,7 @@ TEST_CASE("loops that explode end in lanes where single runs do, and others as w
   }
 }
 
-TEST_CASE("a sweep of planar cases alone is run one by one") {
+TEST_CASE("a sweep of planar cases only uses single runs") {
   const Setup setup("configs/beam.yaml", {{"ball.position.0", "linear:0:5 cm:11"}}, coarse,
                     loop_measures);
   CHECK(choose_engine(setup.task).name == "single runs");
@@ -406,7 +406,7 @@ TEST_CASE("a sweep of planar cases alone is run one by one") {
   CHECK(choose_engine(zeros.task).name == "single runs");
 }
 
-TEST_CASE("loops go in lanes whatever their servos and tolerances") {
+TEST_CASE("loops use lanes for all servos and tolerances") {
   const std::string rtol = GENERATE("1e-4", "1e-8", "1e-12");
   CAPTURE(rtol);
   check_lanes(Setup("tests/data/scenarios/stiff-servo.yaml",
@@ -415,7 +415,7 @@ TEST_CASE("loops go in lanes whatever their servos and tolerances") {
                     {"solver.rtol=" + rtol}, loop_measures));
 }
 
-TEST_CASE("tied keys are computed by every engine") {
+TEST_CASE("every engine computes tied keys") {
   SECTION("lanes") {
     check_lanes(Setup("configs/fig2b.yaml",
                       {{"controller.pd.kv.0.0,-controller.pd.kv.1.1", "linear:0.8:1.2:9"},
@@ -432,7 +432,7 @@ TEST_CASE("tied keys are computed by every engine") {
     CHECK(largest_difference(sums, runs) < 1e-11);
     for (std::size_t i = 0; i < 50; ++i) CHECK(sums.values[2 * i + 1] == -2 * sums.values[2 * i]);
   }
-  SECTION("single runs, by numbers put in place and by scenarios read anew") {
+  SECTION("single runs, with inserted numbers and with scenarios read again") {
     for (const char* set : {"ball.spin=0", "events.lift_off=note"}) {
       const Setup tied("configs/fig2b.yaml",
                        {{"controller.pd.kv.0.0,-controller.pd.kv.1.1", "list:0.8,1.2"}}, {set},
@@ -451,7 +451,7 @@ TEST_CASE("tied keys are computed by every engine") {
   }
 }
 
-TEST_CASE("a case without what a measure needs has no number for it, and says why") {
+TEST_CASE("a case that lacks what a measure needs has no number for it, and a reason") {
   const std::string second = GENERATE("{size: [0.3, 0.3]}", "{diameter: 0.3}");
   const Setup setup("configs/fig2a.yaml",
                     {{"plate", "list:{inertia: [1e-4, 1e-4, 2e-4]}," + second}}, {},
@@ -466,7 +466,7 @@ TEST_CASE("a case without what a measure needs has no number for it, and says wh
         "end_motor_torque_phi is not a number: plate.inertia is not known");
 }
 
-TEST_CASE("windows of time are taken whatever the engine, which the whole run has") {
+TEST_CASE("windows of time within the whole run work with every engine") {
   struct Case {
     std::string scene, engine;
     std::vector<Variation> vary;
@@ -493,7 +493,7 @@ TEST_CASE("windows of time are taken whatever the engine, which the whole run ha
        {},
        {"max_tilt", "max_tracking_error"},
        1e-7},
-      // Single runs and lanes are within the tolerance of each other, and the noise is one.
+      // Single runs and lanes agree within the tolerance, and use the same noise.
       {"configs/rig.yaml",
        "rig lanes",
        {{"controller.sensor.seed", "linear:1:16:16"}},
@@ -507,7 +507,7 @@ TEST_CASE("windows of time are taken whatever the engine, which the whole run ha
   const std::size_t count = whole.plan.cases();
   const CaseResults of_whole = run_all(*engine.runner(), count);
 
-  // The greatest of a run is that of its first part or of its second one.
+  // The greatest value of a run is that of its first or its second part.
   std::vector<std::string> windows;
   for (const std::string& name : one.names) {
     windows.push_back(name + " to 1.3 s");
@@ -532,7 +532,7 @@ TEST_CASE("windows of time are taken whatever the engine, which the whole run ha
   CHECK(of_parts.numbers == one_by_one(parts.task).numbers);
 }
 
-TEST_CASE("a measure that the first case does not know may be another's") {
+TEST_CASE("a measure unknown to the first case may exist in another") {
   const std::vector<Variation> plates{
       {"plate", "list:{diameter: 0.3},{inertia: [1e-4, 1e-4, 2e-4]}"}};
   const Setup setup("configs/fig2a.yaml", plates, {}, {"x_end"});
@@ -545,14 +545,14 @@ TEST_CASE("a measure that the first case does not know may be another's") {
         "end_motor_torque_phi is not a number: plate.inertia is not known");
   CHECK(std::isnan(results.numbers[1]));
   CHECK(std::isfinite(results.numbers[4]));
-  // One that no case knows is a mistake, and so is a window that none has.
+  // A measure that no case knows is an error, and so is a window that no case has.
   CHECK_THROWS_AS(sweep_measures({"max_tracking_error"}, setup.family, setup.plan), InputError);
   CHECK_THROWS_AS(sweep_measures({"max_x from 11 s"}, setup.family, setup.plan), InputError);
   CHECK_THROWS_AS(sweep_measures({"x_end", "x_end"}, setup.family, setup.plan), InputError);
   CHECK_THROWS_AS(sweep_measures({"max_z"}, setup.family, setup.plan), InputError);
   const Setup ends("configs/fig2a.yaml", {{"time.end", "list:1,12"}}, {}, {"x_end"});
   CHECK(sweep_measures({"max_x from 11 s"}, ends.family, ends.plan).size() == 1);
-  // Rigs in lanes, where the first case lacks what all others have.
+  // Rigs in lanes, of which only the first lacks the measure.
   const Setup rigs(
       "configs/rig.yaml",
       {{"plate", "list:{size: [0.3, 0.2]},{size: [0.3, 0.2], inertia: [1e-3, 1e-3, 2e-3]}"},
@@ -566,8 +566,8 @@ TEST_CASE("a measure that the first case does not know may be another's") {
   }
 }
 
-TEST_CASE("a measure beyond the range of doubles has its reason, whatever the engine") {
-  SECTION("single runs, row by row and many rows at a time") {
+TEST_CASE("a measure that overflows has its reason, with every engine") {
+  SECTION("single runs, row by row and many rows together") {
     for (const char* measure : {"max_normal_force", "end_normal_force"}) {
       const Setup setup("configs/fig2a.yaml", {{"ball.mass", "list:1,1e308"}}, {}, {measure});
       const CaseResults results = run_all(*single_runner(setup.task), 2);
@@ -594,8 +594,8 @@ const std::vector<Variation> gains_and_seeds{{"controller.gravity_compensation.k
                                              {"controller.gravity_compensation.kv", "uniform:5:10"},
                                              {"controller.sensor.seed", "list:1,2,3"}};
 
-// Substitution leaves a thousandth of the tolerance of 1e-10, and a loop that holds the ball loses
-// what it was off by: 1e-10 after thousands of pieces.
+// Substitution leaves a thousandth of the tolerance of 1e-10, and a loop that holds the ball damps
+// its errors: 1e-10 after thousands of pieces.
 void check_rig_lanes(const Setup& setup, double bound = 1e-10) {
   const Engine engine = choose_engine(setup.task);
   REQUIRE(engine.name == "rig lanes");
@@ -611,24 +611,24 @@ void check_rig_lanes(const Setup& setup, double bound = 1e-10) {
 
 }  // namespace
 
-TEST_CASE("rigs in lanes are those of single runs") {
+TEST_CASE("rigs in lanes agree with single runs") {
   SECTION("with noise, events and all limits of configs/rig.yaml") {
     check_rig_lanes(Setup("configs/rig.yaml", gains_and_seeds, {"time.end=10"}, loop_measures, 7));
   }
-  SECTION("that switch, each at times of its own") {
+  SECTION("rigs that switch, each at its own times") {
     const std::string servo = GENERATE(
         "{natural_frequency: 5 Hz, damping: 0.8, rate_limit: 20 deg/s, angle_limit: 4 deg}",
         "{natural_frequency: 5 Hz, damping: 0.3, acceleration_limit: 20}",
         "{natural_frequency: 5 Hz, damping: 0.8, backlash: 0.5 deg, dead_band: 0.2 deg}",
         "{time_constant: 40 ms, rate_limit: 30 deg/s}");
     CAPTURE(servo);
-    // Off its circle, so that the limits are reached.
+    // Off its circle, so that limits are reached.
     check_rig_lanes(Setup("configs/rig.yaml",
                           {{"controller.gravity_compensation.kp", "uniform:6:14"},
                            {"ball.position.1", "uniform:-6 cm:6 cm"}},
                           {"time.end=5", "gimbal.servo=" + servo}, loop_measures, 20));
   }
-  SECTION("with servos and balls that differ") {
+  SECTION("with different servos and balls") {
     check_rig_lanes(Setup("configs/rig.yaml",
                           {{"gimbal.servo.natural_frequency", "uniform:25:60"},
                            {"gimbal.servo.damping", "uniform:0.5:1.2"},
@@ -636,14 +636,14 @@ TEST_CASE("rigs in lanes are those of single runs") {
                            {"gravity", "uniform:9.7:9.9"}},
                           {"time.end=5"}, loop_measures, 20));
   }
-  SECTION("whose servos are too fast for one piece a period") {
+  SECTION("servos too fast for one piece per period") {
     check_rig_lanes(Setup("configs/rig.yaml",
                           {{"controller.gravity_compensation.kp", "uniform:6:14"}},
                           {"time.end=2", "gimbal.servo.natural_frequency=400 Hz",
                            "gimbal.servo.rate_limit=100 rad/s"},
                           loop_measures, 12));
   }
-  SECTION("whose servos move between two nodes of a piece, and not at them") {
+  SECTION("servos that move only between two nodes of a piece") {
     const std::string damping = GENERATE("0.7", "1");
     check_rig_lanes(
         Setup("configs/rig.yaml", {{"gimbal.servo.natural_frequency", "linear:100:3000:12"}},
@@ -653,7 +653,7 @@ TEST_CASE("rigs in lanes are those of single runs") {
                "reference: {point: [0.1, 0]}, sampling: {period: 0.5}}"},
               loop_measures));
   }
-  SECTION("that switch without end at one instant, as single runs say too") {
+  SECTION("endless switching at one instant, which single runs report too") {
     const Setup setup("configs/rig.yaml", {{"gimbal.start.phi", "linear:0.0072:0.008:8"}},
                       {"time.end=0.05", "events={}",
                        "gimbal.servo={natural_frequency: 179504, damping: 0, "
@@ -670,12 +670,12 @@ TEST_CASE("rigs in lanes are those of single runs") {
       CHECK(lanes.status[i].reason == alone.status[i].reason);
     }
   }
-  SECTION("under any law, with integrals that wait at a limit and servos that are fed back") {
+  SECTION("any law, with integrals that wait at a limit and servo feedback") {
     const std::string law = GENERATE(
         "pid: {kp: [[0.7, 0], [0, -0.7]], kv: [[0.6, 0], [0, -0.6]], ki: [[0.35, 0], [0, -0.35]]}",
         "lqr: {position: 60, velocity: 1, angle: 1, rate: 0.1, command: 20}",
         "gravity_compensation: {kp: 10, kv: 8}");
-    // A limit that is reached, and one beyond which a sine is not sought by lanes alone.
+    // One limit is reached; beyond the other, only lanes do not search for a sine.
     const std::string limit = GENERATE("3 deg", "80 deg");
     const std::string sampling = GENERATE("{period: 20 ms}", "{period: 20 ms, delay: 30 ms}");
     CAPTURE(law, limit, sampling);
@@ -685,7 +685,7 @@ TEST_CASE("rigs in lanes are those of single runs") {
                                              sampling + ", sensor: {noise: 0.2 mm}}"},
                           loop_measures));
   }
-  SECTION("with balls that are missed, and cameras that see them late") {
+  SECTION("missed balls, and cameras that see them late") {
     const std::string sensor =
         GENERATE("{noise: 0.2 mm, dropout: 0.2, seed: 1}",
                  "{noise: 0.2 mm, period: 33 ms, phase: 5 ms, delay: 21 ms, seed: 1}",
@@ -695,7 +695,7 @@ TEST_CASE("rigs in lanes are those of single runs") {
                           {{"controller.gravity_compensation.kp", "uniform:6:14"}},
                           {"time.end=5", "controller.sensor=" + sensor}, loop_measures, 14));
   }
-  SECTION("whose reference jumps, at samples and between them") {
+  SECTION("a reference that jumps at samples and between them") {
     const std::string reference =
         GENERATE("{step: {from: [-3 cm, 0], to: [3 cm, 1 cm], at: 0.9}}",
                  "{square: {amplitude: [3 cm, 2 cm], period: 1.7, phase: [0, 90 deg]}}",
@@ -705,14 +705,14 @@ TEST_CASE("rigs in lanes are those of single runs") {
                           {{"controller.gravity_compensation.kp", "uniform:6:14"}},
                           {"time.end=4", "controller.reference=" + reference}, loop_measures, 14));
   }
-  SECTION("with what a controller commands at the end") {
+  SECTION("a controller's command at the end") {
     check_rig_lanes(Setup("configs/rig.yaml", gains_and_seeds, {"time.end=2.005"},
                           {"end_phi_command", "end_x_measured", "end_vx", "end_phi", "x_end"}, 5));
   }
 }
 
-TEST_CASE("a rig that does not fit among the others of its group is run by itself") {
-  SECTION("whose ball falls off the plate") {
+TEST_CASE("a rig that does not fit the others of its group runs singly") {
+  SECTION("a ball that falls off the plate") {
     const Setup setup("configs/rig.yaml", {{"ball.velocity.0", "list:0,0,0.01,2,0,0,0,-3,0,0.02"}},
                       {"time.end=3"}, loop_measures);
     check_rig_lanes(setup);
@@ -720,7 +720,7 @@ TEST_CASE("a rig that does not fit among the others of its group is run by itsel
     CHECK(lanes.status[3].reason == "edge");
     CHECK(lanes.status[7].reason == "edge");
   }
-  SECTION("whose servos are of another kind") {
+  SECTION("servos of another kind") {
     const Setup setup("configs/rig.yaml",
                       {{"gimbal.servo",
                         "list:{natural_frequency: 5 Hz, damping: 0.8},"
@@ -732,7 +732,7 @@ TEST_CASE("a rig that does not fit among the others of its group is run by itsel
   }
 }
 
-TEST_CASE("rigs in lanes may sample and act at other times") {
+TEST_CASE("rigs in lanes may sample and act at different times") {
   const auto [key, values] = GENERATE(table<std::string, std::string>(
       {{"controller.sampling.delay", "list:10 ms,10 ms,5 ms,0,30 ms,7 ms,41 ms,20 ms,10 ms"},
        {"controller.sampling.period", "linear:5 ms:40 ms:9"},
@@ -743,7 +743,7 @@ TEST_CASE("rigs in lanes may sample and act at other times") {
   check_rig_lanes(Setup("configs/rig.yaml", {{key, values}}, {"time.end=3"}, loop_measures));
 }
 
-TEST_CASE("rigs in lanes have no number for what their scene does not know") {
+TEST_CASE("rigs in lanes have no number for measures that their scene lacks") {
   const Setup setup(
       "configs/rig.yaml",
       {{"plate", "list:{size: [0.3, 0.2], inertia: [1e-3, 1e-3, 2e-3]},{size: [0.3, 0.2]}"},
@@ -760,8 +760,8 @@ TEST_CASE("rigs in lanes have no number for what their scene does not know") {
   }
 }
 
-TEST_CASE("a command that comes at the end, but for rounding, has come at the last row") {
-  // 14 periods of 0.05 s are a rounding more than 0.7 s; and so is a sample with its delay.
+TEST_CASE("a command that arrives at the end, up to rounding, is in the last row") {
+  // 14 periods of 0.05 s round to more than 0.7 s, and so does a sample plus its delay.
   const auto [period, delay, end] = GENERATE(table<std::string, std::string, std::string>(
       {{"0.05", "0", "0.7"}, {"0.02", "0", "0.7"}, {"0.02", "0.03", "0.29"}}));
   CAPTURE(period, end);
@@ -774,7 +774,7 @@ TEST_CASE("a command that comes at the end, but for rounding, has come at the la
   REQUIRE(engine.name == "rig lanes");
   const CaseResults lanes = run_all(*engine.runner(), 8);
   CHECK(largest_difference(lanes, one_by_one(setup.task)) < 1e-9);
-  // It is the row of a longer run.
+  // It equals the row of a longer run.
   std::vector<std::string> longer = set;
   longer.back() = "time.end=1";
   const ScenarioFamily family(BBSIM_SOURCE_DIR "/configs/rig.yaml", longer);
@@ -786,8 +786,8 @@ TEST_CASE("a command that comes at the end, but for rounding, has come at the la
   CHECK(lanes.numbers[2] == Approx(run.samples.at(row).measured[0]));
 }
 
-TEST_CASE("rigs in lanes do not depend on how their groups are handed out") {
-  // Commands that are not rounded show the last bit. Of 21 cases the last group is not full.
+TEST_CASE("rigs in lanes do not depend on the distribution of their groups") {
+  // Commands without rounding show the last bit. With 21 cases the last group is not full.
   const std::string sampling = GENERATE("{period: 20 ms, delay: 10 ms, resolution: 0.1 deg}",
                                         "{period: 20 ms, delay: 10 ms}");
   const Setup setup("configs/rig.yaml", gains_and_seeds,
@@ -796,7 +796,7 @@ TEST_CASE("rigs in lanes do not depend on how their groups are handed out") {
   REQUIRE(engine.name == "rig lanes");
   const std::size_t cases = setup.plan.cases(), width = 1 + setup.task.measures.size();
   const CaseResults all = run_all(*engine.runner(), cases);
-  // The groups in turn from the last, by one runner that remembers the others.
+  // The groups in reverse, by one runner that keeps its memory.
   const auto runner = engine.runner();
   for (std::size_t first = cases / engine.group * engine.group;; first -= engine.group) {
     CaseResults some;
@@ -825,7 +825,7 @@ TEST_CASE(
             .name == "single runs");
 }
 
-TEST_CASE("a sweep to the ends of doubles has no case done whose distance is no number") {
+TEST_CASE("a sweep to the limits of doubles has no finished case without a finite distance") {
   const Setup setup("configs/fig2a.yaml", {{"ball.position.0", "linear:-1e308:1e308:38"}}, {},
                     {"max_distance", "end_x"});
   auto solutions = solve_superposed(setup.task);

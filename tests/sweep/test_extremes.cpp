@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a sweep's cases are greatest at between their rows, by each of its engines.
+// Extremes of a sweep's cases between their rows, with each engine.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -87,7 +87,7 @@ std::vector<double> from_many_rows(const SweepTask& task, std::size_t number) {
   return greatest;
 }
 
-// The largest difference of any case from many rows, absolute: m, rad, rad/s.
+// Largest difference of any case from many rows, absolute: m, rad, rad/s.
 double error_of(const CaseResults& results, const SweepTask& task) {
   double largest = 0;
   const std::size_t numbers = 1 + task.measures.size();
@@ -106,17 +106,16 @@ double error_of(const CaseResults& results, const SweepTask& task) {
 
 }  // namespace
 
-TEST_CASE("maxima between rows a second apart, by single runs") {
-  SECTION("of a loop") {
+TEST_CASE("maxima between rows a second apart, with single runs") {
+  SECTION("a loop") {
     const Setup setup("configs/fig2b.yaml",
                       {{"controller.pd.kv.0.0", "uniform:0.8:1.2"},
                        {"gimbal.servo.natural_frequency", "uniform:8:30"}},
                       {"time.step=1", "solver.rtol=1e-11", "solver.atol=1e-13"}, loop_extremes, 6);
-    // The error is that of rates up to 0.2 rad/s; between the ends of steps, it is a hundred times
-    // their tolerance.
+    // Error of rates up to 0.2 rad/s; between step ends it is a hundred times the tolerance.
     CHECK(error_of(run_all(*single_runner(setup.task), setup.task), setup.task) < 1e-9);
   }
-  SECTION("of a loop, together with a mean over the rows") {
+  SECTION("a loop, together with a mean over the rows") {
     std::vector<std::string> names = loop_extremes;
     const std::vector<std::string> set{"time.step=1", "solver.rtol=1e-10", "solver.atol=1e-12"};
     const std::vector<Variation> vary{{"controller.pd.kv.0.0", "uniform:0.8:1.2"}};
@@ -129,7 +128,7 @@ TEST_CASE("maxima between rows a second apart, by single runs") {
       for (std::size_t m = 0; m < 5; ++m) CHECK(a.numbers[i * 5 + m] == b.numbers[i * 6 + m]);
     }
   }
-  SECTION("of a given motion") {
+  SECTION("a prescribed motion") {
     const Setup setup("configs/fig2a.yaml",
                       {{"gimbal.motion.phi.sinusoid.amplitude", "uniform:0.005:0.5"},
                        {"gimbal.motion.theta.sinusoid.frequency", "uniform:0.5:3"},
@@ -137,13 +136,13 @@ TEST_CASE("maxima between rows a second apart, by single runs") {
                       {"time.step=1", "solver.rtol=1e-11", "solver.atol=1e-13"}, extremes, 8);
     CHECK(error_of(run_all(*single_runner(setup.task), setup.task), setup.task) < 1e-9);
   }
-  SECTION("of what is looked at in no hurry") {
+  SECTION("without the quick manner") {
     const Setup setup("configs/fig2b.yaml", {{"controller.pd.kv.0.0", "uniform:0.8:1.2"}},
                       {"time.step=1", "solver.rtol=1e-11", "solver.atol=1e-13"},
                       {"max_x", "max_friction_force", "max_phi_rate", "max_spin", "max_power"}, 3);
     CHECK(error_of(run_all(*single_runner(setup.task), setup.task), setup.task) < 1e-9);
   }
-  SECTION("of a scene that is planar") {
+  SECTION("a planar scene") {
     const Setup setup("configs/fig2a.yaml", {{"gimbal.motion.theta.sinusoid.phase", "uniform:0:3"}},
                       {"gimbal.motion.phi=0", "time.step=1", "solver.rtol=1e-11",
                        "solver.atol=1e-13", "ball.position=[0, 0.1]"},
@@ -153,7 +152,7 @@ TEST_CASE("maxima between rows a second apart, by single runs") {
 }
 
 TEST_CASE("maxima between rows a second apart, in lanes") {
-  // Loops whose fastest mode lets lanes be used at a tolerance that is fine enough.
+  // The fastest mode of these loops still allows lanes at a fine enough tolerance.
   const Setup setup("tests/data/scenarios/stiff-servo.yaml",
                     {{"controller.pd.kv.0.0", "uniform:0.035:0.065"},
                      {"controller.pd.kp.1.1", "uniform:-0.065:-0.035"}},
@@ -163,7 +162,7 @@ TEST_CASE("maxima between rows a second apart, in lanes") {
   CHECK(error_of(run_all(*lane_runner(setup.task), setup.task), setup.task) < 1e-8);
 }
 
-TEST_CASE("extremes in lanes are those of single runs, within the tolerance") {
+TEST_CASE("extremes in lanes agree with single runs within the tolerance") {
   const std::string scene = GENERATE("configs/fig2b.yaml", "configs/hold.yaml");
   const double rtol = GENERATE(1e-4, 1e-7);
   char tolerance[2][40];
@@ -183,9 +182,9 @@ TEST_CASE("extremes in lanes are those of single runs, within the tolerance") {
   }
 }
 
-TEST_CASE("maxima between rows ten seconds apart, by superposition") {
-  // The ball goes to and fro beside the middle: the greatest distances are nearly alike, and none
-  // of them is at the start or at the end.
+TEST_CASE("maxima between rows ten seconds apart, with superposition") {
+  // The ball oscillates off the middle: its greatest distances are nearly equal, and none is at the
+  // start or the end.
   const Setup setup(
       "configs/fig2a.yaml",
       {{"ball.position.0", "uniform:0:0.1"},
@@ -208,7 +207,7 @@ TEST_CASE("maxima between rows ten seconds apart, by superposition") {
   }
 }
 
-TEST_CASE("superposition needs no output step, tables or not") {
+TEST_CASE("superposition needs no output step, with or without tables") {
   const std::string scene = GENERATE("configs/fig2a.yaml", "configs/recorded.yaml");
   const auto sums = [&](const std::string& step) {
     const Setup setup(scene, {{"ball.velocity.0", "uniform:-0.3:0.3"}}, {"time.step=" + step},
@@ -220,7 +219,7 @@ TEST_CASE("superposition needs no output step, tables or not") {
   CHECK(sums("0.01") == sums("1"));
 }
 
-TEST_CASE("extremes of single runs do not depend on the output step, to the bit") {
+TEST_CASE("extremes of single runs do not depend on the output step, bit for bit") {
   const auto runs = [](const std::string& step, const std::string& scene,
                        const Variation& variation, const std::vector<std::string>& names) {
     const Setup setup(scene, {variation}, {"time.step=" + step}, names, 3);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Measures of the loop in sweeps: stability maps, and margins beside measures of the motion.
+// Measures of the loop in sweeps: stability maps, and margins together with measures of motion.
 #include <atomic>
 #include <cmath>
 #include <string>
@@ -38,7 +38,7 @@ struct Setup {
   SweepTask task;
 };
 
-// As `threads` threads deliver them.
+// Results as delivered by `threads` threads.
 CaseResults run(const SweepTask& task, std::size_t threads = 2) {
   CaseResults all;
   const bool finished = run_sweep(
@@ -72,9 +72,9 @@ std::string fault(const std::string& scene, const Variation& vary, const std::st
 
 }  // namespace
 
-TEST_CASE("the border of a stability map is that of Routh and Hurwitz") {
-  // A PD law through a servo of second order. Near home, x'' = 5/7 g phi - r phi'': gravity, and
-  // the contact point under a plate that turns. So the loop's poles are the zeros of
+TEST_CASE("the border of a stability map satisfies Routh-Hurwitz") {
+  // A PD law with a second-order servo. Near home, x'' = 5/7 g phi - r phi'': gravity, and the
+  // contact point under a turning plate. The loop's poles are then the zeros of
   //   s^4 + (2 zeta w - w^2 r kv) s^3 + w^2 (1 - r kp) s^2 + w^2 c kv s + w^2 c kp, c = 5/7 g.
   const Setup setup("hold",
                     {{"controller.pd.kp.0.0,-controller.pd.kp.1.1", "linear:0.1:12:40"},
@@ -98,7 +98,7 @@ TEST_CASE("the border of a stability map is that of Routh and Hurwitz") {
     REQUIRE(std::abs(hurwitz) > 1e-9 * std::abs(a1 * a3 * a2));
     CHECK(results.numbers[3 * i + 1] == (expected ? 1 : 0));
     CHECK((results.numbers[3 * i + 2] < 0) == expected);
-    CHECK(std::isnan(results.numbers[3 * i]));  // nothing was run
+    CHECK(std::isnan(results.numbers[3 * i]));  // no run took place
     CHECK(results.status[i].word == "done");
     CHECK(results.status[i].reason.empty());
     stable += expected ? 1 : 0;
@@ -107,7 +107,7 @@ TEST_CASE("the border of a stability map is that of Routh and Hurwitz") {
   CHECK(stable < 1400);
 }
 
-TEST_CASE("margins beside measures of the motion change none of these, and stay in lanes") {
+TEST_CASE("margins added to measures of motion do not change these, and keep the lanes") {
   const std::vector<Variation> vary{{kp, "linear:2:40:6"}, {kv, "linear:2:14:6"}};
   const std::vector<std::string> set{"time.end=4"};
   const Setup both("rig", vary,
@@ -151,7 +151,7 @@ TEST_CASE("any number of threads gives the same numbers") {
     CHECK(same(one.numbers[i], three.numbers[i]));
 }
 
-TEST_CASE("a measure of the loop that no case has is refused, and one that some have is not") {
+TEST_CASE("a measure of the loop is refused if no case has it, but not if some do") {
   CHECK(fault("fig2a", {"ball.radius", "list:0.01,0.02"}, "stable") ==
         "measure: found stable, but there is no controller");
   CHECK(fault("fig2b", {"ball.radius", "list:0.01,0.02"}, "spectral_radius") ==

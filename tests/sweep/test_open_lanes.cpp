@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sweeps of given motions in lanes, held against single runs.
+// Sweeps of prescribed motions in lanes, compared with single runs.
 #include <atomic>
 #include <cmath>
 #include <string>
@@ -58,7 +58,7 @@ CaseResults run_all(CaseRunner& runner, const SweepTask& task) {
   return results;
 }
 
-// The largest difference from single runs, of numbers above 1 relative to them.
+// Largest difference from single runs, relative for numbers above 1.
 double difference_from_single(const Setup& setup) {
   const Engine engine = choose_engine(setup.task);
   REQUIRE(engine.name == "open lanes");
@@ -80,20 +80,20 @@ double difference_from_single(const Setup& setup) {
 
 }  // namespace
 
-TEST_CASE("given motions in lanes agree with single runs") {
-  // Both are at a tolerance of 1e-12, over distances up to some metres.
+TEST_CASE("prescribed motions in lanes agree with single runs") {
+  // Both have a tolerance of 1e-12, over distances up to some meters.
   constexpr double agree = 2e-11;
   SECTION("amplitude and phase") {
     CHECK(difference_from_single(Setup("configs/fig2a.yaml", {amplitude, phase}, fine)) < agree);
   }
-  SECTION("frequencies, which share no sine") {
+  SECTION("frequencies, which share no sines") {
     CHECK(
         difference_from_single(Setup("configs/fig2a.yaml",
                                      {{"gimbal.motion.phi.sinusoid.frequency", "uniform:0.3:4"},
                                       {"gimbal.motion.theta.sinusoid.frequency", "uniform:0.3:4"}},
                                      fine)) < agree);
   }
-  SECTION("large angles, and all that a ball starts with") {
+  SECTION("large angles and all initial values of a ball") {
     CHECK(difference_from_single(Setup("configs/fig2a.yaml",
                                        {{"gimbal.motion.phi.sinusoid.amplitude", "uniform:-2:2"},
                                         {"ball.velocity.0", "uniform:-0.2:0.2"},
@@ -114,7 +114,7 @@ TEST_CASE("given motions in lanes agree with single runs") {
                          "{sinusoid: {amplitude: 0.01, frequency: 2.5}}], theta: [{ramp: {start: "
                          "0, rate: 0.001}}, 0.001]}"))) < agree);
   }
-  SECTION("scenes that are planar, all or some") {
+  SECTION("planar scenes, all or some") {
     const std::string still = GENERATE("uniform:0:0.05", "list:0,0.05");
     CHECK(difference_from_single(Setup(
               "configs/incline.yaml",
@@ -129,8 +129,8 @@ TEST_CASE("given motions in lanes agree with single runs") {
   }
 }
 
-TEST_CASE("given motions with tables go in lanes between the tables' knots") {
-  // Tables beside a sinusoid that varies.
+TEST_CASE("prescribed motions with tables run in lanes between the tables' knots") {
+  // Tables together with a varying sinusoid.
   const Setup setup("configs/recorded.yaml",
                     {{"ball.spin", "uniform:-3:3"},
                      {"gimbal.motion.theta.1.sinusoid.amplitude", "uniform:0.001:0.002"}},
@@ -139,7 +139,7 @@ TEST_CASE("given motions with tables go in lanes between the tables' knots") {
   CHECK(difference_from_single(setup) < 2e-11);
 }
 
-TEST_CASE("coarse tolerances hold in lanes as in single runs") {
+TEST_CASE("coarse tolerances are met in lanes as in single runs") {
   for (const double rtol : {1e-4, 1e-6, 1e-9}) {
     char set[2][40];
     std::snprintf(set[0], sizeof set[0], "solver.rtol=%g", rtol);
@@ -156,7 +156,7 @@ TEST_CASE("coarse tolerances hold in lanes as in single runs") {
   }
 }
 
-TEST_CASE("what lanes of given motions cannot do goes another way") {
+TEST_CASE("prescribed motions that lanes cannot compute use another engine") {
   const auto engine = [](const std::string& scene, Variation vary,
                          const std::vector<std::string>& set, const std::vector<std::string>& names,
                          double samples = 100) {
@@ -178,7 +178,7 @@ TEST_CASE("what lanes of given motions cannot do goes another way") {
   CHECK(engine("configs/fig2b.yaml", {"gravity", "uniform:1:2"}, {}, {"x_end"}) != "open lanes");
 }
 
-TEST_CASE("results in lanes do not depend on threads or on the cut into parts") {
+TEST_CASE("results in lanes do not depend on threads or on shards") {
   const Setup setup("configs/fig2a.yaml",
                     {amplitude, {"gimbal.motion.theta.sinusoid.frequency", "uniform:0.2:6"}}, {},
                     usual, 403);
@@ -189,7 +189,7 @@ TEST_CASE("results in lanes do not depend on threads or on the cut into parts") 
     for (const std::size_t shards : {1, 3}) {
       std::vector<double> numbers;
       for (std::size_t k = 1; k <= shards; ++k) {
-        // Chosen anew, as by another process.
+        // Chosen again, as in another process.
         const Engine again = choose_engine(setup.task);
         REQUIRE(run_sweep(
             again, shard_range(setup.plan.cases(), again.group, k, shards), threads, goes_on,
@@ -203,8 +203,8 @@ TEST_CASE("results in lanes do not depend on threads or on the cut into parts") 
   }
 }
 
-TEST_CASE("cases that explode under a given motion are run by themselves") {
-  // At 60 rad/s and more the plane throws the ball beyond the range of doubles, at some time.
+TEST_CASE("cases that diverge under a prescribed motion run singly") {
+  // From 60 rad/s on the plane eventually throws the ball beyond the range of doubles.
   const Setup setup(
       "configs/fig2a.yaml",
       {{"gimbal.motion.phi.ramp.rate", "list:0.01,0.02,200"}, {"ball.mass", "uniform:1:2"}},
@@ -227,8 +227,8 @@ TEST_CASE("cases that explode under a given motion are run by themselves") {
   CHECK(failed == 15);
 }
 
-TEST_CASE("motions that go on for long agree with single runs") {
-  // 4000 rad in some 600 steps, each of which may err by the tolerance. The plate shakes so little
+TEST_CASE("long motions agree with single runs") {
+  // 4000 rad in some 600 steps, each with an error up to the tolerance. The plate shakes so little
   // that errors do not grow.
   const std::vector<std::string> shaken =
       with(with(fine, "gimbal.motion.theta.sinusoid.frequency=400"),

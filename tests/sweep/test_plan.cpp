@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which cases a sweep has.
+// The cases of a sweep.
 #include <unistd.h>
 
 #include <array>
@@ -68,7 +68,7 @@ TEST_CASE("a grid has every combination, the last key fastest, in SI units") {
   CHECK(values(plan, 14) == std::array{0.1, 0.03});
 }
 
-TEST_CASE("log goes by equal factors and ends exactly") {
+TEST_CASE("log uses equal factors and ends exactly") {
   const SweepPlan plan =
       plan_of(vary({{"gravity", "log:0.1:100:4"}, {"ball.spin", "log:-1:-4:3"}}));
   CHECK(values(plan, 0) == std::array{0.1, -1.0});
@@ -80,7 +80,7 @@ TEST_CASE("log goes by equal factors and ends exactly") {
   CHECK(values(wide, 1)[0] == Approx(1e-20));
 }
 
-TEST_CASE("zip goes along all lists together") {
+TEST_CASE("zip takes one value from each list") {
   Sweep sweep = vary({{"gravity", "linear:1:3:3"}, {"ball.spin", "list:7,8,9"}});
   sweep.combine = Combine::zip;
   const SweepPlan plan = plan_of(sweep);
@@ -90,8 +90,8 @@ TEST_CASE("zip goes along all lists together") {
   CHECK(contains(fault(sweep), "ball.spin: found 2 values, and 3 of another key"));
 }
 
-TEST_CASE("zipped values are read beside those of their own case") {
-  // Each start is within its own limit, and the second is beyond the first one's.
+TEST_CASE("zipped values are checked with those of their own case") {
+  // Each start is within its own limit; the second would exceed the first limit.
   Sweep sweep = vary({{"gimbal.servo.angle_limit", "list:0.2,0.5"},
                       {"gimbal.start.phi", GENERATE("list:0.1,0.4", "linear:0.1:0.4:2")}});
   const bool turned = GENERATE(false, true);
@@ -102,7 +102,7 @@ TEST_CASE("zipped values are read beside those of their own case") {
   CHECK(values(plan_of(sweep, loop), 1) == (turned ? std::array{0.4, 0.5} : std::array{0.5, 0.4}));
 }
 
-TEST_CASE("what is drawn depends on seed, key and case alone") {
+TEST_CASE("random values depend only on seed, key and case") {
   Sweep sweep = vary({{"gravity", "uniform:9:10"}, {"ball.spin", "normal:5:2"}});
   sweep.samples = 2000;
   const SweepPlan plan = plan_of(sweep);
@@ -126,7 +126,7 @@ TEST_CASE("what is drawn depends on seed, key and case alone") {
   CHECK(std::abs(sum / 2000 - 5) < 4 * 2 / std::sqrt(2000));
   CHECK(std::abs(squares / 2000 - 4) < 4 * 4 * std::sqrt(2.0 / 2000));
 
-  SECTION("so another key does not change it") {
+  SECTION("another key does not change them") {
     std::swap(sweep.vary[0], sweep.vary[1]);
     const SweepPlan turned = plan_of(sweep);
     for (const std::size_t i : {0, 1, 1999}) {
@@ -134,11 +134,11 @@ TEST_CASE("what is drawn depends on seed, key and case alone") {
       CHECK(values(turned, i)[1] == values(plan, i)[0]);
     }
   }
-  SECTION("and another seed does") {
+  SECTION("another seed changes them") {
     sweep.seed = 2;
     CHECK(values(plan_of(sweep), 0)[0] != values(plan, 0)[0]);
   }
-  SECTION("with a list each value gets as many draws") {
+  SECTION("with a list each value gets equally many draws") {
     sweep.vary[1].spec = "list:1,2,3";
     const SweepPlan mixed = plan_of(sweep);
     CHECK(mixed.cases() == 6000);
@@ -148,7 +148,7 @@ TEST_CASE("what is drawn depends on seed, key and case alone") {
   }
 }
 
-TEST_CASE("cases of a plan are listed with numbers of further keys") {
+TEST_CASE("cases of a plan are listed with values of further keys") {
   const ScenarioFamily family(loop, {});
   Sweep sweep = vary({{"ball.radius,2*ball.position.0", "uniform:1 cm:2 cm"},
                       {"solver.method", "list:radau,bdf"}});
@@ -169,7 +169,7 @@ TEST_CASE("cases of a plan are listed with numbers of further keys") {
   CHECK(first.back().value == "9.7");
   CHECK(third.back().value == "9.9");
 
-  SECTION("or those of the scenario itself") {
+  SECTION("or with those of the scenario itself") {
     const SweepPlan alone(family, nullptr, {"gravity"}, {{0, {9.7}}, {0, {9.8}}});
     REQUIRE(alone.cases() == 2);
     CHECK(alone.settings(1)[0].value == "9.8");
@@ -177,7 +177,7 @@ TEST_CASE("cases of a plan are listed with numbers of further keys") {
   }
 }
 
-TEST_CASE("values that are no numbers are listed as texts") {
+TEST_CASE("text values are listed as texts") {
   const SweepPlan plan = plan_of(
       vary({{"solver.method", "list:radau,bdf"}, {"controller.pd.kp", "list:1,[[2, 0], [0, 3]]"}}),
       loop);
@@ -189,7 +189,7 @@ TEST_CASE("values that are no numbers are listed as texts") {
   CHECK(settings[1].value == "[[2, 0], [0, 3]]");
 }
 
-TEST_CASE("all that is wrong with a sweep is said before it runs") {
+TEST_CASE("all faults of a sweep are reported before it runs") {
   CHECK(contains(fault(vary({})), "no key to vary"));
   CHECK(contains(fault(vary({{"ball.raduis", "list:1"}})), "did you mean ball.radius?"));
   CHECK(contains(fault(vary({{"ball.radius", "list:0.01,-1"}})),
@@ -214,17 +214,17 @@ TEST_CASE("all that is wrong with a sweep is said before it runs") {
   CHECK(contains(fault(sweep), "no value is drawn"));
 }
 
-TEST_CASE("a draw that the scenario does not allow is found before it runs") {
+TEST_CASE("a random value that the scenario does not allow is found before it runs") {
   Sweep sweep = vary({{"ball.radius", "normal:0.01:0.004"}});
-  sweep.samples = 10000;  // a negative one is at 2.5 standard deviations
+  sweep.samples = 10000;  // values beyond 2.5 standard deviations are negative
   CHECK(contains(fault(sweep), "allowed: a length greater than 0"));
   sweep.vary[0].spec = "normal:0.01:0.001";
   CHECK(fault(sweep).empty());
 }
 
-TEST_CASE("rules between keys are checked for each of their combinations") {
+TEST_CASE("rules between keys are checked for each combination") {
   const std::string rig = BBSIM_SOURCE_DIR "/configs/rig.yaml";
-  // A delay of more than 100 periods is refused.
+  // A delay above 100 periods is refused.
   const Sweep sweep = vary({{"controller.sampling.period", "list:20 ms,1 ms"},
                             {"controller.sampling.delay", "list:10 ms,0.2"},
                             {"ball.position.0", "linear:0:0.05:100"}});
@@ -234,7 +234,7 @@ TEST_CASE("rules between keys are checked for each of their combinations") {
                  "than 100 periods"));
 }
 
-TEST_CASE("tied keys go together, each by its factor") {
+TEST_CASE("tied keys vary together, each with its factor") {
   const SweepPlan plan =
       plan_of(vary({{"ball.position.0,-ball.position.1", "linear:-10 cm:10 cm:5"}}));
   REQUIRE(plan.cases() == 5);
@@ -248,13 +248,13 @@ TEST_CASE("tied keys go together, each by its factor") {
   CHECK(plan.settings(4)[1].key == "ball.position.1");
   CHECK(plan.settings(4)[1].value == "-0.1");
 
-  // A factor before the first key too; the values are those of no factor.
+  // The first key may have a factor too; the values are those without it.
   const SweepPlan scaled =
       plan_of(vary({{" -2 * ball.position.0 , 0.5*ball.position.1", "list:1 cm,4"}}));
   CHECK(values(scaled, 0) == std::array{-0.02, 0.005});
   CHECK(values(scaled, 1) == std::array{-8.0, 2.0});
 
-  SECTION("beside others they are one axis of a grid") {
+  SECTION("with others they form one axis of a grid") {
     const SweepPlan grid =
         plan_of(vary({{"ball.position.0,ball.position.1", "list:1,2"}, {"gravity", "list:5,6,7"}}));
     REQUIRE(grid.cases() == 6);
@@ -262,7 +262,7 @@ TEST_CASE("tied keys go together, each by its factor") {
     grid.values(4, at.data());
     CHECK(at == std::array{2.0, 2.0, 6.0});
   }
-  SECTION("and of a zip") {
+  SECTION("and one of a zip") {
     Sweep sweep = vary({{"ball.position.0,ball.position.1", "list:1,2"}, {"gravity", "list:5,6"}});
     sweep.combine = Combine::zip;
     const SweepPlan zip = plan_of(sweep);
@@ -271,7 +271,7 @@ TEST_CASE("tied keys go together, each by its factor") {
     zip.values(1, at.data());
     CHECK(at == std::array{2.0, 2.0, 6.0});
   }
-  SECTION("what is drawn is drawn once") {
+  SECTION("random values are drawn once") {
     Sweep sweep = vary({{"ball.position.0,-3*ball.position.1", "normal:0.1:0.02"}});
     sweep.samples = 50;
     const SweepPlan drawn = plan_of(sweep);
@@ -282,7 +282,7 @@ TEST_CASE("tied keys go together, each by its factor") {
       CHECK(values(drawn, i)[1] == -3 * values(drawn, i)[0]);
     }
   }
-  SECTION("texts too, as they are") {
+  SECTION("texts stay unchanged") {
     const SweepPlan texts =
         plan_of(vary({{"controller.pd.kv,controller.pd.kp", "list:1,[[2, 0], [0, -2]]"}}), loop);
     REQUIRE(texts.cases() == 2);
@@ -292,7 +292,7 @@ TEST_CASE("tied keys go together, each by its factor") {
   }
 }
 
-TEST_CASE("what cannot be tied is said before it runs") {
+TEST_CASE("keys that cannot be tied are reported before it runs") {
   CHECK(contains(fault(vary({{"gravity,gravity", "list:1"}})), "gravity: found twice"));
   const std::string circle = "controller.reference.circle.";
   CHECK(contains(fault(vary({{circle + "center.0", "list:0"}, {circle + "centre.0", "list:0"}})),
@@ -313,18 +313,18 @@ TEST_CASE("what cannot be tied is said before it runs") {
   CHECK(contains(fault(vary({{"title,-gravity", "list:-5,-6"}})), "a single number"));
 }
 
-TEST_CASE("a position has one spelling") {
+TEST_CASE("a list position has one spelling") {
   const std::string text =
       fault(vary({{"ball.position.0", "list:1,2"}, {"ball.position.00", "list:3,4"}}));
   CHECK(contains(text, "ball.position.00=3: ball.position: found the position 00 in a list"));
 }
 
-TEST_CASE("a value from --set for a key that varies is refused") {
+TEST_CASE("--set is refused for a key that varies") {
   const Sweep sweep = vary({{"ball.position.0", "list:1,2"}});
   CHECK(contains(fault(sweep, scene, {"ball.position.0=5"}),
                  "--set ball.position.0=5: found, but the sweep varies ball.position.0"));
   CHECK(fault(sweep, scene, {"ball.position.1=5"}).empty());
-  // A value for the list above the key is not refused: something of it stays.
+  // --set of the list above the key is allowed, because part of it remains.
   CHECK(fault(sweep, scene, {"ball.position=[7, 8]"}).empty());
   CHECK(contains(fault(vary({{"ball.position", "list:[1, 2]"}}), scene, {"ball.position.1=5"}),
                  "the sweep varies ball.position"));
@@ -333,7 +333,7 @@ TEST_CASE("a value from --set for a key that varies is refused") {
                "the sweep varies ball.position.0"));
 }
 
-TEST_CASE("values between ends whose difference overflows are finite, and stay between them") {
+TEST_CASE("values between ends whose difference overflows are finite and within the ends") {
   for (const char* spec : {"linear:-1e308:1e308:7", "linear:-1.7e308:1.7e308:100"}) {
     const SweepPlan plan = plan_of(vary({{"ball.position.0", spec}}));
     double last = -infinity;
@@ -355,8 +355,8 @@ TEST_CASE("values between ends whose difference overflows are finite, and stay b
   }
 }
 
-TEST_CASE("what is refused in a sweep is told with its case") {
-  // A value of a grid: in the first of its cases, and the value alone is told.
+TEST_CASE("a refusal in a sweep names its case") {
+  // For a value of a grid: the first of its cases, with that value only.
   CHECK(contains(fault(vary({{"ball.spin", "list:0,1,2"}, {"ball.radius", "list:1 cm,2 cm,-1"}})),
                  "case 2, with ball.radius=-1: ball.radius: found -1"));
   CHECK(contains(fault(vary({{"ball.radius", "linear:0.01:-1:5"}, {"ball.spin", "list:0,1,2"}})),
@@ -367,10 +367,10 @@ TEST_CASE("what is refused in a sweep is told with its case") {
   Sweep drawn = vary({{"ball.radius", "list:1 cm,0"}, {"ball.spin", "normal:0:1"}});
   drawn.samples = 10;
   CHECK(contains(fault(drawn), "case 10, with ball.radius=0: "));
-  // A bound of what is drawn is in no case.
+  // A bound of a random key belongs to no case.
   drawn.vary[0].spec = "uniform:-1:1";
   CHECK(fault(drawn).starts_with("with ball.radius=-1: "));
-  // Values that do not go together, where the fault stands in the file: all of them.
+  // Values that conflict with each other, if the fault is in the file: all of them.
   const std::string together =
       fault(vary({{"time.end", "list:10,20"}, {"time.step", "list:1,1e-8"}}));
   CHECK(contains(together, "case 3, with time.step=1e-08: "));
@@ -379,7 +379,7 @@ TEST_CASE("what is refused in a sweep is told with its case") {
       vary({{"controller.drives", "list:angle,torque"}, {"ball.radius", "list:1 cm,2 cm"}}), rig);
   CHECK(contains(elsewhere, "case 2 (controller.drives=torque, ball.radius=1 cm), "));
   CHECK(contains(elsewhere, "rig.yaml:16:3: gimbal.servo: found, but controller.drives is torque"));
-  // What is wrong with every case is the scenario's.
+  // A fault of every case is reported as the scenario's.
   const std::string own = fault(vary({{"ball.spin", "list:0,1"}}), scene, {"ball.mass=-1"});
   CHECK(own.starts_with("--set ball.mass=-1: "));
 }

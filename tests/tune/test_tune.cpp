@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Tuning a hobby rig from its scenario on.
+// Tuning a hobby rig, starting from its scenario.
 #include <atomic>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -57,7 +57,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("gains are tuned on drawn rigs, and tried on others") {
+TEST_CASE("gains are tuned on random rigs and tested on others") {
   api::TuneRequest request = small();
   request.hold_out = 16;
   const api::TuneResult made = tune(request, true);
@@ -75,7 +75,7 @@ TEST_CASE("gains are tuned on drawn rigs, and tried on others") {
   CHECK(tuned.held_out == 16);
   CHECK(tuned.share_that_holds > 0.5);
 
-  SECTION("and the scenario has them, with its own comments") {
+  SECTION("the scenario has the gains, and its own comments") {
     const ScenarioFamily written(Source{rig().source().file, made.scenario, {}});
     CHECK(written.number_at(kp, {}) == tuned.parameters[0].value);
     CHECK(written.number_at(kv, {}) == tuned.parameters[1].value);
@@ -84,7 +84,7 @@ TEST_CASE("gains are tuned on drawn rigs, and tried on others") {
     CHECK(contains(made.scenario, "on the worst of 8 rigs\n"));
     CHECK(contains(made.scenario, "# hard stops"));
   }
-  SECTION("JSON has what programs need") {
+  SECTION("JSON contains what programs need") {
     const auto json = nlohmann::json::parse(made.json);
     CHECK(json["parameters"][1]["key"] == kv);
     CHECK(json["parameters"][1]["value"] == tuned.parameters[1].value);
@@ -94,7 +94,7 @@ TEST_CASE("gains are tuned on drawn rigs, and tried on others") {
     CHECK(json["hold_out"]["cases"] == 16);
     CHECK(json["hold_out"]["share_that_holds"] == tuned.share_that_holds);
   }
-  SECTION("and another call has the same result, with any number of threads") {
+  SECTION("another call gives the same result, with any number of threads") {
     request.threads = 1;
     const api::TuneResult again = tune(request, true);
     CHECK(again.json == made.json);
@@ -102,7 +102,7 @@ TEST_CASE("gains are tuned on drawn rigs, and tried on others") {
   }
 }
 
-TEST_CASE("a margin is required beside what is measured, on drawn rigs") {
+TEST_CASE("a margin can be required together with measures, on random rigs") {
   api::TuneRequest request = small();
   request.require = {"max_tilt < 1.5 deg", "phi_delay_margin > 40 ms"};
   const api::TuneResult made = tune(request);
@@ -112,19 +112,20 @@ TEST_CASE("a margin is required beside what is measured, on drawn rigs") {
   REQUIRE(requirements.size() == 2);
   CHECK(requirements[0].holds);
   CHECK(requirements[1].holds);
-  CHECK(requirements[1].before < 0.04);  // the rig of the example bears 29 ms
+  CHECK(requirements[1].before < 0.04);  // the example's rig tolerates 29 ms
   CHECK(requirements[1].value > 0.04);
-  // Without it the gains are higher, and the margin is less.
+  // Without the requirement the gains are higher and the margin smaller.
   request.require.pop_back();
   const api::TuneResult bold = tune(request);
   REQUIRE(bold.tuned);
   CHECK(bold.tuned->objective < made.tuned->objective);
 }
 
-TEST_CASE("the slowest mode is made fast without a run; a margin that any change leaves holds") {
+TEST_CASE("tuning the slowest mode needs no run, and an infinite margin meets any bound") {
   api::TuneRequest request = request_of({kp + "=4:30", kv + "=3:20"});
   request.minimize = "spectral_abscissa";
-  // The response has no end up to half the rate of the samples: it is infinite.
+  // Up to half the sampling rate the response stays above its 3 dB limit: the bandwidth is
+  // infinite.
   request.require = {"phi_phase_margin > 40 deg", "x_bandwidth > 1"};
   const api::TuneResult made = tune(request);
   REQUIRE(made.tuned);
@@ -138,7 +139,7 @@ TEST_CASE("the slowest mode is made fast without a run; a margin that any change
   CHECK(tune(request).code == ExitCode::ended_early);
 }
 
-TEST_CASE("gains under which no rig is stable do not meet a margin") {
+TEST_CASE("gains for which no rig is stable do not meet a margin") {
   api::TuneRequest request = request_of({kp + "=60:80"});
   const ScenarioFamily stiff(BBSIM_SOURCE_DIR "/configs/rig.yaml",
                              {"time.end=2", kp + "=70", kv + "=1"});
@@ -162,7 +163,7 @@ TEST_CASE("without --vary there is one rig, and tied keys share a number") {
   CHECK(nlohmann::json::parse(made.json)["hold_out"]["share_that_holds"].is_null());
 }
 
-TEST_CASE("a requirement that cannot be met ends with exit code 1, and says what was best") {
+TEST_CASE("a requirement that cannot be met gives exit code 1 and the best result") {
   api::TuneRequest request = small();
   request.require = {"max_tilt < 0.1 deg"};
   const api::TuneResult made = tune(request);
@@ -173,7 +174,7 @@ TEST_CASE("a requirement that cannot be met ends with exit code 1, and says what
   CHECK(nlohmann::json::parse(made.json)["requirements"][0]["holds"] == false);
 }
 
-TEST_CASE("what never is counts as infinite, and is null in JSON") {
+TEST_CASE("an event that never occurs counts as infinite, and is null in JSON") {
   api::TuneRequest request = small();
   request.minimize = "when x=1";  // the plate is smaller
   request.require.clear();
@@ -183,7 +184,7 @@ TEST_CASE("what never is counts as infinite, and is null in JSON") {
   CHECK(nlohmann::json::parse(made.json)["objective"].is_null());
 }
 
-TEST_CASE("an end that is asked for keeps what was best") {
+TEST_CASE("an interruption keeps the best result") {
   class Impatient : public api::Watch {
    public:
     void update(double, const std::string&) override { stop_ = ++updates_ > after; }
@@ -202,7 +203,7 @@ TEST_CASE("an end that is asked for keeps what was best") {
   CHECK(contains(made.reason, "tune: interrupted after "));
 }
 
-TEST_CASE("what is wrong with the input of tuning is said before it runs") {
+TEST_CASE("faults of the input are reported before tuning starts") {
   const auto free = [](const std::string& text) { return fault(request_of({text})); };
   CHECK(free(kp) ==
         "--free: " + kp + ": found no range; allowed: KEY=FROM:TO, such as controller.pid.kp=1:20");

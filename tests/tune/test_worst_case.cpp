@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The optimizer on problems whose answers are known.
+// The optimizer on problems with known answers.
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -42,8 +42,8 @@ double square(double x) {
 
 }  // namespace
 
-TEST_CASE("the least value under a constraint is found by COBYLA") {
-  // The nearest point to (1, 1) on or within the circle about 0 of radius 1.
+TEST_CASE("COBYLA finds the minimum under a constraint") {
+  // The nearest point to (1, 1) within the unit circle about 0.
   double best = unlimited;
   Point at;
   Cobyla search;
@@ -64,7 +64,7 @@ TEST_CASE("the least value under a constraint is found by COBYLA") {
   CHECK(at[1] == Approx(std::sqrt(0.5)).margin(1e-4));
 }
 
-TEST_CASE("what the function throws comes through the library") {
+TEST_CASE("exceptions of the function pass through the library") {
   Cobyla search;
   search.lower = {0};
   search.upper = {1};
@@ -72,7 +72,7 @@ TEST_CASE("what the function throws comes through the library") {
   CHECK_THROWS_AS(minimize(search, {0.5}), std::length_error);
 }
 
-TEST_CASE("the worst of some cases is minimized") {
+TEST_CASE("the worst of several cases is minimized") {
   // Parabolas about 0.2 to 0.6: in the middle the outer two are equal.
   const Found found = minimize(problem_of({0.9}, 9, 0, [](const Point& x, std::size_t number) {
     return CaseScore{square(x[0] - 0.2 - 0.05 * static_cast<double>(number)), {}};
@@ -95,7 +95,7 @@ TEST_CASE("requirements bound the minimum") {
   CHECK(found.best[0] * found.best[1] >= 0.25);
 }
 
-TEST_CASE("a case of many that alone is bad is found, and looked at") {
+TEST_CASE("a single bad case among many is found and examined") {
   std::size_t runs = 0;
   const auto score = [&runs](const Point& x, std::size_t number) {
     ++runs;
@@ -106,10 +106,10 @@ TEST_CASE("a case of many that alone is bad is found, and looked at") {
   CHECK(found.best[0] == Approx(0.5).margin(5e-3));
   CHECK(found.best[1] == Approx(0.7).margin(2e-2));
   CHECK(found.scores.size() == 200);
-  CHECK(runs < 100 * found.tried);  // mostly in a few cases
+  CHECK(runs < 100 * found.tried);  // mostly a few cases each
 }
 
-TEST_CASE("a quantile leaves out the worst cases") {
+TEST_CASE("a quantile ignores the worst cases") {
   Problem problem = problem_of({0.3}, 100, 1, [](const Point& x, std::size_t number) {
     return CaseScore{number < 5 ? unlimited : x[0], {number < 5 ? 1.0 : 0.4 - x[0]}};
   });
@@ -123,7 +123,7 @@ TEST_CASE("a quantile leaves out the worst cases") {
   CHECK(minimize(problem).merit.unsettled > 0);
 }
 
-TEST_CASE("a search comes out of where nothing is finite") {
+TEST_CASE("a search leaves a region without finite values") {
   const Found found = minimize(problem_of({0.1, 0.1}, 1, 0, [](const Point& x, std::size_t) {
     const bool lost = x[0] < 0.8;
     return CaseScore{lost ? unlimited : x[0] + square(x[1] - 0.5), {}, lost ? 0.8 - x[0] : 0};
@@ -133,7 +133,7 @@ TEST_CASE("a search comes out of where nothing is finite") {
   CHECK(found.best[1] == Approx(0.5).margin(0.05));
 }
 
-TEST_CASE("what cannot hold is missed by as little as can be") {
+TEST_CASE("an infeasible requirement is missed by as little as possible") {
   const Found found = minimize(problem_of({0.9}, 1, 1, [](const Point& x, std::size_t) {
     return CaseScore{x[0], {0.1 + square(x[0] - 0.3)}};
   }));
@@ -141,7 +141,7 @@ TEST_CASE("what cannot hold is missed by as little as can be") {
   CHECK(found.best[0] == Approx(0.3).margin(0.03));
 }
 
-TEST_CASE("the same problem has the same result") {
+TEST_CASE("the same problem gives the same result") {
   const Problem problem = problem_of({0.2, 0.9, 0.4}, 40, 1, [](const Point& x, std::size_t n) {
     const double shift = std::sin(static_cast<double>(n));
     return CaseScore{square(x[0] - 0.5 - 0.1 * shift) + std::abs(x[1] - 0.3) + x[2],
@@ -153,7 +153,7 @@ TEST_CASE("the same problem has the same result") {
   CHECK(one.best[2] == Approx(0.25).margin(5e-3));
 }
 
-TEST_CASE("an interrupted search has the best until then") {
+TEST_CASE("an interrupted search returns the best so far") {
   for (const std::size_t calls : {0, 1, 5}) {
     CAPTURE(calls);
     Problem problem = problem_of({0.9}, 20, 0, [](const Point& x, std::size_t) {
@@ -171,7 +171,7 @@ TEST_CASE("an interrupted search has the best until then") {
   }
 }
 
-TEST_CASE("a quantile is a value that occurs") {
+TEST_CASE("a quantile is one of the values") {
   CHECK(quantile_of({3, 1, 2, 4}, 1) == 4);
   CHECK(quantile_of({3, 1, 2, 4}, 0.75) == 3);
   CHECK(quantile_of({3, 1, 2, 4}, 0.76) == 4);

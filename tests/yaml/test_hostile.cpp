@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Input made to break a reader: each is refused, soon and in little memory.
+// Malicious input is refused quickly and with little memory.
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ std::string file_error(const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("nesting without end") {
+TEST_CASE("endless nesting") {
   const std::string refused = "found nesting deeper than 32 levels; allowed: at most 32";
   const int depth = 100'000;
   CHECK_THAT(errors("a: " + repeated("[", 50) + repeated("]", 50)), Contains(refused));
@@ -74,7 +74,7 @@ TEST_CASE("more values than a scenario has") {
   CHECK_THAT(errors(repeated("{", 1'000'000)), Contains("scenario.yaml:1:1: "));
 }
 
-TEST_CASE("files that are no scenario files") {
+TEST_CASE("files that are not scenarios") {
   const TemporaryFolder folder;
   CHECK(file_error(folder.file("absent")) ==
         folder.file("absent") + ": cannot be read: No such file or directory");
@@ -103,7 +103,7 @@ TEST_CASE("the largest file") {
 }
 
 TEST_CASE("damaged files are read or refused, never worse") {
-  std::mt19937 random(20240229);  // fixed, so that a failure can be repeated
+  std::mt19937 random(20240229);  // fixed, so that failures are reproducible
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random()) % n; };
   const std::string alphabet = "{}[]:,-?&*!|>'\"%@`# \n\t\\0123456789.eE+abcxyz~<=\r\x01\xC2\xA0";
 
@@ -142,7 +142,7 @@ TEST_CASE("damaged files are read or refused, never worse") {
     }
     if (!errors(text).empty()) ++refused;
   }
-  // Some damage (inside the title) leaves a scenario; most does not.
+  // Some damage, inside the title, leaves a valid scenario; most does not.
   CHECK(refused > runs / 4);
   CHECK(refused < runs);
 }

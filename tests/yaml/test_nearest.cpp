@@ -8,7 +8,7 @@
 
 using bbsim::yaml::nearest_name;
 
-TEST_CASE("the nearest name is the one with the fewest typing errors") {
+TEST_CASE("the nearest name has the fewest typing errors") {
   constexpr std::array<std::string_view, 5> names = {"radius", "mass", "position", "velocity",
                                                      "frequency"};
   CHECK(nearest_name("raduis", names) == "radius");   // two letters swapped

@@ -18,7 +18,7 @@ TEST_CASE("an override replaces a value") {
         Matrix2{{{1, 0}, {0, -1}}});
 }
 
-TEST_CASE("an override creates what was not there") {
+TEST_CASE("an override creates missing keys") {
   CHECK(parse(open_loop, {"solver.rtol=1e-3"}).solver.rtol == 1e-3);
   CHECK(parse(open_loop, {"ball.position=[1, 2]"}).ball.position == Pair{1, 2});
   const Scenario scenario =
@@ -48,7 +48,7 @@ TEST_CASE("an override sets and appends list items by position") {
 }
 
 TEST_CASE("an override of null removes a key, or an item of a list") {
-  CHECK(parse(open_loop, {"ball.mass=3", "ball.mass=null"}).ball.mass == 1);  // its default
+  CHECK(parse(open_loop, {"ball.mass=3", "ball.mass=null"}).ball.mass == 1);  // the default
   CHECK(parse(open_loop + "title: a\n", {"title=~"}).title.empty());
   CHECK(parse(closed_loop, {"controller.limit=0.1", "controller.limit=null"}).controller->limit ==
         std::nullopt);
@@ -71,7 +71,7 @@ TEST_CASE("an override of null removes a key, or an item of a list") {
         "to 2");
 }
 
-TEST_CASE("what is not there may be removed, but its name has to be known") {
+TEST_CASE("missing keys may be removed, but their names must be known") {
   CHECK(parse(open_loop, {"ball.mass=null", "events.edge=null", "controller.pid.ki=null"})
             .ball.mass == 1);
   CHECK(parse(open_loop, {"title=null", "title=b"}).title == "b");
@@ -82,14 +82,14 @@ TEST_CASE("what is not there may be removed, but its name has to be known") {
   CHECK(errors(open_loop, {"ball.radius.x=null"}) ==
         "--set ball.radius.x=null: ball.radius: found 0.01, which has no keys; allowed: a path "
         "through mappings and lists");
-  // A variable of a script that is not set, and a file, remove nothing.
+  // An unset script variable, or a file, removes nothing.
   CHECK(
       errors(open_loop, {"ball.mass="}).starts_with("--set ball.mass=: ball.mass: found nothing"));
   CHECK(errors(open_loop + "title: null\n").find("title: found nothing") != std::string::npos);
   CHECK_FALSE(errors(open_loop, {"ball={radius: 1, mass: null}"}).empty());
 }
 
-TEST_CASE("an override leaves the other users of an alias alone") {
+TEST_CASE("an override does not change other users of an alias") {
   const std::string text =
       "ball: {radius: 0.01}\ntime: {end: 1, step: 1}\n"
       "gimbal: {motion: {phi: &a {ramp: {start: 1, rate: 1}}, theta: *a}}\n";
@@ -127,14 +127,14 @@ TEST_CASE("an override cannot nest deeper than a file") {
             .ends_with("found nesting deeper than 32 levels; allowed: at most 32"));
 }
 
-TEST_CASE("a malformed override is reported beside the file's own errors") {
+TEST_CASE("a malformed override is reported together with the file's own errors") {
   CHECK(errors(open_loop + "gravity: -1\n", {"x"}) ==
         "scenario.yaml:4:10: gravity: found -1; allowed: an acceleration of at least 0, such as "
         "9.81 or \"9.81 m/s^2\"\n"
         "--set x: found no =; allowed: key.path=value, such as ball.radius=0.02");
 }
 
-TEST_CASE("one of a pair is set where the scenario has no list") {
+TEST_CASE("one of a pair can be set if the scenario has no list") {
   const Scenario scene =
       test::parse(test::open_loop, {"ball.velocity.1=0.2", "ball.position.0=1 cm"});
   CHECK(scene.ball.velocity == Pair{0, 0.2});
@@ -146,7 +146,7 @@ TEST_CASE("one of a pair is set where the scenario has no list") {
   CHECK(
       test::errors(test::open_loop, {"ball.velocity.2=1"}).find("ball.velocity: found a mapping") !=
       std::string::npos);
-  // In a file it is a list.
+  // In a file it must be a list.
   CHECK(test::errors("ball: {radius: 0.01, velocity: {0: 1}}\n"
                      "time: {end: 10, step: 0.1}\n"
                      "gimbal: {motion: {}}\n")

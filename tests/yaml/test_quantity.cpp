@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Quantities. Values are compared exactly: powers of ten are applied to the decimal text, and other
-// units convert with one rounding of the exact product.
+// Quantities. Values are compared exactly: powers of ten apply to the decimal text, and other units
+// convert with one rounding of the exact product.
 #include <clocale>
 #include <fstream>
 #include <numbers>
@@ -48,7 +48,7 @@ TEST_CASE("a bare number is in SI units") {
   CHECK(plain("1" + std::string(400, '0') + "e-400", Dimension::number) == 1);
 }
 
-TEST_CASE("a quantity in decimal units is the double nearest to it") {
+TEST_CASE("a quantity in decimal units is the nearest double") {
   CHECK(plain("10 cm", Dimension::length) == 0.1);
   CHECK(plain("0.1 mm", Dimension::length) == 0.0001);
   CHECK(plain("7um", Dimension::length) == 7e-6);
@@ -86,7 +86,7 @@ TEST_CASE("angles and frequencies become radians") {
   CHECK(plain("3 mrad/s", Dimension::angular_rate) == 0.003);
 }
 
-TEST_CASE("what is no quantity says why") {
+TEST_CASE("an invalid quantity has a reason") {
   CHECK(fault("10 cm", Dimension::time) == ", a length");
   CHECK(fault("3 s", Dimension::angle) == ", a time");
   CHECK(fault("1 m", Dimension::number) == ", a length");
@@ -110,7 +110,7 @@ TEST_CASE("what is no quantity says why") {
   CHECK_FALSE(fault("1 2", Dimension::length, false).empty());
 }
 
-TEST_CASE("what a double cannot hold is refused") {
+TEST_CASE("values out of the range of doubles are refused") {
   const std::string large = ", too large for a double (at most 1.8e308)";
   const std::string small = ", too small for a double (0, or at least 2.3e-308 in size)";
   CHECK(fault("1e400", Dimension::number, false) == large);
@@ -129,14 +129,14 @@ TEST_CASE("what a double cannot hold is refused") {
 TEST_CASE("numbers do not depend on the locale") {
   const std::string before = std::setlocale(LC_ALL, nullptr);
   for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "C.UTF-8"}) {
-    std::setlocale(LC_ALL, name);  // where it is not installed, the locale stays as it was
+    std::setlocale(LC_ALL, name);  // if it is not installed, the locale is unchanged
     CHECK(plain("0.25 cm", Dimension::length) == 0.0025);
     CHECK(bbsim::number_text(0.5) == "0.5");
   }
   std::setlocale(LC_ALL, before.c_str());
 }
 
-TEST_CASE("the SI unit of a dimension reads as one of it") {
+TEST_CASE("the SI unit of a dimension reads as one") {
   for (const Dimension dimension :
        {Dimension::length, Dimension::mass, Dimension::time, Dimension::angle,
         Dimension::angular_rate, Dimension::velocity, Dimension::acceleration}) {
@@ -169,7 +169,7 @@ TEST_CASE("docs/reference/scenario.md lists the units of each dimension") {
   CHECK(found == listed);
 }
 
-TEST_CASE("numbers of a file are put in SI as quantities are") {
+TEST_CASE("numbers of a file are converted to SI like quantities") {
   using bbsim::yaml::unit_scale;
   CHECK(unit_scale("cm", Dimension::length)->in_si(10) == 0.1);
   CHECK(unit_scale("mm", Dimension::length)->in_si(0.3) == 0.3 / 1000);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What each key takes and refuses.
+// Valid and refused values of each key.
 #include "catch.hpp"
 #include "support/reading.hpp"
 
@@ -11,7 +11,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// Whether setting `assignment` is refused with `message` (without its "--set ...: ").
+// Checks that setting `assignment` is refused with `message` (without its "--set ...: ").
 void check_refused(const std::string& base, const std::string& assignment,
                    const std::string& message) {
   INFO(assignment);
@@ -51,7 +51,7 @@ TEST_CASE("the source is kept") {
   CHECK(scenario.source.overrides == overrides);
 }
 
-TEST_CASE("values at the edges of their ranges") {
+TEST_CASE("values at the limits of their ranges") {
   CHECK(parse(open_loop, {"gravity=0"}).gravity == 0);
   CHECK(parse(open_loop, {"solver.rtol=1e-14"}).solver.rtol == 1e-14);
   CHECK(parse(open_loop, {"solver.rtol=0.1"}).solver.rtol == 0.1);

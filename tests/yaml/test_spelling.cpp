@@ -23,7 +23,7 @@ TEST_CASE("only whole words have two spellings") {
   CHECK(american("").empty());
 }
 
-TEST_CASE("the other spelling of a name is there if it has one") {
+TEST_CASE("the other spelling of a name is returned if it exists") {
   CHECK(other_spelling("center") == "centre");
   CHECK(other_spelling("centre") == "center");
   CHECK(other_spelling("feedback_linearization") == "feedback_linearisation");

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// docs/reference/scenario.md lists the units that quantities may have, all of them and no others.
+// docs/reference/scenario.md lists exactly the units that quantities may have.
 #include <fstream>
 #include <map>
 #include <set>
@@ -28,7 +28,7 @@ Units split(std::string list) {
   return units;
 }
 
-// By dimension, as the table of the docs has them.
+// Units by dimension, from the table in the documents.
 std::map<std::string, Units> in_docs() {
   std::ifstream docs(std::string(BBSIM_SOURCE_DIR) + "/docs/reference/scenario.md");
   std::map<std::string, Units> table;
@@ -43,7 +43,7 @@ std::map<std::string, Units> in_docs() {
   return table;
 }
 
-// As the message about an unknown unit lists them.
+// Units as listed in the message about an unknown unit.
 Units in_code(Dimension dimension) {
   const std::string fault = read_quantity("1 parsec", true, dimension).fault;
   const std::size_t begin = fault.find("are: ") + 5;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// YAML that is no scenario: refused where it stands, in plain words.
+// YAML that is not a scenario is refused at its place, in plain words.
 #include "catch.hpp"
 #include "support/reading.hpp"
 
@@ -24,7 +24,7 @@ TEST_CASE("a file without a mapping") {
   CHECK_THAT(errors("# x\nabc\n"), Contains("scenario.yaml:2:1: found abc; allowed: " + known));
 }
 
-TEST_CASE("bytes that are no text") {
+TEST_CASE("bytes that are not text") {
   using namespace std::string_literals;
   CHECK(errors("title: a\0b\n"s) ==
         "scenario.yaml:1:9: found the byte 0x00; allowed: text in UTF-8");
@@ -39,7 +39,7 @@ TEST_CASE("bytes that are no text") {
   }
 }
 
-TEST_CASE("what editors leave in files is no problem") {
+TEST_CASE("byte order marks and line ends from editors are accepted") {
   CHECK(errors("\xEF\xBB\xBF" + open_loop).empty());
   std::string lines_of_windows;
   for (const char c : open_loop) lines_of_windows += c == '\n' ? "\r\n" : std::string(1, c);
@@ -56,7 +56,7 @@ TEST_CASE("tabs do not indent") {
         "scenario.yaml:2:3: found a tab in the indentation; allowed: spaces");
 }
 
-TEST_CASE("malformed YAML is explained where it stands") {
+TEST_CASE("malformed YAML is explained at its place") {
   CHECK(errors("ball: {radius: 1\ntime: 2\n") ==
         "scenario.yaml:2:5: found no } or comma where one belongs");
   CHECK(errors("a: [1, 2\n") == "scenario.yaml:2:1: found no ] or comma where one belongs");
@@ -88,7 +88,7 @@ TEST_CASE("YAML beyond what a scenario needs") {
              Contains("scenario.yaml:4:10: solver.<<: unknown key; known keys here: method"));
 }
 
-TEST_CASE("aliases repeat what they stand for") {
+TEST_CASE("aliases repeat their anchors") {
   const auto scenario = parse(
       "ball: {radius: &r 2 cm, position: [*r, *r]}\n"
       "time: {end: 1, step: 1}\n"

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// ajv judges the scenarios as python3-jsonschema does: node ajv.mjs BBSIM CASES. CASES is the
-// output of test_schema.py --cases. Needs ajv (npm install ajv) in a folder of NODE_PATH or above
-// this one.
+// ajv judges the scenarios as python3-jsonschema does: node ajv.mjs BBSIM CASES
+// CASES is the output of test_schema.py --cases. Needs ajv (npm install ajv) in a folder of NODE_PATH or above this one.
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";

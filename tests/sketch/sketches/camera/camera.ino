@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reads "x,y" lines from a camera at 30 frames per second on Serial1, in pixels of a 640 x 480
-// image.
+// Reads "x,y" lines from a camera at 30 frames per second on Serial1; pixels of a 640 x 480 image.
 #include <Servo.h>
 
 Servo sx;
