@@ -147,7 +147,7 @@ TEST_CASE("accuracy says that it measures smooth scenes only") {
   CHECK_FALSE(contains(unwritten.err, "backlash"));
 }
 
-TEST_CASE("energy, work and losses balance in every scenario that tracks them") {
+TEST_CASE("energy, work and losses balance in every scenario that follows them") {
   // Also over impacts: gears that engage, stops, and servos whose rate jumps with a command.
   const std::string plate = "plate.inertia=[2e-3, 3e-3, 5e-3]", losses = "ball.losses.viscous=1e-6";
   const auto [name, changes] = GENERATE_COPY(table<std::string, std::vector<std::string>>(

@@ -270,7 +270,7 @@ TEST_CASE("A and B of a plant agree with differences in quad precision") {
   }
 }
 
-TEST_CASE("A and B of a loop agree with differences in quad precision") {
+TEST_CASE("A and B of a loop are its differences in quad precision") {
   Scenario scene = crooked_scene();
   const bool compensates = GENERATE(false, true);
   if (compensates) {

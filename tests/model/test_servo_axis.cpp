@@ -105,7 +105,7 @@ TEST_CASE("a stop stops a servo and holds it while it is pressed") {
   CHECK(state.angle == sign * 0.5);
 }
 
-TEST_CASE("a first-order servo takes its rate from the command") {
+TEST_CASE("a servo of first order takes its rate from the command") {
   RigServo servo = limited(unlimited, 2, unlimited);
   servo.time_constant = 0.1;
   ServoAxis axis(servo, {0, 0, 10});
@@ -145,7 +145,7 @@ TEST_CASE("the plane rests in the gap until the servo has taken up the backlash"
   CHECK(mode.offset == Approx(0.49));
 }
 
-TEST_CASE("a servo only follows commands beyond its dead band") {
+TEST_CASE("a servo follows commands beyond its dead band only") {
   RigServo servo;
   servo.dead_band = 0.01;
   ServoAxis axis(servo, response);

@@ -99,7 +99,7 @@ std::string with_tables(std::string page) {
 
 }  // namespace
 
-TEST_CASE("the page of columns has the catalog's names, units and meanings") {
+TEST_CASE("the page of columns has the catalogue's names, units and meanings") {
   const std::string file = std::string(BBSIM_SOURCE_DIR) + "/docs/reference/columns.md";
   std::stringstream page;
   page << std::ifstream(file).rdbuf();

@@ -26,7 +26,7 @@ const std::string prescribed =
 
 }  // namespace
 
-TEST_CASE("prerecorded commands take no path and no sensor") {
+TEST_CASE("commands that are known beforehand take no path and no sensor") {
   const std::string played =
       "ball: {radius: 0.02}\n"
       "gimbal: {servo: {natural_frequency: \"5 Hz\", damping: 0.8}}\n"
@@ -110,7 +110,7 @@ TEST_CASE("each law reads its own gains") {
   CHECK(law("gravity_compensation: {kp: 4, kv: 4}").law == Law::gravity_compensation);
 }
 
-TEST_CASE("inconsistent combinations are refused with a reason") {
+TEST_CASE("combinations that mean nothing are refused, with why") {
   struct Case {
     std::string text;
     std::vector<std::string> overrides;

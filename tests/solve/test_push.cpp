@@ -93,7 +93,7 @@ TEST_CASE("a push of zero has no effect in any kind of loop") {
   }
 }
 
-TEST_CASE("the energy gained from a push is its work, for any drive of the gimbal") {
+TEST_CASE("the energy that a push gives is its power, whatever moves the gimbal") {
   Scenario scene = level();
   scene.time = {3, 0.002};
   SECTION("a given motion") {

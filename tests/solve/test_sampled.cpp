@@ -109,7 +109,7 @@ TEST_CASE("a limit that is not a multiple of the command's resolution holds") {
   CHECK(most == 0.004);
 }
 
-TEST_CASE("a fast sampled PD converges to the continuous one") {
+TEST_CASE("a fast sampled PD tends to the continuous one") {
   // The difference quotient lags half a period, the hold another half: the distance is first order
   // in the period.
   Scenario continuous = fig2b();

@@ -134,8 +134,7 @@ const char* const sampling =
 
 }  // namespace
 
-TEST_CASE(
-    "a rig solved by pieces agrees with the general method, for all servos, laws and mountings") {
+TEST_CASE("a rig by pieces is the rig in general, whatever its servos, law and mounting") {
   for (const Case& one : cases) {
     INFO(one.what);
     const Scenario scene = scene_of(text_of(one, sampling, "t, x, gamma"));

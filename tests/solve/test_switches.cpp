@@ -71,7 +71,7 @@ output: {columns: [t,x,y,vx,vy,phi,theta,phi_rate,theta_rate,phi_acceleration,ph
 
 }  // namespace
 
-TEST_CASE("integrators agree on a rig's switching times") {
+TEST_CASE("integrators agree on when a rig switches") {
   const Case& one = cases[GENERATE(0, 1, 2, 3, 4)];
   CAPTURE(one.what);
   Scenario scene = parse_scenario(one.text, "rig.yaml");

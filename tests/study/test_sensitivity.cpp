@@ -147,8 +147,7 @@ TEST_CASE("derivatives on an incline agree with the closed form", "[sensitivity]
         Approx(-std::sqrt(0.1 / (slope * g)) / (2 * g)).epsilon(1e-7));
 }
 
-TEST_CASE("a key missing from the paper's equation makes the run use the general one",
-          "[sensitivity]") {
+TEST_CASE("a key that the paper's equation lacks gives the run the general one", "[sensitivity]") {
   // x = g sin(phi) t^2 / (2 (1 + k)), at k = 0.4
   const auto made = run("configs/incline", {"ball.position=[0, 0]", "output.columns=[t, x]"},
                         {"ball.inertia_factor"}, {"end_x"});

@@ -611,7 +611,7 @@ void check_rig_lanes(const Setup& setup, double bound = 1e-10) {
 
 }  // namespace
 
-TEST_CASE("rigs in lanes agree with single runs") {
+TEST_CASE("rigs in lanes are those of single runs") {
   SECTION("with noise, events and all limits of configs/rig.yaml") {
     check_rig_lanes(Setup("configs/rig.yaml", gains_and_seeds, {"time.end=10"}, loop_measures, 7));
   }
