@@ -25,9 +25,8 @@ struct Launch {
   std::filesystem::path folder{};      // working folder; empty: current one
   int signal = 0;                      // sent after `signal_after`; 0: none
   std::chrono::milliseconds signal_after{300};
-  std::function<bool()> signal_when{};  // if set, the signal is sent once this is true
-  std::function<void()>
-      prepare{};  // called in the new process before exec, to set limits for example
+  std::function<bool()> signal_when{};  // instead: sent once this is true
+  std::function<void()> prepare{};      // called in the child before exec
 };
 
 Result bbsim(const Launch& launch);

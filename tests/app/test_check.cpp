@@ -125,9 +125,7 @@ TEST_CASE("columns lists all columns with units") {
   }
 }
 
-TEST_CASE(
-    "quantities that cannot be in degrees are reported in radians, and likewise lengths and "
-    "times") {
+TEST_CASE("angles too large for degrees are shown in radians, and lengths likewise in meters") {
   const Result result = bbsim({"check", config("step.yaml"), "--set", "controller.limit=1e308",
                                "--set", "controller.sensor.offset=[1e308, 0]"});
   CAPTURE(result.out);

@@ -71,7 +71,7 @@ TEST_CASE("trajectories of a sweep are compared number by number") {
   CHECK(contains(different.out, "different: worst in column x, row 0 (t = 10): 0.12899"));
   const Result all = bbsim({"compare", "a.h5", "b.h5"}, folder.path());
   CHECK(contains(all.out,
-                 "different: worst in column x_end, row 0: 0.12899"));  // the file has no column t
+                 "different: worst in column x_end, row 0: 0.12899"));  // no column t
   REQUIRE(bbsim(with(words, {"-o", "c.h5", "--set", "time.step=2"}), folder.path()).exit_code == 0);
   const Result wider = bbsim({"compare", "a.h5", "c.h5"}, folder.path());
   CHECK(wider.exit_code == 1);

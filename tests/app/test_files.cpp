@@ -309,8 +309,7 @@ TEST_CASE("a summary that nests without end is refused") {
   }
 }
 
-TEST_CASE(
-    "a folder, an unreadable file or a device in place of a state or summary gives exit code 2") {
+TEST_CASE("a folder, unreadable file or device in place of a state or summary gives exit code 2") {
   const Folder folder;
   folder.write("in.yaml", scene);
   REQUIRE(bbsim({"run", "in.yaml", "-q", "-o", "r.csv"}, folder.path()).exit_code == 0);
@@ -422,8 +421,7 @@ TEST_CASE("a merge that cannot read its parts reports it and writes nothing") {
   CHECK(fifo.seconds < 20);
 }
 
-TEST_CASE(
-    "parts of a different sweep are refused by plan, and different instruction sets are noted") {
+TEST_CASE("parts of a different sweep are refused by plan, other instruction sets are noted") {
   const Folder folder;
   folder.write("in.yaml", scene);
   REQUIRE(shard(folder, "p-1of2.csv", "1/2").exit_code == 0);

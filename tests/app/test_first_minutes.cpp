@@ -277,7 +277,7 @@ TEST_CASE("output that a controller repeats at each start of check is shown once
   const Folder folder;
   write_step(folder);
   write_changed(folder, "loud.py", ", \"reset\": True",
-                "");  // without reset, each run starts the controller again
+                "");  // each run then starts it
   std::string text = folder.read("loud.py");
   text.insert(text.find("for line in sys.stdin"), "print('hello', file=sys.stderr)\n");
   folder.write("loud.py", text);

@@ -18,8 +18,7 @@
 #include "file/hdf5_table.hpp"
 #include "process.hpp"
 
-// Inside it `bbsim` is the function that runs the program, and `bbsim::` still the program's
-// namespace.
+// Inside, `bbsim` is the function that runs the program; `bbsim::` remains the namespace.
 namespace bbsim_test {
 
 using bbsim::file::AttributeValue;
@@ -115,8 +114,7 @@ TEST_CASE("with a bound on the error, each row has its error estimate") {
   CHECK(without.columns().size() == file.columns().size() - 1);
 }
 
-TEST_CASE(
-    "a sweep's HDF5 file stores numbers as numbers, with units of the keys and input tables") {
+TEST_CASE("a sweep's HDF5 file has numbers as numbers, units of the keys, and input tables") {
   const Folder folder;
   run({"sweep", config("recorded.yaml"), "-q", "--vary", "ball.position.0=linear:0:0.1:5", "--vary",
        "ball.spin=normal:0:1", "--vary", "ball.inertia_factor=list:0.4,0.5", "--samples", "2",

@@ -305,8 +305,7 @@ TEST_CASE("a log that seems to use units other than bbsim's gives a warning") {
                              table + "time_unit=ms", "--measure", "max_phi,min_phi"},
                             folder.path());
   CHECK(said.err.find("warning") == std::string::npos);
-  CHECK(values_of(said.out).at("min_phi") <
-        -0.2);  // -12 deg, and a little more from the interpolant
+  CHECK(values_of(said.out).at("min_phi") < -0.2);  // -12 deg, plus interpolation
   CHECK(values_of(said.out).at("min_phi") > -0.3);
 }
 
@@ -362,8 +361,7 @@ TEST_CASE("a log is measured with its own names, units and clock") {
   CHECK(bbsim(aligned, folder.path()).exit_code == 2);
 }
 
-TEST_CASE(
-    "run writes derivatives with respect to keys beside its columns, and gradients of measures") {
+TEST_CASE("run writes derivatives by keys as columns, and gradients of measures") {
   const Folder folder;
   const auto run_to = [&](const std::string& file, const std::string& scene) {
     return bbsim(

@@ -117,8 +117,7 @@ TEST_CASE("after --resume the time left is estimated from the current run") {
   const double left = std::stod(line.substr(left_at)) * unit;
   const double part = std::stod(line.substr(line.rfind("] ") + 2)) / 100;
   const double all = 20000 / rate, expected = all * (1 - part);
-  CHECK(std::abs(left - expected) <
-        unit / 2 + all * 0.005 + 0.1 * expected);  // each number is rounded
+  CHECK(std::abs(left - expected) < unit / 2 + all * 0.005 + 0.1 * expected);  // each is rounded
 }
 
 TEST_CASE("rates have three digits") {

@@ -54,8 +54,7 @@ double tracking_error(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE(
-    "the rig tracks its circle, and with three times its delay is unstable, as check predicts") {
+TEST_CASE("the rig tracks its circle; three times its delay is unstable, as check predicts") {
   const Folder folder;
   const std::string rig = config("rig.yaml");
   REQUIRE(bbsim({"run", rig, "-o", folder / "rig.csv"}).exit_code == 0);
@@ -137,7 +136,7 @@ TEST_CASE("accuracy says that it measures smooth scenes only") {
   const Result result = bbsim({"accuracy", config("rig.yaml")});
   CHECK(result.exit_code == 2);
   CHECK(contains(result.err, "events, controller.sampling, a limit or the backlash"));
-  // A default limit.
+  // A limit that the scenario does not state.
   const Result unwritten =
       bbsim({"accuracy", config("fig2b.yaml"), "--set",
              "controller={gravity_compensation: {kp: 4, kv: 4}, drives: angle, reference: {point: "

@@ -156,8 +156,7 @@ TEST_CASE("the printed law blows up: exit 1, rows kept, and the reason with the 
   const Result result =
       bbsim({"run", config("fig2b-literal.yaml"), "--summary", "s.json"}, folder.path());
   CHECK(result.exit_code == 1);
-  CHECK(result.seconds <
-        20);  // far below a second in release; slower with sanitizers on a busy machine
+  CHECK(result.seconds < 20);  // below a second in release, slower with sanitizers
   CHECK(contains(result.err, "the run ended early, at t = 0.74"));
   CHECK(contains(result.err, "grew without bound"));
   CHECK(contains(result.err, "the closed loop is unstable about home"));

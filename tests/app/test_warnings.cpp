@@ -201,7 +201,7 @@ TEST_CASE("an angle of more than a turn without a unit gives a warning") {
   CHECK(contains(said("controller.limit=20"), "warning: controller.limit"));
   CHECK_FALSE(contains(said("gimbal.servo.angle_limit=6.2"), "warning"));
   CHECK_FALSE(contains(said("gimbal.servo.angle_limit=25 rad"),
-                       "warning"));  // an explicit unit gives no warning
+                       "warning"));  // explicit unit
   CHECK_FALSE(contains(said("gimbal.servo.angle_limit=400 deg"), "warning"));
 }
 

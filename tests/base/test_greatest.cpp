@@ -125,7 +125,7 @@ TEST_CASE("nothing is searched if nothing rises above the points") {
   look(level, 0.3, Between::smooth);
   look(level, 0.3, Between::kinks);
   look(rises, 2, Between::smooth);
-  look(hill, 1, Between::smooth);  // this polynomial is greater than the hill
+  look(hill, 1, Between::smooth);  // 1 exceeds the hill
   look(none, 0, Between::smooth);
   look(none, 0, Between::kinks);
   CHECK(looks == 0);

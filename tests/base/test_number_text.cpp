@@ -73,9 +73,8 @@ TEST_CASE("numbers of all sizes are written as the standard library writes them"
     if (!std::isnan(any)) differences.look_at(any);
     differences.look_at(static_cast<double>(random() >> (random() % 64)));         // integers
     differences.look_at(static_cast<double>(random() >> (random() % 64)) / 1000);  // short decimals
-    differences.look_at(
-        std::ldexp(static_cast<double>(random() >> 11U), -60));           // as in most columns
-    differences.look_at(0.01 * static_cast<double>(random() % 100'000));  // times
+    differences.look_at(std::ldexp(static_cast<double>(random() >> 11U), -60));    // as columns
+    differences.look_at(0.01 * static_cast<double>(random() % 100'000));           // times
   }
   INFO(differences.first);
   CHECK(differences.count == 0);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // CSV, written and read back bit for bit; bad input is refused with its place.
-// place.
 #include <sys/stat.h>
 
 #include <bit>

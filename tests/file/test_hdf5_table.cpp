@@ -374,8 +374,7 @@ TEST_CASE("a table without cases, with one case, and with a single column") {
 TEST_CASE("the same cases give the same bytes for any division into blocks") {
   const Folder folder;
   using Sizes = std::pair<std::size_t, std::size_t>;
-  for (const auto& [rows, width] :
-       {Sizes{2500, 3}, Sizes{150, 8000}}) {  // 1024 and 128 rows per block
+  for (const auto& [rows, width] : {Sizes{2500, 3}, Sizes{150, 8000}}) {  // 1024 or 128 a block
     write_cases(folder / "whole.h5", rows, width, rows);
     sleep(1);  // HDF5 timestamps objects in whole seconds
     for (const std::size_t at_once : {1, 7, 128, 1000}) {

@@ -94,8 +94,7 @@ controller:
   }
 }
 
-TEST_CASE(
-    "a window of known commands goes on with the samples' clock and the commands on their way") {
+TEST_CASE("a window of known commands continues the samples' clock and the commands in transit") {
   const std::string clock = GENERATE("", ", jitter: 2 ms");
   const std::string delay = GENERATE("0 ms", "7 ms", "65 ms");
   const std::string start = GENERATE("0 deg", "2 deg");

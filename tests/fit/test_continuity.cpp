@@ -128,7 +128,7 @@ output: {columns: [t, x, y, phi, theta]}
   for (std::size_t k = 0; k < 2; ++k) {
     const fit::Parameter &one = joined.fitted.parameters[k], &same = whole.fitted.parameters[k];
     CAPTURE(free[k], one.estimate, same.estimate, same.sd);
-    // Each fit ends when the sum of squares, 1604, changes by a relative 1e-12.
+    // Each fit ends when the sum of squares, 1604, changes by less than a relative 1e-12.
     CHECK(std::abs(one.estimate - same.estimate) < 4e-5 * same.sd);
     CHECK(one.sd == Approx(same.sd).epsilon(1e-4));
   }

@@ -115,7 +115,7 @@ TEST_CASE("the page of a fit has its tables and the numbers of each log") {
     CHECK(run["rows"] == 401);
     CHECK(run["every"] == 1);
     const auto times = bbsim_test::numbers_of<double>(run["time"]);
-    // An empty row separates the windows.
+    // One extra row separates adjacent windows.
     REQUIRE(run["windows"].size() == 10);
     REQUIRE(times.size() == 401 + 9);
     REQUIRE(run["columns"].size() == 6);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The command line, in process: main() with an input's arguments and files, in its own folder.
-// folder.
 //
 // An input has one argument per line, up to a line "== NAME", followed by the content of a file of
 // that name, and so on. Slashes that could lead out of the folder become underscores. After a

@@ -139,7 +139,7 @@ TEST_CASE("the first fall of a linear function in a held motion is found") {
     }
   }
   CHECK(falls > 100);
-  CHECK(dips > 10);  // dips that have ended by the end
+  CHECK(dips > 10);  // lines that are positive again at the end
 }
 
 TEST_CASE("a dip is found even if it has died away completely by the end") {

@@ -155,8 +155,7 @@ model::Eigenvalues large_ones(model::Eigenvalues poles) {
 
 }  // namespace
 
-TEST_CASE(
-    "about home a linkage that the controller knows, or its ratio, is as if it were not there") {
+TEST_CASE("at home a linkage that the controller knows, or its ratio, has no effect") {
   const bool sampled = GENERATE(false, true), feeds_back = GENERATE(false, true);
   const Assumes assumes = GENERATE(Assumes::exact, Assumes::ratio);
   Scenario ideal = sampled ? sampled_scene() : pd_scene();
@@ -175,8 +174,7 @@ TEST_CASE(
     return large_ones(sampled ? model::sampled_poles(model) : model::closed_loop_poles(model));
   };
   const auto expected = poles_of(ideal);
-  // theta's home is not its curve's zero, and the ratio is that at home; eigenvalues are good to
-  // 1e-9.
+  // theta's home is not its curve's zero; the ratio is that at home, good to 1e-9.
   CHECK(distance(poles_of(linked), expected) < 1e-7);
   CHECK(distance(large_ones(linear(linked, LinearKind::loop).poles), expected) < 1e-7);
   CHECK(distance(large_ones(linear(three, LinearKind::loop).poles), expected) < 1e-7);
@@ -234,8 +232,7 @@ TEST_CASE("A and B of a plant agree with differences in quad precision") {
   model::RigLoop<> held(built.loop.radius(), built.loop.gravity(), built.loop.rolling(), {},
                         built.loop.servo(), {}, built.loop.mode);
   constexpr int n = model::RigLoop<>::size;
-  REQUIRE(made.system.a.rows() ==
-          n);  // with the spin, which acts on other states if the plane turns
+  REQUIRE(made.system.a.rows() == n);  // with the spin, which matters if the plane turns
   const auto rates = [&](int state, double step, int command, double push) {
     Quad z[n], dz[n];
     for (int i = 0; i < n; ++i) z[i] = Quad(at.state[static_cast<std::size_t>(i)]);
@@ -339,7 +336,7 @@ TEST_CASE("margins agree with the closed form (M13)") {
     CHECK(margins.phase == Approx(phase).epsilon(1e-11));
     CHECK(margins.delay == Approx(phase / w).epsilon(1e-11));
   }
-  // At the margins the loop has poles on the imaginary axis.
+  // With the gain at its margin the loop has poles on the imaginary axis.
   Scenario border = scene;
   for (auto* matrix : {&border.controller->kp, &border.controller->kv}) {
     for (auto& row : *matrix) {
@@ -626,8 +623,7 @@ TEST_CASE("a gimbal under torques is linear with the ball's losses and the plate
 TEST_CASE("B of torques and of three servos' commands agrees with differences") {
   const auto check = [](const Scenario& scene, auto loop, const model::LinearPoint& at) {
     const Linearization made = linear(scene, LinearKind::plant, at);
-    // Under a held command the system is the plant; how three servos are commanded is the law's
-    // part.
+    // Under a held command the system is the plant; commanding three servos is the law's part.
     const double step = 1e-5;
     for (int j = 0; j < 2; ++j) {
       std::vector<double> more(at.state.size()), less(at.state.size());

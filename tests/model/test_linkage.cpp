@@ -431,7 +431,7 @@ std::array<Quad, 6> pose_in_space(const ThreeServoPlate& plate, const std::array
 }  // namespace
 
 TEST_CASE(
-    "three servos: what the inverse says, the closed chain gives, over all of the workspace") {
+    "three servos: the closed chain returns what the inverse assumed, over the whole workspace") {
   const ThreeServos three =
       make_three_servos(GENERATE(hobby_plate(), unequal_plate()), Assumed::exact);
   const double most = greatest_tilt(three);

@@ -174,8 +174,7 @@ TEST_CASE("from sample to sample a small motion satisfies the polynomial of the 
   check_recurrence(scene, 1);
 }
 
-TEST_CASE(
-    "from cycle to cycle of samples and frames a small motion satisfies the sampled poles too") {
+TEST_CASE("over cycles of samples and frames a small motion satisfies the sampled poles too") {
   struct Camera {
     double period, phase, delay;  // s
     std::size_t samples;  // per cycle: 20 ms each, after which frames and samples coincide again

@@ -152,8 +152,7 @@ TEST_CASE("a sliding ball turns at its own rate, and not as if it rolled") {
     // friction changes between two rows, its effect in 2 ms, 0.2 rad/s.
     CHECK((turned.angle() / 0.002 * turned.axis() - twist(i)).norm() < 0.3);
   }
-  // Rows every 20 ms: if sliding ends between two rows, its slope of 6.9 m/s^2 gives h^2 / (8 r) =
-  // 0.013.
+  // Rows of 20 ms: if sliding ends between rows, its 6.9 m/s^2 times h^2 / (8 r) is 0.013.
   const file::TableData coarse = run("slides", all, "0.02", whole);
   for (std::size_t i = 0; i < coarse.columns[0].size(); ++i) {
     CHECK(orientation(coarse, i).angularDistance(orientation(fine, 20 * i)) < 0.015);

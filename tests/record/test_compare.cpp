@@ -93,8 +93,7 @@ TEST_CASE("columns match by name, in any order") {
 }
 
 TEST_CASE("the worst value exceeds its allowance by most") {
-  // The allowance is 0.5 of the larger value. y differs most, but small z exceeds its allowance
-  // more.
+  // The allowance is half the larger value. y differs most; small z exceeds its allowance most.
   const CellTable a{{"t", "y", "z"}, {{0, 0.5, 1}, {100, 100, 100}, {1, 1, 0.125}}};
   const CellTable b{{"t", "y", "z"}, {{0, 0.5, 1}, {100, 400, 100}, {1, 1.5, 0.5}}};
   const Comparison result = compare(a, b, {0.5, 0});

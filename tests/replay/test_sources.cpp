@@ -106,7 +106,7 @@ TEST_CASE("commands have the unit of their target") {
 }
 
 TEST_CASE(
-    "the instant at which an event stopped a run is its last row, and the ball rolls on to it") {
+    "the instant at which an event stops a run is its last row, and the ball rolls up to it") {
   const Folder folder;
   const std::string file = folder.put("r.csv",
                                       "t,x,y,ball_qw,ball_qx,ball_qy,ball_qz,phi\n"

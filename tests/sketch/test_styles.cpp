@@ -37,7 +37,7 @@ const Style styles[] = {
 }  // namespace
 
 TEST_CASE(
-    "sketches in the style of published ones run unchanged, balance, and repeat to the byte") {
+    "sketches in the style of published ones run unchanged, balance, and repeat byte for byte") {
   const Style& style = GENERATE(from_range(std::begin(styles), std::end(styles)));
   const Sketch sketch(style.name, style.more_files);
   CAPTURE(style.name, sketch.made.err);

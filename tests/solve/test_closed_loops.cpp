@@ -173,7 +173,7 @@ TEST_CASE("the error of a step has the order of the method") {
   CHECK(std::log2(error_at(1) / error_at(0.5)) > 10);
 }
 
-TEST_CASE("a stiff servo reduces no order of loops in lanes") {
+TEST_CASE("a stiff servo does not reduce the order of loops in lanes") {
   const Scenario scene = scenario_named("stiff-servo");
   const std::vector<Case> cases = cases_of(with_other_gains(scene, group));
   const auto steps_at = [&](double rtol) {

@@ -62,7 +62,7 @@ class Halved {
     next_row_ = first.next_row;
   }
 
-  // Whether a run from the state starts and ends; false if the state is refused.
+  // Whether a run continues from the state; false if the state is refused.
   [[nodiscard]] bool goes_on_from(const std::string& changed) const {
     solve::Part second;
     second.first_row = next_row_;

@@ -120,8 +120,7 @@ TEST_CASE("a measured curve behaves as the measured linkage, better with more ro
   CHECK(last < 1e-6);
 }
 
-TEST_CASE(
-    "a controller that inverts the curve gets what it asks for, and one with a ratio does not") {
+TEST_CASE("a controller that inverts the curve reaches its command, one with a ratio does not") {
   // A reference so far away that the command stays at its limit.
   const Assumes assumes = GENERATE(Assumes::exact, Assumes::ratio);
   const bool sampled = GENERATE(false, true);
@@ -181,8 +180,7 @@ TEST_CASE("a dead point ends the run, at its time up to rounding") {
   CHECK(std::abs(end.t - 0.1) < 1e-14);
 }
 
-TEST_CASE(
-    "next to a dead point, where the plane turns without bound, it goes where the curve says") {
+TEST_CASE("near a dead point, where the plane's rate diverges, the plane follows the curve") {
   // The arm is shorter than the horn. Where it aligns with the rod, a servo angle e away has turned
   // the plane by sqrt(e), and its rate grows as 1 / sqrt(e).
   const RodLinkage rods{0.05, 0.02, {}, {0.03, 0.06}};

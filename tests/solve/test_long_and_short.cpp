@@ -17,8 +17,7 @@ TEST_CASE("a hundred thousand periods: the error does not grow") {
     double end;  // s, and periods
     solve::Tolerances tolerances;
   };
-  // Multistep methods take some 100 steps per period, so they get fewer periods and looser
-  // tolerances.
+  // Multistep methods take some 100 steps per period: they get fewer periods, looser tolerances.
   const auto [method, end, tolerances] =
       GENERATE(Case{Method::automatic, 1e5, {1e-9, 1e-11}}, Case{Method::radau, 1e5, {1e-6, 1e-8}},
                Case{Method::bdf, 5e3, {1e-6, 1e-8}}, Case{Method::adams, 5e3, {1e-6, 1e-8}});

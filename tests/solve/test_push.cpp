@@ -52,7 +52,7 @@ double work_gap(const Scenario& scene, const Run& run) {
 }  // namespace
 
 TEST_CASE(
-    "on a level plate a push gives P / ((1 + k) m), and friction opposes it with k / (1 + k)") {
+    "on a level plate a push gives P / ((1 + k) m); friction opposes with k / (1 + k) of it") {
   const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
   Scenario scene = level();
   scene.ball.push = BallPush{{0.01}, {Sinusoid{0.02, 3, 0, 0}}};

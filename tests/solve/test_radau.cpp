@@ -187,8 +187,8 @@ TEST_CASE("collocation ends where the solution diverges") {
       solve::integrate(model, Method::radau, {1e-9, 1e-11}, grid, rows, {});
   CHECK(outcome.ending == solve::Ending::failed);
   CHECK_FALSE(outcome.reason.empty());
-  // The end of BDF at an rtol of 1e-12. Steps are fractions of the remaining time, and end the run
-  // below 1e-5 of the time.
+  // The end of BDF at an rtol of 1e-12. Steps are fractions of the remaining time; the run ends
+  // when they are shorter than 1e-5 of the time.
   CHECK(outcome.reached < 0.7487576252);
   CHECK(outcome.reached > 0.7487576252 * (1 - 1e-5));
   CHECK(outcome.rows == 75);  // 0 to 0.74 s

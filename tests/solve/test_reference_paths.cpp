@@ -199,8 +199,7 @@ TEST_CASE("a sampled law sees a jump of the reference at the next sample") {
     const Run run = run_in_memory(scene, Method::radau, {1e-9, 1e-11});
     return run.samples[static_cast<std::size_t>(std::lround(t / 0.01))].command[0];
   };
-  // 30 samples of 30 ms end a rounding error before 0.9 s: this sample is the first to see the
-  // jump.
+  // 30 * 30 ms rounds to just below 0.9 s; still, this sample is the first to see the jump.
   CHECK(30 * 0.03 < 0.9);
   CHECK(command_at(0.9, 0.89) == 0);
   CHECK(std::abs(command_at(0.9, 0.9) - asked) < 1e-15);

@@ -114,8 +114,7 @@ TEST_CASE("a fast sampled PD tends to the continuous one") {
   // in the period.
   Scenario continuous = fig2b();
   continuous.ball.radius = 0.02;
-  continuous.ball.velocity = {
-      0, -0.015};  // the reference's velocity, so that the estimate has no first kick
+  continuous.ball.velocity = {0, -0.015};  // the reference's velocity: no initial kick
   continuous.gimbal.servo = Servo{30, 0.8};
   continuous.controller->kp = {{{0.4, 0}, {0, -0.4}}};
   continuous.controller->kv = {{{0.4, 0}, {0, -0.4}}};

@@ -189,7 +189,7 @@ TEST_CASE("pieces too long for their tolerance are split") {
 }
 
 TEST_CASE("events of a rig solved by pieces are found between instants and at them") {
-  // The ball leaves the plate, slips on the way, and a jump of the command makes it slip at once.
+  // The ball leaves the plate or slips, in one case immediately after a jump of the command.
   struct Watched {
     const char* what;
     const char* servo;
@@ -234,13 +234,13 @@ TEST_CASE("events of a rig solved by pieces are found between instants and at th
   }
 }
 
-TEST_CASE("servos' tables of all lanes together are those of each") {
+TEST_CASE("servos' tables of all lanes together equal those of each lane") {
   using Table = solve::sampled::MotionTable;
   struct Lane {
     model::HeldLaw law;
     double length;
   };
-  // As it is, at a limit, without a spring, without a damper; a lane without a piece.
+  // Normal, at a limit, without spring, without damper; one lane has no piece.
   const Lane lanes[solve::sampled::group]{{{986.96, 50.27}, 0.02}, {{986.96, 50.27}, 0.0137},
                                           {{0, 0}, 0.02},          {{0, 25}, 0.02},
                                           {{2000, 0}, 0.02},       {{986.96, 50.27}, 0},
@@ -260,9 +260,9 @@ TEST_CASE("servos' tables of all lanes together are those of each") {
     INFO(law.stiffness << " " << law.damping << " over " << h);
     solve::sampled::MotionTables tables(solve::sampled::choose_kernels());
     const Table& wanted = tables.of(law, h);
-    // Some roundings of each sum's largest term; the sizes of the start's weights add up to 5.5.
+    // Some rounding errors of each sum's largest term; the start's weights add up to 5.5.
     constexpr double rounding = 20 * 2.2e-16, summed = 5.5 * rounding;
-    const double size[Table::rows] = {h, 1, 1 / h};  // by a rate; by an acceleration h times that
+    const double size[Table::rows] = {h, 1, 1 / h};  // by rate; by acceleration times h
     for (int row = 0; row < Table::rows; ++row) {
       for (int n = 0; n < solve::sampled::nodes; ++n) {
         CHECK(std::abs(axis->by_rate[row][n][l] - wanted.by_rate[row][n]) <= rounding * size[row]);
@@ -277,7 +277,7 @@ TEST_CASE("servos' tables of all lanes together are those of each") {
   }
 }
 
-TEST_CASE("bounds of a piece hold what the motors give within it") {
+TEST_CASE("bounds of a piece contain the motors' loads within it") {
   struct Looks : solve::PieceSink {
     const model::Model& model;
     const model::BallConstants& constants;
@@ -326,7 +326,7 @@ TEST_CASE("bounds of a piece hold what the motors give within it") {
     solve::Trajectory rows(model.row_size(), &looks);
     static_cast<void>(solve::integrate_hybrid(model, by_pieces(grid), tight, grid, rows, {}));
     CHECK(looks.pieces > 5);
-    CHECK(looks.wide == 0);  // a close look is of use
+    CHECK(looks.wide == 0);  // a close look never widens the bounds
   }
 }
 

@@ -180,8 +180,7 @@ TEST_CASE("sliding changes to rolling at the tightest tolerances") {
   }
 }
 
-TEST_CASE(
-    "the friction demand of a ball that slides is its coefficient, to the instant it lifts off") {
+TEST_CASE("the friction demand of a sliding ball is its coefficient, until it lifts off") {
   const Scenario scene = scenario_named("lifts-off-sliding");
   const Run run = run_in_memory(scene, Method::radau, {1e-12, 1e-13});
   REQUIRE(run.outcome.ending == solve::Ending::stopped);

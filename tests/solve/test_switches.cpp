@@ -126,8 +126,7 @@ TEST_CASE("a servo that moves only between two nodes of a piece moves the ball")
   CHECK(apart < 1e-7);
 }
 
-TEST_CASE(
-    "backlash: a servo that has come to rest and is driven back leaves the plane where it is") {
+TEST_CASE("backlash: a servo at rest that reverses leaves the plane where it is") {
   // At 0.2 s its command reverses; the plane waits until the gap is crossed, 2 ms later.
   const double end = GENERATE(0.2, 0.21);
   const Scenario scene = parse_scenario(

@@ -214,7 +214,7 @@ TEST_CASE("derivatives agree with quad-precision solutions", "[sensitivity]") {
         apart = std::max(apart, std::abs(found[row] - exact.of[i][row]));
       }
       CAPTURE(name, scale, apart);
-      // Components that symmetry keeps at zero may have rounding errors beyond the bound.
+      // Components that symmetry keeps at zero may have rounding errors beyond the relative bound.
       CHECK(apart <= 1e-9 * scale + 1e-13);
     }
     CHECK(largest > 0);
@@ -305,8 +305,7 @@ void require_gradients_beside(const Beside& one, const Overrides& measures) {
 
 }  // namespace
 
-TEST_CASE("derivatives through a sampled controller agree with differences of runs",
-          "[sensitivity]") {
+TEST_CASE("derivatives through a sampled controller agree with differences", "[sensitivity]") {
   const Overrides frames = {"controller.sensor.period=27 ms", "controller.sensor.phase=0.0031"};
   const Overrides turned = {"controller.sensor.rotation=0.05", "controller.sensor.scale=[1.02, 1]",
                             "controller.sensor.dropout=0.1"};
@@ -425,8 +424,7 @@ TEST_CASE("gradients of measures across switches agree with differences of runs"
       {"rms_x", "max_x", "end_y", "max_friction_demand"});
 }
 
-TEST_CASE("gradients of measures of a sampled rig agree with differences of runs",
-          "[sensitivity]") {
+TEST_CASE("gradients of measures of a sampled rig agree with differences", "[sensitivity]") {
   const Overrides measures = {"max_tilt", "rms_x",  "rms_phi_command",          "end_theta_command",
                               "x.Peak",   "end_vy", "rms_tracking_error from 1"};
   // Keys that move the instants of commands, also if the servos' rates jump with them.
@@ -486,8 +484,7 @@ TEST_CASE("gradients of measures agree with differences of runs", "[sensitivity]
   }
 }
 
-TEST_CASE("if an event stops the run, the end of the measures moves with the key",
-          "[sensitivity]") {
+TEST_CASE("if an event stops the run, the measures' end moves with the key", "[sensitivity]") {
   // The ball leaves the plate at x = size / 2 with vx = sqrt(a size), a = (5/7) g sin(phi).
   const auto made = run("configs/incline",
                         {"plate.size=[0.4, 0.4]", "events.edge=stop", "output.columns=[t, x]",

@@ -77,8 +77,7 @@ TEST_CASE("a stop request ends the verification") {
 
 // The simpler models run at rtol 1e-9: over 2 s and a few meters, some hundred steps of BDF leave
 // less than 1e-6 m.
-TEST_CASE(
-    "simpler models on a fixed incline: the textbook's lacks a cosine, the slope model is exact") {
+TEST_CASE("simpler models on a fixed incline: the textbook's lacks a cosine, slope is exact") {
   const Scenario scene = moved({0.2}, {-0.3});
   const study::FullModelStudy made = study::compare_simpler(scene);
   REQUIRE(made.simpler.size() == 2);
@@ -91,8 +90,7 @@ TEST_CASE(
   CHECK(made.simpler[1].at_dy == 2);
 }
 
-TEST_CASE(
-    "simpler models on a turning plane: the slope model lacks x phi'^2, the textbook's is exact") {
+TEST_CASE("simpler models on a turning plane: slope lacks x phi'^2, the textbook's is exact") {
   const Scenario scene = moved({Ramp{0, 1}}, {});
   const study::FullModelStudy made = study::compare_simpler(scene);
   const double g = scene.gravity, k = std::sqrt(5.0 / 7), t = 2;

@@ -284,8 +284,7 @@ TEST_CASE("no part is written through a link or special file in its place") {
   }
   SECTION("another user's file") {
     folder.put("a.csv" + name, "");
-    if (chown((target + name).c_str(), 65534, 65534) != 0)
-      return;  // only root may change the owner
+    if (chown((target + name).c_str(), 65534, 65534) != 0) return;  // only root may do this
     CHECK_THAT(writing_fails(target), Contains("another user"));
   }
   SECTION("a folder") {

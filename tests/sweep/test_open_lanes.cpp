@@ -166,7 +166,8 @@ TEST_CASE("prescribed motions that lanes cannot compute use another engine") {
   const std::string open = "configs/fig2a.yaml";
   CHECK(engine(open, phase, {}, usual) == "open lanes");
   CHECK(engine(open, phase, {"solver.rtol=1e-13"}, usual) == "open lanes");
-  CHECK(engine(open, phase, {}, usual, 31) == "single runs");  // for the bits of a run
+  CHECK(engine(open, phase, {}, usual, 31) ==
+        "single runs");  // few cases, which keep the bits of a run
   CHECK(engine(open, phase, {}, {"min_x"}) == "single runs");
   CHECK(engine(open, phase, {}, {"end_gamma"}) == "single runs");
   CHECK(engine(open, phase, {"ball.inertia_factor=0.5"}, usual) == "single runs");

@@ -124,8 +124,7 @@ TEST_CASE("a margin can be required together with measures, on random rigs") {
 TEST_CASE("tuning the slowest mode needs no run, and an infinite margin meets any bound") {
   api::TuneRequest request = request_of({kp + "=4:30", kv + "=3:20"});
   request.minimize = "spectral_abscissa";
-  // Up to half the sampling rate the response stays above its 3 dB limit: the bandwidth is
-  // infinite.
+  // The response stays above -3 dB up to half the sampling rate: infinite bandwidth.
   request.require = {"phi_phase_margin > 40 deg", "x_bandwidth > 1"};
   const api::TuneResult made = tune(request);
   REQUIRE(made.tuned);

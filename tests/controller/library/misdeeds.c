@@ -25,7 +25,7 @@ struct controller {
 
 static const char *last_error = NULL;
 
-/* Keeps controllers reachable that remain after exit(), for leak checkers. */
+/* Keeps controllers that exit() leaves undestroyed reachable, for leak checkers. */
 static struct controller *volatile made_last[64];
 static size_t made_so_far = 0;
 
