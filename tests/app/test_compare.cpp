@@ -96,8 +96,9 @@ TEST_CASE("files that record their solver's tolerances are compared with them") 
                  "allowed: 100 (rtol size + atol) for each file, by its solver's rtol 1e-08, atol "
                  "1e-10 and rtol 1.01e-08, atol 1e-10\n"));
   CHECK(contains(alike.out, "within the solver's tolerances"));
-  CHECK(bbsim({"compare", "a.h5", "b.csv"}, folder.path()).exit_code == 0);  // one of them says
-  // What is given counts, and so does what CSV cannot say.
+  CHECK(bbsim({"compare", "a.h5", "b.csv"}, folder.path()).exit_code ==
+        0);  // one of them has the tolerances
+  // Explicit tolerances take precedence, and CSV files carry none.
   CHECK(bbsim({"compare", "a.h5", "b.h5", "--rtol", "1e-15"}, folder.path()).exit_code == 1);
   REQUIRE(run("a.csv", "") == 0);
   CHECK(bbsim({"compare", "a.csv", "b.csv"}, folder.path()).exit_code == 1);

@@ -171,7 +171,7 @@ TEST_CASE("ragged rows are refused") {
         "and to mark decimals; separate the columns by semicolons or tabs");
 }
 
-TEST_CASE("what is no number is refused") {
+TEST_CASE("fields that are no numbers are refused") {
   CHECK(refusal("t,x\n1,2\n1, abc\n") == "a.csv:3:4: column x: found \"abc\"; allowed: a number");
   CHECK(refusal("t,x\n1,\n") == "a.csv:2:3: column x: found nothing; allowed: a number");
   CHECK(refusal("t\n1e400\n") ==
