@@ -10,7 +10,7 @@
 
 #include "api/stepped_run.hpp"
 #include "base/number_text.hpp"
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "scenario/columns.hpp"
 
 namespace bbsim::python {

@@ -29,7 +29,7 @@ namespace bbsim::api {
 namespace {
 
 // Rows of an LQR's gain K in u = K (reference - z), which follow from the weights.
-void tell_gain(Report& report, const Scenario& scenario, const model::Model& model) {
+void report_gain(Report& report, const Scenario& scenario, const model::Model& model) {
   if (!scenario.controller || scenario.controller->law != Law::lqr) return;
   const model::ControlLaw law = model.rig->sampled
                                     ? model.rig->sampled->law
@@ -54,7 +54,7 @@ void tell_gain(Report& report, const Scenario& scenario, const model::Model& mod
 }
 
 // Margins mean nothing for an unstable loop.
-void tell_margins(Report& report, const Scenario& scenario, const model::Model& model) {
+void report_margins(Report& report, const Scenario& scenario, const model::Model& model) {
   const model::Linearization made =
       model::linearize(scenario, model, model::LinearKind::loop, model::home_point());
   report.push_back({"margins", "of each command's loop, the other one closed"});
@@ -62,7 +62,7 @@ void tell_margins(Report& report, const Scenario& scenario, const model::Model& 
   report.insert(report.end(), lines.begin(), lines.end());
 }
 
-void tell_sampled_loop(Report& report, const Scenario& scenario, const model::Model& model) {
+void report_sampled_loop(Report& report, const Scenario& scenario, const model::Model& model) {
   const model::Eigenvalues poles = model::sampled_poles(model);
   if (poles.empty()) {
     report.push_back(
@@ -97,12 +97,12 @@ void tell_sampled_loop(Report& report, const Scenario& scenario, const model::Mo
     report.push_back(
         {"margins", "none: the loop differs from sample to sample because of the sensor's frames"});
   } else {
-    tell_margins(report, scenario, model);
+    report_margins(report, scenario, model);
   }
 }
 
 // For loops that are open, or whose law bbsim cannot see.
-void tell_plant(Report& report, const model::Model& model, const std::string& why) {
+void report_plant(Report& report, const model::Model& model, const std::string& why) {
   const model::Eigenvalues poles = model::plant_poles(model);
   report.push_back(
       {"plant", std::to_string(poles.size()) +
@@ -110,14 +110,14 @@ void tell_plant(Report& report, const model::Model& model, const std::string& wh
   report.push_back({"closed loop", "no poles: " + why});
 }
 
-void tell_closed_loop(Report& report, const Scenario& scenario, const model::Model& model) {
+void report_closed_loop(Report& report, const Scenario& scenario, const model::Model& model) {
   if (scenario.controller->own) {
-    return tell_plant(report, model, "only the controller knows its law");
+    return report_plant(report, model, "only the controller knows its law");
   }
   if (scenario.controller->law == Law::commands) {
-    return tell_plant(report, model, "commands do not depend on the ball");
+    return report_plant(report, model, "commands do not depend on the ball");
   }
-  if (model.rig && model.rig->sampled) return tell_sampled_loop(report, scenario, model);
+  if (model.rig && model.rig->sampled) return report_sampled_loop(report, scenario, model);
   const model::Eigenvalues poles = model::closed_loop_poles(model);
   if (poles.empty()) {
     report.push_back(
@@ -129,13 +129,13 @@ void tell_closed_loop(Report& report, const Scenario& scenario, const model::Mod
                                        " poles about home (1/s): " + poles_line(poles)});
   if (warning.empty()) {
     report.push_back({"", model.dry ? "stable, without dry friction and limits" : "stable"});
-    if (model::why_not_linear(scenario).empty()) tell_margins(report, scenario, model);
+    if (model::why_not_linear(scenario).empty()) report_margins(report, scenario, model);
   } else {
     report.push_back({"WARNING", warning});
   }
 }
 
-void tell_solver(Report& report, const Scenario& scenario, const model::Model& model) {
+void report_solver(Report& report, const Scenario& scenario, const model::Model& model) {
   const Solver& solver = scenario.solver;
   std::string line{solve::method_name(solve::choose_method(solver.method))};
   line += solver.error
@@ -153,18 +153,18 @@ void tell_solver(Report& report, const Scenario& scenario, const model::Model& m
 }
 
 // Describes the scenario's sweep block, after a check of its values.
-void tell_sweep(Report& report, const Scenario& scenario) {
+void report_sweep(Report& report, const Scenario& scenario) {
   if (scenario.sweep.vary.empty()) return;
   const ScenarioFamily family(scenario.source);
   const sweep::SweepPlan plan(family, scenario.sweep);
   static_cast<void>(plan.check(family, 0, plan.cases(), [](double) { return true; }));
   std::string keys;
-  for (const sweep::Axis& axis : plan.axes()) keys += (keys.empty() ? "" : ", ") + axis.key;
+  for (const sweep::PlanAxis& axis : plan.axes()) keys += (keys.empty() ? "" : ", ") + axis.key;
   report.push_back({"sweep", std::to_string(plan.cases()) + " cases of bbsim sweep, over " + keys});
 }
 
 // Starts the user's controller, if there is one, and reports what it says and how it answers.
-void tell_controller(Report& report, const Scenario& scenario, Watch& watch) {
+void report_controller(Report& report, const Scenario& scenario, Watch& watch) {
   if (!scenario.controller || !scenario.controller->own) return;
   // The controller starts several times: pass each line on once, and at once, so that a signal that
   // ends bbsim loses none.
@@ -207,9 +207,9 @@ Report report_of(const Scenario& scenario, bool sweep) {
     report.push_back({"", "no forces, torques or energy: no output column asks for them"});
   }
 
-  tell_gain(report, scenario, model);
+  report_gain(report, scenario, model);
   if (model.closed_loop()) {
-    tell_closed_loop(report, scenario, model);
+    report_closed_loop(report, scenario, model);
   } else if (const model::Eigenvalues poles = model::closed_loop_poles(model); !poles.empty()) {
     report.push_back(
         {"plant", std::to_string(poles.size()) +
@@ -217,8 +217,8 @@ Report report_of(const Scenario& scenario, bool sweep) {
     if (model.dry) report.push_back({"", "without dry friction and limits"});
   }
 
-  tell_solver(report, scenario, model);
-  if (sweep) tell_sweep(report, scenario);
+  report_solver(report, scenario, model);
+  if (sweep) report_sweep(report, scenario);
   for (const std::string& remark : scenario.remarks) report.push_back({"remark", remark});
   return report;
 }
@@ -231,7 +231,7 @@ Report describe(const Scenario& scenario) {
 
 Report check(const Scenario& scenario, Watch& watch) {
   Report report = report_of(scenario, true);
-  tell_controller(report, scenario, watch);
+  report_controller(report, scenario, watch);
   return report;
 }
 

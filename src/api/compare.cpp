@@ -15,7 +15,7 @@
 #include "api/run.hpp"
 #include "base/error.hpp"
 #include "base/number_text.hpp"
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "file/cell_table.hpp"
 #include "record/log_distance.hpp"
 #include "record/solver_allowance.hpp"

@@ -10,7 +10,7 @@
 #include "api/design_text.hpp"
 #include "api/fit_text.hpp"
 #include "base/number_text.hpp"
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "design/player.hpp"
 #include "scenario/columns.hpp"

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "base/quoted.hpp"
 #include "base/short_number.hpp"
-#include "base/shown.hpp"
 #include "record/aligned.hpp"
 
 namespace bbsim::api {

@@ -15,7 +15,7 @@
 #include "api/fit_candidates.hpp"
 #include "api/fit_text.hpp"
 #include "base/number_text.hpp"
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "results/read_result.hpp"
 #include "scenario/unit_doubts.hpp"

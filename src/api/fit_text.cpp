@@ -12,8 +12,8 @@
 
 #include "base/fnv1a.hpp"
 #include "base/number_text.hpp"
+#include "base/quoted.hpp"
 #include "base/short_number.hpp"
-#include "base/shown.hpp"
 #include "file/whole_file.hpp"
 #include "fit/free_key.hpp"
 #include "record/aligned.hpp"

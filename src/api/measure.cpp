@@ -10,7 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "file/table_writer.hpp"
 #include "record/measure_rows.hpp"
 #include "scenario/unit_doubts.hpp"
@@ -96,9 +96,8 @@ void warn_of_units(const record::StoredRun& run, const std::vector<scenario::Mea
 }
 
 // Notes which value step metrics refer to if there is no reference.
-void tell_of_references(const record::StoredRun& run,
-                        const std::vector<scenario::Measure>& measures, const std::string& file,
-                        std::vector<std::string>& notes) {
+void note_references(const record::StoredRun& run, const std::vector<scenario::Measure>& measures,
+                     const std::string& file, std::vector<std::string>& notes) {
   std::vector<std::string> told;
   for (const scenario::Measure& one : measures) {
     const std::string lacking = run.lacks_reference(one);
@@ -130,7 +129,7 @@ Measured measure(results::Result result, const std::string& file,
       whys.push_back(found.why);
     }
     if (is_log) warn_of_units(run, measures, file, measured.notes);
-    tell_of_references(run, measures, file, measured.notes);
+    note_references(run, measures, file, measured.notes);
     const std::string not_measured = scenario::why_not_finite(measures, values.data(), whys);
     if (!not_measured.empty()) measured.notes.push_back("note: " + not_measured);
     return measured;

@@ -18,7 +18,7 @@
 #include "scenario/scenario.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
-#include "solve/part.hpp"
+#include "solve/partial_run.hpp"
 
 namespace bbsim::api {
 
@@ -32,7 +32,7 @@ class RunPart {
   [[nodiscard]] const Scenario& whole() const { return whole_; }
   // Grid of the whole run.
   [[nodiscard]] const solve::OutputGrid& grid() const { return *grid_; }
-  [[nodiscard]] solve::Part& part() { return part_; }
+  [[nodiscard]] solve::PartialRun& part() { return part_; }
 
   // Checks the state to continue from, and these columns, before files are opened.
   void check(const model::Model& model, const std::vector<const scenario::Column*>& columns) const;
@@ -48,7 +48,7 @@ class RunPart {
   std::string identity_;
   std::optional<record::RunState> from_;
   std::optional<solve::OutputGrid> grid_;
-  solve::Part part_;
+  solve::PartialRun part_;
   std::unique_ptr<file::AtomicFile> file_;
 };
 

@@ -13,7 +13,7 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "scenario/family.hpp"
 #include "scenario/key_value.hpp"
 #include "yaml/quantity.hpp"

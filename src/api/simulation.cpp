@@ -47,7 +47,7 @@ struct Integration {
 
 Integration integrate(const Scenario& scenario, const model::Model& model,
                       const solve::OutputGrid& grid, solve::StateSink& sink,
-                      const solve::Watch& watch, solve::Part* part) {
+                      const solve::Watch& watch, solve::PartialRun* part) {
   const CpuClock clock;
   const Solver& solver = scenario.solver;
   Integration made;
@@ -169,7 +169,7 @@ void take_measures(const Scenario& scenario, const model::Model& model,
 
 Simulation simulate(const Scenario& scenario, const model::Model& model,
                     const solve::OutputGrid& grid, const RowsAndMeasures& wanted,
-                    file::TableWriter& writer, Watch& watch, solve::Part* part,
+                    file::TableWriter& writer, Watch& watch, solve::PartialRun* part,
                     study::Sensitivity* sensitivity) {
   const model::BallConstants constants = model::constants_of(scenario);
   const scenario::SplitMeasures split = scenario::split_loop_measures(wanted.measures);

@@ -18,7 +18,7 @@
 #include "scenario/measures.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
-#include "solve/part.hpp"
+#include "solve/partial_run.hpp"
 #include "study/sensitivity.hpp"
 
 namespace bbsim::api {
@@ -45,7 +45,7 @@ struct Simulation {
 // derivatives.
 [[nodiscard]] Simulation simulate(const Scenario& scenario, const model::Model& model,
                                   const solve::OutputGrid& grid, const RowsAndMeasures& wanted,
-                                  file::TableWriter& writer, Watch& watch, solve::Part* part,
+                                  file::TableWriter& writer, Watch& watch, solve::PartialRun* part,
                                   study::Sensitivity* sensitivity);
 
 // Why a run failed: when, what the integrator reported, what grew, and what to do.

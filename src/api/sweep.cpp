@@ -40,7 +40,7 @@ std::vector<scenario::Measure> measures_of(const Sweep& sweep, const ScenarioFam
 
 // Sets the columns of output rows to keep for each case.
 void keep_rows(sweep::SweepTask& task, const Scenario& scenario) {
-  for (const sweep::Axis& axis : task.plan.axes()) {
+  for (const sweep::PlanAxis& axis : task.plan.axes()) {
     if (axis.key.starts_with("time") || axis.key.starts_with("output")) {
       throw InputError(
           "--keep-trajectories: found " + axis.key +
@@ -136,7 +136,7 @@ SweepResult sweep(const SweepRequest& request, Watch& watch) {
   const sweep::SweepPlan plan(family, request.sweep);
   const Scenario first = family.read(plan.settings(0));
   sweep::SweepTask task{family, plan, measures_of(request.sweep, family, plan, first)};
-  task.tell = [&watch](std::string_view line) { watch.controller_says(line); };
+  task.report = [&watch](std::string_view line) { watch.controller_says(line); };
   if (request.keeps_rows) keep_rows(task, first);
   const sweep::Engine engine = sweep::choose_engine(task);
   const sweep::CaseRange range =

@@ -40,7 +40,7 @@ struct Accuracy {
 };
 std::vector<Accuracy> accuracy_of(const SweepFacts& facts) {
   const Solver& solver = facts.first.solver;
-  for (const sweep::Axis& axis : facts.task.plan.axes()) {
+  for (const sweep::PlanAxis& axis : facts.task.plan.axes()) {
     if (axis.key.starts_with("solver")) return {};
   }
   if (solver.error) return {{"error_bound", *solver.error}};
@@ -90,7 +90,7 @@ sweep::CaseFileLayout layout_of(const SweepFacts& facts, const sweep::Engine& en
   layout.group = engine.group;
   layout.is_shard = facts.shard.of > 1;
   layout.columns.push_back({"case", "1", "number of the case, from 0"});
-  for (const sweep::Axis& axis : task.plan.axes()) {
+  for (const sweep::PlanAxis& axis : task.plan.axes()) {
     layout.columns.push_back({axis.key,
                               std::string(facts.family.unit_of(axis.key, task.plan.settings(0))),
                               "varied key of the scenario, in SI units and radians",

@@ -15,8 +15,8 @@
 #include "api/fit_text.hpp"
 #include "api/tune_text.hpp"
 #include "base/number_text.hpp"
+#include "base/quoted.hpp"
 #include "base/short_number.hpp"
-#include "base/shown.hpp"
 #include "base/text.hpp"
 #include "fit/free_key.hpp"
 #include "scenario/measures.hpp"
@@ -231,7 +231,7 @@ class Rigs {
     try {
       const sweep::SweepPlan plan(request_.family, rigs, keys_, listed, always_);
       sweep::SweepTask task{request_.family, plan, goals_.measures};
-      task.tell = [this](std::string_view line) { watch_.controller_says(line); };
+      task.report = [this](std::string_view line) { watch_.controller_says(line); };
       const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
       return sweep::run_sweep(
           sweep::choose_engine(task), {0, listed.size()},

@@ -20,7 +20,7 @@
 #include <utility>
 
 #include "base/number_text.hpp"
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "controller/foreign_code.hpp"
 #include "file/children.hpp"
 
@@ -75,9 +75,9 @@ std::string how_it_ended(int status) {
 
 }  // namespace
 
-Child::Child(const std::vector<std::string>& words, const std::string& folder, Tell tell,
+Child::Child(const std::vector<std::string>& words, const std::string& folder, Report report,
              const std::atomic<bool>* stop)
-    : tell_(std::move(tell)), stop_(stop), mark_(file::new_mark()), buffer_(longest_line) {
+    : report_(std::move(report)), stop_(stop), mark_(file::new_mark()), buffer_(longest_line) {
   Pipe input = make_pipe(true), output = make_pipe(false), error = make_pipe(false);
   int fault = 0;
   process_ = start_program(words, folder, {input.its.get(), output.its.get(), error.its.get()},
@@ -192,7 +192,7 @@ void Child::wait(short for_output) {
   }
 }
 
-// Passes the child's standard error to tell_.
+// Passes the child's standard error to report_.
 void Child::listen() {
   std::array<char, 4096> part;
   for (int i = 0; i < 16; ++i) {  // the output may be endless
@@ -209,12 +209,12 @@ void Child::say_lines(bool all) {
   for (;;) {
     const std::size_t end = complaint_.find('\n', start);
     if (end == std::string::npos) break;
-    tell_(std::string_view(complaint_).substr(start, end - start));
+    report_(std::string_view(complaint_).substr(start, end - start));
     start = end + 1;
   }
   complaint_.erase(0, start);
   if (!complaint_.empty() && (all || complaint_.size() > longest_complaint)) {
-    tell_(complaint_);
+    report_(complaint_);
     complaint_.clear();
   }
 }
@@ -292,7 +292,7 @@ void Child::finish() {
     if (events[1].revents != 0) listen();
     ended = has_ended(0);
   }
-  if (!ended) tell_("it kept running after the end of its input, and has been ended");
+  if (!ended) report_("it kept running after the end of its input, and has been ended");
   static_cast<void>(end());
 }
 

@@ -19,7 +19,7 @@
 namespace bbsim::controller {
 
 // Shows a line to the user at the terminal.
-using Tell = std::function<void(std::string_view line)>;
+using Report = std::function<void(std::string_view line)>;
 
 // Why there is no answer: "it did not answer within 1 s; it was still running, and has been ended".
 class ChildFault : public std::runtime_error {
@@ -35,7 +35,7 @@ class Child {
  public:
   // Starts the program. `tell` receives the lines of its standard error. `stop`, which may be null,
   // ends all waiting once it is true. Throws std::system_error if the program cannot be started.
-  Child(const std::vector<std::string>& words, const std::string& folder, Tell tell,
+  Child(const std::vector<std::string>& words, const std::string& folder, Report report,
         const std::atomic<bool>* stop);
   ~Child();
   Child(const Child&) = delete;
@@ -65,7 +65,7 @@ class Child {
   [[nodiscard]] std::optional<int> end();
   [[nodiscard]] std::string_view received() const { return {buffer_.data(), size_}; }
 
-  Tell tell_;
+  Report report_;
   const std::atomic<bool>* stop_;
   std::string mark_;   // of the child and what it starts
   pid_t process_ = 0;  // 0 once reaped

@@ -16,7 +16,7 @@
 
 #include "base/end_process.hpp"
 #include "base/error.hpp"
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "file/children.hpp"
 #include "file/temporaries.hpp"
 

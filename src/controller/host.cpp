@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "controller/library.hpp"
 #include "controller/program.hpp"
 #include "scenario/columns.hpp"
@@ -16,7 +16,8 @@
 
 namespace bbsim::controller {
 
-Host::Host(Tell tell, const std::atomic<bool>* stop) : tell_(std::move(tell)), stop_(stop) {}
+Host::Host(Report report, const std::atomic<bool>* stop)
+    : report_(std::move(report)), stop_(stop) {}
 
 Host::~Host() {
   try {
@@ -51,7 +52,7 @@ void Host::attach(const Scenario& scenario, model::Model& model) {
     program_->renew(setup);
   } else {
     if (program_) program_->finish();
-    program_ = std::make_shared<Program>(own, setup, tell_, stop_);
+    program_ = std::make_shared<Program>(own, setup, report_, stop_);
   }
   require_columns(setup.columns);
   place = program_;

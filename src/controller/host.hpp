@@ -23,7 +23,7 @@ class Host {
  public:
   // `tell` receives the lines of programs' standard error. `stop`, which may be null, ends all
   // waiting for them once it is true. Both must outlive the host.
-  explicit Host(Tell tell, const std::atomic<bool>* stop = nullptr);
+  explicit Host(Report report, const std::atomic<bool>* stop = nullptr);
   ~Host();
   Host(const Host&) = delete;
   Host& operator=(const Host&) = delete;
@@ -46,7 +46,7 @@ class Host {
  private:
   void require_columns(const std::vector<std::string>& asked) const;
 
-  Tell tell_;
+  Report report_;
   const std::atomic<bool>* stop_;
   std::shared_ptr<Program> program_;
   std::shared_ptr<Library> library_;

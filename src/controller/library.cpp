@@ -15,7 +15,7 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "controller/foreign_code.hpp"
 #include "controller/foreign_exit.hpp"
 

@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "base/json.hpp"
 #include "base/number_text.hpp"
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 
 namespace bbsim::controller {
 namespace {
@@ -27,12 +27,12 @@ std::string at_sample(const model::ControllerSample& sample) {
 
 }  // namespace
 
-Program::Program(const OwnController& own, const Setup& setup, Tell tell,
+Program::Program(const OwnController& own, const Setup& setup, Report report,
                  const std::atomic<bool>* stop)
     : program_(std::get<ControllerProgram>(own.by)),
       folder_(own.folder),
       setup_(setup),
-      tell_(std::move(tell)),
+      report_(std::move(report)),
       stop_(stop) {
   start();
 }
@@ -51,7 +51,7 @@ model::ControllerFault Program::fault_of(const std::string& when, const ChildFau
 void Program::start(const std::string& memory) {
   try {
     child_.reset();
-    child_ = std::make_unique<Child>(program_.command, folder_, tell_, stop_);
+    child_ = std::make_unique<Child>(program_.command, folder_, report_, stop_);
   } catch (const std::system_error& error) {
     throw KeyError("controller.program.command",
                    "found " + bbsim::quoted(program_.command[0], uncut) +

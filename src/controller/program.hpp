@@ -17,7 +17,8 @@ class Program : public model::ExternalController {
  public:
   // Starts the program and reads its answer to the hello. begin() throws any fault of the answer,
   // as a fault of the run. Throws KeyError if the program cannot be started.
-  Program(const OwnController& own, const Setup& setup, Tell tell, const std::atomic<bool>* stop);
+  Program(const OwnController& own, const Setup& setup, Report report,
+          const std::atomic<bool>* stop);
 
   void begin() override;
   model::Commands command(const model::ControllerSample& sample, double* own) override;
@@ -50,7 +51,7 @@ class Program : public model::ExternalController {
   ControllerProgram program_;
   std::string folder_;
   Setup setup_;
-  Tell tell_;
+  Report report_;
   const std::atomic<bool>* stop_;
   std::unique_ptr<Child> child_;
   Ready ready_;

@@ -10,7 +10,7 @@
 
 #include "base/json.hpp"
 #include "base/number_text.hpp"
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "yaml/nearest.hpp"
 
 namespace bbsim::controller {

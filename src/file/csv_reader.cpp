@@ -16,7 +16,7 @@
 #include <unordered_set>
 
 #include "base/error.hpp"
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "file/case_text.hpp"
 #include "file/formats.hpp"
@@ -163,7 +163,7 @@ class Parser {
       require_room(cells_.rows, most_rows);
       read_row();
     }
-    tell_of_rows();
+    note_rows();
     return std::move(cells_);
   }
 
@@ -251,7 +251,7 @@ class Parser {
         if (!above || above->size() != names->size()) break;
         --header;
       }
-      tell_of_lines_before(header);
+      note_lines_before(header);
       take(header);
       take_names();
       if (header + 1 == i && std::ranges::all_of(*names, is_unit)) {
@@ -288,7 +288,7 @@ class Parser {
     }
   }
 
-  void tell_of_lines_before(std::size_t header) {
+  void note_lines_before(std::size_t header) {
     if (header == 0) return;
     cells_.notes.push_back("note: " + lines_.name() + ": the header is line " +
                            std::to_string(ahead_[header].number) +
@@ -434,7 +434,7 @@ class Parser {
       first_beyond_ = lines_.name() + ':' + std::to_string(number_) + ": " + count_text(found);
   }
 
-  void tell_of_rows() {
+  void note_rows() {
     const auto more = [](std::size_t rows) {
       return rows == 1 ? std::string()
                        : ", here and in " + std::to_string(rows - 1) +

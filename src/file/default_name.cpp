@@ -13,7 +13,7 @@
 #include <string_view>
 
 #include "base/error.hpp"
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "file/descriptor.hpp"
 #include "file/target.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "file/formats.hpp"
 #include "file/hdf5_table.hpp"
 

@@ -16,7 +16,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "file/children.hpp"
 #include "file/hdf5/table_text.hpp"
 #include "file/hdf5_module.hpp"

@@ -16,7 +16,7 @@
 
 #include "base/error.hpp"
 #include "base/json.hpp"
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "file/descriptor.hpp"
 #include "file/hdf5/table_text.hpp"
 #include "file/hdf5_process.hpp"

@@ -12,7 +12,7 @@
 #include <cstring>
 
 #include "base/error.hpp"
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "file/descriptor.hpp"
 
 namespace bbsim::file {

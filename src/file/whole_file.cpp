@@ -11,7 +11,7 @@
 #include <cerrno>
 
 #include "base/error.hpp"
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "file/descriptor.hpp"
 
 namespace bbsim::file {

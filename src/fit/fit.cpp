@@ -92,7 +92,7 @@ class Fit {
   // Whether an interrupted run has any result.
   [[nodiscard]] bool has_begun() const { return !before_.empty(); }
 
-  void tell() {
+  void report() {
     windows_.finish();
     residuals_ = windows_.residuals(u_);
     const std::vector<ColumnSize> sizes = sizes_of(windows_, residuals_);
@@ -115,29 +115,29 @@ class Fit {
     }
     const std::vector<double> ideal = ideal_rms(windows_.windows());
     for (std::size_t c = 0; c < ideal.size(); ++c) made_.columns[c].ideal = ideal[c];
-    tell_parameters();
+    report_parameters();
     if (!made_.white) made_.suggestion = suggestion(task_, windows_, u_);
   }
 
   // Reports the held-out windows at the fitted values.
-  void tell_held(std::vector<Window> held) {
+  void report_held(std::vector<Window> held) {
     if (held.empty()) return;
     const std::vector<double> ideal = ideal_rms(held);
     for (std::size_t c = 0; c < ideal.size(); ++c) made_.columns[c].held_ideal = ideal[c];
     WindowsFit others(task_, std::move(held));
     others.finish();
     others.set_noise(windows_.noise());
-    const auto tell = [&](const VectorXd& u, std::optional<double> ColumnResidual::*held) {
+    const auto keep = [&](const VectorXd& u, std::optional<double> ColumnResidual::*held) {
       const VectorXd residuals = others.residuals(u);
       if ((residuals.array() == WindowsFit::far).any()) return;  // a window does not run
       const std::vector<double> rms = rms_of(others, residuals);
       for (std::size_t c = 0; c < rms.size(); ++c) made_.columns[c].*held = rms[c];
     };
-    tell(VectorXd::Zero(u_.size()), &ColumnResidual::held_before);
-    tell(u_, &ColumnResidual::held);
+    keep(VectorXd::Zero(u_.size()), &ColumnResidual::held_before);
+    keep(u_, &ColumnResidual::held);
   }
 
-  void tell_series(const std::vector<Window>& held) {
+  void report_series(const std::vector<Window>& held) {
     made_.series = windows_.series(u_);
     if (held.empty()) return;
     WindowsFit others(task_, held);
@@ -318,7 +318,7 @@ class Fit {
            std::max(within / static_cast<double>(windows_.size()), 0.1);
   }
 
-  void tell_parameters() {
+  void report_parameters() {
     const WindowsFit::Derivatives derivatives = windows_.derivatives(u_);
     const MatrixXd& jacobian = derivatives.projected;
     const VectorXd sizes = derivatives.free_norms.cwiseMax(1e-300);
@@ -506,9 +506,9 @@ Fitted fit(const Task& task) {
   Fit fit(task, std::move(windows), made);
   made.interrupted = !fit.run();
   if (!fit.has_begun()) return made;
-  fit.tell();
-  if (task.with_series) fit.tell_series(held);
-  fit.tell_held(std::move(held));
+  fit.report();
+  if (task.with_series) fit.report_series(held);
+  fit.report_held(std::move(held));
   return made;
 }
 

@@ -13,7 +13,7 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "scenario/key_value.hpp"
 #include "scenario/value_in.hpp"

@@ -78,7 +78,7 @@ struct Cell {
 };
 
 // A stroke and its name in a legend.
-struct Entry {
+struct LegendEntry {
   std::string name;
   Stroke stroke;
 };
@@ -87,8 +87,8 @@ struct Panel {
   Box box;
   std::string heading{};  // above its top left corner
   Axis x{}, y{};
-  std::optional<Axis> colours{};  // in a map: its color scale, on the right
-  std::vector<Entry> legend{};    // in one row beside the heading
+  std::optional<Axis> colours{};      // in a map: its color scale, on the right
+  std::vector<LegendEntry> legend{};  // in one row beside the heading
   std::vector<Cell> cells{};
   std::vector<Curve> curves{};  // from bottom to top
 };
@@ -96,7 +96,7 @@ struct Panel {
 struct Picture {
   double width = 1200, height = 600;  // below the heading
   std::string title, subtitle;
-  std::vector<Entry> legend;
+  std::vector<LegendEntry> legend;
   std::vector<Panel> panels;
 };
 

@@ -32,7 +32,7 @@ class EventMarks {
  public:
   explicit EventMarks(const std::vector<Result>& runs);
   [[nodiscard]] Stroke stroke_of(const Result& run, const std::string& event) const;
-  [[nodiscard]] std::vector<Entry> legend() const;
+  [[nodiscard]] std::vector<LegendEntry> legend() const;
 
  private:
   struct Kind {

@@ -143,7 +143,7 @@ void add_path(Picture& picture, const std::vector<Result>& runs, const EventMark
   panel.x.label = scales.x.heading("x");
 
   const auto name = [&](const char* words, const Stroke& stroke) {
-    if (std::ranges::find(picture.legend, words, &Entry::name) == picture.legend.end()) {
+    if (std::ranges::find(picture.legend, words, &LegendEntry::name) == picture.legend.end()) {
       picture.legend.push_back({words, stroke});
     }
   };

@@ -121,8 +121,8 @@ Stroke EventMarks::stroke_of(const Result& run, const std::string& event) const 
   return {colour, 0, Dash::solid, shapes[index_of(event) % shapes.size()], 1.3};
 }
 
-std::vector<Entry> EventMarks::legend() const {
-  std::vector<Entry> entries;
+std::vector<LegendEntry> EventMarks::legend() const {
+  std::vector<LegendEntry> entries;
   for (const Kind& kind : kinds_) {
     Stroke stroke = stroke_of(runs_.front(), kind.name);
     if (runs_.size() > 1) stroke.colour = "#000000";
@@ -165,7 +165,7 @@ Picture run_picture(const std::vector<Result>& runs, const Asked& asked) {
     const double room = layout.left > 0 ? height(path_rows) - 44 : picture.height - below_panel - 6;
     add_path(picture, runs, marks, {left_axis, 27, left_end, std::min(room, 560.0)});
   }
-  for (const Entry& entry : marks.legend()) picture.legend.push_back(entry);
+  for (const LegendEntry& entry : marks.legend()) picture.legend.push_back(entry);
 
   const bool two_columns = path || layout.right > 0;
   for (std::size_t p = 0; p < panels.size(); ++p) {

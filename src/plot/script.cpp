@@ -74,7 +74,7 @@ struct Heading {
 
 Heading heading_of(const Picture& picture) {
   double widest = 0;
-  for (const Entry& entry : picture.legend) {
+  for (const LegendEntry& entry : picture.legend) {
     widest = std::max(widest, width_of(clean(entry.name), legend_size, legend_letter));
   }
   const std::size_t entries = picture.legend.size();
@@ -265,9 +265,9 @@ class Script {
   }
 
   // Ends a plot and gives it at least one element. Cuts names to the room.
-  void write_legend(const std::vector<Entry>& legend, double room, double narrowest) {
+  void write_legend(const std::vector<LegendEntry>& legend, double room, double narrowest) {
     text_ += "NaN notitle";
-    for (const Entry& entry : legend) {
+    for (const LegendEntry& entry : legend) {
       text_ += ", keyentry with " + style_of(entry.stroke) + " title " +
                quoted(cut(clean(entry.name), room, legend_size, narrowest));
     }

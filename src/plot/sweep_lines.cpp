@@ -56,8 +56,8 @@ std::string group_name(const Key& group, double value) {
 
 }  // namespace
 
-std::vector<Entry> group_legend(const Key* group) {
-  std::vector<Entry> entries;
+std::vector<LegendEntry> group_legend(const Key* group) {
+  std::vector<LegendEntry> entries;
   for (std::size_t g = 0; group != nullptr && g < group->distinct.size(); ++g) {
     entries.push_back({group_name(*group, group->distinct[g]), stroke_of_group(g)});
   }

@@ -61,7 +61,7 @@ struct SweepPanel {
 // more would hide each other. A random key has a point for each case.
 inline constexpr std::size_t most_bands = 3;
 [[nodiscard]] Panel line_panel(const SweepPanel& of, const Key& over, const Key* group);
-[[nodiscard]] std::vector<Entry> group_legend(const Key* group);
+[[nodiscard]] std::vector<LegendEntry> group_legend(const Key* group);
 
 // A map of medians over two keys, with a color scale on its right.
 [[nodiscard]] Panel map_panel(const SweepPanel& of, const Key& over, const Key& against);

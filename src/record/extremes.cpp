@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/greatest.hpp"
+#include "base/maxima.hpp"
 
 namespace bbsim::record {
 namespace {

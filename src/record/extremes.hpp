@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/chebyshev.hpp"
-#include "base/greatest.hpp"
+#include "base/maxima.hpp"
 #include "model/model.hpp"
 #include "record/rows.hpp"
 #include "solve/piece.hpp"

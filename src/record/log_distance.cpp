@@ -12,7 +12,7 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "record/aligned.hpp"
 
 namespace bbsim::record {

@@ -22,7 +22,7 @@ struct RunState {
   double least_end = 0;  // s; the steps of an endless run hold for any later end
   double time = 0;       // of the last row before the state, s
   std::size_t next_row = 0;
-  std::string state;  // solve::Part::state
+  std::string state;  // solve::PartialRun::state
 };
 
 [[nodiscard]] std::string to_bytes(RunState state);

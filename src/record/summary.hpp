@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/greatest.hpp"
+#include "base/maxima.hpp"
 #include "file/table_writer.hpp"
 #include "model/events/occurrence.hpp"
 

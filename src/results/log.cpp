@@ -12,7 +12,7 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "results/read_result.hpp"
 #include "scenario/columns.hpp"
@@ -164,9 +164,9 @@ void require_numbers(const Result& log, const Column& column) {
 }
 
 // Adds notes about changes to a log.
-class Teller {
+class Notes {
  public:
-  Teller(const Result& log, std::vector<std::string>& notes) : file_(log.file), notes_(notes) {}
+  Notes(const Result& log, std::vector<std::string>& notes) : file_(log.file), notes_(notes) {}
   void operator()(const std::string& done) const {
     notes_.push_back("warning: " + shown(file_, uncut) + ": " + done);
   }
@@ -177,13 +177,13 @@ class Teller {
 };
 
 // Converts a column of the log to a column of bbsim.
-Column made_of(const Result& log, const Mapped& mapped, const Teller& tell) {
+Column made_of(const Result& log, const Mapped& mapped, const Notes& note) {
   const Column& from = log.columns[mapped.from];
   require_numbers(log, from);
   Column made{std::string(mapped.column->name), from.numbers};
   made.unit = mapped.column->unit;
   if (made.name == "t") {
-    if (const auto done = scenario::unwrap(made.numbers)) tell(*done);
+    if (const auto done = scenario::unwrap(made.numbers)) note(*done);
   }
   for (double& number : made.numbers) {
     if (mapped.factor != 1) number *= mapped.factor;
@@ -251,7 +251,7 @@ void keep_rows(Result& log, const std::vector<std::size_t>& rows) {
   log.rows = rows.size();
 }
 
-void set_clock(Result& log, const LogChoice& choice, const Teller& tell) {
+void set_clock(Result& log, const LogChoice& choice, const Notes& note) {
   Column* t = find_column(log, "t");
   if (t == nullptr || t->is_text()) {
     if (choice.time_offset.empty()) return;
@@ -259,7 +259,7 @@ void set_clock(Result& log, const LogChoice& choice, const Teller& tell) {
                      " has no column t; --map t=NAME:UNIT names it, --period gives the rows one");
   }
   const scenario::Clock clock = scenario::clock_of(t->numbers);
-  for (const std::string& done : clock.done) tell(done);
+  for (const std::string& done : clock.done) note(done);
   if (clock.changed) keep_rows(log, clock.rows);
   t = find_column(log, "t");
   if (t->numbers.empty()) return;
@@ -270,7 +270,7 @@ void set_clock(Result& log, const LogChoice& choice, const Teller& tell) {
     offset = time_of("--time-offset", choice.time_offset, ", start, or auto");
   } else if (scenario::counts_from_epoch(t->numbers)) {
     offset = -t->numbers.front();
-    tell("its times count from an epoch (" + number_text(t->numbers.front()) +
+    note("its times count from an epoch (" + number_text(t->numbers.front()) +
          " s); the first row is t = 0");
   }
   if (offset == 0) return;
@@ -281,7 +281,7 @@ void set_clock(Result& log, const LogChoice& choice, const Teller& tell) {
 
 void make_log(Result& log, const LogChoice& choice, bool only_mapped,
               std::vector<std::string>& notes) {
-  const Teller tell(log, notes);
+  const Notes note(log, notes);
   std::vector<Mapped> mapped = read_maps(choice.maps, log);
   const bool maps = !mapped.empty();
   for (Mapped& one : by_their_names(log, mapped)) {
@@ -290,7 +290,7 @@ void make_log(Result& log, const LogChoice& choice, bool only_mapped,
     if (!only_mapped || !maps || is_time) mapped.push_back(one);
   }
   std::vector<Column> made;
-  for (const Mapped& one : mapped) made.push_back(made_of(log, one, tell));
+  for (const Mapped& one : mapped) made.push_back(made_of(log, one, note));
   if (only_mapped && maps) log.columns.clear();
   for (Column& column : made) {
     Column* const there = find_column(log, column.name);
@@ -303,7 +303,7 @@ void make_log(Result& log, const LogChoice& choice, bool only_mapped,
     }
   }
   add_clock(log, choice.period);
-  set_clock(log, choice, tell);
+  set_clock(log, choice, note);
 }
 
 Result read_log(const std::string& file, const LogChoice& choice, std::vector<std::string>& notes) {

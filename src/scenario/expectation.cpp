@@ -4,7 +4,7 @@
 #include "scenario/expectation.hpp"
 
 #include "base/error.hpp"
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "scenario/value_in.hpp"
 

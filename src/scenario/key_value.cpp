@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "scenario/keys.hpp"
 #include "yaml/quantity.hpp"
 #include "yaml/spelling.hpp"

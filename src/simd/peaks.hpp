@@ -10,7 +10,7 @@ namespace bbsim::simd {
 
 // Value and slope of a function at a place.
 template <class P>
-struct Looked {
+struct HermitePoint {
   P at, value, slope;
 };
 
@@ -20,7 +20,7 @@ struct Looked {
 // exceeds the ends by at most 4/27 of the changes that its end slopes would make. The factor used,
 // 0.25, allows for terms of higher degree.
 template <class P>
-BBSIM_INLINE P promise_between(const Looked<P>& from, const Looked<P>& to) {
+BBSIM_INLINE P promise_between(const HermitePoint<P>& from, const HermitePoint<P>& to) {
   using Mask = typename P::Mask;
   constexpr double beyond = 0.25;
   const P width = to.at - from.at, change = to.value - from.value;
@@ -35,8 +35,8 @@ BBSIM_INLINE P promise_between(const Looked<P>& from, const Looked<P>& to) {
 // Climbs to the maximum between two places by successive cubics. Raises `greatest` to each value on
 // the way, in the lanes of `wanted`, until each lane is done.
 template <class P, class Evaluate>
-BBSIM_INLINE void climb(Looked<P> from, Looked<P> to, typename P::Mask wanted, P& greatest,
-                        Evaluate evaluate) {
+BBSIM_INLINE void climb(HermitePoint<P> from, HermitePoint<P> to, typename P::Mask wanted,
+                        P& greatest, Evaluate evaluate) {
   using Mask = typename P::Mask;
   constexpr int most_steps = 8;
   constexpr double close = 1e-12, edge = 1e-3;
@@ -50,7 +50,7 @@ BBSIM_INLINE void climb(Looked<P> from, Looked<P> to, typename P::Mask wanted, P
     const P under = root - b;
     const Mask inside = (Mask)(under.v > 0) & (Mask)(s0.v > 0) & (Mask)(s0.v < under.v);
     const P part = choose(inside, s0 / choose(inside, under, P(1.0)), P(0.5));
-    Looked<P> next;
+    HermitePoint<P> next;
     next.at = from.at + width * larger_of(P(edge), smaller_of(part, P(1 - edge)));
     evaluate(next.at, next.value, next.slope);
     greatest = choose(wanted, larger_of(greatest, next.value), greatest);
@@ -70,7 +70,7 @@ BBSIM_INLINE void climb(Looked<P> from, Looked<P> to, typename P::Mask wanted, P
 // Raises `greatest` to the maximum of a function over `count` places, in order, and between them.
 // `most`: the largest count. evaluate(at, value, slope) gives the function elsewhere.
 template <int most, class P, class Evaluate>
-BBSIM_INLINE void raise_to_peak(const Looked<P>* places, int count, P& greatest,
+BBSIM_INLINE void raise_to_peak(const HermitePoint<P>* places, int count, P& greatest,
                                 Evaluate evaluate) {
   using Mask = typename P::Mask;
   constexpr double worth = 1 + 1e-9;  // intervals with less to gain are skipped
@@ -93,7 +93,7 @@ BBSIM_INLINE void raise_to_peak(const Looked<P>* places, int count, P& greatest,
 #pragma GCC unroll 1
   for (int round = 0; round < left; ++round) {
     P best = P(worth) * greatest, number(-1.0);
-    Looked<P> from = places[promising[0]], to = places[promising[0] + 1];
+    HermitePoint<P> from = places[promising[0]], to = places[promising[0] + 1];
 #pragma GCC unroll 1
     for (int k = 0; k < left; ++k) {
       const int i = promising[k];

@@ -26,7 +26,7 @@ class HybridIntegration {
  public:
   HybridIntegration(const model::Model& model, const MakeStepper& make_stepper,
                     Tolerances tolerances, const OutputGrid& grid, StateSink& sink,
-                    const Watch& watch, Part* part)
+                    const Watch& watch, PartialRun* part)
       : run_(model, near_rest * tolerances.atol),
         grid_(grid),
         watch_(watch),
@@ -366,7 +366,7 @@ class HybridIntegration {
   model::HybridSystem run_;
   const OutputGrid& grid_;
   const Watch& watch_;
-  Part* part_;
+  PartialRun* part_;
   double last_;  // the limit of all steps, s
   Pace pace_;
   std::unique_ptr<Stepper> stepper_;
@@ -393,7 +393,7 @@ class HybridIntegration {
 
 Outcome integrate_hybrid(const model::Model& model, const MakeStepper& make_stepper,
                          Tolerances tolerances, const OutputGrid& grid, StateSink& sink,
-                         const Watch& watch, Part* part) {
+                         const Watch& watch, PartialRun* part) {
   return HybridIntegration(model, make_stepper, tolerances, grid, sink, watch, part).run();
 }
 

@@ -10,7 +10,7 @@
 namespace bbsim::solve {
 
 Outcome integrate(const model::Model& model, Method method, Tolerances tolerances,
-                  const OutputGrid& grid, StateSink& sink, const Watch& watch, Part* part) {
+                  const OutputGrid& grid, StateSink& sink, const Watch& watch, PartialRun* part) {
   const Method chosen = choose_method(method);
   const auto stepper_of = [&](const model::Model& any) {
     return make_stepper(any, chosen, tolerances, grid);

@@ -51,7 +51,7 @@ bool has_run_away(const model::Model& model, const std::vector<double>& state) {
 }  // namespace
 
 Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGrid& grid,
-                    StateSink& sink, const Watch& watch, Part* part) {
+                    StateSink& sink, const Watch& watch, PartialRun* part) {
   const std::size_t row_size = model.size() + (model.gamma ? 1 : 0);
   const bool goes_on = part != nullptr && !part->from.empty();
   const std::size_t end_row = part != nullptr ? part->end_row : grid.size();

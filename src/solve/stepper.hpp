@@ -15,7 +15,7 @@
 #include "model/servo/held_motion.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
-#include "solve/part.hpp"
+#include "solve/partial_run.hpp"
 #include "solve/piece.hpp"
 
 namespace bbsim::solve {
@@ -81,6 +81,6 @@ class Stepper {
 // sink. The model must not be hybrid().
 [[nodiscard]] Outcome run_through(Stepper& stepper, const model::Model& model,
                                   const OutputGrid& grid, StateSink& sink, const Watch& watch,
-                                  Part* part = nullptr);
+                                  PartialRun* part = nullptr);
 
 }  // namespace bbsim::solve

@@ -12,8 +12,8 @@
 #include <variant>
 
 #include "base/instant.hpp"
+#include "base/quoted.hpp"
 #include "base/short_number.hpp"
-#include "base/shown.hpp"
 #include "model/systems/any_jacobian.hpp"
 
 namespace bbsim::study {
@@ -104,7 +104,7 @@ void EventSensitivity::make_systems(const HybridSystem& run) {
   }
 }
 
-VectorXd EventSensitivity::pass(const Instant& now, Eigen::MatrixXd& slopes) {
+VectorXd EventSensitivity::pass(const SwitchInstant& now, Eigen::MatrixXd& slopes) {
   if (beside_.empty()) make_systems(now.run);
   VectorXd moves = VectorXd::Zero(slopes.cols());
   const std::size_t missed = now.run.switches() - passed_;
@@ -148,7 +148,7 @@ VectorXd EventSensitivity::pass(const Instant& now, Eigen::MatrixXd& slopes) {
 // Dry friction along a velocity turns S into its direction, faster the slower the motion. Before
 // the direction is held, one eigenvalue -rate of the Jacobian dominates. The Jacobian is then -rate
 // times a projection, and its trace is -rate.
-void EventSensitivity::note_alignment(const Instant& now) {
+void EventSensitivity::note_alignment(const SwitchInstant& now) {
   constexpr double least_rate = 1e6;  // 1/s
   const auto n = static_cast<Index>(model_.size());
   Eigen::MatrixXd jacobian(n, n);
@@ -159,8 +159,8 @@ void EventSensitivity::note_alignment(const Instant& now) {
 
 // Takes the neighbors of key k through the switches; `at_rest`: from the run's own states.
 std::vector<EventSensitivity::Passed> EventSensitivity::pass_beside(
-    std::size_t k, const Instant& now, std::span<const HybridSystem::Switch> switches, bool at_rest,
-    const Eigen::Ref<const VectorXd>& slope) {
+    std::size_t k, const SwitchInstant& now, std::span<const HybridSystem::Switch> switches,
+    bool at_rest, const Eigen::Ref<const VectorXd>& slope) {
   const auto n = static_cast<Index>(model_.size());
   std::vector<Passed> passed;
   for (std::size_t j = 0; j < Neighbors::offsets.size(); ++j) {
@@ -175,8 +175,8 @@ std::vector<EventSensitivity::Passed> EventSensitivity::pass_beside(
 }
 
 // Sets the derivatives by key k after a switch. Returns how far the key moves the switch in time.
-double EventSensitivity::jump(std::size_t k, const Instant& now, const std::vector<Passed>& passed,
-                              Eigen::Ref<VectorXd> slope) const {
+double EventSensitivity::jump(std::size_t k, const SwitchInstant& now,
+                              const std::vector<Passed>& passed, Eigen::Ref<VectorXd> slope) const {
   const Neighbors& neighbors = keys_[k];
   const auto n = static_cast<Index>(model_.size());
   const auto of = [&passed](auto member) {

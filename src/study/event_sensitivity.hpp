@@ -31,7 +31,7 @@ class EventSensitivity : public Switches {
       : model_(model), keys_(keys), last_mode_(model.system) {}
 
   void begin_run() override;
-  [[nodiscard]] Eigen::VectorXd pass(const Instant& now, Eigen::MatrixXd& slopes) override;
+  [[nodiscard]] Eigen::VectorXd pass(const SwitchInstant& now, Eigen::MatrixXd& slopes) override;
   [[nodiscard]] Eigen::VectorXd extras(std::size_t k, double t, const Eigen::VectorXd& z,
                                        const Eigen::VectorXd& slope) const override;
 
@@ -46,11 +46,13 @@ class EventSensitivity : public Switches {
   using Beside = std::vector<std::unique_ptr<model::HybridSystem>>;
 
   void make_systems(const model::HybridSystem& run);
-  void note_alignment(const Instant& now);
+  void note_alignment(const SwitchInstant& now);
   [[nodiscard]] std::vector<Passed> pass_beside(
-      std::size_t k, const Instant& now, std::span<const model::HybridSystem::Switch> switches,
-      bool at_rest, const Eigen::Ref<const Eigen::VectorXd>& slope);
-  [[nodiscard]] double jump(std::size_t k, const Instant& now, const std::vector<Passed>& passed,
+      std::size_t k, const SwitchInstant& now,
+      std::span<const model::HybridSystem::Switch> switches, bool at_rest,
+      const Eigen::Ref<const Eigen::VectorXd>& slope);
+  [[nodiscard]] double jump(std::size_t k, const SwitchInstant& now,
+                            const std::vector<Passed>& passed,
                             Eigen::Ref<Eigen::VectorXd> slope) const;
 
   const model::Model& model_;

@@ -11,8 +11,8 @@
 #include <utility>
 #include <variant>
 
+#include "base/quoted.hpp"
 #include "base/short_number.hpp"
-#include "base/shown.hpp"
 
 namespace bbsim::study {
 namespace {
@@ -174,7 +174,7 @@ double RigSensitivity::move(std::size_t k, Clock clock, double number) {
   });
 }
 
-Eigen::VectorXd RigSensitivity::pass(const Instant& now, Eigen::MatrixXd& slopes) {
+Eigen::VectorXd RigSensitivity::pass(const SwitchInstant& now, Eigen::MatrixXd& slopes) {
   const model::SampleExchange::Numbers numbers = now.run.sampling()->exchange().numbers();
   const model::RigMode& mode = mode_of(now.run.model());
   for (; numbers_.exposure < numbers.exposure; ++numbers_.exposure) expose(now, slopes);
@@ -200,7 +200,7 @@ Eigen::VectorXd RigSensitivity::pass(const Instant& now, Eigen::MatrixXd& slopes
   return moves;
 }
 
-void RigSensitivity::expose(const Instant& now, const Eigen::MatrixXd& slopes) {
+void RigSensitivity::expose(const SwitchInstant& now, const Eigen::MatrixXd& slopes) {
   const Sensor& sensor = loop_.sensor;
   const double at = time_of(loop_, times_, Clock::exposure, numbers_.exposure);
   Seen& seen = seen_.emplace_back(Seen{at, Eigen::MatrixXd(2, slopes.cols())});
@@ -222,7 +222,7 @@ void RigSensitivity::expose(const Instant& now, const Eigen::MatrixXd& slopes) {
   }
 }
 
-void RigSensitivity::sample(const Instant& now, const Eigen::MatrixXd& slopes) {
+void RigSensitivity::sample(const SwitchInstant& now, const Eigen::MatrixXd& slopes) {
   // Use the exposure for this sample or, with a frame period, the last frame that has arrived.
   const bool frames = loop_.sensor.period.has_value();
   const double end = now.run.instant_end(now.t);
@@ -241,7 +241,8 @@ void RigSensitivity::sample(const Instant& now, const Eigen::MatrixXd& slopes) {
 }
 
 // Differentiates the controller's arithmetic by one key, for a sample that saw the ball.
-void RigSensitivity::compute(std::size_t k, const Instant& now, const Eigen::MatrixXd& slopes) {
+void RigSensitivity::compute(std::size_t k, const SwitchInstant& now,
+                             const Eigen::MatrixXd& slopes) {
   const auto column = static_cast<Eigen::Index>(k);
   const Key& key = by_key_[k];
   const double later = move(k, Clock::sample, numbers_.sample);
@@ -293,7 +294,7 @@ void RigSensitivity::compute(std::size_t k, const Instant& now, const Eigen::Mat
 // The angles and rates that the law uses as the plane's, with their derivatives, if the states
 // change by `moves`.
 std::array<RigSensitivity::Moved, 4> RigSensitivity::servo_numbers(
-    std::size_t k, const Instant& now, const Eigen::VectorXd& moves) const {
+    std::size_t k, const SwitchInstant& now, const Eigen::VectorXd& moves) const {
   const Neighbors& neighbors = keys_[k];
   const auto believed = [this](const model::Model& model, const Eigen::VectorXd& z) {
     const double* const angle = z.data() + first_angle;
@@ -344,7 +345,8 @@ void RigSensitivity::take_command(const model::RigMode& mode) {
   }
 }
 
-void RigSensitivity::require_away_from_stops(const Instant& now, const model::RigMode& mode) const {
+void RigSensitivity::require_away_from_stops(const SwitchInstant& now,
+                                             const model::RigMode& mode) const {
   constexpr double at_stop = 1 - 1e-9;
   for (int i = 0; i < servos_; ++i) {
     const model::RigServo& servo = model_.rig->servo[i];
@@ -358,7 +360,8 @@ void RigSensitivity::require_away_from_stops(const Instant& now, const model::Ri
 
 // How far each key moves the time at which a servo reaches its rate limit; 0 if none does. Other
 // switches between modes do not change the rates of the states.
-Eigen::VectorXd RigSensitivity::moves_at_rate_limit(const Instant& now, const model::RigMode& mode,
+Eigen::VectorXd RigSensitivity::moves_at_rate_limit(const SwitchInstant& now,
+                                                    const model::RigMode& mode,
                                                     const Eigen::MatrixXd& slopes) const {
   Eigen::VectorXd moves = Eigen::VectorXd::Zero(slopes.cols());
   for (int i = 0; i < servos_; ++i) {
@@ -376,7 +379,8 @@ Eigen::VectorXd RigSensitivity::moves_at_rate_limit(const Instant& now, const mo
 
 // The rate of a first-order servo jumps with its command, and the ball's velocity jumps with the
 // plane's rates.
-void RigSensitivity::turn_first_order(std::size_t k, const Instant& now, const model::RigMode& mode,
+void RigSensitivity::turn_first_order(std::size_t k, const SwitchInstant& now,
+                                      const model::RigMode& mode,
                                       Eigen::Ref<Eigen::VectorXd> slope) const {
   bool any = false;
   for (int i = 0; i < servos_; ++i) any = any || model_.rig->servo[i].time_constant;

@@ -33,7 +33,7 @@ class RigSensitivity : public Switches {
 
   void begin_run() override;
   // Refuses runs in which a servo reaches its stop, or a first-order servo its rate limit.
-  [[nodiscard]] Eigen::VectorXd pass(const Instant& now, Eigen::MatrixXd& slopes) override;
+  [[nodiscard]] Eigen::VectorXd pass(const SwitchInstant& now, Eigen::MatrixXd& slopes) override;
   [[nodiscard]] Eigen::VectorXd extras(std::size_t k, double t, const Eigen::VectorXd& z,
                                        const Eigen::VectorXd& slope) const override;
 
@@ -60,16 +60,17 @@ class RigSensitivity : public Switches {
   [[nodiscard]] static double time_of(const model::SampledLoop& loop, model::SampleTimes& times,
                                       Clock clock, double number);
   [[nodiscard]] double move(std::size_t k, Clock clock, double number);
-  void expose(const Instant& now, const Eigen::MatrixXd& slopes);
-  void sample(const Instant& now, const Eigen::MatrixXd& slopes);
-  void compute(std::size_t k, const Instant& now, const Eigen::MatrixXd& slopes);
-  [[nodiscard]] std::array<Moved, 4> servo_numbers(std::size_t k, const Instant& now,
+  void expose(const SwitchInstant& now, const Eigen::MatrixXd& slopes);
+  void sample(const SwitchInstant& now, const Eigen::MatrixXd& slopes);
+  void compute(std::size_t k, const SwitchInstant& now, const Eigen::MatrixXd& slopes);
+  [[nodiscard]] std::array<Moved, 4> servo_numbers(std::size_t k, const SwitchInstant& now,
                                                    const Eigen::VectorXd& moves) const;
   void take_command(const model::RigMode& mode);
-  void require_away_from_stops(const Instant& now, const model::RigMode& mode) const;
-  [[nodiscard]] Eigen::VectorXd moves_at_rate_limit(const Instant& now, const model::RigMode& mode,
+  void require_away_from_stops(const SwitchInstant& now, const model::RigMode& mode) const;
+  [[nodiscard]] Eigen::VectorXd moves_at_rate_limit(const SwitchInstant& now,
+                                                    const model::RigMode& mode,
                                                     const Eigen::MatrixXd& slopes) const;
-  void turn_first_order(std::size_t k, const Instant& now, const model::RigMode& mode,
+  void turn_first_order(std::size_t k, const SwitchInstant& now, const model::RigMode& mode,
                         Eigen::Ref<Eigen::VectorXd> slope) const;
   void put(const model::RigMode& mode);
 

@@ -13,7 +13,7 @@
 #include <utility>
 #include <variant>
 
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "model/systems/any_jacobian.hpp"
 #include "record/recorder.hpp"
 #include "record/rows.hpp"

@@ -14,7 +14,7 @@ namespace bbsim::study {
 
 // An instant at which something is due or may have switched: the run after it, and the states
 // (m, rad, s) with their rates before and after it.
-struct Instant {
+struct SwitchInstant {
   const model::HybridSystem& run;
   double t;
   const Eigen::VectorXd &before, &rates_before, &after, &rates_after;
@@ -27,7 +27,7 @@ class Switches {
   virtual void begin_run() = 0;
   // Takes S, one column per key, across the instant. Returns how far each key moves the time of its
   // switch. Throws InputError if there is no derivative.
-  [[nodiscard]] virtual Eigen::VectorXd pass(const Instant& now, Eigen::MatrixXd& slopes) = 0;
+  [[nodiscard]] virtual Eigen::VectorXd pass(const SwitchInstant& now, Eigen::MatrixXd& slopes) = 0;
   // The derivatives of a row's extras by key k. `slope` has those of the states z.
   [[nodiscard]] virtual Eigen::VectorXd extras(std::size_t k, double t, const Eigen::VectorXd& z,
                                                const Eigen::VectorXd& slope) const = 0;

@@ -104,7 +104,7 @@ Check three_legs_rates() {
       // Halfway out, so that the differences stay within the workspace.
       const double half[2] = {wanted[0] / 2, wanted[1] / 2};
       three.told(half, servo);
-      model::Axis<double> axis[2];
+      model::GimbalAngle<double> axis[2];
       three.planes(servo, rate, none, axis);
       const auto angle = [&](double t) {
         double moved[3], plane[2];

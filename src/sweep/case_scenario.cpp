@@ -9,7 +9,7 @@ namespace bbsim::sweep {
 
 CaseScenario::CaseScenario(const SweepTask& task)
     : task_(task), scenario_(task.family.read(task.plan.settings(0))) {
-  for (const Axis& axis : task.plan.axes()) {
+  for (const PlanAxis& axis : task.plan.axes()) {
     in_place_ = in_place_ && axis.independent;
     if (in_place_) places_.push_back(independent_number(scenario_, axis.key));
   }

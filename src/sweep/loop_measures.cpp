@@ -111,7 +111,7 @@ bool is_of_loop_only(const SweepTask& task) {
 SweepTask task_of_motion(const SweepTask& task) {
   SweepTask motion{task.family, task.plan, scenario::split_loop_measures(task.measures).of_motion,
                    task.series, task.series_rows};
-  motion.tell = task.tell;
+  motion.report = task.report;
   return motion;
 }
 

@@ -41,7 +41,7 @@ double sum_of_products(double a, double b, double c, double d) {
 }
 
 // Value i of `count`; the first and the last are exact.
-double spaced(const Axis& axis, std::size_t i) {
+double spaced(const PlanAxis& axis, std::size_t i) {
   if (i == 0) return axis.from;
   if (i + 1 == axis.count) return axis.to;
   const double before = static_cast<double>(i), after = static_cast<double>(axis.count - 1 - i);
@@ -55,14 +55,14 @@ double spaced(const Axis& axis, std::size_t i) {
   return std::isfinite(sum) ? sum / all : axis.from * (after / all) + axis.to * (before / all);
 }
 
-double listed(const Axis& axis, std::size_t i) {
+double listed(const PlanAxis& axis, std::size_t i) {
   if (axis.kind != Way::list) return spaced(axis, i);
   return axis.numeric ? axis.numbers[i] : static_cast<double>(i);
 }
 
 // A nonzero value of the axis, if it has one. At least one of two evenly spaced values is nonzero.
 // One of a distribution's two parameters represents it.
-double not_zero(const Axis& axis) {
+double not_zero(const PlanAxis& axis) {
   if (axis.random()) return axis.from != 0 ? axis.from : axis.to;
   const std::size_t look_at =
       axis.kind == Way::list ? axis.count : std::min<std::size_t>(axis.count, 2);
@@ -72,7 +72,7 @@ double not_zero(const Axis& axis) {
   return 0;
 }
 
-std::string value_text(const Axis& axis, double value) {
+std::string value_text(const PlanAxis& axis, double value) {
   return axis.numeric ? number_text(value) : axis.texts[static_cast<std::size_t>(value)];
 }
 
@@ -232,7 +232,7 @@ void SweepPlan::add_axes(const ScenarioFamily& family, const Sweep& sweep,
   const scenario::VariationSpec& spec = variations.all[which].spec;
   const std::vector<scenario::TiedKey>& keys = variations.all[which].keys;
   const std::size_t lead = axes_.size();
-  Axis axis;
+  PlanAxis axis;
   axis.kind = spec.kind;
   axis.count = spec.random() ? 1 : spec.count;
   axis.lead = lead;
@@ -304,13 +304,13 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, const Sweep& sweep)
   std::size_t longest = 1;
   for (std::size_t a = 0; a < axes_.size(); ++a) {
     if (!is_lead(a)) continue;
-    const Axis& axis = axes_[a];
+    const PlanAxis& axis = axes_[a];
     random = random || axis.random();
     longest = std::max(longest, axis.count);
     cases *= static_cast<double>(axis.count);
   }
   if (combine_ == Combine::zip) {
-    for (const Axis& axis : axes_) {
+    for (const PlanAxis& axis : axes_) {
       if (axis.random() || axis.count == longest) continue;
       fail(axis.key, "found " + std::to_string(axis.count) + " values, and " +
                          std::to_string(longest) +
@@ -341,11 +341,11 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, const SweepPlan* of,
   if (of != nullptr) {
     axes_ = of->axes_;
     std::vector<double> values(axes_.size());
-    for (Axis& axis : axes_) axis.kind = Way::list, axis.numbers.clear(), axis.texts.clear();
+    for (PlanAxis& axis : axes_) axis.kind = Way::list, axis.numbers.clear(), axis.texts.clear();
     for (const Listed& one : cases) {
       of->values(one.of, values.data());
       for (std::size_t a = 0; a < axes_.size(); ++a) {
-        const Axis& known = of->axes_[a];
+        const PlanAxis& known = of->axes_[a];
         if (known.numeric) {
           axes_[a].numbers.push_back(values[a]);
         } else {
@@ -355,7 +355,7 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, const SweepPlan* of,
     }
   }
   for (std::size_t k = 0; k < keys.size(); ++k) {
-    Axis& axis = axes_.emplace_back();
+    PlanAxis& axis = axes_.emplace_back();
     axis.key = keys[k];
     for (const Listed& one : cases) axis.numbers.push_back(one.numbers[k]);
   }
@@ -370,13 +370,13 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, const SweepPlan* of,
 void SweepPlan::relate(const ScenarioFamily& family) {
   Scenario first = family.read(settings(0));
   // Holds for all axes or for none: a key of another kind may change the meaning of the others.
-  const bool independent = std::all_of(axes_.begin(), axes_.end(), [&](const Axis& axis) {
+  const bool independent = std::all_of(axes_.begin(), axes_.end(), [&](const PlanAxis& axis) {
     return axis.numeric && !independent_number(first, axis.key).empty();
   });
-  for (Axis& axis : axes_) axis.independent = independent;
+  for (PlanAxis& axis : axes_) axis.independent = independent;
 }
 
-double SweepPlan::drawn(const Axis& axis, std::size_t number) {
+double SweepPlan::drawn(const PlanAxis& axis, std::size_t number) {
   const std::uint64_t bits = mixed(axis.stream + number);
   const double p = (static_cast<double>(bits >> 12U) + 0.5) * 0x1p-52;
   if (axis.kind == Way::uniform) {
@@ -387,7 +387,7 @@ double SweepPlan::drawn(const Axis& axis, std::size_t number) {
 }
 
 bool SweepPlan::shares_signals() const {
-  return std::all_of(axes_.begin(), axes_.end(), [](const Axis& axis) {
+  return std::all_of(axes_.begin(), axes_.end(), [](const PlanAxis& axis) {
     return axis.independent && !axis.key.starts_with("gimbal.motion") &&
            !axis.key.starts_with("controller.reference") &&
            !axis.key.starts_with("controller.commands");
@@ -397,7 +397,7 @@ bool SweepPlan::shares_signals() const {
 void SweepPlan::values(std::size_t number, double* values) const {
   std::size_t rest = number / samples_;
   for (std::size_t a = axes_.size(); a-- > 0;) {
-    const Axis& axis = axes_[a];
+    const PlanAxis& axis = axes_[a];
     if (!is_lead(a)) continue;
     if (axis.random()) {
       values[a] = drawn(axis, number);
@@ -431,7 +431,7 @@ std::vector<Setting> SweepPlan::settings_of(const std::vector<double>& values) c
 
 std::vector<Setting> SweepPlan::general_settings() const {
   std::vector<double> at;
-  for (const Axis& axis : axes_) at.push_back(axis.factor * not_zero(axes_[axis.lead]));
+  for (const PlanAxis& axis : axes_) at.push_back(axis.factor * not_zero(axes_[axis.lead]));
   return settings_of(at);
 }
 
@@ -455,7 +455,7 @@ bool SweepPlan::check(const ScenarioFamily& family, std::size_t first, std::size
   // Ranges have no holes, and the constructor has read all bounds. Normal draws have no bounds, so
   // read their extremes.
   for (std::size_t a = 0; a < axes_.size(); ++a) {
-    const Axis& axis = axes_[a];
+    const PlanAxis& axis = axes_[a];
     if (axis.kind != Way::normal || !is_lead(a)) continue;
     std::size_t least = first, greatest = first;
     double low = std::numeric_limits<double>::infinity(), high = -low;

@@ -18,7 +18,7 @@ namespace bbsim::sweep {
 
 // One key that varies. Keys may be tied: all but the first then take its values times a factor, and
 // add no cases.
-struct Axis {
+struct PlanAxis {
   std::string key;
   std::size_t lead = 0;  // the axis whose values it takes; its own index if it is not tied
   double factor = 1;     // multiplies these values
@@ -57,7 +57,7 @@ class SweepPlan {
             const std::vector<Listed>& cases, std::vector<ScenarioFamily::Setting> always = {});
 
   [[nodiscard]] std::size_t cases() const { return cases_; }
-  [[nodiscard]] const std::vector<Axis>& axes() const { return axes_; }
+  [[nodiscard]] const std::vector<PlanAxis>& axes() const { return axes_; }
 
   // Whether no rule relates the number at any varied key to another key.
   [[nodiscard]] bool independent() const { return axes_.front().independent; }
@@ -91,9 +91,9 @@ class SweepPlan {
   [[nodiscard]] std::vector<ScenarioFamily::Setting> settings_of(
       const std::vector<double>& values) const;
   [[nodiscard]] bool is_lead(std::size_t axis) const { return axes_[axis].lead == axis; }
-  [[nodiscard]] static double drawn(const Axis& axis, std::size_t number);
+  [[nodiscard]] static double drawn(const PlanAxis& axis, std::size_t number);
 
-  std::vector<Axis> axes_;
+  std::vector<PlanAxis> axes_;
   std::vector<ScenarioFamily::Setting> always_;
   Combine combine_;
   std::size_t samples_ = 1, cases_ = 1;

@@ -4,7 +4,7 @@
 #include "sweep/plan_text.hpp"
 
 #include "base/json.hpp"
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 
 namespace bbsim::sweep {
 namespace {

@@ -32,7 +32,7 @@ const model::SignalPair& reference_of(const model::Model& model) {
 }
 
 bool share_reference(const SweepPlan& plan) {
-  return std::none_of(plan.axes().begin(), plan.axes().end(), [](const Axis& axis) {
+  return std::none_of(plan.axes().begin(), plan.axes().end(), [](const PlanAxis& axis) {
     return axis.key == "controller" || axis.key.starts_with("controller.reference") ||
            axis.key.starts_with("controller.commands");
   });

@@ -68,7 +68,7 @@ class SingleRunner : public CaseRunner {
         recorder_({task.series, task.measures}),
         kernels_(solve::radau::choose_kernels()),
         same_signals_(task.plan.shares_signals()) {
-    for (const Axis& axis : task.plan.axes()) {
+    for (const PlanAxis& axis : task.plan.axes()) {
       if (axis.key.starts_with("solver")) same_tolerances_ = false;
     }
     gamma_ = scenario::any_needs(task.measures, scenario::Needs::gamma) ||
@@ -96,7 +96,7 @@ class SingleRunner : public CaseRunner {
           scenario_.at(number, &into.values[place * task_.plan.axes().size()]);
       model::Model model = model::assemble(scenario, gamma_);
       if (scenario.controller && scenario.controller->own) {
-        if (!controllers_) controllers_.emplace(task_.tell, &stop);
+        if (!controllers_) controllers_.emplace(task_.report, &stop);
         controllers_->attach(scenario, model);
       }
       const model::BallConstants constants = model::constants_of(scenario);

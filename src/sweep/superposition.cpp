@@ -178,7 +178,7 @@ void fill(Superposed& solutions, const std::vector<RecordedMotion>& motions,
 bool can_superpose(const SweepTask& task) {
   if (!task.series.empty()) return false;
   if (!std::all_of(task.measures.begin(), task.measures.end(), is_superposed)) return false;
-  for (const Axis& axis : task.plan.axes()) {
+  for (const PlanAxis& axis : task.plan.axes()) {
     const auto linear = [&](const LinearPart& part) { return depends_on(part, axis.key); };
     if (!axis.independent || std::none_of(std::begin(linear_parts), std::end(linear_parts), linear))
       return false;
@@ -214,7 +214,7 @@ std::shared_ptr<const Superposed> solve_superposed(const SweepTask& task) {
   for (std::size_t p = 0; p < part_count; ++p) {
     const auto& axes = task.plan.axes();
     if (std::any_of(axes.begin(), axes.end(),
-                    [&](const Axis& axis) { return depends_on(linear_parts[p], axis.key); })) {
+                    [&](const PlanAxis& axis) { return depends_on(linear_parts[p], axis.key); })) {
       solutions->terms.push_back({&linear_parts[p], {}, {}});
     } else {
       fixed[p] = linear_parts[p].factor(scenario);

@@ -27,7 +27,7 @@ struct SweepTask {
   std::vector<const scenario::Column*> series{};
   std::size_t series_rows = 0;
   // Receives the standard error of controller programs, from all threads.
-  controller::Tell tell = [](std::string_view) {};
+  controller::Report report = [](std::string_view) {};
 };
 
 // How a case ended.

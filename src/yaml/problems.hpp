@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "yaml/document.hpp"
 
 namespace bbsim::yaml {

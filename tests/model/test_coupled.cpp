@@ -63,10 +63,10 @@ TEST_CASE("without couples a ball rolls by the general form of equation (27)") {
     scene.ball.inertia_factor = random.uniform(0, 0.66);
     scene.gimbal.mounting = random_mounting(random);
     const model::CoupledBall coupled = model::coupled_ball(scene);
-    const model::Axis<double> phi{std::sin(0.1 * i), std::cos(0.1 * i), random.uniform(-3, 3),
-                                  random.uniform(-20, 20)};
-    const model::Axis<double> theta{std::sin(0.2 * i), std::cos(0.2 * i), random.uniform(-3, 3),
-                                    random.uniform(-20, 20)};
+    const model::GimbalAngle<double> phi{std::sin(0.1 * i), std::cos(0.1 * i),
+                                         random.uniform(-3, 3), random.uniform(-20, 20)};
+    const model::GimbalAngle<double> theta{std::sin(0.2 * i), std::cos(0.2 * i),
+                                           random.uniform(-3, 3), random.uniform(-20, 20)};
     const model::RollingState<double, double, double> ball{
         random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), random.uniform(-1, 1),
         random.uniform(-1, 1), random.uniform(-1, 1)};

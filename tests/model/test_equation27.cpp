@@ -25,8 +25,8 @@ twist_form::State random_state(Random& random) {
 }
 
 std::array<double, 3> compact(const twist_form::State& q, double r, double g) {
-  const Axis<double> phi{std::sin(q.phi), std::cos(q.phi), q.phi_dot, q.phi_ddot};
-  const Axis<double> theta{std::sin(q.theta), std::cos(q.theta), q.theta_dot, q.theta_ddot};
+  const GimbalAngle<double> phi{std::sin(q.phi), std::cos(q.phi), q.phi_dot, q.phi_ddot};
+  const GimbalAngle<double> theta{std::sin(q.theta), std::cos(q.theta), q.theta_dot, q.theta_ddot};
   const RollingState<double, double, double> ball{q.x, q.y, q.x_dot, q.y_dot, r * q.gamma_dot};
   return {x_acceleration<double>(phi, theta, ball, r, g),
           y_acceleration<double>(phi, theta, ball, r, g),
@@ -108,21 +108,22 @@ TEST_CASE("omitting terms known to be zero does not change the rest") {
   Random random(5);
   for (int i = 0; i < 200; ++i) {
     const twist_form::State q = random_state(random);
-    const Axis<double> phi{std::sin(q.phi), std::cos(q.phi), q.phi_dot, q.phi_ddot};
-    const Axis<double> theta{std::sin(q.theta), std::cos(q.theta), q.theta_dot, q.theta_ddot};
-    const Axis<double> level{0, 1, 0, 0};
+    const GimbalAngle<double> phi{std::sin(q.phi), std::cos(q.phi), q.phi_dot, q.phi_ddot};
+    const GimbalAngle<double> theta{std::sin(q.theta), std::cos(q.theta), q.theta_dot,
+                                    q.theta_ddot};
+    const GimbalAngle<double> level{0, 1, 0, 0};
     const double r = 0.01, g = 9.81;
 
     const RollingState<double, double, double> on_x{q.x, 0, q.x_dot, 0, 0};
     const RollingState<double, Zero, Zero> only_x{q.x, {}, q.x_dot, {}, {}};
-    CHECK(x_acceleration<double>(phi, LockedAxis{}, only_x, r, g) ==
+    CHECK(x_acceleration<double>(phi, LockedAngle{}, only_x, r, g) ==
           x_acceleration<double>(phi, level, on_x, r, g));
     CHECK(y_acceleration<double>(phi, level, on_x, r, g) == 0);
     CHECK(u_acceleration<double>(phi, level, on_x, r) == 0);
 
     const RollingState<double, double, double> on_y{0, q.y, 0, q.y_dot, 0};
     const RollingState<Zero, double, Zero> only_y{{}, q.y, {}, q.y_dot, {}};
-    CHECK(y_acceleration<double>(LockedAxis{}, theta, only_y, r, g) ==
+    CHECK(y_acceleration<double>(LockedAngle{}, theta, only_y, r, g) ==
           y_acceleration<double>(level, theta, on_y, r, g));
     CHECK(x_acceleration<double>(level, theta, on_y, r, g) == 0);
     CHECK(u_acceleration<double>(level, theta, on_y, r) == 0);

@@ -27,7 +27,7 @@ twist_form::State random_state(Random& random) {
 }
 
 struct Motion {
-  Axis<double> phi, theta;
+  GimbalAngle<double> phi, theta;
   RollingState<double, double, double> ball;
 };
 
@@ -86,7 +86,7 @@ TEST_CASE("a fixed incline: s'' = g sin / (1 + k), at any height") {
     rolling.k = k;
     rolling.height = 0.07;
     const double phi = 0.3, g = 9.81;
-    const Axis<double> tilted{std::sin(phi), std::cos(phi), 0, 0}, level{0, 1, 0, 0};
+    const GimbalAngle<double> tilted{std::sin(phi), std::cos(phi), 0, 0}, level{0, 1, 0, 0};
     const RollingState<double, double, double> ball{0.1, -0.2, 0.3, 0.1, 0.05};
     CHECK(rolling.rates<double>(tilted, level, ball, 0.01, g).x ==
           Approx(g * std::sin(phi) / (1 + k)).epsilon(1e-14));

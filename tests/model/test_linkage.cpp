@@ -498,7 +498,7 @@ TEST_CASE("three servos: rates and accelerations of the plane are derivatives of
   const double rate[3] = {0.3, 0.7, -0.4}, acceleration[3] = {1.0, -0.4, 1.8};
   double servo[3];
   servo_at(0, servo);
-  Axis<double> axis[2];
+  GimbalAngle<double> axis[2];
   three.planes(servo, rate, acceleration, axis);
   const double h = 1e-3;
   double plane[5][2];
@@ -565,7 +565,7 @@ TEST_CASE("unequal legs with equal lengths behave as equal legs") {
   const ThreeServos general = make_three_servos(plate, Assumed::ratio);
   REQUIRE_FALSE(general.equal);
   const double servo[3] = {0.3, -0.2, 0.1}, rate[3] = {1, 2, -1}, acceleration[3] = {-3, 4, 5};
-  Axis<double> a[2], b[2];
+  GimbalAngle<double> a[2], b[2];
   equal.planes(servo, rate, acceleration, a);
   general.planes(servo, rate, acceleration, b);
   double angle[2][2], angle_rate[2][2];

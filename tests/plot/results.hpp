@@ -57,8 +57,8 @@ inline std::string collisions(const bbsim::plot::Picture& picture) {
 
 // Whether the picture contains this text.
 inline bool says(const bbsim::plot::Picture& picture, const std::string& text) {
-  const auto named = [&](const std::vector<bbsim::plot::Entry>& legend) {
-    return std::ranges::find(legend, text, &bbsim::plot::Entry::name) != legend.end();
+  const auto named = [&](const std::vector<bbsim::plot::LegendEntry>& legend) {
+    return std::ranges::find(legend, text, &bbsim::plot::LegendEntry::name) != legend.end();
   };
   return picture.title == text || picture.subtitle == text || named(picture.legend) ||
          std::ranges::any_of(picture.panels, [&](const bbsim::plot::Panel& panel) {

@@ -53,7 +53,7 @@ Scenario filmed() {
 class Halved {
  public:
   explicit Halved(const Scenario& scene) : model_(model::assemble(scene, true)), grid_(scene.time) {
-    solve::Part first;
+    solve::PartialRun first;
     first.end_row = grid_.size() / 2;
     first.keeps_state = true;
     solve::Trajectory rows(model_.row_size());
@@ -64,7 +64,7 @@ class Halved {
 
   // Whether a run continues from the state; false if the state is refused.
   [[nodiscard]] bool goes_on_from(const std::string& changed) const {
-    solve::Part second;
+    solve::PartialRun second;
     second.first_row = next_row_;
     second.end_row = grid_.size();
     second.from = changed;
@@ -80,7 +80,7 @@ class Halved {
   std::string state;
 
  private:
-  solve::Outcome run(solve::Part& part, solve::Trajectory& rows) const {
+  solve::Outcome run(solve::PartialRun& part, solve::Trajectory& rows) const {
     return solve::integrate(model_, Method::radau, {1e-6, 1e-8}, grid_, rows, {}, &part);
   }
 

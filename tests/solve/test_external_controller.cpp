@@ -96,7 +96,7 @@ struct Made {
 };
 
 Made run(const model::Model& model, const Scenario& scene, const solve::Watch& watch = {},
-         solve::Part* part = nullptr) {
+         solve::PartialRun* part = nullptr) {
   solve::Trajectory rows(model.row_size());
   const solve::OutputGrid grid(scene.time);
   Made made{solve::integrate(model, Method::automatic, {1e-9, 1e-11}, grid, rows, watch, part), {}};
@@ -191,7 +191,7 @@ TEST_CASE("an interrupted run continues with its controller's memory") {
     CAPTURE(sample);
     const auto stopped = begin();
     stopped->stops_at = sample;
-    solve::Part first;
+    solve::PartialRun first;
     first.end_row = whole.rows.size();
     first.keeps_state = true;
     const Made before = run(model, scene, {&stopped->stop, {}}, &first);
@@ -200,7 +200,7 @@ TEST_CASE("an interrupted run continues with its controller's memory") {
     REQUIRE(first.next_row == sample + 1);
     CHECK(stopped->saves == 1);
     const auto other = begin();
-    solve::Part second;
+    solve::PartialRun second;
     second.first_row = first.next_row;
     second.end_row = whole.rows.size();
     second.from = first.state;

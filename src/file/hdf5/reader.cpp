@@ -8,7 +8,7 @@
 #include <limits>
 #include <string>
 
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "file/hdf5/layout.hpp"
 
 namespace bbsim::hdf5 {

@@ -27,7 +27,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "file/descriptor.hpp"
 #include "file/hdf5/reader.hpp"
 #include "file/hdf5/table_text.hpp"

@@ -35,8 +35,8 @@ struct MovingPlane {
 
 template <class Real>
 [[nodiscard]] inline MovingPlane<Real> moving_plane(const GeneralRolling& rolling,
-                                                    const Axis<Real>& phi,
-                                                    const Axis<Real>& theta) {
+                                                    const GimbalAngle<Real>& phi,
+                                                    const GimbalAngle<Real>& theta) {
   const auto plane = rolling.kinematics(phi, theta);
   const auto& a = plane.theta_axis;
   const auto& b = plane.phi_axis;
@@ -91,8 +91,9 @@ template <class Real>
 // The motor torques for the plate, the ring and the rotors: (M45) and (M46) without the ball.
 template <class Real>
 [[nodiscard]] inline Torques<Real> plate_torques(const MovingPlane<Real>& plane,
-                                                 const Axis<Real>& phi, const Axis<Real>& theta,
-                                                 const Turned& of, double g) {
+                                                 const GimbalAngle<Real>& phi,
+                                                 const GimbalAngle<Real>& theta, const Turned& of,
+                                                 double g) {
   const auto by_inertia = [&of](const Vector3<Real>& a) {
     return Vector3<Real>{of.inertia[0] * a.x, of.inertia[1] * a.y, of.inertia[2] * a.z};
   };

@@ -66,7 +66,8 @@ struct Instant {
   }
 
   // The ball's acceleration in the plane for this motion of the gimbal.
-  [[nodiscard]] Vector3d relative(const Axis<double>& p, const Axis<double>& t) const {
+  [[nodiscard]] Vector3d relative(const GimbalAngle<double>& p,
+                                  const GimbalAngle<double>& t) const {
     const double r = constants.radius, g = constants.gravity;
     const RollingState<double, double, double> state{ball.x, ball.y, ball.x_dot, ball.y_dot,
                                                      r * ball.gamma_dot};
@@ -103,7 +104,7 @@ struct Instant {
   const BallMotion& ball;
   Vector3d push;                 // on the ball's center, N
   const CoupledMotion* coupled;  // null unless the scene is coupled
-  Axis<double> phi, theta;
+  GimbalAngle<double> phi, theta;
   MovingPlane<double> plane;
   Vector3d theta_axis, phi_axis, up;   // up: the upward vertical
   Vector3d omega;                      // of the plane, rad/s
@@ -171,8 +172,8 @@ double tilt_rate(const Sample& sample, const BallConstants& constants) {
 
 double singularity_distance(const Sample& sample, const BallConstants& constants) {
   const Instant now(sample, constants);
-  const auto at_rest = [](const Axis<double>& axis, double acceleration) {
-    return Axis<double>{axis.sin, axis.cos, 0, acceleration};
+  const auto at_rest = [](const GimbalAngle<double>& axis, double acceleration) {
+    return GimbalAngle<double>{axis.sin, axis.cos, 0, acceleration};
   };
   const Vector3d rest = now.relative(at_rest(now.phi, 0), at_rest(now.theta, 0));
   const Vector3d by_phi = now.relative(at_rest(now.phi, 1), at_rest(now.theta, 0)) - rest;

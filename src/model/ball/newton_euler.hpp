@@ -105,7 +105,8 @@ struct CoupledBall {
   [[nodiscard]] double above() const { return r + rolling.height; }
 
   template <class Real>
-  [[nodiscard]] PlaneMotion<Real> plane(const Axis<Real>& phi, const Axis<Real>& theta) const {
+  [[nodiscard]] PlaneMotion<Real> plane(const GimbalAngle<Real>& phi,
+                                        const GimbalAngle<Real>& theta) const {
     const auto k = rolling.kinematics(phi, theta);
     PlaneMotion<Real> plane;
     const Real both = phi.rate * theta.rate;

@@ -14,12 +14,12 @@ namespace bbsim::model {
 
 // A gimbal angle (rad): its sine and cosine, its rate (rad/s) and acceleration (rad/s^2).
 template <class Real>
-struct Axis {
+struct GimbalAngle {
   Real sin, cos, rate, acceleration;
 };
 
 // An angle that is zero at all times.
-struct LockedAxis {
+struct LockedAngle {
   Zero sin;
   One cos;
   Zero rate, acceleration;

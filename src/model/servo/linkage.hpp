@@ -219,7 +219,7 @@ struct Linkages {
   // The plane's axes for these angles, rates and accelerations of the horns.
   template <class Real>
   void planes(const Real (&horn)[2], const Real (&rate)[2], const Real (&acceleration)[2],
-              Axis<Real> (&axis)[2]) const {
+              GimbalAngle<Real> (&axis)[2]) const {
     for (int i = 0; i < 2; ++i) {
       const Turn<Real> turn = of[i].turn(horn[i]);
       axis[i] = {turn.sin, turn.cos, turn.slope * rate[i],

@@ -286,7 +286,7 @@ struct ThreeServos {
   // The plane's axes for these servo angles (from home), rates and accelerations.
   template <class Real>
   void planes(const Real (&servo)[3], const Real (&rate)[3], const Real (&acceleration)[3],
-              Axis<Real> (&axis)[2]) const {
+              GimbalAngle<Real> (&axis)[2]) const {
     Real sine[3], cosine[3];
     directions(servo, sine, cosine);
     const Pose<Real> at = pose(sine, cosine);
@@ -378,7 +378,7 @@ struct ThreeServos {
     ThreeServos without = *this;
     without.cos_offset[0] = without.cos_offset[1] = 1;
     without.sin_offset[0] = without.sin_offset[1] = 0;
-    Axis<Real> axis[2];
+    GimbalAngle<Real> axis[2];
     without.planes(at, moving, none, axis);
     for (int j = 0; j < 2; ++j) {
       angle[j] = angle_of(axis[j].sin, axis[j].cos);
@@ -404,7 +404,7 @@ struct ThreeServos {
 
  private:
   template <class Real>
-  void put(int i, const Motion2<Real>& sine, const Real& cosine, Axis<Real>& axis) const {
+  void put(int i, const Motion2<Real>& sine, const Real& cosine, GimbalAngle<Real>& axis) const {
     axis.sin = cos_offset[i] * sine.v + sin_offset[i] * cosine;
     axis.cos = cos_offset[i] * cosine - sin_offset[i] * sine.v;
     axis.rate = sine.d / cosine;

@@ -216,7 +216,7 @@ class CoupledGiven {
     using Time = std::decay_t<decltype(in[0].value)>;
     const CoupledBall& of = parts.ball;
     const auto ball = Layout::unpack(z);
-    Axis<Real> axis[2];
+    GimbalAngle<Real> axis[2];
     for (std::size_t i = 0; i < 2; ++i) {
       const SinCos<Time> wave = sin_cos(in[i].value);
       axis[i] = {Real(wave.sin), Real(wave.cos), Real(in[i].rate), Real(in[i].acceleration)};
@@ -383,7 +383,7 @@ class CoupledLoop {
   // The inertia matrix H of (M47) that the motors feel in the present mode, kg m^2.
   [[nodiscard]] std::array<std::array<double, 2>, 2> inertia(const double* z) const {
     const double none[servos] = {};
-    Axis<double> axes[2];
+    GimbalAngle<double> axes[2];
     loop.planes(z, none, axes);
     const PlaneMotion<double> plane = parts.ball.plane(axes[0], axes[1]);
     const auto ball = Layout::unpack(z);
@@ -486,7 +486,7 @@ class CoupledLoop {
       for (Real& one : demand) one = Real(0.0);
     }
 
-    Axis<Real> axes[2];
+    GimbalAngle<Real> axes[2];
     loop.planes(z, demand, axes);
     const PlaneMotion<Real> plane = of.plane(axes[0], axes[1]);
     Cause<Real> cause = of.cause(plane, ball, now.p);

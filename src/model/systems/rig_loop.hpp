@@ -156,7 +156,7 @@ class RigLoop {
   template <class Time, class Real>
   void derivative_of(const std::array<Jet<Time>, 2>& reference, const Real* z, Real* dz) const {
     const Axes<Real> loop = axes(reference, z);
-    Axis<Real> plane[2];
+    GimbalAngle<Real> plane[2];
     Real acceleration[servos];
     for (int i = 0; i < servos; ++i) {
       const AxisMode& of = mode.axis[i];
@@ -215,7 +215,8 @@ class RigLoop {
 
   // Computes the plane's axes from the servos' accelerations, rad/s^2.
   template <class Real>
-  void planes(const Real* z, const Real (&acceleration)[servos], Axis<Real> (&axis)[2]) const {
+  void planes(const Real* z, const Real (&acceleration)[servos],
+              GimbalAngle<Real> (&axis)[2]) const {
     if constexpr (Link::direct) {
       for (int i = 0; i < 2; ++i) {
         axis[i] = plane_axis(i, z, mode.axis[i].ratio * acceleration[i]);
@@ -238,7 +239,7 @@ class RigLoop {
       return {mode.axis[0].ratio * z[Layout::rate], mode.axis[1].ratio * z[Layout::rate + 1]};
     } else {
       const double none[servos] = {};
-      Axis<double> axis[2];
+      GimbalAngle<double> axis[2];
       planes(z, none, axis);
       return {axis[0].rate, axis[1].rate};
     }
@@ -287,7 +288,7 @@ class RigLoop {
         extras.acceleration[i] = of.ratio * acceleration[i];
       }
     } else {
-      Axis<double> axis[2];
+      GimbalAngle<double> axis[2];
       planes(z, acceleration, axis);
       double horn[servos];
       horns(z, horn);
@@ -349,7 +350,7 @@ class RigLoop {
   };
 
   template <class Real>
-  [[nodiscard]] Axis<Real> plane_axis(int i, const Real* z, const Real& acceleration) const {
+  [[nodiscard]] GimbalAngle<Real> plane_axis(int i, const Real* z, const Real& acceleration) const {
     const AxisMode& of = mode.axis[i];
     const SinCos<Real> direction = sin_cos(Real(of.ratio * z[Layout::angle + i] + Real(of.offset)));
     return {direction.sin, direction.cos, of.ratio * z[Layout::rate + i], acceleration};
@@ -359,7 +360,7 @@ class RigLoop {
   [[nodiscard]] Inertial<Real> coefficients(const Real* z) const {
     Real none[servos];
     for (Real& one : none) one = Real(0.0);
-    Axis<Real> axis[2];
+    GimbalAngle<Real> axis[2];
     planes(z, none, axis);
     const auto under = [&](double phi, double theta) {
       axis[0].acceleration = Real(phi);

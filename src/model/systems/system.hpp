@@ -211,9 +211,9 @@ class OpenLoop {
   static auto axis(const Jet<Time>& angle) {
     if constexpr (moves_at_all) {
       const SinCos<Time> direction = sin_cos(angle.value);
-      return Axis<Time>{direction.sin, direction.cos, angle.rate, angle.acceleration};
+      return GimbalAngle<Time>{direction.sin, direction.cos, angle.rate, angle.acceleration};
     } else {
-      return LockedAxis{};
+      return LockedAngle{};
     }
   }
 
@@ -365,10 +365,10 @@ class ClosedLoop {
       const Real& rate = angles[row == 0 ? axes : 2 * axes - 1];
       const Real u = command<Real>(gains_, row, ball, reference);
       const SinCos<Real> direction = sin_cos(angle);
-      return Axis<Real>{direction.sin, direction.cos, rate,
-                        servo_.template acceleration<drives, Real>(u, angle, rate)};
+      return GimbalAngle<Real>{direction.sin, direction.cos, rate,
+                               servo_.template acceleration<drives, Real>(u, angle, rate)};
     } else {
-      return LockedAxis{};
+      return LockedAngle{};
     }
   }
 
@@ -382,7 +382,7 @@ class ClosedLoop {
 
   template <std::size_t row, class Axis, class Real>
   static auto turned(const Axis& of, const Real* turning) {
-    if constexpr (std::is_same_v<Axis, LockedAxis>) {
+    if constexpr (std::is_same_v<Axis, LockedAngle>) {
       return of;
     } else {
       return Axis{of.sin, of.cos, of.rate, turning[row == 0 ? 0 : axes - 1]};

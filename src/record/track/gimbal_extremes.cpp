@@ -56,7 +56,7 @@ GimbalExtremes::Greatest GimbalExtremes::of(const model::SignalPair& motion, dou
     }
   }
   cover(motion, from, std::min(end, repeats_after(motion.view())));
-  look(motion);
+  flush(motion);
   return {tilt_of(versine_most_), std::sqrt(rate_squared_most_)};
 }
 
@@ -66,7 +66,7 @@ void GimbalExtremes::cover(const model::SignalPair& motion, double from, double 
   const double pieces = std::clamp(wanted, 1.0, most_stretches);
   const double length = (to - from) / pieces;
   for (double i = 0; i < pieces; ++i) {
-    if (spans_.size() == together) look(motion);
+    if (spans_.size() == together) flush(motion);
     double* const times = angles_.times(together * points_.size()) + count_;
     const double start = from + i * length;
     for (std::size_t p = 0; p < points_.size(); ++p) times[p] = start + length * points_[p];
@@ -75,7 +75,7 @@ void GimbalExtremes::cover(const model::SignalPair& motion, double from, double 
   }
 }
 
-void GimbalExtremes::look(const model::SignalPair& motion) {
+void GimbalExtremes::flush(const model::SignalPair& motion) {
   versine_.resize(count_);
   rate_squared_.resize(count_);
   angles_.evaluate(motion, count_);

@@ -40,7 +40,7 @@ class GimbalExtremes {
 
  private:
   void cover(const model::SignalPair& motion, double from, double to);
-  void look(const model::SignalPair& motion);
+  void flush(const model::SignalPair& motion);
 
   const TrackKernels& kernels_;
   SpanSearch search_;

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "base/greatest.hpp"
+#include "base/maxima.hpp"
 
 namespace bbsim::record {
 namespace {

@@ -132,11 +132,11 @@ void TrackMeasures::begin_run() {
 }
 
 void TrackMeasures::accept(const solve::Piece& piece) {
-  const bool looks = wants_distance_ || (closed_ && (wants_gimbal_ || wants_error_));
-  const std::size_t parts = piece.parts(), count = looks ? parts + 1 : 0;
-  if (points_ + count > points_together) look();
+  const bool needs_points = wants_distance_ || (closed_ && (wants_gimbal_ || wants_error_));
+  const std::size_t parts = piece.parts(), count = needs_points ? parts + 1 : 0;
+  if (points_ + count > points_together) flush();
   times_.resize(count);
-  if (looks) {
+  if (needs_points) {
     const ChebyshevPoints& points = search_.points(parts);
     for (std::size_t i = 0; i < count; ++i) {
       times_[i] = piece.from() + (piece.to() - piece.from()) * points[i];
@@ -159,7 +159,7 @@ void TrackMeasures::accept(const solve::Piece& piece) {
   piece_rows_.resize(times_.size() * row);
   piece.evaluate(times_.data(), times_.size(), piece_rows_.data());
   if (has_row) std::copy_n(&piece_rows_[count * row], row, last_.begin());
-  if (looks) copy_points(piece_rows_.data(), count);
+  if (needs_points) copy_points(piece_rows_.data(), count);
 }
 
 // The states of a ball anywhere on the plane are x, y, x', y', u. In a loop, phi, theta, phi',
@@ -210,7 +210,7 @@ void TrackMeasures::take(std::size_t count, const double* x, const double* y, co
 }
 
 // Searches the pieces so far for the greatest values.
-void TrackMeasures::look() {
+void TrackMeasures::flush() {
   if (points_ == 0) return;
   if (closed_ && wants_gimbal_) {
     for (PaddedRows* const column : {&phi_, &theta_, &phi_rate_, &theta_rate_}) {
@@ -294,7 +294,7 @@ double TrackMeasures::rms_error() {
 }
 
 void TrackMeasures::finish(double* results) {
-  look();
+  flush();
   GimbalExtremes::Greatest gimbal{tilt_of(greatest_.versine), std::sqrt(greatest_.rate_squared)};
   if (!closed_ && wants_gimbal_ && !taken_) gimbal = motion_extremes();
   if (!end_.columns().empty()) {

@@ -75,7 +75,7 @@ class TrackMeasures : public solve::PieceSink {
 
  private:
   void copy_points(const double* rows, std::size_t count);
-  void look();
+  void flush();
   void look_at_distances(double& greatest);
   void rescale(int exponent);
   [[nodiscard]] GimbalExtremes::Greatest motion_extremes();

@@ -11,15 +11,15 @@ bbsim.makeCamera = (canvas, rig, told) => {
   eye.up.set(0, 0, 1);
   let view = 'free', touched = false, moving = null, usual = 1;
   const listeners = [];
-  const tell = () => listeners.forEach((listener) => listener());
+  const notify = () => listeners.forEach((listener) => listener());
   const controls = bbsim.makeOrbit(canvas, eye, {
     changed: told.changed, left: told.left,
     begun() {
       moving = null;
       touched = true;
-      tell();
+      notify();
     },
-    ended: tell,
+    ended: notify,
   });
   const {yUp, zUp} = controls;
   // The unit of length is the longest side of the plate, as in the picture.
@@ -92,7 +92,7 @@ bbsim.makeCamera = (canvas, rig, told) => {
       else {
         moving = null;
         set(to);
-        tell();
+        notify();
       }
     };
     requestAnimationFrame(frame);
@@ -109,7 +109,7 @@ bbsim.makeCamera = (canvas, rig, told) => {
     } else {
       glide(to);
     }
-    tell();
+    notify();
   }
 
   return {
@@ -144,12 +144,12 @@ bbsim.makeCamera = (canvas, rig, told) => {
     zoom(factor) {
       touched = true;
       controls.zoom(factor);
-      tell();
+      notify();
     },
     turn(left, up) {
       touched = true;
       controls.turn(left, up);
-      tell();
+      notify();
     },
     // Numbers for the page's address.
     state: () => [...eye.position.toArray(), ...controls.target.toArray()],
@@ -159,7 +159,7 @@ bbsim.makeCamera = (canvas, rig, told) => {
       touched = Boolean(numbers);
       if (numbers) set({position: new THREE.Vector3(...numbers.slice(0, 3)), target: new THREE.Vector3(...numbers.slice(3))});
       else set(place(name));
-      tell();
+      notify();
     },
   };
 };

@@ -8,7 +8,7 @@ bbsim.makeClock = ({start, end, runs}) => {
   let span = 0, due = 0;  // ms between calls of the relaxed listeners while time runs
   let now = start, playing = false, speed = 1, loop = false, last = null;
 
-  function tell() {
+  function notify() {
     for (const listener of listeners) listener(now);
     const time = performance.now();
     if (playing && time < due) return;
@@ -36,7 +36,7 @@ bbsim.makeClock = ({start, end, runs}) => {
     } else {
       now = next;
     }
-    tell();
+    notify();
     if (playing) requestAnimationFrame(frame);
   }
 
@@ -48,7 +48,7 @@ bbsim.makeClock = ({start, end, runs}) => {
     seek(t) {
       if (!Number.isFinite(t)) return;
       now = Math.min(Math.max(t, start), end);
-      tell();
+      notify();
     },
     play() {
       if (playing || end <= start) return;

@@ -6,7 +6,7 @@
 // picture follows only a few times a second, because a browser composes everything between changed
 // parts again. Then the picture gets fewer pixels. If that does not suffice, it becomes flat. A
 // picture at rest has all pixels. A view that the user has chosen stays.
-bbsim.makePace = (screen, tell) => {
+bbsim.makePace = (screen, notify) => {
   const {clock} = bbsim;
   const slow = 1000 / 24, tooSlow = 1000 / 15, several = 6;  // ms a frame; frames to judge
   let last = null, spans = [], coarse = false, chosen = false;
@@ -22,7 +22,7 @@ bbsim.makePace = (screen, tell) => {
       screen.solid.setPixels(0.5);
     } else if (!chosen && middle > tooSlow) {
       screen.setFlat(true);
-      tell(Math.round(1000 / middle));
+      notify(Math.round(1000 / middle));
     }
   }
 

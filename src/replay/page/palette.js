@@ -28,11 +28,11 @@ bbsim.palette = (() => {
   const listeners = [];
 
   const isDark = () => !printing && (chosen ? chosen === 'dark' : prefersDark.matches);
-  function tell() {
+  function notify() {
     document.documentElement.dataset.theme = isDark() ? 'dark' : 'light';
     for (const listener of listeners) listener();
   }
-  prefersDark.addEventListener('change', tell);
+  prefersDark.addEventListener('change', notify);
   document.documentElement.dataset.theme = isDark() ? 'dark' : 'light';
 
   return {
@@ -43,13 +43,13 @@ bbsim.palette = (() => {
     chosen: () => chosen,
     choose(theme) {
       chosen = theme;
-      tell();
+      notify();
     },
     onChange: (listener) => listeners.push(listener),
     print(on) {
       const was = isDark();
       printing = on;
-      if (was !== isDark()) tell();
+      if (was !== isDark()) notify();
     },
   };
 })();

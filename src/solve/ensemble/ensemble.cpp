@@ -80,12 +80,12 @@ Ensemble::Ensemble(Problem problem, int nodes, Tolerances tolerances)
 }
 
 int Ensemble::live() const {
-  return static_cast<int>(
-      std::count_if(ways_.begin(), ways_.end(), [](const auto& way) { return way.has_value(); }));
+  return static_cast<int>(std::count_if(cases_.begin(), cases_.end(),
+                                        [](const auto& active) { return active.has_value(); }));
 }
 
-void Ensemble::take_columns(Way& way) {
-  for (std::vector<double>* const column : {&way.x, &way.y}) {
+void Ensemble::take_columns(ActiveCase& active) {
+  for (std::vector<double>* const column : {&active.x, &active.y}) {
     if (spare_.empty()) {
       column->resize(times_.size());
     } else {
@@ -117,44 +117,44 @@ void Ensemble::begin(Study& study) {
   for (int lane = 0; lane < count; ++lane) {
     const Case& one = begun_[static_cast<std::size_t>(lane)].of;
     for (auto& greatest : greatest_.of) greatest[lane] = 0;
-    Way& way = way_of(lane).emplace();
-    way.number = which[static_cast<std::size_t>(lane)];
-    way.repeats_after = one.repeats_after;
-    way.next = rates[lane] > 0 ? reach_ / rates[lane] : end_;
+    ActiveCase& active = case_in(lane).emplace();
+    active.number = which[static_cast<std::size_t>(lane)];
+    active.repeats_after = one.repeats_after;
+    active.next = rates[lane] > 0 ? reach_ / rates[lane] : end_;
     // The rate is infinite. The case is given up later if none of its steps is finite.
-    if (!(way.next > 0)) way.next = end_ * 1e-6;
+    if (!(active.next > 0)) active.next = end_ * 1e-6;
     if (rows_ == 0) continue;
-    take_columns(way);
-    way.x[0] = one.initial[0];
-    way.y[0] = one.initial[1];
+    take_columns(active);
+    active.x[0] = one.initial[0];
+    active.y[0] = one.initial[1];
   }
 }
 
 void Ensemble::set_aside(int lane) {
-  Aside& aside = aside_.emplace_back(Aside{std::move(*way_of(lane)), {}, {}});
-  way_of(lane).reset();
+  Aside& aside = aside_.emplace_back(Aside{std::move(*case_in(lane)), {}, {}});
+  case_in(lane).reset();
   kernel_->store(workspace_.get(), lane, aside.progress);
-  for (int i = 0; i < looks; ++i) aside.greatest[i] = greatest_.of[i][lane];
+  for (int i = 0; i < quantity_count; ++i) aside.greatest[i] = greatest_.of[i][lane];
 }
 
 void Ensemble::resume(int lane) {
   Aside& aside = aside_.back();
   kernel_->load(workspace_.get(), lane, aside.progress);
-  for (int i = 0; i < looks; ++i) greatest_.of[i][lane] = aside.greatest[i];
-  way_of(lane) = std::move(aside.way);
+  for (int i = 0; i < quantity_count; ++i) greatest_.of[i][lane] = aside.greatest[i];
+  case_in(lane) = std::move(aside.active);
   aside_.pop_back();
 }
 
 // Sets cases aside: all that are far from their end when few lanes are at work, and those that hold
-// up the others. On the way to infinity Newton's iteration takes many iterations.
+// up the others. On the active to infinity Newton's iteration takes many iterations.
 void Ensemble::set_laggards_aside() {
   if (exhausted_ || (laggards_ && !aside_.empty())) return;
   const bool are_few = live() <= few;
   for (int lane = 0; lane < group; ++lane) {
-    const auto& way = way_of(lane);
-    if (!way) continue;
-    const bool is_far = end_ - way->t > soon * way->next;
-    if ((are_few && is_far) || (!laggards_ && way->shrinking.count() >= long_since))
+    const auto& active = case_in(lane);
+    if (!active) continue;
+    const bool is_far = end_ - active->t > soon * active->next;
+    if ((are_few && is_far) || (!laggards_ && active->shrinking.count() >= long_since))
       set_aside(lane);
   }
 }
@@ -167,21 +167,22 @@ void Ensemble::fill(Study& study) {
     if (!laggards_) begin(study);
   }
   for (int lane = 0; lane < group && (laggards_ || exhausted_) && !aside_.empty(); ++lane) {
-    if (!way_of(lane)) resume(lane);
+    if (!case_in(lane)) resume(lane);
   }
 }
 
 // Lets a lane without a case repeat an attempt of another lane, if possible of one whose steps do
 // not shrink. Its numbers then stay finite and cost next to nothing.
 void Ensemble::idle(int lane) {
-  auto of = std::find_if(ways_.begin(), ways_.end(), [](const auto& way) {
-    return way.has_value() && way->shrinking.count() == 0;
+  auto of = std::find_if(cases_.begin(), cases_.end(), [](const auto& active) {
+    return active.has_value() && active->shrinking.count() == 0;
   });
-  if (of == ways_.end()) {
-    of = std::find_if(ways_.begin(), ways_.end(), [](const auto& way) { return way.has_value(); });
+  if (of == cases_.end()) {
+    of = std::find_if(cases_.begin(), cases_.end(),
+                      [](const auto& active) { return active.has_value(); });
   }
   Progress state;
-  kernel_->store(workspace_.get(), static_cast<int>(of - ways_.begin()), state);
+  kernel_->store(workspace_.get(), static_cast<int>(of - cases_.begin()), state);
   state.last_step = 0;
   kernel_->load(workspace_.get(), lane, state);
   spans_.from[lane] = (*of)->t;
@@ -199,88 +200,91 @@ double Ensemble::size(int lane) const {
   return size;
 }
 
-void Ensemble::plan(int lane, Way& way) {
-  const Stride next = stride(stops_[way.stop] - way.t, way.next);
-  way.arrives = next.arrives;
-  spans_.from[lane] = way.t;
+void Ensemble::plan(int lane, ActiveCase& active) {
+  const Stride next = stride(stops_[active.stop] - active.t, active.next);
+  active.arrives = next.arrives;
+  spans_.from[lane] = active.t;
   spans_.length[lane] = next.length;
 }
 
 // Returns whether the lane's attempt is accepted. Sets `ending` if this is the case's last attempt,
 // accepted or not.
-bool Ensemble::judge(int lane, const Attempt& attempt, Way& way, std::optional<Ending>& ending) {
+bool Ensemble::judge(int lane, const Attempt& attempt, ActiveCase& active,
+                     std::optional<Ending>& ending) {
   const double h = spans_.length[lane];
   const double error = std::sqrt(attempt.error_squared[lane]);
-  ++way.attempts;
-  if (way.attempts > most_attempts || !(h > least_part * way.t)) {
+  ++active.attempts;
+  if (active.attempts > most_attempts || !(h > least_part * active.t)) {
     ending = Ending::given_up;
     return false;
   }
-  if (attempt.converged[lane] && error <= 1 && way.arrives && way.stop + 1 == stops_.size()) {
-    way.t = end_;
+  if (attempt.converged[lane] && error <= 1 && active.arrives && active.stop + 1 == stops_.size()) {
+    active.t = end_;
     ending = Ending::done;
     ++statistics_.steps;
     return true;
   }
   // The first step is a guess, so early steps may grow more.
   const double growth =
-      step_growth(static_cast<float>(error), kernel_->nodes, way.steps < 3 ? 30 : 8);
+      step_growth(static_cast<float>(error), kernel_->nodes, active.steps < 3 ? 30 : 8);
   if (!attempt.converged[lane] || !(error <= 1)) {
-    way.rejected = true;
-    way.next = h * std::min(attempt.converged[lane] ? 0.8 : unsolved, growth);
+    active.rejected = true;
+    active.next = h * std::min(attempt.converged[lane] ? 0.8 : unsolved, growth);
     ++statistics_.error_test_failures;
     return false;
   }
-  if (!way.arrives && way.shrinking.diverges(h, way.t, [&] { return size(lane); })) {
+  if (!active.arrives && active.shrinking.diverges(h, active.t, [&] { return size(lane); })) {
     ending = Ending::unbounded;
     return false;
   }
   // A step that a stop cut short says little about the length of the next.
-  const bool is_cut = way.arrives && !way.rejected && h < way.next;
-  const double next = h * (way.rejected ? std::min(growth, 1.0) : growth);
-  const double bound =
-      std::min(next, way.shrinking.bound(error, h * growth, kernel_->nodes, Shrinking::Sign::jump));
-  way.next = is_cut ? std::max(way.next, bound) : bound;
-  way.rejected = false;
-  way.t = way.arrives ? stops_[way.stop] : way.t + h;
-  if (way.arrives) {
-    way.shrinking.interrupt();
-    ++way.stop;
+  const bool is_cut = active.arrives && !active.rejected && h < active.next;
+  const double next = h * (active.rejected ? std::min(growth, 1.0) : growth);
+  const double bound = std::min(
+      next, active.shrinking.bound(error, h * growth, kernel_->nodes, Shrinking::Sign::jump));
+  active.next = is_cut ? std::max(active.next, bound) : bound;
+  active.rejected = false;
+  active.t = active.arrives ? stops_[active.stop] : active.t + h;
+  if (active.arrives) {
+    active.shrinking.interrupt();
+    ++active.stop;
   }
-  ++way.steps;
+  ++active.steps;
   ++statistics_.steps;
   return true;
 }
 
 // Evaluates the rows up to the end of the last attempt.
-void Ensemble::record(int lane, Way& way) {
-  const std::size_t first = way.rows;
-  while (way.rows < rows_ && times_[way.rows] <= way.t) ++way.rows;
-  if (way.rows == first) return;
-  kernel_->evaluate(workspace_.get(), lane, &times_[first], way.rows - first, &way.x[first],
-                    &way.y[first]);
+void Ensemble::record(int lane, ActiveCase& active) {
+  const std::size_t first = active.rows;
+  while (active.rows < rows_ && times_[active.rows] <= active.t) ++active.rows;
+  if (active.rows == first) return;
+  kernel_->evaluate(workspace_.get(), lane, &times_[first], active.rows - first, &active.x[first],
+                    &active.y[first]);
 }
 
 void Ensemble::end(int lane, Ending ending, Study& study) {
-  Way way = std::move(*way_of(lane));
-  way_of(lane).reset();
+  ActiveCase active = std::move(*case_in(lane));
+  case_in(lane).reset();
   Progress now;
   kernel_->store(workspace_.get(), lane, now);
-  Result run{ending, way.t, std::min(way.rows, rows_), way.x.data(), way.y.data(), now.state, {}};
-  for (int i = 0; i < looks; ++i) run.greatest[i] = greatest_.of[i][lane];
-  study.end(way.number, run);
+  Result run{ending,    active.t, std::min(active.rows, rows_), active.x.data(), active.y.data(),
+             now.state, {}};
+  for (int i = 0; i < quantity_count; ++i) run.greatest[i] = greatest_.of[i][lane];
+  study.end(active.number, run);
   if (rows_ == 0) return;
-  for (std::vector<double>* const column : {&way.x, &way.y}) spare_.push_back(std::move(*column));
+  for (std::vector<double>* const column : {&active.x, &active.y})
+    spare_.push_back(std::move(*column));
 }
 
 void Ensemble::carry(Study& study, const std::atomic<bool>& stop) {
   statistics_ = {};
-  ways_ = {};
+  cases_ = {};
   aside_.clear();
   exhausted_ = laggards_ = false;
-  const auto for_each_way = [&](auto use) {
+  const auto for_each_case = [&](auto use) {
     for (int lane = 0; lane < group; ++lane) {
-      if (auto& way = way_of(lane)) use(lane, *way);
+      if (auto& active = case_in(lane)) use(lane, *active);
     }
   };
   std::array<bool, group> worked;  // had a case in the last attempt
@@ -290,27 +294,27 @@ void Ensemble::carry(Study& study, const std::atomic<bool>& stop) {
     if (live() == 0) return;
     for (int lane = 0; lane < group; ++lane) {
       const auto at = static_cast<std::size_t>(lane);
-      if (worked[at] && !ways_[at]) idle(lane);
-      worked[at] = ways_[at].has_value();
+      if (worked[at] && !cases_[at]) idle(lane);
+      worked[at] = cases_[at].has_value();
     }
 
     Lanes taken{}, kept{}, turning{};
-    for_each_way([&](int lane, Way& way) {
-      plan(lane, way);
-      if (way.t < way.repeats_after) turning.of[lane] = -1;
+    for_each_case([&](int lane, ActiveCase& active) {
+      plan(lane, active);
+      if (active.t < active.repeats_after) turning.of[lane] = -1;
     });
     Attempt attempt;
     kernel_->attempt(workspace_.get(), spans_, attempt);
     ++statistics_.jacobian_evaluations;
     statistics_.nonlinear_iterations += static_cast<std::size_t>(attempt.turns);
     std::array<std::optional<Ending>, group> endings;
-    for_each_way([&](int lane, Way& way) {
-      if (!judge(lane, attempt, way, endings[static_cast<std::size_t>(lane)])) return;
+    for_each_case([&](int lane, ActiveCase& active) {
+      if (!judge(lane, attempt, active, endings[static_cast<std::size_t>(lane)])) return;
       taken.of[lane] = -1;
-      if (way.shrinking.count() > 0) kept.of[lane] = -1;
-      record(lane, way);
+      if (active.shrinking.count() > 0) kept.of[lane] = -1;
+      record(lane, active);
     });
-    kernel_->look(workspace_.get(), taken, turning, greatest_);
+    kernel_->raise_maxima(workspace_.get(), taken, turning, greatest_);
     kernel_->accept(workspace_.get(), taken, kept);
     for (int lane = 0; lane < group; ++lane) {
       if (const auto ending = endings[static_cast<std::size_t>(lane)]) end(lane, *ending, study);

@@ -33,11 +33,11 @@ enum class Ending {
 // The result of a case. Its pointers are valid only during Study::end().
 struct Result {
   Ending ending;
-  double reached;          // s
-  std::size_t rows;        // of the grid, up to `reached`; 0 if no rows are wanted
-  const double *x, *y;     // of each row
-  const double* state;     // at `reached`, packed as in the loop
-  double greatest[looks];  // over the motion up to `reached`, also between rows
+  double reached;                   // s
+  std::size_t rows;                 // of the grid, up to `reached`; 0 if no rows are wanted
+  const double *x, *y;              // of each row
+  const double* state;              // at `reached`, packed as in the loop
+  double greatest[quantity_count];  // over the motion up to `reached`, also between rows
 };
 
 // The source of cases and the sink of their results.
@@ -60,7 +60,7 @@ struct Problem {
 };
 
 // A case in progress.
-struct Way {
+struct ActiveCase {
   std::size_t number = 0;  // in the study
   double t = 0, next = 0;  // present time and longest next step, s
   std::size_t stop = 0;    // the next one
@@ -101,9 +101,9 @@ class Ensemble {
     void operator()(void* memory) const;
   };
   struct Aside {
-    Way way;
+    ActiveCase active;
     Progress progress;
-    double greatest[looks];
+    double greatest[quantity_count];
   };
 
   void fill(Study& study);
@@ -112,16 +112,16 @@ class Ensemble {
   void set_aside(int lane);
   void set_laggards_aside();
   void idle(int lane);
-  void plan(int lane, Way& way);
-  bool judge(int lane, const Attempt& attempt, Way& way, std::optional<Ending>& ending);
-  void record(int lane, Way& way);
+  void plan(int lane, ActiveCase& active);
+  bool judge(int lane, const Attempt& attempt, ActiveCase& active, std::optional<Ending>& ending);
+  void record(int lane, ActiveCase& active);
   void end(int lane, Ending ending, Study& study);
-  [[nodiscard]] std::optional<Way>& way_of(int lane) {
-    return ways_[static_cast<std::size_t>(lane)];
+  [[nodiscard]] std::optional<ActiveCase>& case_in(int lane) {
+    return cases_[static_cast<std::size_t>(lane)];
   }
   [[nodiscard]] int live() const;
   [[nodiscard]] double size(int lane) const;
-  void take_columns(Way& way);
+  void take_columns(ActiveCase& active);
 
   const Kernel* kernel_;
   std::vector<double> stops_;  // with the end, s
@@ -132,7 +132,7 @@ class Ensemble {
   bool exhausted_ = false;  // there are no more cases
   bool laggards_ = false;   // the lanes hold cases that were set aside before
   Greatest greatest_{};
-  std::array<std::optional<Way>, group> ways_;
+  std::array<std::optional<ActiveCase>, group> cases_;
   std::vector<Aside> aside_;
   std::vector<std::vector<double>> spare_;  // unused columns
   std::array<Progress, group> begun_;       // a buffer for begin()

@@ -146,8 +146,8 @@ struct Equations {
                                 const SinCos<Real>& theta_at, const Real (&q)[nq],
                                 const Real (&v)[nv], const Real (&turning)[2], Real (&k)[3]) {
     const auto ball = ball_of(q, v);
-    const model::Axis<Real> first{phi_at.sin, phi_at.cos, v[phi], turning[0]};
-    const model::Axis<Real> second{theta_at.sin, theta_at.cos, v[theta], turning[1]};
+    const model::GimbalAngle<Real> first{phi_at.sin, phi_at.cos, v[phi], turning[0]};
+    const model::GimbalAngle<Real> second{theta_at.sin, theta_at.cos, v[theta], turning[1]};
     k[0] = model::x_acceleration<Real>(first, second, ball, scene.radius, scene.gravity);
     k[1] = model::y_acceleration<Real>(first, second, ball, scene.radius, scene.gravity);
     k[2] = model::u_acceleration<Real>(first, second, ball, scene.radius);

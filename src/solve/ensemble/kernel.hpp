@@ -68,10 +68,10 @@ struct alignas(64) Lanes {
 
 // The maxima of each lane: 1 - cos(tilt) of the plate, its squared angular velocity, and the
 // squared distances of the contact point from the plate's origin and from the reference.
-enum Look : int { versine, rate_squared, distance_squared, error_squared, looks };
+enum Quantity : int { versine, rate_squared, distance_squared, error_squared, quantity_count };
 
 struct alignas(64) Greatest {
-  double of[looks][group];
+  double of[quantity_count][group];
 };
 
 struct alignas(64) Attempt {
@@ -110,7 +110,8 @@ struct Kernel {
                    double* y);
   // Updates the maxima with the last attempt, its start included: the ball's in `lanes`, and the
   // plate's in those also in `turning`. Call it for each accepted attempt, before accept().
-  void (*look)(void* workspace, const Lanes& lanes, const Lanes& turning, Greatest& greatest);
+  void (*raise_maxima)(void* workspace, const Lanes& lanes, const Lanes& turning,
+                       Greatest& greatest);
   // Makes the end of the last attempt the present state of `lanes`. Lanes that are also in `kept`
   // keep the attempt's accelerations, from which a much shorter next step starts.
   void (*accept)(void* workspace, const Lanes& lanes, const Lanes& kept);

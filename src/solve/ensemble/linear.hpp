@@ -30,8 +30,8 @@ struct Linear : Equations<Isa, Actuation::given> {
   struct Coefficients {
     P value[3], x_by[4], y_by[4], u_by[2];
 
-    BBSIM_INLINE void take(const typename Base::Scene& scene, const model::Axis<P>& first,
-                           const model::Axis<P>& second) {
+    BBSIM_INLINE void take(const typename Base::Scene& scene, const model::GimbalAngle<P>& first,
+                           const model::GimbalAngle<P>& second) {
       using Ball = simd::Affine<P, 5>;
       const model::RollingState<Ball, Ball, Ball> ball{Ball::variable(0), Ball::variable(1),
                                                        Ball::variable(2), Ball::variable(3),

@@ -145,7 +145,7 @@ struct Step : Iteration {
                                  store,
                                  attempt,
                                  DenseRows<Base>::evaluate,
-                                 Maxima<Base>::look,
+                                 Maxima<Base>::raise_maxima,
                                  accept};
 };
 

@@ -18,7 +18,7 @@ namespace bbsim::solve {
 class HybridRows {
  public:
   HybridRows(model::HybridSystem& run, Stepper& stepper, const OutputGrid& grid, StateSink& sink,
-             const Part* part)
+             const PartialRun* part)
       : run_(run),
         stepper_(stepper),
         grid_(grid),

@@ -35,7 +35,7 @@ struct alignas(64) MotionTable {
 };
 
 // One axis: its servo at the start of the piece, and the linear map from its angle to the plate's.
-struct Axis {
+struct PieceAxis {
   const MotionTable* table;
   double angle, rate, acceleration;
   double ratio, offset;
@@ -66,7 +66,7 @@ struct alignas(64) Piece {
   double guess[3];     // of the accelerations: those at the end of the last piece
   double contraction;  // of the last pieces' iterations
   double length;       // s
-  Axis axis[2];
+  PieceAxis axis[2];
 };
 
 struct Attempt {
@@ -77,7 +77,7 @@ struct Attempt {
 };
 
 // Quantities that are evaluated for events and loads. They are smooth: squares instead of roots.
-enum Look : int {
+enum Quantity : int {
   x,
   y,
   distance_squared,
@@ -87,7 +87,7 @@ enum Look : int {
   torque_phi,    // of the motors, N m
   torque_theta,  // N m
   power,         // W
-  looks
+  quantity_count
 };
 
 struct Range {
@@ -120,12 +120,13 @@ struct Kernels {
     // Solves for the ball over the piece, from its start, length and axes.
     void (*attempt)(Piece& piece, const Scene& scene, Attempt& result);
     // Computes the ranges over the start and nodes. Leaves ranges that are not wanted unchanged.
-    void (*look)(const Piece& piece, const Scene& scene, Range* ranges, Loads& loads);
+    void (*evaluate_quantities)(const Piece& piece, const Scene& scene, Range* ranges,
+                                Loads& loads);
   } papers, general;
   // Computes responses by power series, which the length must suit (model::suits_series()).
   void (*answers)(double damping, double stiffness, double length, NodeAnswers& answers);
   // The ranges of the three loads over the Chebyshev points.
-  void (*look_closely)(const Loads& loads, Range* ranges);
+  void (*narrow)(const Loads& loads, Range* ranges);
   // Evaluates the ball at `count` times (s) after the start of the piece, on its polynomial: x, y,
   // x', y', u and the integral of u.
   void (*evaluate)(const Piece& piece, const double* times, std::size_t count, double (*ball)[6]);

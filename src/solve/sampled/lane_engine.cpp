@@ -82,22 +82,22 @@ void LaneEngine::forget_tables() {
 
 void LaneEngine::take_monitors(std::size_t l, const model::Model& model) {
   scene_.friction[l] = 0;
-  for (std::size_t look = 0; look <= Look::grip; ++look) {
-    scene_.least[look][l] = -model::unlimited;
-    scene_.most[look][l] = model::unlimited;
+  for (std::size_t look = 0; quantity <= Quantity::grip; ++quantity) {
+    scene_.least[quantity][l] = -model::unlimited;
+    scene_.most[quantity][l] = model::unlimited;
   }
   if (!model.events) return;
   for (const model::Monitor& monitor : model.events->monitors) {
     using Kind = model::Monitor::Kind;
     if (monitor.kind == Kind::slip) scene_.friction[l] = monitor.limit;
     if (monitor.kind == Kind::slip || monitor.kind == Kind::lift_off) scene_.force = true;
-    const auto stays = [&](Look look, double least, double most) {
-      scene_.least[look][l] = std::max(scene_.least[look][l], least);
-      scene_.most[look][l] = std::min(scene_.most[look][l], most);
+    const auto stays = [&](Quantity quantity, double least, double most) {
+      scene_.least[quantity][l] = std::max(scene_.least[quantity][l], least);
+      scene_.most[quantity][l] = std::min(scene_.most[quantity][l], most);
     };
     // No value is within this range, so the lane is given up.
     if (!for_each_range(monitor, model.events->plate, stays)) {
-      stays(Look::x, model::unlimited, -model::unlimited);
+      stays(Quantity::x, model::unlimited, -model::unlimited);
     }
   }
 }

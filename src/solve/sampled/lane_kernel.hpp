@@ -73,8 +73,8 @@ struct alignas(64) LaneServos {
 
 struct alignas(64) LaneScene {
   double radius[group], gravity[group], friction[group];
-  // For each Look up to the grip, the range in which no event occurs.
-  double least[Look::grip + 1][group], most[Look::grip + 1][group];
+  // For each Quantity up to the grip, the range in which no event occurs.
+  double least[Quantity::grip + 1][group], most[Quantity::grip + 1][group];
   double rtol, atol;
   // Whether to evaluate the contact force, the plate's tilt and rate, and the distance from the
   // reference.
@@ -92,7 +92,7 @@ inline constexpr int sizes = 4;
 
 // The sizes at the start and at all nodes but the first, their ranges, and whether an event may
 // occur.
-struct alignas(64) LaneLooks {
+struct alignas(64) LaneQuantities {
   double size[sizes][nodes][group], least_size[sizes][group], most_size[sizes][group];
   double quiet[group];  // 1 if bounds exclude every event; otherwise 0
 };
@@ -126,10 +126,10 @@ struct LaneKernels {
   // Solves for the balls over the pieces, from their starts, lengths and axes.
   void (*attempt)(LanePieces& pieces, const LaneScene& scene);
   double (*closer_error)(const LanePieces& pieces, const LaneScene& scene, int lane);
-  void (*look)(const LanePieces& pieces, const LaneScene& scene, const LaneReference& reference,
-               LaneLooks& looks);
+  void (*evaluate_quantities)(const LanePieces& pieces, const LaneScene& scene,
+                              const LaneReference& reference, LaneQuantities& quantities);
   // The range of a lane's size over Chebyshev points (close_overshoot).
-  Range (*look_closely)(const LaneLooks& looks, Size size, int lane);
+  Range (*narrow)(const LaneQuantities& quantities, Size size, int lane);
   // The values of a reference (x, y) at the start and at all nodes but the first of a piece.
   void (*reference)(const model::SignalView& of, double from, double length, double (*at)[nodes]);
   // Computes the controllers' commands at a sample.

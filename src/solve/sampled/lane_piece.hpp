@@ -152,7 +152,8 @@ struct LaneKernel {
   }
 
   // The plate's axis at a node. Stores it for look().
-  BBSIM_INLINE static model::Axis<P> plane_axis(LaneAxis& axis, int node, int first, bool small) {
+  BBSIM_INLINE static model::GimbalAngle<P> plane_axis(LaneAxis& axis, int node, int first,
+                                                       bool small) {
     const P start_rate = P::load(axis.rate + first);
     const P start_acceleration = P::load(axis.acceleration + first);
     const P ratio = P::load(axis.ratio + first);
@@ -175,8 +176,8 @@ struct LaneKernel {
     }
     const P angle = ratio * servo + P::load(axis.offset + first);
     const SinCos<P> wave = small ? simd::sin_cos_of_small(angle) : sin_cos(angle);
-    const model::Axis<P> at{wave.sin, wave.cos, ratio * row[MotionTable::rate],
-                            ratio * row[MotionTable::acceleration]};
+    const model::GimbalAngle<P> at{wave.sin, wave.cos, ratio * row[MotionTable::rate],
+                                   ratio * row[MotionTable::acceleration]};
     at.sin.store(axis.plane_sin[node] + first);
     at.cos.store(axis.plane_cos[node] + first);
     at.rate.store(axis.plane_rate[node] + first);
@@ -191,8 +192,8 @@ struct LaneKernel {
     Rates rates[nodes];
 #pragma GCC unroll 1
     for (int n = 0; n < nodes; ++n) {
-      const model::Axis<P> phi = plane_axis(pieces.axis[0], n, first, small);
-      const model::Axis<P> theta = plane_axis(pieces.axis[1], n, first, small);
+      const model::GimbalAngle<P> phi = plane_axis(pieces.axis[0], n, first, small);
+      const model::GimbalAngle<P> theta = plane_axis(pieces.axis[1], n, first, small);
       const model::RollingState<Ball, Ball, Ball> ball{Ball::variable(0), Ball::variable(1),
                                                        Ball::variable(2), Ball::variable(3),
                                                        Ball::variable(4)};
@@ -394,9 +395,9 @@ struct LaneKernel {
     return result.error;
   }
 
-  [[gnu::flatten]] static void look_at_some(const LanePieces& pieces, const LaneScene& scene,
-                                            const LaneReference& reference, LaneLooks& looks,
-                                            int first) {
+  [[gnu::flatten]] static void evaluate_some(const LanePieces& pieces, const LaneScene& scene,
+                                             const LaneReference& reference,
+                                             LaneQuantities& quantities, int first) {
     const auto of = [first](const double* values) __attribute__((always_inline)) {
       return P::load(values + first);
     };
@@ -404,7 +405,7 @@ struct LaneKernel {
     const P inverse = P(1.0) / P::of(h.v > Vector{} ? h.v : P(1.0).v);
     const bool small = all_small(pieces, first);
     const model::GeneralRolling papers_rig{};
-    constexpr int ranges = Look::grip + 1;
+    constexpr int ranges = Quantity::grip + 1;
     P least[ranges], most[ranges], least_size[sizes], most_size[sizes];
 #pragma GCC unroll 1
     for (int n = 0; n < nodes; ++n) {
@@ -415,13 +416,13 @@ struct LaneKernel {
       };
       const auto take_size = [&](Size size, P value) __attribute__((always_inline)) {
         const int i = static_cast<int>(size);
-        value.store(looks.size[i][n] + first);
+        value.store(quantities.size[i][n] + first);
         least_size[i] = start ? value : smaller_of(least_size[i], value);
         most_size[i] = start ? value : larger_of(most_size[i], value);
       };
       model::RollingState<P, P, P> ball;
       P acceleration[2];
-      model::Axis<P> axis[2];
+      model::GimbalAngle<P> axis[2];
       if (start) {
         ball = {of(pieces.position[0]), of(pieces.position[1]), of(pieces.velocity[0]),
                 of(pieces.velocity[1]), of(pieces.velocity[2])};
@@ -448,13 +449,13 @@ struct LaneKernel {
                      of(from.plane_acceleration[n])};
         }
       }
-      take(Look::x, ball.x);
-      take(Look::y, ball.y);
+      take(Quantity::x, ball.x);
+      take(Quantity::y, ball.y);
       const P distance_squared = ball.x * ball.x + ball.y * ball.y;
-      take(Look::distance_squared, distance_squared);
+      take(Quantity::distance_squared, distance_squared);
       take_size(Size::distance_squared, distance_squared);
       const model::MovingPlane<P> plane = model::moving_plane(papers_rig, axis[0], axis[1]);
-      take(Look::up, plane.up.z);
+      take(Quantity::up, plane.up.z);
       if (scene.gimbal) {
         // 1 - cos a cos b = A + B - A B, with the versines A and B, each sin^2 / (1 + cos).
         const P a = axis[0].sin * axis[0].sin / (P(1.0) + axis[0].cos);
@@ -477,36 +478,36 @@ struct LaneKernel {
       const model::Vector3<P> by_mass =
           model::force_by_mass(plane, ball, acceleration[0], acceleration[1], P(0.0),
                                of(scene.radius), of(scene.gravity));
-      take(Look::normal, by_mass.z);
+      take(Quantity::normal, by_mass.z);
       const P held = of(scene.friction) * by_mass.z;
-      take(Look::grip, held * held - (by_mass.x * by_mass.x + by_mass.y * by_mass.y));
+      take(Quantity::grip, held * held - (by_mass.x * by_mass.x + by_mass.y * by_mass.y));
     }
-    const int asked = scene.force ? ranges : Look::up + 1;
+    const int asked = scene.force ? ranges : Quantity::up + 1;
     Mask quiet = Mask{} - 1;
     for (int i = 0; i < asked; ++i) {
       const P beyond = P(overshoot) * (most[i] - least[i]);
       quiet &= simd::exceeds(least[i] - beyond, of(scene.least[i])) &
                simd::exceeds(of(scene.most[i]), most[i] + beyond);
     }
-    simd::choose(quiet, P(1.0), P(0.0)).store(looks.quiet + first);
+    simd::choose(quiet, P(1.0), P(0.0)).store(quantities.quiet + first);
     for (int i = 0; i < sizes; ++i) {
       const auto size = static_cast<Size>(i);
       const bool of_gimbal = size == Size::versine || size == Size::rate_squared;
       if (of_gimbal ? !scene.gimbal : size == Size::error_squared && !scene.reference) continue;
-      least_size[i].store(looks.least_size[i] + first);
-      most_size[i].store(looks.most_size[i] + first);
+      least_size[i].store(quantities.least_size[i] + first);
+      most_size[i].store(quantities.most_size[i] + first);
     }
   }
 
-  static void look(const LanePieces& pieces, const LaneScene& scene, const LaneReference& reference,
-                   LaneLooks& looks) {
+  static void evaluate_quantities(const LanePieces& pieces, const LaneScene& scene,
+                                  const LaneReference& reference, LaneQuantities& quantities) {
     for (int first = 0; first < group; first += lanes) {
-      look_at_some(pieces, scene, reference, looks, first);
+      evaluate_some(pieces, scene, reference, quantities, first);
     }
   }
 
-  static Range look_closely(const LaneLooks& looks, Size size, int lane) {
-    const auto& at = looks.size[static_cast<int>(size)];
+  static Range narrow(const LaneQuantities& quantities, Size size, int lane) {
+    const auto& at = quantities.size[static_cast<int>(size)];
     P least, most;
     for (int k = 0; k < close_points; k += lanes) {
       P value(0.0);
@@ -579,9 +580,9 @@ struct LaneKernel {
     }
   }
 
-  static constexpr LaneKernels kernels{&tables,  &start,        &attempt,   &closer_error,
-                                       &look,    &look_closely, &reference, &control_lanes<P>,
-                                       &evaluate};
+  static constexpr LaneKernels kernels{
+      &tables, &start,     &attempt,          &closer_error, &evaluate_quantities,
+      &narrow, &reference, &control_lanes<P>, &evaluate};
 };
 
 }  // namespace bbsim::solve::sampled

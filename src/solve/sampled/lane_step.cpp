@@ -13,7 +13,7 @@ constexpr std::size_t angle_state = model::RigLayout::angle, rate_state = model:
 }  // namespace
 
 Range LaneStep::bounds(Size size, std::size_t lane) const {
-  const Range range = lane_kernels_->look_closely(looks_, size, static_cast<int>(lane));
+  const Range range = lane_kernels_->narrow(quantities_, size, static_cast<int>(lane));
   const double beyond = close_overshoot * (range.most - range.least);
   return {range.least - beyond, range.most + beyond};
 }

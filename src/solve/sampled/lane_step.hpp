@@ -31,7 +31,7 @@ class LaneStep {
   // The range of a size at the lane's start and nodes, and bounds over the whole piece.
   [[nodiscard]] Range at_nodes(Size size, std::size_t lane) const {
     const auto i = static_cast<std::size_t>(size);
-    return {looks_.least_size[i][lane], looks_.most_size[i][lane]};
+    return {quantities_.least_size[i][lane], quantities_.most_size[i][lane]};
   }
   [[nodiscard]] Range bounds(Size size, std::size_t lane) const;
 
@@ -52,7 +52,7 @@ class LaneStep {
   const LaneServos* servos_ = nullptr;
   const Kernels* kernels_ = nullptr;
   const LaneKernels* lane_kernels_ = nullptr;
-  LaneLooks looks_{};
+  LaneQuantities quantities_{};
   std::array<bool, group> has_{}, whole_{};
   std::array<double, group> from_{}, to_{};
 };

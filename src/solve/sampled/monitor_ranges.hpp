@@ -17,7 +17,7 @@ namespace bbsim::solve::sampled {
   return {at_nodes.least - beyond, at_nodes.most + beyond};
 }
 
-// Calls use(Look, least, most) for each quantity of a monitor, with the range in which nothing
+// Calls use(Quantity, least, most) for each quantity of a monitor, with the range in which nothing
 // happens. Returns false if these quantities cannot decide this monitor.
 template <class Use>
 [[nodiscard]] bool for_each_range(const model::Monitor& monitor, const Plate& plate, Use use) {
@@ -27,24 +27,24 @@ template <class Use>
     case Kind::edge:
       if (plate.size) {
         const double x = (*plate.size)[0] / 2, y = (*plate.size)[1] / 2;
-        use(Look::x, -x, x);
-        use(Look::y, -y, y);
+        use(Quantity::x, -x, x);
+        use(Quantity::y, -y, y);
       }
       if (plate.diameter) {
         const double most = *plate.diameter * *plate.diameter / 4;
-        use(Look::distance_squared, -most, most);
+        use(Quantity::distance_squared, -most, most);
       }
       return true;
     case Kind::slip:
       // The squared grip says nothing without a contact force, so the force must be positive too.
-      use(Look::grip, 0, unlimited);
-      use(Look::normal, 0, unlimited);
+      use(Quantity::grip, 0, unlimited);
+      use(Quantity::normal, 0, unlimited);
       return true;
     case Kind::lift_off:
-      use(Look::normal, 0, unlimited);
+      use(Quantity::normal, 0, unlimited);
       return true;
     case Kind::tilt:
-      use(Look::up, std::cos(monitor.limit), unlimited);
+      use(Quantity::up, std::cos(monitor.limit), unlimited);
       return true;
     case Kind::singularity:
     case Kind::dead_point:
@@ -53,20 +53,21 @@ template <class Use>
   return false;
 }
 
-// Returns false if ranges cannot decide. range(look) is the range at the start and the nodes.
+// Returns false if ranges cannot decide. range(quantity) is the range at the start and the nodes.
 template <class RangeOf>
 [[nodiscard]] bool stays_in_range(const model::Monitor& monitor, const Plate& plate, bool occurring,
                                   RangeOf range) {
   bool within = true, beyond = false, presses = true;
-  const bool told = for_each_range(monitor, plate, [&](Look look, double least, double most) {
-    const Range of = widened(range(look));
-    within = within && of.least > least && of.most < most;
-    if (occurring && look == Look::normal && monitor.kind == model::Monitor::Kind::slip) {
-      presses = of.least > least;
-    } else {
-      beyond = beyond || of.most < least || of.least > most;
-    }
-  });
+  const bool told =
+      for_each_range(monitor, plate, [&](Quantity quantity, double least, double most) {
+        const Range of = widened(range(quantity));
+        within = within && of.least > least && of.most < most;
+        if (occurring && look == Quantity::normal && monitor.kind == model::Monitor::Kind::slip) {
+          presses = of.least > least;
+        } else {
+          beyond = beyond || of.most < least || of.least > most;
+        }
+      });
   return told && (occurring ? beyond && presses : within);
 }
 

@@ -140,7 +140,7 @@ struct Kernel {
   }
 
   // The plate's axis at the nodes of a pack.
-  BBSIM_INLINE static model::Axis<P> plane_axis(const Axis& axis, int p, bool small) {
+  BBSIM_INLINE static model::GimbalAngle<P> plane_axis(const PieceAxis& axis, int p, bool small) {
     const MotionTable& motion = *axis.table;
     const auto row = [&](MotionTable::Row of) __attribute__((always_inline)) {
       return P::load(motion.by_rate[of] + p * lanes) * P(axis.rate) +
@@ -154,7 +154,7 @@ struct Kernel {
   }
 
   // Whether the plate's angle stays within pi/4.
-  BBSIM_INLINE static bool is_small(const Axis& axis) {
+  BBSIM_INLINE static bool is_small(const PieceAxis& axis) {
     const double moves = axis.table->most_by_rate * size_of(axis.rate) +
                          axis.table->most_by_acceleration * size_of(axis.acceleration);
     return size_of(axis.ratio * axis.angle + axis.offset) + size_of(axis.ratio) * moves < 0.785;
@@ -166,8 +166,8 @@ struct Kernel {
 
   // The equation's coefficients at the nodes of a pack.
   template <bool papers>
-  BBSIM_INLINE static Rates coefficients(const model::Axis<P>& phi, const model::Axis<P>& theta,
-                                         const Scene& scene) {
+  BBSIM_INLINE static Rates coefficients(const model::GimbalAngle<P>& phi,
+                                         const model::GimbalAngle<P>& theta, const Scene& scene) {
     const model::RollingState<Ball, Ball, Ball> ball{Ball::variable(0), Ball::variable(1),
                                                      Ball::variable(2), Ball::variable(3),
                                                      Ball::variable(4)};
@@ -199,7 +199,7 @@ struct Kernel {
     const bool small = is_small(piece.axis[0]) && is_small(piece.axis[1]);
     Rates rates[packs];
     for_each<packs>([&](auto p) __attribute__((always_inline)) {
-      model::Axis<P> axis[2];
+      model::GimbalAngle<P> axis[2];
 #pragma GCC unroll 2
       for (int i = 0; i < 2; ++i) {
         axis[i] = plane_axis(piece.axis[i], p, small);
@@ -337,7 +337,7 @@ struct Kernel {
   BBSIM_INLINE static double unseen(const Piece& piece, const Scene& scene) {
     double acceleration = 0, lost = 0, tilt = 0;
     for (int i = 0; i < 2; ++i) {
-      const Axis& axis = piece.axis[i];
+      const PieceAxis& axis = piece.axis[i];
       const MotionTable& motion = *axis.table;
       acceleration += size_of(axis.ratio * (motion.missed_by_rate * axis.rate +
                                             motion.missed_by_acceleration * axis.acceleration));
@@ -400,11 +400,11 @@ struct Kernel {
   }
 
   template <bool papers>
-  [[gnu::flatten]] static void look(const Piece& piece, const Scene& scene, Range* ranges,
-                                    Loads& loads) {
-    P least[looks], most[looks];
+  [[gnu::flatten]] static void evaluate_quantities(const Piece& piece, const Scene& scene,
+                                                   Range* ranges, Loads& loads) {
+    P least[quantities], most[quantities];
 #pragma GCC unroll 16
-    for (int i = 0; i < looks; ++i) least[i] = most[i] = P(0.0);
+    for (int i = 0; i < quantities; ++i) least[i] = most[i] = P(0.0);
     const bool force = scene.force || scene.loads;
     // Values at the start, from the polynomial of the accelerations and from the servos.
     double started[2];
@@ -434,27 +434,27 @@ struct Kernel {
           at(piece.position_at[0], piece.position[0]), at(piece.position_at[1], piece.position[1]),
           at(piece.velocity_at[0], piece.velocity[0]), at(piece.velocity_at[1], piece.velocity[1]),
           at(piece.velocity_at[2], piece.velocity[2])};
-      take(Look::x, ball.x);
-      take(Look::y, ball.y);
-      take(Look::distance_squared, ball.x * ball.x + ball.y * ball.y);
-      model::Axis<P> axis[2];
+      take(Quantity::x, ball.x);
+      take(Quantity::y, ball.y);
+      take(Quantity::distance_squared, ball.x * ball.x + ball.y * ball.y);
+      model::GimbalAngle<P> axis[2];
 #pragma GCC unroll 2
       for (int i = 0; i < 2; ++i) {
         const Piece::Plane& of = piece.plane[i];
-        const Axis& start = piece.axis[i];
+        const PieceAxis& start = piece.axis[i];
         axis[i] = {at(of.sin, waves.sin[i]), at(of.cos, waves.cos[i]),
                    at(of.rate, start.ratio * start.rate),
                    at(of.acceleration, start.ratio * start.acceleration)};
       }
       const model::MovingPlane<P> plane = model::moving_plane(rolling, axis[0], axis[1]);
-      take(Look::up, plane.up.z);
+      take(Quantity::up, plane.up.z);
       if (!force) return;
       const model::Vector3<P> by_mass = model::force_by_mass(
           plane, ball, at(piece.acceleration_at[0], started[0]),
           at(piece.acceleration_at[1], started[1]), rolling.height, scene.radius, scene.gravity);
-      take(Look::normal, by_mass.z);
+      take(Quantity::normal, by_mass.z);
       const P held = P(scene.friction) * by_mass.z;
-      take(Look::grip, held * held - (by_mass.x * by_mass.x + by_mass.y * by_mass.y));
+      take(Quantity::grip, held * held - (by_mass.x * by_mass.x + by_mass.y * by_mass.y));
       if (!scene.loads) return;
       const model::Vector3<P> contact{ball.x, ball.y, P(rolling.height)};
       const auto of_ball = model::about_axes(plane, model::cross(contact, by_mass));
@@ -462,23 +462,23 @@ struct Kernel {
           model::plate_torques(plane, axis[0], axis[1], scene.turned, scene.gravity);
       const P phi = P(scene.mass) * of_ball.phi + of_plate.phi;
       const P theta = P(scene.mass) * of_ball.theta + of_plate.theta;
-      take(Look::torque_phi, phi);
-      take(Look::torque_theta, theta);
+      take(Quantity::torque_phi, phi);
+      take(Quantity::torque_theta, theta);
       const P power = phi * axis[0].rate + theta * axis[1].rate;
-      take(Look::power, power);
+      take(Quantity::power, power);
       phi.store(loads.at[0] + p * lanes);
       theta.store(loads.at[1] + p * lanes);
       power.store(loads.at[2] + p * lanes);
     });
-    const int asked = scene.loads ? looks : force ? Look::grip + 1 : Look::up + 1;
+    const int asked = scene.loads ? quantities : force ? Quantity::grip + 1 : Quantity::up + 1;
 #pragma GCC unroll 16
-    for (int i = 0; i < looks; ++i) {
+    for (int i = 0; i < quantities; ++i) {
       if (i >= asked) break;
       ranges[i] = {reduced(least[i], Smaller{}), reduced(most[i], Larger{})};
     }
   }
 
-  static void look_closely(const Loads& loads, Range* ranges) {
+  static void narrow(const Loads& loads, Range* ranges) {
     for (int i = 0; i < 3; ++i) {
       P least, most;
       for (int k = 0; k < close_points; k += lanes) {
@@ -582,11 +582,8 @@ struct Kernel {
     }
   }
 
-  static constexpr Kernels kernels{{&attempt<true>, &look<true>},
-                                   {&attempt<false>, &look<false>},
-                                   &answers,
-                                   &look_closely,
-                                   &evaluate};
+  static constexpr Kernels kernels{
+      {&attempt<true>, &look<true>}, {&attempt<false>, &look<false>}, &answers, &narrow, &evaluate};
 };
 
 }  // namespace bbsim::solve::sampled

@@ -81,9 +81,9 @@ void RigLanes::take_reference(std::size_t l) {
 
 void RigLanes::look() {
   if (asked_.reference) fill_reference();
-  kernels_.look(*pieces_, scene_, *reference_, step_.looks_);
+  kernels_.evaluate_quantities(*pieces_, scene_, *reference_, step_.quantities_);
   for (std::size_t l = 0; l < group; ++l) {
-    if (!step_.has_[l] || step_.looks_.quiet[l] != 0) continue;
+    if (!step_.has_[l] || step_.quantities_.quiet[l] != 0) continue;
     lanes_[l].alive = lanes_[l].moved = step_.has_[l] = false;
   }
 }

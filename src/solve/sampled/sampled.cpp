@@ -71,7 +71,7 @@ void HeldStepper::start(double t, const double* z) {
     for (int i = 0; i < 3; ++i) piece_.guess[i] = piece_.acceleration_at[i][nodes - 1];
   }
   attempted_ = false;
-  looked_ = false;
+  evaluated_ = false;
   time_ = t;
   std::copy_n(z, size, reached_.begin());
   take_modes();
@@ -102,7 +102,7 @@ void HeldStepper::prepare(double length) {
   piece_.length = length;
   for (std::size_t i = 0; i < 2; ++i) {
     const model::HeldMotion& servo = servo_[i];
-    Axis& axis = piece_.axis[i];
+    PieceAxis& axis = piece_.axis[i];
     // Both servos usually have the same law.
     axis.table = i == 1 && servo.law == servo_[0].law ? piece_.axis[0].table
                                                       : &tables_.of(servo.law, length);
@@ -115,7 +115,7 @@ void HeldStepper::prepare(double length) {
 std::optional<Failure> HeldStepper::step(double limit) {
   settle();
   began_ = time_;
-  looked_ = false;
+  evaluated_ = false;
   const double left = limit - time_;
   // Two guards may cross zero at one instant, apart only by the rounding of the time. Nothing moves
   // then.
@@ -160,7 +160,7 @@ void HeldStepper::finish() {
   turned_ = piece_.position_end[2];
   for (std::size_t i = 0; i < 3; ++i) reached_[2 + i] = piece_.velocity_end[i];
   for (std::size_t i = 0; i < 2; ++i) {
-    const Axis& axis = piece_.axis[i];
+    const PieceAxis& axis = piece_.axis[i];
     const auto row = [&](MotionTable::Row of) {
       return axis.table->by_rate[of][nodes - 1] * axis.rate +
              axis.table->by_acceleration[of][nodes - 1] * axis.acceleration;
@@ -264,16 +264,16 @@ std::size_t HeldStepper::parts() const {
   return static_cast<std::size_t>(std::clamp(std::ceil(parts), least, most));
 }
 
-const Range& HeldStepper::range(Look of) {
-  if (!looked_) kernel_.look(piece_, scene_, ranges_.data(), at_points_);
-  looked_ = true;
+const Range& HeldStepper::range(Quantity of) {
+  if (!evaluated_) kernel_.evaluate_quantities(piece_, scene_, ranges_.data(), at_points_);
+  evaluated_ = true;
   return ranges_[static_cast<std::size_t>(of)];
 }
 
 bool HeldStepper::no_monitor_changes(const std::vector<char>& occurring) {
   if (!attempted_) return false;
   for (std::size_t m = 0; m < occurring.size(); ++m) {
-    const auto range_of = [this](Look look) { return range(look); };
+    const auto range_of = [this](Quantity quantity) { return range(quantity); };
     if (!stays_in_range(model_->events->monitors[m], model_->events->plate, occurring[m] != 0,
                         range_of)) {
       return false;
@@ -290,12 +290,12 @@ std::optional<Bounds> HeldStepper::bounds(Load load, const model::BallConstants&
     scene_.loads = true;
     scene_.mass = constants.mass;
     scene_.turned = model::turned_by_motors(constants);
-    looked_ = false;
+    evaluated_ = false;
   }
   const auto place = static_cast<std::size_t>(load);
-  const Range wide = widened(range(static_cast<Look>(Look::torque_phi + place)));
+  const Range wide = widened(range(static_cast<Quantity>(Quantity::torque_phi + place)));
   if (!closely) return Bounds{wide.least, wide.most};
-  if (closely_ != began_) kernels_.look_closely(at_points_, close_.data());
+  if (closely_ != began_) kernels_.narrow(at_points_, close_.data());
   closely_ = began_;
   const Range& close = close_[place];
   const double beyond = close_overshoot * (close.most - close.least);

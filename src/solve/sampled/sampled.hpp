@@ -76,7 +76,7 @@ class HeldStepper : public Stepper {
   void finish();
   void evaluate_some(const double* times, std::size_t count, double* rows);
   [[nodiscard]] const Shares* shares(double after);
-  const Range& range(Look of);
+  const Range& range(Quantity of);
 
   const model::Model* model_;
   const Kernels& kernels_;
@@ -87,13 +87,13 @@ class HeldStepper : public Stepper {
   Instants instants_;
   std::array<Shares, 4> shares_{};  // two instants within pieces of each of two lengths
   std::size_t next_shares_ = 0;
-  std::array<model::HeldMotion, 2> servo_{};  // from the start of the last step
-  std::array<double, size> reached_{};        // states at its end
-  std::array<Range, looks> ranges_{};         // of the last step
+  std::array<model::HeldMotion, 2> servo_{};    // from the start of the last step
+  std::array<double, size> reached_{};          // states at its end
+  std::array<Range, quantity_count> ranges_{};  // of the last step
   Loads at_points_{};
   std::array<Range, 3> close_{};
   double closely_ = -1;  // start of the step whose loads were evaluated closely, s
-  bool looked_ = false;
+  bool evaluated_ = false;
   const model::BallConstants* loads_of_ = nullptr;
   double began_ = 0, time_ = 0;                                 // the last step, s
   double next_step_ = std::numeric_limits<double>::infinity();  // s

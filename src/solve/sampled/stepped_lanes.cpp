@@ -140,11 +140,11 @@ void SteppedLanes::advance() {
 
 void SteppedLanes::look() {
   static const LaneReference none{};  // unused: scene_.reference is false
-  kernels_.look(*pieces_, scene_, none, step_.looks_);
+  kernels_.evaluate_quantities(*pieces_, scene_, none, step_.quantities_);
   for (std::size_t l = 0; l < group; ++l) {
     if (!step_.has_[l]) continue;
     const std::vector<char>& occurring = lanes_[l].run->occurring();
-    if (step_.looks_.quiet[l] != 0 &&
+    if (step_.quantities_.quiet[l] != 0 &&
         std::find(occurring.begin(), occurring.end(), 1) == occurring.end()) {
       searches_[l].reset();
     } else {

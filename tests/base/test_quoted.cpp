@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Outside text within bbsim's sentences: on one line, with terminal control characters escaped.
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 #include "catch.hpp"
 
 using bbsim::quoted;

@@ -12,7 +12,7 @@ namespace bbsim::solve {
 
 // Consecutive parts give the same rows as one whole run, bit for bit. A part ends within a step and
 // keeps the state before that step, which the next part repeats. The grid is that of the whole run.
-struct Part {
+struct PartialRun {
   // Rows of this part: first_row up to but not including end_row.
   std::size_t first_row = 0, end_row = 0;
   // The state to continue from. If empty, the part starts the scene, and first_row is 0.
@@ -30,7 +30,7 @@ struct Part {
 };
 
 // The limit of steps after the last stop, s.
-[[nodiscard]] inline double step_limit(const Part* part, double end) {
+[[nodiscard]] inline double step_limit(const PartialRun* part, double end) {
   return part != nullptr && part->endless ? std::numeric_limits<double>::infinity() : end;
 }
 

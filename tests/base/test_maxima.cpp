@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "base/greatest.hpp"
+#include "base/maxima.hpp"
 #include "catch.hpp"
 
 using namespace bbsim;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "base/shown.hpp"
+#include "base/quoted.hpp"
 
 #include "base/printable.hpp"
 
