@@ -82,7 +82,7 @@ void LaneEngine::forget_tables() {
 
 void LaneEngine::take_monitors(std::size_t l, const model::Model& model) {
   scene_.friction[l] = 0;
-  for (std::size_t look = 0; quantity <= Quantity::grip; ++quantity) {
+  for (std::size_t quantity = 0; quantity <= Quantity::grip; ++quantity) {
     scene_.least[quantity][l] = -model::unlimited;
     scene_.most[quantity][l] = model::unlimited;
   }

@@ -151,7 +151,7 @@ struct LaneKernel {
     }
   }
 
-  // The plate's axis at a node. Stores it for look().
+  // The plate's axis at a node. Stores it for evaluate_quantities().
   BBSIM_INLINE static model::GimbalAngle<P> plane_axis(LaneAxis& axis, int node, int first,
                                                        bool small) {
     const P start_rate = P::load(axis.rate + first);

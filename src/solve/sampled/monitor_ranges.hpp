@@ -62,7 +62,8 @@ template <class RangeOf>
       for_each_range(monitor, plate, [&](Quantity quantity, double least, double most) {
         const Range of = widened(range(quantity));
         within = within && of.least > least && of.most < most;
-        if (occurring && look == Quantity::normal && monitor.kind == model::Monitor::Kind::slip) {
+        if (occurring && quantity == Quantity::normal &&
+            monitor.kind == model::Monitor::Kind::slip) {
           presses = of.least > least;
         } else {
           beyond = beyond || of.most < least || of.least > most;

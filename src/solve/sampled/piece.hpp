@@ -582,8 +582,11 @@ struct Kernel {
     }
   }
 
-  static constexpr Kernels kernels{
-      {&attempt<true>, &look<true>}, {&attempt<false>, &look<false>}, &answers, &narrow, &evaluate};
+  static constexpr Kernels kernels{{&attempt<true>, &evaluate_quantities<true>},
+                                   {&attempt<false>, &evaluate_quantities<false>},
+                                   &answers,
+                                   &narrow,
+                                   &evaluate};
 };
 
 }  // namespace bbsim::solve::sampled

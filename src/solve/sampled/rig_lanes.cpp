@@ -79,7 +79,7 @@ void RigLanes::take_reference(std::size_t l) {
   kernels_.reference(view, step_.from_[l], length, reference_->one);
 }
 
-void RigLanes::look() {
+void RigLanes::evaluate_quantities() {
   if (asked_.reference) fill_reference();
   kernels_.evaluate_quantities(*pieces_, scene_, *reference_, step_.quantities_);
   for (std::size_t l = 0; l < group; ++l) {
@@ -153,7 +153,7 @@ std::array<bool, group> RigLanes::integrate(const model::Model* const* models, s
   while (!stop.load(std::memory_order_relaxed) && plan(limit_of)) {
     kernels_.attempt(*pieces_, scene_);
     judge();
-    look();
+    evaluate_quantities();
     sink.accept(step_);
     pass_instants(sink);
     for (std::size_t l = 0; l < group; ++l) {

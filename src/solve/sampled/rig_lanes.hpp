@@ -56,7 +56,7 @@ class RigLanes : private LaneEngine {
 
  private:
   void begin(std::size_t lane, const model::Model& model, LaneSink& sink);
-  void look();
+  void evaluate_quantities();
   void fill_reference();
   void take_reference(std::size_t lane);
   void pass_instants(LaneSink& sink);

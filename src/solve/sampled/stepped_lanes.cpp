@@ -120,7 +120,7 @@ void SteppedLanes::advance() {
   while (plan(limit_of)) {
     kernels_.attempt(*pieces_, scene_);
     judge();
-    look();
+    evaluate_quantities();
     pass_instants();
     for (std::size_t l = 0; l < group; ++l) {
       if (lanes_[l].moved) {
@@ -138,7 +138,7 @@ void SteppedLanes::advance() {
   }
 }
 
-void SteppedLanes::look() {
+void SteppedLanes::evaluate_quantities() {
   static const LaneReference none{};  // unused: scene_.reference is false
   kernels_.evaluate_quantities(*pieces_, scene_, none, step_.quantities_);
   for (std::size_t l = 0; l < group; ++l) {

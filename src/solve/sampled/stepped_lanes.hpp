@@ -52,7 +52,7 @@ class SteppedLanes : private LaneEngine {
 
   void ask(std::size_t lane);
   void end(std::size_t lane, State how);
-  void look();
+  void evaluate_quantities();
   void search(std::size_t lane);
   void pass_instants();
 
