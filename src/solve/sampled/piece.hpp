@@ -402,9 +402,9 @@ struct Kernel {
   template <bool papers>
   [[gnu::flatten]] static void evaluate_quantities(const Piece& piece, const Scene& scene,
                                                    Range* ranges, Loads& loads) {
-    P least[quantities], most[quantities];
+    P least[quantity_count], most[quantity_count];
 #pragma GCC unroll 16
-    for (int i = 0; i < quantities; ++i) least[i] = most[i] = P(0.0);
+    for (int i = 0; i < quantity_count; ++i) least[i] = most[i] = P(0.0);
     const bool force = scene.force || scene.loads;
     // Values at the start, from the polynomial of the accelerations and from the servos.
     double started[2];
@@ -470,9 +470,9 @@ struct Kernel {
       theta.store(loads.at[1] + p * lanes);
       power.store(loads.at[2] + p * lanes);
     });
-    const int asked = scene.loads ? quantities : force ? Quantity::grip + 1 : Quantity::up + 1;
+    const int asked = scene.loads ? quantity_count : force ? Quantity::grip + 1 : Quantity::up + 1;
 #pragma GCC unroll 16
-    for (int i = 0; i < quantities; ++i) {
+    for (int i = 0; i < quantity_count; ++i) {
       if (i >= asked) break;
       ranges[i] = {reduced(least[i], Smaller{}), reduced(most[i], Larger{})};
     }
