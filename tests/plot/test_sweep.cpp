@@ -12,6 +12,7 @@
 using namespace bbsim;
 using namespace bbsim_test;
 using namespace bbsim::plot;
+using namespace bbsim::results;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -357,10 +357,12 @@ TEST_CASE("loops in lanes find their extremes between rows") {
     const solve::OutputGrid grid(close.time);
     const solve::Trajectory rows = truth(close);
     const Case one = case_of(close);
-    double most[looks] = {};
+    double most[quantity_count] = {};
     for (std::size_t row = 0; row < grid.size(); ++row) {
       const auto state = [&](std::size_t k) { return rows.row(row)[k]; };
-      const auto raise = [&](Look look, double size) { most[look] = std::max(most[look], size); };
+      const auto raise = [&](Quantity quantity, double size) {
+        most[quantity] = std::max(most[quantity], size);
+      };
       const double a = std::pow(std::sin(state(5) / 2), 2), b = std::pow(std::sin(state(6) / 2), 2);
       raise(versine, 2 * (a + b) - 4 * a * b);
       raise(rate_squared, state(7) * state(7) + state(8) * state(8));
@@ -378,12 +380,12 @@ TEST_CASE("loops in lanes find their extremes between rows") {
       }
       raise(error_squared, error);
     }
-    for (std::size_t look = 0; look < looks; ++look) {
-      CAPTURE(name, i, look);
+    for (std::size_t quantity = 0; quantity < quantity_count; ++quantity) {
+      CAPTURE(name, i, quantity);
       // The greatest row value is below the true one by at most h^2 / 8 times its curvature, some
       // 1e-4 for servos of 2000 rad/s; never above it.
-      CHECK(runs[i].greatest[look] >= most[look] * (1 - 1e-8));
-      CHECK(runs[i].greatest[look] <= most[look] * (1 + 1e-3));
+      CHECK(runs[i].greatest[quantity] >= most[quantity] * (1 - 1e-8));
+      CHECK(runs[i].greatest[quantity] <= most[quantity] * (1 + 1e-3));
     }
   }
 }
