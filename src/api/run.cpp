@@ -54,7 +54,7 @@ void judge(const std::vector<scenario::Expectation>& expectations,
     const char* const why = made.whys[at];
     result.unmet.push_back("not as expected: " + one.text + ": " + one.measure.name + " is " +
                            (std::isnan(value)
-                                ? "no number" + (why != nullptr ? std::string(": ") + why : "")
+                                ? "not a number" + (why != nullptr ? std::string(": ") + why : "")
                                 : number_text(value) + (unit == "1" ? "" : ' ' + unit)));
     if (result.code == ExitCode::done) result.code = ExitCode::ended_early;
   }

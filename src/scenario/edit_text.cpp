@@ -47,6 +47,7 @@ bool is_shared(std::string_view text, const Position& from, const Node& value) {
   if (value.kind == Node::Kind::null) return false;  // without a place in the text
   const std::size_t begin = offset_of(text, from), at = offset_of(text, value.position);
   if (at < begin || from.source != value.position.source) return true;
+  if (text.substr(at).starts_with('&')) return true;  // an anchored mapping or list begins there
   const std::string_view before = text.substr(begin, at - begin);
   const std::size_t end = before.find_last_not_of(" \n");
   if (end == std::string_view::npos) return false;

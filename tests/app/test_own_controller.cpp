@@ -178,7 +178,7 @@ TEST_CASE("check says whether three legs are turned or mirrored") {
                        "deg}]"),
                  "WARNING      its commands are turned by 60 deg; are the legs"));
   CHECK(contains(check("gimbal.three_servos.legs=[{angle: 0}, {angle: 240 deg}, {angle: 120 deg}]"),
-                 "WARNING      its commands are mirrored; are two legs exchanged"));
+                 "WARNING      its commands are mirrored; are two legs swapped"));
   const std::string turned = check("controller.sensor.rotation=90 deg");
   CHECK(contains(turned, "WARNING      phi: depends on y, but moves the ball along x\n"));
   CHECK(contains(turned, "WARNING      its commands are turned by 90 deg"));

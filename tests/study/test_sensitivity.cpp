@@ -539,8 +539,8 @@ TEST_CASE("keys and scenes without derivatives are refused", "[sensitivity]") {
   refuses("configs/rig", "ball.radius", "a servo reaches its stop",
           {"gimbal.servo.angle_limit=0.5 deg"});
   refuses("fig2a", "time.end", "a key of the computation");
-  refuses("fig2a", "ball.radius,ball.radius", "is there twice");
+  refuses("fig2a", "ball.radius,ball.radius", "is given twice");
   refuses("fig2a", "ball.raduis", "did you mean");
-  refuses("fig2a", "gravity", "no values on both sides", {"gravity=0"});
+  refuses("fig2a", "gravity", "needs valid values", {"gravity=0"});
   refuses("fig2a", "ball.radius", "repeats the run", {"solver.error=1e-6"});
 }

@@ -301,7 +301,8 @@ TEST_CASE("keys that cannot be tied are reported before it runs") {
                  "but the sweep varies"));
   CHECK(
       contains(fault(vary({{"ball.radius,ball.raduis", "list:1"}})), "did you mean ball.radius?"));
-  CHECK(contains(fault(vary({{"ball.position,ball.position.0", "list:[1, 2]"}})), "apart from"));
+  CHECK(
+      contains(fault(vary({{"ball.position,ball.position.0", "list:[1, 2]"}})), "do not overlap"));
   CHECK(contains(fault(vary({{"ball.spin,-ball.radius", "linear:1:2:3"}})),
                  "with ball.radius=-1: ball.radius: found -1"));
   CHECK(contains(fault(vary({{"ball.mass,gravity,", "list:1"}})), "no key beside a comma"));
@@ -319,7 +320,7 @@ TEST_CASE("a list position has one spelling") {
   CHECK(contains(text, "ball.position.00=3: ball.position: found the position 00 in a list"));
 }
 
-TEST_CASE("--set is refused for a key that varies") {
+TEST_CASE("a key that varies cannot be set with --set") {
   const Sweep sweep = vary({{"ball.position.0", "list:1,2"}});
   CHECK(contains(fault(sweep, scene, {"ball.position.0=5"}),
                  "--set ball.position.0=5: found, but the sweep varies ball.position.0"));
