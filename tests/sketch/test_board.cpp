@@ -84,6 +84,25 @@ TEST_CASE("a global variable that uses the board is refused, with the right plac
   CHECK(contains(run.err, "a global variable uses the board before setup()"));
 }
 
+TEST_CASE("nothing is sent before begin(), and find() finds texts that overlap themselves") {
+  const Sketch sketch(
+      "class Letters : public Stream {\n  const char* at;\n public:\n"
+      "  Letters(const char* text) : at(text) {}\n"
+      "  int available() override { return strlen(at); }\n"
+      "  int read() override { return *at ? *at++ : -1; }\n"
+      "  int peek() override { return *at ? *at : -1; }\n"
+      "  size_t write(uint8_t) override { return 0; }\n};\n"
+      "void loop() { delay(1); }\nvoid setup() {\n  SerialUSB.print(\"early\");\n"
+      "  SerialUSB.begin(115200);\n  SerialUSB.println(\"late\");\n"
+      "  Letters letters(\"aaab!\");\n  bool found = letters.find(\"aab\");\n"
+      "  SerialUSB.println(String(found) + (char)letters.read());\n}\n",
+      plain_wiring);
+  CAPTURE(sketch.made.err);
+  REQUIRE(sketch.made.exit_code == 0);
+  const Result run = bbsim(sketch.words("run", {"--set", "time.end=0.02", "-o", "-", "-q"}));
+  CHECK(contains(run.err, "controller: late\ncontroller: 1!\n"));
+}
+
 TEST_CASE("a missing board feature is a compiler error with a hint") {
   const Sketch sketch(
       "#include <Wire.h>\n#include <SPI.h>\nvoid tick() {}\nvoid setup() {\n"
