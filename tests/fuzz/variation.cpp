@@ -28,7 +28,7 @@ void must_be_a_case(const bbsim::sweep::SweepPlan& plan, std::size_t number) {
   std::vector<double> values(plan.axes().size());
   plan.values(number, values.data());
   for (std::size_t a = 0; a < values.size(); ++a) {
-    const bbsim::sweep::Axis& axis = plan.axes()[a];
+    const bbsim::sweep::PlanAxis& axis = plan.axes()[a];
     must(axis.numeric || (values[a] >= 0 && values[a] < static_cast<double>(axis.texts.size())));
   }
   const auto settings = plan.settings(number);
