@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// `bbsim replay`: a page that plays runs, sweeps and logs, or a glTF file.
+// `bbsim replay`: a page that plays runs, sweeps and logs.
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -232,16 +232,15 @@ void add_replay(Command& command, const Options& options) {
       "  bbsim run configs/fig2b.yaml --summary fig2b.json && bbsim replay fig2b.csv\n"
       "  bbsim replay slow.h5 fast.h5 -o both.html\n"
       "  bbsim replay configs/rig.yaml --data log.csv --map t=Time:ms,x=Ballx:mm,y=Bally:mm\n"
-      "  bbsim replay fig2b-sweep.csv --scenario configs/fig2b.yaml\n"
-      "  bbsim replay configs/fig2a.yaml -o fig2a.glb");
+      "  bbsim replay fig2b-sweep.csv --scenario configs/fig2b.yaml");
   const auto arguments = std::make_shared<ReplayArguments>();
   command.option(
       "FILES", arguments->files,
       "results (CSV, HDF5) of runs or of sweeps, or scenarios; - is CSV on standard input");
   command
-      .option("-o,--output", arguments->output,
-              "write FILE.html, FILE.glb (glTF, for Blender and slides), or - for a page on "
-              "standard output; default: the first file's name with .html")
+      .option(
+          "-o,--output", arguments->output,
+          "write FILE.html, or - for standard output; default: the first file's name with .html")
       .takes("FILE");
   add_force(command, arguments->force);
   command

@@ -12,7 +12,6 @@
 #include "api/picture.hpp"
 #include "base/error.hpp"
 #include "file/format.hpp"
-#include "replay/gltf.hpp"
 #include "replay/page.hpp"
 #include "replay/sources.hpp"
 #include "scenario/reader.hpp"
@@ -20,10 +19,6 @@
 
 namespace bbsim::app {
 namespace {
-
-bool is_gltf(const std::string& file) {
-  return file::lower_ending(file) == ".glb";
-}
 
 std::string size_text(std::size_t bytes) {
   char text[40];
@@ -47,24 +42,20 @@ std::string content_text(const replay::Scene& scene) {
 }  // namespace
 
 void require_replay_ending(const std::string& file, const std::string& option) {
-  if (file == "-" || is_gltf(file) || file::lower_ending(file) == ".html") return;
-  throw InputError(option + ": found " + file +
-                   "; allowed: a name that ends in .html, a page, or .glb, a model of what moves");
+  if (file == "-" || file::lower_ending(file) == ".html") return;
+  throw InputError(option + ": found " + file + "; allowed: a name that ends in .html");
 }
 
 void declare_replay(file::Outputs& outputs, const std::string& file, const std::string& what) {
-  if (!is_gltf(file)) outputs.reads(replay::template_file(), "the template of pages");
+  outputs.reads(replay::template_file(), "the template of pages");
   outputs.writes(file, what);
 }
 
 ReplayFile::ReplayFile(const std::string& target)
-    : target_(target),
-      gltf_(is_gltf(target)),
-      template_(gltf_ ? "" : replay::page_template()),
-      file_(target) {}
+    : target_(target), template_(replay::page_template()), file_(target) {}
 
 void ReplayFile::write(const replay::Scene& scene, bool quiet) {
-  const std::string content = gltf_ ? replay::gltf(scene) : replay::page(scene, template_);
+  const std::string content = replay::page(scene, template_);
   file_.write(content);
   file_.commit();
   if (quiet || target_ == "-") return;

@@ -13,7 +13,7 @@
 
 namespace bbsim::app {
 
-// Throws InputError unless the name ends in .html or .glb, or is "-": a page on standard output.
+// Throws InputError unless the name ends in .html or is "-": standard output.
 void require_replay_ending(const std::string& file, const std::string& option);
 
 // Declares the replay file as an output, which messages call `what`, and the template as an input.
@@ -30,7 +30,6 @@ class ReplayFile {
 
  private:
   std::string target_;
-  bool gltf_;
   std::string template_;
   file::AtomicFile file_;
 };

@@ -165,7 +165,7 @@ void add_run(Command& command, const Options& options) {
               "whole run")
       .takes("TIME");
   command
-      .option("--replay", arguments->replay, "also write FILE.html or FILE.glb, like bbsim replay")
+      .option("--replay", arguments->replay, "also write FILE.html, like bbsim replay")
       .takes("FILE");
   command.does([arguments, &options] {
     return with_error_option(arguments->error, [&] { return run(*arguments, options); });

@@ -7,14 +7,6 @@
 
 namespace bbsim::replay {
 
-Quaternion plane_orientation(const Mounting& mounting, double phi, double theta) {
-  Quaternion turned = rotation_by({mounting.base_tilt, 0, 0});
-  turned = product(turned, rotation_by({0, phi, 0}));
-  turned = product(turned, rotation_by({0, 0, mounting.skew}));
-  turned = product(turned, rotation_by({theta, 0, 0}));
-  return product(turned, rotation_by({0, 0, mounting.yaw - mounting.skew}));
-}
-
 std::vector<Quaternion> rolled(const std::vector<double>& x, const std::vector<double>& y,
                                const std::vector<double>* gamma, double radius) {
   std::vector<Quaternion> result;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Rotations of the gimbal's links and of the ball on the plane.
+// Rotations of the ball on the plane.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +11,6 @@
 #include "replay/scene.hpp"
 
 namespace bbsim::replay {
-
-// From the plane's frame to the world's: R of docs/explanation/model.md, (M15). Angles in rad.
-[[nodiscard]] Quaternion plane_orientation(const Mounting& mounting, double phi, double theta);
 
 // Orientations of a rolling ball in the plane's frame, with the identity in the first row. Between
 // two rows the ball rolls straight and pivots evenly, by the rotation (-dy/r, dx/r, dgamma). The

@@ -114,7 +114,7 @@ TEST_CASE("a sliding ball is shown with its turning, and with its final orientat
   CHECK(run.at("reached") == Approx(3.33288).epsilon(1e-5));
 }
 
-TEST_CASE("runs and a rig's log share one scene, a sweep has its own, and glTF its own file") {
+TEST_CASE("runs and a rig's log share one scene, and a sweep has its own") {
   const Folder folder;
   const std::string log = folder.write("log.csv", "Time,Ballx,Bally\n0,-10,0\n100,-9,1\n200,,2\n");
   CHECK(bbsim({"replay", config("fig2a.yaml"), config("fig2b.yaml"), "--data", log, "--map",
@@ -132,8 +132,6 @@ TEST_CASE("runs and a rig's log share one scene, a sweep has its own, and glTF i
               .exit_code == 0);
   CHECK(bbsim({"replay", "s.csv"}, folder.path()).exit_code == 0);
   CHECK(data_of(folder.read("s.html")).at("sweeps").at(0).at("cases") == 3);
-  CHECK(bbsim({"replay", config("fig2a.yaml"), "-o", "a.glb"}, folder.path()).exit_code == 0);
-  CHECK(folder.read("a.glb").starts_with("glTF"));
 }
 
 TEST_CASE("input that a replay cannot show is reported with its place, and nothing is written") {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Makes a page, or a .glb, of results for browser tests.
+// Makes a page of results for browser tests.
 //
 //   make_page [--title TEXT] [--template FILE] -o FILE RUN...
 //   make_page [--title TEXT] [--template FILE] -o FILE --sweep SWEEP.csv SCENARIO.yaml
@@ -17,7 +17,6 @@
 
 #include "file/atomic_file.hpp"
 #include "make_scene.hpp"
-#include "replay/gltf.hpp"
 #include "replay/page.hpp"
 
 namespace {
@@ -48,11 +47,7 @@ void make(const std::vector<std::string>& arguments) {
   }
   if (scene.title.empty() && !scene.runs.empty()) scene.title = scene.runs.front().title;
   if (scene.title.empty() && !scene.sweeps.empty()) scene.title = scene.sweeps.front().title;
-  if (output.ends_with(".glb")) {
-    bbsim::replay::write_gltf(output, scene);
-  } else {
-    bbsim::file::write_file(output, bbsim::replay::page(scene, page_template));
-  }
+  bbsim::file::write_file(output, bbsim::replay::page(scene, page_template));
 }
 
 }  // namespace

@@ -27,23 +27,6 @@ double apart(const Quaternion& a, const Eigen::Quaterniond& b) {
 
 }  // namespace
 
-TEST_CASE("the plane's orientation is the product in (M15)") {
-  const Mounting mounting{0.01, 0.1, -0.3, 0.2};
-  const double phi = 0.4, theta = -0.7;
-  const auto about = [](double angle, const Eigen::Vector3d& axis) {
-    return Eigen::AngleAxisd(angle, axis);
-  };
-  const Eigen::Quaterniond expected(
-      about(0.2, Eigen::Vector3d::UnitX()) * about(phi, Eigen::Vector3d::UnitY()) *
-      about(0.1, Eigen::Vector3d::UnitZ()) * about(theta, Eigen::Vector3d::UnitX()) *
-      about(-0.4, Eigen::Vector3d::UnitZ()));
-  CHECK(apart(plane_orientation(mounting, phi, theta), expected) < 1e-7);
-  // Positive phi lowers the +x side, positive theta raises the +y side.
-  const Quaternion tilted = plane_orientation({}, 0.1, 0.2);
-  CHECK((eigen(tilted) * Eigen::Vector3d::UnitX()).z() < 0);
-  CHECK((eigen(tilted) * Eigen::Vector3d::UnitY()).z() > 0);
-}
-
 TEST_CASE("a ball that rolls along x turns about y, once per circumference") {
   const double r = 0.02;
   const std::vector<double> x{0, pi * r / 2, pi * r, 2 * pi * r}, y{0, 0, 0, 0};
