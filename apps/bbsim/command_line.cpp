@@ -15,6 +15,7 @@
 #include "help.hpp"
 #include "licenses.hpp"
 #include "man.hpp"
+#include "removed.hpp"
 #include "scenario/json_schema.hpp"
 #include "terminal.hpp"
 #include "version.hpp"
@@ -62,6 +63,7 @@ std::string known_commands(const CLI::App& app) {
 }
 
 [[noreturn]] void refuse_command(const CLI::App& app, const std::string& word) {
+  if (const std::string gone = removed_command(word); !gone.empty()) throw InputError(gone);
   std::vector<std::string> names = names_of_commands(app);
   for (std::string& alias : aliases_of_commands(app)) names.push_back(std::move(alias));
   const std::string near = nearest(word, names);
@@ -87,6 +89,7 @@ bool is_option(std::string_view word) {
     throw InputError(option + ": found before " + command.get_name() +
                      "; allowed: the options of a command after it." + help);
   }
+  if (const std::string gone = removed_option(option); !gone.empty()) throw InputError(gone);
   std::string message = "unknown option " + option + " of " + name;
   const std::size_t letters = option.find_first_not_of('-');
   const std::string near = letters == std::string::npos

@@ -12,6 +12,7 @@
 #include "api/picture.hpp"
 #include "base/error.hpp"
 #include "file/format.hpp"
+#include "removed.hpp"
 #include "replay/page.hpp"
 #include "replay/sources.hpp"
 #include "scenario/reader.hpp"
@@ -43,6 +44,8 @@ std::string content_text(const replay::Scene& scene) {
 
 void require_replay_ending(const std::string& file, const std::string& option) {
   if (file == "-" || file::lower_ending(file) == ".html") return;
+  const std::string gone = removed_ending(file::lower_ending(file));
+  if (!gone.empty()) throw InputError(option + ": found " + file + ": " + gone);
   throw InputError(option + ": found " + file + "; allowed: a name that ends in .html");
 }
 

@@ -32,8 +32,6 @@ struct RunArguments {
 // Call it before any of the files is opened.
 void declare_files(const RunArguments& arguments, const std::string& output,
                    file::Outputs& outputs) {
-  if (!arguments.request.part.from.empty())
-    outputs.reads(arguments.request.part.from, "--from-state");
   if (!arguments.request.measures.empty()) {
     // Outputs allows a shared pipe, but rows and measures in it could not be told apart.
     for (const auto& [name, option] :
@@ -45,20 +43,8 @@ void declare_files(const RunArguments& arguments, const std::string& output,
     prints(outputs);
   }
   outputs.writes(output, arguments.output.empty() ? "its name by default, without -o" : "-o");
-  if (!arguments.request.part.save.empty())
-    outputs.writes(arguments.request.part.save, "--save-state");
   if (!arguments.request.summary.empty()) outputs.writes(arguments.request.summary, "--summary");
   if (!arguments.replay.empty()) declare_replay(outputs, arguments.replay, "--replay");
-}
-
-// By default, a part that continues would overwrite the part before it.
-void keep_part_before(const RunArguments& arguments, const std::string& output) {
-  if (arguments.request.part.from.empty() || !arguments.output.empty() || arguments.force) return;
-  std::error_code none;
-  if (!std::filesystem::exists(output, none)) return;
-  throw InputError(output +
-                   ": found, and may be the part before this one; allowed: -o FILE, or --force "
-                   "to replace it");
 }
 
 // "run.csv: 101 of 101 rows, radau, 57 steps"
@@ -82,7 +68,6 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   request.scenario =
       read(with_error(arguments.scenario, arguments.error), options, outputs, &request.inputs);
   declare_files(arguments, output, outputs);
-  keep_part_before(arguments, output);
   request.output = output;
   request.replaces_its_like_only = arguments.output.empty() && !arguments.force;
   request.pictured = !arguments.replay.empty();
@@ -95,7 +80,6 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   tell(made, options.quiet);
   if (!options.quiet) {
     say(written_text(made));
-    if (!made.saved.empty()) say(made.saved);
   }
   if (replay && made.summary.rows > 0) {
     replay->write(scene_of(std::move(*made.pictured)), options.quiet);
@@ -116,8 +100,6 @@ void add_run(Command& command, const Options& options) {
       "  bbsim run configs/fig2a.yaml --set ball.radius=\"2 cm\" -o big.h5\n"
       "  bbsim run configs/fig2b.yaml --error \"1 um\" --summary run.json\n"
       "  bbsim run configs/rig.yaml -o - -q | head -3\n"
-      "  bbsim run configs/rig.yaml --until \"20 s\" --save-state rig.state -o first.csv\n"
-      "  bbsim run configs/rig.yaml --from-state rig.state -o second.csv\n"
       "  bbsim run configs/rig.yaml -o rig.h5 --replay rig.html\n"
       "  sed 's/-10 cm/-5 cm/' configs/fig2a.yaml | bbsim run - -o near.csv");
   const auto arguments = std::make_shared<RunArguments>();
@@ -149,23 +131,7 @@ void add_run(Command& command, const Options& options) {
               "write a summary of the run to FILE.json, or - for standard output: how it ended, "
               "the model, statistics")
       .takes("FILE");
-  command
-      .option("--save-state", arguments->request.part.save,
-              "write the state at the end of this run, at --until, or at an interruption, for "
-              "--from-state")
-      .takes("FILE");
-  command
-      .option("--from-state", arguments->request.part.from,
-              "continue from a state of the same scenario; the rows are those of one whole run, "
-              "bit for bit")
-      .takes("FILE");
-  command
-      .option("--until", arguments->request.part.until,
-              "with --save-state: end this part of the run at TIME; time.end stays the end of the "
-              "whole run")
-      .takes("TIME");
-  command
-      .option("--replay", arguments->replay, "also write FILE.html, like bbsim replay")
+  command.option("--replay", arguments->replay, "also write FILE.html, like bbsim replay")
       .takes("FILE");
   command.does([arguments, &options] {
     return with_error_option(arguments->error, [&] { return run(*arguments, options); });

@@ -117,20 +117,6 @@ int bbsim_controller_step(void *controller, const bbsim_sample *sample, double c
   return 0;
 }
 
-size_t bbsim_controller_save(const void *controller, void *bytes, size_t room) {
-  if (room >= sizeof(struct pid)) memcpy(bytes, controller, sizeof(struct pid));
-  return sizeof(struct pid);
-}
-
-int bbsim_controller_restore(void *controller, const void *bytes, size_t size) {
-  if (size != sizeof(struct pid)) {
-    last_error = "it is the state of another controller";
-    return 1;
-  }
-  memcpy(controller, bytes, size);
-  return 0;
-}
-
 void bbsim_controller_destroy(void *controller) { free(controller); }
 
 const char *bbsim_controller_last_error(const void *controller) {

@@ -22,12 +22,6 @@ class Axis:
         self.position = None  # not measured yet
         self.velocity = self.integral = 0.0
 
-    def save(self):
-        return [self.position, self.velocity, self.integral]
-
-    def restore(self, state):
-        self.position, self.velocity, self.integral = state
-
     def command(self, seen, reference, reference_rate, elapsed):
         keep = self.filter / (self.filter + elapsed)
         difference = 0.0 if self.position is None else (seen - self.position) / elapsed
@@ -52,19 +46,12 @@ def main():
             x, y = Axis(message), Axis(message)
             periods = 1  # since the last measured position
             command = [0.0, 0.0]
-            if "state" in message:  # it continues an earlier run
-                states, periods, command = message["state"]
-                x.restore(states[0])
-                y.restore(states[1])
             answer = {
                 "protocol": 1,
                 "reset": True,
-                "save": True,
                 "columns": {"x_integral": "rad", "y_integral": "rad"},
                 "fields": ["ball", "reference", "reference_rate"],
             }
-        elif "save" in message:
-            answer = {"state": [[x.save(), y.save()], periods, command]}
         else:
             if message["ball"] is None:  # the sensor missed the ball: hold the command
                 if x.position is not None:

@@ -13,7 +13,7 @@
  *
  * bbsim opens the library, checks its version, creates a controller and calls its step function
  * once per sample. Simulated time stands still during the calls. A library defines the functions
- * below, in C99 or later; reset, save and restore are optional. Build it like this:
+ * below, in C99 or later; reset is optional. Build it like this:
  *
  *     cc -std=c99 -O2 -fPIC -shared -I PREFIX/include pid.c -o libpid.so
  *
@@ -112,17 +112,6 @@ BBSIM_CONTROLLER_EXPORT int bbsim_controller_step(void *controller, const bbsim_
  * Returns 0 on success; otherwise bbsim destroys the controller and creates another. Optional: if
  * it is missing, bbsim always does so. */
 BBSIM_CONTROLLER_EXPORT int bbsim_controller_reset(void *controller, const bbsim_setup *setup);
-
-/* Writes the controller's state to `bytes` if it fits into `room` bytes. Returns its size, at most
- * 64 MiB, or 0 on failure. A call with `room` 0 only asks for the size. For `bbsim run
- * --save-state`; optional, together with restore(). */
-BBSIM_CONTROLLER_EXPORT size_t bbsim_controller_save(const void *controller, void *bytes,
-                                                     size_t room);
-
-/* Restores a state that save() wrote under the same setup. The controller was just created or
- * reset. Returns 0; any other number ends the run, as for a step. */
-BBSIM_CONTROLLER_EXPORT int bbsim_controller_restore(void *controller, const void *bytes,
-                                                     size_t size);
 
 /* Frees the controller. */
 BBSIM_CONTROLLER_EXPORT void bbsim_controller_destroy(void *controller);

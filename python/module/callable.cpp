@@ -99,10 +99,6 @@ class Callable::Controller : public model::ExternalController {
     return command;
   }
 
-  [[nodiscard]] bool can_save() const override { return false; }
-  [[nodiscard]] std::string save() override { return ""; }
-  void restore(const std::string& /*memory*/) override {}
-
  private:
   template <class Question>
   void ask(const std::string& when, const Question& question) {

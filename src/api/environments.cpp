@@ -44,9 +44,6 @@ class Unasked : public model::ExternalController {
   model::Commands command(const model::ControllerSample& /*sample*/, double* /*own*/) override {
     return {};
   }
-  [[nodiscard]] bool can_save() const override { return false; }
-  [[nodiscard]] std::string save() override { return ""; }
-  void restore(const std::string& /*memory*/) override {}
 };
 
 // Longer runs are stepped singly, without a record of their commands.

@@ -12,10 +12,8 @@
 
 #include "api/assemble.hpp"
 #include "api/picture.hpp"
-#include "api/run_part.hpp"
 #include "api/run_sensitivity.hpp"
 #include "api/simulation.hpp"
-#include "base/archive.hpp"
 #include "base/number_text.hpp"
 #include "file/atomic_file.hpp"
 #include "file/default_name.hpp"
@@ -127,8 +125,6 @@ RunResult run(const RunRequest& request, Watch& watch) {
                      " in --measure, which is of the loop; allowed: measures of the motion");
   }
   const GradientColumns gradients(asked, keys);
-  std::optional<RunPart> part;
-  if (request.part.any()) part.emplace(request.part, scenario, request.inputs);
 
   // Check names before a controller starts, and long before the file is opened.
   std::vector<file::ColumnHeader> headers = headers_of(asked);
@@ -139,10 +135,8 @@ RunResult run(const RunRequest& request, Watch& watch) {
   }
   controller::Host host = make_host(watch);
   const model::Form form = study::form_for(scenario, keys);
-  const model::Model model =
-      assemble(part ? part->whole() : scenario, needed_for(columns, measures), host, form);
-  const solve::OutputGrid grid = part ? part->grid() : solve::OutputGrid(scenario.time);
-  if (part) part->check(model, columns);
+  const model::Model model = assemble(scenario, needed_for(columns, measures), host, form);
+  const solve::OutputGrid grid(scenario.time);
   std::optional<study::Sensitivity> sensitivity;
   if (!keys.empty()) sensitivity.emplace(model, form, grid, keys);
   std::deque<std::string> units;  // from the scene's own controller
@@ -151,7 +145,6 @@ RunResult run(const RunRequest& request, Watch& watch) {
     headers[c].unit = units.emplace_back(host.unit_of(asked[c]->name).value_or("1"));
   }
 
-  if (part) part->open();
   request.ready();
   std::unique_ptr<file::TableWriter> writer;
   if (!request.output.empty()) writer = file::open_table(request.output, headers);
@@ -168,14 +161,9 @@ RunResult run(const RunRequest& request, Watch& watch) {
   }
   RowsTo rows(request, asked.size(), kept ? &*kept : beside);
 
-  Simulation made;
-  try {
-    made = simulate(scenario, model, grid,
-                    {columns, asked.size(), measures, sensitivity ? printed.size() : 0}, rows,
-                    watch, part ? &part->part() : nullptr, sensitivity ? &*sensitivity : nullptr);
-  } catch (const StateFault& fault) {
-    throw InputError(request.part.from + ": " + fault.what());
-  }
+  Simulation made = simulate(scenario, model, grid,
+                             {columns, asked.size(), measures, sensitivity ? printed.size() : 0},
+                             rows, watch, sensitivity ? &*sensitivity : nullptr);
   RunResult result = std::move(made.result);
   record::RunSummary& summary = result.summary;
   summary.output = request.output;
@@ -195,7 +183,7 @@ RunResult run(const RunRequest& request, Watch& watch) {
     result.units.emplace_back(header.unit);
   }
   judge(expectations, measures, made, result);
-  result.rows_asked = part ? part->part().end_row - part->part().first_row : grid.size();
+  result.rows_asked = grid.size();
   if (writer && summary.error_estimate) {
     writer->add_column(header_of(scenario::position_error), made.row_estimates);
   }
@@ -208,7 +196,6 @@ RunResult run(const RunRequest& request, Watch& watch) {
     summary_file->commit();
   }
   host.finish();
-  if (part) result.saved = part->finish(model);
   if (request.pictured) {
     result.pictured = run_of(scenario, std::move(table), summary, made.end_row);
   } else if (kept) {

@@ -23,12 +23,6 @@ namespace bbsim::api {
 
 using model::ControllerFault;
 
-// Files of states, and the end time of the part; each may be empty.
-struct PartRequest {
-  std::string save, from, until;
-  [[nodiscard]] bool any() const { return !save.empty() || !from.empty() || !until.empty(); }
-};
-
 struct RunRequest {
   Scenario scenario;
   std::vector<file::InputTable> inputs{};  // tables that the scenario read
@@ -45,7 +39,6 @@ struct RunRequest {
   // Lists of keys, for split_measures(). Adds derivatives by them: of the states to the rows, of
   // `measures` to the summary.
   std::vector<std::string> sensitivity{};
-  PartRequest part{};
   bool pictured = false;  // make what a page shows of the run
   // Called once the whole request has been checked, before files are opened.
   std::function<void()> ready = [] {};
@@ -62,7 +55,6 @@ struct RunResult {
   file::TableData rows;                     // if the request keeps them or names no destination
   std::vector<std::string> columns, units;  // of output.columns
   std::string noted;                        // how often each event was noted; may be empty
-  std::string saved;  // about the file of a state; empty if none was requested
   std::optional<replay::Run> pictured;
 };
 

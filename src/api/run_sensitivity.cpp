@@ -94,9 +94,6 @@ std::string name_of_gradient(std::string_view of, const std::string& key) {
 std::vector<study::VariedKey> sensitivity_keys(const RunRequest& request) {
   std::vector<study::VariedKey> keys;
   if (request.sensitivity.empty()) return keys;
-  if (request.part.any()) {
-    refuse("found with --save-state, --from-state or --until; allowed: whole runs");
-  }
   if (request.scenario.solver.error) {
     refuse(
         "found with solver.error, which repeats the run several times; allowed: with tolerances");

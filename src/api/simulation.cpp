@@ -47,7 +47,7 @@ struct Integration {
 
 Integration integrate(const Scenario& scenario, const model::Model& model,
                       const solve::OutputGrid& grid, solve::StateSink& sink,
-                      const solve::Watch& watch, solve::PartialRun* part) {
+                      const solve::Watch& watch) {
   const CpuClock clock;
   const Solver& solver = scenario.solver;
   Integration made;
@@ -63,8 +63,7 @@ Integration integrate(const Scenario& scenario, const model::Model& model,
     }
   } else {
     made.tolerances = {solver.rtol, solver.atol};
-    made.outcome = solve::integrate(model, solver.method, made.tolerances, grid, sink, watch, part);
-    if (part != nullptr) made.outcome.rows -= part->first_row;
+    made.outcome = solve::integrate(model, solver.method, made.tolerances, grid, sink, watch);
   }
   made.cpu_seconds = clock.seconds();
   return made;
@@ -169,14 +168,13 @@ void take_measures(const Scenario& scenario, const model::Model& model,
 
 Simulation simulate(const Scenario& scenario, const model::Model& model,
                     const solve::OutputGrid& grid, const RowsAndMeasures& wanted,
-                    file::TableWriter& writer, Watch& watch, solve::PartialRun* part,
-                    study::Sensitivity* sensitivity) {
+                    file::TableWriter& writer, Watch& watch, study::Sensitivity* sensitivity) {
   const model::BallConstants constants = model::constants_of(scenario);
   const scenario::SplitMeasures split = scenario::split_loop_measures(wanted.measures);
   record::Recorder recorder({wanted.columns, split.of_motion, true});
   // Sweeps record rows this way too, so that both give the same numbers.
-  const bool quick = part == nullptr && !scenario.solver.error &&
-                     solve::choose_method(scenario.solver.method) == Method::radau;
+  const bool quick =
+      !scenario.solver.error && solve::choose_method(scenario.solver.method) == Method::radau;
   recorder.begin(model, constants, grid, &writer, {quick});
   std::optional<record::EdgeNote> edge;
   if (record::EdgeNote::wanted(scenario)) edge.emplace(model, scenario.plate, grid, recorder);
@@ -185,7 +183,7 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
   solve::StateSink& sink = sensitivity != nullptr ? *sensitivity : rows;
 
   watch.start(0);
-  Integration made = integrate(scenario, model, grid, sink, looking_in(watch, grid.end()), part);
+  Integration made = integrate(scenario, model, grid, sink, looking_in(watch, grid.end()));
   watch.end();
 
   Simulation simulation;

@@ -18,7 +18,6 @@
 #include "scenario/measures.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
-#include "solve/partial_run.hpp"
 #include "study/sensitivity.hpp"
 
 namespace bbsim::api {
@@ -41,11 +40,10 @@ struct Simulation {
 };
 
 // Integrates the model, which must provide what `wanted` needs. Passes the rows to `writer`, which
-// the caller finishes. `part` and `sensitivity` may be null; they receive the state and the
-// derivatives.
+// the caller finishes. `sensitivity` may be null; it receives the derivatives.
 [[nodiscard]] Simulation simulate(const Scenario& scenario, const model::Model& model,
                                   const solve::OutputGrid& grid, const RowsAndMeasures& wanted,
-                                  file::TableWriter& writer, Watch& watch, solve::PartialRun* part,
+                                  file::TableWriter& writer, Watch& watch,
                                   study::Sensitivity* sensitivity);
 
 // Why a run failed: when, what the integrator reported, what grew, and what to do.

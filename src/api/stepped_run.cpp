@@ -52,9 +52,6 @@ class Waiting : public model::ExternalController {
     if (state_.given_up) throw ControllerFault("the run was abandoned", true);
     return {state_.command[0], state_.command[1], 0};
   }
-  [[nodiscard]] bool can_save() const override { return false; }
-  [[nodiscard]] std::string save() override { return ""; }
-  void restore(const std::string& /*memory*/) override {}
 
  private:
   State& state_;

@@ -10,8 +10,6 @@
 #include <cstdint>
 #include <random>
 
-#include "base/archive.hpp"
-
 namespace bbsim {
 
 // The inverse normal distribution: the z with P(Z < z) = p, 0 < p < 1, to a relative 2e-7.
@@ -26,14 +24,6 @@ class Noise {
   [[nodiscard]] double uniform() { return uniforms_[next()]; }
   // A standard normal number: the quantile of a uniform number.
   [[nodiscard]] double normal() { return normals_[next()]; }
-
-  // The position in the sequence (base/archive.hpp).
-  template <class Archive>
-  void archive(Archive& archive) {
-    // An index beyond the generator's state is harmless: the generator then refills its state.
-    archive(generator_, uniforms_, normals_, drawn_);
-    archive.require(drawn_ <= together && is_finite(uniforms_, normals_));
-  }
 
  private:
   // Drawn in batches, so that the processor overlaps the quantiles.

@@ -35,13 +35,6 @@ class Queue {
     return one;
   }
 
-  // See base/archive.hpp.
-  template <class Archive>
-  void archive(Archive& archive) {
-    archive(all_, first_);
-    archive.require(first_ < all_.size() || (first_ == 0 && all_.empty()));
-  }
-
  private:
   std::vector<T> all_;
   std::size_t first_ = 0;

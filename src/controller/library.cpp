@@ -29,14 +29,9 @@ struct LibraryFunctions {
   decltype(&bbsim_controller_reset) reset = nullptr;  // may be missing
   decltype(&bbsim_controller_destroy) destroy = nullptr;
   decltype(&bbsim_controller_last_error) last_error = nullptr;
-  decltype(&bbsim_controller_save) save = nullptr;  // these two may be missing
-  decltype(&bbsim_controller_restore) restore = nullptr;
 };
 
 namespace {
-
-// Bytes; far more than a microcontroller has.
-constexpr std::size_t most_remembered = std::size_t{64} * 1024 * 1024;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
   throw KeyError("controller.library.file", "found " + shown(path, uncut) + ", " + why);
@@ -79,8 +74,6 @@ std::shared_ptr<const LibraryFunctions> open(const std::string& path) {
   require("bbsim_controller_last_error", functions->last_error);
   static_cast<void>(find(library, "bbsim_controller_create_wired", functions->create_wired));
   static_cast<void>(find(library, "bbsim_controller_reset", functions->reset));
-  static_cast<void>(find(library, "bbsim_controller_save", functions->save));
-  static_cast<void>(find(library, "bbsim_controller_restore", functions->restore));
   return functions;
 }
 
@@ -243,35 +236,6 @@ void Library::begin() {
 model::ControllerFault Library::fault_of(const std::string& when, const std::string& why) const {
   return model::ControllerFault("the controller (" + shown(path_, uncut) + ") failed " + when +
                                 ": " + why);
-}
-
-bool Library::can_save() const {
-  return functions_->save != nullptr && functions_->restore != nullptr;
-}
-
-std::string Library::save() {
-  constexpr auto when = [] { return "to save its state"; };
-  const std::size_t size =
-      ask(when, functions_->save, controller_, static_cast<void*>(nullptr), std::size_t{0});
-  if (size > most_remembered) {
-    throw fault_of(when(), "it would take " + std::to_string(size) + " bytes; allowed: at most " +
-                               std::to_string(most_remembered));
-  }
-  std::string memory(size, '\0');
-  if (memory.empty() ||
-      ask(when, functions_->save, controller_, static_cast<void*>(memory.data()), size) != size) {
-    throw fault_of(when(), last_error(controller_));
-  }
-  return memory;
-}
-
-void Library::restore(const std::string& memory) {
-  begin();
-  constexpr auto when = [] { return "to continue from a state"; };
-  const int code = ask(when, functions_->restore, controller_,
-                       static_cast<const void*>(memory.data()), memory.size());
-  if (code == 0) return;
-  throw fault_of(when(), "it returned " + std::to_string(code) + ": " + last_error(controller_));
 }
 
 model::Commands Library::command(const model::ControllerSample& sample, double* own) {

@@ -28,9 +28,6 @@ class Library : public model::ExternalController {
 
   void begin() override;
   model::Commands command(const model::ControllerSample& sample, double* own) override;
-  [[nodiscard]] bool can_save() const override;
-  [[nodiscard]] std::string save() override;
-  void restore(const std::string& memory) override;
 
   // Prepares for a run with this setup. Throws KeyError.
   void renew(const Setup& setup);

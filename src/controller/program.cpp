@@ -6,7 +6,6 @@
 #include <system_error>
 #include <utility>
 
-#include "base/archive.hpp"
 #include "base/error.hpp"
 #include "base/json.hpp"
 #include "base/number_text.hpp"
@@ -48,7 +47,7 @@ model::ControllerFault Program::fault_of(const std::string& when, const ChildFau
                                 when + ": " + fault.what());
 }
 
-void Program::start(const std::string& memory) {
+void Program::start() {
   try {
     child_.reset();
     child_ = std::make_unique<Child>(program_.command, folder_, report_, stop_);
@@ -58,15 +57,15 @@ void Program::start(const std::string& memory) {
                        ", which cannot be started: " + file::error_text(error.code().value()) +
                        "; allowed: a program, by its name or its path");
   }
-  say_hello(memory);
+  say_hello();
 }
 
 // Keeps a fault for begin().
-void Program::say_hello(const std::string& memory) {
+void Program::say_hello() {
   fault_.reset();
   ready_ = {};
   try {
-    ready_ = read_ready(child_->ask(hello_line(setup_, memory), program_.start_timeout));
+    ready_ = read_ready(child_->ask(hello_line(setup_), program_.start_timeout));
     if (!ready_.fault.empty()) throw child_->refuse(ready_.fault);
   } catch (const ChildFault& fault) {
     fault_ = fault_of("to start", fault);
@@ -77,13 +76,13 @@ void Program::say_hello(const std::string& memory) {
   fresh_ = true;
 }
 
-void Program::renew(const Setup& setup, const std::string& memory) {
+void Program::renew(const Setup& setup) {
   setup_ = setup;
   if (child_ && ready_.reset) {
-    say_hello(memory);
+    say_hello();
   } else {
     if (child_) child_->finish();
-    start(memory);
+    start();
   }
 }
 
@@ -91,12 +90,6 @@ void Program::begin() {
   if (!fresh_) renew(setup_);
   fresh_ = false;
   if (fault_) throw model::ControllerFault(*fault_);
-}
-
-void Program::restore(const std::string& memory) {
-  StateReader::require(!parse_json(memory).is_discarded());
-  renew(setup_, memory);
-  begin();
 }
 
 // `read` reads the answer and returns what is wrong with it. `when` says when bbsim asked for it.
@@ -125,14 +118,6 @@ model::Commands Program::command(const model::ControllerSample& sample, double* 
         return read_answer(answer, setup_.columns, {command.data(), setup_.commands()}, own);
       });
   return command;
-}
-
-std::string Program::save() {
-  std::string memory;
-  ask(
-      save_line, [] { return "to save its state"; },
-      [&](std::string_view answer) { return read_memory(answer, memory); });
-  return memory;
 }
 
 void Program::finish() {

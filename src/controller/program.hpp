@@ -22,14 +22,9 @@ class Program : public model::ExternalController {
 
   void begin() override;
   model::Commands command(const model::ControllerSample& sample, double* own) override;
-  // True after a fault, so that begin() or restore() reports it.
-  [[nodiscard]] bool can_save() const override { return fault_ || ready_.save; }
-  [[nodiscard]] std::string save() override;
-  void restore(const std::string& memory) override;
 
-  // Prepares for a run with this setup, in a new process unless this one can reset. The run begins
-  // with `memory`, unless it is empty.
-  void renew(const Setup& setup, const std::string& memory = {});
+  // Prepares for a run with this setup, in a new process unless this one can reset.
+  void renew(const Setup& setup);
 
   // The fault that begin() would throw.
   [[nodiscard]] const std::optional<model::ControllerFault>& fault() const { return fault_; }
@@ -41,8 +36,8 @@ class Program : public model::ExternalController {
   void finish();
 
  private:
-  void start(const std::string& memory = {});
-  void say_hello(const std::string& memory);
+  void start();
+  void say_hello();
   template <class When, class Read>
   void ask(std::string_view line, When when, Read read);
   [[nodiscard]] model::ControllerFault fault_of(const std::string& when,

@@ -157,7 +157,7 @@ std::string refusal(std::string_view line, const std::string& why) {
 
 }  // namespace
 
-std::string hello_line(const Setup& setup, const std::string& memory) {
+std::string hello_line(const Setup& setup) {
   Json hello = Json::object();
   hello["protocol"] = protocol_version;
   hello["bbsim"] = BBSIM_VERSION;
@@ -177,7 +177,6 @@ std::string hello_line(const Setup& setup, const std::string& memory) {
   hello["fields"]["sample"] = "1";
   for (const Field& field : fields) hello["fields"][std::string(field.name)] = field.unit;
   hello["command"] = command_unit(setup.drives);
-  if (!memory.empty()) hello["state"] = parse_json(memory);
   return hello.dump() + '\n';
 }
 
@@ -189,7 +188,7 @@ Ready read_ready(std::string_view line) {
   };
   const std::string wanted = "allowed: {\"protocol\": " + std::to_string(protocol_version) +
                              "}, optionally with \"reset\": " +
-                             "true, \"save\": true, \"columns\": {\"NAME\": \"UNIT\"}, \"fields\": "
+                             "true, \"columns\": {\"NAME\": \"UNIT\"}, \"fields\": "
                              "[\"NAME\"]";
   const Json answer = parse_json(line);
   if (!answer.is_object()) return refuse(wanted);
@@ -202,11 +201,11 @@ Ready read_ready(std::string_view line) {
         return refuse("found a protocol of another version; allowed: " +
                       std::to_string(protocol_version));
       }
-    } else if (key == "reset" || key == "save") {
+    } else if (key == "reset" || key == "save") {  // save: of programs for bbsim 0.3, ignored
       if (!value.is_boolean()) {
         return refuse("found a " + key + " that is neither true nor false");
       }
-      (key == "reset" ? ready.reset : ready.save) = value.get<bool>();
+      if (key == "reset") ready.reset = value.get<bool>();
     } else if (key == "fields") {
       ready.fields.reset();
       for (const Json& name : value) {
@@ -233,20 +232,11 @@ Ready read_ready(std::string_view line) {
         ready.columns->emplace_back(name, unit.get<std::string>());
       }
     } else {
-      constexpr std::string_view known[] = {"protocol", "reset", "save", "columns", "fields"};
+      constexpr std::string_view known[] = {"protocol", "reset", "columns", "fields"};
       return refuse("found " + bbsim::quoted(key) + hint(key, known) + "; " + wanted);
     }
   }
   return ready;
-}
-
-std::string read_memory(std::string_view line, std::string& memory) {
-  const Json answer = parse_json(line);
-  if (!answer.is_object() || answer.size() != 1 || !answer.contains("state")) {
-    return refusal(line, "allowed: {\"state\": ANYTHING}");
-  }
-  memory = answer["state"].dump();
-  return "";
 }
 
 std::size_t write_sample(const model::ControllerSample& sample, Fields wanted,

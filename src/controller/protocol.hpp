@@ -5,7 +5,7 @@
 // (docs/reference/controllers.md).
 //
 //     bbsim       {"protocol":1,"bbsim":"0.3.0","period":0.02,...,"parameters":{"kp":0.7},...}
-//     controller  {"protocol": 1, "reset": true, "save": true, "columns": {"x_integral": "rad"}}
+//     controller  {"protocol": 1, "reset": true, "columns": {"x_integral": "rad"}}
 //     bbsim       {"sample":0,"t":0.0,"ball":[-0.03,0.0],"reference":[0.03,0.0],...}
 //     controller  {"command": [0.042, 0.0], "x_integral": 0.0012}
 //
@@ -30,9 +30,8 @@ namespace bbsim::controller {
 
 inline constexpr int protocol_version = 1;
 
-// The line that begins a run, with its line break. To continue an earlier run, `memory` is the
-// state that read_memory() returned.
-[[nodiscard]] std::string hello_line(const Setup& setup, const std::string& memory = {});
+// The line that begins a run, with its line break.
+[[nodiscard]] std::string hello_line(const Setup& setup);
 
 // The fields of a sample beside its number, with their units.
 struct Field {
@@ -52,7 +51,6 @@ using Fields = std::bitset<fields.size()>;  // a subset of them
 // The controller's answer to the hello.
 struct Ready {
   bool reset = false;  // another hello begins another run
-  bool save = false;   // it answers save_line
   // The names and units of the numbers that it gives beside its commands, if it lists them.
   std::optional<std::vector<std::pair<std::string, std::string>>> columns{};
   Fields fields = Fields().set();  // those that it wants to receive
@@ -61,13 +59,6 @@ struct Ready {
 
 // Reads the answer to a hello, a line without its line break.
 [[nodiscard]] Ready read_ready(std::string_view line);
-
-// Asks for the controller's state.
-inline constexpr std::string_view save_line = "{\"save\":true}\n";
-
-// Reads the answer to save_line, a line without its line break. Returns what is wrong with it;
-// empty if nothing is.
-[[nodiscard]] std::string read_memory(std::string_view line, std::string& memory);
 
 // The longest line of a sample, in bytes.
 inline constexpr std::size_t longest_sample = 1024;

@@ -26,27 +26,20 @@ class HybridIntegration {
  public:
   HybridIntegration(const model::Model& model, const MakeStepper& make_stepper,
                     Tolerances tolerances, const OutputGrid& grid, StateSink& sink,
-                    const Watch& watch, PartialRun* part)
+                    const Watch& watch)
       : run_(model, near_rest * tolerances.atol),
         grid_(grid),
         watch_(watch),
-        part_(part),
-        last_(step_limit(part, grid.end())),
         pace_(grid.end()),
         stepper_(make_stepper(run_.model())),
         in_closed_form_(stepper_->servos() != nullptr),
-        rows_(run_, *stepper_, grid, sink, part),
+        rows_(run_, *stepper_, grid, sink),
         guards_(run_, *stepper_),
         z_(run_.model().initial) {}
 
   Outcome run() {
     try {
-      if (part_ != nullptr && !part_->from.empty()) {
-        restore();
-      } else if (!start()) {
-        return std::move(outcome_);
-      }
-      return go_on();
+      return start() ? go_on() : std::move(outcome_);
     } catch (const model::ControllerFault& fault) {
       end(fault.interrupted() ? Ending::interrupted : Ending::failed, asked_at_);
       outcome_.reason = fault.what();
@@ -121,7 +114,6 @@ class HybridIntegration {
     const double due = run_.next_time_event();
     limit_ = in_closed_form_ ? std::min(run_.next_change(), crossing_.time)
                              : std::min(due, end_before(due));
-    if (part_ != nullptr && part_->keeps_state) keep_state();
     if (is_stopped()) return end(Ending::interrupted, from_);
     guards_.begin_step();
     const auto failure = stepper_->step(limit_);
@@ -135,7 +127,8 @@ class HybridIntegration {
 
   // The end of the run, or the time of an event that is due there but rounded to just after it.
   [[nodiscard]] double end_before(double due) const {
-    return due > last_ && due - last_ <= slack(last_) ? due : last_;
+    const double last = grid_.end();
+    return due > last && due - last <= slack(last) ? due : last;
   }
 
   // Searches the step from from_ up to the next time event. Sets at_, and z_ if a guard crossed.
@@ -150,7 +143,6 @@ class HybridIntegration {
     switches_ = effect_ == Effect::restart || (effect_ == Effect::none && to >= due_);
     if (effect_ == Effect::none) publish(to, switches_);
     rows_.write_to(at_, !switches_);
-    if (rows_.part_ends()) return end(Ending::done, rows_.end());
     if (effect_ == Effect::stop) return end(Ending::stopped, at_);
     return switches_ || to < end_ || end(Ending::done, at_);
   }
@@ -208,10 +200,6 @@ class HybridIntegration {
       }
     }
     rows_.write_at(at_, z_, integral_);
-    if (rows_.part_ends()) {  // the row at a switch has the state after it
-      const bool stops = !goes_on && check_events(at_, integral_) == Effect::stop;
-      return stops ? end(Ending::stopped, at_) : end(Ending::done, rows_.end());
-    }
     const bool over = end_ - at_ <= slack(at_);
     if (in_closed_form_ && !over) {
       if (!goes_on) switch_integral_ = integral_;
@@ -270,44 +258,6 @@ class HybridIntegration {
     published_ = to;
   }
 
-  template <class Archive>
-  void archive(Archive& archive) {
-    archive(run_, pace_, guards_, standstill_, crossing_, predicted_to_, switch_integral_);
-    archive.require(is_finite(switch_integral_) && is_number(predicted_to_) &&
-                    is_number(crossing_.time) &&
-                    (std::isinf(crossing_.time) || crossing_.guard < run_.first_monitor()));
-  }
-
-  void restore() {
-    StateReader from(part_->from);
-    archive(from);
-    if (run_.controller() != nullptr) {
-      std::string memory;
-      from(memory);
-      run_.controller()->restore(memory);
-    }
-    stepper_->restore(from);
-    rows_.skip(part_->first_row);
-    // The time must be before the next row, and no event before that time may be pending.
-    const double t = stepper_->time(), next = grid_[part_->first_row];
-    StateReader::require(from.at_end() && t >= 0 && t <= next + slack(next) &&
-                         run_.next_time_event() >= t - slack(t) && crossing_.time >= t - slack(t));
-  }
-
-  // Saves the state before a step up to limit_. Asks an external controller for its memory only if
-  // the part may end within this step, or if the run is being stopped.
-  void keep_state() {
-    part_->state.clear();
-    StateWriter into;
-    archive(into);
-    if (run_.controller() != nullptr) {
-      if (limit_ + slack(limit_) < rows_.end() && !is_stopped()) return;
-      std::string memory = run_.controller()->save();
-      into(memory);
-    }
-    if (stepper_->save(into)) part_->state = into.bytes();
-  }
-
   [[nodiscard]] bool is_stopped() const {
     return watch_.stop != nullptr && watch_.stop->load(std::memory_order_relaxed);
   }
@@ -326,19 +276,7 @@ class HybridIntegration {
     outcome.rows = rows_.count();
     outcome.statistics = stepper_->statistics();
     outcome.occurrences = run_.log().occurrences();
-    if (part_ != nullptr) {
-      // Two adjacent parts both make the step across their border. Keep only the events within this
-      // part.
-      std::erase_if(outcome.occurrences, [&](const model::Occurrence& one) {
-        return one.t > rows_.end() || (!part_->from.empty() && one.t <= rows_.begin());
-      });
-      // A run that stops in this part has the stopping event among the part's occurrences.
-      StateReader::require(ending != Ending::stopped || !outcome.occurrences.empty());
-      part_->next_row = rows_.next_row();
-      part_->least_end = stepper_->least_end();
-      if (ending == Ending::failed || ending == Ending::stopped) part_->state.clear();
-    }
-    outcome_ = with_all_rows(std::move(outcome), rows_.end_row());
+    outcome_ = with_all_rows(std::move(outcome), grid_.size());
     return false;
   }
 
@@ -366,8 +304,6 @@ class HybridIntegration {
   model::HybridSystem run_;
   const OutputGrid& grid_;
   const Watch& watch_;
-  PartialRun* part_;
-  double last_;  // the limit of all steps, s
   Pace pace_;
   std::unique_ptr<Stepper> stepper_;
   bool in_closed_form_;  // the stepper moves the servos, and run_ predicts their crossings
@@ -393,8 +329,8 @@ class HybridIntegration {
 
 Outcome integrate_hybrid(const model::Model& model, const MakeStepper& make_stepper,
                          Tolerances tolerances, const OutputGrid& grid, StateSink& sink,
-                         const Watch& watch, PartialRun* part) {
-  return HybridIntegration(model, make_stepper, tolerances, grid, sink, watch, part).run();
+                         const Watch& watch) {
+  return HybridIntegration(model, make_stepper, tolerances, grid, sink, watch).run();
 }
 
 }  // namespace bbsim::solve

@@ -23,7 +23,6 @@ using MakeStepper = std::function<std::unique_ptr<Stepper>(const model::Model& m
 // has a state that does not fit.
 [[nodiscard]] Outcome integrate_hybrid(const model::Model& model, const MakeStepper& make_stepper,
                                        Tolerances tolerances, const OutputGrid& grid,
-                                       StateSink& sink, const Watch& watch,
-                                       PartialRun* part = nullptr);
+                                       StateSink& sink, const Watch& watch);
 
 }  // namespace bbsim::solve

@@ -37,15 +37,6 @@ class Pace {
   // Whether the last call of creeps() completed a window of 4096 steps and checked the pace.
   [[nodiscard]] bool completed_window() const { return steps_ % window == 0; }
 
-  // Saves or restores its state (base/archive.hpp).
-  template <class Archive>
-  void archive(Archive& archive) {
-    archive(steps_, from_, advance_, advances_, windows_, shrinking_, slow_, awaited_);
-    for (const int count : {shrinking_, slow_, awaited_}) {
-      archive.require(count >= 0 && count < 1 << 30);
-    }
-  }
-
   // Steps per second of motion at present, 1/s, and steps left at that pace. Valid after
   // completed_window().
   [[nodiscard]] double steps_per_second() const { return static_cast<double>(window) / advance_; }

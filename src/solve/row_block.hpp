@@ -14,12 +14,10 @@ namespace bbsim::solve {
 
 class RowBlock {
  public:
-  // `first`: the number of the first row.
-  RowBlock(StateSink& sink, std::size_t row_size, std::size_t first = 0)
+  RowBlock(StateSink& sink, std::size_t row_size)
       : sink_(sink),
         row_size_(row_size),
-        values_(std::make_unique_for_overwrite<double[]>(row_size * capacity)),
-        first_(first) {}
+        values_(std::make_unique_for_overwrite<double[]>(row_size * capacity)) {}
 
   // Returns space for the next row. The row must be complete before the next call of next() or
   // flush().
@@ -50,7 +48,7 @@ class RowBlock {
   StateSink& sink_;
   std::size_t row_size_;
   std::unique_ptr<double[]> values_;
-  std::size_t first_, count_ = 0;
+  std::size_t first_ = 0, count_ = 0;
 };
 
 }  // namespace bbsim::solve

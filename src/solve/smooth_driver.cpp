@@ -51,16 +51,12 @@ bool has_run_away(const model::Model& model, const std::vector<double>& state) {
 }  // namespace
 
 Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGrid& grid,
-                    StateSink& sink, const Watch& watch, PartialRun* part) {
+                    StateSink& sink, const Watch& watch) {
   const std::size_t row_size = model.size() + (model.gamma ? 1 : 0);
-  const bool goes_on = part != nullptr && !part->from.empty();
-  const std::size_t end_row = part != nullptr ? part->end_row : grid.size();
-  RowBlock rows(sink, row_size, goes_on ? part->first_row : 0);
-  if (!goes_on) {
-    double* const first = rows.next();
-    std::copy(model.initial.begin(), model.initial.end(), first);
-    if (model.gamma) first[model.size()] = 0;
-  }
+  RowBlock rows(sink, row_size);
+  double* const first = rows.next();
+  std::copy(model.initial.begin(), model.initial.end(), first);
+  if (model.gamma) first[model.size()] = 0;
 
   PieceSink* const pieces = sink.pieces();
   if (pieces != nullptr) pieces->begin_run();
@@ -76,29 +72,10 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
     outcome.worst_state = stepper.worst_state();
   };
   std::array<double, 64> times;
-  std::size_t next_row = goes_on ? part->first_row : 1, next_stop = 0;
-  if (goes_on) {
-    StateReader from(part->from);
-    from(next_stop, pace);
-    stepper.restore(from);
-    const double t = stepper.time(), next = grid[next_row];
-    StateReader::require(from.at_end() && t >= 0 && t <= next + rounding_of(next) &&
-                         next_stop <= model.stops.size() &&
-                         (next_stop == model.stops.size() || model.stops[next_stop] >= t));
-  } else {
-    stepper.start(0, model.initial.data());
-  }
-  const double begun = goes_on ? grid[next_row - 1] : 0, cut = grid[end_row - 1];
-  const double behind = step_limit(part, grid.end());
-  const auto keep_state = [&] {
-    part->state.clear();
-    StateWriter into;
-    into(next_stop, pace);
-    if (stepper.save(into)) part->state = into.bytes();
-  };
+  std::size_t next_row = 1, next_stop = 0;
+  stepper.start(0, model.initial.data());
   for (std::size_t steps = 1;; ++steps) {
-    const double limit = next_stop < model.stops.size() ? model.stops[next_stop] : behind;
-    if (part != nullptr && part->keeps_state) keep_state();
+    const double limit = next_stop < model.stops.size() ? model.stops[next_stop] : grid.end();
     const double before = stepper.time();
     if (const auto failure = stepper.step(limit)) {
       fail(failure->why, failure->text);
@@ -107,11 +84,10 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
     const double reached = stepper.time();
     if (pieces != nullptr) {
       const bool at_stop = reached >= limit && reached < grid.end();
-      const double from = std::max(before, begun);
-      const double to = std::min(at_stop ? model.just_before(reached) : reached, cut);
-      if (to > from) pieces->accept(Step(stepper, from, to));
+      const double to = std::min(at_stop ? model.just_before(reached) : reached, grid.end());
+      if (to > before) pieces->accept(Step(stepper, before, to));
     }
-    const std::size_t rows_until = std::min(grid.rows_until(reached), end_row);
+    const std::size_t rows_until = grid.rows_until(reached);
     if (!with_rows) next_row = std::max(next_row, rows_until);
     while (next_row < rows_until) {
       std::size_t count = std::min(times.size(), rows_until - next_row);
@@ -120,7 +96,7 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
       stepper.evaluate(times.data(), count, out);
       next_row += count;
     }
-    if (reached >= grid.end() || next_row == end_row) break;
+    if (reached >= grid.end() || next_row == grid.size()) break;
     if (reached >= limit) {
       ++next_stop;
       stepper.jump();
@@ -148,14 +124,8 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
   rows.flush();
   outcome.reached = stepper.time();
   outcome.rows = next_row;
-  if (part != nullptr) {
-    outcome.reached = std::min(outcome.reached, cut);
-    part->next_row = next_row;
-    part->least_end = stepper.least_end();
-    if (outcome.ending == Ending::failed) part->state.clear();
-  }
   outcome.statistics = stepper.statistics();
-  return with_all_rows(std::move(outcome), end_row);
+  return with_all_rows(std::move(outcome), grid.size());
 }
 
 }  // namespace bbsim::solve

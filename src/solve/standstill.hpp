@@ -17,13 +17,6 @@ class Standstill {
     return still_ >= most;
   }
 
-  // Saves or restores its state (base/archive.hpp).
-  template <class Archive>
-  void archive(Archive& archive) {
-    archive(last_, still_);
-    archive.require(still_ >= 0 && still_ < most);
-  }
-
  private:
   static constexpr int most = 100;
 

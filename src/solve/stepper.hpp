@@ -10,12 +10,10 @@
 #include <optional>
 #include <vector>
 
-#include "base/archive.hpp"
 #include "model/model.hpp"
 #include "model/servo/held_motion.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
-#include "solve/partial_run.hpp"
 #include "solve/piece.hpp"
 
 namespace bbsim::solve {
@@ -67,20 +65,11 @@ class Stepper {
                                                      bool /*closely*/) {
     return {};
   }
-
-  // Saves the whole state. Another stepper of this model, method and tolerances continues from it
-  // with the same steps, bit for bit. Returns false if the integrator cannot save its state.
-  [[nodiscard]] virtual bool save(StateWriter& /*into*/) { return false; }
-  // Replaces start(). Throws InputError if the bytes are not the state of a stepper like this one.
-  virtual void restore(StateReader& /*from*/) {}
-  // The earliest end (s) of a run that has the steps made so far with an infinite limit.
-  [[nodiscard]] virtual double least_end() const { return 0; }
 };
 
 // Drives a stepper from the model's initial state to the end of the grid and passes the rows to the
 // sink. The model must not be hybrid().
 [[nodiscard]] Outcome run_through(Stepper& stepper, const model::Model& model,
-                                  const OutputGrid& grid, StateSink& sink, const Watch& watch,
-                                  PartialRun* part = nullptr);
+                                  const OutputGrid& grid, StateSink& sink, const Watch& watch);
 
 }  // namespace bbsim::solve

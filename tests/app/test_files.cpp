@@ -130,19 +130,11 @@ TEST_CASE("no command overwrites its input or writes two outputs to one file") {
         Names{"d.csv", "in.yaml", "link.json", "t.csv", "table.yaml", "y.csv.part"});
 }
 
-TEST_CASE("no command overwrites the state that it continues from or a table that it displays") {
+TEST_CASE("no command overwrites a table that it displays") {
   const Folder folder;
   folder.write("recorded.yaml", scene_with_table);
   folder.write("t.csv", table);
   const auto run = [&](const Names& words) { return bbsim(words, folder.path()); };
-  const Names part{"run", "recorded.yaml", "--set", "time.step=0.5", "-q"};
-  REQUIRE(run(with(part, {"-o", "p.csv", "--until", "1", "--save-state", "s.csv"})).exit_code == 0);
-  const std::string state = folder.read("s.csv");
-  const Result over = run(with(part, {"--from-state", "s.csv", "-o", "s.csv"}));
-  CHECK(over.exit_code == 2);
-  CHECK_THAT(over.err, Contains("s.csv (--from-state), which is read here"));
-  CHECK(folder.read("s.csv") == state);
-  CHECK(run(with(part, {"--from-state", "s.csv", "-o", "q.csv"})).exit_code == 0);
 
   std::string shown = scene_with_table;
   for (const char* const name : {"t.html", "t.svg"}) {
@@ -309,7 +301,7 @@ TEST_CASE("a summary that nests without end is refused") {
   }
 }
 
-TEST_CASE("a folder, unreadable file or device in place of a state or summary gives exit code 2") {
+TEST_CASE("a folder, unreadable file or device in place of a summary gives exit code 2") {
   const Folder folder;
   folder.write("in.yaml", scene);
   REQUIRE(bbsim({"run", "in.yaml", "-q", "-o", "r.csv"}, folder.path()).exit_code == 0);
@@ -323,8 +315,7 @@ TEST_CASE("a folder, unreadable file or device in place of a state or summary gi
        {Way{"folder", "is a directory"}, Way{"closed", "permission denied"},
         Way{"nowhere", "no such file"}, Way{"/dev/null", "/dev/null: "}}) {
     for (const Names& words :
-         {Names{"run", "in.yaml", "-o", "x.csv", "--from-state", file},
-          Names{"plot", "r.csv", "--summary", file}, Names{"replay", "r.csv", "--summary", file}}) {
+         {Names{"plot", "r.csv", "--summary", file}, Names{"replay", "r.csv", "--summary", file}}) {
       CAPTURE(words);
       Launch launch{words, folder.path()};
       launch.prepare = drop_rights_over_files;
@@ -333,21 +324,13 @@ TEST_CASE("a folder, unreadable file or device in place of a state or summary gi
       CHECK_THAT(result.err, Contains(why));
     }
   }
-  // Only its first bytes are read.
-  if (under_sanitizers) return;
-  Launch launch{{"run", "in.yaml", "-o", "x.csv", "--from-state", "/dev/zero"}, folder.path()};
-  launch.prepare = [] { limit(RLIMIT_AS, rlim_t{1} << 28U); };
-  const Result zeros = bbsim(launch);
-  CHECK(zeros.exit_code == 2);
-  CHECK_THAT(zeros.err, Contains("/dev/zero: found no state of a run"));
   CHECK(folder.files() == Names{"closed", "folder", "in.yaml", "r.csv"});
 }
 
 TEST_CASE("an option with an empty value is refused, as from an unset variable") {
   const Folder folder;
   folder.write("in.yaml", scene);
-  for (const char* const option :
-       {"-o", "--error", "--summary", "--from-state", "--save-state", "--replay", "--set"}) {
+  for (const char* const option : {"-o", "--error", "--summary", "--replay", "--set"}) {
     CAPTURE(option);
     const Result result = bbsim({"run", "in.yaml", option, ""}, folder.path());
     CHECK(result.exit_code == 2);

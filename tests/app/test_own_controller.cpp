@@ -316,18 +316,6 @@ TEST_CASE("a sweep case whose library ends the process fails, and the others con
   CHECK(contains(result.out, "\n3,0,done,,0.2,11\n"));
 }
 
-TEST_CASE("a library that tries to save more than the allowed size fails") {
-  const Folder folder;
-  std::vector<std::string> words = with_misdeeds("11");
-  words.insert(words.end(), {"--until", "0.1", "--save-state", folder / "s.state"});
-  const Result result = bbsim(words);
-  CAPTURE(result.err);
-  CHECK(result.exit_code == 1);
-  CHECK(contains(result.err,
-                 "failed to save its state: it would take 18446744073709551615 bytes; allowed: "));
-  CHECK_FALSE(std::filesystem::exists(folder / "s.state"));
-}
-
 TEST_CASE("a library starts anew for each case of a sweep, with or without reset") {
   for (const char* mode : {"0", "4"}) {
     std::vector<std::string> words = with_misdeeds(mode);

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "base/archive.hpp"
 #include "catch.hpp"
 #include "model/hybrid/hybrid_system.hpp"
 #include "support/reading.hpp"
@@ -53,13 +52,6 @@ std::size_t crossed(const HybridSystem& run, double t, const std::vector<double>
   return static_cast<std::size_t>(
       std::find_if(values.begin(), values.end(), [](double value) { return !(value > 0); }) -
       values.begin());
-}
-
-template <class Object>
-std::string saved(Object& object) {
-  StateWriter into;
-  into(object);
-  return into.bytes();
 }
 
 }  // namespace
@@ -176,24 +168,4 @@ TEST_CASE("stops of the input are passed in order") {
     run.handle_time_event(t, z.data());
   }
   CHECK(run.next_time_event() == unlimited);
-}
-
-TEST_CASE("a run continues from its saved state") {
-  const Model model = model_of(sampled);
-  HybridSystem run(model, 0), other(model, 0);
-  std::vector<double> z = model.initial;
-  for (const double t : {0.0, 0.005, 0.02, 0.025, 0.04}) run.handle_time_event(t, z.data());
-  const std::string bytes = saved(run);
-  StateReader from(bytes);
-  from(other);
-  CHECK(from.at_end());
-  CHECK(saved(other) == bytes);
-  std::vector<double> again = z;
-  for (const double t : {0.045, 0.06, 0.065}) {
-    run.handle_time_event(t, z.data());
-    other.handle_time_event(t, again.data());
-  }
-  CHECK(saved(other) == saved(run));
-  StateReader truncated(std::string_view(bytes).substr(0, bytes.size() - 1));
-  CHECK_THROWS_AS(truncated(other), StateFault);
 }

@@ -206,10 +206,6 @@ TEST_CASE("a scenario unsuitable for a sketch is refused") {
     CHECK(result.exit_code == 2);
     CHECK(contains(result.err, one.told));
   }
-  const Result parts =
-      bbsim(sketch.words("run", {"--save-state", sketch.folder() / "state", "-o", "-"}));
-  CHECK(parts.exit_code == 2);
-  CHECK(contains(parts.err, "found with a controller that cannot save its state"));
   // Input files are not overwritten.
   for (const char* name : {"sketch.so", "wiring.yaml"}) {
     CHECK(bbsim(sketch.words("run", {"-o", sketch.folder() / name})).exit_code == 2);

@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/archive.hpp"
 #include "catch.hpp"
 #include "model/control/external_controller.hpp"
 #include "model/control/sampled_controller.hpp"
@@ -66,22 +65,11 @@ class BuiltIn : public model::ExternalController {
     const Pair two = controller_.command(sample.seen, servo, sample.reference);
     return {two[0], two[1], 0};
   }
-  [[nodiscard]] bool can_save() const override { return true; }
-  [[nodiscard]] std::string save() override {
-    ++saves;
-    StateWriter into;
-    controller_.archive(into);
-    return into.bytes();
-  }
-  void restore(const std::string& memory) override {
-    StateReader from(memory);
-    controller_.archive(from);
-  }
 
   std::size_t fails_at = std::numeric_limits<std::size_t>::max();
   std::size_t stops_at = std::numeric_limits<std::size_t>::max();
   std::atomic<bool> stop = false;
-  int runs = 0, saves = 0;
+  int runs = 0;
   bool interrupts = false, numbers = false;
   std::vector<double> times;
 
@@ -95,11 +83,10 @@ struct Made {
   std::vector<std::vector<double>> rows;
 };
 
-Made run(const model::Model& model, const Scenario& scene, const solve::Watch& watch = {},
-         solve::PartialRun* part = nullptr) {
+Made run(const model::Model& model, const Scenario& scene, const solve::Watch& watch = {}) {
   solve::Trajectory rows(model.row_size());
   const solve::OutputGrid grid(scene.time);
-  Made made{solve::integrate(model, Method::automatic, {1e-9, 1e-11}, grid, rows, watch, part), {}};
+  Made made{solve::integrate(model, Method::automatic, {1e-9, 1e-11}, grid, rows, watch), {}};
   for (std::size_t i = 0; i < rows.rows(); ++i) {
     made.rows.emplace_back(rows.row(i), rows.row(i) + model.row_size());
   }
@@ -174,43 +161,6 @@ TEST_CASE("a controller that fails ends the run at that sample and keeps the row
       CHECK(made.outcome.rows == sample);
       CHECK(std::equal(made.rows.begin(), made.rows.end(), whole.rows.begin()));
     }
-  }
-}
-
-TEST_CASE("an interrupted run continues with its controller's memory") {
-  const Scenario scene = step();
-  model::Model model = model::assemble(with_own(scene), true);
-  const auto begin = [&] {
-    auto controller = std::make_shared<BuiltIn>(scene);
-    model.rig->sampled->external = controller;
-    return controller;
-  };
-  begin();
-  const Made whole = run(model, scene);
-  for (const std::size_t sample : {std::size_t{0}, std::size_t{1}, std::size_t{70}}) {
-    CAPTURE(sample);
-    const auto stopped = begin();
-    stopped->stops_at = sample;
-    solve::PartialRun first;
-    first.end_row = whole.rows.size();
-    first.keeps_state = true;
-    const Made before = run(model, scene, {&stopped->stop, {}}, &first);
-    REQUIRE(before.outcome.ending == solve::Ending::interrupted);
-    REQUIRE(before.rows.size() == sample + 1);
-    REQUIRE(first.next_row == sample + 1);
-    CHECK(stopped->saves == 1);
-    const auto other = begin();
-    solve::PartialRun second;
-    second.first_row = first.next_row;
-    second.end_row = whole.rows.size();
-    second.from = first.state;
-    const Made after = run(model, scene, {}, &second);
-    CHECK(after.outcome.ending == solve::Ending::done);
-    CHECK(other->runs == 0);
-    CHECK(other->times.size() + stopped->times.size() == 151);
-    REQUIRE(before.rows.size() + after.rows.size() == whole.rows.size());
-    CHECK(std::equal(before.rows.begin(), before.rows.end(), whole.rows.begin()));
-    CHECK(std::equal(after.rows.rbegin(), after.rows.rend(), whole.rows.rbegin()));
   }
 }
 

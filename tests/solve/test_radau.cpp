@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The collocation integrator: against quad-precision solutions, at its limits, and in parts.
+// The collocation integrator: against quad-precision solutions, and at its limits.
 #include <algorithm>
 #include <atomic>
 #include <cmath>

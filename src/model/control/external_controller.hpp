@@ -52,13 +52,6 @@ class ExternalController {
   // Returns as many commands as the sample has servos, all finite. Writes the numbers that
   // SampledLoop::own_columns names to `own`. Throws ControllerFault.
   virtual Commands command(const ControllerSample& sample, double* own) = 0;
-
-  // Whether the controller can save its memory and resume from it.
-  [[nodiscard]] virtual bool can_save() const = 0;
-  // Returns its memory, for another instance's restore(). Throws ControllerFault.
-  [[nodiscard]] virtual std::string save() = 0;
-  // Replaces begin() when a run resumes. Throws ControllerFault.
-  virtual void restore(const std::string& memory) = 0;
 };
 
 }  // namespace bbsim::model

@@ -49,26 +49,6 @@ void SampleExchange::expose(double x, double y) {
   go_on_exposing();
 }
 
-bool SampleExchange::is_sound(double first_exposure) const {
-  constexpr double most = 0x1p53;
-  const auto is_count = [](double number, double least) {
-    return number >= least && number <= most && number == std::floor(number);
-  };
-  if (!is_count(expose_.number, first_exposure) || !is_count(sample_.number, 0) ||
-      !is_count(apply_.number, 0)) {
-    return false;
-  }
-  if (!even_ && !(times_.knows(sample_.number) && times_.knows(apply_.number) &&
-                  (frames_ || times_.knows(expose_.number)))) {
-    return false;
-  }
-  // The queues must match the numbers.
-  const bool frame_sound = !frame_ || is_finite(*frame_);
-  return frame_sound && static_cast<double>(commands_.size()) == sample_.number - apply_.number &&
-         (!legs_ || thirds_.size() == commands_.size()) &&
-         (frames_ || static_cast<double>(seen_.size()) == expose_.number - sample_.number);
-}
-
 // Forgets the times of samples that no clock needs any more.
 void SampleExchange::forget_times() {
   const double last = std::min(sample_.number, apply_.number);

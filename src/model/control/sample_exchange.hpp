@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "base/archive.hpp"
 #include "base/instant.hpp"
 #include "base/queue.hpp"
 #include "model/control/sample_times.hpp"
@@ -69,25 +68,6 @@ class SampleExchange {
   void push_third(double command) { thirds_.push() = command; }
   [[nodiscard]] double take_third() { return thirds_.pop(); }
 
-  // State that changes over a run (base/archive.hpp).
-  template <class Archive>
-  void archive(Archive& archive) {
-    const double first_exposure = Archive::reads ? expose_.number : 0;
-    archive(sensor_, times_, seen_, frame_, commands_);
-    if (legs_) archive(thirds_);
-    archive(expose_.number, sample_.number, apply_.number);
-    if constexpr (Archive::reads) {
-      archive.require(is_sound(first_exposure));
-      if (frames_) {
-        expose_.next = frame_time();
-      } else {
-        put(expose_);
-      }
-      put(sample_);
-      put(apply_);
-    }
-  }
-
  private:
   // A recurring instant: `shift` after the sample or frame of that number.
   struct Clock {
@@ -100,11 +80,6 @@ class SampleExchange {
     Pair position{};
     bool sees = false;
 
-    template <class Archive>
-    void archive(Archive& archive) {
-      archive(at, position, sees);
-      archive.require(is_finite(at, position));
-    }
     [[nodiscard]] std::optional<Pair> what() const {
       return sees ? std::optional(position) : std::nullopt;
     }
@@ -117,8 +92,6 @@ class SampleExchange {
   // Sets the time of the present number.
   void put(Clock& clock) { clock.next = time_of(clock.number) + clock.shift; }
   [[nodiscard]] double frame_time() const { return expose_.number * *frames_ + expose_.shift; }
-  // Whether the numbers and queues just read could come from a run.
-  [[nodiscard]] bool is_sound(double first_exposure) const;
   void go_on_exposing();
   void skip_past();
   void forget_times();

@@ -29,17 +29,6 @@ class SampleTimes {
   // Forgets the samples before the n-th.
   void forget_before(double n);
 
-  // The times drawn so far (base/archive.hpp).
-  template <class Archive>
-  void archive(Archive& archive) {
-    archive(noise_, times_, first_);
-    bool ascend = !times_.empty();
-    for (std::size_t i = 0; i < times_.size(); ++i) {
-      ascend = ascend && std::isfinite(times_[i]) && (i == 0 || times_[i] > times_[i - 1]);
-    }
-    archive.require(ascend && first_ >= 0 && first_ == std::floor(first_));
-  }
-
  private:
   Sampling sampling_;
   Noise noise_;

@@ -30,13 +30,6 @@ class BallSensor {
   // reading a pair right after its halves were written is slow.)
   [[nodiscard]] bool read(double x, double y, Pair& seen);
 
-  // State that changes over a run (base/archive.hpp): progress of noise and dropouts.
-  template <class Archive>
-  void archive(Archive& archive) {
-    archive(noise_);
-    if (dropouts_) archive(*dropouts_);
-  }
-
  private:
   Sensor sensor_;
   Noise noise_;
@@ -72,13 +65,6 @@ class SampledController {
   [[nodiscard]] const SampledMemory<double>& memory() const { return memory_; }
   [[nodiscard]] Pair last_command() const { return command_; }
   [[nodiscard]] const SinceSeen& since_seen() const { return since_; }
-
-  // The controller's memory (base/archive.hpp).
-  template <class Archive>
-  void archive(Archive& archive) {
-    archive(since_.any, since_.unseen, memory_, command_);
-    archive.require(since_.unseen >= 0 && is_finite(memory_, command_));
-  }
 
  private:
   double period_, resolution_;  // of samples, s, and of servo commands

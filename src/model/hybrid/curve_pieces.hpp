@@ -25,17 +25,6 @@ class CurvePieces : public Part {
   // The direction of the motion may have changed.
   void after_jump(double t, const double* z) { choose(t, z); }
 
-  template <class Archive>
-  void archive(Archive& archive) {
-    archive(pieces_, command_pieces_);
-    for (std::size_t i = 0; i < 2; ++i) {
-      const Linkage& of = linkage(i);
-      const std::size_t pieces = of.table ? of.table->knots().size() - 1 : 1;
-      archive.require(pieces_[i] < pieces && command_pieces_[i] < pieces);
-    }
-    put();
-  }
-
  private:
   // Guards per axis: the ends of the horn's piece and of the command's piece.
   struct Guard {

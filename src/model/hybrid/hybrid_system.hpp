@@ -148,13 +148,6 @@ class HybridSystem {
     return sampling() != nullptr ? model().rig->sampled->external.get() : nullptr;
   }
 
-  // The state of the run (base/archive.hpp), except the occurrences and the state of controller().
-  template <class Archive>
-  void archive(Archive& archive) {
-    archive(model_);
-    for_each(parts_, [&](auto& part) { archive(part); });
-  }
-
  private:
   // The order is that of the guards and of the resets.
   using Parts =

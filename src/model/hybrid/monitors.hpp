@@ -91,12 +91,6 @@ class Monitors : public Part {
     return occurring_[m] == 0 && of()[m].action == OnEvent::stop;
   }
 
-  template <class Archive>
-  void archive(Archive& archive) {
-    archive.fixed(occurring_);
-    for (const char one : occurring_) archive.require(one == 0 || one == 1);
-  }
-
  private:
   [[nodiscard]] const std::vector<Monitor>& of() const { return model_.get().events->monitors; }
   void margins(double t, const double* z, double* values) const {

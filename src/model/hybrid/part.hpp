@@ -74,10 +74,6 @@ struct Part {
   static void after_jump(double /*t*/, const double* /*z*/) {}
   // Chooses by its rate how a quantity exactly at its limit continues. All other modes are known.
   static void reset_at_limits(double /*t*/, const double* /*z*/) {}
-
-  // Saves or restores the state (base/archive.hpp).
-  template <class Archive>
-  static void archive(Archive& /*archive*/) {}
 };
 
 }  // namespace bbsim::model

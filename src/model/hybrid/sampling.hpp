@@ -10,7 +10,6 @@
 #include <optional>
 #include <vector>
 
-#include "base/archive.hpp"
 #include "model/control/external_controller.hpp"
 #include "model/control/sample_exchange.hpp"
 #include "model/control/sampled_controller.hpp"
@@ -73,13 +72,6 @@ class Sampling : public Part {
   [[nodiscard]] const std::vector<double>& own() const { return own_; }
   [[nodiscard]] const SampledController& controller() const { return controller_; }
   [[nodiscard]] const SampleExchange& exchange() const { return exchange_; }
-
-  template <class Archive>
-  void archive(Archive& archive) {
-    archive(exchange_, controller_, measured_);
-    archive.require(is_finite(measured_));
-    archive.fixed(own_);
-  }
 
  private:
   void ask_external(double t, double number, const std::optional<Pair>& seen, const double* z);

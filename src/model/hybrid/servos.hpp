@@ -41,11 +41,6 @@ class Servos : public Part {
                                        double end);
   [[nodiscard]] const ServoAxis& axis(std::size_t i) const { return axes_[i]; }
 
-  template <class Archive>
-  void archive(Archive& archive) {
-    for (ServoAxis& axis : axes_) archive(axis);
-  }
-
  private:
   [[nodiscard]] AxisState state(std::size_t i, const Demands& demands, const double* z) const {
     return {z[SwitchedModel::angle + i], z[model_.rate() + i], demands.demand[i],

@@ -21,13 +21,6 @@ class Stops : public Part {
     }
   }
 
-  template <class Archive>
-  void archive(Archive& archive) {
-    archive(next_);
-    archive.require(next_ <= times_.size());
-    put();
-  }
-
  private:
   void put() { time_ = next_ < times_.size() ? times_[next_] : unlimited; }
 

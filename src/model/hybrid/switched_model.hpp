@@ -11,7 +11,6 @@
 #include <variant>
 #include <vector>
 
-#include "base/archive.hpp"
 #include "base/pair.hpp"
 #include "model/model.hpp"
 
@@ -75,14 +74,6 @@ class SwitchedModel {
   [[nodiscard]] Sample sample(double t, const double* z, Detail detail) const {
     return std::visit([&](const auto& system) { return system.sample(t, z, detail); },
                       model_.system);
-  }
-
-  // Saves or restores only the mode of a rig.
-  template <class Archive>
-  void archive(Archive& archive) {
-    if (mode_ == nullptr) return;
-    archive(*mode_);
-    archive.require(is_finite(*mode_));
   }
 
  private:

@@ -7,7 +7,6 @@
 
 #include <cmath>
 
-#include "base/archive.hpp"
 #include "model/servo/held_motion.hpp"
 #include "model/systems/rig.hpp"
 
@@ -99,15 +98,6 @@ class ServoAxis {
 
   // The scale of each guard's value.
   void scales(double* values) const;
-
-  // The present mode (base/archive.hpp).
-  template <class Archive>
-  void archive(Archive& archive) {
-    archive.enumerated(motion_, Motion::stop_down);
-    archive.enumerated(play_, Play::gap);
-    archive(started_, target_, plane_, calm_angle_, calm_rate_);
-    archive.require(is_finite(target_, plane_) && is_number(calm_angle_) && is_number(calm_rate_));
-  }
 
  private:
   enum class Motion {

@@ -65,14 +65,6 @@ class Shrinking {
     return most;
   }
 
-  // Saves or restores its state (base/archive.hpp).
-  template <class Archive>
-  void archive(Archive& archive) {
-    archive(count_, in_a_row_, from_, last_, ratio_, size_before_, last_error_);
-    constexpr int most = 1 << 30;
-    archive.require(count_ >= 0 && count_ < most && in_a_row_ >= 0 && in_a_row_ < most);
-  }
-
  private:
   // The number of shorter steps since the last longer one, and how many of them are consecutive at
   // present.

@@ -7,7 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include "base/archive.hpp"
 #include "base/chebyshev.hpp"
 #include "model/hybrid/hybrid_system.hpp"
 #include "solve/stepper.hpp"
@@ -61,18 +60,6 @@ class GuardSearch {
   // Predicts when an event stops the run, s; infinity if none does. Extrapolates each guard
   // linearly from its value at the last call.
   double predicted_stop(double t);
-
-  template <class Archive>
-  void archive(Archive& archive) {
-    archive.fixed(guards_);
-    for (const Guard& guard : guards_) {
-      archive.require(is_number(guard.value) && is_number(guard.threshold));
-    }
-    archive.enumerated(knowledge_, Knowledge::proven);
-    archive.require((knowledge_ == Knowledge::unwatched) == (first_ == guards_.size()));
-    archive(paced_, paced_time_);
-    archive.require(paced_.size() <= guards_.size() && is_finite(paced_time_));
-  }
 
  private:
   struct Guard {

@@ -17,30 +17,21 @@ namespace bbsim::solve {
 
 class HybridRows {
  public:
-  HybridRows(model::HybridSystem& run, Stepper& stepper, const OutputGrid& grid, StateSink& sink,
-             const PartialRun* part)
+  HybridRows(model::HybridSystem& run, Stepper& stepper, const OutputGrid& grid, StateSink& sink)
       : run_(run),
         stepper_(stepper),
         grid_(grid),
-        end_row_(part != nullptr ? part->end_row : grid.size()),
-        end_(grid[end_row_ - 1]),
         size_(run.model().size()),
         plain_size_(size_ + (run.model().gamma ? 1 : 0)),
         row_size_(run.model().row_size()),
-        rows_(sink, row_size_, part != nullptr ? part->first_row : 0),
+        rows_(sink, row_size_),
         pieces_(sink.pieces()) {
     if (pieces_ != nullptr) pieces_->begin_run();
   }
 
-  // Continues after the rows of earlier parts.
-  void skip(std::size_t first_row) {
-    next_row_ = first_row;
-    begin_ = grid_[first_row - 1];
-  }
-
   // Writes the rows before `to`, and the row at `to` if `with_it`, in the present mode.
   void write_to(double to, bool with_it) {
-    for (; next_row_ < end_row_; ++next_row_) {
+    for (; next_row_ < grid_.size(); ++next_row_) {
       const double t = grid_[next_row_];
       if (t > to || (!with_it && to - t <= run_.rounding(to))) break;
       double* const row = rows_.next();
@@ -52,7 +43,7 @@ class HybridRows {
   // Writes the row at the instant of a switch, with the state after it. `integral`: that of u,
   // which does not jump. Writes several rows if they are closer than rounding.
   void write_at(double at, const std::vector<double>& z, double integral) {
-    for (; next_row_ < end_row_ && grid_[next_row_] - at <= run_.rounding(at); ++next_row_) {
+    for (; next_row_ < grid_.size() && grid_[next_row_] - at <= run_.rounding(at); ++next_row_) {
       write(grid_[next_row_], z, integral);
     }
   }
@@ -62,20 +53,12 @@ class HybridRows {
   // changes. `switches`: `to` is excluded.
   void publish(double from, double to, bool switches) {
     if (pieces_ == nullptr) return;
-    const double first = std::max(from, begin_);
-    const double last = std::min(switches ? run_.model().just_before(to) : to, end_);
-    if (last > first) pieces_->accept(PartOfStep(*this, first, last));
+    const double last = std::min(switches ? run_.model().just_before(to) : to, grid_.end());
+    if (last > from) pieces_->accept(PartOfStep(*this, from, last));
   }
 
   void flush() { rows_.flush(); }
   [[nodiscard]] std::size_t count() const { return rows_.rows(); }
-  [[nodiscard]] std::size_t next_row() const { return next_row_; }
-  [[nodiscard]] std::size_t end_row() const { return end_row_; }
-  // Whether this is not the last part, and all its rows are written.
-  [[nodiscard]] bool part_ends() const { return next_row_ == end_row_ && end_row_ < grid_.size(); }
-  // The times (s) of this part's last row, and of the last row before the part.
-  [[nodiscard]] double end() const { return end_; }
-  [[nodiscard]] double begin() const { return begin_; }
 
  private:
   // A part of the last step, in the present mode.
@@ -114,8 +97,6 @@ class HybridRows {
   model::HybridSystem& run_;
   Stepper& stepper_;
   const OutputGrid& grid_;
-  std::size_t end_row_;
-  double end_, begin_ = -1;
   std::size_t size_, plain_size_, row_size_;  // of states; with the integral of u; of a whole row
   RowBlock rows_;
   PieceSink* pieces_;

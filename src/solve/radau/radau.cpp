@@ -117,7 +117,6 @@ void RadauStepper::renew(const model::Model& model, int stages, double end) {
   shrinking_ = {};
   worst_state_ = 0;
   statistics_ = {};
-  least_end_ = 0;
 }
 
 // Makes the kernel's own view of the system in its present mode.
@@ -173,9 +172,6 @@ void RadauStepper::start(double t, const double* z) {
   if (next_step_ > 0) return;
   const double rate = std::max(kernel_->rate(workspace_, t), highest_frequency_);
   next_step_ = rate > 0 ? 2 * reach_ / rate : end_;
-  if (!(rate > 0))
-    // The first step depends on `end`.
-    least_end_ = std::numeric_limits<double>::infinity();
   if (!(next_step_ > 0)) next_step_ = end_ * 1e-6;
 }
 
@@ -195,8 +191,6 @@ std::optional<Failure> RadauStepper::step(double limit) {
   bool rejected = false;
   for (;;) {
     double h = std::min(next_step_, widest_);
-    // Beyond 3.01 steps from the limit, steps are the same as without a limit: see stride().
-    if (std::isinf(limit)) least_end_ = std::max(least_end_, t + 3.01 * h);
     const auto [step, arrives] = stride(left, h);
     if (!arrives && is_lost(step, t)) return step_is_lost;
     Attempt attempt;
@@ -227,39 +221,6 @@ std::optional<Failure> RadauStepper::step(double limit) {
     next_step_ = arrives && !rejected ? std::max(h, next_step_) : h;
     return {};
   }
-}
-
-template <class Archive>
-void RadauStepper::archive(Archive& archive) {
-  archive(time_, next_step_, attempted_, turned_, shrinking_, accepted_step_, fill_, worst_state_,
-          least_end_, statistics_);
-  archive.require(is_finite(time_, turned_, accepted_step_, fill_) && is_number(least_end_) &&
-                  worst_state_ < model_->size());
-  // The kernel's memory: three flags in its head, and plain numbers after it.
-  auto& head = *static_cast<WorkspaceHead*>(workspace_);
-  archive(head.newton, head.has_guess, head.accepted);
-  archive.bytes(static_cast<std::byte*>(workspace_) + sizeof head,
-                kernel_->workspace - sizeof head);
-}
-
-bool RadauStepper::save(StateWriter& into) {
-  std::size_t size = kernel_->workspace;
-  into(size);
-  archive(into);
-  return true;
-}
-
-void RadauStepper::restore(StateReader& from) {
-  std::size_t size = 0;
-  from(size);
-  if (size != kernel_->workspace) {
-    throw StateFault("is not of this scene's integrator");
-  }
-  look_at_model();
-  const std::vector<double> none(model_->size());
-  kernel_->start(workspace_, {view_, none.data(), tolerances_.rtol, tolerances_.atol, model_->gamma,
-                              positions_only_});
-  archive(from);
 }
 
 void RadauStepper::evaluate(const double* times, std::size_t count, double* rows) {

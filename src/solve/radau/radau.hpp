@@ -60,14 +60,8 @@ class RadauStepper : public Stepper {
   [[nodiscard]] Statistics statistics() const override { return statistics_; }
   [[nodiscard]] std::size_t detail() const override;
   [[nodiscard]] std::size_t parts() const override;
-  [[nodiscard]] bool save(StateWriter& into) override;
-  void restore(StateReader& from) override;
-  [[nodiscard]] double least_end() const override { return least_end_; }
 
  private:
-  template <class Archive>
-  void archive(Archive& archive);
-
   void look_at_model();
   void settle();
   [[nodiscard]] bool diverges(double step, double t);
@@ -90,7 +84,6 @@ class RadauStepper : public Stepper {
   // Length of the accepted step (s), and its fraction of the length that would have passed
   double accepted_step_ = 0, fill_ = 1;
   std::size_t worst_state_ = 0;
-  double least_end_ = 0;  // see least_end(), s
   Statistics statistics_;
 };
 

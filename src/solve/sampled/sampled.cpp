@@ -302,32 +302,4 @@ std::optional<Bounds> HeldStepper::bounds(Load load, const model::BallConstants&
   return Bounds{close.least - beyond, close.most + beyond};
 }
 
-template <class Archive>
-void HeldStepper::archive(Archive& archive) {
-  archive(reached_, turned_, servo_, time_, next_step_, last_error_, piece_.guess,
-          piece_.contraction, worst_state_, statistics_);
-  archive.require(is_finite(reached_, turned_, servo_, time_, piece_.guess) && next_step_ > 0 &&
-                  worst_state_ < size);
-}
-
-bool HeldStepper::save(StateWriter& into) {
-  settle();
-  archive(into);
-  return true;
-}
-
-void HeldStepper::restore(StateReader& from) {
-  archive(from);
-  const model::RigMode& mode = loop().mode;
-  for (std::size_t i = 0; i < 2; ++i) {
-    StateReader::require(servo_[i].law == model::held_motion(loop().servo().of[i], mode.axis[i],
-                                                             mode.command[i], servo_[i].angle,
-                                                             servo_[i].rate)
-                                              .law);
-    piece_.axis[i].ratio = mode.axis[i].ratio;
-    piece_.axis[i].offset = mode.axis[i].offset;
-  }
-  settle();
-}
-
 }  // namespace bbsim::solve::sampled

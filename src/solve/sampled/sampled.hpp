@@ -45,8 +45,6 @@ class HeldStepper : public Stepper {
   [[nodiscard]] Statistics statistics() const override { return statistics_; }
   [[nodiscard]] std::size_t detail() const override { return nodes; }
   [[nodiscard]] std::size_t parts() const override;
-  [[nodiscard]] bool save(StateWriter& into) override;
-  void restore(StateReader& from) override;
 
   [[nodiscard]] const std::array<model::HeldMotion, 2>* servos() const override { return &servo_; }
   [[nodiscard]] bool no_monitor_changes(const std::vector<char>& occurring) override;
@@ -65,9 +63,6 @@ class HeldStepper : public Stepper {
 
     void evaluate(const Piece& piece, double (&ball)[6]) const;
   };
-
-  template <class Archive>
-  void archive(Archive& archive);
 
   [[nodiscard]] const Loop& loop() const { return std::get<Loop>(model_->system); }
   void take_modes();

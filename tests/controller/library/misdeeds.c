@@ -5,8 +5,7 @@
  * 0 normal; 1 no controller; 2 an error at sample 5; 3 NaN at sample 5; 4 like 0, without reset;
  * 5 exit(0) at sample 5; 6 _exit(0) there; 7 exit(0) in create; 8 exit(0) in destroy; 9 a child
  * process that calls exit(9) at sample 5, then normal; 10 a thread that calls exit(0) at sample 5;
- * 11 more bytes to save than exist; 12 err(0, ...) at sample 5, with which the C library itself
- * ends the process.
+ * 12 err(0, ...) at sample 5, with which the C library itself ends the process.
  * MISDEED_ABI sets its version, MISDEED_NO_STEP omits a function, MISDEED_OPENED calls exit(0)
  * while the library is opened. */
 #define _DEFAULT_SOURCE
@@ -95,19 +94,6 @@ int bbsim_controller_reset(void *controller, const bbsim_setup *setup) {
 void bbsim_controller_destroy(void *controller) {
   if (((struct controller *)controller)->mode == 8) exit(0);
   free(controller);
-}
-
-size_t bbsim_controller_save(const void *controller, void *bytes, size_t room) {
-  const struct controller *of = controller;
-  if (of->mode == 11) return (size_t)-1;
-  if (room >= sizeof *of) memcpy(bytes, of, sizeof *of);
-  return sizeof *of;
-}
-
-int bbsim_controller_restore(void *controller, const void *bytes, size_t size) {
-  if (size != sizeof(struct controller)) return 1;
-  memcpy(controller, bytes, size);
-  return 0;
 }
 
 const char *bbsim_controller_last_error(const void *controller) {

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "removed.hpp"
+
+#include <algorithm>
+#include <span>
+
+namespace bbsim::app {
+namespace {
+
+struct Removed {
+  std::string_view name, instead;
+};
+
+constexpr std::string_view runs_whole =
+    "runs are no longer split: make the whole run again, which takes milliseconds";
+
+constexpr Removed options[] = {
+    {"--save-state", runs_whole},
+    {"--from-state", runs_whole},
+    {"--until", "runs are no longer split; to end a run earlier, use --set time.end=TIME"},
+};
+constexpr Removed endings[] = {
+    {".glb", "glTF is no longer written; allowed: a page, a name that ends in .html"},
+};
+
+std::string text(std::span<const Removed> all, std::string_view name, bool with_name) {
+  const auto found = std::ranges::find(all, name, &Removed::name);
+  if (found == all.end()) return "";
+  const std::string prefix = with_name ? std::string(name) + ": " : "";
+  return prefix + std::string(found->instead) + " (docs/how-to/migrate.md)";
+}
+
+}  // namespace
+
+std::string removed_option(std::string_view option) {
+  return text(options, option, true);
+}
+
+std::string removed_command(std::string_view /*command*/) {
+  return "";
+}
+
+std::string removed_ending(std::string_view ending) {
+  return text(endings, ending, false);
+}
+
+}  // namespace bbsim::app
