@@ -76,14 +76,6 @@ const std::vector<Job> jobs{
      1e-9,
      "bdf",
      100},
-    {"fig2a: start and radius",
-     "fig2a",
-     {{"ball.position.0", "uniform:-0.1:0.1"},
-      {"ball.position.1", "uniform:-0.1:0.1"},
-      {"ball.radius", "uniform:0.005:0.02"}},
-     1e-9,
-     "dopri5",
-     150},
 };
 
 // Number of cases with a known solution.
@@ -359,7 +351,7 @@ int main(int count, char** words) {
     std::printf(
         "processor time a case of a sweep, its scenario set and its default measures taken, and "
         "of\n"
-        "the other tool's integration alone, rows included; error: the largest of x_end, y_end,\n"
+        "the other tool's integration alone, rows included; error: the largest of end_x, end_y,\n"
         "max_distance and the tracking errors over 64 cases, the other tool's over its rows\n\n"
         "%-28s %-14s %7s %10s  %-7s %9s %8s\n",
         "sweep", "engine", "error m", "sweep us", "other", "other us", "ratio");

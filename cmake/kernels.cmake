@@ -3,10 +3,11 @@
 
 # Compiles one source for several instruction sets; the program chooses one at run time:
 #
-#   bbsim_add_kernels(TARGET ROOM)
+#   bbsim_add_kernels(TARGET ROOM [WIDEST_AVX2])
 #
-# creates an object library from kernels.cpp of the current folder: once for the baseline and, for x86-64, for AVX2 and
-# AVX-512. BBSIM_ISA is the tag of the set (simd/isa.hpp). Adds it to the library ROOM, which selects one of them
+# creates an object library from kernels.cpp of the current folder: once for the baseline and, for x86-64, for AVX2 and,
+# unless WIDEST_AVX2, for AVX-512. BBSIM_ISA is the tag of the set (simd/isa.hpp); BBSIM_IS_AVX512 is defined for
+# AVX-512. Adds it to the library ROOM, which selects one of them
 # (simd/instruction_set.hpp).
 set(BBSIM_X86_KERNELS OFF)
 if(NOT BBSIM_BASELINE_ONLY AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$" AND CMAKE_SIZEOF_VOID_P EQUAL 8)
@@ -17,9 +18,10 @@ endif()
 # Adds kernels.cpp of the current folder to the object library, for one instruction set.
 function(_bbsim_add_kernels_of target isa)
   string(TOLOWER ${isa} name)
+  string(TOUPPER ${isa} upper)
   set(source ${CMAKE_CURRENT_BINARY_DIR}/kernels_${name}.cpp)
   file(CONFIGURE OUTPUT ${source} CONTENT
-       "#define BBSIM_ISA bbsim::simd::${isa}\n#include \"${CMAKE_CURRENT_SOURCE_DIR}/kernels.cpp\"\n")
+       "#define BBSIM_ISA bbsim::simd::${isa}\n#define BBSIM_IS_${upper}\n#include \"${CMAKE_CURRENT_SOURCE_DIR}/kernels.cpp\"\n")
   target_sources(${target} PRIVATE ${source})
 
   # Source options come last on the command line, so they override those of bbsim::options. Instruction sets agree to
@@ -43,6 +45,8 @@ function(bbsim_add_kernels target room)
   _bbsim_add_kernels_of(${target} Baseline)
   if(BBSIM_X86_KERNELS)
     _bbsim_add_kernels_of(${target} Avx2 -mavx2 -mfma)
-    _bbsim_add_kernels_of(${target} Avx512 -mavx512f -mavx512dq -mavx512vl -mavx2 -mfma -mprefer-vector-width=512)
+    if(NOT "WIDEST_AVX2" IN_LIST ARGN)
+      _bbsim_add_kernels_of(${target} Avx512 -mavx512f -mavx512dq -mavx512vl -mavx2 -mfma -mprefer-vector-width=512)
+    endif()
   endif()
 endfunction()

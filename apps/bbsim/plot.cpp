@@ -221,7 +221,7 @@ void add_plot(Command& command, const Options& options) {
       "  bbsim run configs/rig.yaml --summary rig.json && bbsim plot rig.csv\n"
       "  bbsim plot rig.csv --columns 'path;x,x_reference;phi,phi_command' -o rig.pdf\n"
       "  bbsim plot --overlay slow.csv fast.csv -o both.png\n"
-      "  bbsim plot fig2b-sweep.csv --columns x_end,max_tilt");
+      "  bbsim plot fig2b-sweep.csv --columns end_x,max_tilt");
   const auto arguments = std::make_shared<PlotArguments>();
   command
       .option("FILES", arguments->files,

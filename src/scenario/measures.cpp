@@ -189,11 +189,6 @@ std::optional<Measure> find_whole(std::string_view name, const FindColumn& find)
     }
   }
   if (name.starts_with("when ") || name.starts_with("find ")) return read_when_or_find(name, find);
-  if (name == "x_end" || name == "y_end") {
-    const Column* const column = find(name.substr(0, 1));
-    if (column == nullptr) return {};
-    return Measure{Kind::end, column, std::string(name)};
-  }
   for (const Prefix& prefix : prefixes) {
     if (!name.starts_with(prefix.text)) continue;
     const Column* const column = find(name.substr(prefix.text.size()));
@@ -287,8 +282,10 @@ std::string measure_hint(std::string_view name, std::span<const std::string_view
   if (std::ranges::find(columns, name) != columns.end()) {
     return " (did you mean end_" + std::string(name) + "?)";
   }
+  if (name == "x_end" || name == "y_end") {  // until 0.3.0
+    return " (did you mean end_" + std::string(name.substr(0, 1)) + "?)";
+  }
   std::vector<std::string> measures = measures_of(columns);
-  measures.insert(measures.begin(), {"x_end", "y_end"});
   for (const LoopMeasure& loop : loop_measures) measures.emplace_back(loop.name);
   const std::vector<std::string_view> known(measures.begin(), measures.end());
   const std::string_view nearest = yaml::nearest_name(name, known);
@@ -358,7 +355,7 @@ std::vector<Measure> measures_named(const std::vector<std::string>& names,
 }
 
 std::vector<std::string> default_measures(bool closed_loop) {
-  std::vector<std::string> names{"x_end", "y_end", "max_tilt", "max_tilt_rate", "max_distance"};
+  std::vector<std::string> names{"end_x", "end_y", "max_tilt", "max_tilt_rate", "max_distance"};
   if (closed_loop) names.insert(names.end(), {"rms_tracking_error", "max_tracking_error"});
   return names;
 }

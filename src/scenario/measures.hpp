@@ -64,7 +64,7 @@ struct Measure {
   // use the continuous motion.
   enum class Kind { least, greatest, rms, end, step, when, find, loop } kind = Kind::end;
   const Column* column = nullptr;  // for `when`: the column of the condition; null for `loop`
-  std::string name;                // max_tilt, end_phi, x_end, x.RiseTime, when x=0.05 rise=1
+  std::string name;                // max_tilt, end_phi, x.RiseTime, when x=0.05 rise=1
   StepMetric metric = StepMetric::rise_time;
   Instant instant{};
   // For step: the column of the reference, or null. A scene or a file may lack values for it.
@@ -78,7 +78,7 @@ struct Measure {
 };
 
 // Reads a measure's name:
-//   min_, max_, rms_ or end_ and the name of a column; x_end and y_end mean end_x and end_y
+//   min_, max_, rms_ or end_ and the name of a column
 //   COLUMN.RiseTime, or another of python-control's names
 //   when COLUMN=VALUE [rise=N|fall=N|cross=N]: N is from 1, or `last`; default: the first crossing
 //   when COLUMN stays below VALUE, when COLUMN stays above VALUE
@@ -127,7 +127,7 @@ struct SplitMeasures {
 // Throws InputError if two measures have the same name.
 void require_once(const std::vector<Measure>& measures);
 
-// x_end, y_end, max_tilt, max_tilt_rate, max_distance; with a controller also rms_tracking_error
+// end_x, end_y, max_tilt, max_tilt_rate, max_distance; with a controller also rms_tracking_error
 // and max_tracking_error.
 [[nodiscard]] std::vector<std::string> default_measures(bool closed_loop);
 

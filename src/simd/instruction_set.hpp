@@ -24,12 +24,17 @@ enum class InstructionSet { baseline, avx2, avx512 };
 // Throws InputError if the variable names no set of this processor.
 [[nodiscard]] InstructionSet chosen_instruction_set();
 
-// Returns get(tag), with the tag of `set`.
-template <class Get>
+// The nodes of one run are too few to fill eight lanes, so kernels of single runs stop at AVX2.
+enum class Widest { avx2, avx512 };
+
+// Returns get(tag), with the tag of `set`, or of the widest set that the kernels are compiled for.
+template <Widest widest = Widest::avx512, class Get>
 [[nodiscard]] const auto& kernels_by(Get get, InstructionSet set = chosen_instruction_set()) {
 #ifdef BBSIM_X86_KERNELS
-  if (set == InstructionSet::avx512) return get(Avx512());
-  if (set == InstructionSet::avx2) return get(Avx2());
+  if constexpr (widest == Widest::avx512) {
+    if (set == InstructionSet::avx512) return get(Avx512());
+  }
+  if (set != InstructionSet::baseline) return get(Avx2());
 #else
   static_cast<void>(set);
 #endif

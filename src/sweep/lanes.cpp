@@ -121,11 +121,11 @@ model::Model model_of(const Scenario& scenario) {
 constexpr std::size_t in_turn = 1024;
 
 // Measures that an ensemble computes itself, without a model.
-enum Known : std::size_t { x_end, y_end, distance, tilt, tilt_rate, unknown };
+enum Known : std::size_t { end_x, end_y, distance, tilt, tilt_rate, unknown };
 
 Known known(const scenario::Measure& measure) {
   const std::string_view name = measure.column->name;
-  if (measure.kind == Kind::end) return name == "x" ? x_end : name == "y" ? y_end : unknown;
+  if (measure.kind == Kind::end) return name == "x" ? end_x : name == "y" ? end_y : unknown;
   return name == "distance"    ? distance
          : name == "tilt"      ? tilt
          : name == "tilt_rate" ? tilt_rate

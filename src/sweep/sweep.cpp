@@ -18,7 +18,6 @@
 #include "sweep/loop_measures.hpp"
 #include "sweep/rig_lanes.hpp"
 #include "sweep/single.hpp"
-#include "sweep/superposition.hpp"
 
 namespace bbsim::sweep {
 namespace {
@@ -170,13 +169,6 @@ Engine choose_engine(const SweepTask& task) {
     return measure.kind == scenario::Measure::Kind::loop;
   };
   if (std::ranges::any_of(task.measures, is_loop)) return engine_with_loop(task);
-  if (can_superpose(task)) {
-    if (auto solutions = solve_superposed(task)) {
-      return {"superposition", task, 1, [&task, solutions = std::move(solutions)] {
-                return superposition_runner(task, solutions);
-              }};
-    }
-  }
   if (can_use_open_lanes(task)) {
     return {"open lanes", task, lane_group(), [&task] { return lane_runner(task); }};
   }

@@ -25,7 +25,7 @@ struct Engine {
 };
 
 // Chooses the first engine that fits (docs/explanation/sweep-engines.md): linear analysis if all
-// measures are of the loop, superposition, open lanes, lanes, rig lanes, single runs. The task must
+// measures are of the loop, open lanes, lanes, rig lanes, single runs. The task must
 // outlive the engine.
 [[nodiscard]] Engine choose_engine(const SweepTask& task);
 

@@ -53,7 +53,7 @@ TEST_CASE("sweeps are compared, and their texts must be equal") {
   CHECK(contains(different.out,
                  "different: worst in column solver.method, row 2: \"bdf\" in a.csv, \"BDF\" in "
                  "b.csv"));
-  CHECK(bbsim({"compare", "a.csv", "b.csv", "--columns", "case,x_end,status"}, folder.path())
+  CHECK(bbsim({"compare", "a.csv", "b.csv", "--columns", "case,end_x,status"}, folder.path())
             .exit_code == 0);
 }
 
@@ -71,7 +71,7 @@ TEST_CASE("trajectories of a sweep are compared number by number") {
   CHECK(contains(different.out, "different: worst in column x, row 0 (t = 10): 0.12899"));
   const Result all = bbsim({"compare", "a.h5", "b.h5"}, folder.path());
   CHECK(contains(all.out,
-                 "different: worst in column x_end, row 0: 0.12899"));  // no column t
+                 "different: worst in column end_x, row 0: 0.12899"));  // no column t
   REQUIRE(bbsim(with(words, {"-o", "c.h5", "--set", "time.step=2"}), folder.path()).exit_code == 0);
   const Result wider = bbsim({"compare", "a.h5", "c.h5"}, folder.path());
   CHECK(wider.exit_code == 1);

@@ -253,7 +253,7 @@ TEST_CASE("what cannot be drawn is reported in one line") {
   folder.write("run.csv", "t,x,y,phi\n0,1,2,3\n1,2,3,4\n");
   folder.write("beam.csv", "t,x\n0,1\n1,2\n");
   folder.write("empty.csv", "");
-  folder.write("sweep.csv", "case,ball.radius,status,end_time,x_end\n0,1,done,1,1\n1,2,done,1,2\n");
+  folder.write("sweep.csv", "case,ball.radius,status,end_time,end_x\n0,1,done,1,1\n1,2,done,1,2\n");
   CHECK_THAT(fault({"none.csv"}, folder), Contains("cannot read none.csv: no such file"));
   CHECK_THAT(fault({"empty.csv"}, folder), Contains("empty.csv:1:1: found no header"));
   CHECK_THAT(fault({"none.h5"}, folder), Contains("none.h5"));

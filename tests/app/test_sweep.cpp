@@ -74,7 +74,7 @@ TEST_CASE("a sweep writes one row per case, in order, for any number of threads"
   REQUIRE(table.size() == 15);
   CHECK(table[0] == std::vector<std::string>{"case", "ball.position.0",
                                              "gimbal.motion.phi.sinusoid.amplitude", "status",
-                                             "reason", "end_time", "x_end", "y_end", "max_tilt",
+                                             "reason", "end_time", "end_x", "end_y", "max_tilt",
                                              "max_tilt_rate", "max_distance"});
   for (std::size_t i = 1; i < table.size(); ++i) {
     CHECK(table[i][0] == std::to_string(i - 1));

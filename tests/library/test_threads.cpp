@@ -95,7 +95,7 @@ TEST_CASE("eight threads sweep, each with its own threads") {
     const bbsim::Table table = bbsim::sweep(shipped(name), options);
     return std::pair(table.column("max_tilt").numbers, table.column("rms_x").numbers);
   };
-  // Superposition, lanes, rigs in lanes, single runs.
+  // Open lanes, lanes, rigs in lanes, single runs.
   const std::array<std::string, 4> names{"fig2a", "fig2b", "rig", "slides"};
   same_at_once([&](std::size_t i) { return tilts(names[i % 4], "linear:0.01:0.02:20"); });
 }

@@ -185,7 +185,7 @@ function sweeps(~)
 cases = bbsim_sweep(scene(), {'ball.position.0', [0, 0.01, 1 / 30]});
 check(cases.ball_position_0 == [0; 0.01; 1 / 30], 'the values');
 check(strcmp(cases.status, 'done'), 'the statuses');
-check(abs(cases.x_end - cases.ball_position_0) < 1e-4, 'x hardly moves');
+check(abs(cases.end_x - cases.ball_position_0) < 1e-4, 'x hardly moves');
 [cases, summary] = bbsim_sweep(scene(), {'gravity', {9.8, '981 cm/s^2'}, 'ball.radius', 'list:1 cm,2 cm'}, ...
                                'Combine', 'zip', 'Measure', 'end_y', 'Threads', 1);
 check(numel(cases.case) == 2 && summary.cases == 2, 'two cases');

@@ -17,14 +17,14 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// A sweep with the given key values per case; x_end is `measure` of the case number.
+// A sweep with the given key values per case; end_x is `measure` of the case number.
 Result sweep_of(
     const std::vector<Column>& keys,
     const Function& measure = [](double n) { return std::cos(n); }) {
   Result sweep;
   sweep.file = "sweep.csv";
   sweep.rows = keys.front().numbers.size();
-  Column number{"case", {}}, status{"status", {}}, end{"end_time", {}}, x{"x_end", {}};
+  Column number{"case", {}}, status{"status", {}}, end{"end_time", {}}, x{"end_x", {}};
   for (std::size_t i = 0; i < sweep.rows; ++i) {
     number.numbers.push_back(static_cast<double>(i));
     status.numbers.push_back(NAN);
@@ -204,7 +204,7 @@ TEST_CASE("numbers beside a histogram are distinguishable, and a common one appe
   Result same = sweep_of({drawn("a", 200)}, [](double) { return 1.304; });
   const Picture picture = sweep_picture(near, {}), constant = sweep_picture(same, {});
   CHECK(collisions(picture) == "");
-  CHECK(says(picture, "x_end − 1.304 m (µm)"));
+  CHECK(says(picture, "end_x − 1.304 m (µm)"));
   CHECK_FALSE(says(picture, "median 1.304"));
   CHECK(says(constant, "all 1.304"));
   CHECK_FALSE(says(constant, "median"));
@@ -215,7 +215,7 @@ TEST_CASE("a map's colors and cells are distinct to three digits") {
   const Result sweep = sweep_of({repeated("a", 100, 10, 10), repeated("b", 100, 1, 10)},
                                 [](double n) { return 0.2966 + 2e-6 * n; });
   const Picture picture = sweep_picture(sweep, {});
-  CHECK(says(picture, "x_end − 0.297 m (mm)"));
+  CHECK(says(picture, "end_x − 0.297 m (mm)"));
   CHECK(collisions(picture) == "");
 }
 
@@ -243,8 +243,8 @@ TEST_CASE("nothing collides, for keys of any name and size") {
 
 TEST_CASE("keys and measures missing from a sweep cannot be drawn") {
   const Result sweep = sweep_of({repeated("a", 12, 4, 3), repeated("b", 12, 1, 4)});
-  CHECK_THROWS_WITH(sweep_picture(sweep, {{"y_end"}, {}}),
-                    Contains("measures of sweep.csv: x_end"));
+  CHECK_THROWS_WITH(sweep_picture(sweep, {{"end_y"}, {}}),
+                    Contains("measures of sweep.csv: end_x"));
   CHECK_THROWS_WITH(sweep_picture(sweep, {{}, {"c"}}), Contains("what varies: a, b"));
   CHECK_THROWS_WITH(sweep_picture(sweep, {{}, {"a", "a"}}), Contains("twice"));
   CHECK_THROWS_WITH(sweep_picture(sweep, {{}, {"a", "b", "c"}}), Contains("one key, or two"));

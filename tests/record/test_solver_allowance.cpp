@@ -24,7 +24,7 @@ const std::string scenario =
 
 CellTable table(const Attributes& attributes) {
   CellTable made{
-      {"t", "x", "y", "vx", "spin", "gamma", "phi", "phi_acceleration", "x_reference", "x_end"},
+      {"t", "x", "y", "vx", "spin", "gamma", "phi", "phi_acceleration", "x_reference", "end_x"},
       {{0, 20}, {0.5, 0}, {-2, 0}, {0, 3}, {8, 0}, {0, 5}, {0, 0.1}, {0, 7}, {9, 9}, {1, 1}}};
   made.attributes = attributes;
   return made;
@@ -48,7 +48,7 @@ TEST_CASE("tolerances become an allowance for each column, by its kind and unit"
   // 1e-12 for rounding; for each file 100 (rtol size + atol unit).
   CHECK(allowed("x") == Approx(1e-12 + 200 * (1e-8 * 2 + 1e-10)));  // y is of the same kind as x
   CHECK(allowed("y") == allowed("x"));
-  CHECK(allowed("x_end") == allowed("x"));
+  CHECK(allowed("end_x") == allowed("x"));
   CHECK(allowed("vx") == Approx(1e-12 + 200 * (1e-8 * 3 + 1e-10)));
   CHECK(allowed("spin") == Approx(1e-12 + 200 * (1e-8 * 8 + 1e-10 / 0.01)));
   CHECK(allowed("gamma") == Approx(1e-12 + 200 * (1e-8 * 5 + 1e-10 * 20 / 0.01)));

@@ -135,7 +135,7 @@ TEST_CASE("a sweep's table: keys, status and measures") {
   const Folder folder;
   const std::string file =
       folder.put("s.csv",
-                 "case,ball.radius,solver.method,status,reason,end_time,max_tilt,x_end\n"
+                 "case,ball.radius,solver.method,status,reason,end_time,max_tilt,end_x\n"
                  "0,0.01,radau,done,,10,0.1,0.5\n"
                  "1,0.02,bdf,failed,\"it grew, \"\"fast\"\"\",0.7,nan,1\n");
   const replay::Sweep sweep = sweep_of_result(results::read_result(file, {}), "s.csv");

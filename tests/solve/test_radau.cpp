@@ -238,7 +238,7 @@ TEST_CASE("instruction sets agree to the tolerance") {
     const auto found = simd::find_instruction_set(set);
     if (!found) continue;
     CAPTURE(name, stages, set);
-    const StepKernels& kernels = simd::kernels_by(
+    const StepKernels& kernels = simd::kernels_by<simd::Widest::avx2>(
         [](auto isa) -> const auto& { return solve::radau::kernels<decltype(isa)>(); }, *found);
     const Rows other = integrate(model, scene, 1e-9, kernels, stages);
     // Both are within ten local errors of the truth; with equal steps they are far closer.

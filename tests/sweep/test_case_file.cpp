@@ -30,7 +30,7 @@ CaseFileLayout layout(bool series = false, std::size_t group = 1) {
                   {"gravity", "SI", ""},
                   {"status", "", "", Hdf5Kind::text},
                   {"reason", "", "", Hdf5Kind::text},
-                  {"x_end", "m", ""}};
+                  {"end_x", "m", ""}};
   made.first_case = 100;
   made.cases = 10;
   made.group = group;
@@ -42,7 +42,7 @@ CaseFileLayout layout(bool series = false, std::size_t group = 1) {
   return made;
 }
 
-const std::string header = "case,gravity,status,reason,x_end\n";
+const std::string header = "case,gravity,status,reason,end_x\n";
 
 std::string row(std::size_t number) {
   const std::string text = std::to_string(number);

@@ -32,7 +32,7 @@ std::vector<std::string> lines_of(const std::string& file, bool& whole, off_t& e
   return lines;
 }
 
-const std::string header = "case,ball.radius,solver.method,status,reason,end_time,x_end";
+const std::string header = "case,ball.radius,solver.method,status,reason,end_time,end_x";
 
 }  // namespace
 

@@ -21,7 +21,6 @@
 #include "support/largest.hpp"
 #include "support/run_in_memory.hpp"
 #include "sweep/single.hpp"
-#include "sweep/superposition.hpp"
 #include "sweep/sweep.hpp"
 #include "sweep/sweep_measures.hpp"
 
@@ -69,10 +68,10 @@ CaseResults run_all(CaseRunner& runner, std::size_t cases) {
   return results;
 }
 
-const std::vector<std::string> open_measures{"x_end", "y_end", "max_distance", "max_tilt",
+const std::vector<std::string> open_measures{"end_x", "end_y", "max_distance", "max_tilt",
                                              "max_tilt_rate"};
-const std::vector<std::string> loop_measures{"x_end",
-                                             "y_end",
+const std::vector<std::string> loop_measures{"end_x",
+                                             "end_y",
                                              "max_tilt",
                                              "max_tilt_rate",
                                              "max_distance",
@@ -179,65 +178,18 @@ TEST_CASE("distances neither overflow nor underflow in between") {
   std::snprintf(far, sizeof far, "linear:%g:%g:40", size, 2 * size);
   const Setup setup("configs/fig2a.yaml", {{"ball.position.0", far}},
                     {"ball.position.1=0", "gravity=0", "ball.radius=1e-200"}, {"max_distance"});
-  REQUIRE(can_superpose(setup.task));
-  const auto runner = superposition_runner(setup.task, solve_superposed(setup.task));
+  const auto runner = choose_engine(setup.task).runner();
   const auto single = single_runner(setup.task);
-  const CaseResults sums = run_all(*runner, 40), runs = run_all(*single, 40);
+  const CaseResults lanes = run_all(*runner, 40), runs = run_all(*single, 40);
   for (std::size_t i = 0; i < 40; ++i) {
-    CHECK(sums.numbers[2 * i + 1] >= size);
-    CHECK(sums.numbers[2 * i + 1] == Approx(runs.numbers[2 * i + 1]).epsilon(1e-6));
+    CHECK(lanes.numbers[2 * i + 1] >= size);
+    CHECK(lanes.numbers[2 * i + 1] == Approx(runs.numbers[2 * i + 1]).epsilon(1e-6));
   }
-}
-
-TEST_CASE("superposition agrees with single runs") {
-  const Setup setup("configs/fig2a.yaml",
-                    {{"ball.position.0", "uniform:-0.2:0.2"},
-                     {"ball.velocity.1", "uniform:-0.2:0.2"},
-                     {"ball.radius", "uniform:0.005:0.05"},
-                     {"ball.spin", "uniform:-20:20"},
-                     {"gravity", "uniform:1:20"}},
-                    {"solver.rtol=1e-12", "solver.atol=1e-14"}, open_measures, 100);
-  REQUIRE(can_superpose(setup.task));
-  const auto runner = superposition_runner(setup.task, solve_superposed(setup.task));
-  const auto single = single_runner(setup.task);
-  // Distances up to some meters, single runs at 1e-12.
-  CHECK(largest_difference(run_all(*runner, 100), run_all(*single, 100)) < 1e-11);
-}
-
-TEST_CASE("superposition follows tables and planar scenes") {
-  const auto [scene, key] = GENERATE(std::pair("configs/recorded.yaml", "ball.position.0"),
-                                     std::pair("configs/incline.yaml", "ball.velocity.0"));
-  const Setup setup(scene, {{key, "uniform:0.01:0.02"}}, {"solver.rtol=1e-12", "solver.atol=1e-14"},
-                    open_measures, 40);
-  REQUIRE(can_superpose(setup.task));
-  const auto runner = superposition_runner(setup.task, solve_superposed(setup.task));
-  const auto single = single_runner(setup.task);
-  CHECK(largest_difference(run_all(*runner, 40), run_all(*single, 40)) < 1e-11);
-}
-
-TEST_CASE("nonlinear cases are not superposed") {
-  const auto superposes = [](const std::string& scene, Variation vary,
-                             const std::vector<std::string>& set,
-                             const std::vector<std::string>& names) {
-    return can_superpose(Setup(scene, {std::move(vary)}, set, names, 100).task);
-  };
-  const std::string open = "configs/fig2a.yaml";
-  CHECK(superposes(open, {"gravity", "uniform:1:2"}, {}, open_measures));
-  CHECK_FALSE(
-      superposes(open, {"gimbal.motion.phi.sinusoid.phase", "uniform:1:2"}, {}, open_measures));
-  CHECK_FALSE(superposes(open, {"gravity", "uniform:1:2"}, {}, {"max_normal_force"}));
-  CHECK_FALSE(
-      superposes(open, {"gravity", "uniform:1:2"}, {"ball.inertia_factor=0.5"}, open_measures));
-  CHECK_FALSE(
-      superposes(open, {"gravity", "uniform:1:2"}, {"events.lift_off=note"}, open_measures));
-  CHECK_FALSE(superposes(open, {"gravity", "uniform:1:2"}, {"solver.method=bdf"}, open_measures));
-  CHECK_FALSE(superposes(open, {"gravity", "uniform:1:2"}, {"solver.error=1e-6"}, open_measures));
-  CHECK_FALSE(superposes("configs/fig2b.yaml", {"gravity", "uniform:1:2"}, {}, loop_measures));
 }
 
 TEST_CASE("trajectories are the rows of each case, with NaN beyond its end") {
   Setup setup("configs/fig2b-literal.yaml", {{"controller.pd.kv", "list:0.001,100"}},
-              {"time.end=1"}, {"x_end"});
+              {"time.end=1"}, {"end_x"});
   const solve::OutputGrid grid(setup.family.read(setup.plan.settings(0)).time);
   setup.task.series = {scenario::find_column("x"), scenario::find_column("normal_force")};
   setup.task.series_rows = grid.size();
@@ -266,7 +218,7 @@ TEST_CASE("trajectories are the rows of each case, with NaN beyond its end") {
 
 TEST_CASE("each case is delivered once, in order, for any number of threads") {
   const Setup setup("configs/fig2a.yaml", {{"gimbal.motion.phi.sinusoid.phase", "linear:0:3:301"}},
-                    {}, {"x_end"});
+                    {}, {"end_x"});
   const Engine engine = choose_engine(setup.task);
   for (const std::size_t threads : {1, 2, 7, 400}) {
     std::size_t next = 5;
@@ -283,7 +235,7 @@ TEST_CASE("each case is delivered once, in order, for any number of threads") {
 
 TEST_CASE("a sweep stops on request, or if its results cannot be stored") {
   const Setup setup("configs/fig2a.yaml", {{"gimbal.motion.phi.sinusoid.phase", "linear:0:3:5000"}},
-                    {}, {"x_end"});
+                    {}, {"end_x"});
   const Engine engine = choose_engine(setup.task);
   std::atomic<bool> stop{false};
   std::size_t delivered = 0;
@@ -389,7 +341,7 @@ TEST_CASE("loops that diverge in lanes end as single runs do, without affecting 
     }
   }
   const Setup states("configs/fig2b.yaml", {{"controller.pd.kv.0.0", "uniform:-0.4:0.8"}}, {},
-                     {"x_end", "end_vx", "end_phi"}, 60);
+                     {"end_x", "end_vx", "end_phi"}, 60);
   const CaseResults ends = run_all(*choose_engine(states.task).runner(), 60);
   const CaseResults expected = run_all(*single_runner(states.task), 60);
   for (std::size_t i = 0; i < ends.numbers.size(); ++i) {
@@ -422,16 +374,6 @@ TEST_CASE("every engine computes tied keys") {
                        {"ball.position.0,-0.5*ball.position.1", "list:1 cm,4 cm"}},
                       coarse, loop_measures));
   }
-  SECTION("superposition") {
-    const Setup setup("configs/fig2a.yaml",
-                      {{"ball.position.0,-2*ball.position.1", "uniform:-0.2:0.2"}},
-                      {"solver.rtol=1e-12", "solver.atol=1e-14"}, open_measures, 50);
-    REQUIRE(can_superpose(setup.task));
-    const auto runner = superposition_runner(setup.task, solve_superposed(setup.task));
-    const CaseResults sums = run_all(*runner, 50), runs = run_all(*single_runner(setup.task), 50);
-    CHECK(largest_difference(sums, runs) < 1e-11);
-    for (std::size_t i = 0; i < 50; ++i) CHECK(sums.values[2 * i + 1] == -2 * sums.values[2 * i]);
-  }
   SECTION("single runs, with inserted numbers and with scenarios read again") {
     for (const char* set : {"ball.spin=0", "events.lift_off=note"}) {
       const Setup tied("configs/fig2b.yaml",
@@ -455,7 +397,7 @@ TEST_CASE("a case that lacks what a measure needs has no number for it, and a re
   const std::string second = GENERATE("{size: [0.3, 0.3]}", "{diameter: 0.3}");
   const Setup setup("configs/fig2a.yaml",
                     {{"plate", "list:{inertia: [1e-4, 1e-4, 2e-4]}," + second}}, {},
-                    {"end_motor_torque_phi", "x_end"});
+                    {"end_motor_torque_phi", "end_x"});
   const CaseResults results = run_all(*single_runner(setup.task), 2);
   CHECK(results.status[0].word == "done");
   CHECK(results.status[0].reason.empty());
@@ -473,14 +415,8 @@ TEST_CASE("windows of time within the whole run work with every engine") {
     std::vector<std::string> set, names;
     double bound;
   };
-  const std::string part = GENERATE("superposition", "open lanes", "lanes", "rig lanes");
+  const std::string part = GENERATE("open lanes", "lanes", "rig lanes");
   const std::vector<Case> cases{
-      {"configs/fig2a.yaml",
-       "superposition",
-       {{"ball.position.0", "linear:-0.1:0.1:32"}},
-       {},
-       {"max_distance", "max_tilt"},
-       1e-8},
       {"configs/fig2a.yaml",
        "open lanes",
        {{"gimbal.motion.phi.sinusoid.phase", "linear:0:1:64"}},
@@ -535,8 +471,8 @@ TEST_CASE("windows of time within the whole run work with every engine") {
 TEST_CASE("a measure unknown to the first case may exist in another") {
   const std::vector<Variation> plates{
       {"plate", "list:{diameter: 0.3},{inertia: [1e-4, 1e-4, 2e-4]}"}};
-  const Setup setup("configs/fig2a.yaml", plates, {}, {"x_end"});
-  const std::vector<std::string> names{"end_motor_torque_phi", "x_end"};
+  const Setup setup("configs/fig2a.yaml", plates, {}, {"end_x"});
+  const std::vector<std::string> names{"end_motor_torque_phi", "end_x"};
   const auto found = sweep_measures(names, setup.family, setup.plan);
   REQUIRE(found.size() == 2);
   SweepTask task{setup.family, setup.plan, found};
@@ -548,16 +484,16 @@ TEST_CASE("a measure unknown to the first case may exist in another") {
   // A measure that no case knows is an error, and so is a window that no case has.
   CHECK_THROWS_AS(sweep_measures({"max_tracking_error"}, setup.family, setup.plan), InputError);
   CHECK_THROWS_AS(sweep_measures({"max_x from 11 s"}, setup.family, setup.plan), InputError);
-  CHECK_THROWS_AS(sweep_measures({"x_end", "x_end"}, setup.family, setup.plan), InputError);
+  CHECK_THROWS_AS(sweep_measures({"end_x", "end_x"}, setup.family, setup.plan), InputError);
   CHECK_THROWS_AS(sweep_measures({"max_z"}, setup.family, setup.plan), InputError);
-  const Setup ends("configs/fig2a.yaml", {{"time.end", "list:1,12"}}, {}, {"x_end"});
+  const Setup ends("configs/fig2a.yaml", {{"time.end", "list:1,12"}}, {}, {"end_x"});
   CHECK(sweep_measures({"max_x from 11 s"}, ends.family, ends.plan).size() == 1);
   // Rigs in lanes, of which only the first lacks the measure.
   const Setup rigs(
       "configs/rig.yaml",
       {{"plate", "list:{size: [0.3, 0.2]},{size: [0.3, 0.2], inertia: [1e-3, 1e-3, 2e-3]}"},
        {"ball.position.0", "linear:1 cm:4 cm:8"}},
-      {"time.end=0.5", "output.columns=[t, x]"}, {"x_end", "end_motor_torque_phi"});
+      {"time.end=0.5", "output.columns=[t, x]"}, {"end_x", "end_motor_torque_phi"});
   const Engine engine = choose_engine(rigs.task);
   REQUIRE(engine.name == "rig lanes");
   const CaseResults of_rigs = run_all(*engine.runner(), 16);
@@ -707,7 +643,7 @@ TEST_CASE("rigs in lanes are those of single runs") {
   }
   SECTION("a controller's command at the end") {
     check_rig_lanes(Setup("configs/rig.yaml", gains_and_seeds, {"time.end=2.005"},
-                          {"end_phi_command", "end_x_measured", "end_vx", "end_phi", "x_end"}, 5));
+                          {"end_phi_command", "end_x_measured", "end_vx", "end_phi", "end_x"}, 5));
   }
 }
 
@@ -748,7 +684,7 @@ TEST_CASE("rigs in lanes have no number for measures that their scene lacks") {
       "configs/rig.yaml",
       {{"plate", "list:{size: [0.3, 0.2], inertia: [1e-3, 1e-3, 2e-3]},{size: [0.3, 0.2]}"},
        {"ball.position.0", "linear:1 cm:4 cm:8"}},
-      {"time.end=0.5", "output.columns=[t, x]"}, {"x_end", "end_motor_torque_phi"});
+      {"time.end=0.5", "output.columns=[t, x]"}, {"end_x", "end_motor_torque_phi"});
   const Engine engine = choose_engine(setup.task);
   REQUIRE(engine.name == "rig lanes");
   const CaseResults results = run_all(*engine.runner(), 16);
@@ -828,9 +764,7 @@ TEST_CASE(
 TEST_CASE("a sweep to the limits of doubles has no finished case without a finite distance") {
   const Setup setup("configs/fig2a.yaml", {{"ball.position.0", "linear:-1e308:1e308:38"}}, {},
                     {"max_distance", "end_x"});
-  auto solutions = solve_superposed(setup.task);
-  REQUIRE(solutions);
-  const auto runner = superposition_runner(setup.task, std::move(solutions));
+  const auto runner = choose_engine(setup.task).runner();
   const CaseResults results = run_all(*runner, setup.plan.cases());
   const std::size_t numbers = 1 + setup.task.measures.size();
   for (std::size_t i = 0; i < setup.plan.cases(); ++i) {

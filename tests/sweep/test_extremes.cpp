@@ -17,7 +17,6 @@
 #include "support/greatest_of.hpp"
 #include "sweep/lanes.hpp"
 #include "sweep/single.hpp"
-#include "sweep/superposition.hpp"
 #include "sweep/sweep.hpp"
 
 using namespace bbsim;
@@ -180,43 +179,6 @@ TEST_CASE("extremes in lanes agree with single runs within the tolerance") {
     CAPTURE(scene, rtol, i);
     CHECK(lanes.numbers[i] == Approx(exact.numbers[i]).epsilon(10 * rtol).margin(0.3 * rtol));
   }
-}
-
-TEST_CASE("maxima between rows ten seconds apart, with superposition") {
-  // The ball oscillates off the middle: its greatest distances are nearly equal, and none is at the
-  // start or the end.
-  const Setup setup(
-      "configs/fig2a.yaml",
-      {{"ball.position.0", "uniform:0:0.1"},
-       {"ball.radius", "uniform:0.005:0.02"},
-       {"gravity", "uniform:5:10"}},
-      {"gimbal.motion.theta=0", "time.step=10", "solver.rtol=1e-11", "solver.atol=1e-13"},
-      {"max_distance", "max_tilt", "max_tilt_rate", "x_end"}, 40);
-  REQUIRE(can_superpose(setup.task));
-  const auto runner = superposition_runner(setup.task, solve_superposed(setup.task));
-  const CaseResults sums = run_all(*runner, setup.task);
-  const CaseResults runs = run_all(*single_runner(setup.task), setup.task);
-  for (std::size_t i = 0; i < sums.numbers.size(); ++i) {
-    CHECK(sums.numbers[i] == Approx(runs.numbers[i]).epsilon(1e-10));
-  }
-  for (std::size_t i = 0; i < 40; i += 13) {
-    const std::vector<double> expected = from_many_rows(setup.task, i);
-    for (std::size_t m = 0; m < 3; ++m) {
-      CHECK(sums.numbers[i * 5 + 1 + m] == Approx(expected[m]).epsilon(1e-10));
-    }
-  }
-}
-
-TEST_CASE("superposition needs no output step, with or without tables") {
-  const std::string scene = GENERATE("configs/fig2a.yaml", "configs/recorded.yaml");
-  const auto sums = [&](const std::string& step) {
-    const Setup setup(scene, {{"ball.velocity.0", "uniform:-0.3:0.3"}}, {"time.step=" + step},
-                      extremes, 40);
-    REQUIRE(can_superpose(setup.task));
-    const auto runner = superposition_runner(setup.task, solve_superposed(setup.task));
-    return run_all(*runner, setup.task).numbers;
-  };
-  CHECK(sums("0.01") == sums("1"));
 }
 
 TEST_CASE("extremes of single runs do not depend on the output step, bit for bit") {

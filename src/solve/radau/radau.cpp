@@ -74,7 +74,8 @@ double size_of(const std::vector<double>& state) {
 }  // namespace
 
 const StepKernels& choose_kernels() {
-  return simd::kernels_by([](auto isa) -> const auto& { return kernels<decltype(isa)>(); });
+  return simd::kernels_by<simd::Widest::avx2>(
+      [](auto isa) -> const auto& { return kernels<decltype(isa)>(); });
 }
 
 int choose_stages(const model::Model& model, double rtol) {

@@ -7,12 +7,14 @@
 
 namespace bbsim::solve::sampled {
 
+#ifndef BBSIM_IS_AVX512  // simd::Widest
 template <class Isa>
 const Kernels& kernels() {
   static constexpr Kernels table = Kernel<Isa>::kernels;
   return table;
 }
 template const Kernels& kernels<BBSIM_ISA>();
+#endif
 
 template <class Isa>
 const LaneKernels& lane_kernels() {

@@ -20,7 +20,8 @@ constexpr std::size_t angle = model::RigLayout::angle, rate = model::RigLayout::
 }  // namespace
 
 const Kernels& choose_kernels() {
-  return simd::kernels_by([](auto isa) -> const auto& { return kernels<decltype(isa)>(); });
+  return simd::kernels_by<simd::Widest::avx2>(
+      [](auto isa) -> const auto& { return kernels<decltype(isa)>(); });
 }
 
 bool knows(const model::Model& model) {

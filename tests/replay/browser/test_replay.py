@@ -459,7 +459,7 @@ class Sweeps(InBrowser):
         output = files("again.csv")
         words[words.index("-o") + 1] = output
         subprocess.run([BBSIM, *words[1:], "--set", "time.end=3", "-q"], cwd=SOURCE, check=True)
-        self.near(rows_of(output)[-1]["x"], float(case["x_end"]), 1e-6)
+        self.near(rows_of(output)[-1]["x"], float(case["end_x"]), 1e-6)
         # Keys move between cases along the axes; as in a plot, the first key is horizontal.
         self.js("document.querySelector('.drawing canvas').focus()")
         self.browser.keys("\ue014")

@@ -127,35 +127,7 @@ struct RowKernels {
     }
   }
 
-  static double superpose(const Superposition& motion, const double* factors, double* squares) {
-    P most = P(0.0);
-    const std::size_t end = padded(motion.rows);
-    constexpr std::size_t together = 4;  // packs of rows, to fill the pipeline
-    for (std::size_t i = 0; i < end; i += together * lanes) {
-      P x[together], y[together];
-      for (std::size_t p = 0; p < together; ++p) x[p] = y[p] = P(0.0);
-      for (std::size_t k = 0; k < motion.terms; ++k) {
-        const P factor = P(factors[k]);
-#pragma GCC unroll 4
-        for (std::size_t p = 0; p < together; ++p) {
-          if (i + p * lanes >= end) break;
-          x[p] += factor * P::load(motion.x_terms[k] + i + p * lanes);
-          y[p] += factor * P::load(motion.y_terms[k] + i + p * lanes);
-        }
-      }
-#pragma GCC unroll 4
-      for (std::size_t p = 0; p < together; ++p) {
-        if (i + p * lanes >= end) break;
-        const P squared = x[p] * x[p] + y[p] * y[p];
-        squared.store(squares + i + p * lanes);
-        most = simd::larger_of(squared, most);
-      }
-    }
-    return simd::largest_of(most);
-  }
-
-  static constexpr TrackKernels kernels{&gimbal, &distances, &sum_of,   &above,
-                                        &wave,   &signals,   &superpose};
+  static constexpr TrackKernels kernels{&gimbal, &distances, &sum_of, &above, &wave, &signals};
 };
 
 }  // namespace bbsim::record

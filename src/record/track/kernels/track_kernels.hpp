@@ -28,12 +28,6 @@ struct GimbalSizes {
   double *versine = nullptr, *rate_squared = nullptr;
 };
 
-// x and y as sums of `terms` known motions: x = sum of factor[k] * x_terms[k].
-struct Superposition {
-  std::size_t rows = 0, terms = 0;
-  const double *const *x_terms = nullptr, *const *y_terms = nullptr;
-};
-
 // sin(frequency t) and cos(frequency t) at the times of the rows.
 struct Wave {
   const double *sines = nullptr, *cosines = nullptr;
@@ -56,8 +50,6 @@ struct TrackKernels {
   // harmonic.
   void (*signals)(const model::SignalView& signals, const Wave* waves, const double* times,
                   std::size_t rows, double* const values[2], double* const rates[2]);
-  // Fills `squares` with x^2 + y^2.
-  double (*superpose)(const Superposition& motion, const double* factors, double* squares);
 };
 
 // The kernels of an instruction set (kernels.cpp).
