@@ -35,7 +35,7 @@
 namespace bbsim {
 inline namespace v0 {
 
-// Version of the library, such as "0.3.0".
+// Version of the library, such as "0.4.0".
 [[nodiscard]] BBSIM_API std::string_view library_version() noexcept;
 
 // Base class of the exceptions of bbsim.
