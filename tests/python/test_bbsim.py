@@ -258,6 +258,9 @@ class Callables(unittest.TestCase):
 
         made = bbsim.run(with_callable(law, output={"columns": ["t", "twice"]}))
         self.assertAlmostEqual(made["twice"][-1], 2 * made["t"][-1], delta=0.05)
+        for wrong in ({"twice": math.nan}, {"twice": math.inf}, {"twice": "1"}, {}, None):
+            with self.assertRaises(bbsim.ControllerError):
+                bbsim.run(with_callable(lambda sample, wrong=wrong: (0, 0, wrong), output={"columns": ["t", "twice"]}))
 
     def test_what_it_raises(self):
         def law(sample):
