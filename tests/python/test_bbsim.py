@@ -312,6 +312,17 @@ class Sweeps(unittest.TestCase):
                 np.testing.assert_allclose(made["end_time"], bbsim.sweep(CONFIGS / file,
                                            dict([spec.split("=")]))["end_time"])  # fmt: skip
 
+    def test_numbers_that_the_program_refuses(self):
+        fine = {"samples": 3, "seed": 5, "threads": 1}
+        vary = {"ball.radius": "uniform:0.01:0.02"}
+        self.assertEqual(len(bbsim.sweep(CONFIGS / "fig2b.yaml", vary, "end_x", **fine)), 3)
+        wrong = [0, -1, 2.5, math.nan, math.inf, 1e300]
+        for name, values in (("samples", [*wrong, None]), ("seed", wrong[1:]), ("threads", [*wrong[1:], 2**62])):
+            for value in values:
+                with self.subTest(name, value=value), self.assertRaises(bbsim.InputError) as raised:
+                    bbsim.sweep(CONFIGS / "fig2b.yaml", vary, "end_x", **{**fine, name: value})
+                self.assertEqual(raised.exception.key, name)
+
     def test_measures_and_draws(self):
         made = bbsim.sweep(CONFIGS / "fig2b.yaml", {"ball.position.0": "normal:5 cm:2 mm"}, ["max_tilt", "end_x"],
                            samples=5, seed=3)  # fmt: skip
@@ -381,17 +392,16 @@ class Environments(unittest.TestCase):
                                set={"controller.sensor": None})  # fmt: skip
         observations, _ = envs.reset()
         first = observations[:, 0].copy()
-        actions = np.random.default_rng(1).uniform(-0.05, 0.05, (26, 3, 2))
+        actions = np.random.default_rng(1).uniform(-0.05, 0.05, (25, 3, 2))
         seen = [observations]
         for action in actions:
             observations, _, terminated, truncated, _ = envs.step(action)
             seen.append(observations)
-            if truncated.any():
-                break
+            self.assertEqual(truncated.any(), len(seen) > 25)
         self.assertTrue(truncated.all())
         self.assertFalse(terminated.any())
         for i in range(3):
-            given = iter(actions[:, i])
+            given = iter([*actions[:, i], actions[-1, i]])  # the sample at the end has the last commands
             heard = []
 
             def law(sample):
@@ -409,13 +419,13 @@ class Environments(unittest.TestCase):
         envs = bbsim.VectorEnv(self.SCENE, n, {"ball.position.0": (0.03, 0.05)}, seed=5, set={"controller.sensor": None})
         seen = [envs.reset()[0]]
         self.assertEqual(envs._runs.in_lanes, n)
-        actions = np.random.default_rng(1).uniform(-0.05, 0.05, (26, n, 2))
+        actions = np.random.default_rng(1).uniform(-0.05, 0.05, (25, n, 2))
         for action in actions:
             observations, _, _, truncated, _ = envs.step(action)
             seen.append(observations)
         self.assertTrue(truncated.all())
         for i in range(n):
-            given, heard = iter(actions[:, i]), []
+            given, heard = iter([*actions[:, i], actions[-1, i]]), []
 
             def law(sample):
                 heard.append(sample)
@@ -509,6 +519,16 @@ class Environments(unittest.TestCase):
             _, _, terminated, truncated, _ = some.step(np.zeros((16, 2)))
         self.assertIn(some._runs.in_lanes, range(1, 16))
 
+    def test_a_rig_that_leaves_its_lane_takes_one_step(self):
+        free = {"controller.limit": None, "gimbal.servo.angle_limit": None, "gimbal.servo.rate_limit": None, "events": None}
+        envs, single = (bbsim.VectorEnv(CONFIGS / "rig.yaml", 16, set=free, record=record) for record in (False, True))
+        envs.reset(seed=1), single.reset(seed=1)
+        actions = np.random.default_rng(0).uniform(-1e5, 1e5, (16, 2))  # rad: the plate turns many times in a period
+        one, other = envs.step(actions), single.step(actions)
+        self.assertLess(envs._runs.in_lanes, 16)
+        np.testing.assert_array_equal(one[2], other[2])
+        np.testing.assert_allclose(one[0], other[0], rtol=1e-8, atol=1e-8)  # the solver's tolerance
+
     def test_some_lanes_begin_anew(self):
         envs = bbsim.VectorEnv(self.SCENE, 9, set={"controller.sensor": None})
         observations, _ = envs.reset(seed=1)
@@ -546,6 +566,107 @@ class Environments(unittest.TestCase):
                 ends.append(step)
         self.assertGreater(len(ends), 1)
 
+    def test_an_episode_has_a_step_for_each_period(self):
+        for n in (1, 8):
+            for end, steps in ((2, 100), (0.3, 15), (0.503, 26), (0.01, 1)):
+                envs = bbsim.VectorEnv(CONFIGS / "rig.yaml", n, set={"time.end": end})
+                envs.reset(seed=1)
+                ends = [envs.step(np.zeros((n, 2)))[3] for _ in range(steps)]
+                self.assertTrue(ends.pop().all())
+                self.assertFalse(np.any(ends))
+
+    def test_to_end_an_episode_does_not_pay(self):
+        tilt = {"events": {"tilt": {"limit": "5 deg", "action": "stop"}}, "time.end": 1}
+        corner = 0.16**2 + 0.12**2
+        nearest = (0.12 - 0.05) ** 2  # of the edge to a reference within 5 cm
+        for settings, edge in (
+            ({"time.end": 3}, corner),
+            (tilt, nearest),
+            ({**tilt, "plate": {"diameter": "24 cm", "inertia": [4e-3, 6e-3, 1e-2]}}, nearest),
+            ({**tilt, "plate": None, "output": None}, nearest),
+        ):
+            for n in (1, 8):
+                envs = bbsim.VectorEnv(CONFIGS / "rig.yaml", n, set=settings)
+                period, end = 0.02, settings["time.end"]
+                for wait in (0, 10):  # steps before the ball is thrown off
+                    envs.reset(seed=1)
+                    rewards, terminated = [], np.zeros(n, bool)
+                    while not terminated.all():
+                        action = 0.2 if len(rewards) >= wait else 0
+                        _, reward, terminated, truncated, _ = envs.step(np.full((n, 2), action))
+                        self.assertFalse(truncated.any())
+                        rewards.append(reward)
+                    left = round(end / period) - len(rewards) + 1
+                    self.assertTrue((rewards[-1] <= -left * edge).all(), (settings, n, rewards[-1]))
+                    self.assertTrue((np.array(rewards[:-1]) > -corner).all())
+        own = bbsim.VectorEnv(CONFIGS / "rig.yaml", 2, reward=lambda o, a, terminated: -1.0 * terminated)
+        own.reset()
+        self.assertEqual(own.step(np.full((2, 2), 0.2))[1].tolist(), [-1, -1])
+
+    def test_a_mask_has_a_boolean_for_each_run(self):
+        for n in (2, 8):
+            envs = bbsim.VectorEnv(CONFIGS / "rig.yaml", n)
+            envs.reset(seed=1)
+            for mask in (np.ones(n + 1, bool), np.ones(n - 1, bool), np.ones((n, 1), bool), np.arange(n), True, "x"):
+                with self.assertRaises(bbsim.InputError) as raised:
+                    envs.reset(options={"reset_mask": mask})
+                self.assertEqual(raised.exception.key, "reset_mask")
+            envs.reset(options={"reset_mask": [True] * n})
+
+    def test_a_call_within_a_call_is_refused(self):
+        inside, goes_on = threading.Event(), threading.Event()
+
+        def reward(observations, actions, terminated):
+            inside.set()
+            self.assertTrue(goes_on.wait(60))
+            for call in (envs.reset, envs.result, lambda: envs.step(np.zeros((8, 2)))):
+                with self.assertRaisesRegex(RuntimeError, "one call"):
+                    call()
+            return np.zeros(8)
+
+        envs = bbsim.VectorEnv(CONFIGS / "rig.yaml", 8, reward=reward)
+        envs.reset(seed=1)
+        made = []
+        other = threading.Thread(target=lambda: made.append(envs.step(np.zeros((8, 2)))))
+        other.start()
+        self.assertTrue(inside.wait(60))
+        with self.assertRaisesRegex(RuntimeError, "one call"):
+            envs.step(np.zeros((8, 2)))
+        goes_on.set()
+        other.join()
+        self.assertEqual(len(made), 1)
+        envs.step(np.zeros((8, 2)))
+
+    def test_a_reset_that_raises_changes_no_run(self):
+        for n in (3, 9):  # alone, in lanes
+            drawn = []
+
+            def radius(random):
+                drawn.append(0.01)
+                return -1 if len(drawn) == n + n // 2 else 0.01
+
+            scene = {**self.SCENE, "controller": {k: v for k, v in LOOP["controller"].items() if k != "sensor"}}
+            envs = bbsim.VectorEnv(scene, n, {"ball.radius": radius})
+            same = bbsim.VectorEnv(scene, n)
+            envs.reset(), same.reset()
+
+            def step():
+                one, other = (each.step(np.full((n, 2), 0.05)) for each in (envs, same))
+                for a, b in zip(one[:4], other[:4]):
+                    np.testing.assert_array_equal(a, b)
+                return one[3]
+
+            step()
+            with self.assertRaises(bbsim.InputError):
+                envs.reset()
+            while not step().any():
+                pass
+            drawn[:] = [0] * (n + n // 2 - 2)  # the second run of the next episodes is refused
+            with self.assertRaises(bbsim.InputError):
+                envs.step(np.full((n, 2), 0.05))
+            while not step().any():
+                pass
+
     def test_the_ball_falls_off(self):
         envs = bbsim.VectorEnv(self.SCENE, 1, set={"time.end": 20})
         envs.reset()
@@ -575,8 +696,11 @@ class Environments(unittest.TestCase):
             many.step(np.zeros((many.num_envs, 2)))
         with self.assertRaises(bbsim.InputError):
             bbsim.VectorEnv(CONFIGS / "fig2b.yaml", 1).reset()
-        with self.assertRaises(bbsim.InputError):
-            bbsim.VectorEnv(self.SCENE, 0)
+        for n in (0, -1, 2**40):
+            with self.assertRaises(bbsim.InputError):
+                bbsim.VectorEnv(self.SCENE, n)
+        with self.assertRaises(TypeError):
+            bbsim.VectorEnv(self.SCENE, 2.5)
 
     def keeps_the_rules(self, env):
         """Checks from Gymnasium's documentation, as in its own checker."""
