@@ -80,18 +80,20 @@ class Callable::Controller : public model::ExternalController {
       : callable_(callable), watch_(watch), own_(scenario::own_columns(scenario)) {}
 
   void begin() override {
-    const py::gil_scoped_acquire lock;
-    ask("to start", [&] {
-      if (py::hasattr(callable_.function_, "reset")) callable_.function_.attr("reset")();
+    with_lock([this] {
+      ask("to start", [this] {
+        if (py::hasattr(callable_.function_, "reset")) callable_.function_.attr("reset")();
+      });
     });
   }
 
   model::Commands command(const model::ControllerSample& at, double* own) override {
-    const py::gil_scoped_acquire lock;
     model::Commands command{};
     commands_ = at.servo.size();
-    ask("at sample " + std::to_string(at.number) + " (t = " + number_text(at.t) + " s)",
-        [&] { read(callable_.function_(api::copy_of(at)), command, own); });
+    with_lock([&] {
+      ask("at sample " + std::to_string(at.number) + " (t = " + number_text(at.t) + " s)",
+          [&] { read(callable_.function_(api::copy_of(at)), command, own); });
+    });
     return command;
   }
 
@@ -102,6 +104,7 @@ class Callable::Controller : public model::ExternalController {
  private:
   template <class Question>
   void ask(const std::string& when, const Question& question) {
+    const Watch::WithinCallable within(watch_);
     try {
       question();
     } catch (py::error_already_set& error) {

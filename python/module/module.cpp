@@ -295,7 +295,7 @@ Beginnings beginnings(std::vector<std::size_t> which, std::vector<std::vector<st
 }
 
 void begin(Environments& its, const Beginnings& these) {
-  const py::gil_scoped_release unlocked;
+  const WithoutLock unlocked;
   its.begin(these.which, these.how);
 }
 
@@ -307,7 +307,7 @@ void step(Environments& its, const Commands& commands, const Beginnings& these) 
                           ", 2)");
   }
   const std::span of(commands.data(), 2 * its.count());
-  const py::gil_scoped_release unlocked;
+  const WithoutLock unlocked;
   its.step(of, these.which, these.how);
 }
 
@@ -393,6 +393,7 @@ PYBIND11_MODULE(_bbsim, module) {
   module.doc() = "The compiled part of bbsim.";
   module.attr("__version__") = BBSIM_VERSION;
   py::register_exception_translator(translate);
+  end_work_with_the_interpreter();
   py::class_<Given>(module, "Given")
       .def(py::init([](std::string name, std::optional<std::string> text,
                        std::vector<std::string> overrides, py::object callable) {

@@ -15,6 +15,7 @@ import sys
 import tempfile
 import threading
 import unittest
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -276,6 +277,40 @@ class Callables(unittest.TestCase):
                 bbsim.run(with_callable(lambda sample, answer=answer: answer))
         with self.assertRaises(bbsim.ControllerError):
             bbsim.sweep(with_callable(law), {"ball.radius": [0.01, 0.02]})
+
+    def test_callables_may_call_bbsim_to_a_depth(self):
+        depth = deepest = 0
+
+        def nested(call):
+            def law(sample):
+                nonlocal depth, deepest
+                depth += 1
+                deepest = max(depth, deepest)
+                try:
+                    call(with_callable(law, time={"end": 0.02, "step": 0.02}))
+                finally:
+                    depth -= 1
+                return 0, 0
+
+            return with_callable(law)
+
+        for call in (bbsim.run, lambda scene: bbsim.sweep(scene, {"ball.radius": [0.01]})):
+            with self.assertRaises(bbsim.ControllerError) as raised:
+                bbsim.run(nested(call))
+            last = raised.exception
+            while last.__cause__ is not None:
+                last = last.__cause__
+            self.assertIsInstance(last, RecursionError)
+        bbsim.run(nested(bbsim.check))  # which only reports that the controller fails
+        self.assertEqual(deepest, 8)
+        inner = []
+
+        def looks_ahead(sample):
+            inner.append(bbsim.run(with_callable(lambda sample: (0, 0), time={"end": 0.1, "step": 0.02}))["x"][-1])
+            return 0, 0
+
+        self.assertEqual(bbsim.run(with_callable(looks_ahead, time={"end": 0.1, "step": 0.02})).status, "done")
+        self.assertEqual(len(set(inner)), 1)
 
     def test_sweep(self):
         vary = {"ball.position.0": [0.01, 0.02, 0.03]}
@@ -837,6 +872,73 @@ class Interruptions(unittest.TestCase):
             f"s = dict(controller=dict(callable=lambda sample: (0, 0), drives='angle', sampling=dict(period='20 ms'), "
             f"reference=dict(point=[0, 0])), ball=dict(radius=0.01), time=dict(end=1e6, step=1), "
             f"gimbal=dict(servo=dict(natural_frequency=10, damping=1))); bbsim.run(s)")
+
+
+class Processes(unittest.TestCase):
+    """Threads within bbsim while their process ends or is forked."""
+
+    def ended(self, work, before="", ends="sys.exit(5)"):
+        """What a process writes that ends while four daemon threads do this work again and again."""
+        script = (
+            f"{before}\nimport bbsim, numpy as np, sys, threading, time\n"
+            f"scene = {with_callable(None)!r}\nbegun = threading.Semaphore(0)\n"
+            f"def law(sample):\n    begun.release()\n    return 0, 0\n"
+            f"scene['controller']['callable'] = law\n"
+            f"def work():\n    envs = bbsim.VectorEnv({str(CONFIGS / 'rig.yaml')!r}, 64)\n    envs.reset(seed=1)\n"
+            f"    while True:\n        begun.release()\n        {work}\n"
+            "for _ in range(4): threading.Thread(target=work, daemon=True).start()\n"
+            f"for _ in range(40): begun.acquire()\n{ends}\n"
+        )
+        made = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
+        self.assertEqual((made.returncode, made.stderr), (5, ""))
+        return made.stdout
+
+    def test_the_end_of_the_interpreter(self):
+        for work in (
+            f"bbsim.run({str(CONFIGS / 'fig2b.yaml')!r})",
+            f"bbsim.sweep({str(CONFIGS / 'rig.yaml')!r}, {{'gravity': 'linear:9:10:20'}})",
+            "envs.step(np.zeros((64, 2)))",
+            "bbsim.run(scene)",
+            "bbsim.run(scene, {'time.end': 1e6})",
+        ):
+            with self.subTest(work):
+                self.ended(work)
+
+    def test_functions_at_the_end_may_call_bbsim(self):
+        late = "import atexit\natexit.register(lambda: print(bbsim.run(scene).status))"
+        self.assertEqual(self.ended("bbsim.check(scene)", before=late), "done\n")
+
+    def test_forked_processes_write_their_own_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            over = threading.Event()
+
+            def write(which):
+                while not over.is_set():
+                    bbsim.run(LOOP, output=f"{folder}/thread{which}.h5")
+
+            threads = [threading.Thread(target=write, args=(i,)) for i in range(2)]
+            for one in threads:
+                one.start()
+            try:
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore", DeprecationWarning)  # of Python, about threads beside a fork
+                    for k in range(20):
+                        child = os.fork()
+                        if child == 0:
+                            signal.alarm(60)  # ends it if it waits for a thread that it does not have
+                            try:
+                                bbsim.run(LOOP, output=f"{folder}/child{k}.h5")
+                                os._exit(0)
+                            finally:
+                                os._exit(1)
+                        self.assertEqual(os.waitpid(child, 0)[1], 0)
+            finally:
+                over.set()
+                for one in threads:
+                    one.join()
+            files = sorted(Path(folder).iterdir())
+            self.assertEqual(len(files), 22)
+            self.assertEqual(len({file.read_bytes() for file in files}), 1)
 
 
 class Examples(unittest.TestCase):
