@@ -6,7 +6,6 @@
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
 #include <charconv>
-#include <cmath>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -73,9 +72,8 @@ Option& Option::takes_whole(double least, double most) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool number = error == std::errc() && end == text.data() + text.size();
-    if (number && value >= least && value <= most && value == std::floor(value)) return "";
-    return "found " + text + "; allowed: a whole number from " + short_number(least) +
-           (most < largest_whole ? " to " + short_number(most) : " up");
+    if (number && is_whole(value, least, most)) return "";
+    return "found " + text + "; allowed: " + whole_numbers(least, most);
   };
   // Without a description, because help would show it as the option's type.
   option_->check(CLI::Validator(fault, ""));

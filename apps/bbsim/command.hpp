@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/whole.hpp"
 
 namespace CLI {
 class App;
@@ -23,9 +24,6 @@ namespace bbsim::app {
 
 // Action that the command line asks for.
 using Chosen = std::function<ExitCode()>;
-
-// Doubles hold whole numbers up to 2^53.
-inline constexpr double largest_whole = 9007199254740992.0;
 
 // Handle of a command's option, cheap to copy.
 class Option {

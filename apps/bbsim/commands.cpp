@@ -7,6 +7,7 @@
 
 #include "api/inputs.hpp"
 #include "api/run.hpp"
+#include "api/sweep.hpp"
 #include "file/atomic_file.hpp"
 #include "file/format.hpp"
 #include "scenario/reader.hpp"
@@ -98,7 +99,7 @@ void add_threads(Command& command, std::size_t& threads) {
       .option("-j,--threads", threads,
               "number of threads; default: number of processors; the result is the same")
       .takes("N")
-      .takes_whole(1, 1024);
+      .takes_whole(1, api::most_threads);
 }
 
 void add_found_files(Command& command, FoundFiles& files, const std::string& values) {

@@ -15,6 +15,7 @@
 #include "api/picture.hpp"
 #include "api/place_log.hpp"
 #include "api/run.hpp"
+#include "api/version.hpp"
 #include "commands.hpp"
 #include "file/default_name.hpp"
 #include "progress.hpp"
@@ -198,7 +199,7 @@ ExitCode replay_files(const ReplayArguments& arguments, const Options& options) 
   }
   ReplayFile file(output);
   replay::Scene scene;
-  scene.version = BBSIM_VERSION;
+  scene.version = api::version();
   ExitCode code = ExitCode::done;
   for (Replayed& source : sources) {
     if (source.scenario) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "api/picture.hpp"
+#include "api/version.hpp"
 #include "base/error.hpp"
 #include "file/format.hpp"
 #include "removed.hpp"
@@ -82,7 +83,7 @@ replay::Run run_of(results::Result result, const std::string& name) {
 
 replay::Scene scene_of(replay::Run run) {
   replay::Scene scene;
-  scene.version = BBSIM_VERSION;
+  scene.version = api::version();
   scene.title = run.title.empty() ? run.name : run.title;
   scene.runs.push_back(std::move(run));
   return scene;

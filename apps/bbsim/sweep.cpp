@@ -44,26 +44,12 @@ api::Shard read_shard(const std::string& text) {
 
 // The scenario's sweep block, with the command line taking precedence.
 Sweep sweep_of(const SweepArguments& arguments, const Sweep& in_scenario) {
-  Sweep sweep = in_scenario;
-  if (!arguments.vary.empty()) {
-    sweep.vary.clear();
-    for (const std::string& one : arguments.vary) {
-      sweep.vary.push_back(scenario::split_variation(one));
-    }
+  api::SweepChoice choice{
+      {}, arguments.combine, arguments.samples, arguments.seed, arguments.measure};
+  for (const std::string& one : arguments.vary) {
+    choice.vary.push_back(scenario::split_variation(one));
   }
-  if (!arguments.combine.empty()) {
-    sweep.combine = arguments.combine == "zip" ? Combine::zip : Combine::grid;
-  }
-  const auto random = [](const Variation& one) { return scenario::parse_variation(one).random(); };
-  if (!arguments.vary.empty() && std::none_of(sweep.vary.begin(), sweep.vary.end(), random)) {
-    sweep.samples.reset();  // for the scenario's random keys, which are replaced
-  }
-  if (arguments.samples) sweep.samples = *arguments.samples;
-  if (arguments.seed) sweep.seed = *arguments.seed;
-  if (!arguments.measure.empty()) {
-    sweep.measure = scenario::split_measures(arguments.measure);
-  }
-  return sweep;
+  return api::with_choice(in_scenario, choice);
 }
 
 // "-sweep.csv", "-sweep-2of8.csv"
@@ -98,7 +84,7 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   if (request.by_default) request.output = default_output(file, suffix(shard));
   request.replaces_anything = arguments.force;
   request.summary = arguments.summary;
-  request.threads = arguments.threads;
+  request.threads = static_cast<double>(arguments.threads);
   request.resumes = arguments.resume;
   request.keeps_rows = arguments.keep_trajectories;
   Progress progress(family.source().file, options.quiet, true);

@@ -3,15 +3,15 @@
 
 #include "version.hpp"
 
-#include "bbsim_commit.hpp"  // cmake/commit.cmake
+#include "api/version.hpp"
 #include "simd/instruction_set.hpp"
 
 namespace bbsim::app {
 
 std::string version() {
   return std::string("bbsim " BBSIM_VERSION "\ninstruction set: ") +
-         simd::name_of(simd::chosen_instruction_set()) +
-         "\ncommit: " BBSIM_COMMIT "\nlibraries: " BBSIM_LIBRARIES;
+         simd::name_of(simd::chosen_instruction_set()) + "\ncommit: " + std::string(api::commit()) +
+         "\nlibraries: " BBSIM_LIBRARIES;
 }
 
 }  // namespace bbsim::app

@@ -35,7 +35,7 @@
 namespace bbsim {
 inline namespace v0 {
 
-// Version of the library, such as "0.3.0".
+// Version of the library, such as "0.4.0".
 [[nodiscard]] BBSIM_API std::string_view library_version() noexcept;
 
 // Base class of the exceptions of bbsim.
@@ -91,7 +91,8 @@ struct Sample {
   std::array<double, 2> servo{}, servo_rate{};
 };
 
-// A scenario's text and the keys set in it. The functions that use it check its values.
+// A scenario's text and the keys set in it. The functions that use it check its values. After a
+// move from it, they throw ScenarioError until it is assigned to.
 class BBSIM_API Scenario {
  public:
   // Throws ScenarioError if the file cannot be read or is not a YAML tree of keys.
@@ -113,7 +114,7 @@ class BBSIM_API Scenario {
   [[nodiscard]] std::string check() const;
 
   struct State;
-  [[nodiscard]] const State& state() const { return *state_; }
+  [[nodiscard]] const State& state() const;
 
  private:
   explicit Scenario(std::unique_ptr<State> state);
@@ -148,7 +149,8 @@ struct Result {
 // Throws ScenarioError, FileError, ControllerError, and whatever options.sink or goes_on throws.
 [[nodiscard]] BBSIM_API Result run(const Scenario& scenario, const RunOptions& options = {});
 
-// A run that waits at each sample for your commands. They replace the scenario's control law.
+// A run that waits at each sample for your commands. They replace the scenario's control law. After
+// a move from it, its functions throw ScenarioError.
 class BBSIM_API Stepper {
  public:
   // Runs to the first sample. Throws like run(). The scenario must have controller.sampling and
@@ -162,7 +164,7 @@ class BBSIM_API Stepper {
   // The sample that waits for commands, or the last one if the run is over.
   [[nodiscard]] const Sample& sample() const;
   // Runs to the next sample or to the end. Throws like run(). Throws ScenarioError if a command is
-  // not finite or the run is over.
+  // not finite, if the run is over, and in the run's own sink, which must not destroy the Stepper.
   void step(const Command& command);
   // Throws ScenarioError if the run is not over.
   [[nodiscard]] Result result() const;
@@ -178,11 +180,12 @@ struct SweepOptions {
   std::vector<std::string> measures{};  // empty: the scenario's or the default ones
   bool zip = false;                     // for `vary`: pair the values by position; false: a grid
   std::optional<std::size_t> samples{}, seed{};
-  std::size_t threads = 0;  // 0: one per processor
+  std::size_t threads = 0;  // at most 1024; 0: one per processor
   std::function<bool(double fraction)> goes_on{};
 };
 
-// One row per case. Columns: case, the keys, status, reason, end_time, the measures.
+// One row per case. Columns, also of a sweep that was ended: case, the keys, status, reason,
+// end_time, the measures.
 struct Table {
   struct Column {
     std::string name, unit;

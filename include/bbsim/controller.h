@@ -101,8 +101,8 @@ BBSIM_CONTROLLER_EXPORT uint32_t bbsim_controller_abi(void);
 BBSIM_CONTROLLER_EXPORT void *bbsim_controller_create(const bbsim_setup *setup);
 
 /* Computes a sample. Writes finite commands for phi and theta (or for three servos, if
- * drives_acceleration is 4) to `command`, and a number for each of setup->columns, in order, to
- * `columns`. Returns 0. Any other number ends the run with exit code 1, and bbsim prints
+ * drives_acceleration is 4) to `command`, and a finite number for each of setup->columns, in
+ * order, to `columns`. Returns 0. Any other number ends the run with exit code 1, and bbsim prints
  * bbsim_controller_last_error(). */
 BBSIM_CONTROLLER_EXPORT int bbsim_controller_step(void *controller, const bbsim_sample *sample,
                                                   double command[BBSIM_CONTROLLER_COMMANDS],

@@ -99,8 +99,8 @@ def sweep(
     The fields are those of ``bbsim sweep``: case, the keys, status, reason, end_time, the measures.
     """
     pairs = [(key, specification(values)) for key, values in (vary or {}).items()]
-    wanted = _bbsim.Variations(pairs, combine, samples, seed, _names(measures))
-    made = _bbsim.sweep(given(scenario, set, error), wanted, threads)
+    choice = _bbsim.SweepChoice(pairs, combine, samples, seed, _names(measures))
+    made = _bbsim.sweep(given(scenario, set, error), choice, threads)
     fields = {
         column.name: np.array(column.texts, dtype=np.str_) if column.is_text else column.numbers
         for column in made.columns

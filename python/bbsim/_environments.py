@@ -4,7 +4,10 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+import functools
+import operator
+import threading
+from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple, TypeVar, Union
 
 import numpy as np
 
@@ -61,10 +64,31 @@ Distribution = Union[Tuple[float, float], Callable[[np.random.Generator], Any]]
 Reward = Callable[[Array, Array, Array], Array]
 
 _MOST_SEED = 2**53  # the largest seed of a scenario
+_MOST_RUNS = 2**20
+
+_Method = TypeVar("_Method", bound=Callable[..., Any])
+
+
+def _one_at_a_time(method: _Method) -> _Method:
+    """Refuses a call while another one of the same environment has not returned."""
+
+    @functools.wraps(method)
+    def turn(self: "VectorEnv", *args: Any, **rest: Any) -> Any:
+        if not self._turn.acquire(blocking=False):
+            raise RuntimeError(
+                f"{method.__name__}: found within another call, as from another thread; "
+                "allowed: one call of an environment at a time"
+            )
+        try:
+            return method(self, *args, **rest)
+        finally:
+            self._turn.release()
+
+    return turn  # type: ignore[return-value]
 
 
 def minus_squared_distance(observations: Array, actions: Array, terminated: Array) -> Array:
-    """The default reward: minus the squared distance of the ball, as measured, from its reference, m^2."""
+    """Minus the squared distance of the ball, as measured, from its reference, m^2."""
     return -((observations[:, 0] - observations[:, 3]) ** 2 + (observations[:, 1] - observations[:, 4]) ** 2)
 
 
@@ -82,11 +106,13 @@ class VectorEnv(_VectorBase):
     An action has the commands for phi and theta of each run, an array of shape (n, 2), in ``command_unit``. It
     replaces the scenario's law. A step is a sample of the controller, and an episode is a run: truncated at
     ``time.end``, terminated if an event or a failure ends it earlier. The step after the end begins the next
-    episode, with a reward of zero (``AutoresetMode.NEXT_STEP``).
+    episode, with a reward of zero (``AutoresetMode.NEXT_STEP``). One call at a time.
 
     randomize  {KEY: (low, high)}: drawn uniformly for each episode; or a function of a numpy Generator
     seed       the seed of drawn values; ``reset(seed=)`` begins anew
-    reward     a function of the arrays observations, actions and terminated that returns an array of n
+    reward     a function of the arrays observations, actions and terminated that returns an array of n; by
+               default minus the squared distance of the measured ball from its reference, m^2, where a
+               termination costs as much as the rest of the episode at the far end of the plate
     record     keeps the rows of each episode for ``result()``
     """
 
@@ -106,11 +132,12 @@ class VectorEnv(_VectorBase):
         seed: int = 0,
         *,
         set: Settings = None,
-        reward: Reward = minus_squared_distance,
+        reward: Optional[Reward] = None,
         record: bool = False,
     ) -> None:
-        if int(n) < 1:
-            raise InputError([("", f"n: found {n}; allowed: a whole number from 1 up")])
+        count = operator.index(n)
+        if not 1 <= count <= _MOST_RUNS:
+            raise InputError([("", f"n: found {n}; allowed: a whole number from 1 to {_MOST_RUNS}")])
         for key, distribution in (randomize or {}).items():
             if not callable(distribution):
                 _require_range(key, distribution)
@@ -118,7 +145,8 @@ class VectorEnv(_VectorBase):
             modes = getattr(gymnasium.vector, "AutoresetMode", None)  # from Gymnasium 1.1 on
             if modes is not None:
                 self.metadata = {**self.metadata, "autoreset_mode": modes.NEXT_STEP}
-        self.num_envs = int(n)
+        self.num_envs = count
+        self._turn = threading.Lock()
         self._randomize = dict(randomize or {})
         self._reward = reward
         self._runs = _bbsim.Environments(given(scenario, set), self.num_envs, list(self._randomize), record)
@@ -138,57 +166,70 @@ class VectorEnv(_VectorBase):
         """The unit of an action: rad, rad/s^2, N m or V."""
         return self._runs.command_unit
 
-    def _begin(self, which: Array) -> None:
+    def _beginnings(self, which: Array, random: np.random.Generator, options: Mapping[str, Any]) -> _bbsim.Beginnings:
+        """Draws the values of new episodes."""
         values, seeds = [], []
         for _ in which:
             drawn = []
             for key, distribution in self._randomize.items():
-                if callable(distribution):
-                    value = distribution(self._random)
-                else:
-                    value = self._random.uniform(*distribution)
-                drawn.append(as_yaml(self._options.get(key, value)))
+                value = distribution(random) if callable(distribution) else random.uniform(*distribution)
+                drawn.append(as_yaml(options.get(key, value)))
             values.append(drawn)
-            seeds.append(int(self._random.integers(_MOST_SEED)))
-        self._runs.begin([int(one) for one in which], values, seeds)
-        self._over[which] = False
-        self._begun[which] = True
+            seeds.append(int(random.integers(_MOST_SEED)))
+        return _bbsim.Beginnings([int(one) for one in which], values, seeds)
 
+    def _which(self, mask: Any) -> Array:
+        """The runs that a ``reset_mask`` names."""
+        if mask is None:
+            return np.arange(self.num_envs)
+        flags = np.asarray(mask)
+        if flags.shape != (self.num_envs,) or flags.dtype != bool:
+            allowed = f"allowed: an array of {self.num_envs} booleans"
+            raise InputError([("", f"reset_mask: found shape {flags.shape} and type {flags.dtype}; {allowed}")])
+        return np.flatnonzero(flags)
+
+    @_one_at_a_time
     def reset(
         self, *, seed: Optional[int] = None, options: Optional[Mapping[str, Any]] = None
     ) -> Tuple[Array, Dict[str, Any]]:
         """Begins an episode of each run.
 
         ``options`` fix values of keys of ``randomize`` until the next ``reset()``;
-        ``{"reset_mask": mask}`` begins only some runs.
+        ``{"reset_mask": mask}`` begins only some runs. A reset that raises changes no run.
         """
-        if seed is not None:
-            self._random = np.random.default_rng(seed)
-        self._options = dict(options or {})
-        mask = self._options.pop("reset_mask", None)
-        for key in self._options:
+        random = self._random if seed is None else np.random.default_rng(seed)
+        fixed = dict(options or {})
+        which = self._which(fixed.pop("reset_mask", None))
+        for key in fixed:
             if key not in self._randomize:
                 names = ", ".join(self._randomize) or "none"
                 raise InputError([("", f"options: found {key}; allowed: the keys of randomize, which are: {names}")])
-        self._begin(np.arange(self.num_envs) if mask is None else np.flatnonzero(mask))
+        self._runs.begin(self._beginnings(which, random, fixed))
+        self._random, self._options = random, fixed
+        self._over[which] = False
+        self._begun[which] = True
         return self._runs.observations.copy(), {}
 
+    @_one_at_a_time
     def step(self, actions: Any) -> Tuple[Array, Array, Array, Array, Dict[str, Any]]:
         """Gives each run its commands, and advances it to its next sample."""
         if not self._begun.all():
             raise RuntimeError("step: found a run that has not begun; allowed: reset() first")
         commands = np.ascontiguousarray(actions, dtype=np.float64)
-        begins = self._over.copy()
-        self._runs.step(commands, ~begins)
-        if begins.any():
-            self._begin(np.flatnonzero(begins))
+        begins = self._over
+        self._runs.step(commands, self._beginnings(np.flatnonzero(begins), self._random, self._options))
         terminated, truncated = self._runs.terminated, self._runs.truncated
-        observations = self._runs.observations.copy()
-        rewards = np.asarray(self._reward(observations, commands, terminated), dtype=np.float64)
-        rewards = np.where(begins, 0.0, rewards)
         self._over = terminated | truncated
-        return observations, rewards, terminated, truncated, {}
+        observations = self._runs.observations.copy()
+        if self._reward is None:
+            rewards = minus_squared_distance(observations, commands, terminated)
+            if terminated.any():
+                rewards = np.where(terminated, -self._runs.costs_of_ending, rewards)
+        else:
+            rewards = np.asarray(self._reward(observations, commands, terminated), dtype=np.float64)
+        return observations, np.where(begins, 0.0, rewards), terminated, truncated, {}
 
+    @_one_at_a_time
     def result(self, which: int = 0) -> Optional[Result]:
         """The episode of a run that has just ended; None if it has not."""
         made = self._runs.result(which)
@@ -214,7 +255,7 @@ class Env(_EnvBase):  # type: ignore[misc]
         seed: int = 0,
         *,
         set: Settings = None,
-        reward: Reward = minus_squared_distance,
+        reward: Optional[Reward] = None,
         record: bool = False,
         render_mode: None = None,
     ) -> None:

@@ -37,10 +37,6 @@ std::string name_of(const py::object& function) {
   return std::string(py::str(named.attr("__qualname__")));
 }
 
-double number(const py::object& value) {
-  return py::float_(value).cast<double>();
-}
-
 }  // namespace
 
 void define_sample(py::module_& module) {
@@ -84,24 +80,27 @@ class Callable::Controller : public model::ExternalController {
       : callable_(callable), watch_(watch), own_(scenario::own_columns(scenario)) {}
 
   void begin() override {
-    const py::gil_scoped_acquire lock;
-    ask("to start", [&] {
-      if (py::hasattr(callable_.function_, "reset")) callable_.function_.attr("reset")();
+    with_lock([this] {
+      ask("to start", [this] {
+        if (py::hasattr(callable_.function_, "reset")) callable_.function_.attr("reset")();
+      });
     });
   }
 
   model::Commands command(const model::ControllerSample& at, double* own) override {
-    const py::gil_scoped_acquire lock;
     model::Commands command{};
     commands_ = at.servo.size();
-    ask("at sample " + std::to_string(at.number) + " (t = " + number_text(at.t) + " s)",
-        [&] { read(callable_.function_(api::copy_of(at)), command, own); });
+    with_lock([&] {
+      ask("at sample " + std::to_string(at.number) + " (t = " + number_text(at.t) + " s)",
+          [&] { read(callable_.function_(api::copy_of(at)), command, own); });
+    });
     return command;
   }
 
  private:
   template <class Question>
   void ask(const std::string& when, const Question& question) {
+    const Watch::WithinCallable within(watch_);
     try {
       question();
     } catch (py::error_already_set& error) {
@@ -121,12 +120,13 @@ class Callable::Controller : public model::ExternalController {
   void read(const py::object& answer, model::Commands& command, double* own) const {
     const std::size_t most = commands_ + (own_.empty() ? 0 : 1);
     if (!py::isinstance<py::sequence>(answer) || py::len(answer) != most) refuse(answer);
-    for (std::size_t i = 0; i < commands_; ++i) {
-      const py::object one = answer[py::int_(i)];
-      if (PyNumber_Check(one.ptr()) == 0) refuse(answer);
-      command[i] = number(one);
-      if (!std::isfinite(command[i])) refuse(answer);
-    }
+    const auto number = [&](const py::object& value) {
+      if (PyNumber_Check(value.ptr()) == 0) refuse(answer);
+      const double found = py::float_(value).cast<double>();
+      if (!std::isfinite(found)) refuse(answer);
+      return found;
+    };
+    for (std::size_t i = 0; i < commands_; ++i) command[i] = number(answer[py::int_(i)]);
     if (own_.empty()) return;
     const py::object numbers = answer[py::int_(commands_)];
     for (std::size_t i = 0; i < own_.size(); ++i) {

@@ -30,7 +30,6 @@
 #include "file/outputs.hpp"
 #include "scenario/family.hpp"
 #include "scenario/measures.hpp"
-#include "scenario/variation.hpp"
 #include "watch.hpp"
 
 namespace bbsim::python {
@@ -167,40 +166,12 @@ api::Linearized linearize(const Given& given, const std::optional<std::string>& 
   return made;
 }
 
-struct Variations {
-  std::vector<std::pair<std::string, std::string>> vary;  // keys and their SPEC
-  std::string combine;
-  std::optional<double> samples, seed;
-  std::vector<std::string> measures;
-};
-
-// Replaces parts of the scenario's sweep with `wanted`.
-Sweep sweep_of(const Variations& wanted, Sweep sweep) {
-  if (!wanted.vary.empty()) {
-    sweep.vary.clear();
-    for (const auto& [key, spec] : wanted.vary) sweep.vary.push_back({key, spec});
-    const auto random = [](const Variation& one) {
-      return scenario::parse_variation(one).random();
-    };
-    if (std::ranges::none_of(sweep.vary, random)) sweep.samples.reset();
-  }
-  if (!wanted.combine.empty()) {
-    if (wanted.combine != "grid" && wanted.combine != "zip") {
-      throw InputError("combine: found " + wanted.combine + "; allowed: grid, zip");
-    }
-    sweep.combine = wanted.combine == "zip" ? Combine::zip : Combine::grid;
-  }
-  if (wanted.samples) sweep.samples = wanted.samples;
-  if (wanted.seed) sweep.seed = *wanted.seed;
-  if (!wanted.measures.empty()) sweep.measure = scenario::split_measures(wanted.measures);
-  return sweep;
-}
-
-api::SweepResult sweep(const Given& given, const Variations& wanted, std::size_t threads) {
+api::SweepResult sweep(const Given& given, const api::SweepChoice& choice, double threads) {
   Work work(given);
   return work.beside([&] {
     const ScenarioFamily family = work.family();
-    api::SweepRequest request{given.name, family, sweep_of(wanted, family.read_sweep()), {}, {}};
+    api::SweepRequest request{
+        given.name, family, api::with_choice(family.read_sweep(), choice), {}, {}};
     // A callable may keep a state, so its cases run one after another.
     request.threads = work.has_callable() ? 1 : threads;
     return api::sweep(request, work.watch());
@@ -234,12 +205,13 @@ void define_run(py::module_& module) {
 }
 
 void define_sweep(py::module_& module) {
-  py::class_<Variations>(module, "Variations")
-      .def(py::init([](std::vector<std::pair<std::string, std::string>> vary, std::string combine,
-                       std::optional<double> samples, std::optional<double> seed,
-                       std::vector<std::string> measures) {
-             return Variations{std::move(vary), std::move(combine), samples, seed,
-                               std::move(measures)};
+  py::class_<api::SweepChoice>(module, "SweepChoice")
+      .def(py::init([](const std::vector<std::pair<std::string, std::string>>& vary,
+                       std::string combine, std::optional<double> samples,
+                       std::optional<double> seed, std::vector<std::string> measures) {
+             api::SweepChoice choice{{}, std::move(combine), samples, seed, std::move(measures)};
+             for (const auto& [key, spec] : vary) choice.vary.push_back({key, spec});
+             return choice;
            }),
            py::arg("vary"), py::arg("combine"), py::arg("samples"), py::arg("seed"),
            py::arg("measures"));
@@ -260,7 +232,7 @@ void define_sweep(py::module_& module) {
             return made.table.columns;
           },
           py::return_value_policy::reference_internal);
-  module.def("sweep", &sweep, py::arg("given"), py::arg("wanted"), py::arg("threads"));
+  module.def("sweep", &sweep, py::arg("given"), py::arg("choice"), py::arg("threads"));
 }
 
 void define_linearize(py::module_& module) {
@@ -297,7 +269,6 @@ void define_linearize(py::module_& module) {
 }
 
 using Commands = py::array_t<double, py::array::c_style | py::array::forcecast>;
-using Flags = py::array_t<bool, py::array::c_style | py::array::forcecast>;
 using api::Environments;
 
 std::unique_ptr<Environments> environments(const Given& given, std::size_t count,
@@ -305,41 +276,51 @@ std::unique_ptr<Environments> environments(const Given& given, std::size_t count
   return std::make_unique<Environments>(family_of(given), count, std::move(keys), keeps_rows);
 }
 
-// Begins the runs with these indices, each with its values as texts and its seed.
-void begin(Environments& its, const std::vector<std::size_t>& which,
-           const std::vector<std::vector<std::string>>& values,
-           const std::vector<std::size_t>& seeds) {
+// Runs that begin: their indices, and for each its values as texts and its seed.
+struct Beginnings {
+  std::vector<std::size_t> which;
+  std::vector<Environments::Beginning> how;
+};
+
+Beginnings beginnings(std::vector<std::size_t> which, std::vector<std::vector<std::string>> values,
+                      const std::vector<std::size_t>& seeds) {
   if (values.size() != which.size() || seeds.size() != which.size()) {
     throw py::value_error("found lists of different lengths");
   }
-  const py::gil_scoped_release unlocked;
-  std::vector<Environments::Beginning> how(which.size());
-  for (std::size_t i = 0; i < which.size(); ++i) how[i] = {values[i], seeds[i]};
-  its.begin(which, how);
+  Beginnings all{std::move(which), {}};
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    all.how.push_back({std::move(values[i]), seeds[i]});
+  }
+  return all;
 }
 
-// Steps the flagged runs.
-void step(Environments& its, const Commands& commands, const Flags& which) {
+void begin(Environments& its, const Beginnings& these) {
+  const WithoutLock unlocked;
+  its.begin(these.which, these.how);
+}
+
+// Steps the runs that do not begin.
+void step(Environments& its, const Commands& commands, const Beginnings& these) {
   const auto count = static_cast<py::ssize_t>(its.count());
-  if (commands.ndim() != 2 || commands.shape(0) != count || commands.shape(1) != 2 ||
-      which.ndim() != 1 || which.shape(0) != count) {
+  if (commands.ndim() != 2 || commands.shape(0) != count || commands.shape(1) != 2) {
     throw py::value_error("actions: found another shape; allowed: (" + std::to_string(count) +
                           ", 2)");
   }
   const std::span of(commands.data(), 2 * its.count());
-  const std::span steps(which.data(), its.count());
-  const py::gil_scoped_release unlocked;
-  its.step(of, steps);
+  const WithoutLock unlocked;
+  its.step(of, these.which, these.how);
 }
 
 void define_environments(py::module_& module) {
-  const auto flags = [](bool (Environments::*of)(std::size_t) const) {
+  const auto of_each = []<class T>(T (Environments::*of)(std::size_t) const) {
     return [of](const Environments& its) {
-      py::array_t<bool> all(static_cast<py::ssize_t>(its.count()));
+      py::array_t<T> all(static_cast<py::ssize_t>(its.count()));
       for (std::size_t i = 0; i < its.count(); ++i) all.mutable_data()[i] = (its.*of)(i);
       return all;
     };
   };
+  py::class_<Beginnings>(module, "Beginnings")
+      .def(py::init(&beginnings), py::arg("which"), py::arg("values"), py::arg("seeds"));
   py::class_<Environments>(module, "Environments")
       .def(py::init(&environments), py::arg("given"), py::arg("count"), py::arg("keys"),
            py::arg("keeps_rows"))
@@ -360,8 +341,8 @@ void define_environments(py::module_& module) {
                                const Controller& controller = *its.scenario().controller;
                                return std::pair(controller.limit_of(0), controller.limit_of(1));
                              })
-      .def("begin", &begin, py::arg("which"), py::arg("values"), py::arg("seeds"))
-      .def("step", &step, py::arg("commands"), py::arg("which"))
+      .def("begin", &begin, py::arg("these"))
+      .def("step", &step, py::arg("commands"), py::arg("these"))
       .def_property_readonly("observations",
                              [](const py::object& self) {
                                const auto& its = self.cast<const Environments&>();
@@ -370,8 +351,9 @@ void define_environments(py::module_& module) {
                                return Column({static_cast<py::ssize_t>(its.count()), width},
                                              its.observations().data(), self);
                              })
-      .def_property_readonly("terminated", flags(&Environments::terminated))
-      .def_property_readonly("truncated", flags(&Environments::truncated))
+      .def_property_readonly("terminated", of_each(&Environments::terminated))
+      .def_property_readonly("truncated", of_each(&Environments::truncated))
+      .def_property_readonly("costs_of_ending", of_each(&Environments::cost_of_ending))
       .def(
           "result",
           [](Environments& its, std::size_t which) -> std::shared_ptr<api::RunResult> {
@@ -411,6 +393,7 @@ PYBIND11_MODULE(_bbsim, module) {
   module.doc() = "The compiled part of bbsim.";
   module.attr("__version__") = BBSIM_VERSION;
   py::register_exception_translator(translate);
+  end_work_with_the_interpreter();
   py::class_<Given>(module, "Given")
       .def(py::init([](std::string name, std::optional<std::string> text,
                        std::vector<std::string> overrides, py::object callable) {

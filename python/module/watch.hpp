@@ -12,17 +12,36 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <utility>
 
 #include "api/watch.hpp"
+#include "interpreter.hpp"
 
 namespace bbsim::python {
-
-namespace py = pybind11;
 
 // Create, query and destroy it with the interpreter's lock. The work runs without the lock.
 class Watch : public api::Watch {
  public:
+  // Raises RecursionError if callables that call bbsim are nested too deeply for the stack.
+  Watch() {
+    if (nesting_ >= deepest) {
+      const std::string text = "bbsim is called within " + std::to_string(deepest) +
+                               " callables, each of which runs the next; allowed: fewer";
+      PyErr_SetString(PyExc_RecursionError, text.c_str());
+      throw py::error_already_set();
+    }
+    all().insert(this);
+  }
+  ~Watch() override { all().erase(this); }
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+
+  // Ends all work soon. Call it with the interpreter's lock.
+  static void end_all() {
+    for (Watch* const one : all()) one->end_soon();
+  }
+
   void update(double /*fraction*/, const std::string& /*detail*/) override {
     if (!in_caller_) return;
     const auto now = std::chrono::steady_clock::now();
@@ -34,20 +53,34 @@ class Watch : public api::Watch {
   // Notes are in the results or meant for a terminal.
   void note(const std::string& /*text*/) override {}
   void controller_says(std::string_view line) override {
-    const py::gil_scoped_acquire lock;
-    try {
-      py::print("controller:", line, py::arg("file") = py::module_::import("sys").attr("stderr"));
-    } catch (const py::error_already_set&) {  // nobody can read it
-    }
+    with_lock([&] {
+      try {
+        py::print("controller:", line, py::arg("file") = py::module_::import("sys").attr("stderr"));
+      } catch (const py::error_already_set&) {  // nobody can read it
+      }
+    });
   }
 
   [[nodiscard]] const std::atomic<bool>* stop() override { return &stop_; }
   void end_soon() { stop_ = true; }
 
+  // Marks this thread, while the object exists, as within a callable that the work asks.
+  class WithinCallable {
+   public:
+    explicit WithinCallable(const Watch& watch)
+        : before_(std::exchange(nesting, watch.nesting_ + 1)) {}
+    ~WithinCallable() { nesting = before_; }
+    WithinCallable(const WithinCallable&) = delete;
+    WithinCallable& operator=(const WithinCallable&) = delete;
+
+   private:
+    int before_;
+  };
+
   // Does the work on this thread, which checks for Ctrl-C whenever the work calls update().
   template <class Work>
   auto here(const Work& work) {
-    const py::gil_scoped_release unlocked;
+    const WithoutLock unlocked;
     return work();
   }
 
@@ -55,7 +88,7 @@ class Watch : public api::Watch {
   template <class Work>
   auto beside(const Work& work) {
     in_caller_ = false;
-    const py::gil_scoped_release unlocked;
+    const WithoutLock unlocked;
     auto made = std::async(std::launch::async, work);
     while (made.wait_for(every) != std::future_status::ready) look();
     return made.get();
@@ -68,18 +101,31 @@ class Watch : public api::Watch {
 
  private:
   static constexpr std::chrono::milliseconds every{20};
+  static constexpr int deepest = 8;
+  static thread_local int nesting;  // callables that this thread is within
+
+  // All that exist, under the interpreter's lock. Never destroyed: threads may outlive it.
+  static std::unordered_set<Watch*>& all() {
+    static auto& watches = *new std::unordered_set<Watch*>;
+    return watches;
+  }
 
   void look() {
-    const py::gil_scoped_acquire lock;
-    if (raised_ || PyErr_CheckSignals() == 0) return;
-    raised_.emplace();  // takes the exception
-    stop_ = true;
+    with_lock([this] {
+      if (raised_ || PyErr_CheckSignals() == 0) return;
+      raised_.emplace();  // takes the exception
+      stop_ = true;
+    });
   }
+
+  const int nesting_ = nesting;
 
   std::atomic<bool> stop_{false};
   bool in_caller_ = true;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
   std::optional<py::error_already_set> raised_;
 };
+
+inline thread_local int Watch::nesting = 0;
 
 }  // namespace bbsim::python

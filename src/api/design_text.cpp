@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "api/version.hpp"
 #include "base/quoted.hpp"
 #include "base/short_number.hpp"
 #include "record/aligned.hpp"
@@ -144,9 +145,9 @@ std::string json_of(const Task& task, const Designed& designed) {
 }
 
 std::string comments_of(const DesignRequest& request, const Task& task, const Designed& designed) {
-  std::string text = "# Designed by bbsim " BBSIM_VERSION ": plays " + shown(request.table) + ", " +
-                     short_number(task.length) + " s; " + start_text(designed) +
-                     "\n# Standard deviations to expect from a fit:\n";
+  std::string text = "# Designed by bbsim " + std::string(version()) + ": plays " +
+                     shown(request.table) + ", " + short_number(task.length) + " s; " +
+                     start_text(designed) + "\n# Standard deviations to expect from a fit:\n";
   for (const design::Expected& one : designed.parameters) {
     text += "#   " + one.key + ": " + deviation_text(one.sd) +
             (one.unit.empty() || !is_told(one) ? "" : " " + one.unit) + "\n";

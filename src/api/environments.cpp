@@ -5,12 +5,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/instant.hpp"
 #include "model/control/external_controller.hpp"
-#include "model/model.hpp"
 #include "solve/choose.hpp"
 
 namespace bbsim::api {
@@ -52,6 +53,14 @@ constexpr double most_samples = 1e5;
 bool suits_lanes(const Scenario& scenario) {
   return !scenario.solver.error && solve::choose_method(scenario.solver.method) == Method::radau &&
          scenario.time.end <= most_samples * scenario.controller->sampling->period;
+}
+
+// Squared distance of two points of the plate that are farthest from each other, m^2: no reference
+// on it is farther from a ball on it.
+double farthest_on(const Plate& plate) {
+  constexpr double without_plate = 1;
+  if (plate.size) return std::pow((*plate.size)[0], 2) + std::pow((*plate.size)[1], 2);
+  return plate.diameter ? std::pow(*plate.diameter, 2) : without_plate;
 }
 
 }  // namespace
@@ -100,40 +109,64 @@ Scenario Environments::scenario_of(const Beginning& beginning) const {
   return scenario;
 }
 
+std::optional<model::Model> Environments::model_for_lane(const Scenario& scenario) const {
+  if (lanes_.empty()) return {};
+  const Scenario commanded = with_outside_commands(scenario);
+  if (!suits_lanes(commanded) || commanded.solver.rtol != scenario_.solver.rtol ||
+      commanded.solver.atol != scenario_.solver.atol) {
+    return {};
+  }
+  try {
+    model::Model model = model::assemble(commanded, false);
+    if (!solve::sampled::moves(model)) return {};
+    model.rig->sampled->external = std::make_shared<Unasked>();
+    return model;
+  } catch (const InputError&) {  // the single run reports it
+    return {};
+  }
+}
+
+Environments::Ready Environments::prepare(std::size_t which, const Beginning& beginning) const {
+  if (which >= count() || beginning.values.size() != keys_.size()) {
+    throw InputError("run " + std::to_string(which) + ": found with " +
+                     std::to_string(beginning.values.size()) + " values; allowed: one of " +
+                     std::to_string(count()) + " runs with " + std::to_string(keys_.size()));
+  }
+  const Scenario scenario = scenario_of(beginning);
+  Ready ready;
+  ready.model = model_for_lane(scenario);
+  if (!ready.model) ready.run.alone = std::make_unique<SteppedRun>(scenario, RunRequest{});
+  ready.run.beginning = beginning;
+  ready.run.end = scenario.time.end;
+  ready.run.period = scenario.controller->sampling->period;
+  ready.run.farthest = farthest_on(scenario.plate);
+  return ready;
+}
+
+std::vector<Environments::Ready> Environments::prepare(std::span<const std::size_t> which,
+                                                       std::span<const Beginning> how) const {
+  std::vector<Ready> ready;
+  for (std::size_t i = 0; i < which.size(); ++i) ready.push_back(prepare(which[i], how[i]));
+  return ready;
+}
+
 void Environments::begin(std::span<const std::size_t> which, std::span<const Beginning> how) {
+  begin(which, prepare(which, how));
+}
+
+void Environments::begin(std::span<const std::size_t> which, std::vector<Ready> ready) {
   for (const std::size_t one : which) {
-    runs_[one] = {};
     if (!lanes_.empty()) lanes_[one / group]->drop(one % group);
   }
   for (std::size_t i = 0; i < which.size(); ++i) {
     const std::size_t one = which[i];
-    Run& run = runs_[one];
-    run.beginning = how[i];
-    const Scenario scenario = scenario_of(run.beginning);
-    if (!put_into_lane(one, scenario)) {
-      run.alone = std::make_unique<SteppedRun>(scenario, RunRequest{});
+    runs_[one] = std::move(ready[i].run);
+    if (ready[i].model) {
+      lanes_[one / group]->begin(one % group, *ready[i].model, runs_[one].end);
     }
     std::fill_n(observations_.begin() + static_cast<std::ptrdiff_t>(one * its_columns.size()),
                 its_columns.size(), 0.0);
     observe(one);
-  }
-}
-
-bool Environments::put_into_lane(std::size_t which, const Scenario& scenario) {
-  if (lanes_.empty()) return false;
-  const Scenario commanded = with_outside_commands(scenario);
-  if (!suits_lanes(commanded) || commanded.solver.rtol != scenario_.solver.rtol ||
-      commanded.solver.atol != scenario_.solver.atol) {
-    return false;
-  }
-  try {
-    model::Model model = model::assemble(commanded, false);
-    if (!solve::sampled::moves(model)) return false;
-    model.rig->sampled->external = std::make_shared<Unasked>();
-    lanes_[which / group]->begin(which % group, model, commanded.time.end);
-    return true;
-  } catch (const InputError&) {  // the single run reports it
-    return false;
   }
 }
 
@@ -146,42 +179,61 @@ std::unique_ptr<SteppedRun> Environments::repeat(const Run& run) const {
   return made;
 }
 
-void Environments::step(std::span<const double> commands, std::span<const bool> which) {
-  const auto moves = [&](std::size_t i) { return which[i] && !is_over(i); };
+void Environments::step(std::span<const double> commands, std::span<const std::size_t> which,
+                        std::span<const Beginning> how) {
+  std::vector<char> moves(count());
+  for (std::size_t i = 0; i < count(); ++i) moves[i] = is_over(i) ? 0 : 1;
+  std::vector<Ready> ready = prepare(which, how);
+  for (const std::size_t one : which) moves[one] = 0;
   for (std::size_t i = 0; i < count(); ++i) {
-    if (moves(i)) require_finite({commands[2 * i], commands[2 * i + 1]});
+    if (moves[i] != 0) require_finite({commands[2 * i], commands[2 * i + 1]});
   }
-  for (std::size_t g = 0; g < lanes_.size(); ++g) step_lanes(g, commands, which);
+  begin(which, std::move(ready));
+  // Single runs first: a lane that gives up leaves a single run that has taken its step.
   for (std::size_t i = 0; i < count(); ++i) {
-    if (!runs_[i].alone || !moves(i)) continue;
-    runs_[i].alone->step({commands[2 * i], commands[2 * i + 1]});
-    observe(i);
+    if (moves[i] == 0) continue;
+    Run& run = runs_[i];
+    ++run.steps;
+    if (!run.alone) continue;
+    const Pair command{commands[2 * i], commands[2 * i + 1]};
+    run.alone->step(command);
+    end_at_last_sample(run, command);
+  }
+  for (std::size_t g = 0; g < lanes_.size(); ++g) step_lanes(g, commands, moves);
+  for (std::size_t i = 0; i < count(); ++i) {
+    if (moves[i] != 0) observe(i);
   }
 }
 
+void Environments::end_at_last_sample(const Run& run, const Pair& command) {
+  if (run.alone->is_over()) return;
+  if (run.end - run.alone->sample().t <= rounding_of(run.end)) run.alone->step(command);
+}
+
 void Environments::step_lanes(std::size_t of_group, std::span<const double> commands,
-                              std::span<const bool> which) {
+                              std::span<const char> moves) {
   Lanes& lanes = *lanes_[of_group];
   const std::size_t first = of_group * group, some = std::min(group, count() - first);
-  std::array<bool, group> moves{};
-  for (std::size_t l = 0; l < some; ++l) {
-    const std::size_t i = first + l;
-    moves[l] = which[i] && lanes.state(l) == Lanes::State::waits;
-    if (!moves[l]) continue;
-    const Pair command{commands[2 * i], commands[2 * i + 1]};
-    runs_[i].commands.push_back(command);
+  const auto answer = [&](std::size_t l) {
+    const Pair command{commands[2 * (first + l)], commands[2 * (first + l) + 1]};
+    runs_[first + l].commands.push_back(command);
     lanes.answer(l, command);
-  }
-  lanes.advance();
-  for (std::size_t l = 0; l < some; ++l) {
-    if (!moves[l]) continue;
-    if (lanes.state(l) == Lanes::State::given_up) {
-      Run& run = runs_[first + l];
-      run.alone = repeat(run);
-      lanes.drop(l);
+  };
+  const auto for_each_moving = [&](const auto& does) {
+    for (std::size_t l = 0; l < some; ++l) {
+      if (moves[first + l] != 0 && !runs_[first + l].alone) does(l);
     }
-    observe(first + l);
-  }
+  };
+  for_each_moving(answer);
+  lanes.advance();
+  for_each_moving([&](std::size_t l) {
+    if (lanes.state(l) == Lanes::State::waits && lanes.is_at_end(l)) answer(l);
+    if (lanes.state(l) != Lanes::State::given_up) return;
+    Run& run = runs_[first + l];
+    run.alone = repeat(run);
+    end_at_last_sample(run, run.commands.back());
+    lanes.drop(l);
+  });
 }
 
 Environments::Lanes::State Environments::lane_state(std::size_t which) const {
@@ -203,6 +255,16 @@ bool Environments::truncated(std::size_t which) const {
   const Run& run = runs_[which];
   if (!run.alone) return lane_state(which) == Lanes::State::done;
   return run.alone->is_over() && run.alone->result().code == ExitCode::done;
+}
+
+double Environments::cost_of_ending(std::size_t which) const {
+  if (!terminated(which)) return 0;
+  const Run& run = runs_[which];
+  const double* const seen = &observations_[which * its_columns.size()];
+  const double x = seen[0] - seen[3], y = seen[1] - seen[4];
+  const double all = std::ceil((run.end - rounding_of(run.end)) / run.period);
+  const double left = all + 1 - static_cast<double>(std::max<std::size_t>(1, run.steps));
+  return std::max(1.0, left) * std::max(run.farthest, x * x + y * y);
 }
 
 const RunResult* Environments::result(std::size_t which) {

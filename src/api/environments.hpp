@@ -6,12 +6,14 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "api/stepped_run.hpp"
+#include "model/model.hpp"
 #include "scenario/family.hpp"
 #include "solve/sampled/stepped_lanes.hpp"
 
@@ -41,17 +43,23 @@ class Environments {
     std::vector<std::string> values;
     std::size_t seed = 0;
   };
-  // Restarts runs `which`. Throws InputError.
+  // Restarts runs `which`. Throws InputError; then no run has changed.
   void begin(std::span<const std::size_t> which, std::span<const Beginning> how);
-  // Applies two commands to each flagged run that is not over, and advances it to its next sample.
-  // Throws InputError for commands that are not finite; then no run has moved.
-  void step(std::span<const double> commands, std::span<const bool> which);
+  // Restarts runs `which`. Applies two commands to each other run that is not over, and advances it
+  // to its next sample, or to its end at the sample at time.end, whose commands would move nothing.
+  // Throws InputError, also for commands that are not finite; then no run has changed.
+  void step(std::span<const double> commands, std::span<const std::size_t> which,
+            std::span<const Beginning> how);
 
   // Present sample of each run, or the last if it is over; row-major, count() x columns().
   [[nodiscard]] const std::vector<double>& observations() const { return observations_; }
   // terminated(): ended early, by an event or a failure. truncated(): ended at time.end.
   [[nodiscard]] bool terminated(std::size_t which) const;
   [[nodiscard]] bool truncated(std::size_t which) const;
+  // For a run that was terminated: the squared distance from the reference, summed over its last
+  // step and those that were left, of a ball as far away as the plate allows, or as it was if that
+  // is farther, m^2. Otherwise 0.
+  [[nodiscard]] double cost_of_ending(std::size_t which) const;
   // Result of a run that is over, else null. A run in a lane is repeated for it.
   [[nodiscard]] const RunResult* result(std::size_t which);
   // Number of runs in lanes.
@@ -64,15 +72,29 @@ class Environments {
   struct Run {
     std::unique_ptr<SteppedRun> alone;  // null in a lane
     Beginning beginning;
+    double end = 0, period = 0;            // s
+    double farthest = 0;                   // squared distance from the reference, m^2
+    std::size_t steps = 0;                 // so far
     std::vector<Pair> commands;            // so far, in a lane
     std::unique_ptr<SteppedRun> repeated;  // for a run in a lane that is over
   };
+  // A run that can begin without a fault.
+  struct Ready {
+    Run run;
+    std::optional<model::Model> model;  // for a lane
+  };
 
   [[nodiscard]] Scenario scenario_of(const Beginning& beginning) const;
-  [[nodiscard]] bool put_into_lane(std::size_t which, const Scenario& scenario);
+  [[nodiscard]] Ready prepare(std::size_t which, const Beginning& beginning) const;
+  [[nodiscard]] std::vector<Ready> prepare(std::span<const std::size_t> which,
+                                           std::span<const Beginning> how) const;
+  void begin(std::span<const std::size_t> which, std::vector<Ready> ready);
+  [[nodiscard]] std::optional<model::Model> model_for_lane(const Scenario& scenario) const;
   [[nodiscard]] std::unique_ptr<SteppedRun> repeat(const Run& run) const;
   void step_lanes(std::size_t of_group, std::span<const double> commands,
-                  std::span<const bool> which);
+                  std::span<const char> moves);
+  // Gives a single run at its last sample, at time.end, the command that ends it.
+  static void end_at_last_sample(const Run& run, const Pair& command);
   [[nodiscard]] Lanes::State lane_state(std::size_t which) const;
   [[nodiscard]] bool is_over(std::size_t which) const;
   void observe(std::size_t which);

@@ -121,11 +121,13 @@ void Fiber::run() {
 }
 
 void Fiber::resume() {
+  running_ = true;
   start_switch(&fake_caller_, own_.uc_stack.ss_sp, own_.uc_stack.ss_size);
   caller_clock_ = present_clock();
   switch_clock(own_clock_);
   swapcontext(&caller_, &own_);
   finish_switch(fake_caller_, nullptr, nullptr);
+  running_ = false;
   if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
 }
 

@@ -28,6 +28,8 @@ class Fiber {
   void wait();
 
   [[nodiscard]] bool has_ended() const { return ended_; }
+  // Whether the body runs now, so that resume() would call itself.
+  [[nodiscard]] bool is_running() const { return running_; }
 
  private:
   static void enter(unsigned high, unsigned low);
@@ -37,7 +39,7 @@ class Fiber {
   ucontext_t caller_{}, own_{};
   void* memory_ = nullptr;
   std::size_t size_ = 0;  // of the memory, including the guard page at the stack's end
-  bool ended_ = false;
+  bool running_ = false, ended_ = false;
   std::exception_ptr thrown_;
   // State of the two stacks for the address sanitizer.
   void* fake_caller_ = nullptr;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "api/fit_text.hpp"
+#include "api/version.hpp"
 #include "replay/base64.hpp"
 #include "replay/template.hpp"
 #include "scenario/columns.hpp"
@@ -137,7 +138,7 @@ std::string fit_page(const FitRequest& request, const fit::Fitted& fitted,
   const std::string& file = request.family.source().file;
   const std::string title = "Fit of " + (scenario.title.empty() ? file : scenario.title);
   PageJson json = {{"format", 1},
-                   {"version", BBSIM_VERSION},
+                   {"version", version()},
                    {"title", title},
                    {"scenario", file},
                    {"logs", request.logs},

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "api/version.hpp"
 #include "base/fnv1a.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
@@ -227,7 +228,7 @@ std::string scenario_with(const Source& source, const std::string& comments,
 
 std::string fitted_scenario(const FitRequest& request, const fit::Fitted& fitted) {
   const Source& source = request.family.source();
-  std::string text = "# Fitted by bbsim " BBSIM_VERSION " to\n";
+  std::string text = "# Fitted by bbsim " + std::string(version()) + " to\n";
   for (const std::string& log : request.logs) {
     text += "#   " + shown(log) + " (FNV-1a " + hash_of(log) + ")\n";
   }

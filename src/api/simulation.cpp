@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "api/version.hpp"
 #include "base/cpu_clock.hpp"
 #include "base/short_number.hpp"
 #include "model/control/loop_analysis.hpp"
@@ -102,7 +103,7 @@ record::RunSummary summary_of(const Scenario& scenario, const model::Model& mode
                               const Integration& made) {
   const solve::Outcome& outcome = made.outcome;
   record::RunSummary summary;
-  summary.version = BBSIM_VERSION;
+  summary.version = version();
   summary.instruction_set = simd::name_of(simd::chosen_instruction_set());
   summary.scenario = scenario.source.file;
   summary.scenario_text = scenario.source.text;

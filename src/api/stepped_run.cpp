@@ -108,6 +108,9 @@ const Sample& SteppedRun::sample() const {
 }
 
 void SteppedRun::step(Pair command) {
+  if (state_->fiber.is_running()) {
+    throw InputError("step: found within the run's own step, as in its sink; allowed: after it");
+  }
   require_finite(command);
   state_->command = command;
   state_->fiber.resume();

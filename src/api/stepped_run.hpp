@@ -51,7 +51,8 @@ class SteppedRun {
   // Sample that waits for its commands; the last one if the run is over.
   [[nodiscard]] const Sample& sample() const;
   // Applies commands for phi and theta, and advances to the next sample or to the end. The run must
-  // not be over. Throws InputError for commands that are not finite.
+  // not be over. Throws InputError for commands that are not finite, and within itself, where
+  // `rows_to` is called.
   void step(Pair command);
   // Result of a run that is over.
   [[nodiscard]] const RunResult& result() const;

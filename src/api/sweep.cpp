@@ -13,10 +13,13 @@
 #include "api/assemble.hpp"
 #include "api/inputs.hpp"
 #include "api/sweep_text.hpp"
+#include "base/quoted.hpp"
 #include "base/short_number.hpp"
+#include "base/whole.hpp"
 #include "file/atomic_file.hpp"
 #include "file/default_name.hpp"
 #include "scenario/measures.hpp"
+#include "scenario/variation.hpp"
 #include "solve/output_grid.hpp"
 #include "sweep/case_file.hpp"
 #include "sweep/merge.hpp"
@@ -88,12 +91,15 @@ CaseSink into_file(const sweep::SweepTask& task, sweep::CaseFile& file) {
           }};
 }
 
-CaseSink into_table(const sweep::SweepTask& task, const sweep::CaseFileLayout& layout,
-                    SweepTable& table) {
+std::vector<SweepTable::Column> columns_of(const sweep::CaseFileLayout& layout) {
+  std::vector<SweepTable::Column> columns;
   for (const file::Hdf5Column& column : layout.columns) {
-    table.columns.push_back(
-        {column.name, column.unit, column.kind == file::Hdf5Kind::text, {}, {}});
+    columns.push_back({column.name, column.unit, column.kind == file::Hdf5Kind::text, {}, {}});
   }
+  return columns;
+}
+
+CaseSink into_table(const sweep::SweepTask& task, SweepTable& table) {
   return {[](sweep::CaseResults&) {},
           [&task, &table](const sweep::CaseResults& results) { append(task, results, table); }};
 }
@@ -131,7 +137,29 @@ bool run_cases(const sweep::Engine& engine, sweep::CaseRange missing, std::size_
 
 }  // namespace
 
+Sweep with_choice(Sweep sweep, const SweepChoice& choice) {
+  if (!choice.vary.empty()) {
+    sweep.vary = choice.vary;
+    const auto random = [](const Variation& one) {
+      return scenario::parse_variation(one).random();
+    };
+    // The scenario's number is for its own random keys, which are replaced.
+    if (std::ranges::none_of(sweep.vary, random)) sweep.samples.reset();
+  }
+  if (!choice.combine.empty()) {
+    if (choice.combine != "grid" && choice.combine != "zip") {
+      throw InputError("combine: found " + shown(choice.combine) + "; allowed: grid, zip");
+    }
+    sweep.combine = choice.combine == "zip" ? Combine::zip : Combine::grid;
+  }
+  if (choice.samples) sweep.samples = choice.samples;
+  if (choice.seed) sweep.seed = *choice.seed;
+  if (!choice.measures.empty()) sweep.measure = scenario::split_measures(choice.measures);
+  return sweep;
+}
+
 SweepResult sweep(const SweepRequest& request, Watch& watch) {
+  require_whole("threads", request.threads, 0, most_threads);
   const ScenarioFamily& family = request.family;
   const sweep::SweepPlan plan(family, request.sweep);
   const Scenario first = family.read(plan.settings(0));
@@ -146,6 +174,9 @@ SweepResult sweep(const SweepRequest& request, Watch& watch) {
   result.engine = engine.name;
   result.output = request.output;
   result.cases = range.last - range.first;
+  const SweepFacts facts{family, request.sweep, task, first, request.shard};
+  sweep::CaseFileLayout layout = layout_of(facts, engine, range);
+  if (request.output.empty()) result.table.columns = columns_of(layout);
   const std::atomic<bool>& stop = stop_of(watch);
   for (const std::string& remark : first.remarks) watch.note(remark);
   const bool checked = plan.check(family, range.first, range.last, [&](double part) {
@@ -159,18 +190,17 @@ SweepResult sweep(const SweepRequest& request, Watch& watch) {
     return result;
   }
 
-  const SweepFacts facts{family, request.sweep, task, first, request.shard};
   const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
-  const std::size_t threads = request.threads > 0 ? request.threads : processors;
+  const std::size_t threads =
+      request.threads > 0 ? static_cast<std::size_t>(request.threads) : processors;
   const auto interrupted = [&result] {
     result.code = ExitCode::interrupted;
     result.reason = "interrupted after " + std::to_string(result.rows) + " of " +
                     std::to_string(result.cases) + " cases.";
   };
-  sweep::CaseFileLayout layout = layout_of(facts, engine, range);
   if (request.output.empty()) {
     try_controller(family, first, watch);
-    const CaseSink sink = into_table(task, layout, result.table);
+    const CaseSink sink = into_table(task, result.table);
     if (!run_cases(engine, range, threads, sink, result, watch)) interrupted();
     return result;
   }

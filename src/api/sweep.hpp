@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,21 @@
 
 namespace bbsim::api {
 
+// Replaces parts of a scenario's sweep; what is empty replaces nothing.
+struct SweepChoice {
+  std::vector<Variation> vary;
+  std::string combine;  // "grid" or "zip"
+  std::optional<double> samples, seed;
+  std::vector<std::string> measures;  // names, or names with commas between them
+};
+// Throws InputError.
+[[nodiscard]] Sweep with_choice(Sweep sweep, const SweepChoice& choice);
+
 struct Shard {
   std::size_t number = 1, of = 1;
 };
+
+constexpr double most_threads = 1024;
 
 struct SweepRequest {
   std::string file;  // the scenario's, as the user gave it; "-": standard input
@@ -29,7 +42,7 @@ struct SweepRequest {
   // with the same columns is replaced.
   bool by_default = false, replaces_anything = false;
   std::string summary{};    // a JSON file; empty: none
-  std::size_t threads = 0;  // 0: as many as processors
+  double threads = 0;       // at most most_threads; 0: as many as processors
   bool resumes = false;     // continue a part that an earlier run left
   bool keeps_rows = false;  // also keep the rows of output.columns of each case
 };

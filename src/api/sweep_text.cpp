@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "api/version.hpp"
 #include "file/case_text.hpp"
 #include "simd/instruction_set.hpp"
 #include "solve/output_grid.hpp"
@@ -53,7 +54,7 @@ Json plan_of(const SweepFacts& facts) {
   // Create objects and lists as such: nlohmann's json breaks a null that becomes one if memory runs
   // out at that moment.
   Json plan = Json::object();
-  plan["version"] = BBSIM_VERSION;
+  plan["version"] = version();
   plan["instruction_set"] = instruction_set();
   plan["scenario_text"] = source.text;
   plan["overrides"] = source.overrides;
@@ -121,7 +122,7 @@ std::string plan_text(const SweepFacts& facts) {
 file::Attributes attributes_of(const SweepFacts& facts, const sweep::Engine& engine) {
   const Source& source = facts.family.source();
   const Sweep& sweep = facts.sweep;
-  file::Attributes attributes{{"version", BBSIM_VERSION},
+  file::Attributes attributes{{"version", std::string(version())},
                               {"instruction_set", instruction_set()},
                               {"engine", engine.name},
                               {"scenario", std::filesystem::path(source.file).filename().string()},

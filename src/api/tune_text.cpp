@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "api/fit_text.hpp"
+#include "api/version.hpp"
 #include "base/number_text.hpp"
 #include "base/short_number.hpp"
 #include "record/aligned.hpp"
@@ -81,7 +82,8 @@ std::string json_of(const Tuned& tuned) {
 }
 
 std::string tuned_scenario(const TuneRequest& request, const Tuned& tuned) {
-  std::string text = "# Tuned by bbsim " BBSIM_VERSION " on " + rigs_text(request, tuned) + "\n";
+  std::string text =
+      "# Tuned by bbsim " + std::string(version()) + " on " + rigs_text(request, tuned) + "\n";
   const auto add = [&](const std::string& what, double value, const std::string& unit) {
     text += "#   " + what + ": " + short_number(value) + (unit.empty() ? "" : " " + unit) + "\n";
   };

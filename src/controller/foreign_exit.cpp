@@ -16,6 +16,7 @@
 
 #include "base/end_process.hpp"
 #include "base/error.hpp"
+#include "base/fork_mutex.hpp"
 #include "base/quoted.hpp"
 #include "file/children.hpp"
 #include "file/temporaries.hpp"
@@ -79,7 +80,7 @@ void expect_foreign_exits(const std::string& path) {
   const std::string text =
       "the controller (" + shown(path, uncut) + ") ended bbsim; unwritten output is lost\n";
   // Kept until the process ends, because any thread may end it and print one of them.
-  static std::mutex guard;
+  static ForkMutex guard;
   static auto* const texts = new std::set<std::string>;
   {
     const std::lock_guard lock(guard);

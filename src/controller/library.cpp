@@ -272,6 +272,11 @@ model::Commands Library::command(const model::ControllerSample& sample, double* 
                               "command[2]"
                             : ""));
   }
+  for (std::size_t i = 0; i < setup_.columns.size(); ++i) {
+    if (std::isfinite(own[i])) continue;
+    throw fail("its column " + shown(setup_.columns[i]) + " is " + number_text(own[i]) +
+               "; allowed: a finite number");
+  }
   return command;
 }
 

@@ -4,7 +4,7 @@
 // The protocol between bbsim and a controller program: lines of JSON, one each way per sample
 // (docs/reference/controllers.md).
 //
-//     bbsim       {"protocol":1,"bbsim":"0.3.0","period":0.02,...,"parameters":{"kp":0.7},...}
+//     bbsim       {"protocol":1,"bbsim":"0.4.0","period":0.02,...,"parameters":{"kp":0.7},...}
 //     controller  {"protocol": 1, "reset": true, "columns": {"x_integral": "rad"}}
 //     bbsim       {"sample":0,"t":0.0,"ball":[-0.03,0.0],"reference":[0.03,0.0],...}
 //     controller  {"command": [0.042, 0.0], "x_integral": 0.0012}

@@ -187,8 +187,8 @@ void forget_child(pid_t process) {
   }
 }
 
-std::unique_lock<std::mutex> while_starting_child() {
-  static std::mutex starting;
+std::unique_lock<ForkMutex> while_starting_child() {
+  static ForkMutex starting;
   return std::unique_lock(starting);
 }
 

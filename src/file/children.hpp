@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "base/fork_mutex.hpp"
+
 namespace bbsim::file {
 
 // Until forget_child(), end_children() ends `process` and its group. Call forget_child() before
@@ -21,7 +23,7 @@ void forget_child(pid_t process);
 
 // Hold this lock from the start of a process until remember_child(). Otherwise bury() may take the
 // process for an orphan.
-[[nodiscard]] std::unique_lock<std::mutex> while_starting_child();
+[[nodiscard]] std::unique_lock<ForkMutex> while_starting_child();
 
 // Waits for a remembered process and forgets it. Returns its status, or nothing if other code has
 // already collected it.

@@ -19,7 +19,13 @@ constexpr const char* crash =
     ": the HDF5 library crashed, as it may when memory runs out; end other programs, or write "
     ".csv\n";
 
+std::string crash_message(const std::string& target) {
+  return printable("cannot write " + target + crash);
+}
+
 const bbsim_hdf5_module& module_to_write(const std::string& target) {
+  const std::string message = crash_message(target);
+  const WithinHdf5 within(message.c_str());  // opens the library, perhaps
   const Hdf5Module& module = hdf5_module();
   if (module.functions == nullptr) {
     throw OutputError("cannot write " + target + ": " + module.trouble);
@@ -60,7 +66,7 @@ std::string last_part(const std::string& file) {
 Hdf5Output::Hdf5Output(const std::string& target, std::span<const bbsim_hdf5_column> columns,
                        Durable durable)
     : target_(target),
-      message_of_crash_(printable("cannot write " + target + crash)),
+      message_of_crash_(crash_message(target)),
       module_(module_to_write(target)),
       file_(target, durable),
       writer_(nullptr, Destroy{this}) {

@@ -10,17 +10,17 @@
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
-#include <mutex>
 
 #include "base/end_process.hpp"
 #include "base/error.hpp"
+#include "base/fork_mutex.hpp"
 #include "file/temporaries.hpp"
 
 namespace bbsim::file {
 namespace {
 
 constexpr std::array<int, 4> crashes{SIGSEGV, SIGBUS, SIGFPE, SIGABRT};
-std::mutex one_thread;  // within HDF5, because signal actions belong to the process
+ForkMutex one_thread;  // within HDF5, because signal actions belong to the process
 std::array<struct sigaction, crashes.size()> actions_before;
 
 // The message for a crash of this thread; null outside HDF5.

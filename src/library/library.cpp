@@ -65,6 +65,13 @@ auto guarded(const Work& work) {
   throw ScenarioError(message, {{"", message, found.key, found.hint}});
 }
 
+// What the pointer of a Scenario or Stepper points to. It is null after a move.
+template <class State>
+State& present(const std::unique_ptr<State>& state) {
+  if (!state) refuse("found an object that was moved from; allowed: one that has a value");
+  return *state;
+}
+
 class Watch : public api::Watch {
  public:
   explicit Watch(std::function<bool(double)> goes_on) : goes_on_(std::move(goes_on)) {}
@@ -95,7 +102,8 @@ struct Scenario::State {
 };
 
 Scenario::Scenario(std::unique_ptr<State> state) : state_(std::move(state)) {}
-Scenario::Scenario(const Scenario& other) : state_(std::make_unique<State>(*other.state_)) {}
+Scenario::Scenario(const Scenario& other)
+    : state_(other.state_ ? std::make_unique<State>(*other.state_) : nullptr) {}
 Scenario::Scenario(Scenario&&) noexcept = default;
 Scenario& Scenario::operator=(const Scenario& other) {
   return *this = Scenario(other);
@@ -117,7 +125,7 @@ Scenario Scenario::from_text(const std::string& text, const std::string& name) {
 }
 
 Scenario& Scenario::set(const std::string& key, const std::string& value) {
-  state_->source.overrides.push_back(key + '=' + value);
+  present(state_).source.overrides.push_back(key + '=' + value);
   return *this;
 }
 
@@ -125,10 +133,14 @@ Scenario& Scenario::set(const std::string& key, double value) {
   return set(key, number_text(value));
 }
 
+const Scenario::State& Scenario::state() const {
+  return present(state_);
+}
+
 std::string Scenario::check() const {
   return guarded([&] {
     Watch watch({});
-    const ScenarioFamily family = state_->family();
+    const ScenarioFamily family = state().family();
     return to_text(api::check(State::first(family), watch));
   });
 }
@@ -240,18 +252,19 @@ Stepper::Stepper(Stepper&&) noexcept = default;
 Stepper& Stepper::operator=(Stepper&&) noexcept = default;
 
 bool Stepper::is_over() const {
-  return state_->run->is_over();
+  return present(state_).run->is_over();
 }
 
 const Sample& Stepper::sample() const {
-  return state_->sample;
+  return present(state_).sample;
 }
 
 void Stepper::step(const Command& command) {
   if (is_over()) refuse("the run is over; allowed: result()");
+  State& state = *state_;  // which the run's own sink may move away
   guarded([&] {
-    state_->run->step(command);
-    state_->copy_sample();
+    state.run->step(command);
+    state.copy_sample();
   });
 }
 
@@ -263,18 +276,15 @@ Result Stepper::result() const {
 Table sweep(const Scenario& scenario, const SweepOptions& options) {
   return guarded([&] {
     const ScenarioFamily family = scenario.state().family();
-    Sweep wanted = family.read_sweep();
-    if (!options.vary.empty()) {
-      wanted.vary.clear();
-      for (const auto& [key, spec] : options.vary) wanted.vary.push_back({key, spec});
-      wanted.combine = options.zip ? Combine::zip : Combine::grid;
-      wanted.samples.reset();
-    }
-    if (options.samples) wanted.samples = static_cast<double>(*options.samples);
-    if (options.seed) wanted.seed = static_cast<double>(*options.seed);
-    if (!options.measures.empty()) wanted.measure = scenario::split_measures(options.measures);
-    api::SweepRequest request{scenario.state().source.file, family, wanted, {}, {}};
-    request.threads = options.threads;
+    api::SweepChoice choice{{}, {}, options.samples, options.seed, options.measures};
+    for (const auto& [key, spec] : options.vary) choice.vary.push_back({key, spec});
+    if (!options.vary.empty()) choice.combine = options.zip ? "zip" : "grid";
+    api::SweepRequest request{scenario.state().source.file,
+                              family,
+                              api::with_choice(family.read_sweep(), choice),
+                              {},
+                              {}};
+    request.threads = static_cast<double>(options.threads);
     Watch watch(options.goes_on);
     api::SweepResult made = api::sweep(request, watch);
     Table table;

@@ -4,11 +4,11 @@
 #include "sweep/merge_hdf5.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/whole.hpp"
 #include "file/hdf5_table.hpp"
 #include "sweep/merge_text.hpp"
 
@@ -37,10 +37,7 @@ std::size_t rows_at_a_time(const std::vector<file::Hdf5Column>& columns) {
 }
 
 std::size_t case_in(const std::string& file, double number) {
-  constexpr double most = 9007199254740992;  // 2^53: doubles represent all whole numbers up to here
-  if (number >= 0 && number <= most && number == std::floor(number)) {
-    return static_cast<std::size_t>(number);
-  }
+  if (is_whole(number, 0)) return static_cast<std::size_t>(number);
   throw InputError(
       file + ": found a case that is not a whole number; allowed: a file that bbsim sweep wrote");
 }

@@ -11,6 +11,7 @@
 #include "base/fnv1a.hpp"
 #include "base/noise.hpp"
 #include "base/number_text.hpp"
+#include "base/whole.hpp"
 #include "scenario/independent.hpp"
 #include "yaml/problems.hpp"
 #include "yaml/quantity.hpp"
@@ -288,8 +289,10 @@ void SweepPlan::add_axes(const ScenarioFamily& family, const Sweep& sweep,
   tie();
 }
 
-SweepPlan::SweepPlan(const ScenarioFamily& family, const Sweep& sweep)
-    : combine_(sweep.combine), seed_(static_cast<std::uint64_t>(sweep.seed)) {
+SweepPlan::SweepPlan(const ScenarioFamily& family, const Sweep& sweep) : combine_(sweep.combine) {
+  if (sweep.samples) require_whole("samples", *sweep.samples, 1);
+  require_whole("seed", sweep.seed, 0);
+  seed_ = static_cast<std::uint64_t>(sweep.seed);
   if (sweep.vary.empty()) {
     throw InputError(
         "found no key to vary; allowed: --vary KEY=SPEC, or a sweep block in the scenario");
@@ -337,7 +340,7 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, const Sweep& sweep)
 SweepPlan::SweepPlan(const ScenarioFamily& family, const SweepPlan* of,
                      const std::vector<std::string>& keys, const std::vector<Listed>& cases,
                      std::vector<Setting> always)
-    : always_(std::move(always)), combine_(Combine::zip), cases_(cases.size()), seed_(0) {
+    : always_(std::move(always)), combine_(Combine::zip), cases_(cases.size()) {
   if (of != nullptr) {
     axes_ = of->axes_;
     std::vector<double> values(axes_.size());

@@ -97,7 +97,7 @@ class SweepPlan {
   std::vector<ScenarioFamily::Setting> always_;
   Combine combine_;
   std::size_t samples_ = 1, cases_ = 1;
-  std::uint64_t seed_;
+  std::uint64_t seed_ = 0;
 };
 
 }  // namespace bbsim::sweep

@@ -250,7 +250,8 @@ TEST_CASE("faults of a library are reported with the key's place") {
 TEST_CASE("a library error at a sample ends the run there") {
   const auto [mode, told] = GENERATE(table<std::string, std::string>(
       {{"2", "failed at sample 5 (t = 0.1 s): it returned 7: the plate is gone"},
-       {"3", "failed at sample 5 (t = 0.1 s): its command is [0.01, nan]; allowed: finite"}}));
+       {"3", "failed at sample 5 (t = 0.1 s): its command is [0.01, nan]; allowed: finite"},
+       {"13", "failed at sample 5 (t = 0.1 s): its column samples is nan; allowed"}}));
   const Result result = bbsim(with_misdeeds(mode));
   CAPTURE(result.err);
   CHECK(result.exit_code == 1);

@@ -4,6 +4,8 @@
 // The C++ library as its header documents it, through the shared library.
 #include <algorithm>
 #include <bbsim/bbsim.hpp>
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -128,6 +130,47 @@ TEST_CASE("a stepper given the commands of a run repeats the run") {
   CHECK_FALSE(faults_of([&] { stepper.step({0, 0}); }).empty());
 }
 
+TEST_CASE("a stepper's own sink cannot step it, but may move it") {
+  std::optional<bbsim::Stepper> stepper, other;
+  std::size_t refused = 0;
+  bbsim::RunOptions options;
+  options.sink = [&](std::span<const double>) {
+    if (!stepper) return;
+    refused += faults_of([&] { stepper->step({0, 0}); }).size();
+    if (!other) other.emplace(std::move(*stepper));
+  };
+  const bbsim::Scenario rig = bbsim::Scenario::from_file(configs + "rig.yaml").set("time.end", 1);
+  stepper.emplace(rig, options);
+  while (!other) stepper->step({0.01, 0});
+  CHECK(refused > 0);
+  while (!other->is_over()) other->step({0.01, 0});
+  CHECK(other->result().status == bbsim::Status::done);
+}
+
+TEST_CASE("an object that was moved from is refused until it has a value again") {
+  bbsim::Scenario scenario = circle();
+  const bbsim::Scenario other = std::move(scenario);
+  const bbsim::Scenario copy = scenario;  // NOLINT(bugprone-use-after-move): it is the test
+  for (const bbsim::Scenario* const empty : {&std::as_const(scenario), &copy}) {
+    CHECK_FALSE(faults_of([&] { (void)empty->check(); }).empty());
+    CHECK_FALSE(faults_of([&] { (void)bbsim::run(*empty); }).empty());
+    CHECK_FALSE(faults_of([&] { (void)bbsim::sweep(*empty); }).empty());
+    CHECK_FALSE(faults_of([&] { (void)bbsim::linearize(*empty); }).empty());
+    CHECK_FALSE(faults_of([&] { const bbsim::Stepper stepper(*empty); }).empty());
+  }
+  CHECK_FALSE(faults_of([&] { scenario.set("time.end", 1); }).empty());
+  scenario = other;
+  CHECK(scenario.check() == other.check());
+
+  bbsim::Stepper stepper(bbsim::Scenario::from_file(configs + "rig.yaml"));
+  bbsim::Stepper next = std::move(stepper);
+  CHECK_FALSE(faults_of([&] { (void)stepper.is_over(); }).empty());
+  CHECK_FALSE(faults_of([&] { (void)stepper.sample(); }).empty());
+  CHECK_FALSE(faults_of([&] { stepper.step({0, 0}); }).empty());
+  CHECK_FALSE(faults_of([&] { (void)stepper.result(); }).empty());
+  next.step({0, 0});
+}
+
 TEST_CASE("a sweep has one row per case: a grid, or values together") {
   bbsim::SweepOptions options;
   options.vary = {{"ball.radius", "list:0.01,0.02"}, {"gravity", "list:9,10"}};
@@ -142,7 +185,29 @@ TEST_CASE("a sweep has one row per case: a grid, or values together") {
   CHECK(table.column("max_tilt").numbers[1] == Approx(one.measures[0].second).epsilon(1e-6));
   options.goes_on = [](double) { return false; };
   options.vary = {{"ball.radius", "linear:0.01:0.02:4000"}};
-  CHECK_FALSE(bbsim::sweep(circle(), options).complete);
+  const bbsim::Table ended = bbsim::sweep(circle(), options);
+  CHECK_FALSE(ended.complete);
+  CHECK(ended.columns.size() == table.columns.size() - 1);  // of one key
+  CHECK(ended.column("max_tilt").numbers.size() < 4000);
+}
+
+TEST_CASE("a sweep refuses the numbers that the program refuses") {
+  const auto refused = [](auto change) {
+    bbsim::SweepOptions options;
+    options.vary = {{"ball.radius", "uniform:0.01:0.02"}};
+    options.samples = 3;
+    options.threads = 1;
+    CHECK(bbsim::sweep(circle(), options).column("case").numbers.size() == 3);
+    change(options);
+    return !faults_of([&] { (void)bbsim::sweep(circle(), options); }).empty();
+  };
+  static constexpr std::size_t huge = std::size_t{1} << 62U;
+  CHECK(refused([](bbsim::SweepOptions& options) { options.samples = 0; }));
+  CHECK(refused([](bbsim::SweepOptions& options) { options.samples = huge; }));
+  CHECK(refused([](bbsim::SweepOptions& options) { options.samples.reset(); }));
+  CHECK(refused([](bbsim::SweepOptions& options) { options.seed = huge; }));
+  CHECK(refused([](bbsim::SweepOptions& options) { options.threads = huge; }));
+  CHECK(refused([](bbsim::SweepOptions& options) { options.vary = {{"gravity", "list:9,10"}}; }));
 }
 
 TEST_CASE("a linear system has its names and sizes") {

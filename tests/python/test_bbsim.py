@@ -15,6 +15,7 @@ import sys
 import tempfile
 import threading
 import unittest
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -258,6 +259,9 @@ class Callables(unittest.TestCase):
 
         made = bbsim.run(with_callable(law, output={"columns": ["t", "twice"]}))
         self.assertAlmostEqual(made["twice"][-1], 2 * made["t"][-1], delta=0.05)
+        for wrong in ({"twice": math.nan}, {"twice": math.inf}, {"twice": "1"}, {}, None):
+            with self.assertRaises(bbsim.ControllerError):
+                bbsim.run(with_callable(lambda sample, wrong=wrong: (0, 0, wrong), output={"columns": ["t", "twice"]}))
 
     def test_what_it_raises(self):
         def law(sample):
@@ -273,6 +277,40 @@ class Callables(unittest.TestCase):
                 bbsim.run(with_callable(lambda sample, answer=answer: answer))
         with self.assertRaises(bbsim.ControllerError):
             bbsim.sweep(with_callable(law), {"ball.radius": [0.01, 0.02]})
+
+    def test_callables_may_call_bbsim_to_a_depth(self):
+        depth = deepest = 0
+
+        def nested(call):
+            def law(sample):
+                nonlocal depth, deepest
+                depth += 1
+                deepest = max(depth, deepest)
+                try:
+                    call(with_callable(law, time={"end": 0.02, "step": 0.02}))
+                finally:
+                    depth -= 1
+                return 0, 0
+
+            return with_callable(law)
+
+        for call in (bbsim.run, lambda scene: bbsim.sweep(scene, {"ball.radius": [0.01]})):
+            with self.assertRaises(bbsim.ControllerError) as raised:
+                bbsim.run(nested(call))
+            last = raised.exception
+            while last.__cause__ is not None:
+                last = last.__cause__
+            self.assertIsInstance(last, RecursionError)
+        bbsim.run(nested(bbsim.check))  # which only reports that the controller fails
+        self.assertEqual(deepest, 8)
+        inner = []
+
+        def looks_ahead(sample):
+            inner.append(bbsim.run(with_callable(lambda sample: (0, 0), time={"end": 0.1, "step": 0.02}))["x"][-1])
+            return 0, 0
+
+        self.assertEqual(bbsim.run(with_callable(looks_ahead, time={"end": 0.1, "step": 0.02})).status, "done")
+        self.assertEqual(len(set(inner)), 1)
 
     def test_sweep(self):
         vary = {"ball.position.0": [0.01, 0.02, 0.03]}
@@ -308,6 +346,17 @@ class Sweeps(unittest.TestCase):
                     continue
                 np.testing.assert_allclose(made["end_time"], bbsim.sweep(CONFIGS / file,
                                            dict([spec.split("=")]))["end_time"])  # fmt: skip
+
+    def test_numbers_that_the_program_refuses(self):
+        fine = {"samples": 3, "seed": 5, "threads": 1}
+        vary = {"ball.radius": "uniform:0.01:0.02"}
+        self.assertEqual(len(bbsim.sweep(CONFIGS / "fig2b.yaml", vary, "end_x", **fine)), 3)
+        wrong = [0, -1, 2.5, math.nan, math.inf, 1e300]
+        for name, values in (("samples", [*wrong, None]), ("seed", wrong[1:]), ("threads", [*wrong[1:], 2**62])):
+            for value in values:
+                with self.subTest(name, value=value), self.assertRaises(bbsim.InputError) as raised:
+                    bbsim.sweep(CONFIGS / "fig2b.yaml", vary, "end_x", **{**fine, name: value})
+                self.assertEqual(raised.exception.key, name)
 
     def test_measures_and_draws(self):
         made = bbsim.sweep(CONFIGS / "fig2b.yaml", {"ball.position.0": "normal:5 cm:2 mm"}, ["max_tilt", "end_x"],
@@ -378,17 +427,16 @@ class Environments(unittest.TestCase):
                                set={"controller.sensor": None})  # fmt: skip
         observations, _ = envs.reset()
         first = observations[:, 0].copy()
-        actions = np.random.default_rng(1).uniform(-0.05, 0.05, (26, 3, 2))
+        actions = np.random.default_rng(1).uniform(-0.05, 0.05, (25, 3, 2))
         seen = [observations]
         for action in actions:
             observations, _, terminated, truncated, _ = envs.step(action)
             seen.append(observations)
-            if truncated.any():
-                break
+            self.assertEqual(truncated.any(), len(seen) > 25)
         self.assertTrue(truncated.all())
         self.assertFalse(terminated.any())
         for i in range(3):
-            given = iter(actions[:, i])
+            given = iter([*actions[:, i], actions[-1, i]])  # the sample at the end has the last commands
             heard = []
 
             def law(sample):
@@ -406,13 +454,13 @@ class Environments(unittest.TestCase):
         envs = bbsim.VectorEnv(self.SCENE, n, {"ball.position.0": (0.03, 0.05)}, seed=5, set={"controller.sensor": None})
         seen = [envs.reset()[0]]
         self.assertEqual(envs._runs.in_lanes, n)
-        actions = np.random.default_rng(1).uniform(-0.05, 0.05, (26, n, 2))
+        actions = np.random.default_rng(1).uniform(-0.05, 0.05, (25, n, 2))
         for action in actions:
             observations, _, _, truncated, _ = envs.step(action)
             seen.append(observations)
         self.assertTrue(truncated.all())
         for i in range(n):
-            given, heard = iter(actions[:, i]), []
+            given, heard = iter([*actions[:, i], actions[-1, i]]), []
 
             def law(sample):
                 heard.append(sample)
@@ -506,6 +554,16 @@ class Environments(unittest.TestCase):
             _, _, terminated, truncated, _ = some.step(np.zeros((16, 2)))
         self.assertIn(some._runs.in_lanes, range(1, 16))
 
+    def test_a_rig_that_leaves_its_lane_takes_one_step(self):
+        free = {"controller.limit": None, "gimbal.servo.angle_limit": None, "gimbal.servo.rate_limit": None, "events": None}
+        envs, single = (bbsim.VectorEnv(CONFIGS / "rig.yaml", 16, set=free, record=record) for record in (False, True))
+        envs.reset(seed=1), single.reset(seed=1)
+        actions = np.random.default_rng(0).uniform(-1e5, 1e5, (16, 2))  # rad: the plate turns many times in a period
+        one, other = envs.step(actions), single.step(actions)
+        self.assertLess(envs._runs.in_lanes, 16)
+        np.testing.assert_array_equal(one[2], other[2])
+        np.testing.assert_allclose(one[0], other[0], rtol=1e-8, atol=1e-8)  # the solver's tolerance
+
     def test_some_lanes_begin_anew(self):
         envs = bbsim.VectorEnv(self.SCENE, 9, set={"controller.sensor": None})
         observations, _ = envs.reset(seed=1)
@@ -543,6 +601,107 @@ class Environments(unittest.TestCase):
                 ends.append(step)
         self.assertGreater(len(ends), 1)
 
+    def test_an_episode_has_a_step_for_each_period(self):
+        for n in (1, 8):
+            for end, steps in ((2, 100), (0.3, 15), (0.503, 26), (0.01, 1)):
+                envs = bbsim.VectorEnv(CONFIGS / "rig.yaml", n, set={"time.end": end})
+                envs.reset(seed=1)
+                ends = [envs.step(np.zeros((n, 2)))[3] for _ in range(steps)]
+                self.assertTrue(ends.pop().all())
+                self.assertFalse(np.any(ends))
+
+    def test_to_end_an_episode_does_not_pay(self):
+        tilt = {"events": {"tilt": {"limit": "5 deg", "action": "stop"}}, "time.end": 1}
+        corner = 0.16**2 + 0.12**2
+        nearest = (0.12 - 0.05) ** 2  # of the edge to a reference within 5 cm
+        for settings, edge in (
+            ({"time.end": 3}, corner),
+            (tilt, nearest),
+            ({**tilt, "plate": {"diameter": "24 cm", "inertia": [4e-3, 6e-3, 1e-2]}}, nearest),
+            ({**tilt, "plate": None, "output": None}, nearest),
+        ):
+            for n in (1, 8):
+                envs = bbsim.VectorEnv(CONFIGS / "rig.yaml", n, set=settings)
+                period, end = 0.02, settings["time.end"]
+                for wait in (0, 10):  # steps before the ball is thrown off
+                    envs.reset(seed=1)
+                    rewards, terminated = [], np.zeros(n, bool)
+                    while not terminated.all():
+                        action = 0.2 if len(rewards) >= wait else 0
+                        _, reward, terminated, truncated, _ = envs.step(np.full((n, 2), action))
+                        self.assertFalse(truncated.any())
+                        rewards.append(reward)
+                    left = round(end / period) - len(rewards) + 1
+                    self.assertTrue((rewards[-1] <= -left * edge).all(), (settings, n, rewards[-1]))
+                    self.assertTrue((np.array(rewards[:-1]) > -corner).all())
+        own = bbsim.VectorEnv(CONFIGS / "rig.yaml", 2, reward=lambda o, a, terminated: -1.0 * terminated)
+        own.reset()
+        self.assertEqual(own.step(np.full((2, 2), 0.2))[1].tolist(), [-1, -1])
+
+    def test_a_mask_has_a_boolean_for_each_run(self):
+        for n in (2, 8):
+            envs = bbsim.VectorEnv(CONFIGS / "rig.yaml", n)
+            envs.reset(seed=1)
+            for mask in (np.ones(n + 1, bool), np.ones(n - 1, bool), np.ones((n, 1), bool), np.arange(n), True, "x"):
+                with self.assertRaises(bbsim.InputError) as raised:
+                    envs.reset(options={"reset_mask": mask})
+                self.assertEqual(raised.exception.key, "reset_mask")
+            envs.reset(options={"reset_mask": [True] * n})
+
+    def test_a_call_within_a_call_is_refused(self):
+        inside, goes_on = threading.Event(), threading.Event()
+
+        def reward(observations, actions, terminated):
+            inside.set()
+            self.assertTrue(goes_on.wait(60))
+            for call in (envs.reset, envs.result, lambda: envs.step(np.zeros((8, 2)))):
+                with self.assertRaisesRegex(RuntimeError, "one call"):
+                    call()
+            return np.zeros(8)
+
+        envs = bbsim.VectorEnv(CONFIGS / "rig.yaml", 8, reward=reward)
+        envs.reset(seed=1)
+        made = []
+        other = threading.Thread(target=lambda: made.append(envs.step(np.zeros((8, 2)))))
+        other.start()
+        self.assertTrue(inside.wait(60))
+        with self.assertRaisesRegex(RuntimeError, "one call"):
+            envs.step(np.zeros((8, 2)))
+        goes_on.set()
+        other.join()
+        self.assertEqual(len(made), 1)
+        envs.step(np.zeros((8, 2)))
+
+    def test_a_reset_that_raises_changes_no_run(self):
+        for n in (3, 9):  # alone, in lanes
+            drawn = []
+
+            def radius(random):
+                drawn.append(0.01)
+                return -1 if len(drawn) == n + n // 2 else 0.01
+
+            scene = {**self.SCENE, "controller": {k: v for k, v in LOOP["controller"].items() if k != "sensor"}}
+            envs = bbsim.VectorEnv(scene, n, {"ball.radius": radius})
+            same = bbsim.VectorEnv(scene, n)
+            envs.reset(), same.reset()
+
+            def step():
+                one, other = (each.step(np.full((n, 2), 0.05)) for each in (envs, same))
+                for a, b in zip(one[:4], other[:4]):
+                    np.testing.assert_array_equal(a, b)
+                return one[3]
+
+            step()
+            with self.assertRaises(bbsim.InputError):
+                envs.reset()
+            while not step().any():
+                pass
+            drawn[:] = [0] * (n + n // 2 - 2)  # the second run of the next episodes is refused
+            with self.assertRaises(bbsim.InputError):
+                envs.step(np.full((n, 2), 0.05))
+            while not step().any():
+                pass
+
     def test_the_ball_falls_off(self):
         envs = bbsim.VectorEnv(self.SCENE, 1, set={"time.end": 20})
         envs.reset()
@@ -572,8 +731,11 @@ class Environments(unittest.TestCase):
             many.step(np.zeros((many.num_envs, 2)))
         with self.assertRaises(bbsim.InputError):
             bbsim.VectorEnv(CONFIGS / "fig2b.yaml", 1).reset()
-        with self.assertRaises(bbsim.InputError):
-            bbsim.VectorEnv(self.SCENE, 0)
+        for n in (0, -1, 2**40):
+            with self.assertRaises(bbsim.InputError):
+                bbsim.VectorEnv(self.SCENE, n)
+        with self.assertRaises(TypeError):
+            bbsim.VectorEnv(self.SCENE, 2.5)
 
     def keeps_the_rules(self, env):
         """Checks from Gymnasium's documentation, as in its own checker."""
@@ -710,6 +872,73 @@ class Interruptions(unittest.TestCase):
             f"s = dict(controller=dict(callable=lambda sample: (0, 0), drives='angle', sampling=dict(period='20 ms'), "
             f"reference=dict(point=[0, 0])), ball=dict(radius=0.01), time=dict(end=1e6, step=1), "
             f"gimbal=dict(servo=dict(natural_frequency=10, damping=1))); bbsim.run(s)")
+
+
+class Processes(unittest.TestCase):
+    """Threads within bbsim while their process ends or is forked."""
+
+    def ended(self, work, before="", ends="sys.exit(5)"):
+        """What a process writes that ends while four daemon threads do this work again and again."""
+        script = (
+            f"{before}\nimport bbsim, numpy as np, sys, threading, time\n"
+            f"scene = {with_callable(None)!r}\nbegun = threading.Semaphore(0)\n"
+            f"def law(sample):\n    begun.release()\n    return 0, 0\n"
+            f"scene['controller']['callable'] = law\n"
+            f"def work():\n    envs = bbsim.VectorEnv({str(CONFIGS / 'rig.yaml')!r}, 64)\n    envs.reset(seed=1)\n"
+            f"    while True:\n        begun.release()\n        {work}\n"
+            "for _ in range(4): threading.Thread(target=work, daemon=True).start()\n"
+            f"for _ in range(40): begun.acquire()\n{ends}\n"
+        )
+        made = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
+        self.assertEqual((made.returncode, made.stderr), (5, ""))
+        return made.stdout
+
+    def test_the_end_of_the_interpreter(self):
+        for work in (
+            f"bbsim.run({str(CONFIGS / 'fig2b.yaml')!r})",
+            f"bbsim.sweep({str(CONFIGS / 'rig.yaml')!r}, {{'gravity': 'linear:9:10:20'}})",
+            "envs.step(np.zeros((64, 2)))",
+            "bbsim.run(scene)",
+            "bbsim.run(scene, {'time.end': 1e6})",
+        ):
+            with self.subTest(work):
+                self.ended(work)
+
+    def test_functions_at_the_end_may_call_bbsim(self):
+        late = "import atexit\natexit.register(lambda: print(bbsim.run(scene).status))"
+        self.assertEqual(self.ended("bbsim.check(scene)", before=late), "done\n")
+
+    def test_forked_processes_write_their_own_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            over = threading.Event()
+
+            def write(which):
+                while not over.is_set():
+                    bbsim.run(LOOP, output=f"{folder}/thread{which}.h5")
+
+            threads = [threading.Thread(target=write, args=(i,)) for i in range(2)]
+            for one in threads:
+                one.start()
+            try:
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore", DeprecationWarning)  # of Python, about threads beside a fork
+                    for k in range(20):
+                        child = os.fork()
+                        if child == 0:
+                            signal.alarm(60)  # ends it if it waits for a thread that it does not have
+                            try:
+                                bbsim.run(LOOP, output=f"{folder}/child{k}.h5")
+                                os._exit(0)
+                            finally:
+                                os._exit(1)
+                        self.assertEqual(os.waitpid(child, 0)[1], 0)
+            finally:
+                over.set()
+                for one in threads:
+                    one.join()
+            files = sorted(Path(folder).iterdir())
+            self.assertEqual(len(files), 22)
+            self.assertEqual(len({file.read_bytes() for file in files}), 1)
 
 
 class Examples(unittest.TestCase):

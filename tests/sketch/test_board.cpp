@@ -103,6 +103,26 @@ TEST_CASE("nothing is sent before begin(), and find() finds texts that overlap t
   CHECK(contains(run.err, "controller: late\ncontroller: 1!\n"));
 }
 
+TEST_CASE("a number that a sketch prints for a column and that is not finite ends the run") {
+  const auto [number, told] = GENERATE(table<std::string, std::string>(
+      {{"0 * log(0)", "column u is nan"}, {"log(0)", "is inf"}, {"5e9", "is inf"}}));
+  const Sketch sketch(
+      "void setup() { SerialUSB.begin(115200); }\nvoid loop() {\n  SerialUSB.print(\"v:inf"
+      "o u:\");\n  SerialUSB.println(" +
+          number + ");\n  delay(20);\n}\n",
+      plain_wiring);
+  CAPTURE(sketch.made.err);
+  REQUIRE(sketch.made.exit_code == 0);
+  const auto run = [&](const std::string& column) {
+    return bbsim(sketch.words("run", {"--set", "output.columns=[t, " + column + "]", "--set",
+                                      "time.end=0.1", "-o", "-", "-q"}));
+  };
+  const Result refused = run("u");
+  CHECK(refused.exit_code == 1);
+  CHECK(contains(refused.err, told));
+  CHECK(run("v").exit_code == 0);  // text, not a number
+}
+
 TEST_CASE("a missing board feature is a compiler error with a hint") {
   const Sketch sketch(
       "#include <Wire.h>\n#include <SPI.h>\nvoid tick() {}\nvoid setup() {\n"

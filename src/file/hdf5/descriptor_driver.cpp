@@ -20,6 +20,7 @@ namespace {
 
 struct OpenFile : H5FD_t {  // HDF5 owns and fills the base
   DescriptorTarget target;
+  pid_t owner = getpid();
   haddr_t allocated = 0;  // end of the addresses that HDF5 has allocated
   haddr_t size = 0;       // end of the written bytes
 };
@@ -29,6 +30,12 @@ OpenFile& self(H5FD_t* file) {
 }
 const OpenFile& self(const H5FD_t* file) {
   return *static_cast<const OpenFile*>(file);
+}
+
+// A process that was forked meanwhile has a copy of the caches, and must not write it to the file,
+// as HDF5 would when that process ends.
+bool is_copy(const OpenFile& file) {
+  return file.owner != getpid();
 }
 
 void note_error(const OpenFile& file) {
@@ -88,6 +95,7 @@ herr_t read_bytes(H5FD_t* base, H5FD_mem_t /*type*/, hid_t /*transfer*/, haddr_t
 herr_t write_bytes(H5FD_t* base, H5FD_mem_t /*type*/, hid_t /*transfer*/, haddr_t address,
                    std::size_t size, const void* buffer) {
   OpenFile& file = self(base);
+  if (is_copy(file)) return 0;
   file.size = std::max(file.size, address + size);
   const auto* from = static_cast<const char*>(buffer);
   while (size > 0 && *file.target.system_error == 0) {
@@ -105,7 +113,7 @@ herr_t write_bytes(H5FD_t* base, H5FD_mem_t /*type*/, hid_t /*transfer*/, haddr_
 
 herr_t truncate_file(H5FD_t* base, hid_t /*transfer*/, hbool_t /*closing*/) {
   OpenFile& file = self(base);
-  if (file.size == file.allocated) return 0;
+  if (is_copy(file) || file.size == file.allocated) return 0;
   if (ftruncate(file.target.descriptor, static_cast<off_t>(file.allocated)) != 0) note_error(file);
   file.size = file.allocated;
   return 0;

@@ -83,6 +83,11 @@ void SteppedLanes::ask(std::size_t l) {
   states_[l] = State::waits;
 }
 
+bool SteppedLanes::is_at_end(std::size_t l) const {
+  const Lane& lane = lanes_[l];
+  return lane.end - lane.time <= lane.run->rounding(lane.time);
+}
+
 void SteppedLanes::answer(std::size_t l, const Pair& command) {
   Lane& lane = lanes_[l];
   const double t = lane.time;
@@ -91,7 +96,7 @@ void SteppedLanes::answer(std::size_t l, const Pair& command) {
                samples_[l].seen.value_or(sampling.measured()));
   lane.run->act(t, lane.z.data());
   const bool begins = t == 0, touched = lane.run->touched();
-  const bool over = lane.end - t <= lane.run->rounding(t);
+  const bool over = is_at_end(l);
   if (lane.run->unsettled()) return end(l, State::given_up);
   if ((begins || over) && lane.run->check_events(t, lane.z.data()) == model::Effect::stop) {
     return end(l, State::stopped);

@@ -42,6 +42,9 @@ class SteppedLanes : private LaneEngine {
   // The sample at which the lane waits; if it does not wait, its last one.
   [[nodiscard]] const LaneSample& sample(std::size_t lane) const { return samples_[lane]; }
 
+  // Whether a lane that waits is at its end: its command then only ends it.
+  [[nodiscard]] bool is_at_end(std::size_t lane) const;
+
   // Gives a waiting lane its command, which must be finite. The lane moves at the next advance().
   void answer(std::size_t lane, const Pair& command);
   // Moves the lanes that were answered, each to its next sample or to its end.

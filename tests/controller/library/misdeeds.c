@@ -5,7 +5,8 @@
  * 0 normal; 1 no controller; 2 an error at sample 5; 3 NaN at sample 5; 4 like 0, without reset;
  * 5 exit(0) at sample 5; 6 _exit(0) there; 7 exit(0) in create; 8 exit(0) in destroy; 9 a child
  * process that calls exit(9) at sample 5, then normal; 10 a thread that calls exit(0) at sample 5;
- * 12 err(0, ...) at sample 5, with which the C library itself ends the process.
+ * 12 err(0, ...) at sample 5, with which the C library itself ends the process; 13 a column of NaN
+ * at sample 5.
  * MISDEED_ABI sets its version, MISDEED_NO_STEP omits a function, MISDEED_OPENED calls exit(0)
  * while the library is opened. */
 #define _DEFAULT_SOURCE
@@ -80,6 +81,7 @@ int bbsim_controller_step(void *controller, const bbsim_sample *sample, double c
   if (of->mode == 12) err(0, "this is how it ends");
   if (of->mode == 2) last_error = "the plate is gone";
   if (of->mode == 3) command[1] = NAN;
+  if (of->mode == 13) columns[0] = NAN;
   return of->mode == 2 ? 7 : 0;
 }
 #endif

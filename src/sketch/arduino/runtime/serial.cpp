@@ -19,6 +19,19 @@ struct Watched {
 };
 std::vector<Watched> watched;
 
+// Whether the text has a number: also "nan" and "inf", as whole words, and "ovf", which print()
+// writes for large numbers. The run then ends.
+bool read_number(const char* text, double& number) {
+  while (*text == ' ') ++text;
+  char* end = nullptr;
+  number = strtod(text, &end);
+  if (strncmp(text, "ovf", 3) == 0) {
+    number = HUGE_VAL;
+    end = const_cast<char*>(text) + 3;
+  }
+  return end != text && (isfinite(number) || strchr(", \t", *end) != nullptr);
+}
+
 // Reads "name:value" pairs, separated by commas, tabs or blanks, as the plotter of the IDE does.
 void read_numbers(const char* line) {
   for (const char* at = line; (at = strchr(at, ':')) != nullptr; ++at) {
@@ -28,9 +41,8 @@ void read_numbers(const char* line) {
       const char* const start = at - length;
       if (strncmp(start, one.name, static_cast<size_t>(length)) != 0) continue;
       if (start > line && strchr(", \t", start[-1]) == nullptr) continue;
-      char* end = nullptr;
-      const double number = strtod(at + 1, &end);
-      if (end != at + 1 && isfinite(number)) one.value = number;
+      double number = 0;
+      if (read_number(at + 1, number)) one.value = number;
     }
   }
 }
