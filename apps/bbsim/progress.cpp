@@ -32,6 +32,7 @@ std::size_t columns_of_terminal() {
 }  // namespace
 
 void Progress::controller_says(std::string_view line) {
+  if (quiet_) return;
   // Replaces the progress bar, which is drawn again below the line.
   if (draws_on_terminal()) std::fputs(to_clear_line, stderr);
   say("controller: " + std::string(line));

@@ -16,7 +16,7 @@ extern "C" {
 #endif
 
 /* Increases when anything below changes. */
-#define BBSIM_WIRING_VERSION 3u
+#define BBSIM_WIRING_VERSION 4u
 
 /* Linear map through two points: position[i] gives counts[i]. It also extrapolates. */
 typedef struct bbsim_count_map {
@@ -44,10 +44,10 @@ typedef struct bbsim_wired_screen {
   uint32_t kind;
   int32_t pins[5];
   bbsim_count_map x, y;
-  double untouched;       /* counts of a floating pin */
-  double resistance[2];   /* of the x plate and the y plate, ohm */
-  double contact;         /* resistance of the touch, ohm */
-  double interval;        /* time between points of the chip, s */
+  double untouched;     /* counts of a floating pin */
+  double resistance[2]; /* of the x plate and the y plate, ohm */
+  double contact;       /* resistance of the touch, ohm */
+  double interval;      /* time between points of the chip, s */
 } bbsim_wired_screen;
 
 typedef struct bbsim_wired_camera {
@@ -56,11 +56,11 @@ typedef struct bbsim_wired_camera {
   double period;     /* time between frames, s */
   double delay;      /* time from a frame to its first byte, s */
   bbsim_count_map x, y;
-  const char *frame; /* text of a frame; {x} and {y} stand for the numbers */
-  const char *lost;  /* text while the ball is not seen; empty: none */
+  const char* frame; /* text of a frame; {x} and {y} stand for the numbers */
+  const char* lost;  /* text while the ball is not seen; empty: none */
 } bbsim_wired_camera;
 
-/* A constant input: 10-bit counts of an analog pin, or 0 or 1 of a digital pin. */
+/* A constant input: counts of an analog pin, or 0 or 1 of a digital pin. */
 typedef struct bbsim_wired_input {
   int32_t pin;
   double value;
@@ -80,26 +80,38 @@ typedef struct bbsim_call_costs {
 } bbsim_call_costs;
 
 typedef struct bbsim_wiring {
-  uint32_t version;             /* BBSIM_WIRING_VERSION */
-  uint32_t setup_before;        /* 1: setup() has returned at t = 0; 0: the board starts at t = 0 */
-  uint32_t print;               /* 1: what the sketch prints goes to standard error */
-  bbsim_wired_servo servos[3];  /* phi, theta and an unused one; or three legs */
-  double oscillator;            /* frequency of the PCA9685, Hz */
-  uint32_t ignored_channels;    /* bit n: channel n of the PCA9685 has a servo outside the scene */
+  uint32_t version;            /* BBSIM_WIRING_VERSION */
+  uint32_t setup_before;       /* 1: setup() has returned at t = 0; 0: the board starts at t = 0 */
+  bbsim_wired_servo servos[3]; /* phi, theta and an unused one; or three legs */
+  double oscillator;           /* frequency of the PCA9685, Hz */
+  uint32_t ignored_channels;   /* bit n: channel n of the PCA9685 has a servo outside the scene */
   bbsim_wired_screen screen;
   bbsim_wired_camera camera;
   size_t input_count;
-  const bbsim_wired_input *inputs;
+  const bbsim_wired_input* inputs;
   size_t ignored_count;
-  const int32_t *ignored; /* pins of servos outside the scene */
+  const int32_t* ignored; /* pins of servos outside the scene */
   size_t eeprom_size;     /* bytes */
-  const unsigned char *eeprom;
+  const unsigned char* eeprom;
   bbsim_call_costs costs;
+  /* Receives each line that the sketch prints, valid during the call. May be null. */
+  void (*print)(void* reader, const char* line);
+  void* reader;
 } bbsim_wiring;
 
 /* Like bbsim_controller_create(), which such a library also defines, but only to refuse. */
-BBSIM_CONTROLLER_EXPORT void *bbsim_controller_create_wired(const bbsim_setup *setup,
-                                                            const bbsim_wiring *wiring);
+BBSIM_CONTROLLER_EXPORT void* bbsim_controller_create_wired(const bbsim_setup* setup,
+                                                            const bbsim_wiring* wiring);
+
+/* A step of such a library returns this if the wiring does not fit the sketch. */
+enum { BBSIM_WIRING_AT_FAULT = 2 };
+
+/* Whether the sketch has printed the number of this column of the setup. */
+BBSIM_CONTROLLER_EXPORT int bbsim_sketch_printed(const void* controller, size_t column);
+
+/* The n-th pin that the sketch drives although the wiring connects nothing to it; -1: there are no
+ * more. */
+BBSIM_CONTROLLER_EXPORT int bbsim_sketch_unheard(const void* controller, size_t n);
 
 #ifdef __cplusplus
 }

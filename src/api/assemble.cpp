@@ -3,24 +3,7 @@
 
 #include "api/assemble.hpp"
 
-#include "base/error.hpp"
-#include "scenario/look_up.hpp"
-
 namespace bbsim::api {
-namespace {
-
-// Calls `make`; turns a KeyError into an InputError with the key's place in the scenario.
-template <class Make>
-auto with_places(const Scenario& scenario, const Make& make) {
-  try {
-    return make();
-  } catch (const KeyError& error) {
-    throw InputError({Problem{place_of(scenario.source, error.key()), error.what()}});
-  }
-}
-
-}  // namespace
-
 model::Model assemble(const Scenario& scenario, const std::vector<const scenario::Column*>& columns,
                       model::Form form) {
   return with_places(

@@ -7,11 +7,23 @@
 #include <vector>
 
 #include "api/watch.hpp"
+#include "base/error.hpp"
 #include "controller/host.hpp"
 #include "model/model.hpp"
 #include "scenario/columns.hpp"
+#include "scenario/look_up.hpp"
 
 namespace bbsim::api {
+
+// Calls `make`; turns a KeyError into an InputError with the key's place in the scenario.
+template <class Make>
+auto with_places(const Scenario& scenario, const Make& make) {
+  try {
+    return make();
+  } catch (const KeyError& error) {
+    throw InputError({Problem{scenario::place_of(scenario.source, error.key()), error.what()}});
+  }
+}
 
 // Model that these columns need, for inspection only. Throws InputError.
 [[nodiscard]] model::Model assemble(const Scenario& scenario,

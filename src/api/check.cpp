@@ -180,7 +180,13 @@ void report_controller(Report& report, const Scenario& scenario, Watch& watch) {
   }
   // A function of the calling program is not probed: it may remember earlier calls.
   if (std::holds_alternative<ControllerFactory>(scenario.controller->own->by)) return;
-  const Report found = probe(scenario, model);
+  const Report found = with_places(scenario, [&] {
+    Report answers = probe(scenario, model);
+    host.require_printed();
+    const std::string unheard = host.unheard();
+    if (!unheard.empty()) throw KeyError("controller.library.wiring", unheard);
+    return answers;
+  });
   report.insert(report.end(), found.begin(), found.end());
 }
 

@@ -161,12 +161,19 @@ RunResult run(const RunRequest& request, Watch& watch) {
   }
   RowsTo rows(request, asked.size(), kept ? &*kept : beside);
 
-  Simulation made = simulate(scenario, model, grid,
-                             {columns, asked.size(), measures, sensitivity ? printed.size() : 0},
-                             rows, watch, sensitivity ? &*sensitivity : nullptr);
+  Simulation made = with_places(scenario, [&] {
+    Simulation simulation = simulate(
+        scenario, model, grid, {columns, asked.size(), measures, sensitivity ? printed.size() : 0},
+        rows, watch, sensitivity ? &*sensitivity : nullptr);
+    if (simulation.result.code == ExitCode::done) host.require_printed();
+    return simulation;
+  });
   RunResult result = std::move(made.result);
   record::RunSummary& summary = result.summary;
   summary.output = request.output;
+  if (const std::string unheard = host.unheard(); !unheard.empty()) {
+    summary.warnings.push_back("warning: " + unheard);
+  }
   for (std::size_t m = 0; m < printed.size(); ++m) {
     summary.measures.emplace_back(printed[m].name, made.measures[m]);
   }

@@ -43,7 +43,7 @@ void Host::attach(const Scenario& scenario, model::Model& model) {
     if (library_ && library_->is(own)) {
       library_->renew(setup);
     } else {
-      library_ = std::make_shared<Library>(own, setup);
+      library_ = std::make_shared<Library>(own, setup, report_);
     }
     place = library_;
     return;
@@ -85,6 +85,14 @@ std::optional<std::string> Host::unit_of(std::string_view own_column) const {
     if (name == own_column) return unit;
   }
   return {};
+}
+
+void Host::require_printed() const {
+  if (library_) library_->require_columns();
+}
+
+std::string Host::unheard() const {
+  return library_ ? library_->unheard() : "";
 }
 
 std::vector<std::string> Host::describe() const {

@@ -40,6 +40,11 @@ class Host {
   // properly.
   [[nodiscard]] std::vector<std::string> describe() const;
 
+  // After samples: throws KeyError if a column of the scenario is none that a sketch printed.
+  void require_printed() const;
+  // What a sketch drives although nothing is wired to it, as a sentence; may be empty.
+  [[nodiscard]] std::string unheard() const;
+
   // Lets a program end by itself, as the destructor also does.
   void finish();
 

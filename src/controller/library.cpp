@@ -29,6 +29,9 @@ struct LibraryFunctions {
   decltype(&bbsim_controller_reset) reset = nullptr;  // may be missing
   decltype(&bbsim_controller_destroy) destroy = nullptr;
   decltype(&bbsim_controller_last_error) last_error = nullptr;
+  // Only sketches have these.
+  decltype(&bbsim_sketch_printed) printed = nullptr;
+  decltype(&bbsim_sketch_unheard) unheard = nullptr;
 };
 
 namespace {
@@ -74,6 +77,8 @@ std::shared_ptr<const LibraryFunctions> open(const std::string& path) {
   require("bbsim_controller_last_error", functions->last_error);
   static_cast<void>(find(library, "bbsim_controller_create_wired", functions->create_wired));
   static_cast<void>(find(library, "bbsim_controller_reset", functions->reset));
+  static_cast<void>(find(library, "bbsim_sketch_printed", functions->printed));
+  static_cast<void>(find(library, "bbsim_sketch_unheard", functions->unheard));
   return functions;
 }
 
@@ -142,8 +147,11 @@ std::vector<std::string> Library::files_of(const OwnController& own) {
   return files;
 }
 
-Library::Library(const OwnController& own, const Setup& setup)
-    : path_(path_of(own)), wiring_path_(wiring_path_of(own)), setup_(setup) {
+Library::Library(const OwnController& own, const Setup& setup, Report report)
+    : path_(path_of(own)),
+      wiring_path_(wiring_path_of(own)),
+      setup_(setup),
+      report_(std::move(report)) {
   if (!wiring_path_.empty()) wiring_.emplace(wiring_path_);
   try {
     functions_ = open(path_);
@@ -200,8 +208,19 @@ void Library::create() {
   const CSetup setup(setup_);
   constexpr auto when = [] { return "to start"; };
   try {
-    controller_ = wiring_ ? ask(when, functions_->create_wired, setup.get(), wiring_->get())
-                          : ask(when, functions_->create, setup.get());
+    if (wiring_) {
+      bbsim_wiring wired = *wiring_->get();
+      wired.reader = this;
+      // Called on the sketch's small stack: it only keeps the line.
+      wired.print = [](void* reader, const char* line) {
+        static_cast<Library*>(reader)->printed_.emplace_back(line);
+      };
+      if (wiring_->print() == sketch::Wiring::Print::off) wired.print = nullptr;
+      controller_ = ask(when, functions_->create_wired, setup.get(),
+                        static_cast<const bbsim_wiring*>(&wired));
+    } else {
+      controller_ = ask(when, functions_->create, setup.get());
+    }
   } catch (const model::ControllerFault& fault) {
     fault_.emplace(fault);
     return;
@@ -259,6 +278,11 @@ model::Commands Library::command(const model::ControllerSample& sample, double* 
   model::Commands command;
   command.fill(std::nan(""));
   const int code = ask(when, functions_->step, controller_, &given, command.data(), own);
+  pass_on_prints();
+  if (wiring_ && code == BBSIM_WIRING_AT_FAULT) {
+    throw KeyError("controller.library.wiring",
+                   shown(wiring_path_, uncut) + ": " + last_error(controller_));
+  }
   if (code != 0) throw fail("it returned " + std::to_string(code) + ": " + last_error(controller_));
   const std::span<const double> given_back(command.data(), sample.servo.size());
   if (!std::ranges::all_of(given_back, [](double one) { return std::isfinite(one); })) {
@@ -278,6 +302,50 @@ model::Commands Library::command(const model::ControllerSample& sample, double* 
                "; allowed: a finite number");
   }
   return command;
+}
+
+// A sketch may print at each sample, so only the first lines are shown unless the wiring asks for
+// all.
+void Library::pass_on_prints() {
+  constexpr std::size_t first_lines = 10;
+  for (const std::string& line : printed_) {
+    ++shown_;
+    if (wiring_->print() == sketch::Wiring::Print::all || shown_ <= first_lines) {
+      report_(line);
+    } else if (shown_ == first_lines + 1) {
+      report_("... (the sketch prints more; print: all in its wiring shows all)");
+    }
+  }
+  printed_.clear();
+}
+
+void Library::require_columns() const {
+  if (functions_->printed == nullptr || controller_ == nullptr) return;
+  for (std::size_t i = 0; i < setup_.columns.size(); ++i) {
+    if (functions_->printed(controller_, i) != 0) continue;
+    const std::string name = shown(setup_.columns[i]);
+    throw KeyError("output.columns", "found " + name +
+                                         ", which the sketch never printed; allowed: "
+                                         "those of bbsim columns, and numbers that it prints after "
+                                         "their names, as \"" +
+                                         name + ":0.5\"");
+  }
+}
+
+std::string Library::unheard() const {
+  if (functions_->unheard == nullptr || controller_ == nullptr) return "";
+  std::string pins;
+  for (std::size_t n = 0;; ++n) {
+    const int pin = functions_->unheard(controller_, n);
+    if (pin < 0) break;
+    pins += (pins.empty() ? "" : ", ") + sketch::pin_name(pin);
+  }
+  if (pins.empty()) return "";
+  return "the sketch drives " +
+         std::string(pins.find(',') == std::string::npos ? "pin " : "pins ") + pins +
+         ", to which nothing is wired; name in the wiring what is there, or, if it does not "
+         "move the plate, in servos.ignored: [" +
+         pins + "]";
 }
 
 }  // namespace bbsim::controller

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "controller/child.hpp"
 #include "controller/setup.hpp"
 #include "model/control/external_controller.hpp"
 #include "sketch/wiring.hpp"
@@ -20,8 +21,9 @@ struct LibraryFunctions;
 
 class Library : public model::ExternalController {
  public:
-  // Opens the library and creates a controller. Throws KeyError if either fails.
-  Library(const OwnController& own, const Setup& setup);
+  // Opens the library and creates a controller. Throws KeyError if either fails. `report` receives
+  // the lines that a sketch prints.
+  Library(const OwnController& own, const Setup& setup, Report report);
   ~Library() override;
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;
@@ -41,6 +43,11 @@ class Library : public model::ExternalController {
   // The fault that begin() would throw.
   [[nodiscard]] const std::optional<model::ControllerFault>& fault() const { return fault_; }
 
+  // After samples: throws KeyError if a column of the scenario is none that the sketch printed.
+  void require_columns() const;
+  // The pins that the sketch drives although nothing is wired to them, as a sentence; may be empty.
+  [[nodiscard]] std::string unheard() const;
+
  private:
   // The paths of the library and of its wiring, if any, from the current folder.
   [[nodiscard]] static std::string path_of(const OwnController& own);
@@ -52,10 +59,14 @@ class Library : public model::ExternalController {
   [[nodiscard]] model::ControllerFault fault_of(const std::string& when,
                                                 const std::string& why) const;
   [[nodiscard]] std::string last_error(const void* controller) const;
+  void pass_on_prints();
 
   std::string path_, wiring_path_;
   Setup setup_;
+  Report report_;
   std::optional<sketch::Wiring> wiring_;
+  std::vector<std::string> printed_;  // lines since the last report
+  std::size_t shown_ = 0;             // lines
   std::shared_ptr<const LibraryFunctions> functions_;
   void* controller_ = nullptr;  // also null if it was abandoned
   std::optional<model::ControllerFault> fault_;

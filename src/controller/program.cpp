@@ -115,7 +115,8 @@ model::Commands Program::command(const model::ControllerSample& sample, double* 
   ask(
       {line, size}, [&] { return at_sample(sample); },
       [&](std::string_view answer) {
-        return read_answer(answer, setup_.columns, {command.data(), setup_.commands()}, own);
+        return read_answer(answer, setup_.columns, {command.data(), setup_.commands()}, own,
+                           sample.number == 0);
       });
   return command;
 }

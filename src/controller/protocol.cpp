@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/error.hpp"
 #include "base/json.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
@@ -269,7 +270,7 @@ std::size_t write_sample(const model::ControllerSample& sample, Fields wanted,
 }
 
 std::string read_answer(std::string_view line, std::span<const std::string> names,
-                        std::span<double> command, double* own) {
+                        std::span<double> command, double* own, bool first) {
   // Says what is wrong, and then what is allowed.
   const auto refuse_form = [&](const std::string& why) {
     return refusal(line, why + form_of(command.size()));
@@ -320,8 +321,10 @@ std::string read_answer(std::string_view line, std::span<const std::string> name
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (std::isnan(own[i])) {
-      return refuse("found no " + bbsim::quoted(names[i]) + ", which output.columns asks for" +
-                    misspelt(line, names[i]));
+      const std::string why = "found no " + bbsim::quoted(names[i]) +
+                              ", which output.columns asks for" + misspelt(line, names[i]);
+      if (first) throw KeyError("output.columns", refusal(line, why));
+      return refuse(why);
     }
   }
   return {};

@@ -69,8 +69,9 @@ inline constexpr std::size_t longest_sample = 1024;
 
 // Reads an answer, a line without its line break. Reads as many commands as `command` has room for,
 // two or three, and the numbers of these names into `own`. Returns what is wrong with the answer;
-// empty if nothing is. Allocates no memory unless something is wrong.
+// empty if nothing is. Allocates no memory unless something is wrong. `first`: it is the first
+// answer, which shows what the controller gives; throws KeyError for a name that it lacks.
 [[nodiscard]] std::string read_answer(std::string_view line, std::span<const std::string> names,
-                                      std::span<double> command, double* own);
+                                      std::span<double> command, double* own, bool first = false);
 
 }  // namespace bbsim::controller

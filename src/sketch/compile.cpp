@@ -25,6 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* purpose = "compile the sketch";
+constexpr std::size_t most_in_a_file = (std::size_t{16} << 20U) - 1;  // bytes
 
 // The folder of the board's headers and sources.
 std::string board_folder() {
@@ -123,7 +124,7 @@ Sources read(const Job& job, const std::string& board) {
   Sources sources;
   std::vector<std::string> included;
   for (const std::string& name : job.files) {
-    std::string text = file::read_whole(name);
+    std::string text = file::read_whole(name, {}, most_in_a_file);
     if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
     for (const std::string& header : includes_of(text)) included.push_back(header);
     sources.files.push_back({name, std::move(text)});
@@ -157,7 +158,8 @@ Compiled compile(const Job& job) {
   const TemporaryFolder folder;
 
   std::vector<std::string> words = compiler.options(board);
-  words.insert(words.end(), {"-Wall", "-shared", "-s", "-Wl,-z,defs", "-o", folder.library()});
+  words.insert(words.end(), {"-Wall", "-shared", "-s", "-Wl,-z,defs", "-fuse-ld=bfd",
+                             "-Wl,-T," + board + "/constructors.ld", "-o", folder.library()});
   for (const std::string& own : sources.own) words.insert(words.end(), {"-I", own});
   for (const std::string& own : sources.libraries.folders) words.insert(words.end(), {"-I", own});
   words.insert(words.end(), {"-x", "c++", "-", board + "/runtime.cpp"});

@@ -7,6 +7,8 @@
 #include <map>
 #include <optional>
 #include <string_view>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "sketch/tokens.hpp"
@@ -108,14 +110,40 @@ std::string prototype_of(const Tokens& tokens, const Declaration& one, const Fun
   return text;
 }
 
-bool uses(const Tokens& tokens, const Declaration& one, std::string_view name) {
-  for (std::size_t i = one.begin; i < one.end; ++i) {
-    if (tokens[i].kind != Token::Kind::name || !tokens[i].is(name)) continue;
-    if (i == 0 || !(tokens[i - 1].is(".") || tokens[i - 1].is("->") || tokens[i - 1].is("::"))) {
-      return true;
+// For each name, the declarations that use it, in order.
+using Uses = std::unordered_map<std::string_view, std::vector<std::size_t>>;
+
+Uses uses_in(const Tokens& tokens, const std::vector<Declaration>& declarations) {
+  Uses found;
+  for (std::size_t k = 0; k < declarations.size(); ++k) {
+    for (std::size_t i = declarations[k].begin; i < declarations[k].end; ++i) {
+      if (tokens[i].kind != Token::Kind::name) continue;
+      if (i > 0 && (tokens[i - 1].is(".") || tokens[i - 1].is("->") || tokens[i - 1].is("::"))) {
+        continue;
+      }
+      std::vector<std::size_t>& users = found[tokens[i].text];
+      if (users.empty() || users.back() != k) users.push_back(k);
     }
   }
-  return false;
+  return found;
+}
+
+// Leaves only the declarations before which a prototype of the function may have to stand: those
+// up to the first that all that follows can see, or up to a prototype of the sketch's own.
+void keep_first(std::vector<std::size_t>& users, const Tokens& tokens,
+                const std::vector<Declaration>& declarations, std::string_view name) {
+  std::vector<std::size_t> first;
+  for (const std::size_t k : users) {
+    const Declaration& one = declarations[k];
+    const auto its = function_of(tokens, one);
+    if (its && its->name == name) {
+      if (one.head == tokens.size() || !tokens[one.head].is("{")) break;
+      continue;  // an overload
+    }
+    first.push_back(k);
+    if (one.conditions == 0) break;
+  }
+  users = std::move(first);
 }
 
 std::string line_directive(std::size_t line, std::string_view file) {
@@ -136,20 +164,22 @@ class Joined {
       starts_.push_back(text_.size());
       text_ += file.text + '\n';
     }
+    for (std::size_t i = 0; i < text_.size(); ++i) {
+      if (text_[i] == '\n') breaks_.push_back(i);
+    }
   }
   [[nodiscard]] const std::string& text() const { return text_; }
   [[nodiscard]] std::string place(std::size_t offset) const {
     const auto behind = std::ranges::upper_bound(starts_, offset);
     const auto file = static_cast<std::size_t>(behind - starts_.begin()) - 1;
-    const auto begin = text_.begin() + static_cast<std::ptrdiff_t>(starts_[file]);
-    const auto end = text_.begin() + static_cast<std::ptrdiff_t>(offset);
-    return line_directive(static_cast<std::size_t>(std::count(begin, end, '\n')) + 1,
-                          files_[file].name);
+    const auto first = std::ranges::lower_bound(breaks_, starts_[file]);
+    const auto here = std::ranges::lower_bound(breaks_, offset);
+    return line_directive(static_cast<std::size_t>(here - first) + 1, files_[file].name);
   }
 
  private:
   const std::vector<SketchFile>& files_;
-  std::vector<std::size_t> starts_;
+  std::vector<std::size_t> starts_, breaks_;
   std::string text_;
 };
 
@@ -159,6 +189,8 @@ std::string joined(const std::vector<SketchFile>& files) {
   const Joined whole(files);
   const Tokens tokens = tokens_of(whole.text());
   const std::vector<Declaration> declarations = declarations_of(tokens);
+  Uses uses = uses_in(tokens, declarations);
+  std::unordered_set<std::string_view> cut;       // names whose uses keep_first() has seen
   std::map<std::size_t, std::string> prototypes;  // by their offsets in the text
   for (std::size_t i = 0; i < declarations.size(); ++i) {
     const Declaration& one = declarations[i];
@@ -167,15 +199,11 @@ std::string joined(const std::vector<SketchFile>& files) {
     if (!function) continue;
     const std::string prototype =
         whole.place(tokens[one.begin].offset) + prototype_of(tokens, one, *function) + '\n';
-    for (std::size_t k = 0; k < i; ++k) {
-      const Declaration& earlier = declarations[k];
-      if (!uses(tokens, earlier, function->name)) continue;
-      const auto its = function_of(tokens, earlier);
-      if (its && its->name == function->name && !tokens[earlier.head].is("{"))
-        break;                                           // the sketch has a prototype
-      if (its && its->name == function->name) continue;  // an overload
-      prototypes[tokens[earlier.begin].offset] += prototype;
-      if (earlier.conditions == 0) break;  // the rest of the text sees it
+    std::vector<std::size_t>& users = uses[function->name];
+    if (cut.insert(function->name).second) keep_first(users, tokens, declarations, function->name);
+    for (const std::size_t k : users) {
+      if (k >= i) break;
+      prototypes[tokens[declarations[k].begin].offset] += prototype;
     }
   }
   std::string source = "#include <Arduino.h>\n";

@@ -85,7 +85,7 @@ class Scanner {
   // A comment that begins in a directive may span several lines.
   [[nodiscard]] std::size_t end_of_directive() const {
     std::size_t end = end_of_line(at_);
-    for (std::size_t from = at_; (from = source_.find("/*", from)) < end;) {
+    for (std::size_t from = at_; (from = source_.substr(0, end).find("/*", from)) < end;) {
       from = after("*/", from + 2);
       if (from > end) end = end_of_line(from);
     }

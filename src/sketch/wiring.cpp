@@ -34,6 +34,7 @@ struct Read {
   std::string eeprom_file;
   int eeprom_size = 1024;
   bool has_size = false;
+  Wiring::Print print = Wiring::Print::first;
 };
 
 // Servo.h's pulse for 90 degrees, in s, and its angle per duration of the pulse, in rad/s.
@@ -43,7 +44,6 @@ bbsim_wiring by_default() {
   bbsim_wiring c{};
   c.version = BBSIM_WIRING_VERSION;
   c.setup_before = 1;
-  c.print = 1;
   std::ranges::fill(c.servos, usual_servo);
   c.oscillator = 25e6;
   c.screen = {bbsim_no_screen, {-1, -1, -1, -1, -1}, {}, {}, 0, {300, 300}, 300, 0.01};
@@ -132,7 +132,7 @@ void read_screen(Keys& keys, bbsim_wired_screen& screen) {
   }
   keys.required("x", CountMap{}, screen.x);
   keys.required("y", CountMap{}, screen.y);
-  keys.optional("untouched", Number{Dimension::number, {.at_least = 0, .at_most = 1023}, "0"},
+  keys.optional("untouched", Number{Dimension::number, {.at_least = 0, .at_most = 65535}, "0"},
                 screen.untouched);
   const Number ohms{Dimension::number, {.above = 0}, "300"};
   keys.optional("x_resistance", ohms, screen.resistance[0]);
@@ -208,13 +208,21 @@ void read_wiring(Keys& keys, Read& read) {
   enum class Setup { during, before };
   read_choice<Setup>(keys, "setup", {{{Setup::before, "before"}, {Setup::during, "during"}}},
                      read.c.setup_before);
-  enum class Print { off, standard_error };
-  read_choice<Print>(keys, "print", {{{Print::standard_error, "stderr"}, {Print::off, "off"}}},
-                     read.c.print);
+  keys.optional("print",
+                yaml::NameOf<Wiring::Print>{{{Wiring::Print::first, "first"},
+                                             {Wiring::Print::all, "all"},
+                                             {Wiring::Print::all, "stderr"},
+                                             {Wiring::Print::off, "off"}}},
+                read.print);
   keys.optional("costs", MappingOf(read_costs), read.c.costs);
 }
 
 }  // namespace
+
+std::string pin_name(int pin) {
+  constexpr int first_analog = 54;
+  return pin < first_analog ? std::to_string(pin) : "A" + std::to_string(pin - first_analog);
+}
 
 Wiring::Wiring(const std::string& file) : files_{file} {
   const std::string text = yaml::read_text(file);
@@ -247,6 +255,7 @@ Wiring::Wiring(const std::string& file) : files_{file} {
   }
   eeprom_.resize(static_cast<std::size_t>(read.eeprom_size), '\xFF');  // as in a new chip
   c_ = read.c;
+  print_ = read.print;
   c_.camera.frame = frame_.c_str();
   c_.camera.lost = lost_.c_str();
   c_.input_count = inputs_.size();

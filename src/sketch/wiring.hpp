@@ -11,21 +11,30 @@
 
 namespace bbsim::sketch {
 
+// "7" or "A0".
+[[nodiscard]] std::string pin_name(int pin);
+
 // Holds the data that the C structure points to. Cannot be copied or moved.
 class Wiring {
  public:
+  // Which of the lines that the sketch prints are shown.
+  enum class Print { off, first, all };
+
   // Reads the file. Throws InputError with every problem found, "file:line:column: key: found ...,
   // allowed ...".
   explicit Wiring(const std::string& file);
   Wiring(const Wiring&) = delete;
   Wiring& operator=(const Wiring&) = delete;
 
+  // Its `print` is null.
   [[nodiscard]] const bbsim_wiring* get() const { return &c_; }
+  [[nodiscard]] Print print() const { return print_; }
   // The files that were read.
   [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
 
  private:
   bbsim_wiring c_{};
+  Print print_ = Print::first;
   std::string frame_, lost_, eeprom_;
   std::vector<bbsim_wired_input> inputs_;
   std::vector<int> ignored_;

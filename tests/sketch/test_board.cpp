@@ -3,6 +3,7 @@
 
 // Features of the board, missing features, and messages about faulty sketches, wirings or
 // scenarios.
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -21,9 +22,9 @@ TEST_CASE("a board has what sketches use, as on real boards") {
   const Sketch sketch("board");
   CAPTURE(sketch.made.err);
   REQUIRE(sketch.made.exit_code == 0);
-  const Result result = bbsim(
-      sketch.words("run", {"--set", "output.columns=[t, phi_command, theta_command, loops]",
-                           "--set", "time.end=0.1", "--set", "time.step=0.02", "-o", "-", "-q"}));
+  const Result result =
+      bbsim(sketch.words("run", {"--set", "output.columns=[t, phi_command, theta_command, loops]",
+                                 "--set", "time.end=0.1", "--set", "time.step=0.02", "-o", "-"}));
   CAPTURE(result.err);
   CHECK(result.exit_code == 0);
   CHECK(contains(result.err, "controller: printf 7\ncontroller: all is well\n"));
@@ -56,7 +57,7 @@ TEST_CASE("screens and a servo driver give their libraries' numbers") {
             parts);
     return bbsim(sketch.words("run", {"--set", "controller.library.wiring=" + wiring, "--set",
                                       "output.columns=[t, phi_command, theta_command]", "--set",
-                                      "time.end=0.02", "-o", "-", "-q"}));
+                                      "time.end=0.02", "-o", "-"}));
   };
   // A step is 132 of 27e6 s; 307 steps are 1500.9 us, 28.9 us above level.
   const Result wires = run(
@@ -99,7 +100,7 @@ TEST_CASE("nothing is sent before begin(), and find() finds texts that overlap t
       plain_wiring);
   CAPTURE(sketch.made.err);
   REQUIRE(sketch.made.exit_code == 0);
-  const Result run = bbsim(sketch.words("run", {"--set", "time.end=0.02", "-o", "-", "-q"}));
+  const Result run = bbsim(sketch.words("run", {"--set", "time.end=0.02", "-o", "-"}));
   CHECK(contains(run.err, "controller: late\ncontroller: 1!\n"));
 }
 
@@ -200,6 +201,116 @@ TEST_CASE("a sketch that waits forever is detected", "[slow]") {
   CHECK(contains(result.err,
                  "it is in an endless loop: 5 s of processor time without a call that takes time"));
   CHECK(contains(result.out, "\n0.08,"));  // the rows before it
+}
+
+TEST_CASE("a sketch that crashes ends the run with what happened and when") {
+  struct Crash {
+    std::string text, told;
+  };
+  const Crash crash = GENERATE(
+      Crash{"void setup() {}\nvoid loop() { delay(20 + map(5, 3, 3 + (millis() < 100), 0, 1)); }\n",
+            "(t = 0.1 s): it returned 1: it divided an integer by zero"},
+      Crash{"int deep(volatile int* n) { volatile int m = *n + 1; return deep(&m) + m; }\n"
+            "void setup() {}\nvoid loop() { delay(20); volatile int n = 0; if (millis() > 50) "
+            "deep(&n); }\n",
+            "its stack of 1 MB is full"},
+      Crash{"void setup() {}\nvoid loop() { delay(20); throw 3; }\n", "it threw an exception"},
+      Crash{"void setup() {}\nvoid loop() { delay(20); abort(); }\n", "it called abort()"},
+      Crash{"void setup() {}\nint* volatile p;\nvoid loop() { delay(20); *p = 1; }\n",
+            "it crashed by signal 11"},
+      Crash{"struct Q { Q() { exit(0); } } q;\nvoid setup() {}\nvoid loop() {}\n",
+            "it called exit(0)"},
+      Crash{"int* volatile p;\nstruct Q { Q() { *p = 1; } } q;\nvoid setup() {}\nvoid loop() {}\n",
+            "it crashed by signal 11"});
+  const Folder folder;
+  const Sketch sketch(crash.text, plain_wiring);
+  CAPTURE(sketch.made.err);
+  REQUIRE(sketch.made.exit_code == 0);
+  const bool starts = crash.text.find("struct Q") == std::string::npos;
+  const Result run =
+      bbsim(sketch.words("run", {"-o", folder / "a.csv", "--set", "time.end=1"}), folder.path());
+  CAPTURE(run.err);
+  CHECK(run.exit_code == (starts ? 1 : 2));
+  CHECK(contains(run.err, crash.told));
+  CHECK(folder.files() ==
+        (starts ? std::vector<std::string>{"a.csv"} : std::vector<std::string>{}));
+  if (starts) CHECK(folder.read("a.csv").ends_with('\n'));
+  const Result check = bbsim(sketch.words("check"));
+  CAPTURE(check.err, check.out);
+  CHECK((check.exit_code == 0 || check.exit_code == 2));
+  CHECK(contains(check.err + check.out, crash.told.substr(crash.told.find("it "))));
+}
+
+TEST_CASE("destructors of a sketch and atexit run, and cannot hurt") {
+  const Sketch sketch(
+      "struct Q { ~Q() { abort(); } } q;\nvoid bye() { int* volatile p = 0; *p = 1; }\n"
+      "struct R { R() { atexit(bye); } } r;\nvoid setup() {}\nvoid loop() { delay(20); }\n",
+      plain_wiring);
+  CAPTURE(sketch.made.err);
+  REQUIRE(sketch.made.exit_code == 0);
+  CHECK(bbsim(sketch.words("run", {"-o", "-", "-q"})).exit_code == 0);
+}
+
+TEST_CASE("counts are those of the sketch's converter, and beyond its bits are refused") {
+  const auto reads = [](const std::string& bits) {
+    return "void setup() { Serial.begin(115200);" + bits +
+           " }\nvoid loop() { Serial.print(\"raw:\"); Serial.println(analogRead(A0)); "
+           "delay(20); }\n";
+  };
+  const std::string wiring =
+      plain_wiring + std::string(
+                         "screen: {voltages: {x: A0, y: A1}, x: {counts: [400, 3600], "
+                         "position: [-0.1, 0.1]}, y: {counts: [400, 3600], position: "
+                         "[-0.1, 0.1]}}\n");
+  const std::vector<std::string> words{
+      "-o", "-", "-q", "--set", "output.columns=[t, x, raw]", "--set", "time.end=0.02"};
+  const Sketch fine(reads(" analogReadResolution(12);"), wiring);
+  const Result run = bbsim(fine.words("run", words));
+  CAPTURE(run.err);
+  CHECK(run.exit_code == 0);
+  CHECK(contains(run.out, "\n0,-0.05,1200\n"));
+  const Sketch wide(reads(""), wiring);
+  for (const char* const command : {"run", "check"}) {
+    const Result refused = bbsim(
+        wide.words(command, std::string(command) == "run" ? words : std::vector<std::string>{}));
+    CAPTURE(refused.err);
+    CHECK(refused.exit_code == 2);
+    CHECK(contains(refused.err, "rig.yaml:"));
+    CHECK(
+        contains(refused.err, "screen.x.counts: found 3600 counts, but the sketch reads 10 bits"));
+  }
+}
+
+TEST_CASE("a column that a sketch does not print, and pins that nothing listens to, are told") {
+  const Sketch sketch(
+      "void setup() { Serial.begin(115200); pinMode(5, OUTPUT); }\nvoid loop() {\n"
+      "  digitalWrite(5, HIGH); Serial.println(\"raw:7\"); delay(5);\n}\n",
+      plain_wiring);
+  CAPTURE(sketch.made.err);
+  REQUIRE(sketch.made.exit_code == 0);
+  const auto with = [&](const std::string& command, const std::string& column) {
+    std::vector<std::string> more{"--set", "output.columns=[t, " + column + "]", "--set",
+                                  "time.end=0.5"};
+    if (command == "run") more.insert(more.end(), {"-o", sketch.folder() / "out.csv"});
+    return bbsim(sketch.words(command, more));
+  };
+  for (const char* const command : {"run", "check"}) {
+    const Result wrong = with(command, "raaw");
+    CAPTURE(wrong.err);
+    CHECK(wrong.exit_code == 2);
+    CHECK(contains(wrong.err, "output.columns: found raaw, which the sketch never printed"));
+  }
+  CHECK_FALSE(contains(sketch.folder().files().back(), "out.csv"));
+  const Result run = with("run", "raw");
+  CHECK(run.exit_code == 0);
+  CHECK(contains(run.err, "drives pin 5, to which nothing is wired"));
+  // Of a hundred lines, the first are shown; none with -q.
+  CHECK(contains(run.err, "controller: raw:7\n"));
+  CHECK(std::count(run.err.begin(), run.err.end(), '\n') < 20);
+  CHECK_FALSE(contains(bbsim(sketch.words("run", {"-o", "-", "-q"})).err, "raw:7"));
+  const Result check = with("check", "raw");
+  CHECK(check.exit_code == 2);
+  CHECK(contains(check.err, "drives pin 5, to which nothing is wired"));
 }
 
 TEST_CASE("a scenario unsuitable for a sketch is refused") {

@@ -94,3 +94,13 @@ TEST_CASE("libraries are found as in the IDE") {
                                                   folder / "libs/Other_Name/src/part/more.c"});
   CHECK(find_libraries({"Flat.h"}, {}, {folder / "libs/Flat"}, "").sources.size() == 1);
 }
+
+TEST_CASE("a sketch of many functions is read once, not once for each") {
+  std::string text = "void setup() { f99999(); }\n";
+  for (int i = 0; i < 100000; ++i) {
+    text += "void f" + std::to_string(i) + "() { f" + std::to_string((i * 7 + 1) % 100000) +
+            "(); }\n#define A" + std::to_string(i) + "\n";
+  }
+  const std::string source = of(text);
+  CHECK(source.find("\nvoid f99999 ( );\n#line 1 \"a.ino\"\nvoid setup()") != std::string::npos);
+}

@@ -41,7 +41,7 @@ TEST_CASE("a wiring has defaults") {
   // 180 degrees are 544 to 2400 us.
   CHECK(c.servos[0].scale * 1856e-6 == Approx(3.14159265358979).epsilon(1e-14));
   CHECK(c.setup_before == 1);
-  CHECK(c.print == 1);
+  CHECK(wiring.print() == bbsim::sketch::Wiring::Print::first);
   CHECK(c.screen.kind == bbsim_no_screen);
   CHECK(c.camera.port == -1);
   CHECK(c.eeprom_size == 1024);
@@ -89,7 +89,7 @@ costs: {analog: "20 us"}
   CHECK(c.eeprom[2] == 'c');
   CHECK(wiring.files().size() == 2);
   CHECK(c.setup_before == 0);
-  CHECK(c.print == 0);
+  CHECK(wiring.print() == bbsim::sketch::Wiring::Print::off);
   CHECK(c.costs.analog == 20e-6);
 }
 
@@ -107,7 +107,8 @@ TEST_CASE("all faults of a wiring are reported together, each with its place") {
         "screen.x.position: found a list of 2; allowed: two different lengths",
         "screen.y: found 3; allowed: two places", "inputs.A77: found no pin",
         "inputs.7: found 5; allowed: a whole number from 0 to 1",
-        "costs.loop: found 0; allowed: a time", "print: found stdout; allowed: one of stderr, off",
+        "costs.loop: found 0; allowed: a time",
+        "print: found stdout; allowed: one of first, all, stderr, off",
         "camra: unknown key; did you mean camera?"}) {
     CHECK(contains(fault, part));
   }

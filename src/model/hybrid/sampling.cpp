@@ -4,6 +4,7 @@
 #include "model/hybrid/sampling.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <stdexcept>
@@ -78,8 +79,11 @@ std::array<double, most_servos> Sampling::take_command(RigMode& mode) {
   const Pair command = exchange_.take_command();
   if (model_.rig().sampled->legs) {
     const std::array<double, most_servos> legs{command[0], command[1], exchange_.take_third()};
+    // The servos turn towards any angles. Those without a pose leave the tilt that is shown.
     const Pair tilt = model_.rig().between.tilt(legs);
-    std::copy(tilt.begin(), tilt.end(), mode.wanted);
+    if (std::isfinite(tilt[0]) && std::isfinite(tilt[1])) {
+      std::copy(tilt.begin(), tilt.end(), mode.wanted);
+    }
     return legs;
   }
   for (std::size_t i = 0; i < 2; ++i) mode.wanted[i] = command[i];

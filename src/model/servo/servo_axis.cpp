@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bbsim::model {
 
@@ -74,7 +75,10 @@ void ServoAxis::settle_backlash(const AxisState& state, AxisMode& mode) {
   if (started_ && play_ == Play::down) plane_ = state.angle + half + servo_.offset;
   started_ = true;
   const double lead = state.angle + servo_.offset - plane_;
-  const double touching = half * at_limit;
+  // The lead is a small difference of angles, so its rounding is theirs.
+  const double rounding = 4 * std::numeric_limits<double>::epsilon() *
+                          (std::abs(state.angle) + std::abs(servo_.offset) + std::abs(plane_));
+  const double touching = half * at_limit - rounding;
   // A servo at rest moves in the direction of its drive. Engaging it against that would last no
   // time.
   const double at_rest = guard_rounding * servo_.backlash;

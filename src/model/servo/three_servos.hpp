@@ -283,6 +283,22 @@ struct ThreeServos {
     return at;
   }
 
+  // Whether the rods reach from the horns to the joints. Beyond the workspace no pose does, and
+  // Newton's iteration ends anywhere.
+  [[nodiscard]] bool fits(const Pose<double>& at, const double (&sine)[3],
+                          const double (&cosine)[3]) const {
+    constexpr double converged = 1e-9;  // of the rod's squared length
+    Joint<double> joint[3];
+    joints(
+        at, [](double value) { return value; }, joint);
+    for (int i = 0; i < 3; ++i) {
+      const Joint<double> rod = rod_of(i, joint[i], sine[i], cosine[i]);
+      const double square = leg[i].rod * leg[i].rod;
+      if (!(std::fabs(rod.x * rod.x + rod.z * rod.z - square) <= converged * square)) return false;
+    }
+    return true;
+  }
+
   // The plane's axes for these servo angles (from home), rates and accelerations.
   template <class Real>
   void planes(const Real (&servo)[3], const Real (&rate)[3], const Real (&acceleration)[3],
@@ -324,11 +340,12 @@ struct ThreeServos {
     put(1, {-q.v, -q.d, -q.dd}, cos_theta.v, axis[1]);
   }
 
+  // The plane's angles for these servo angles (from home); NaN if no pose fits them.
   void angles(const double (&servo)[3], double (&plane)[2]) const {
     double sine[3], cosine[3];
     directions(servo, sine, cosine);
     const Pose<double> at = pose(sine, cosine);
-    const double theta = std::asin(-at.q);
+    const double theta = fits(at, sine, cosine) ? std::asin(-at.q) : std::nan("");
     plane[0] = std::asin(at.p / std::cos(theta)) + offset[0];
     plane[1] = theta + offset[1];
   }

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <type_traits>
 
 #include "bbsim_board.h"
 
@@ -33,6 +34,7 @@
 #define timezone sketch_timezone
 #define daylight sketch_daylight
 #define random sketch_random
+#define round sketch_round
 #define exit sketch_exit
 
 typedef bool boolean;
@@ -69,13 +71,22 @@ enum { DEC = 10, HEX = 16, OCT = 8, BIN = 2 };
 #define bitWrite(value, b, to) ((to) ? bitSet(value, b) : bitClear(value, b))
 #define word(...) makeWord(__VA_ARGS__)
 
+// The core's are macros: the result has the common type, and is b unless the comparison holds.
+// Without decay, the type of equal ones would be a reference to a parameter.
 template <class Left, class Right>
-constexpr auto min(Left a, Right b) -> decltype(a < b ? a : b) {
+constexpr auto min(Left a, Right b) -> std::decay_t<decltype(a < b ? a : b)> {
   return a < b ? a : b;
 }
 template <class Left, class Right>
-constexpr auto max(Left a, Right b) -> decltype(a < b ? b : a) {
-  return a < b ? b : a;
+constexpr auto max(Left a, Right b) -> std::decay_t<decltype(a > b ? a : b)> {
+  return a > b ? a : b;
+}
+// The core rounds to whole numbers, which print without decimals.
+constexpr long sketch_round(double x) {
+  return x >= 0 ? static_cast<long>(x + 0.5) : static_cast<long>(x - 0.5);
+}
+namespace std {
+using ::sketch_round;  // std::round, by the macro
 }
 using std::abs;
 constexpr unsigned abs(unsigned value) {
@@ -174,6 +185,24 @@ inline bool isPunct(int c) {
 }
 inline bool isSpace(int c) {
   return isspace(c) != 0;
+}
+inline bool isAscii(int c) {
+  return c >= 0 && c < 128;
+}
+inline bool isControl(int c) {
+  return iscntrl(c) != 0;
+}
+inline bool isGraph(int c) {
+  return isgraph(c) != 0;
+}
+inline int toAscii(int c) {
+  return c & 0x7f;
+}
+inline int toLowerCase(int c) {
+  return tolower(c);
+}
+inline int toUpperCase(int c) {
+  return toupper(c);
 }
 inline bool isWhitespace(int c) {
   return c == ' ' || c == '\t';

@@ -33,7 +33,9 @@ struct Board {
   Nanoseconds now;      // since the board was switched on
   Nanoseconds horizon;  // the time of the next sample
   bool running;         // whether the coroutine is running
+  bool constructing;    // whether it runs the constructors of global variables
   char said[400];       // the first error, or empty
+  bool misfit;          // that error is the wiring's
   double command[3];    // rad
 };
 extern Board board;
@@ -41,32 +43,50 @@ extern Board board;
 // coroutine.cpp: runs the sketch until its clock reaches board.horizon, or an error.
 bool start_sketch();  // false: out of memory
 void run_sketch();
-void end_sketch();
+// Runs the constructors of global variables, which may fail.
+void construct_globals();
+// Runs the destructors of global variables and what the sketch gave to atexit(), unless it failed.
+void destroy_globals();
+void end_sketch();  // frees the stack
 bool setup_has_returned();
+// Whether an access to this address is one beyond the end of the sketch's stack.
+bool is_beyond_stack(const void* address);
 // Suspends the sketch until the next run_sketch().
 void hand_over();
 // The signal that stops a sketch in an endless loop. It is sent to the thread of the sketch.
 int watchdog_signal();
+// Says why the sketch cannot go on. Unlike fail(), it does not leave the sketch: the caller does.
+__attribute__((format(printf, 1, 2))) void say_why(const char* format, ...);
 
 // controller.cpp: the functions of a copy of the library.
 struct Functions {
   const char* (*make)(const bbsim_setup* setup, const bbsim_wiring* wiring);  // null, or the error
   int (*next)(const bbsim_sample* sample, double* command, double* columns);
   const char* (*why)();
-  void (*stop)();
+  // A signal ended the sketch's code, which is not resumed. `address`: of a wrong access.
+  void (*crashed)(int signal, const void* address);
+  void (*destroy)();  // see destroy_globals()
   void (*end)();
+  bool (*printed)(size_t column);  // see was_printed()
+  int (*unheard)(size_t n);        // see unheard_pin()
 };
 extern const Functions functions;
 constexpr int patience = 5;  // limit of processor time for a step, s
 
 // screen.cpp: the level (0 to 1) of a pin of the screen. Returns false for other pins.
 bool screen_reads(int pin, double& level);
+bool is_of_screen(int pin);
 double counts_at(const bbsim_count_map& map, double position);
 
 // pins.cpp: how a pin drives its wire.
 enum class Drive { none, pull_up, low, high };
 Drive drive_of(int pin);
 const char* pin_name(int pin);
+// The n-th pin that the sketch drives although nothing is wired to it; -1: there are no more.
+int unheard_pin(size_t n);
+// What a full reading of the analog converter counts, by the bits that are set at the first
+// reading: those of the wiring's counts.
+double full_scale();
 
 // core.cpp: spends the time of a bus transaction. `bytes` does not count the bus address.
 void over_wire(int bytes);
@@ -77,5 +97,6 @@ void send_frames();
 // column(i) is the last number that was printed after names[i] and a colon.
 void watch_columns(const char* const* names, size_t count);
 double column(size_t index);
+bool was_printed(size_t index);
 
 }  // namespace bbsim_board

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The sketch as a controller. Runs in a copy of the library (copies.cpp).
+#include <signal.h>
+
 #include <vector>
 
 #include "Arduino.h"
@@ -32,7 +34,9 @@ bool is_wired(const bbsim_wired_servo& servo) {
 
 // Returns null, or the reason why it refuses the setup.
 const char* create(const bbsim_setup* setup, const bbsim_wiring* wiring) {
-  if (board.said[0] != '\0') return board.said;  // by a global variable's constructor
+  if (!start_sketch()) return "out of memory for its stack";
+  construct_globals();
+  if (board.said[0] != '\0') return board.said;
   static char why[200];
   constexpr uint32_t angle = 0, legs = 4;
   if (setup->drives_acceleration != angle && setup->drives_acceleration != legs) {
@@ -64,7 +68,7 @@ const char* create(const bbsim_setup* setup, const bbsim_wiring* wiring) {
   period = setup->period;
   column_count = setup->column_count;
   watch_columns(setup->columns, column_count);
-  return start_sketch() ? nullptr : "out of memory for its stack";
+  return nullptr;
 }
 
 // Runs setup() before t = 0. It sees the first sample. t = 0 is then the next whole number of
@@ -91,7 +95,7 @@ int step(const bbsim_sample* sample, double* command, double* columns) {
     send_frames();
     if (board.now < board.horizon) run_sketch();
   }
-  if (board.said[0] != '\0') return 1;
+  if (board.said[0] != '\0') return board.misfit ? BBSIM_WIRING_AT_FAULT : 1;
   // `command` has room for a third number only if three servos are wired.
   for (int i = 0; i < (is_wired(board.wiring.servos[2]) ? 3 : 2); ++i) {
     command[i] = board.command[i];
@@ -104,16 +108,27 @@ const char* said() {
   return board.said;
 }
 
-// The watchdog calls this while the sketch runs. The sketch is not resumed.
-void stuck() {
-  fail(
-      "it is in an endless loop: %d s of processor time without a call that takes time, such as "
-      "millis() or delay()",
-      patience);
+void crashed(int signal, const void* address) {
+  board.running = false;
+  if (signal == watchdog_signal()) {
+    return say_why(
+        "it is in an endless loop: %d s of processor time without a call that takes time, such as "
+        "millis() or delay()",
+        patience);
+  }
+  if (signal == SIGFPE) return say_why("it divided an integer by zero");
+  if (signal == SIGABRT) return say_why("it called abort(), or damaged its memory");
+  if (is_beyond_stack(address)) {
+    return say_why(
+        "its stack of 1 MB is full: a function calls itself without end, or a local "
+        "variable is too large");
+  }
+  say_why("it crashed by signal %d (%s)", signal, strsignal(signal));
 }
 
 }  // namespace
 
-const Functions functions{create, step, said, stuck, end_sketch};
+const Functions functions{create,          step,       said,        crashed,
+                          destroy_globals, end_sketch, was_printed, unheard_pin};
 
 }  // namespace bbsim_board

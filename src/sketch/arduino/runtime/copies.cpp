@@ -7,6 +7,7 @@
 // because each copy would have them in each thread.
 #include <dlfcn.h>
 #include <pthread.h>
+#include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <sys/mman.h>
@@ -47,12 +48,20 @@ struct Image {
 struct Thread {
   char why_not[400];  // the error of the last create()
   const Functions* running;
+  sigjmp_buf back;  // where a crash of `running` leads
+  void* signal_stack;
   timer_t timer;
   bool has_timer;
 };
 
 void forget(void* thread) {
-  if (static_cast<Thread*>(thread)->has_timer) timer_delete(static_cast<Thread*>(thread)->timer);
+  auto* const own = static_cast<Thread*>(thread);
+  if (own->has_timer) timer_delete(own->timer);
+  if (own->signal_stack != nullptr) {
+    const stack_t none{nullptr, SS_DISABLE, 0};
+    sigaltstack(&none, nullptr);
+    free(own->signal_stack);
+  }
   free(thread);
 }
 
@@ -65,15 +74,43 @@ pthread_key_t key() {
   return made;
 }
 
-// Sets up a limit on the processor time of a step, to stop endless loops such as while (1);.
+// The signals by which code crashes, and what they did before.
+constexpr int crashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+struct sigaction before[sizeof crashes / sizeof *crashes];
+
+// A crash of the sketch's code abandons that code: it has its own stack and global variables, and
+// holds no lock of bbsim's. The handler may not return, because the instruction would run again.
+void handle(int signal, siginfo_t* info, void*) {
+  auto* const own = static_cast<Thread*>(pthread_getspecific(key()));
+  if (own != nullptr && own->running != nullptr) {
+    own->running->crashed(signal, info->si_addr);
+    siglongjmp(own->back, 1);
+  }
+  for (size_t i = 0; i < sizeof crashes / sizeof *crashes; ++i) {
+    if (crashes[i] == signal) sigaction(signal, &before[i], nullptr);  // and crash again
+  }
+}
+
+// Catches crashes in this process, and gives this thread a stack for the handler and a limit of
+// processor time, for endless loops such as while (1);.
 void watch(Thread& thread) {
   struct sigaction action {};
-  action.sa_flags = SA_RESTART;
-  action.sa_handler = [](int) {
-    const auto* const own = static_cast<const Thread*>(pthread_getspecific(key()));
-    if (own != nullptr && own->running != nullptr) own->running->stop();
-  };
-  sigaction(watchdog_signal(), &action, nullptr);
+  action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_RESTART;
+  action.sa_sigaction = handle;
+  static const bool installed = [&action] {
+    for (size_t i = 0; i < sizeof crashes / sizeof *crashes; ++i) {
+      sigaction(crashes[i], &action, &before[i]);
+    }
+    return sigaction(watchdog_signal(), &action, nullptr) == 0;
+  }();
+  static_cast<void>(installed);
+  stack_t stack{};
+  if (sigaltstack(nullptr, &stack) == 0 && (stack.ss_flags & SS_DISABLE) != 0) {
+    stack.ss_size = 65536;
+    stack.ss_flags = 0;
+    stack.ss_sp = thread.signal_stack = malloc(stack.ss_size);
+    if (stack.ss_sp != nullptr) sigaltstack(&stack, nullptr);
+  }
   sigevent event{};
   event.sigev_notify = SIGEV_THREAD_ID;
   event.sigev_signo = watchdog_signal();
@@ -95,6 +132,20 @@ Thread& this_thread() {
 void set_timer(const Thread& thread, int seconds) {
   const itimerspec when{{0, 0}, {seconds, 0}};
   if (thread.has_timer) timer_settime(thread.timer, 0, &when, nullptr);
+}
+
+// Calls the sketch's code. Returns false if it crashed or is in an endless loop; why() then says
+// so.
+template <class Call>
+bool guarded(const Functions* functions, Call call) {
+  Thread& thread = this_thread();
+  thread.running = functions;
+  set_timer(thread, patience);
+  const bool well = sigsetjmp(thread.back, 1) == 0;
+  if (well) call();
+  set_timer(thread, 0);
+  thread.running = nullptr;
+  return well;
 }
 
 __attribute__((format(printf, 1, 2))) void refuse(const char* format, ...) {
@@ -166,30 +217,36 @@ void* bbsim_controller_create_wired(const bbsim_setup* setup, const bbsim_wiring
     drop(copy);
     return nullptr;
   }
-  if (const char* const why = copy->functions->make(setup, wiring)) {
-    refuse("%s", why);
-    copy->functions->end();
-    drop(copy);
-    return nullptr;
-  }
-  return copy;
+  const char* why = nullptr;
+  const bool well = guarded(copy->functions, [&] { why = copy->functions->make(setup, wiring); });
+  if (!well) why = copy->functions->why();
+  if (why == nullptr) return copy;
+  refuse("%s", why);
+  copy->functions->end();
+  drop(copy);
+  return nullptr;
 }
 
 int bbsim_controller_step(void* controller, const bbsim_sample* sample, double command[2],
                           double* columns) {
-  Thread& thread = this_thread();
-  thread.running = static_cast<Copy*>(controller)->functions;
-  set_timer(thread, patience);
-  const int code = thread.running->next(sample, command, columns);
-  set_timer(thread, 0);
-  thread.running = nullptr;
-  return code;
+  const Functions* const functions = static_cast<Copy*>(controller)->functions;
+  int code = 1;
+  return guarded(functions, [&] { code = functions->next(sample, command, columns); }) ? code : 1;
 }
 
 void bbsim_controller_destroy(void* controller) {
   Copy* const copy = static_cast<Copy*>(controller);
+  guarded(copy->functions, [&] { copy->functions->destroy(); });
   copy->functions->end();
   drop(copy);
+}
+
+int bbsim_sketch_printed(const void* controller, size_t column) {
+  return static_cast<const Copy*>(controller)->functions->printed(column) ? 1 : 0;
+}
+
+int bbsim_sketch_unheard(const void* controller, size_t n) {
+  return static_cast<const Copy*>(controller)->functions->unheard(n);
 }
 
 const char* bbsim_controller_last_error(const void* controller) {

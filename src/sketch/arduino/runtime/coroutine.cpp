@@ -3,6 +3,7 @@
 
 // Runs the sketch on its own stack. Calls advance the board's clock by their duration (spend). When
 // the clock reaches the next sample, the call returns control to bbsim, and continues later.
+#include <cxxabi.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -10,10 +11,17 @@
 #include <sys/mman.h>
 #include <ucontext.h>
 
+#include <exception>
+
 #include "Arduino.h"
 #include "runtime/board.hpp"
 
 void serialEvent() __attribute__((weak));
+
+// Between these are the constructors of global variables (constructors.ld).
+using Constructor = void (*)(int, char**, char**);
+extern "C" __attribute__((visibility("hidden"))) Constructor bbsim_constructors_begin[],
+    bbsim_constructors_end[];
 
 // Defined by the leak sanitizer. A sketch never returns, so the memory that it holds is not a leak.
 extern "C" {
@@ -28,12 +36,26 @@ Board board;
 namespace {
 
 constexpr size_t stack_size = size_t{1} << 20;
-constexpr size_t guard_size = size_t{1} << 16;  // an overflow of the stack ends the process
+constexpr size_t guard_size = size_t{1} << 16;  // an overflow of the stack is a signal
 ucontext_t outside, inside;
 void* stack = MAP_FAILED;
 bool setup_returned = false;
 
-void body() {
+// What is to be called at the end, newest first.
+struct AtEnd {
+  void (*function)(void*);
+  void* argument;
+  AtEnd* next;
+};
+AtEnd* at_end = nullptr;
+
+void run_all() {
+  board.constructing = true;
+  for (Constructor* one = bbsim_constructors_begin; one != bbsim_constructors_end; ++one) {
+    (*one)(0, nullptr, nullptr);
+  }
+  board.constructing = false;
+  hand_over();
   setup();
   setup_returned = true;
   if (board.wiring.setup_before != 0) hand_over();
@@ -44,7 +66,38 @@ void body() {
   }
 }
 
+void body() {
+  try {
+    run_all();
+  } catch (const std::exception& thrown) {
+    fail("it threw an exception, which a board does not catch: %s", thrown.what());
+  } catch (const abi::__forced_unwind&) {
+    throw;
+  } catch (...) {
+    fail("it threw an exception, which a board does not catch");
+  }
+}
+
 }  // namespace
+
+void construct_globals() {
+  run_sketch();
+}
+
+void destroy_globals() {
+  while (at_end != nullptr && board.said[0] == '\0') {
+    AtEnd* const one = at_end;
+    at_end = one->next;
+    one->function(one->argument);
+    free(one);
+  }
+}
+
+bool is_beyond_stack(const void* address) {
+  const char* const at = static_cast<const char*>(address);
+  const char* const begin = static_cast<const char*>(stack);
+  return stack != MAP_FAILED && at >= begin && at < begin + guard_size;
+}
 
 bool start_sketch() {
   stack = mmap(nullptr, stack_size, PROT_READ | PROT_WRITE,
@@ -81,16 +134,24 @@ bool setup_has_returned() {
 }
 
 void spend(long long time) {
+  if (!board.running || board.constructing) return;  // a global variable's constructor
   board.now += time;
-  if (!board.running) return;  // a global variable's constructor
   while (board.now >= board.horizon) hand_over();
 }
 
+void say_why(const char* format, ...) {
+  if (board.said[0] != '\0') return;
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(board.said, sizeof board.said, format, arguments);
+  va_end(arguments);
+}
+
 void fail(const char* format, ...) {
-  if (board.wiring.version == 0) {
-    snprintf(board.said, sizeof board.said,
-             "a global variable uses the board before setup(); allowed: pins, servos, screens and "
-             "the EEPROM from setup() on");
+  if (board.constructing) {
+    say_why(
+        "a global variable uses the board before setup(); allowed: pins, servos, screens and the "
+        "EEPROM from setup() on");
   } else if (board.said[0] == '\0') {
     va_list arguments;
     va_start(arguments, format);
@@ -108,8 +169,20 @@ long long now() {
 
 using namespace bbsim_board;
 
+// Takes the place of the C library's function, which would call the destructors of the sketch's
+// global variables as its library is closed, outside all guards. atexit() comes here, too.
+extern "C" __attribute__((visibility("hidden"))) int __cxa_atexit(void (*function)(void*),
+                                                                  void* argument, void*) {
+  auto* const one = static_cast<AtEnd*>(malloc(sizeof(AtEnd)));
+  if (one == nullptr) return -1;
+  *one = {function, argument, at_end};
+  at_end = one;
+  return 0;
+}
+
 // exit() of a sketch (Arduino.h).
 void sketch_exit(int status) {
+  say_why("it called exit(%d)", status);
   fail("it called exit(%d)", status);
   abort();
 }

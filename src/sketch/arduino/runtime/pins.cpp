@@ -10,10 +10,11 @@ namespace {
 
 struct Pin {
   bool output;
-  bool high;  // for an input: its pull-up is on
+  bool high;    // for an input: its pull-up is on
+  bool driven;  // it was an output at HIGH, or had pulses
 } state[pins];
 
-int analog_bits = 10;
+int analog_bits = 10, first_bits = 0;  // at the first reading; 0: there was none
 
 int checked(int pin, const char* function) {
   if (pin >= 0 && pin < pins) return pin;
@@ -28,7 +29,7 @@ double level_of(int pin, const char* function) {
   if (screen_reads(pin, level)) return level;
   for (size_t i = 0; i < board.wiring.input_count; ++i) {
     const bbsim_wired_input& input = board.wiring.inputs[i];
-    if (input.pin == pin) return pin < first_analog ? input.value : input.value / 1023;
+    if (input.pin == pin) return pin < first_analog ? input.value : input.value / full_scale();
   }
   if (state[pin].high) return 1;  // nothing pulls it down
   fail(
@@ -38,7 +39,64 @@ double level_of(int pin, const char* function) {
   return 0;
 }
 
+// Ends the run if the wiring has counts beyond the converter's bits: all of them would read as the
+// greatest one.
+void require_counts(double counts, const char* key) {
+  const double most = full_scale();
+  if (counts <= most) return;
+  board.misfit = true;
+  fail(
+      "%s: found %g counts, but the sketch reads %d bits; allowed: at most %g, or call "
+      "analogReadResolution() before the first analogRead()",
+      key, counts, first_bits, most);
+}
+
+void begin_reading() {
+  if (first_bits != 0) return;
+  first_bits = analog_bits;
+  const bbsim_wiring& wiring = board.wiring;
+  const bbsim_wired_screen& screen = wiring.screen;
+  if (screen.kind == bbsim_four_wires || screen.kind == bbsim_five_wires ||
+      screen.kind == bbsim_voltages) {
+    for (int i = 0; i < 2; ++i) {
+      require_counts(screen.x.counts[i], "screen.x.counts");
+      require_counts(screen.y.counts[i], "screen.y.counts");
+    }
+    require_counts(screen.untouched, "screen.untouched");
+  }
+  for (size_t i = 0; i < wiring.input_count; ++i) {
+    if (wiring.inputs[i].pin >= first_analog) require_counts(wiring.inputs[i].value, "inputs");
+  }
+}
+
+bool is_heard(int pin) {
+  const bbsim_wiring& wiring = board.wiring;
+  if (pin == LED_BUILTIN || is_of_screen(pin)) return true;
+  for (const bbsim_wired_servo& servo : wiring.servos) {
+    if (servo.pin == pin) return true;
+  }
+  for (size_t i = 0; i < wiring.input_count; ++i) {
+    if (wiring.inputs[i].pin == pin) return true;
+  }
+  for (size_t i = 0; i < wiring.ignored_count; ++i) {
+    if (wiring.ignored[i] == pin) return true;
+  }
+  return false;
+}
+
 }  // namespace
+
+double full_scale() {
+  const int bits = first_bits != 0 ? first_bits : analog_bits;
+  return static_cast<double>((1L << bits) - 1);
+}
+
+int unheard_pin(size_t n) {
+  for (int pin = 0; pin < pins; ++pin) {
+    if (state[pin].driven && !is_heard(pin) && n-- == 0) return pin;
+  }
+  return -1;
+}
 
 Drive drive_of(int pin) {
   if (pin < 0) return Drive::none;
@@ -63,11 +121,14 @@ void pinMode(int number, int mode) {
   pin.output = mode == OUTPUT;
   if (mode == INPUT) pin.high = false;
   if (mode == INPUT_PULLUP) pin.high = true;
+  pin.driven = pin.driven || (pin.output && pin.high);
   spend(board.costs.digital);
 }
 
 void digitalWrite(int number, int level) {
-  state[checked(number, "digitalWrite")].high = level != LOW;
+  Pin& pin = state[checked(number, "digitalWrite")];
+  pin.high = level != LOW;
+  pin.driven = pin.driven || (pin.output && pin.high);
   spend(board.costs.digital);
 }
 
@@ -82,6 +143,7 @@ int analogRead(int number) {
   if (checked(number, "analogRead") < first_analog) {
     fail("analogRead(%d): pin %d is not analog; allowed: A0 to A15", number, number);
   }
+  begin_reading();
   const double most = static_cast<double>((1L << analog_bits) - 1);
   const double counts = level_of(number, "analogRead") * most;
   spend(board.costs.analog);  // the converter samples before it converts
@@ -103,6 +165,6 @@ void analogWrite(int number, int) {
     fail("analogWrite(%d, ...): a servo is wired to pin %d, which needs the pulses of Servo.h", pin,
          pin);
   }
-  state[pin].output = true;
+  state[pin].output = state[pin].driven = true;
   spend(board.costs.digital);
 }

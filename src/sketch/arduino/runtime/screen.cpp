@@ -21,7 +21,7 @@ double limited(double value, double most) {
 
 // The ball's place on the screen, from 0 at the minus electrode to 1 at the plus electrode.
 double share(const bbsim_count_map& map, int axis) {
-  return limited(counts_at(map, board.sample.ball[axis]) / 1023, 1);
+  return limited(counts_at(map, board.sample.ball[axis]) / full_scale(), 1);
 }
 
 // A plate with an electrode at each end, seen from the touched place.
@@ -62,7 +62,7 @@ double four_wires(const bbsim_wired_screen& screen, int pin) {
     conductance += joint;
     current += joint * other.current / other.conductance;
   }
-  if (!(conductance > 0)) return screen.untouched / 1023;
+  if (!(conductance > 0)) return screen.untouched / full_scale();
   const double there = current / conductance;
   if (drive_of(pin) != Drive::pull_up) return there;
   const double resistance = pin == plate.plus ? plate.to_plus : plate.to_minus;
@@ -74,7 +74,7 @@ double five_wires(const bbsim_wired_screen& screen, int pin) {
     fail("pin %s reads a corner of a screen of five wires; allowed: its sense electrode",
          pin_name(pin));
   }
-  if (!touched()) return drive_of(pin) == Drive::pull_up ? 1 : screen.untouched / 1023;
+  if (!touched()) return drive_of(pin) == Drive::pull_up ? 1 : screen.untouched / full_scale();
   double corner[4];
   for (int i = 0; i < 4; ++i) {
     const Drive drive = drive_of(screen.pins[i]);
@@ -99,7 +99,8 @@ double counts_at(const bbsim_count_map& map, double position) {
                              (map.position[1] - map.position[0]);
 }
 
-bool screen_reads(int pin, double& level) {
+// The place of a pin among the screen's; -1 for other pins.
+static int place_of(int pin) {
   const bbsim_wired_screen& screen = board.wiring.screen;
   const int count = screen.kind == bbsim_four_wires   ? 4
                     : screen.kind == bbsim_five_wires ? 5
@@ -107,15 +108,25 @@ bool screen_reads(int pin, double& level) {
                                                       : 0;
   int at = 0;
   while (at < count && screen.pins[at] != pin) ++at;
-  if (at == count) return false;
+  return at < count ? at : -1;
+}
+
+bool is_of_screen(int pin) {
+  return place_of(pin) >= 0;
+}
+
+bool screen_reads(int pin, double& level) {
+  const bbsim_wired_screen& screen = board.wiring.screen;
+  const int at = place_of(pin);
+  if (at < 0) return false;
   if (screen.kind == bbsim_four_wires) {
     level = four_wires(screen, pin);
   } else if (screen.kind == bbsim_five_wires) {
     level = five_wires(screen, pin);
   } else if (!touched()) {
-    level = screen.untouched / 1023;
+    level = screen.untouched / full_scale();
   } else {
-    level = counts_at(at == 0 ? screen.x : screen.y, board.sample.ball[at]) / 1023;
+    level = counts_at(at == 0 ? screen.x : screen.y, board.sample.ball[at]) / full_scale();
   }
   return true;
 }

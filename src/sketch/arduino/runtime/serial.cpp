@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Serial ports: the text that the sketch prints, and the frames of a camera.
-#include <unistd.h>
-
 #include <vector>
 
 #include "Arduino.h"
@@ -16,6 +14,7 @@ namespace {
 struct Watched {
   char name[64];
   double value;
+  bool printed;
 };
 std::vector<Watched> watched;
 
@@ -42,25 +41,11 @@ void read_numbers(const char* line) {
       if (strncmp(start, one.name, static_cast<size_t>(length)) != 0) continue;
       if (start > line && strchr(", \t", start[-1]) == nullptr) continue;
       double number = 0;
-      if (read_number(at + 1, number)) one.value = number;
+      if (!read_number(at + 1, number)) continue;
+      one.value = number;
+      one.printed = true;
     }
   }
-}
-
-// Writes with one call, so that lines of different threads do not mix. Replaces control characters,
-// which a terminal would obey.
-void say(const char* line) {
-  char text[4 * 256 + 16];
-  int used = snprintf(text, sizeof text, "controller: ");
-  for (const char* c = line; *c != '\0'; ++c) {
-    const auto letter = static_cast<unsigned char>(*c);
-    const bool plain = (letter >= 0x20 && letter != 0x7F) || letter == '\t';
-    used += snprintf(text + used, sizeof text - static_cast<size_t>(used), plain ? "%c" : "\\x%02x",
-                     letter);
-  }
-  text[used++] = '\n';
-  const ssize_t written = write(STDERR_FILENO, text, static_cast<size_t>(used));
-  static_cast<void>(written);
 }
 
 // Bytes that have been sent to the board, with their times of arrival.
@@ -135,6 +120,10 @@ double column(size_t index) {
   return watched[index].value;
 }
 
+bool was_printed(size_t index) {
+  return watched[index].printed;
+}
+
 }  // namespace bbsim_board
 
 using namespace bbsim_board;
@@ -192,7 +181,7 @@ void HardwareSerial::add_to_line(char c) {
     line_[line_length_] = '\0';
     line_length_ = 0;
     read_numbers(line_);
-    if (board.wiring.print != 0) say(line_);
+    if (board.wiring.print != nullptr) board.wiring.print(board.wiring.reader, line_);
   }
   if (c != '\n' && c != '\r') line_[line_length_++] = c;
 }
