@@ -88,10 +88,7 @@ std::optional<std::string> Host::unit_of(std::string_view own_column) const {
 }
 
 std::vector<std::string> Host::describe() const {
-  if (library_) {
-    if (library_->fault()) throw model::ControllerFault(*library_->fault());
-    return {"the library opens, and makes a controller for this scene"};
-  }
+  if (library_) return {"the library opens, and makes a controller for this scene"};
   if (!program_) return {};
   if (program_->fault()) throw model::ControllerFault(*program_->fault());
   const Ready& ready = program_->ready();

@@ -38,27 +38,19 @@ class Library : public model::ExternalController {
   // The library and the files of its wiring. Throws InputError.
   [[nodiscard]] static std::vector<std::string> files_of(const OwnController& own);
 
-  // The fault that begin() would throw.
-  [[nodiscard]] const std::optional<model::ControllerFault>& fault() const { return fault_; }
-
  private:
   // The paths of the library and of its wiring, if any, from the current folder.
   [[nodiscard]] static std::string path_of(const OwnController& own);
   [[nodiscard]] static std::string wiring_path_of(const OwnController& own);
   void create();
   void destroy();
-  template <class When, class Function, class... Arguments>
-  auto ask(When when, Function* function, Arguments... arguments);
-  [[nodiscard]] model::ControllerFault fault_of(const std::string& when,
-                                                const std::string& why) const;
-  [[nodiscard]] std::string last_error(const void* controller) const;
+  [[nodiscard]] std::string last_error() const;
 
   std::string path_, wiring_path_;
   Setup setup_;
   std::optional<sketch::Wiring> wiring_;
   std::shared_ptr<const LibraryFunctions> functions_;
-  void* controller_ = nullptr;  // also null if it was abandoned
-  std::optional<model::ControllerFault> fault_;
+  void* controller_ = nullptr;
   bool fresh_ = false;  // no run since it was created or reset
 };
 
