@@ -10,15 +10,13 @@
 #include <string_view>
 #include <vector>
 
-#include "command_texts.hpp"
-#include "completion.hpp"
 #include "help.hpp"
 #include "licenses.hpp"
-#include "man.hpp"
 #include "removed.hpp"
 #include "scenario/json_schema.hpp"
 #include "terminal.hpp"
 #include "version.hpp"
+#include "words.hpp"
 #include "yaml/nearest.hpp"
 
 namespace bbsim::app {
@@ -186,37 +184,6 @@ void add_help(CLI::App& app, Chosen& chosen) {
   });
 }
 
-void add_about_commands(CLI::App& app, std::span<const NamedCommand> commands, Chosen& chosen);
-
-// Texts of all commands and options. Making them takes time, so only commands that need them do.
-ProgramText all_texts(std::span<const NamedCommand> commands) {
-  CLI::App app(purpose, "bbsim");
-  Options options;
-  Chosen chosen;
-  name_program(app, options);
-  add_texts(app);
-  for (const NamedCommand& command : commands) {
-    CLI::App* const added = app.add_subcommand(command.name, command.description);
-    if (!command.alias.empty()) added->alias(std::string(command.alias));
-    Command its(*added, chosen);
-    command.add_options(its, options);
-  }
-  add_about_commands(app, commands, chosen);
-  return texts_of(app);
-}
-
-// Commands about commands: help, and those made from all texts.
-void add_about_commands(CLI::App& app, std::span<const NamedCommand> commands, Chosen& chosen) {
-  const auto texts = [commands] { return all_texts(commands); };
-  Command completion(*app.add_subcommand("completion", "Print the completion script of a shell"),
-                     chosen);
-  add_completion(completion, texts);
-  Command man(*app.add_subcommand("man", "Write the man pages of all commands into a folder"),
-              chosen);
-  add_man(man, texts);
-  add_help(app, chosen);
-}
-
 // Adds the commands, --schema and --licenses. Making all of them takes longer than many a run. If
 // the first word names a command, only commands that some word names are made; else all are, for
 // help and for messages about mistakes. Only named commands get their options.
@@ -243,9 +210,7 @@ void add_commands(CLI::App& app, std::span<char* const> words,
     Command its(*added, chosen);
     command.add_options(its, options);
   }
-  if (!names_one) {
-    add_about_commands(app, commands, chosen);
-  } else if (std::ranges::find(words, std::string_view("help")) != words.end()) {
+  if (!names_one || std::ranges::find(words, std::string_view("help")) != words.end()) {
     add_help(app, chosen);
   }
 }
@@ -260,6 +225,10 @@ ExitCode obey(int argc, char** argv, std::span<const NamedCommand> commands) {
   const std::span<char* const> words(argv, static_cast<std::size_t>(argc));
   add_commands(app, words.subspan(std::min<std::size_t>(words.size(), 1)), commands, options,
                chosen);
+  if (argc > 1 && words[1] == std::string_view("--words")) {
+    print(candidates(app, std::vector<std::string>(words.begin() + 2, words.end())));
+    return ExitCode::done;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -3,6 +3,8 @@
 
 // The program bbsim: its commands, each in a file of its own, and one place that turns errors into
 // exit codes.
+#include <unistd.h>
+
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -10,7 +12,6 @@
 #include <new>
 
 #include "api/run.hpp"
-#include "base/end_process.hpp"
 #include "base/error.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
@@ -67,7 +68,7 @@ ExitCode run(const Command& command) {
       std::abort();
     }
     std::fputs("out of memory: end other programs, or give this one more\n", stderr);
-    bbsim::end_process(code(ExitCode::ended_early));
+    _exit(code(ExitCode::ended_early));
   });
 }
 

@@ -21,6 +21,10 @@ constexpr Removed options[] = {
     {"--from-state", runs_whole},
     {"--until", "runs are no longer split; to end a run earlier, use --set time.end=TIME"},
 };
+constexpr Removed commands[] = {
+    {"completion", "bash's completion is installed as share/bash-completion/completions/bbsim"},
+    {"man", "man pages are installed where help2man is when bbsim is built; or see --help"},
+};
 constexpr Removed endings[] = {
     {".glb", "glTF is no longer written; allowed: a page, a name that ends in .html"},
 };
@@ -38,8 +42,8 @@ std::string removed_option(std::string_view option) {
   return text(options, option, true);
 }
 
-std::string removed_command(std::string_view /*command*/) {
-  return "";
+std::string removed_command(std::string_view command) {
+  return text(commands, command, true);
 }
 
 std::string removed_ending(std::string_view ending) {

@@ -3,9 +3,10 @@
 
 #include "signals.hpp"
 
+#include <unistd.h>
+
 #include <csignal>
 
-#include "base/end_process.hpp"
 #include "base/error.hpp"
 #include "file/children.hpp"
 #include "file/temporaries.hpp"
@@ -20,7 +21,7 @@ void end(int) {
   if (watched.load(std::memory_order_relaxed) && !end_requested.exchange(true)) return;
   file::remove_temporaries();
   file::end_children();
-  end_process(static_cast<int>(ExitCode::interrupted));
+  _exit(static_cast<int>(ExitCode::interrupted));
 }
 
 }  // namespace

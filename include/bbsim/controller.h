@@ -20,7 +20,8 @@
  * All numbers are in SI units and radians. Pairs are (x, y) of the ball in the plane's frame, and
  * (phi, theta) of the gimbal.
  *
- * A function that calls exit() fails and is abandoned: objects on its stack are not destroyed.
+ * A library that calls exit() ends bbsim, and a library that crashes crashes it: return an error
+ * instead.
  *
  * In a sweep, each thread creates its own controller, and threads call the library at the same
  * time. Keep state in what create() returns, not in global variables. Calls for one controller

@@ -77,11 +77,11 @@ std::string how_it_ended(int status) {
 
 Child::Child(const std::vector<std::string>& words, const std::string& folder, Report report,
              const std::atomic<bool>* stop)
-    : report_(std::move(report)), stop_(stop), mark_(file::new_mark()), buffer_(longest_line) {
+    : report_(std::move(report)), stop_(stop), buffer_(longest_line) {
   Pipe input = make_pipe(true), output = make_pipe(false), error = make_pipe(false);
   int fault = 0;
-  process_ = start_program(words, folder, {input.its.get(), output.its.get(), error.its.get()},
-                           mark_, fault);
+  process_ =
+      start_program(words, folder, {input.its.get(), output.its.get(), error.its.get()}, fault);
   if (process_ == 0) throw std::system_error(fault, std::generic_category());
   input_ = std::move(input.ours);
   output_ = std::move(output.ours);
@@ -259,19 +259,17 @@ bool Child::has_ended(int milliseconds) const {
   }
 }
 
-// Ends the child and all that it has started. Waits for a limited time, because the system may hold
+// Ends the child and its group. Waits for a limited time, because the system may hold
 // the child. Returns its status, unless it is still there or something else reaped it.
 std::optional<int> Child::end() {
   if (process_ == 0) return {};
   input_.close();
-  const file::Family family(process_, mark_);
-  family.end();
+  file::end_child(process_);
   static_cast<void>(has_ended(farewell));
   file::forget_child(process_);
   int status = 0;
   const pid_t found = waitpid(process_, &status, WNOHANG);
   process_ = 0;
-  family.bury();
   if (error_.is_open()) listen();
   say_lines(true);
   return found > 0 ? std::optional(status) : std::nullopt;

@@ -29,8 +29,7 @@ class ChildFault : public std::runtime_error {
 // Thrown while waiting for the child if `stop` is true.
 class ChildInterrupted : public std::exception {};
 
-// The child runs in its own process group. The destructor ends it, and everything that it has
-// started, in any group.
+// The child runs in its own process group. The destructor ends it and the group.
 class Child {
  public:
   // Starts the program. `tell` receives the lines of its standard error. `stop`, which may be null,
@@ -67,7 +66,6 @@ class Child {
 
   Report report_;
   const std::atomic<bool>* stop_;
-  std::string mark_;   // of the child and what it starts
   pid_t process_ = 0;  // 0 once reaped
   file::Descriptor input_, output_, error_, ended_;
   std::vector<char> buffer_;           // output of the child; as long as the longest line

@@ -10,8 +10,8 @@
 namespace bbsim::controller {
 
 pid_t start_program(const std::vector<std::string>& words, const std::string& folder,
-                    const Streams& streams, const std::string& mark, int& error) {
-  return file::start_process({words, streams.input, streams.output, streams.error, folder, mark},
+                    const Streams& streams, int& error) {
+  return file::start_process({words, streams.input, streams.output, streams.error, folder, true},
                              error);
 }
 

@@ -18,11 +18,11 @@ struct Streams {
 };
 
 // Starts a program in `folder` (empty: this one) and in its own process group, with the signals of
-// a login, a mark in its environment (file/children.hpp) and no descriptors but its streams.
-// Registers it at once. Looks up the first word on PATH if it has no slash. Returns the process id,
-// or 0 with the error number in `error`.
+// a login and no descriptors but its streams. Registers it at once (file/children.hpp). Looks up
+// the first word on PATH if it has no slash. Returns the process id, or 0 with the error number in
+// `error`.
 [[nodiscard]] pid_t start_program(const std::vector<std::string>& words, const std::string& folder,
-                                  const Streams& streams, const std::string& mark, int& error);
+                                  const Streams& streams, int& error);
 
 // Opens a shared library. Returns null, with the reason in `error`, if that fails.
 [[nodiscard]] void* open_library(const std::string& path, std::string& error);

@@ -17,7 +17,6 @@
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
 #include "controller/foreign_code.hpp"
-#include "controller/foreign_exit.hpp"
 
 namespace bbsim::controller {
 
@@ -49,11 +48,7 @@ bool find(void* library, const char* name, Function*& function) {
 
 std::shared_ptr<const LibraryFunctions> open(const std::string& path) {
   std::string error;
-  expect_foreign_exits(path);
-  void* const library = [&] {
-    const CannotReturn while_it_is_opened;
-    return open_library(path, error);
-  }();
+  void* const library = open_library(path, error);
   if (library == nullptr) {
     refuse(path, "which cannot be opened: " + shown(error, longest_saying) +
                      "; allowed: a shared library, as bbsim/controller.h says");
@@ -65,7 +60,7 @@ std::shared_ptr<const LibraryFunctions> open(const std::string& path) {
                      "; allowed: a shared library, as bbsim/controller.h says");
   };
   require("bbsim_controller_abi", functions->abi);
-  const std::uint32_t abi = foreign(functions->abi);
+  const std::uint32_t abi = functions->abi();
   if (abi != BBSIM_CONTROLLER_ABI) {
     refuse(path, "which is of version " + std::to_string(abi) +
                      " of bbsim/controller.h; allowed: version " +
@@ -153,11 +148,7 @@ Library::Library(const OwnController& own, const Setup& setup, Report report)
       setup_(setup),
       report_(std::move(report)) {
   if (!wiring_path_.empty()) wiring_.emplace(wiring_path_);
-  try {
-    functions_ = open(path_);
-  } catch (const ExitCalled& call) {
-    throw fault_of("to start", call.text());
-  }
+  functions_ = open(path_);
   if (wiring_ && functions_->create_wired == nullptr) {
     throw KeyError("controller.library.wiring",
                    "found beside " + shown(path_, uncut) +
@@ -170,65 +161,36 @@ Library::~Library() {
   destroy();
 }
 
-// A library that ends the process here counts as having destroyed the controller.
 void Library::destroy() {
-  try {
-    if (controller_ != nullptr) foreign(functions_->destroy, controller_);
-  } catch (const ExitCalled&) {
-  }
+  if (controller_ != nullptr) functions_->destroy(controller_);
   controller_ = nullptr;
 }
 
-std::string Library::last_error(const void* controller) const {
-  const char* text = nullptr;
-  try {
-    text = foreign(functions_->last_error, controller);
-  } catch (const ExitCalled&) {
-  }
+std::string Library::last_error() const {
+  const char* const text = functions_->last_error(controller_);
   return text == nullptr || *text == '\0' ? "it does not say why" : shown(text, longest_saying);
 }
 
-// Calls a function of the library. If it tries to end the process, abandons the controller and
-// throws the fault, described by `when`.
-template <class When, class Function, class... Arguments>
-auto Library::ask(When when, Function* function, Arguments... arguments) {
-  try {
-    return foreign(function, arguments...);
-  } catch (const ExitCalled& call) {
-    controller_ = nullptr;
-    throw fault_of(when(), call.text());
-  }
-}
-
-// Keeps the fault for begin() if the library tries to end the process.
 void Library::create() {
   destroy();
-  fault_.reset();
   fresh_ = true;
   const CSetup setup(setup_);
-  constexpr auto when = [] { return "to start"; };
-  try {
-    if (wiring_) {
-      bbsim_wiring wired = *wiring_->get();
-      wired.reader = this;
-      // Called on the sketch's small stack: it only keeps the line.
-      wired.print = [](void* reader, const char* line) {
-        static_cast<Library*>(reader)->printed_.emplace_back(line);
-      };
-      if (wiring_->print() == sketch::Wiring::Print::off) wired.print = nullptr;
-      controller_ = ask(when, functions_->create_wired, setup.get(),
-                        static_cast<const bbsim_wiring*>(&wired));
-    } else {
-      controller_ = ask(when, functions_->create, setup.get());
-    }
-  } catch (const model::ControllerFault& fault) {
-    fault_.emplace(fault);
-    return;
+  if (wiring_) {
+    bbsim_wiring wired = *wiring_->get();
+    wired.reader = this;
+    // Called on the sketch's small stack: it only keeps the line.
+    wired.print = [](void* reader, const char* line) {
+      static_cast<Library*>(reader)->printed_.emplace_back(line);
+    };
+    if (wiring_->print() == sketch::Wiring::Print::off) wired.print = nullptr;
+    controller_ = functions_->create_wired(setup.get(), &wired);
+  } else {
+    controller_ = functions_->create(setup.get());
   }
   if (controller_ == nullptr) {
     throw KeyError("controller.library",
                    "found " + shown(path_, uncut) +
-                       ", which makes no controller for this scene: " + last_error(nullptr));
+                       ", which makes no controller for this scene: " + last_error());
   }
 }
 
@@ -237,11 +199,7 @@ void Library::renew(const Setup& setup) {
   fresh_ = false;
   if (controller_ != nullptr && functions_->reset != nullptr) {
     const CSetup its(setup_);
-    try {
-      fresh_ = foreign(functions_->reset, controller_, its.get()) == 0;
-    } catch (const ExitCalled&) {
-      controller_ = nullptr;  // like one that cannot reset
-    }
+    fresh_ = functions_->reset(controller_, its.get()) == 0;
   }
   if (!fresh_) create();
 }
@@ -249,12 +207,6 @@ void Library::renew(const Setup& setup) {
 void Library::begin() {
   if (!fresh_) renew(setup_);
   fresh_ = false;
-  if (fault_) throw model::ControllerFault(*fault_);
-}
-
-model::ControllerFault Library::fault_of(const std::string& when, const std::string& why) const {
-  return model::ControllerFault("the controller (" + shown(path_, uncut) + ") failed " + when +
-                                ": " + why);
 }
 
 model::Commands Library::command(const model::ControllerSample& sample, double* own) {
@@ -271,19 +223,19 @@ model::Commands Library::command(const model::ControllerSample& sample, double* 
                            {sample.servo_rate[0], sample.servo_rate[1]},
                            sample.servo.size() == 3 ? sample.servo[2] : 0,
                            sample.servo.size() == 3 ? sample.servo_rate[2] : 0};
-  const auto when = [&] {
-    return "at sample " + std::to_string(sample.number) + " (t = " + number_text(sample.t) + " s)";
+  const auto fail = [&](const std::string& why) {
+    return model::ControllerFault("the controller (" + shown(path_, uncut) + ") failed at sample " +
+                                  std::to_string(sample.number) + " (t = " + number_text(sample.t) +
+                                  " s): " + why);
   };
-  const auto fail = [&](const std::string& why) { return fault_of(when(), why); };
   model::Commands command;
   command.fill(std::nan(""));
-  const int code = ask(when, functions_->step, controller_, &given, command.data(), own);
+  const int code = functions_->step(controller_, &given, command.data(), own);
   pass_on_prints();
   if (wiring_ && code == BBSIM_WIRING_AT_FAULT) {
-    throw KeyError("controller.library.wiring",
-                   shown(wiring_path_, uncut) + ": " + last_error(controller_));
+    throw KeyError("controller.library.wiring", shown(wiring_path_, uncut) + ": " + last_error());
   }
-  if (code != 0) throw fail("it returned " + std::to_string(code) + ": " + last_error(controller_));
+  if (code != 0) throw fail("it returned " + std::to_string(code) + ": " + last_error());
   const std::span<const double> given_back(command.data(), sample.servo.size());
   if (!std::ranges::all_of(given_back, [](double one) { return std::isfinite(one); })) {
     std::string all;

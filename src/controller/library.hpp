@@ -40,9 +40,6 @@ class Library : public model::ExternalController {
   // The library and the files of its wiring. Throws InputError.
   [[nodiscard]] static std::vector<std::string> files_of(const OwnController& own);
 
-  // The fault that begin() would throw.
-  [[nodiscard]] const std::optional<model::ControllerFault>& fault() const { return fault_; }
-
   // After samples: throws KeyError if a column of the scenario is none that the sketch printed.
   void require_columns() const;
   // The pins that the sketch drives although nothing is wired to them, as a sentence; may be empty.
@@ -54,11 +51,7 @@ class Library : public model::ExternalController {
   [[nodiscard]] static std::string wiring_path_of(const OwnController& own);
   void create();
   void destroy();
-  template <class When, class Function, class... Arguments>
-  auto ask(When when, Function* function, Arguments... arguments);
-  [[nodiscard]] model::ControllerFault fault_of(const std::string& when,
-                                                const std::string& why) const;
-  [[nodiscard]] std::string last_error(const void* controller) const;
+  [[nodiscard]] std::string last_error() const;
   void pass_on_prints();
 
   std::string path_, wiring_path_;
@@ -68,8 +61,7 @@ class Library : public model::ExternalController {
   std::vector<std::string> printed_;  // lines since the last report
   std::size_t shown_ = 0;             // lines
   std::shared_ptr<const LibraryFunctions> functions_;
-  void* controller_ = nullptr;  // also null if it was abandoned
-  std::optional<model::ControllerFault> fault_;
+  void* controller_ = nullptr;
   bool fresh_ = false;  // no run since it was created or reset
 };
 

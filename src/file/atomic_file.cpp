@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
@@ -18,42 +19,15 @@
 namespace bbsim::file {
 namespace {
 
-constexpr unsigned most_attempts = 100;  // to find an unused name
-
 // The length does not depend on the target's name, so it never exceeds the longest allowed name.
-std::string temporary_name(unsigned attempt) {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
+std::string temporary_name() {
+  static std::atomic<unsigned> number{0};
+  const auto now = std::chrono::system_clock::now().time_since_epoch().count();
   char text[64];
   const int size = std::snprintf(text, sizeof text, ".bbsim-%lx-%llx-%x.tmp",
                                  static_cast<unsigned long>(getpid()),
-                                 static_cast<unsigned long long>(now), attempt);
+                                 static_cast<unsigned long long>(now), ++number);
   return {text, static_cast<std::size_t>(size)};
-}
-
-// Gives an unnamed file a name. On failure, returns false with errno.
-bool name_file(int descriptor, const char* name) {
-  // Linux 6.10 allows this to the process that opened the file; older kernels need privileges and
-  // return ENOENT. The way through /proc works for everyone but is slower, because the kernel
-  // creates entries there for the process.
-  if (linkat(descriptor, "", AT_FDCWD, name, AT_EMPTY_PATH) == 0) return true;
-  if (errno != ENOENT) return false;
-  char self[40];
-  std::snprintf(self, sizeof self, "/proc/self/fd/%d", descriptor);
-  return linkat(AT_FDCWD, self, AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
-}
-
-// Tries a name that always exists, and expects EEXIST.
-bool can_be_named(int descriptor) {
-  return !name_file(descriptor, "/") && errno == EEXIST;
-}
-
-// Exchanges the names of two files in one step, as safe as a rename. When ext4 renames over a file,
-// it starts to write to the disk at once, which takes longer than a typical run of the program.
-// Returns false if `path` is not a regular file or the system does not support the exchange.
-bool exchange_names(const std::string& temporary, const std::string& path) {
-  struct stat status {};
-  return lstat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) &&
-         renameat2(AT_FDCWD, temporary.c_str(), AT_FDCWD, path.c_str(), RENAME_EXCHANGE) == 0;
 }
 
 }  // namespace
@@ -77,51 +51,26 @@ AtomicFile::AtomicFile(const std::string& target, Durable durable)
 }
 
 AtomicFile::~AtomicFile() {
-  forget_name();
+  remove_temporary();
 }
 
-void AtomicFile::open_temporary() {
-  if (!open_unnamed()) open_named();
-  if (!target_.found) return;
-  if (const int error = take_after(descriptor_.get(), *target_.found)) {
-    forget_name();  // no destructor runs for a constructor that throws
-    fail(error);
-  }
-}
-
-bool AtomicFile::open_unnamed() {
-  descriptor_ = above_standard_streams(
-      open(target_.folder().c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, any_permissions));
-  if (descriptor_.is_open() && can_be_named(descriptor_.get())) return true;
-  descriptor_.close();
-  return false;
-}
-
-// Remembers the name before the file exists, so that a signal in between leaves no file.
-bool AtomicFile::choose_temporary_name(unsigned attempt) {
-  if (attempt >= most_attempts) return false;
-  temporary_ = std::filesystem::path(target_.folder()) / temporary_name(attempt);
-  remember_temporary(temporary_.c_str());
-  return true;
-}
-
-void AtomicFile::forget_name() {
+void AtomicFile::remove_temporary() {
   if (temporary_.empty()) return;
   unlink(temporary_.c_str());
   forget_temporary(temporary_.c_str());
   temporary_.clear();
 }
 
-void AtomicFile::open_named() {
-  int error = EEXIST;
-  for (unsigned attempt = 0; error == EEXIST && choose_temporary_name(attempt); ++attempt) {
-    descriptor_ = above_standard_streams(
-        open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, any_permissions));
-    if (descriptor_.is_open()) return;
-    error = errno;
-    forget_temporary(temporary_.c_str());
-    temporary_.clear();
-  }
+void AtomicFile::open_temporary() {
+  temporary_ = std::filesystem::path(target_.folder()) / temporary_name();
+  // Before the file exists, so that a signal in between leaves no file.
+  remember_temporary(temporary_.c_str());
+  descriptor_ = above_standard_streams(
+      open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, any_permissions));
+  const int error = descriptor_.is_open() ? 0 : errno;
+  const int other = error == 0 && target_.found ? take_after(descriptor_.get(), *target_.found) : 0;
+  if (error == 0 && other == 0) return;
+  remove_temporary();  // no destructor runs for a constructor that throws
   if (error == ENOENT) {
     throw OutputError("cannot write " + target_.name + ": there is no folder " + target_.folder() +
                       "; create it, or write to another place");
@@ -131,7 +80,7 @@ void AtomicFile::open_named() {
                       target_.folder() +
                       "; write to another folder, or change the permissions of this one");
   }
-  fail(error);
+  fail(error != 0 ? error : other);
 }
 
 void AtomicFile::write(std::string_view bytes) {
@@ -155,41 +104,18 @@ void AtomicFile::write_through(std::string_view bytes) {
 
 void AtomicFile::commit() {
   flush();
-  if (target_.written_directly()) {
-    if (const int error = descriptor_.close()) fail(error);
-    return;
-  }
-  if (durable_ == Durable::yes) {
+  if (durable_ == Durable::yes && !target_.written_directly()) {
     if (const int error = sync_content(descriptor_.get())) fail(error);
   }
-  // Errors that only closing reveals must be known before the file gets its name. Closing an
-  // unnamed file would delete it, so this closes a duplicate descriptor.
-  Descriptor second(fcntl(descriptor_.get(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1));
-  if (const int error = second.is_open() ? second.close() : errno) fail(error);
-  replace_target();
-  descriptor_.close();
+  // Reveals the last errors, which must be known before the file gets its name.
+  if (const int error = descriptor_.close()) fail(error);
+  if (target_.written_directly()) return;
+  if (std::rename(temporary_.c_str(), target_.path.c_str()) != 0) fail(errno);
+  forget_temporary(temporary_.c_str());
+  temporary_.clear();
   if (durable_ == Durable::yes) {
     if (const int error = sync_folder(target_.folder())) fail(error);
   }
-}
-
-void AtomicFile::replace_target() {
-  if (temporary_.empty()) {
-    if (name_file(descriptor_.get(), target_.path.c_str())) return;
-    // Only a file with a name can replace an existing file.
-    int error = errno;
-    for (unsigned attempt = 0; error == EEXIST && choose_temporary_name(attempt); ++attempt) {
-      if (name_file(descriptor_.get(), temporary_.c_str())) break;
-      error = errno;
-      forget_temporary(temporary_.c_str());
-      temporary_.clear();
-    }
-    if (temporary_.empty()) fail(error);
-  }
-  if (!exchange_names(temporary_, target_.path)) {
-    if (std::rename(temporary_.c_str(), target_.path.c_str()) != 0) fail(errno);
-  }
-  forget_name();  // after an exchange, this removes the old file
 }
 
 void write_file(const std::string& target, std::string_view content) {

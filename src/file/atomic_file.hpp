@@ -17,11 +17,10 @@ namespace bbsim::file {
 // Whether a committed file survives a power cut. Syncing to the disk takes time.
 enum class Durable { no, yes };
 
-// Writes to an unnamed file in the target's folder; commit() gives it the target's name. If the
-// process ends earlier, nothing remains and an old file stays unchanged. On file systems without
-// unnamed files it uses a hidden temporary, which the destructor removes, or remove_temporaries()
-// at a signal. commit() keeps a symbolic link and replaces the file that it points to. A new file
-// gets its permissions from the umask; a replaced file keeps its own.
+// Writes to a hidden temporary beside the target; commit() renames it. If the process ends earlier,
+// an old file stays unchanged. The destructor removes the temporary, or remove_temporaries() at a
+// signal; after SIGKILL it stays. commit() keeps a symbolic link and replaces the file that it
+// points to. A new file gets its permissions from the umask; a replaced file keeps its own.
 //
 // A target that is not a regular file is written directly: a device, a FIFO, "-" for standard
 // output, /dev/stdout and other names of open descriptors.
@@ -63,17 +62,13 @@ class AtomicFile {
 
  private:
   void open_temporary();
-  [[nodiscard]] bool open_unnamed();
-  void open_named();
-  [[nodiscard]] bool choose_temporary_name(unsigned attempt);
-  void forget_name();
-  void replace_target();
+  void remove_temporary();
   void write_through(std::string_view bytes);
   [[nodiscard]] char* buffer_end() const { return buffer_.get() + buffer_size; }
 
   Target target_;
   Durable durable_;
-  std::string temporary_;  // the hidden temporary's name; empty if there is none
+  std::string temporary_;  // its name; empty if there is none
   Descriptor descriptor_;
   std::unique_ptr<char[]> buffer_;
   char* end_;  // end of the bytes in the buffer

@@ -11,7 +11,6 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "base/end_process.hpp"
 #include "base/error.hpp"
 #include "base/fork_mutex.hpp"
 #include "file/temporaries.hpp"
@@ -32,7 +31,7 @@ void end_if_within() {
   if (message == nullptr) return;
   [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, message, std::strlen(message));
   remove_temporaries();
-  end_process(static_cast<int>(ExitCode::output_failed));
+  _exit(static_cast<int>(ExitCode::output_failed));
 }
 
 void crashed(int /*signal*/) {

@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <string_view>
 
 #include "file/children.hpp"
 
@@ -48,25 +47,6 @@ class SignalsWait {
   sigset_t before_{};
 };
 
-// A null-terminated array for C, valid until the strings change.
-std::vector<char*> pointers_to(std::vector<std::string>& words) {
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
-
-// This process's environment, with the mark, if any, in place of its own.
-std::vector<std::string> environment_with(const std::string& mark) {
-  const std::string_view name = std::string_view(mark).substr(0, mark.find('=') + 1);
-  std::vector<std::string> entries;
-  if (!mark.empty()) entries.push_back(mark);
-  for (char** each = environ; *each != nullptr; ++each) {
-    if (mark.empty() || !std::string_view(*each).starts_with(name)) entries.emplace_back(*each);
-  }
-  return entries;
-}
-
 }  // namespace
 
 pid_t start_process(const NewProcess& process, int& error) {
@@ -82,26 +62,25 @@ pid_t start_process(const NewProcess& process, int& error) {
   if (!process.folder.empty()) {
     posix_spawn_file_actions_addchdir_np(&spawning.actions, process.folder.c_str());
   }
-  const bool leads_group = !process.mark.empty();
   sigset_t all, none;
   sigfillset(&all);
   sigemptyset(&none);
   posix_spawnattr_setsigdefault(&spawning.attributes, &all);
   posix_spawnattr_setsigmask(&spawning.attributes, &none);
   posix_spawnattr_setpgroup(&spawning.attributes, 0);
-  const int flags =
-      POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK | (leads_group ? POSIX_SPAWN_SETPGROUP : 0);
+  int flags = POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK;
+  if (process.leads_group) flags |= POSIX_SPAWN_SETPGROUP;
   posix_spawnattr_setflags(&spawning.attributes, static_cast<short>(flags));
 
-  std::vector<std::string> words = process.words, entries = environment_with(process.mark);
-  const std::vector<char*> arguments = pointers_to(words), environment = pointers_to(entries);
+  std::vector<std::string> words = process.words;
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
   // A signal that ended this program here would leave the new process running.
   const SignalsWait until_it_is_remembered;
-  const auto starting = while_starting_child();
-  if (leads_group) adopt_orphans();
   pid_t id = 0;
   error = posix_spawnp(&id, arguments[0], &spawning.actions, &spawning.attributes, arguments.data(),
-                       environment.data());
+                       environ);
   if (error != 0) return 0;
   remember_child(id);
   return id;

@@ -18,9 +18,7 @@ struct NewProcess {
   int input = -1, output = -1;     // descriptors for its standard streams
   int error = -1;                  // likewise; -1: /dev/null
   std::string folder{};            // working folder; empty: this process's own
-  // NAME=VALUE for its environment (new_mark()). A process with a mark leads a process group, and
-  // this process adopts its orphaned descendants.
-  std::string mark{};
+  bool leads_group = false;        // of processes, which end_child() ends
 };
 
 // Starts and remembers a process (file/children.hpp). Returns its id, or 0 with errno in `error`.

@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 # libbbsim.a, the target bbsim::bbsim_static: one object with all that the shared library has inside, made by ld and
-# objcopy of binutils. An archive of archives would offer the rooms' names, fmt's, yaml-cpp's and SUNDIALS' to the
-# program that links it, which may have other versions of them, and put bbsim's exit() in place of the C library's
-# (controller/foreign_exit.cpp). join.cmake leaves only the names of the API.
+# objcopy of binutils. An archive of archives would offer the rooms' names, yaml-cpp's and SUNDIALS' to the program that
+# links it, which may have other versions of them. join.cmake leaves only the names of the API.
 get_target_property(_sundials SUNDIALS::cvodes INTERFACE_LINK_LIBRARIES)
 list(REMOVE_ITEM _sundials m)
 set(_archives ${_sundials} ${YAML_CPP_STATIC_LIBRARY})

@@ -12,31 +12,8 @@
 namespace bbsim::yaml {
 namespace {
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
-std::size_t skip_digits(std::string_view text, std::size_t at) {
-  while (at < text.size() && is_digit(text[at])) ++at;
-  return at;
-}
-
-std::size_t skip_sign(std::string_view text, std::size_t at) {
-  return at < text.size() && (text[at] == '+' || text[at] == '-') ? at + 1 : at;
-}
-
 // Larger exponents overflow or underflow with every mantissa that a file of bounded size can hold.
 constexpr long exponent_limit = 100'000'000;
-
-long exponent_value(std::string_view text) {
-  if (text.empty()) return 0;
-  const bool negative = text.front() == '-';
-  if (text.front() == '+') text.remove_prefix(1);
-  long value = 0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec != std::errc{}) return negative ? -exponent_limit : exponent_limit;
-  return std::clamp(value, -exponent_limit, exponent_limit);
-}
 
 // The power of ten just above the decimal mantissa: 2 for 12.3, -1 for 0.012.
 long leading_power(std::string_view mantissa) {
@@ -48,26 +25,23 @@ long leading_power(std::string_view mantissa) {
 }  // namespace
 
 Decimal leading_decimal(std::string_view text) {
-  const std::size_t digits = skip_sign(text, 0);
-  std::size_t end = skip_digits(text, digits);
-  std::size_t count = end - digits;
-  if (end < text.size() && text[end] == '.') {
-    const std::size_t fraction = skip_digits(text, end + 1);
-    count += fraction - end - 1;
-    end = fraction;
-  }
-  if (count == 0) return {};
+  // from_chars takes no plus sign, and reads words such as "inf", too.
+  const bool plus = text.starts_with('+');
+  const std::string_view digits = text.substr(plus || text.starts_with('-') ? 1 : 0);
+  if (digits.find_first_of("0123456789.") != 0) return {};
+  const char *const begin = text.data() + (plus ? 1 : 0), *const end = text.data() + text.size();
+  double value = 0;
+  const auto [point, error] = std::from_chars(begin, end, value, std::chars_format::fixed);
+  if (error == std::errc::invalid_argument) return {};
+  const char* const last = std::from_chars(begin, end, value).ptr;
 
-  const std::size_t begin = text.front() == '+' ? 1 : 0;
-  Decimal decimal{text.substr(begin, end - begin), {}, end};
-  if (end < text.size() && (text[end] == 'e' || text[end] == 'E')) {
-    const std::size_t exponent = skip_sign(text, end + 1);
-    const std::size_t exponent_end = skip_digits(text, exponent);
-    if (exponent_end > exponent) {
-      decimal.exponent = text.substr(end + 1, exponent_end - end - 1);
-      decimal.length = exponent_end;
-    }
+  Decimal decimal{{begin, point}, 0, static_cast<std::size_t>(last - text.data())};
+  if (last == point) return decimal;
+  const char* const exponent = point + (point[1] == '+' ? 2 : 1);
+  if (std::from_chars(exponent, last, decimal.exponent).ec != std::errc{}) {
+    decimal.exponent = *exponent == '-' ? -exponent_limit : exponent_limit;
   }
+  decimal.exponent = std::clamp(decimal.exponent, -exponent_limit, exponent_limit);
   return decimal;
 }
 
@@ -81,7 +55,7 @@ DecimalValue to_double(const Decimal& decimal, int shift) {
   if (decimal.mantissa.find_first_of("123456789") == std::string_view::npos) {
     return {decimal.mantissa.front() == '-' ? -0.0 : 0.0, Magnitude::fine};
   }
-  const long exponent = exponent_value(decimal.exponent) + shift;
+  const long exponent = decimal.exponent + shift;
   const std::string text = std::string(decimal.mantissa) + 'e' + std::to_string(exponent);
   double value = 0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), value);

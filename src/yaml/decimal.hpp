@@ -12,7 +12,7 @@ namespace bbsim::yaml {
 // [+-] digits [. digits] [e [+-] digits], with a digit on at least one side of the point.
 struct Decimal {
   std::string_view mantissa;  // with a minus sign, without a plus sign
-  std::string_view exponent;  // after the e; empty if there is none
+  long exponent = 0;          // after the e, within 1e8
   std::size_t length = 0;     // of the number in the text; 0 if the text starts with no number
 };
 

@@ -14,7 +14,6 @@
 
 #include "catch.hpp"
 #include "process.hpp"
-#include "shell.hpp"
 
 using namespace bbsim_test;
 
@@ -189,7 +188,7 @@ TEST_CASE("a controller that does not start fails the run before its first row")
 }
 
 TEST_CASE("no process remains of a controller that leaves children or keeps running at the end") {
-  const std::string mode = GENERATE("forks", "goes on", "leaves a daemon");
+  const std::string mode = GENERATE("forks", "goes on");
   CAPTURE(mode);
   const Scene scene("\"" + mode + "\"");
   const Result result = scene.run();
@@ -201,34 +200,6 @@ TEST_CASE("no process remains of a controller that leaves children or keeps runn
   const auto [processes, running] = scene.processes_in_the_end();
   CHECK(processes == (mode == "goes on" ? 1 : 2));
   CHECK(running == 0);
-}
-
-TEST_CASE("process groups started by a shell end with it") {
-  const std::string mode = GENERATE("sleeps", "goes on", "leaves a daemon");
-  CAPTURE(mode);
-  const Scene scene("good", "timeout: 1");
-  const std::string job = "set -m; '" BBSIM_TEST_CHILD "' '" + mode + "' pids & wait";
-  const Result result =
-      scene.run({"--set", "controller.program.command=[bash, -c, \"" + job + "\"]"});
-  CAPTURE(result.err);
-  CHECK(result.exit_code == (mode == "sleeps" ? 1 : 0));
-  CHECK(result.seconds < 10);
-  const auto [processes, running] = scene.processes_in_the_end();
-  CHECK(processes == (mode == "leaves a daemon" ? 2 : 1));
-  CHECK(running == 0);
-}
-
-TEST_CASE("a process that does not belong to a controller is left alone") {
-  const Scene scene("leaves a daemon");
-  // A child of a shell that becomes bbsim.
-  const Result result = shell(
-      "sleep 60 & echo $! > bystander; exec $BBSIM run scene.yaml -o out.csv", scene.folder.path());
-  CAPTURE(result.err);
-  CHECK(result.exit_code == 0);
-  CHECK(scene.processes_in_the_end() == std::pair(2, 0));
-  const pid_t bystander = std::stoi(scene.folder.read("bystander"));
-  CHECK(kill(bystander, 0) == 0);
-  kill(bystander, SIGKILL);
 }
 
 TEST_CASE("a controller's standard error is passed on line by line, however long") {

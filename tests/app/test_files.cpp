@@ -486,7 +486,7 @@ TEST_CASE("the instruction set is named") {
                               "instruction set: [a-z0-9]+\n"
                               "commit: ([0-9a-f]{7,}(, with changes)?|unknown: .*)\n"
                               "libraries: SUNDIALS [0-9.]+, Eigen [0-9.]+, yaml-cpp [0-9.]+, CLI11 "
-                              "[0-9.]+, nlohmann-json [0-9.]+, fmt [0-9.]+, HDF5 [0-9.]+\n"));
+                              "[0-9.]+, nlohmann-json [0-9.]+, HDF5 [0-9.]+\n"));
   CHECK(bbsim({"run", "in.yaml", "-q", "--summary", "s.json"}, folder.path()).exit_code == 0);
   CHECK(nlohmann::json::parse(folder.read("s.json")).at("instruction_set") == name);
   Launch wrong{{"--version"}};

@@ -259,62 +259,8 @@ TEST_CASE("a library error at a sample ends the run there") {
   CHECK(std::count(result.out.begin(), result.out.end(), '\n') == 6);
 }
 
-TEST_CASE("a library that ends the process instead of returning fails, and the rows are kept") {
-  struct Way {
-    std::string mode, told;
-    std::ptrdiff_t lines;
-  };
-  const auto [mode, told, lines] = GENERATE(values<Way>({
-      {"5", "failed at sample 5 (t = 0.1 s): it called exit(0), which would have ended bbsim", 6},
-      {"6", "failed at sample 5 (t = 0.1 s): it called _exit(0), which would have ended bbsim", 6},
-      {"7", "failed to start: it called exit(0), which would have ended bbsim", 0},
-      {"10", ") ended bbsim; unwritten output is lost", 0},
-      {"12", ") ended bbsim; unwritten output is lost", 0},
-  }));
-  std::vector<std::string> words = with_misdeeds(mode);
-  words.pop_back();  // -q
-  const Result result = bbsim(words);
-  CAPTURE(mode, result.err);
-  CHECK(result.exit_code == 1);
-  CHECK(contains(result.err, told));
-  CHECK(contains(result.err, "misdeeds"));
-  CHECK(std::count(result.out.begin(), result.out.end(), '\n') == lines);
-}
-
-TEST_CASE("a library that ends the process while it is opened is reported") {
-  const Result result = bbsim(with_misdeeds("0", BBSIM_MISDEEDS_OPENED));
-  CAPTURE(result.err);
-  CHECK(result.exit_code == 1);
-  CHECK(contains(result.err, ") ended bbsim; unwritten output is lost"));
-  const Result check =
-      bbsim({"check", example("library.yaml"), "--set",
-             std::string("controller.library.file=") + BBSIM_MISDEEDS, "--set",
-             "controller.library.parameters={mode: 7}", "--set", "output.columns=[t, x, samples]"});
-  CHECK(check.exit_code == 1);
-  CHECK(contains(check.err, "failed to start: it called exit(0)"));
-}
-
-TEST_CASE("a library may end the process in its destructor, or end its own child") {
-  const std::string mode = GENERATE("8", "9");
-  const Result result = bbsim(with_misdeeds(mode));
-  CAPTURE(mode, result.err);
-  CHECK(result.exit_code == 0);
-  CHECK(result.err.empty());
-  CHECK(result.out == bbsim(with_misdeeds("0")).out);
-}
-
-TEST_CASE("a sweep case whose library ends the process fails, and the others continue") {
-  std::vector<std::string> words = with_misdeeds("0");
-  words[0] = "sweep";
-  words.insert(words.end(), {"--vary", "controller.library.parameters.mode=list:0,5,7,0",
-                             "--measure", "end_samples", "-j", "1"});
-  const Result result = bbsim(words);
-  CAPTURE(result.err, result.out);
-  CHECK(result.exit_code == 0);
-  CHECK(contains(result.out, "\n0,0,done,,0.2,11\n1,5,failed,"));
-  CHECK(contains(result.out, "it called exit(0), which would have ended bbsim"));
-  CHECK(contains(result.out, "\n2,7,failed,"));
-  CHECK(contains(result.out, "\n3,0,done,,0.2,11\n"));
+TEST_CASE("a library that calls exit() ends bbsim with that code") {
+  CHECK(bbsim(with_misdeeds("5")).exit_code == 7);
 }
 
 TEST_CASE("a library starts anew for each case of a sweep, with or without reset") {

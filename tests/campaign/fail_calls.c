@@ -36,9 +36,9 @@
 // clang-format off
 #define ALL_CALLS(X)                                                                            \
   X(open) X(openat) X(fopen) X(fdopen) X(read) X(pread) X(readv) X(write) X(pwrite) X(writev)   \
-  X(send) X(fsync) X(fdatasync) X(sync_file_range) X(rename) X(renameat2) X(link) X(linkat)     \
-  X(unlink) X(close) X(ftruncate) X(stat) X(lstat) X(fstat) X(fchmod) X(fchown) X(flock)        \
-  X(fcntl) X(faccessat) X(readlink) X(malloc) X(calloc) X(realloc) X(aligned_alloc)             \
+  X(send) X(fsync) X(fdatasync) X(sync_file_range) X(rename) X(unlink) X(close) X(ftruncate)    \
+  X(stat) X(lstat) X(fstat) X(fchmod) X(fchown) X(flock) X(fcntl) X(faccessat) X(readlink)      \
+  X(malloc) X(calloc) X(realloc) X(aligned_alloc)                                               \
   X(hdf5_malloc) X(hdf5_calloc) X(hdf5_realloc) X(posix_spawn) X(pthread_create) X(socketpair)  \
   X(pipe2) X(dlopen)
 // clang-format on
@@ -198,7 +198,7 @@ ssize_t writev(int file, const struct iovec* parts, int count) {
 }
 
 static mode_t mode_of(int how, va_list list) {
-  return (how & O_CREAT) || (how & O_TMPFILE) == O_TMPFILE ? va_arg(list, mode_t) : 0;
+  return how & O_CREAT ? va_arg(list, mode_t) : 0;
 }
 #define OPENING(name, as, parameters, arguments) \
   int name parameters {                          \
@@ -243,13 +243,6 @@ CALL(int, fdatasync, fdatasync, -1, (int file), (file))
 CALL(int, sync_file_range, sync_file_range, -1,
      (int file, off64_t place, off64_t size, unsigned flags), (file, place, size, flags))
 CALL(int, rename, rename, -1, (const char* from, const char* to), (from, to))
-CALL(int, renameat2, renameat2, -1,
-     (int from_folder, const char* from, int to_folder, const char* to, unsigned flags),
-     (from_folder, from, to_folder, to, flags))
-CALL(int, link, link, -1, (const char* from, const char* to), (from, to))
-CALL(int, linkat, linkat, -1,
-     (int from_folder, const char* from, int to_folder, const char* to, int flags),
-     (from_folder, from, to_folder, to, flags))
 CALL(int, unlink, unlink, -1, (const char* name), (name))
 CALL(int, ftruncate, ftruncate, -1, (int file, off_t size), (file, size))
 CALL(int, stat, stat, -1, (const char* name, struct stat* status), (name, status))

@@ -18,7 +18,6 @@
 #include "file/temporaries.hpp"
 #include "support/folder.hpp"
 #include "support/limits.hpp"
-#include "support/old_system.hpp"
 #include "support/rights.hpp"
 
 using bbsim::OutputError;
@@ -45,7 +44,6 @@ TEST_CASE("without commit no file remains, and an existing one is left alone") {
   {
     AtomicFile atomic(file);
     atomic.write(std::string(3 * AtomicFile::buffer_size, 'x'));  // part of it reaches the disk
-    CHECK(folder.entries() == 1);                                 // no temporary in between either
   }
   CHECK(content_of(file) == "old");
   CHECK(folder.entries() == 1);
@@ -297,80 +295,25 @@ int ended_by(const std::function<void()>& action, int signal) {
 
 }  // namespace
 
-TEST_CASE("however a process ends, no incomplete file remains") {
+TEST_CASE("a process that is killed leaves the old file; after other signals no temporary") {
   const Folder folder;
   const std::string old = folder.put("old.csv", "old");
-  for (const std::string& name : {folder / "new.csv", old}) {
-    const int status = ended_by(
-        [&] {
-          auto* file = new AtomicFile(name);
-          file->write(std::string(2 * AtomicFile::buffer_size, 'x'));
-        },
-        SIGKILL);
-    CHECK(WTERMSIG(status) == SIGKILL);
-    CHECK(folder.entries() == 1);
-  }
+  const auto begin = [&] {
+    (void)std::signal(SIGTERM, [](int) {
+      bbsim::file::remove_temporaries();
+      _exit(130);
+    });
+    for (const std::string& name : {folder / "new.csv", old}) {
+      auto* file = new AtomicFile(name);
+      file->write(std::string(2 * AtomicFile::buffer_size, 'x'));
+    }
+    if (folder.entries() != 3) _exit(98);
+  };
+  CHECK(WEXITSTATUS(ended_by(begin, SIGTERM)) == 130);
+  CHECK(folder.entries() == 1);
+  CHECK(WTERMSIG(ended_by(begin, SIGKILL)) == SIGKILL);
+  CHECK_FALSE(std::filesystem::exists(folder / "new.csv"));
   CHECK(content_of(old) == "old");
-}
-
-TEST_CASE("an unnamed file gets its name through /proc if there is no other way") {
-  const Folder folder;
-  folder.put("old.csv", "old");
-  const int status = ended_by(
-      [&] {
-        if (!refuse_empty_paths() || chdir(folder.name().c_str()) != 0) _exit(77);
-        for (const char* name : {"old.csv", "new.csv"}) {
-          AtomicFile file(name);
-          file.write("new");
-          if (std::distance(std::filesystem::directory_iterator("."), {}) != 1) _exit(98);
-          file.commit();
-          if (name[0] == 'o' && content_of(name) != "new") _exit(99);
-        }
-      },
-      0);
-  CHECK(status == 0);
-  CHECK(content_of(folder / "new.csv") == "new");
-  CHECK(folder.entries() == 2);
-}
-
-TEST_CASE("without unnamed files, a signal handler removes the temporary") {
-  const Folder folder;
-  folder.put("old.csv", "old");
-  const auto on_old_system = [&](const std::function<void()>& action) {
-    return [&folder, action] {
-      if (!refuse_unnamed_files() || chdir(folder.name().c_str()) != 0) _exit(77);
-      action();
-    };
-  };
-  REQUIRE(ended_by(on_old_system([] {
-                     write_file("new.csv", "new");
-                     write_file("old.csv", "newer");
-                   }),
-                   0) == 0);
-  CHECK(content_of(folder / "new.csv") == "new");
-  CHECK(content_of(folder / "old.csv") == "newer");
-  CHECK(folder.entries() == 2);
-
-  const auto begin = [] {
-    auto* file = new AtomicFile("third.csv");
-    file->write("x");
-    if (std::distance(std::filesystem::directory_iterator("."), {}) != 3) _exit(98);
-  };
-  const int left = ended_by(on_old_system(begin), SIGKILL);
-  CHECK(WTERMSIG(left) == SIGKILL);
-  CHECK(folder.entries() == 3);  // this cannot be prevented
-
-  const int removed = ended_by(on_old_system([&] {
-                                 (void)std::signal(SIGTERM, [](int) {
-                                   bbsim::file::remove_temporaries();
-                                   _exit(130);
-                                 });
-                                 auto* file = new AtomicFile("third.csv");
-                                 file->write("x");
-                               }),
-                               SIGTERM);
-  CHECK(WEXITSTATUS(removed) == 130);
-  CHECK(folder.entries() == 3);
 }
 
 TEST_CASE("a forked process leaves its parent's temporaries alone") {

@@ -3,7 +3,6 @@
 
 // A test controller that behaves until sample 5 and then does what its first argument says. Its
 // second argument names a file that receives the ids of its processes.
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -46,21 +45,6 @@ void ignore_signals() {
 // Leaves a process behind that keeps running and keeps all streams open.
 void leave_another(const char* file) {
   if (const pid_t process = fork()) return note_process(file, process);
-  ignore_signals();
-  stay();
-}
-
-// Leaves a process behind in its own session, like a daemon.
-void leave_daemon(const char* file) {
-  if (const pid_t between = fork()) {
-    waitpid(between, nullptr, 0);
-    return;
-  }
-  setsid();
-  if (const pid_t daemon = fork()) {
-    note_process(file, daemon);
-    std::_Exit(0);
-  }
   ignore_signals();
   stay();
 }
@@ -131,11 +115,6 @@ int main(int argc, char** argv) {
       {"complains",
        [] {
          for (int i = 0; i < 40000; ++i) std::cerr << "this is line " << i << '\n';
-         say_line(answer);
-       }},
-      {"leaves a daemon",
-       [file] {
-         leave_daemon(file);
          say_line(answer);
        }},
       {"forks",
