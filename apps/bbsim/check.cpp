@@ -13,20 +13,26 @@
 namespace bbsim::app {
 namespace {
 
-ExitCode check(const ScenarioArguments& arguments, const Options& options) {
+struct Arguments : ScenarioArguments {
+  bool verbose = false;
+};
+
+ExitCode check(const Arguments& arguments, const Options& options) {
   file::Outputs outputs;
   const Scenario scenario = read(arguments, options, outputs);
   prints(outputs);
   Progress progress(scenario.source.file, options.quiet);
-  print(to_text(api::check(scenario, progress)));
+  print(to_text(api::check(scenario, progress, arguments.verbose)));
   return ExitCode::done;
 }
 
 }  // namespace
 
 void add_check(Command& command, const Options& options) {
-  const auto arguments = std::make_shared<ScenarioArguments>();
+  const auto arguments = std::make_shared<Arguments>();
   add_scenario(command, *arguments);
+  command.flag("--verbose", arguments->verbose,
+               "also say why the solver was chosen, and whether the scene is stiff");
   command.does([arguments, &options] { return check(*arguments, options); });
 }
 

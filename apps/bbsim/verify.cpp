@@ -37,8 +37,8 @@ std::string table_of(const api::Verification& verification) {
       formatted("%-*s  %9s  %9s        verdict\n", columns, "check", "error", "bound");
   std::size_t holding = 0;
   for (const auto& check : verification.checks) {
-    text += formatted("%-*s  %9.1e  %9.1e %-5s  %s\n", columns, check.name.c_str(), check.error,
-                      check.bound, check.unit.c_str(), check.holds() ? "holds" : "FAILS");
+    text += formatted("%-*s  %9.1e  %9.1e m      %s\n", columns, check.name.c_str(), check.error,
+                      check.bound, check.holds() ? "holds" : "FAILS");
     if (check.holds()) ++holding;
   }
   return text + formatted("%zu of %zu checks hold\n", holding, verification.checks.size());

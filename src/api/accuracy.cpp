@@ -10,9 +10,7 @@
 
 #include "api/assemble.hpp"
 #include "base/error.hpp"
-#include "scenario/reader.hpp"
 #include "solve/output_grid.hpp"
-#include "study/verify_references.hpp"
 
 namespace bbsim::api {
 namespace {
@@ -94,16 +92,6 @@ Verification verify(Watch& watch) {
 
 FullModelStudy compare_simpler(const Scenario& scenario, Watch& watch) {
   return study::compare_simpler(scenario, {watch.stop(), {}});
-}
-
-std::vector<Scenario> paper_scenes(const std::vector<std::string>& overrides) {
-  std::vector<Scenario> scenes;
-  for (const study::ReferenceScene& scene : study::reference_scenes) {
-    const std::string name = scene.name;
-    if (name != "fig2a" && name != "fig2b") continue;
-    scenes.push_back(parse_scenario(scene.scenario, name, overrides));
-  }
-  return scenes;
 }
 
 }  // namespace bbsim::api

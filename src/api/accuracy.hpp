@@ -35,7 +35,7 @@ using study::accuracy_table;
 
 using study::Verification;
 
-// Runs checks with known answers. Needs no files and takes about a second.
+// Runs checks with known answers. Needs no files.
 [[nodiscard]] Verification verify(Watch& watch);
 
 using study::FullModelStudy;
@@ -46,7 +46,6 @@ using study::SimplerModel;
 // does.
 [[nodiscard]] FullModelStudy compare_simpler(const Scenario& scenario, Watch& watch);
 
-// Scenes of the paper's Fig. 2, which are built into the program.
-[[nodiscard]] std::vector<Scenario> paper_scenes(const std::vector<std::string>& overrides);
+using study::paper_scenes;
 
 }  // namespace bbsim::api

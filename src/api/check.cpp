@@ -135,17 +135,19 @@ void report_closed_loop(Report& report, const Scenario& scenario, const model::M
   }
 }
 
-void report_solver(Report& report, const Scenario& scenario, const model::Model& model) {
-  const Solver& solver = scenario.solver;
-  std::string line{solve::method_name(solve::choose_method(solver.method))};
-  line += solver.error
-              ? ", error of x and y at most " + short_number(*solver.error) + " m"
-              : ", rtol " + short_number(solver.rtol) + ", atol " + short_number(solver.atol);
-  line +=
-      solver.method == Method::automatic
-          ? "; auto chooses it: it was the cheapest at every error on every kind of scene measured"
-          : "; asked for";
-  report.push_back({"solver", line});
+void report_solver(Report& report, const Solver& solver) {
+  report.push_back({"solver", std::string(solve::method_name(solve::choose_method(solver.method))) +
+                                  (solver.error ? ", error of x and y at most " +
+                                                      short_number(*solver.error) + " m"
+                                                : ", rtol " + short_number(solver.rtol) +
+                                                      ", atol " + short_number(solver.atol))});
+}
+
+void report_reasons(Report& report, const Scenario& scenario, const model::Model& model) {
+  report.push_back({"", scenario.solver.method == Method::automatic
+                            ? "auto chooses it: it was the cheapest at every error on every kind "
+                              "of scene measured"
+                            : "asked for"});
   const double decays = solve::decays_over_scene(model, scenario.time.end);
   report.push_back({"", std::string(decays > 100 ? "a stiff scene" : "not a stiff scene") +
                             ": the run lasts " + short_number(decays) +
@@ -190,7 +192,7 @@ void report_controller(Report& report, const Scenario& scenario, Watch& watch) {
   report.insert(report.end(), found.begin(), found.end());
 }
 
-Report report_of(const Scenario& scenario, bool sweep) {
+Report report_of(const Scenario& scenario, bool sweep, bool reasons) {
   const auto columns = scenario::columns_named(scenario.output.columns);
   const model::Model model = assemble(scenario, columns);
   const solve::OutputGrid grid(scenario.time);
@@ -223,7 +225,8 @@ Report report_of(const Scenario& scenario, bool sweep) {
     if (model.dry) report.push_back({"", "without dry friction and limits"});
   }
 
-  report_solver(report, scenario, model);
+  report_solver(report, scenario.solver);
+  if (reasons) report_reasons(report, scenario, model);
   if (sweep) report_sweep(report, scenario);
   for (const std::string& remark : scenario.remarks) report.push_back({"remark", remark});
   return report;
@@ -232,11 +235,11 @@ Report report_of(const Scenario& scenario, bool sweep) {
 }  // namespace
 
 Report describe(const Scenario& scenario) {
-  return report_of(scenario, false);
+  return report_of(scenario, false, false);
 }
 
-Report check(const Scenario& scenario, Watch& watch) {
-  Report report = report_of(scenario, true);
+Report check(const Scenario& scenario, Watch& watch, bool reasons) {
+  Report report = report_of(scenario, true, reasons);
   report_controller(report, scenario, watch);
   return report;
 }

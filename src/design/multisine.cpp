@@ -3,9 +3,10 @@
 
 #include "design/multisine.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+
+#include "model/dense.hpp"
 
 namespace bbsim::design {
 namespace {
@@ -62,8 +63,8 @@ Multisine::Multisine(const Band& band, Noise& noise) : plays_(band.plays) {
       weights[k] = weights[n + k] = std::pow(w, power);
     }
     const MatrixXd rows = conditions(axis.frequencies, band.plays) * weights.asDiagonal();
-    const Eigen::JacobiSVD<MatrixXd> svd(rows, Eigen::ComputeFullV);
-    axis.amplitudes = weights.asDiagonal() * svd.matrixV().rightCols(2 * n - rows.rows());
+    const MatrixXd v = model::singular_values(rows, Eigen::ComputeFullV).v;
+    axis.amplitudes = weights.asDiagonal() * v.rightCols(2 * n - rows.rows());
   }
 }
 

@@ -3,8 +3,9 @@
 
 #include "fit/chain.hpp"
 
-#include <Eigen/QR>
 #include <cstddef>
+
+#include "model/dense.hpp"
 
 namespace bbsim::fit {
 
@@ -18,9 +19,7 @@ namespace {
 MatrixXd best(const MatrixXd& a, const MatrixXd& b) {
   if (a.cols() == 0) return MatrixXd::Zero(0, b.cols());
   const VectorXd sizes = a.colwise().norm().cwiseMax(1e-300);
-  Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
-  solver.setThreshold(1e-9);
-  solver.compute(a * sizes.cwiseInverse().asDiagonal());
+  const model::LeastSquares solver(a * sizes.cwiseInverse().asDiagonal(), 1e-9);
   return -(sizes.cwiseInverse().asDiagonal() * solver.solve(b));
 }
 

@@ -3,7 +3,6 @@
 
 #include "fit/fit.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,6 +20,7 @@
 #include "fit/student.hpp"
 #include "fit/suggestion.hpp"
 #include "fit/windows_fit.hpp"
+#include "model/dense.hpp"
 
 namespace bbsim::fit {
 namespace {
@@ -323,15 +323,16 @@ class Fit {
     const MatrixXd& jacobian = derivatives.projected;
     const VectorXd sizes = derivatives.free_norms.cwiseMax(1e-300);
     const MatrixXd scaled = jacobian * sizes.cwiseInverse().asDiagonal();
-    const Eigen::JacobiSVD<MatrixXd> svd(scaled.transpose() * scaled, Eigen::ComputeFullV);
+    const model::SingularValues svd =
+        model::singular_values(scaled.transpose() * scaled, Eigen::ComputeFullV);
     // Squares of J's singular values. Below 1e-4 of the largest, those are errors of differences.
-    const VectorXd values = svd.singularValues();
+    const VectorXd& values = svd.values;
     const double least = 1e-8 * std::max(values[0], 1e-300);
     const Index keys = u_.size();
     MatrixXd covariance = MatrixXd::Zero(keys, keys);
     std::vector<char> told(static_cast<std::size_t>(keys), 1);
     for (Index j = 0; j < keys; ++j) {
-      const VectorXd direction = svd.matrixV().col(j);
+      const VectorXd direction = svd.v.col(j);
       if (values[j] > least) {
         covariance += direction * direction.transpose() / values[j];
         continue;

@@ -3,7 +3,6 @@
 
 #include "fit/minimize.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,6 +11,10 @@
 #include <utility>
 
 #include "base/short_number.hpp"
+#include "model/dense.hpp"
+
+// Eigen's minimizer uses it; dense.cpp compiles it.
+extern template class Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
 
 namespace bbsim::fit {
 namespace {
@@ -126,9 +129,7 @@ bool follow(const Task& task, WindowsFit& windows, VectorXd& u) {
     jacobian.col(i) = column / sizes[i];
   }
   // Directions that the residuals hardly determine stay fixed.
-  Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
-  solver.setThreshold(1e-4);
-  solver.compute(jacobian);
+  const model::LeastSquares solver(jacobian, 1e-4);
   VectorXd residuals = windows.residuals(u);
   double last = std::numeric_limits<double>::infinity();
   constexpr int most_steps = 10;

@@ -3,13 +3,13 @@
 
 #include "fit/profile.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "fit/minimize.hpp"
+#include "model/dense.hpp"
 
 namespace bbsim::fit {
 
@@ -73,9 +73,7 @@ Profiles::Step Profiles::step_from(const Point& from, Index k, double sign, doub
     const VectorXd column = from.jacobian.col(k);
     VectorXd by_residuals, by_column, rest = residuals, effect = column;
     if (!free.empty()) {
-      Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
-      solver.setThreshold(1e-4);
-      solver.compute(others);
+      const model::LeastSquares solver(others, 1e-4);
       by_residuals = solver.solve(residuals);
       by_column = solver.solve(column);
       rest -= others * by_residuals;

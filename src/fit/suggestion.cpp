@@ -3,12 +3,12 @@
 
 #include "fit/suggestion.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
 #include "fit/scale_keys.hpp"
+#include "model/dense.hpp"
 
 namespace bbsim::fit {
 
@@ -32,12 +32,12 @@ std::optional<Suggestion> suggestion(const Task& task, const WindowsFit& at, con
   const Eigen::MatrixXd& projected = derivatives.projected;
 
   // Remove what the keys themselves could still achieve: a candidate gets no credit for it.
-  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> keys(projected.leftCols(u.size()));
+  const model::LeastSquares keys(projected.leftCols(u.size()));
   const auto without_keys = [&](const VectorXd& column) -> VectorXd {
     return column - projected.leftCols(u.size()) * keys.solve(column);
   };
   const VectorXd left = without_keys(residuals);
-  std::optional<Suggestion> best;
+  Suggestion best;
   for (Index k = u.size(); k < all.size(); ++k) {
     constexpr double least_part = 1e-3;
     const VectorXd column = without_keys(projected.col(k));
@@ -51,10 +51,10 @@ std::optional<Suggestion> suggestion(const Task& task, const WindowsFit& at, con
     const double share = 1 - std::sqrt(std::max(1 - less, 0.0));
     // Of two with the same effect, the first wins.
     constexpr double more = 0.01;
-    if (!best || share > best->share + more) best = Suggestion{key.name, share};
+    if (best.key.empty() || share > best.share + more) best = Suggestion{key.name, share};
   }
   constexpr double least_share = 0.05;
-  if (best && best->share < least_share) best.reset();
+  if (best.share < least_share) return {};
   return best;
 }
 

@@ -27,6 +27,9 @@ using Eigen::VectorXd;
 // step and the step's square are small.
 constexpr double key_step = 1e-3, start_step = 1e-3;
 
+// Directions of a start with less effect than this part stay fixed.
+constexpr double start_threshold = 1e-9;
+
 Index at(std::size_t i) {
   return static_cast<Index>(i);
 }
@@ -88,7 +91,7 @@ void WindowsFit::scale_rows(const VectorXd& factors) {
     if (state.by_start.rows() == 0) continue;
     const auto rows = factors.segment(at(first_rows_[w]), state.by_start.rows()).asDiagonal();
     state.by_start = rows * state.by_start;
-    state.start_solver.compute(state.by_start);
+    state.start_solver = model::LeastSquares(state.by_start, start_threshold);
     if (state.by_key.rows() > 0) state.by_key = rows * state.by_key;
   }
   trial_u_.resize(0);
@@ -248,8 +251,7 @@ bool WindowsFit::slopes(std::size_t w, const Scene& scene, State& state) const {
   }
   state.by_start = std::move(by_start);
   state.end_by_start = std::move(end_by_start);
-  state.start_solver.setThreshold(1e-9);
-  state.start_solver.compute(state.by_start);
+  state.start_solver = model::LeastSquares(state.by_start, start_threshold);
   return true;
 }
 
@@ -307,7 +309,7 @@ VectorXd WindowsFit::residuals(const VectorXd& u, bool first) {
     const Scene scene = scene_of(w, scenes);
     // The best start follows the keys almost linearly.
     if (change.size() > 0 && !change.isZero(0) && base_[w].by_key.rows() > 0) {
-      const VectorXd step = base_[w].start_solver.solve(base_[w].by_key * change);
+      const VectorXd step = base_[w].start_solver.solve(VectorXd(base_[w].by_key * change));
       for (std::size_t k = 0; k < coordinates_.size(); ++k) {
         trial_[w].start[coordinates_[k]] -= step[at(k)];
       }

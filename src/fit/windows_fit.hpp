@@ -6,7 +6,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "fit/chain.hpp"
 #include "fit/fit.hpp"
 #include "fit/window_run.hpp"
+#include "model/dense.hpp"
 
 namespace bbsim::fit {
 
@@ -88,7 +88,7 @@ class WindowsFit {
   // Derivatives are from the point where they were last computed.
   struct State : Link {
     Start start{}, end{};
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> start_solver;  // of by_start
+    model::LeastSquares start_solver;  // of by_start
     int fresh_rounds = 3;  // rounds that still compute slopes; the first start is a guess
   };
 

@@ -4,12 +4,17 @@
 #include "model/dense.hpp"
 
 #include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
 #include <cmath>
 #include <limits>
+
+template class Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
 
 namespace bbsim::model {
 
 using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
 MatrixXd product(const MatrixXd& a, const MatrixXd& b) {
   return a.operator*(b);  // Eigen's operator
@@ -34,6 +39,36 @@ std::optional<MatrixXd> solve_if_regular(const MatrixXd& a, const MatrixXd& b) {
   MatrixXd solution = factors.solve(b);
   if (!solution.allFinite()) return {};
   return solution;
+}
+
+Elimination::Elimination(const MatrixXd& a)
+    : factors_(std::make_shared<Eigen::PartialPivLU<MatrixXd>>(a)) {}
+
+VectorXd Elimination::solve(const VectorXd& b) const {
+  return factors_->solve(b);
+}
+
+LeastSquares::LeastSquares(const MatrixXd& a, std::optional<double> threshold) {
+  const auto made = std::make_shared<Eigen::CompleteOrthogonalDecomposition<MatrixXd>>();
+  if (threshold) made->setThreshold(*threshold);
+  made->compute(a);
+  factors_ = made;
+}
+
+VectorXd LeastSquares::solve(const VectorXd& b) const {
+  return factors_->solve(b);
+}
+
+MatrixXd LeastSquares::solve(const MatrixXd& b) const {
+  return factors_->solve(b);
+}
+
+SingularValues singular_values(const MatrixXd& a, unsigned wanted) {
+  const Eigen::JacobiSVD<MatrixXd> svd(a, wanted);
+  SingularValues made{svd.singularValues(), {}, {}};
+  if (svd.computeU()) made.u = svd.matrixU();
+  if (svd.computeV()) made.v = svd.matrixV();
+  return made;
 }
 
 MatrixXd exponential(const MatrixXd& a) {

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Algebra of small matrices whose sizes depend on the scene. Eigen instantiates code for every
-// expression, which costs compilers seconds each, so all operands here are plain matrices. In this
-// namespace a b of two matrices calls product().
+// expression, and more for every decomposition, which costs compilers seconds each. So all operands
+// here are plain matrices, and decompositions are compiled here only. In this namespace a b of two
+// matrices calls product().
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 
 namespace bbsim::model {
@@ -29,6 +31,39 @@ namespace bbsim::model {
 // The same with full pivoting; empty if `a` is singular or a number is not finite.
 [[nodiscard]] std::optional<Eigen::MatrixXd> solve_if_regular(const Eigen::MatrixXd& a,
                                                               const Eigen::MatrixXd& b);
+
+// Factors of a square matrix by elimination with row pivoting, to solve a x = b for several b.
+class Elimination {
+ public:
+  Elimination() = default;
+  explicit Elimination(const Eigen::MatrixXd& a);
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+
+ private:
+  std::shared_ptr<const Eigen::PartialPivLU<Eigen::MatrixXd>> factors_;
+};
+
+// Finds the x for which |a x - b| is least, and of many the shortest, by a complete orthogonal
+// decomposition. `threshold`: pivots below this part of the largest count as zero; by default those
+// below rounding.
+class LeastSquares {
+ public:
+  LeastSquares() = default;
+  explicit LeastSquares(const Eigen::MatrixXd& a, std::optional<double> threshold = {});
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+
+ private:
+  std::shared_ptr<const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>> factors_;
+};
+
+// a = u diag(values) v^T, with the values in descending order. `wanted`: Eigen's flags, such as
+// Eigen::ComputeFullV; a matrix that is not wanted is empty.
+struct SingularValues {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd u, v;
+};
+[[nodiscard]] SingularValues singular_values(const Eigen::MatrixXd& a, unsigned wanted);
 
 // e^a of a square matrix.
 [[nodiscard]] Eigen::MatrixXd exponential(const Eigen::MatrixXd& a);

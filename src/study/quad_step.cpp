@@ -106,7 +106,7 @@ void CollocationStep::factorise() {
     }
   }
   matrix.diagonal().array() += 1;
-  factors_.compute(matrix);
+  factors_ = model::Elimination(matrix);
 }
 
 void CollocationStep::residual_in_double() {

@@ -5,12 +5,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <cstddef>
 #include <limits>
 #include <vector>
 
 #include "base/quad.hpp"
+#include "model/dense.hpp"
 #include "study/radau_rule.hpp"
 
 namespace bbsim::study {
@@ -77,7 +77,7 @@ class CollocationStep {
   std::vector<double> w_in_double_;  // stage after stage
   std::vector<Quad> w_, slopes_;
   Eigen::VectorXd residual_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
+  model::Elimination factors_;
 };
 
 }  // namespace bbsim::study

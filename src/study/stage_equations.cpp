@@ -3,8 +3,9 @@
 
 #include "study/stage_equations.hpp"
 
-#include <Eigen/LU>
 #include <cstddef>
+
+#include "model/dense.hpp"
 
 namespace bbsim::study {
 namespace {
@@ -71,7 +72,7 @@ void solve_stages(const std::vector<Eigen::MatrixXd>& jacobians, const Eigen::Ma
       right.middleRows(a * s, s).noalias() = h * matrix * forced;
       right.middleRows(a * s, s).rowwise() += start.row(number);
     }
-    const Eigen::MatrixXd found = left.partialPivLu().solve(right);
+    const Eigen::MatrixXd found = model::solve(left, right);
     for (Eigen::Index a = 0; a < size; ++a) {
       const Eigen::Index number = block[static_cast<std::size_t>(a)];
       for (Eigen::Index j = 0; j < s; ++j) stages.row(j * n + number) = found.row(a * s + j);

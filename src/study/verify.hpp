@@ -7,17 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "scenario/scenario.hpp"
 #include "solve/outcome.hpp"
 
 namespace bbsim::study {
 
-// One comparison of a run with a known result. The bound follows from the tolerance of the run
-// (whole_run.cpp).
+// One comparison of a run with a known answer.
 struct Check {
   std::string name;
-  double error = 0;
-  double bound = 0;
-  std::string unit;
+  double error = 0, bound = 0;                                 // m
   [[nodiscard]] bool holds() const { return error <= bound; }  // false for NaN
 };
 
@@ -27,8 +25,11 @@ struct Verification {
   [[nodiscard]] bool holds() const;
 };
 
-// Checks closed forms, symmetries, energy, quad-precision references, and methods against each
-// other. Needs no files: all scenes are part of the program. Takes about a second.
+// Checks closed forms, the paper's Fig. 2, and other quad-precision references. Needs no files: all
+// scenes are part of the program.
 [[nodiscard]] Verification verify(const solve::Watch& watch = {});
+
+// The scenes of the paper's Fig. 2, with overrides.
+[[nodiscard]] std::vector<Scenario> paper_scenes(const std::vector<std::string>& overrides);
 
 }  // namespace bbsim::study

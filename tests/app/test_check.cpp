@@ -23,8 +23,12 @@ TEST_CASE("check names the inputs of an open loop") {
   CHECK(contains(result.out, "5 states: x, y, vx, vy, r*spin"));
   CHECK(contains(result.out, "no gimbal states"));
   CHECK(contains(result.out, "1001 rows"));
-  CHECK(contains(result.out, "solver"));
+  CHECK(contains(result.out, "solver       radau, rtol 1e-08, atol 1e-10\n"));
+  CHECK_FALSE(contains(result.out, "stiff"));
   CHECK_FALSE(contains(result.out, "closed loop"));
+  const Result reasons = bbsim({"check", config("fig2a.yaml"), "--verbose"});
+  CHECK(contains(reasons.out, "rtol 1e-08, atol 1e-10\n             auto chooses it"));
+  CHECK(contains(reasons.out, "not a stiff scene"));
 }
 
 TEST_CASE("check reports tumble as a planar scene once its y motion and spin are removed") {

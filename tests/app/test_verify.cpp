@@ -25,7 +25,7 @@ TEST_CASE("verify needs no files, and all its checks pass") {
   CHECK(result.err.empty());
   CHECK(contains(result.out, "checks hold"));
   CHECK(contains(result.out, "fixed incline: closed form (M1)"));
-  CHECK(contains(result.out, "tumble: radau against adams"));
+  CHECK(contains(result.out, "Fig. 2(b): quad-precision reference"));
   CHECK_FALSE(contains(result.out, "FAILS"));
   CHECK(contains(result.out, "adds in fig2a"));
   CHECK(contains(result.out, "adds in fig2b"));

@@ -3,7 +3,6 @@
 
 #include "model/control/identified_law.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -39,15 +38,15 @@ double largest_of(const PulseResponse& response) {
 std::optional<LinearSystem> law_of(const PulseResponse& response, double noise) {
   const Index blocks = (static_cast<Index>(response.size()) - 1) / 2;
   const MatrixXd now = hankel(response, 1, blocks), next = hankel(response, 2, blocks);
-  const Eigen::JacobiSVD<MatrixXd> svd(now, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd& sizes = svd.singularValues();
+  const SingularValues svd = singular_values(now, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::VectorXd& sizes = svd.values;
   // Noise alone gives singular values up to its size times the larger dimension.
   const double least =
       std::max(1e-11 * sizes[0], noise * static_cast<double>(std::max(now.rows(), now.cols())));
   Index states = 0;
   while (states < sizes.size() && sizes[states] > least) ++states;
   const Eigen::VectorXd root = sizes.head(states).cwiseSqrt();
-  MatrixXd left = svd.matrixU().leftCols(states), right = svd.matrixV().leftCols(states);
+  MatrixXd left = svd.u.leftCols(states), right = svd.v.leftCols(states);
   LinearSystem law;
   law.d = response.front();
   law.c = left.topRows(law.d.rows());

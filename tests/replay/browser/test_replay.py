@@ -766,8 +766,8 @@ class TheStage(Made):
 
     def test_a_ball_too_small_to_be_seen_has_a_marker_of_constant_size(self):
         sizes = {}
-        for scene in ["fig2a", "hard/ball-10um", "rig"]:
-            self.show(scene.replace("/", "-"), f"configs/{scene}.yaml")
+        for scene, folder in [("fig2a", "configs"), ("small-ball", "tests/data/scenarios"), ("rig", "configs")]:
+            self.show(scene, f"{folder}/{scene}.yaml")
             self.js("bbsim.picture.draw()")
             marker = "bbsim.picture.actors[0].marker"
             sizes[scene] = self.js(f"""(() => {{ if (!{marker}.visible) return 0;
@@ -776,10 +776,10 @@ class TheStage(Made):
                 return on(9) - on(-9); }})()""")
         self.assertEqual(sizes["rig"], 0)
         self.near(sizes["fig2a"], 18, 0.5)
-        self.near(sizes["hard/ball-10um"], 18, 0.5)
+        self.near(sizes["small-ball"], 18, 0.5)
 
     def test_the_view_of_the_ball_goes_with_it(self):
-        self.show("hard-ball-10um", "configs/hard/ball-10um.yaml")
+        self.show("small-ball", "tests/data/scenarios/small-ball.yaml")
         self.browser.keys("6")
         for t in [0, 3.3, 10]:
             self.js("[bbsim.seek(arguments[0]), bbsim.picture.draw()]", t)
