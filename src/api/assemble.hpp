@@ -21,7 +21,7 @@ auto with_places(const Scenario& scenario, const Make& make) {
   try {
     return make();
   } catch (const KeyError& error) {
-    throw InputError({Problem{scenario::place_of(scenario.source, error.key()), error.what()}});
+    throw InputError({Problem{place_of(scenario.source, error.key()), error.what()}});
   }
 }
 
