@@ -308,7 +308,7 @@ TEST_CASE("a number that the controller lacks is found before the run or in its 
                  "of bbsim columns, and the controller's u"));
   const Scene silent("good", "timeout: 1", "t, v");
   const Result missing = silent.run();
-  CHECK(missing.exit_code == 1);
+  CHECK(missing.exit_code == 2);
   CHECK(contains(missing.err, "found no \"v\", which output.columns asks for"));
 }
 
@@ -322,7 +322,7 @@ TEST_CASE("a sweep starts one controller per thread if it can reset, else one pe
   const Scene scene(mode, "timeout: 5, parameters: {kp: 1}");
   const Result result =
       bbsim({"sweep", scene.file, "--vary", "controller.program.parameters.kp=linear:1:6:6", "-j",
-             "1", "--measure", "max_u,end_phi_command", "-o", "-", "-q"});
+             "1", "--measure", "max_u,end_phi_command", "-o", "-"});
   CAPTURE(result.err);
   REQUIRE(result.exit_code == 0);
   CHECK(result.out ==

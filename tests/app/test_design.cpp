@@ -111,6 +111,7 @@ screen:
   y: {counts: [12, 1012], position: ["-16 cm", "16 cm"]}
   untouched: 0
 setup: during
+print: all
 )");
   folder.write("board.yaml", R"(
 ball: {radius: 2 cm}

@@ -267,6 +267,7 @@ screen:
   y: {counts: [12, 1012], position: ["-16 cm", "16 cm"]}
   untouched: 0
 setup: during
+print: all
 """)
         (self.designed / "board.yaml").write_text("""
 ball: {radius: 2 cm, position: [-4 cm, -5 cm]}

@@ -117,6 +117,10 @@ void crashed(int signal, const void* address) {
         patience);
   }
   if (signal == SIGFPE) return say_why("it divided an integer by zero");
+  if (signal == SIGILL) {  // compilers end the function there
+    return say_why(
+        "it divided an integer by zero, or did something else that C++ leaves undefined");
+  }
   if (signal == SIGABRT) return say_why("it called abort(), or damaged its memory");
   if (is_beyond_stack(address)) {
     return say_why(
