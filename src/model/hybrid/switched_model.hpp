@@ -82,7 +82,8 @@ class SwitchedModel {
   void archive(Archive& archive) {
     if (mode_ == nullptr) return;
     archive(*mode_);
-    archive.require(is_finite(*mode_));
+    // `wanted` is NaN if no tilt fits three commanded servos.
+    archive.require(is_finite(mode_->axis, mode_->command));
   }
 
  private:
