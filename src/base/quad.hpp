@@ -100,6 +100,10 @@ class Quad {
   return static_cast<double>(a);
 }
 
+[[nodiscard]] constexpr double value_of(Quad a) {
+  return plain(a);
+}
+
 // Each Newton iteration doubles the number of correct digits, starting from a double's root.
 [[nodiscard]] inline Quad root_along(Quad square, Quad along) {
   Quad root(std::sqrt(plain(square)));

@@ -39,6 +39,15 @@ template <class Real>
   return which ? yes : no;
 }
 
+// The number without its derivatives, in double precision or in lanes of it.
+[[nodiscard]] inline double value_of(double a) {
+  return a;
+}
+// The largest lane.
+[[nodiscard]] inline double largest_of(double a) {
+  return a;
+}
+
 // The larger number, or NaN if either is NaN. std::max() may ignore a NaN.
 [[nodiscard]] inline double larger(double a, double b) {
   return a > b || std::isnan(a) ? a : b;

@@ -49,6 +49,7 @@ struct Dual {
     const P root = root_along(square.value, along.value);
     return {root, square.slope / (2.0 * root)};
   }
+  BBSIM_INLINE friend P value_of(const Dual& a) { return a.value; }
   BBSIM_INLINE friend Dual operator/(const Dual& a, const Dual& b) {
     const P quotient = a.value / b.value;
     return {quotient, (a.slope - quotient * b.slope) / b.value};

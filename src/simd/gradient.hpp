@@ -87,6 +87,11 @@ struct WithGradient {
   }
 };
 
+template <int n>
+[[nodiscard]] double value_of(const WithGradient<n>& a) {
+  return a.value;
+}
+
 // The plain time, which selects the interval of a table.
 template <int n>
 [[nodiscard]] double plain(const WithGradient<n>& t) {

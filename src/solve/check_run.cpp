@@ -17,7 +17,8 @@ class DividedStepper : public radau::RadauStepper {
  public:
   DividedStepper(const model::Model& model, CheckRun how, Tolerances tolerances, double end)
       : RadauStepper(model, radau::choose_kernels(), how.stages, tolerances, end),
-        parts_(how.parts) {}
+        parts_(how.parts),
+        most_steps_(how.most_steps) {}
 
   void start(double t, const double* z) override {
     limit_ = std::numeric_limits<double>::quiet_NaN();  // the next step() begins a new interval
@@ -25,6 +26,9 @@ class DividedStepper : public radau::RadauStepper {
   }
 
   std::optional<Failure> step(double limit) override {
+    if (statistics().steps >= most_steps_) {
+      return Failure{Why::too_slow, "the check takes too many steps"};
+    }
     if (limit != limit_) {
       limit_ = limit;
       from_ = time();
@@ -38,6 +42,7 @@ class DividedStepper : public radau::RadauStepper {
   [[nodiscard]] double part_end() const { return from_ + (limit_ - from_) * part_ / parts_; }
 
   int parts_, part_ = 1;
+  std::size_t most_steps_;
   double limit_ = 0, from_ = 0;  // s
 };
 

@@ -5,6 +5,9 @@
 // error (docs/explanation/error-control.md).
 #pragma once
 
+#include <cstddef>
+#include <limits>
+
 #include "model/model.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
@@ -17,6 +20,8 @@ struct CheckRun {
   // samples) is cut into. A stop ends a step of every method at every tolerance. Without the cuts,
   // a run and its check run would share these steps.
   int parts;
+  // A run with more steps is given up.
+  std::size_t most_steps = std::numeric_limits<std::size_t>::max();
 };
 
 // Integrates with radau and ends a step at the end of each part. Returns a failed Outcome if the

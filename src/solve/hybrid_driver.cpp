@@ -219,7 +219,8 @@ class HybridIntegration {
     // pace.
     if (at_ < limit_ && pace_.creeps(at_, [&] { return guards_.predicted_stop(at_); })) {
       fail(at_, Why::too_slow, pace_.reason());
-      if (at_ >= stepper_->time()) guards_.state_at(at_, outcome_.last_state);
+      // After a switch, the stepper has no step to evaluate, and its state is at_'s.
+      if (!switches_ && at_ >= stepper_->time()) guards_.state_at(at_, outcome_.last_state);
       return false;
     }
     if (watch_.slow && pace_.completed_window() && pace_.is_news()) {

@@ -17,6 +17,9 @@ namespace {
 
 // The tolerance of checks. If the run's tolerance times check_factor is finer, they use that.
 constexpr double usual_rtol = 1e-13, check_factor = 1e-2;
+// A check with so many times the steps of the run sees only rounding, as near a dead point. A
+// coarser one is better, and cheaper by far. Short runs may have this many more.
+constexpr std::size_t most_growth = 100, short_run = 100;
 // An estimate is a distance between runs, which may be close by luck.
 constexpr double safety = 1.5;
 // If the distance between checks exceeds this fraction of the estimate, they are too noisy, and the
@@ -82,6 +85,10 @@ std::array<solve::CheckRun, 4> Checks::kinds(const Track& run, double rtol) cons
   const bool alike = run.outcome.method == Method::radau &&
                      stages_of(model_, choose_stages(model_, rtol)) == kinds[0].stages;
   if (alike) std::swap(kinds[0], kinds[1]);
+  for (solve::CheckRun& kind : kinds) {
+    kind.most_steps = most_growth * static_cast<std::size_t>(kind.parts) *
+                      (run.outcome.statistics.steps + short_run);
+  }
   return kinds;
 }
 

@@ -464,7 +464,7 @@ TEST_CASE("three servos: a leg's ends stay a rod's length apart, in the leg's pl
   const double servo[3] = {0.3, -0.25, 0.1};
   double sine[3], cosine[3];
   three.directions(servo, sine, cosine);
-  const auto at = three.pose(sine, cosine);
+  const auto at = three.pose(servo, sine, cosine);
   // The joints in space, by the shortest rotation of the vertical to the normal.
   const double n[3] = {at.p, at.q, std::sqrt(1 - at.p * at.p - at.q * at.q)};
   const double w = 1 / (1 + n[2]);

@@ -65,32 +65,64 @@ struct RangeMiddle {
 
 // Two bars on separate axes, joined by a rod between their ends. Lengths in m; the servo's axis is
 // at (0, 0). arm_side and horn_side select one of the two solutions.
+//
+// For a bar much shorter than the rod, the direction depends on the small difference of two large
+// squares. Each is therefore counted from its value at angle zero, without cancellation.
 struct Rods {
   double horn = 0, arm = 0, rod = 0;
   double x = 0, z = 0;  // of the arm's axis
   double arm_side = 1, horn_side = 1;
   RangeMiddle horn_middle{}, arm_middle{};
+  // The square of |v|, (M55), over that of the rod with the horn at zero; and of |v| of the inverse
+  // with the arm at zero, m^2.
+  double arm_excess = 0, horn_excess = 0;
+
+  void set_rod(double length) {
+    rod = length;
+    const auto excess = [&](double vx) {
+      const double v = std::hypot(vx, z);
+      return (v - rod) * (v + rod);
+    };
+    arm_excess = excess(horn - x);
+    horn_excess = excess(x + arm);
+  }
+
+  // The direction of a bar from the origin whose end is at the rod's length from (vx, vz), and the
+  // root in (M55). `excess`: the square of (vx, vz) over that of the rod, m^2.
+  template <class Real>
+  struct Bar {
+    Real sin, cos, root;
+  };
+  template <class Real>
+  [[nodiscard]] static Bar<Real> bar_to(const Real& vx, const Real& vz, const Real& excess,
+                                        double bar, double side) {
+    const Real v2 = vx * vx + vz * vz;
+    const Real k = (0.5 / bar) * (excess + Real(bar * bar));
+    const Real root = root_along(v2 - k * k, Real(side));
+    return {(k * vz + root * vx) / v2, (k * vx - root * vz) / v2, root};
+  }
 
   // Equations (M54) to (M56).
   template <class Real>
   [[nodiscard]] Turn<Real> arm_at(const Real& servo) const {
-    const SinCos<Real> h = sin_cos(servo);
-    const Real vx = horn * h.cos - Real(x), vz = horn * h.sin - Real(z);
-    const Real v2 = vx * vx + vz * vz;
-    const Real k = (0.5 / arm) * (v2 + Real(arm * arm - rod * rod));
-    const Real root = root_along(v2 - k * k, Real(arm_side));
+    const SinCos<Real> half = sin_cos(0.5 * servo);
+    const Real h_sin = 2.0 * (half.sin * half.cos);
+    const Real h_cos = Real(1.0) - 2.0 * (half.sin * half.sin);
+    const Real vx = horn * h_cos - Real(x), vz = horn * h_sin - Real(z);
+    const Real excess = Real(arm_excess) + (4 * horn) * (half.sin * (x * half.sin - z * half.cos));
+    const Bar<Real> at = bar_to(vx, vz, excess, arm, arm_side);
     Turn<Real> turn;
-    turn.cos = (k * vx - root * vz) / v2;
-    turn.sin = (k * vz + root * vx) / v2;
-    // The rod's vector, and its components across both bars.
+    turn.sin = at.sin;
+    turn.cos = at.cos;
+    // The rod's vector, and its component across the arm.
     const Real px = arm * turn.cos - vx, pz = arm * turn.sin - vz;
-    const Real by_arm = arm * (pz * turn.cos - px * turn.sin);
-    turn.slope = (horn * (pz * h.cos - px * h.sin)) / by_arm;
-    const Real qx = horn * h.sin - arm * (turn.sin * turn.slope);
-    const Real qz = arm * (turn.cos * turn.slope) - horn * h.cos;
+    const Real by_arm = arm * at.root;
+    turn.slope = (horn * (pz * h_cos - px * h_sin)) / by_arm;
+    const Real qx = horn * h_sin - arm * (turn.sin * turn.slope);
+    const Real qz = arm * (turn.cos * turn.slope) - horn * h_cos;
     const Real square = turn.slope * turn.slope;
-    const Real ax = horn * h.cos - arm * (turn.cos * square);
-    const Real az = horn * h.sin - arm * (turn.sin * square);
+    const Real ax = horn * h_cos - arm * (turn.cos * square);
+    const Real az = horn * h_sin - arm * (turn.sin * square);
     turn.bend = -((qx * qx + qz * qz + px * ax + pz * az) / by_arm);
     return turn;
   }
@@ -98,12 +130,12 @@ struct Rods {
   // The servo's angle that gives the arm this angle: (M55) with the bars exchanged.
   template <class Real>
   [[nodiscard]] Real horn_at(const Real& angle) const {
-    const SinCos<Real> a = sin_cos(angle);
-    const Real vx = Real(x) + arm * a.cos, vz = Real(z) + arm * a.sin;
-    const Real v2 = vx * vx + vz * vz;
-    const Real k = (0.5 / horn) * (v2 + Real(horn * horn - rod * rod));
-    const Real root = root_along(v2 - k * k, Real(horn_side));
-    return horn_middle.angle_of((k * vz + root * vx) / v2, (k * vx - root * vz) / v2);
+    const SinCos<Real> half = sin_cos(0.5 * angle);
+    const Real vx = Real(x + arm) - (2 * arm) * (half.sin * half.sin);
+    const Real vz = Real(z) + (2 * arm) * (half.sin * half.cos);
+    const Real excess = Real(horn_excess) + (4 * arm) * (half.sin * (z * half.cos - x * half.sin));
+    const Bar<Real> at = bar_to(vx, vz, excess, horn, horn_side);
+    return horn_middle.angle_of(at.sin, at.cos);
   }
 };
 

@@ -134,7 +134,7 @@ Linkage make_linkage(const RodLinkage& of, Assumed assumed) {
   rods.arm = of.arm;
   rods.x = of.offset[0];
   rods.z = of.offset[1];
-  rods.rod = of.rod.value_or(std::hypot(rods.x + rods.arm - rods.horn, rods.z));
+  rods.set_rod(of.rod.value_or(std::hypot(rods.x + rods.arm - rods.horn, rods.z)));
   const double vx = rods.horn - rods.x, vz = -rods.z, v = std::hypot(vx, vz);
   const double least = std::abs(v - rods.arm), most = v + rods.arm;
   if (!(rods.rod > 0)) {
@@ -393,6 +393,7 @@ std::array<double, 3> Between::told(Pair wanted) const {
 
 Pair Between::tilt(const std::array<double, 3>& servo) const {
   const double at[3] = {servo[0], servo[1], servo[2]};
+  if (!(three->margin(at) > 0)) return {no_number, no_number};
   double plane[2];
   three->angles(at, plane);
   return {plane[0] - three->offset[0], plane[1] - three->offset[1]};
@@ -578,6 +579,7 @@ ThreeServos make_three_servos(const ThreeServoPlate& of, Assumed assumed, const 
     leg.slope[0] = leg.turns * (-m[i].of[0] / m[i].of_horn);
     leg.slope[1] = leg.turns * (m[i].of[1] / m[i].of_horn);
     if (const double offset = of.leg(static_cast<std::size_t>(i)).offset; offset != 0) {
+      leg.level = -leg.turns * offset;
       leg.sin_zero = std::sin(leg.home + offset);
       leg.cos_zero = std::cos(leg.home + offset);
     }

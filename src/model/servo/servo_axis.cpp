@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace bbsim::model {
 
@@ -75,13 +74,11 @@ void ServoAxis::settle_backlash(const AxisState& state, AxisMode& mode) {
   if (started_ && play_ == Play::down) plane_ = state.angle + half + servo_.offset;
   started_ = true;
   const double lead = state.angle + servo_.offset - plane_;
-  // The lead is a small difference of angles, so its rounding is theirs.
-  const double rounding = 4 * std::numeric_limits<double>::epsilon() *
-                          (std::abs(state.angle) + std::abs(servo_.offset) + std::abs(plane_));
-  const double touching = half * at_limit - rounding;
+  const double rounding = guard_rounding * gap_scale(state.angle);
+  const double touching = half - std::max((1 - at_limit) * half, rounding);
   // A servo at rest moves in the direction of its drive. Engaging it against that would last no
   // time.
-  const double at_rest = guard_rounding * servo_.backlash;
+  const double at_rest = rounding;
   const auto moves = [&](int sign) {
     return sign * state.rate > at_rest ||
            (sign * state.rate >= -at_rest && sign * drive(state) > 0);
@@ -235,7 +232,7 @@ void ServoAxis::scales(double* values) const {
   values[acceleration_up] = values[acceleration_down] = acceleration;
   values[rate_up] = values[rate_down] = finite(servo_.rate_limit);
   values[stop_up] = values[stop_down] = finite(servo_.angle_limit);
-  values[gap_up] = values[gap_down] = servo_.backlash > 0 ? servo_.backlash : 1.0;
+  values[gap_up] = values[gap_down] = gap_scale(0);
 }
 
 }  // namespace bbsim::model

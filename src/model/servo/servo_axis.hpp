@@ -5,6 +5,7 @@
 // AxisMode describes its motion; a switch occurs when a guard crosses zero.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/servo/held_motion.hpp"
@@ -122,6 +123,12 @@ class ServoAxis {
   [[nodiscard]] AxisMargin push() const;
   // Drive of a servo against a stop: an acceleration; for first order, command minus angle.
   [[nodiscard]] AxisMargin push_at_stop() const;
+
+  // The scale of the guards of the gap, rad. They are small differences of angles, so the rounding
+  // of the angles counts, too: it may exceed that of a small backlash.
+  [[nodiscard]] double gap_scale(double angle) const {
+    return std::max(servo_.backlash, 0.01 * std::max(1.0, std::abs(angle)));
+  }
 
   // Guards below this fraction of their scale count as zero.
   static constexpr double guard_rounding = 1e-12;

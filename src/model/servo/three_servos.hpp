@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
 #include "base/real.hpp"
 #include "model/ball/rolling.hpp"
@@ -78,6 +79,7 @@ struct ThreeServos {
     double height = 0;                  // of the joint above the servo's axis, at home, m
     double cos_zero = 1, sin_zero = 0;  // of the horn's elevation at the servo's zero
     double home = 0;                    // the horn's elevation at home, rad
+    double level = 0;                   // the servo's angle at home, rad
     double turns = 1;                   // -1: the horn falls as the servo's angle grows
     double side = 1;                    // of the leg on which the knee lies
     // For unequal legs: the azimuth's cosine and sine, and the joint's height in the plate, m.
@@ -87,6 +89,9 @@ struct ThreeServos {
     double shift[3] = {}, twist = 0;
     double slope[2] = {};  // derivatives of the servo's angle by phi and theta, at home
   };
+  // The plate moves up to this determinant, relative to home's. In terms of a servo's angle, that
+  // is about the square of it before the edge, rad.
+  static constexpr double before_edge = 1e-4;
   Leg leg[3];
   bool equal = true;  // three alike at 0, 120 and 240 degrees
   Assumed assumed = Assumed::none;
@@ -259,44 +264,67 @@ struct ThreeServos {
     }
   }
 
-  // Newton's iteration from home for the three leg equations, (M54) with (M59). The last steps
-  // change nothing except near the edge of the workspace.
+  // One step of Newton's iteration for the three leg equations, (M54) with (M59). Returns the
+  // step's squared length, with z relative to the plate's radius, and sets the determinant.
   template <class Real>
-  [[nodiscard]] Pose<Real> pose(const Real (&sine)[3], const Real (&cosine)[3]) const {
-    Pose<Real> at{Real(0.0), Real(0.0), Real(leg[0].height)};
-    for (int k = 0; k < 9; ++k) {
-      Slopes<Real> m[3];
-      Joint<Real> joint[3];
-      Real right[3], step[3];
-      slopes(at, sine, cosine, m);
-      joints(
-          at, [](double value) { return Real(value); }, joint);
-      for (int i = 0; i < 3; ++i) {
-        const Joint<Real> rod = rod_of(i, joint[i], sine[i], cosine[i]);
-        right[i] = 0.5 * (rod.x * rod.x + rod.z * rod.z - Real(leg[i].rod * leg[i].rod));
-      }
-      solve(m, right, step);
-      at.p = at.p - step[0];
-      at.q = at.q - step[1];
-      at.z = at.z - step[2];
+  Real newton_step(const Real (&sine)[3], const Real (&cosine)[3], const Pose<Real>& at,
+                   Pose<Real>& next, Real& whole) const {
+    Slopes<Real> m[3];
+    Joint<Real> joint[3];
+    Real right[3], step[3];
+    slopes(at, sine, cosine, m);
+    joints(
+        at, [](double value) { return Real(value); }, joint);
+    for (int i = 0; i < 3; ++i) {
+      const Joint<Real> rod = rod_of(i, joint[i], sine[i], cosine[i]);
+      right[i] = 0.5 * (rod.x * rod.x + rod.z * rod.z - Real(leg[i].rod * leg[i].rod));
     }
-    return at;
+    whole = solve(m, right, step);
+    next = {at.p - step[0], at.q - step[1], at.z - step[2]};
+    const Real rise = (1 / leg[0].plate) * step[2];
+    return step[0] * step[0] + step[1] * step[1] + rise * rise;
   }
 
-  // Whether the rods reach from the horns to the joints. Beyond the workspace no pose does, and
-  // Newton's iteration ends anywhere.
-  [[nodiscard]] bool fits(const Pose<double>& at, const double (&sine)[3],
-                          const double (&cosine)[3]) const {
-    constexpr double converged = 1e-9;  // of the rod's squared length
-    Joint<double> joint[3];
-    joints(
-        at, [](double value) { return value; }, joint);
-    for (int i = 0; i < 3; ++i) {
-      const Joint<double> rod = rod_of(i, joint[i], sine[i], cosine[i]);
-      const double square = leg[i].rod * leg[i].rod;
-      if (!(std::fabs(rod.x * rod.x + rod.z * rod.z - square) <= converged * square)) return false;
+  // The pose at these servo angles. From home, Newton's iteration follows the plate while the
+  // servos go to their angles in equal parts: directly from home it may end in another solution. It
+  // then goes on until its steps are small, which takes many only near the edge of the workspace.
+  // All this needs no derivatives. The last two steps square the error twice, and provide them.
+  template <class Real>
+  [[nodiscard]] Pose<Real> pose(const Real (&servo)[3], const Real (&sine)[3],
+                                const Real (&cosine)[3]) const {
+    using Value = std::decay_t<decltype(value_of(servo[0]))>;
+    constexpr int parts = 4, most_steps = 40;
+    constexpr double small = 1e-18;  // the square of a step
+    Pose<Value> at{Value(0.0), Value(0.0), Value(leg[0].height)}, next;
+    Value between[3], s[3], c[3], whole;
+    for (int k = 1; k < parts; ++k) {
+      for (int i = 0; i < 3; ++i) {
+        const double from = leg[i].level, part = static_cast<double>(k) / parts;
+        between[i] = part * value_of(servo[i]) + Value((1 - part) * from);
+      }
+      directions(between, s, c);
+      newton_step(s, c, at, next, whole);
+      at = next;
     }
-    return true;
+    for (int i = 0; i < 3; ++i) {
+      s[i] = value_of(sine[i]);
+      c[i] = value_of(cosine[i]);
+    }
+    for (int k = 0; k < most_steps; ++k) {
+      const Value square = newton_step(s, c, at, next, whole);
+      // A lane that has arrived waits for the others, so that its result does not depend on them.
+      const auto goes_on = exceeds(square, Value(small));
+      at = {choose(goes_on, next.p, at.p), choose(goes_on, next.q, at.q),
+            choose(goes_on, next.z, at.z)};
+      if (!(largest_of(square) > small)) break;
+    }
+    Pose<Real> pose{Real(at.p), Real(at.q), Real(at.z)}, better;
+    Real determinant_there;
+    for (int k = 0; k < 2; ++k) {
+      newton_step(sine, cosine, pose, better, determinant_there);
+      pose = better;
+    }
+    return pose;
   }
 
   // The plane's axes for these servo angles (from home), rates and accelerations.
@@ -305,7 +333,7 @@ struct ThreeServos {
               GimbalAngle<Real> (&axis)[2]) const {
     Real sine[3], cosine[3];
     directions(servo, sine, cosine);
-    const Pose<Real> at = pose(sine, cosine);
+    const Pose<Real> at = pose(servo, sine, cosine);
     Slopes<Real> m[3];
     Real right[3], first[3], second[3];
     slopes(at, sine, cosine, m);
@@ -340,12 +368,11 @@ struct ThreeServos {
     put(1, {-q.v, -q.d, -q.dd}, cos_theta.v, axis[1]);
   }
 
-  // The plane's angles for these servo angles (from home); NaN if no pose fits them.
   void angles(const double (&servo)[3], double (&plane)[2]) const {
     double sine[3], cosine[3];
     directions(servo, sine, cosine);
-    const Pose<double> at = pose(sine, cosine);
-    const double theta = fits(at, sine, cosine) ? std::asin(-at.q) : std::nan("");
+    const Pose<double> at = pose(servo, sine, cosine);
+    const double theta = std::asin(-at.q);
     plane[0] = std::asin(at.p / std::cos(theta)) + offset[0];
     plane[1] = theta + offset[1];
   }
@@ -404,19 +431,24 @@ struct ThreeServos {
   }
 
   // The distance from the edge of the workspace: the least sine of the angles between horns and
-  // rods, and the determinant over its value at home.
+  // rods, and the determinant over its value at home, less `before_edge`; -1 beyond the edge, where
+  // no pose fits the servos' angles. Where the determinant is zero, the plate's rate is infinite.
   [[nodiscard]] double margin(const double (&servo)[3]) const {
-    double sine[3], cosine[3];
+    double sine[3], cosine[3], whole = 0;
     directions(servo, sine, cosine);
-    const Pose<double> at = pose(sine, cosine);
-    Slopes<double> m[3];
-    double none[3] = {0, 0, 0}, unused[3], least = HUGE_VAL;
-    slopes(at, sine, cosine, m);
+    const Pose<double> at = pose(servo, sine, cosine);
+    Pose<double> next;
+    if (!(newton_step(sine, cosine, at, next, whole) < 1e-12)) return -1;
+    double least = whole / determinant - before_edge;
     for (int i = 0; i < 3; ++i) {
       const Leg& of = leg[i];
-      least = std::fmin(least, of.side * m[i].of_horn / (of.horn * of.rod));
+      Joint<double> joint[3];
+      joints(
+          at, [](double value) { return value; }, joint);
+      const Joint<double> rod = rod_of(i, joint[i], sine[i], cosine[i]);
+      least = std::fmin(least, of.side * (rod.x * sine[i] - rod.z * cosine[i]) / of.rod);
     }
-    return std::fmin(least, solve(m, none, unused) / determinant);
+    return least;
   }
 
  private:

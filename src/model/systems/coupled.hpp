@@ -369,9 +369,10 @@ class CoupledLoop {
       const AxisMode& of = loop.mode.axis[i];
       dz[Layout::integral + i] = (of.integrate * integrates_) *
                                  integral_rate(loop.law(), static_cast<std::size_t>(i), z, in);
-      // Without an integral the command plays no part; three legs may have one without a pose.
+      // The tilt of three commanded servos may be NaN, so no product with it where no motor
+      // listens.
       dz[Layout::motor + i] = motor.from_integral != 0
-                                  ? Real(motors[i].integrate * (command[i] - z[Layout::angle + i]))
+                                  ? motors[i].integrate * (command[i] - z[Layout::angle + i])
                                   : Real(0.0);
     }
   }
