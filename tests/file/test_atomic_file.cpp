@@ -295,7 +295,7 @@ int ended_by(const std::function<void()>& action, int signal) {
 
 }  // namespace
 
-TEST_CASE("a process that is killed leaves the old file; after other signals no temporary") {
+TEST_CASE("a killed process leaves the old file, and after other signals no temporary") {
   const Folder folder;
   const std::string old = folder.put("old.csv", "old");
   const auto begin = [&] {
