@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "api/version.hpp"
+#include "base/json.hpp"
 #include "base/quoted.hpp"
 #include "base/short_number.hpp"
 #include "record/aligned.hpp"
@@ -141,7 +142,7 @@ std::string json_of(const Task& task, const Designed& designed) {
     json["sines"][names[task.plays == Plays::tilts ? 0 : 1][axis]] = sines;
   }
   json["identifiable"] = std::ranges::all_of(designed.parameters, is_told);
-  return json.dump(2) + "\n";
+  return json_text(json, 2) + '\n';
 }
 
 std::string comments_of(const DesignRequest& request, const Task& task, const Designed& designed) {

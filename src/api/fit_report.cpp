@@ -12,6 +12,7 @@
 
 #include "api/fit_text.hpp"
 #include "api/version.hpp"
+#include "base/json.hpp"
 #include "replay/base64.hpp"
 #include "replay/template.hpp"
 #include "scenario/columns.hpp"
@@ -165,8 +166,7 @@ std::string fit_page(const FitRequest& request, const fit::Fitted& fitted,
     if (!windows.empty()) logs.push_back(log_json(request.logs[log], fitted, windows, step));
   }
   json["runs"] = std::move(logs);
-  return replay::filled(page_template, title,
-                        json.dump(-1, ' ', false, PageJson::error_handler_t::replace));
+  return replay::filled(page_template, title, json_text(json));
 }
 
 }  // namespace bbsim::api

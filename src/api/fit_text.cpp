@@ -12,6 +12,7 @@
 
 #include "api/version.hpp"
 #include "base/fnv1a.hpp"
+#include "base/json.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
 #include "base/short_number.hpp"
@@ -204,7 +205,7 @@ std::string json_of(const fit::Fitted& fitted) {
   }
   if (fitted.joints) json["joints"] = *fitted.joints;
   if (fitted.interrupted) json["interrupted"] = true;
-  return json.dump(2) + "\n";
+  return json_text(json, 2) + '\n';
 }
 
 std::string text_with(const Source& source, std::vector<ScenarioFamily::Setting> settings) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "api/version.hpp"
+#include "base/json.hpp"
 #include "file/case_text.hpp"
 #include "simd/instruction_set.hpp"
 #include "solve/output_grid.hpp"
@@ -20,10 +21,8 @@ using Json = nlohmann::ordered_json;
 // Length of the longest word in bytes. HDF5 writes strings of one length many times faster.
 constexpr std::size_t longest_status = 16;
 
-// File names need not be UTF-8, but JSON must be: invalid bytes are replaced.
 std::string text_of(const Json& json) {
-  constexpr int indent = 1;
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json_text(json, 1) + '\n';
 }
 
 const char* instruction_set() {

@@ -9,6 +9,7 @@
 
 #include "api/fit_text.hpp"
 #include "api/version.hpp"
+#include "base/json.hpp"
 #include "base/number_text.hpp"
 #include "base/short_number.hpp"
 #include "record/aligned.hpp"
@@ -78,7 +79,7 @@ std::string json_of(const Tuned& tuned) {
   json["hold_out"] = {
       {"cases", tuned.held_out},
       {"share_that_holds", tuned.held_out > 0 ? Json(tuned.share_that_holds) : Json(nullptr)}};
-  return json.dump(2) + "\n";
+  return json_text(json, 2) + '\n';
 }
 
 std::string tuned_scenario(const TuneRequest& request, const Tuned& tuned) {

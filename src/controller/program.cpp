@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "base/json.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
 

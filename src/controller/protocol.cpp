@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
 #include "base/json.hpp"
@@ -178,7 +179,7 @@ std::string hello_line(const Setup& setup) {
   hello["fields"]["sample"] = "1";
   for (const Field& field : fields) hello["fields"][std::string(field.name)] = field.unit;
   hello["command"] = command_unit(setup.drives);
-  return hello.dump() + '\n';
+  return json_text(hello) + '\n';
 }
 
 Ready read_ready(std::string_view line) {

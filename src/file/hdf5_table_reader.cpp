@@ -10,6 +10,7 @@
 #include <charconv>
 #include <cstdint>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <utility>

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/json.hpp"
 #include "base/number_text.hpp"
 #include "base/printable.hpp"
 
@@ -166,7 +167,7 @@ std::string to_json(const LinearReport& report) {
     json["bandwidth"] = bandwidths;
     json["feedback_bandwidth"] = of_feedback;
   }
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json_text(json, 1) + '\n';
 }
 
 std::string to_matlab(const LinearReport& report) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "base/json.hpp"
 #include "base/number_text.hpp"
 #include "file/atomic_file.hpp"
 
@@ -143,7 +144,7 @@ std::string to_json(const RunSummary& summary) {
                      [&](const char* name, const auto& value) { statistics[name] = value; });
   json["scenario_text"] = summary.scenario_text;
   constexpr int indent = 2;
-  return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return json_text(json, indent) + "\n";
 }
 
 void write_summary(const std::string& file, const RunSummary& summary) {

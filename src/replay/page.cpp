@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "base/json.hpp"
 #include "file/atomic_file.hpp"
@@ -310,7 +311,7 @@ std::string page(const Scene& scene, std::string_view whole_template) {
   if (scene.runs.empty()) needed = without("runs", needed);
   if (scene.sweeps.empty()) needed = without("sweeps", needed);
   const Json json = scene_json(scene);
-  return filled(needed, scene.title, json.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return filled(needed, scene.title, json_text(json));
 }
 
 std::string page_template(const std::vector<std::string>& folders) {

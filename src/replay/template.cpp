@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "base/error.hpp"
@@ -50,10 +51,7 @@ std::string script_text(const std::string& text) {
 
 // Text for HTML. Replaces bytes that are not UTF-8 as the JSON does.
 std::string html_text(const std::string& raw) {
-  const std::string text =
-      nlohmann::json::parse(
-          nlohmann::json(raw).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace))
-          .get<std::string>();
+  const std::string text = parse_json(json_text(raw)).get<std::string>();
   std::string result;
   for (const char c : text) {
     switch (c) {

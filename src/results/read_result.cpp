@@ -9,6 +9,7 @@
 #include <chrono>
 #include <filesystem>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -134,7 +135,7 @@ void take_summary(Result& result, const Json& json) {
   }
   Json shown = json;
   shown.erase("scenario_text");  // used above
-  result.summary = shown.dump(-1, ' ', false, Json::error_handler_t::replace);
+  result.summary = json_text(shown);
 }
 
 void read_summary(Result& result, const std::string& file) {

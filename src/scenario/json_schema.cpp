@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/json.hpp"
 #include "scenario/keys.hpp"
 #include "scenario/relations.hpp"
 #include "yaml/spelling.hpp"
@@ -121,7 +122,7 @@ void add_choice(const Choice& choice, const Declared& mapping, Json& all) {
 // The default as JSON. Empty if there is none, or for a list described in words.
 std::optional<Json> standard_of(const DeclaredKey& key) {
   if (key.standard.empty()) return {};
-  Json value = Json::parse(key.standard, nullptr, false);
+  Json value = parse_json(key.standard);
   if (!value.is_discarded()) return value;
   if (key.value.kind == Declared::Kind::list) return {};
   return key.standard;
@@ -304,7 +305,7 @@ std::string scenario_json_schema() {
   }
   schema["allOf"].push_back(limit_of_numbers());
   schema["allOf"].push_back(known_columns());
-  return schema.dump(1);
+  return json_text(schema, 1);
 }
 
 }  // namespace bbsim

@@ -3,6 +3,8 @@
 
 #include "sweep/plan_text.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "base/json.hpp"
 #include "base/quoted.hpp"
 
@@ -10,11 +12,6 @@ namespace bbsim::sweep {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// Returns a discarded value if the text is not JSON.
-Json parsed(const std::string& plan) {
-  return parse_json(plan);
-}
 
 std::string instruction_set_of(const Json& plan) {
   const auto found = plan.find("instruction_set");
@@ -24,7 +21,7 @@ std::string instruction_set_of(const Json& plan) {
 }  // namespace
 
 PlanDifference compare_plans(const std::string& one, const std::string& two, bool of_shards) {
-  const Json a = parsed(one), b = parsed(two);
+  const Json a = parse_json(one), b = parse_json(two);
   if (!a.is_object() || !b.is_object()) return {"text, which is not a plan of bbsim", {}};
   PlanDifference difference;
   const auto note = [&](const std::string& key) {
@@ -44,7 +41,7 @@ PlanDifference compare_plans(const std::string& one, const std::string& two, boo
 }
 
 std::optional<std::size_t> cases_in(const std::string& plan) {
-  const Json json = parsed(plan);
+  const Json json = parse_json(plan);
   if (!json.is_object()) return {};
   const auto found = json.find("cases");
   if (found == json.end() || !found->is_number_unsigned()) return {};
@@ -52,11 +49,11 @@ std::optional<std::size_t> cases_in(const std::string& plan) {
 }
 
 std::string instruction_set_in(const std::string& plan) {
-  return instruction_set_of(parsed(plan));
+  return instruction_set_of(parse_json(plan));
 }
 
 bool is_plan(const std::string& text) {
-  return parsed(text).is_object();
+  return parse_json(text).is_object();
 }
 
 }  // namespace bbsim::sweep

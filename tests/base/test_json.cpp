@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Nesting limit of JSON from outside.
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "base/json.hpp"
