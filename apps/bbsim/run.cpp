@@ -122,8 +122,7 @@ void add_run(Command& command, const Options& options) {
   command
       .option("--sensitivity", arguments->request.sensitivity,
               "add columns d(x)/d(KEY), the derivatives of the states in output.columns by these "
-              "keys, and gradients of measures to the summary; for smooth scenes and sampled laws; "
-              "repeatable")
+              "keys, and gradients of measures to the summary; repeatable")
       .takes("KEY[,KEY]")
       .may_be_repeated();
   command

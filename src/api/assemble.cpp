@@ -4,15 +4,15 @@
 #include "api/assemble.hpp"
 
 namespace bbsim::api {
-model::Model assemble(const Scenario& scenario, const std::vector<const scenario::Column*>& columns,
-                      model::Form form) {
-  return with_places(
-      scenario, [&] { return model::assemble(scenario, scenario::need_gamma(columns), form); });
+model::Model assemble(const Scenario& scenario,
+                      const std::vector<const scenario::Column*>& columns) {
+  return with_places(scenario,
+                     [&] { return model::assemble(scenario, scenario::need_gamma(columns)); });
 }
 
 model::Model assemble(const Scenario& scenario, const std::vector<const scenario::Column*>& columns,
-                      controller::Host& host, model::Form form) {
-  model::Model model = assemble(scenario, columns, form);
+                      controller::Host& host) {
+  model::Model model = assemble(scenario, columns);
   with_places(scenario, [&] { host.attach(scenario, model); });
   return model;
 }

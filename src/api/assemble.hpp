@@ -27,14 +27,12 @@ auto with_places(const Scenario& scenario, const Make& make) {
 
 // Model that these columns need, for inspection only. Throws InputError.
 [[nodiscard]] model::Model assemble(const Scenario& scenario,
-                                    const std::vector<const scenario::Column*>& columns,
-                                    model::Form form = model::Form::reduced);
+                                    const std::vector<const scenario::Column*>& columns);
 
 // The same for a run: starts the user's controller, if the scene has one.
 [[nodiscard]] model::Model assemble(const Scenario& scenario,
                                     const std::vector<const scenario::Column*>& columns,
-                                    controller::Host& host,
-                                    model::Form form = model::Form::reduced);
+                                    controller::Host& host);
 
 // Host that passes what controllers say to the watch and stops waiting when the watch stops.
 [[nodiscard]] controller::Host make_host(Watch& watch);

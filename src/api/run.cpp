@@ -118,27 +118,18 @@ RunResult run(const RunRequest& request, Watch& watch) {
     expectations.push_back(scenario::read_expectation("--expect", text, scenario));
   }
   const auto measures = with_expected(printed, expectations);
-  const std::vector<study::VariedKey> keys = sensitivity_keys(request);
-  for (const scenario::Measure& measure : printed) {
-    if (keys.empty() || measure.kind != scenario::Measure::Kind::loop) continue;
-    throw InputError("--sensitivity: found " + measure.name +
-                     " in --measure, which is of the loop; allowed: measures of the motion");
-  }
-  const GradientColumns gradients(asked, keys);
+  const Sensitivity sensitivity(request, asked, printed);
 
   // Check names before a controller starts, and long before the file is opened.
   std::vector<file::ColumnHeader> headers = headers_of(asked);
-  gradients.add_headers(headers);
+  sensitivity.add_headers(headers);
   if (!request.output.empty()) file::require_table_name(request.output);
   if (request.replaces_its_like_only) {
     file::require_like(request.output, file::table_with(file::csv_header(headers)));
   }
   controller::Host host = make_host(watch);
-  const model::Form form = study::form_for(scenario, keys);
-  const model::Model model = assemble(scenario, needed_for(columns, measures), host, form);
+  const model::Model model = assemble(scenario, needed_for(columns, measures), host);
   const solve::OutputGrid grid(scenario.time);
-  std::optional<study::Sensitivity> sensitivity;
-  if (!keys.empty()) sensitivity.emplace(model, form, grid, keys);
   std::deque<std::string> units;  // from the scene's own controller
   for (std::size_t c = 0; c < asked.size(); ++c) {
     if (asked[c]->needs != scenario::Needs::own) continue;
@@ -154,17 +145,17 @@ RunResult run(const RunRequest& request, Watch& watch) {
   }
   if (writer) writer->keep(request.inputs);
   // Derivatives are known only after the last row.
-  file::TableWriter* const beside = sensitivity ? nullptr : writer.get();
+  file::TableWriter* const beside = sensitivity.wanted() ? nullptr : writer.get();
   std::optional<file::MemoryTable> kept;
-  if (request.pictured || request.keeps_rows || sensitivity || (!writer && !request.rows_to)) {
+  if (request.pictured || request.keeps_rows || sensitivity.wanted() ||
+      (!writer && !request.rows_to)) {
     kept.emplace(scenario::names_of(columns), beside, asked.size());
   }
   RowsTo rows(request, asked.size(), kept ? &*kept : beside);
 
   Simulation made = with_places(scenario, [&] {
-    Simulation simulation = simulate(
-        scenario, model, grid, {columns, asked.size(), measures, sensitivity ? printed.size() : 0},
-        rows, watch, sensitivity ? &*sensitivity : nullptr);
+    Simulation simulation =
+        simulate(scenario, model, grid, {columns, asked.size(), measures}, rows, watch);
     if (simulation.result.code == ExitCode::done) host.require_printed();
     return simulation;
   });
@@ -180,9 +171,8 @@ RunResult run(const RunRequest& request, Watch& watch) {
   file::TableData table;
   if (kept) table = kept->take();
   std::vector<std::vector<double>> derivatives;
-  if (sensitivity) {
-    add_gradients(made, printed, keys, summary);
-    derivatives = gradients.values(*sensitivity);
+  if (sensitivity.wanted()) {
+    derivatives = sensitivity.find(result, watch);
     if (writer) append(table, asked.size(), derivatives, *writer);
   }
   for (const file::ColumnHeader& header : headers) {
@@ -207,7 +197,7 @@ RunResult run(const RunRequest& request, Watch& watch) {
     result.pictured = run_of(scenario, std::move(table), summary, made.end_row);
   } else if (kept) {
     result.rows = std::move(table);
-    std::ranges::copy(gradients.names, std::back_inserter(result.rows.names));
+    std::ranges::copy(sensitivity.names(), std::back_inserter(result.rows.names));
     std::ranges::move(derivatives, std::back_inserter(result.rows.columns));
   }
   return result;

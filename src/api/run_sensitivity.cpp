@@ -5,18 +5,23 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
-#include <memory>
-#include <optional>
+#include <limits>
 #include <string_view>
+#include <thread>
 #include <utility>
 
+#include "api/assemble.hpp"
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
-#include "scenario/family.hpp"
+#include "base/short_number.hpp"
+#include "model/model.hpp"
 #include "scenario/key_value.hpp"
+#include "sweep/sweep.hpp"
 #include "yaml/quantity.hpp"
+#include "yaml/spelling.hpp"
 
 namespace bbsim::api {
 namespace {
@@ -26,56 +31,13 @@ constexpr std::array state_columns = {
     "x",     "y",        "vx",         "vy",        "spin",        "gamma",      "phi",
     "theta", "phi_rate", "theta_rate", "servo_phi", "servo_theta", "servo_third"};
 
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+// The neighbors of a key are at these many steps from its value.
+constexpr std::array offsets = {-2, -1, 1, 2};
+
 [[noreturn]] void refuse(const std::string& what) {
   throw InputError("--sensitivity: " + what);
-}
-
-std::string unit_of(std::string_view key) {
-  const auto known = scenario::number_key(key);
-  return known ? std::string(yaml::si_unit(known->dimension)) : "";
-}
-
-study::VariedKey read_key(const std::string& key,
-                          const std::shared_ptr<const ScenarioFamily>& family) {
-  const std::string name = shown(key);
-  for (const std::string_view section : {"time.", "solver.", "output.", "sweep."}) {
-    if (!key.starts_with(section)) continue;
-    refuse(name +
-           ": found a key of the computation; allowed: keys of the scene, such as ball.radius");
-  }
-  const scenario::NamedNumber number = scenario::number_named("--sensitivity", key, *family);
-  const std::optional<double>& value = number.value;
-  if (!value) {
-    static_cast<void>(family->read({number.setting(1)}));
-    refuse(name +
-           ": the scenario gives it no single number; allowed: a key with a number, such "
-           "as ball.radius");
-  }
-  // Wide enough for little rounding, and within what the scene accepts.
-  study::VariedKey varied{key, *value, 0x1p-9, [family, number](double at) {
-                            return family->read({number.setting(at)});
-                          }};
-  if (*value != 0) varied.step = std::exp2(std::floor(std::log2(std::abs(*value))) - 6);
-  static_cast<void>(varied.scenario(*value));
-  const auto fits = [&] {
-    try {
-      static_cast<void>(varied.scenario(*value - 4 * varied.step));
-      static_cast<void>(varied.scenario(*value + 4 * varied.step));
-      return true;
-    } catch (const InputError&) {
-      return false;
-    }
-  };
-  for (int halvings = 0; !fits(); ++halvings) {
-    constexpr int most_halvings = 20;
-    if (halvings == most_halvings) {
-      refuse(
-          name + ": found " + number_text(*value) +
-          ", but a derivative needs valid values on both sides; allowed: a value inside its range");
-    }
-    varied.step /= 2;
-  }
-  return varied;
 }
 
 std::string ratio(std::string_view above, const std::string& below) {
@@ -85,74 +47,275 @@ std::string ratio(std::string_view above, const std::string& below) {
   return std::string(above) + "/" + (plain ? below : "(" + below + ")");
 }
 
-std::string name_of_gradient(std::string_view of, const std::string& key) {
-  return "d(" + std::string(of) + ")/d(" + key + ")";
+// Whether positions or commands are rounded.
+bool rounds(const model::Model& model) {
+  return model.rig && model.rig->sampled &&
+         (model.rig->sampled->sensor.resolution > 0 || model.rig->sampled->sampling.resolution > 0);
+}
+
+// The distance of neighboring values, a power of two. It is as wide as curvature allows, because
+// runs have rounding errors of some 1e-15 of the motion. In scenes that switch it is narrower, so
+// that hardly any row lies between the switches of two neighbors; a time moves them most. Where
+// numbers are rounded, only a wide step sees the trend across their jumps.
+double step_of(const scenario::NamedNumber& number, const model::Model& model, double end) {
+  const double value = std::abs(number.value.value_or(0));
+  const bool is_time = number.key.dimension == yaml::Dimension::time;
+  const double share = rounds(model)    ? 0x1p-7
+                       : is_time        ? 0x1p-16
+                       : model.hybrid() ? 0x1p-13
+                                        : 0x1p-11;
+  double step = share * (value == 0 ? 0x1p-4 : value);
+  // The phase of a wave, and the instants of samples, move more and more as time passes.
+  const std::string_view name = number.name;
+  if (name.ends_with(".frequency") || name.ends_with(".rate")) step = std::min(step, 0x1p-7 / end);
+  if (name.ends_with(".period") && value > 0) {
+    step = std::min(step, 0x1p-13 * value * value / end);
+  }
+  return std::exp2(std::floor(std::log2(step)));
+}
+
+SensitivityKey read_key(const std::string& name, const ScenarioFamily& family,
+                        const model::Model& model, double end) {
+  for (const std::string_view section : {"time.", "solver.", "output.", "sweep."}) {
+    if (!name.starts_with(section)) continue;
+    refuse(shown(name) +
+           ": found a key of the computation; allowed: keys of the scene, such as ball.radius");
+  }
+  const scenario::NamedNumber number = scenario::number_named("--sensitivity", name, family);
+  if (!number.value) {
+    static_cast<void>(family.read({number.setting(1)}));
+    refuse(shown(name) +
+           ": the scenario gives it no single number; allowed: a key with a number, such "
+           "as ball.radius");
+  }
+  const double value = *number.value;
+  static_cast<void>(family.read({number.setting(value)}));
+  const auto fits = [&](double step) {
+    try {
+      static_cast<void>(family.read({number.setting(value + offsets.front() * step)}));
+      static_cast<void>(family.read({number.setting(value + offsets.back() * step)}));
+      return true;
+    } catch (const InputError&) {
+      return false;
+    }
+  };
+  double step = step_of(number, model, end);
+  for (int halvings = 0; !fits(step); ++halvings, step /= 2) {
+    constexpr int most_halvings = 20;
+    if (halvings < most_halvings) continue;
+    refuse(
+        shown(name) + ": found " + number_text(value) +
+        ", but a derivative needs valid values on both sides; allowed: a value inside its range");
+  }
+  return {name, value, step};
+}
+
+using Five = std::array<double, 5>;  // the values of a number at -2, -1, 0, 1 and 2 steps
+
+struct Derivative {
+  double value;
+  double apart;  // distance of estimates that agree where the number is smooth
+};
+
+// Of fourth order. If neighbors on one side have no value, of second order from the other side.
+Derivative derivative(const Five& f, double step) {
+  const double near = (f[3] - f[1]) / (2 * step), far = (f[4] - f[0]) / (4 * step);
+  const double ahead = (4 * f[3] - f[4] - 3 * f[2]) / (2 * step);
+  const double behind = (3 * f[2] - 4 * f[1] + f[0]) / (2 * step);
+  if (std::isfinite(ahead) && std::isfinite(behind)) {
+    return {(4 * near - far) / 3, std::max(std::abs(near - far), std::abs(ahead - behind))};
+  }
+  return {std::isfinite(ahead) ? ahead : behind, 0};
+}
+
+// `largest`: the greatest derivative; `size`: the greatest absolute value of the number. Rounding
+// of the runs disturbs derivatives by a small part of size / step.
+bool is_reliable(const Derivative& found, double largest, double size, double step) {
+  constexpr double close = 1e-4, rounding = 1e-11, least_size = 1e-2;
+  return std::isfinite(found.value) &&
+         found.apart <= close * largest + rounding * std::max(size, least_size) / step;
 }
 
 }  // namespace
 
-std::vector<study::VariedKey> sensitivity_keys(const RunRequest& request) {
-  std::vector<study::VariedKey> keys;
-  if (request.sensitivity.empty()) return keys;
+// The run itself comes first, then the neighbors of each key.
+struct Sensitivity::Runs {
+  std::vector<double> measures;              // run after run
+  std::vector<std::vector<double>> columns;  // each run after run
+  std::vector<sweep::CaseStatus> status;
+  bool interrupted = false;
+
+  [[nodiscard]] static Five around(const std::vector<double>& numbers, std::size_t per_run,
+                                   std::size_t at, std::size_t key) {
+    const auto of = [&](std::size_t run) { return numbers[run * per_run + at]; };
+    const std::size_t first = 1 + offsets.size() * key;
+    return {of(first), of(first + 1), of(0), of(first + 2), of(first + 3)};
+  }
+
+  // Why a neighbor of the key ends differently; empty if none does.
+  [[nodiscard]] std::string trouble(std::size_t key) const {
+    for (std::size_t i = 1; i <= offsets.size(); ++i) {
+      const sweep::CaseStatus& one = status[offsets.size() * key + i];
+      if (one.word == status[0].word) continue;
+      return "; a run at a neighboring value is " + one.word +
+             (one.reason.empty() ? "" : ": " + one.reason);
+    }
+    return "";
+  }
+};
+
+Sensitivity::Sensitivity(const RunRequest& request,
+                         const std::vector<const scenario::Column*>& columns,
+                         std::vector<scenario::Measure> measures)
+    : measures_(std::move(measures)), grid_(request.scenario.time) {
+  if (request.sensitivity.empty()) return;
   if (request.scenario.solver.error) {
     refuse(
         "found with solver.error, which repeats the run several times; allowed: with tolerances");
   }
-  const auto family = std::make_shared<const ScenarioFamily>(request.scenario.source);
-  for (const std::string& key : scenario::split_measures(request.sensitivity)) {
-    if (std::ranges::find(keys, key, &study::VariedKey::name) != keys.end()) {
-      refuse(shown(key) + " is given twice");
-    }
-    keys.push_back(read_key(key, family));
+  for (const scenario::Measure& measure : measures_) {
+    if (measure.kind != scenario::Measure::Kind::loop) continue;
+    refuse("found " + measure.name +
+           " in --measure, which is of the loop; allowed: measures of the motion");
   }
-  return keys;
-}
-
-GradientColumns::GradientColumns(const std::vector<const scenario::Column*>& columns,
-                                 const std::vector<study::VariedKey>& varied) {
+  const model::Model model = assemble(request.scenario, columns);
+  // Steps through switches are short anyway, and a smaller atol only makes more of them.
+  solver_ = {{"solver.method", "auto"},
+             {"solver.rtol", "3e-14"},
+             {"solver.atol", model.hybrid() ? "1e-15" : "1e-18"}};
+  family_ = std::make_unique<const ScenarioFamily>(request.scenario.source);
+  for (const std::string& name : scenario::split_measures(request.sensitivity)) {
+    for (const SensitivityKey& other : keys_) {
+      const std::string one = yaml::american(name) + '.', two = yaml::american(other.name) + '.';
+      if (one == two) refuse(shown(name) + " is given twice");
+      if (!one.starts_with(two) && !two.starts_with(one)) continue;
+      refuse(shown(name) + ": found beside " + shown(other.name) +
+             "; allowed: keys that do not overlap");
+    }
+    keys_.push_back(read_key(name, *family_, model, grid_.end()));
+  }
   for (const scenario::Column* const column : columns) {
     if (std::ranges::find(state_columns, column->name) == state_columns.end()) continue;
-    for (std::size_t k = 0; k < varied.size(); ++k) {
-      const std::string& key = varied[k].name;
-      of.push_back(column);
-      keys.push_back(k);
-      names.push_back(name_of_gradient(column->name, key));
-      units.push_back(ratio(column->unit, unit_of(key)));
-      meanings.push_back("derivative by " + key + " of: " + std::string(column->meaning));
+    columns_.push_back(column);
+    for (const SensitivityKey& key : keys_) {
+      const auto known = scenario::number_key(key.name);
+      names_.push_back("d(" + std::string(column->name) + ")/d(" + key.name + ")");
+      units_.push_back(
+          ratio(column->unit, known ? std::string(yaml::si_unit(known->dimension)) : ""));
+      meanings_.push_back("derivative by " + key.name + " of: " + std::string(column->meaning));
     }
   }
 }
 
-void GradientColumns::add_headers(std::vector<file::ColumnHeader>& headers) const {
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    headers.push_back({names[i], units[i], meanings[i]});
+void Sensitivity::add_headers(std::vector<file::ColumnHeader>& headers) const {
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    headers.push_back({names_[i], units_[i], meanings_[i]});
   }
 }
 
-std::vector<std::vector<double>> GradientColumns::values(
-    const study::Sensitivity& sensitivity) const {
-  std::vector<std::vector<double>> values;
-  for (std::size_t i = 0; i < of.size(); ++i) {
-    values.push_back(sensitivity.column_gradient(*of[i], keys[i]));
+Sensitivity::Runs Sensitivity::run_neighbors(Watch& watch) const {
+  std::vector<std::string> names;
+  sweep::SweepPlan::Listed here;
+  for (const SensitivityKey& key : keys_) {
+    names.push_back(key.name);
+    here.numbers.push_back(key.value);
   }
-  return values;
+  std::vector<sweep::SweepPlan::Listed> cases = {here};
+  for (std::size_t k = 0; k < keys_.size(); ++k) {
+    for (const int offset : offsets) {
+      cases.push_back(here);
+      cases.back().numbers[k] += offset * keys_[k].step;
+    }
+  }
+  const sweep::SweepPlan plan(*family_, nullptr, names, cases, solver_);
+  sweep::SweepTask task{*family_, plan, measures_, columns_, grid_.size()};
+  task.report = [&watch](std::string_view line) { watch.controller_says(line); };
+
+  Runs runs;
+  runs.columns.resize(columns_.size());
+  const auto append = [](std::vector<double>& into, const std::vector<double>& numbers) {
+    into.insert(into.end(), numbers.begin(), numbers.end());
+  };
+  static constexpr std::atomic<bool> never{false};
+  watch.start(0);
+  runs.interrupted = !sweep::run_sweep(
+      sweep::choose_engine(task), {0, cases.size()},
+      std::max(1U, std::thread::hardware_concurrency()),
+      watch.stop() != nullptr ? *watch.stop() : never, [](sweep::CaseResults&) {},
+      [&](const sweep::CaseResults& results) {
+        runs.status.insert(runs.status.end(), results.status.begin(), results.status.end());
+        for (std::size_t i = 0; i < results.count; ++i) {  // the time reached comes first
+          const double* const first = &results.numbers[i * (1 + measures_.size())] + 1;
+          runs.measures.insert(runs.measures.end(), first, first + measures_.size());
+        }
+        for (std::size_t c = 0; c < columns_.size(); ++c) {
+          append(runs.columns[c], results.series[c]);
+        }
+        watch.update(static_cast<double>(runs.status.size()) / static_cast<double>(cases.size()),
+                     "derivatives");
+      });
+  watch.end();
+  runs.status.resize(cases.size());
+  runs.measures.resize(cases.size() * measures_.size(), nothing);
+  for (auto& column : runs.columns) column.resize(cases.size() * grid_.size(), nothing);
+  return runs;
 }
 
-void add_gradients(const Simulation& made, const std::vector<scenario::Measure>& measures,
-                   const std::vector<study::VariedKey>& keys, record::RunSummary& summary) {
-  for (std::size_t m = 0; m < measures.size(); ++m) {
-    auto& [name, by_key] =
-        summary.gradients.emplace_back(measures[m].name, record::RunSummary::Numbers{});
-    for (std::size_t k = 0; k < keys.size(); ++k) {
-      const double gradient = made.gradients[k][m];
-      by_key.emplace_back(keys[k].name, gradient);
-      if (std::isnan(gradient)) {
-        summary.warnings.push_back("note: " + name_of_gradient(name, keys[k].name) +
-                                   " is not a number: the measure has no value, or has a jump or a "
-                                   "kink at this value of the key");
+std::vector<std::vector<double>> Sensitivity::find(RunResult& run, Watch& watch) const {
+  record::RunSummary& summary = run.summary;
+  const Runs runs = run_neighbors(watch);
+  if (runs.interrupted && run.code != ExitCode::interrupted) {
+    run.code = ExitCode::interrupted;
+    summary.status = summary.reason_code = "interrupted";
+    summary.reason = "interrupted before all derivatives were known; the rows are complete.";
+  }
+  for (const scenario::Measure& measure : measures_) {
+    summary.gradients.emplace_back(measure.name, record::RunSummary::Numbers{});
+  }
+  summary.unreliable.emplace();
+  std::vector<std::vector<double>> found(names_.size());
+  for (std::size_t k = 0; k < keys_.size(); ++k) {
+    const auto& [key, value, step] = keys_[k];
+    std::string doubts;
+    const auto doubt = [&](const std::string& of, double time) {
+      summary.unreliable->push_back({key, of, time});
+      doubts += (doubts.empty() ? "" : ", ") + of +
+                (std::isnan(time) ? " (null)" : " (from t = " + short_number(time) + " s)");
+    };
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      std::vector<Derivative> rows;
+      double largest = 0, size = 0;
+      for (std::size_t row = 0; row < summary.rows; ++row) {
+        const Five f = Runs::around(runs.columns[c], grid_.size(), row, k);
+        rows.push_back(derivative(f, step));
+        found[c * keys_.size() + k].push_back(rows.back().value);
+        largest = std::fmax(largest, std::abs(rows.back().value));  // not NaN
+        size = std::fmax(size, std::abs(f[2]));
       }
+      const auto first = std::ranges::find_if(
+          rows, [&](const Derivative& one) { return !is_reliable(one, largest, size, step); });
+      if (first == rows.end()) continue;
+      doubt(std::string(columns_[c]->name), grid_[static_cast<std::size_t>(first - rows.begin())]);
     }
+    for (std::size_t m = 0; m < measures_.size(); ++m) {
+      const Five f = Runs::around(runs.measures, measures_.size(), m, k);
+      const Derivative one = derivative(f, step);
+      const bool all = std::ranges::all_of(f, [](double of) { return std::isfinite(of); });
+      double largest = 0;  // slope; where it changes its sign, the derivative is no measure
+      for (std::size_t i = 1; i < f.size(); ++i) {
+        largest = std::max(largest, std::abs(f[i] - f[i - 1]) / step);
+      }
+      const bool good = all && is_reliable(one, largest, std::abs(f[2]), step);
+      summary.gradients[m].second.emplace_back(key, good ? one.value : nothing);
+      if (!good) doubt(measures_[m].name, nothing);
+    }
+    if (doubts.empty()) continue;
+    summary.warnings.push_back(
+        "note: unreliable derivatives by " + key + ": " + doubts +
+        "; differences of runs disagree there, as at a kink, a grazing event or a rounded command" +
+        runs.trouble(k));
   }
+  return found;
 }
 
 }  // namespace bbsim::api

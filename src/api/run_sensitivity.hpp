@@ -1,41 +1,60 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The keys of `run --sensitivity`, and their columns and summary entries.
+// Derivatives of a run by keys, from runs at neighboring values: `run --sensitivity`
+// (docs/explanation/sensitivity.md).
 #pragma once
 
+#include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "api/run.hpp"
-#include "api/simulation.hpp"
 #include "file/table_writer.hpp"
 #include "scenario/columns.hpp"
-#include "study/sensitivity.hpp"
+#include "scenario/family.hpp"
+#include "scenario/measures.hpp"
+#include "solve/output_grid.hpp"
 
 namespace bbsim::api {
 
-// Keys of lists "KEY,KEY". Throws InputError for a key without a number, and for a request that
-// does not allow derivatives.
-[[nodiscard]] std::vector<study::VariedKey> sensitivity_keys(const RunRequest& request);
-
-// Columns d(x)/d(KEY) for those columns that are states.
-struct GradientColumns {
-  std::vector<std::string> names, units, meanings;
-  // Column and key of each.
-  std::vector<const scenario::Column*> of;
-  std::vector<std::size_t> keys;
-
-  GradientColumns(const std::vector<const scenario::Column*>& columns,
-                  const std::vector<study::VariedKey>& keys);
-  void add_headers(std::vector<file::ColumnHeader>& headers) const;
-  // Call it after the run.
-  [[nodiscard]] std::vector<std::vector<double>> values(
-      const study::Sensitivity& sensitivity) const;
+struct SensitivityKey {
+  std::string name;
+  double value, step;  // of neighboring values
 };
 
-// Adds the gradients of the first measures to the summary.
-void add_gradients(const Simulation& made, const std::vector<scenario::Measure>& measures,
-                   const std::vector<study::VariedKey>& keys, record::RunSummary& summary);
+class Sensitivity {
+ public:
+  // For the states among the columns, and for the measures. Throws InputError for a key without a
+  // number, and for a request that does not allow derivatives.
+  Sensitivity(const RunRequest& request, const std::vector<const scenario::Column*>& columns,
+              std::vector<scenario::Measure> measures);
+
+  // Whether there is anything to derive.
+  [[nodiscard]] bool wanted() const {
+    return !keys_.empty() && !(columns_.empty() && measures_.empty());
+  }
+  // Columns d(x)/d(KEY).
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+  void add_headers(std::vector<file::ColumnHeader>& headers) const;
+
+  // Runs the neighbors. Returns the columns, with the rows of the run. Adds the gradients of
+  // measures to its summary, and what is unreliable.
+  [[nodiscard]] std::vector<std::vector<double>> find(RunResult& run, Watch& watch) const;
+
+ private:
+  struct Runs;
+
+  [[nodiscard]] Runs run_neighbors(Watch& watch) const;
+
+  std::vector<scenario::Measure> measures_;
+  std::vector<const scenario::Column*> columns_;  // states only
+  solve::OutputGrid grid_;
+  std::unique_ptr<const ScenarioFamily> family_;
+  std::vector<ScenarioFamily::Setting> solver_;  // of the neighbors
+  std::vector<SensitivityKey> keys_;
+  std::vector<std::string> names_, units_, meanings_;  // for each column, key after key
+};
 
 }  // namespace bbsim::api

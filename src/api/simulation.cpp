@@ -169,7 +169,7 @@ void take_measures(const Scenario& scenario, const model::Model& model,
 
 Simulation simulate(const Scenario& scenario, const model::Model& model,
                     const solve::OutputGrid& grid, const RowsAndMeasures& wanted,
-                    file::TableWriter& writer, Watch& watch, study::Sensitivity* sensitivity) {
+                    file::TableWriter& writer, Watch& watch) {
   const model::BallConstants constants = model::constants_of(scenario);
   const scenario::SplitMeasures split = scenario::split_loop_measures(wanted.measures);
   record::Recorder recorder({wanted.columns, split.of_motion, true});
@@ -179,9 +179,7 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
   recorder.begin(model, constants, grid, &writer, {quick});
   std::optional<record::EdgeNote> edge;
   if (record::EdgeNote::wanted(scenario)) edge.emplace(model, scenario.plate, grid, recorder);
-  solve::StateSink& rows = edge ? static_cast<solve::StateSink&>(*edge) : recorder;
-  if (sensitivity != nullptr) sensitivity->begin(rows, wanted.measures_with_gradients > 0);
-  solve::StateSink& sink = sensitivity != nullptr ? *sensitivity : rows;
+  solve::StateSink& sink = edge ? static_cast<solve::StateSink&>(*edge) : recorder;
 
   watch.start(0);
   Integration made = integrate(scenario, model, grid, sink, looking_in(watch, grid.end()));
@@ -191,13 +189,6 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
   take_measures(scenario, model, wanted.measures, split, recorder, made.outcome, simulation);
   simulation.end_row = recorder.end_row(made.outcome);
   simulation.row_estimates = std::move(made.row_estimates);
-  if (sensitivity != nullptr) {
-    std::vector<scenario::Measure> measures = wanted.measures;
-    measures.resize(wanted.measures_with_gradients);
-    for (std::size_t key = 0; key < sensitivity->keys(); ++key) {
-      simulation.gradients.push_back(sensitivity->measure_gradients(measures, key, made.outcome));
-    }
-  }
 
   RunResult& result = simulation.result;
   record::RunSummary& summary = result.summary = summary_of(scenario, model, made);

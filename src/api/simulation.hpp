@@ -18,7 +18,6 @@
 #include "scenario/measures.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
-#include "study/sensitivity.hpp"
 
 namespace bbsim::api {
 
@@ -26,7 +25,6 @@ struct RowsAndMeasures {
   std::vector<const scenario::Column*> columns;
   std::size_t finite_columns;  // first columns, which must be finite; others are for a picture
   std::vector<scenario::Measure> measures;
-  std::size_t measures_with_gradients = 0;  // the first ones
 };
 
 struct Simulation {
@@ -35,16 +33,13 @@ struct Simulation {
   std::vector<double> measures;
   scenario::Whys whys;          // of measures that are not finite
   std::vector<double> end_row;  // Recorder::end_row()
-  // Derivatives of the first measures, for each key of the sensitivity.
-  std::vector<std::vector<double>> gradients{};
 };
 
 // Integrates the model, which must provide what `wanted` needs. Passes the rows to `writer`, which
-// the caller finishes. `sensitivity` may be null; it receives the derivatives.
+// the caller finishes.
 [[nodiscard]] Simulation simulate(const Scenario& scenario, const model::Model& model,
                                   const solve::OutputGrid& grid, const RowsAndMeasures& wanted,
-                                  file::TableWriter& writer, Watch& watch,
-                                  study::Sensitivity* sensitivity);
+                                  file::TableWriter& writer, Watch& watch);
 
 // Why a run failed: when, what the integrator reported, what grew, and what to do.
 [[nodiscard]] std::string failure_text(const Scenario& scenario, const model::Model& model,

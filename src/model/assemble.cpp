@@ -164,7 +164,7 @@ Model assemble(const Scenario& scenario, bool gamma, Form form) {
       dry = coupled.dry;
       return std::move(coupled.system);
     }
-    if (needs_rig(scenario) || (form == Form::general && scenario.controller)) {
+    if (needs_rig(scenario)) {
       const auto keep = [&rig](auto built) -> System {
         rig = built.rig;
         return std::move(built.loop);
@@ -173,7 +173,7 @@ Model assemble(const Scenario& scenario, bool gamma, Form form) {
                                         : keep(assemble_rig<false>(scenario, std::move(input)));
     }
     if (!scenario.controller) {
-      if (form == Form::general || !is_the_papers(scenario)) {
+      if (!is_the_papers(scenario)) {
         return OpenLoop<Shape::full, SignalPair, GeneralRolling>(r, g, std::move(input),
                                                                  general_rolling(scenario));
       }

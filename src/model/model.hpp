@@ -82,10 +82,8 @@ struct Model {
 };
 
 // `reduced`: the smallest system that the scene needs, with one axis if symmetry keeps the ball on
-// it. `full`: without these reductions. `general`: also with the equations for any mounting and
-// inertia of the ball. Motions agree to the tolerance. The later forms use one system for more
-// scenes.
-enum class Form { reduced, full, general };
+// it. `full`: without these reductions. Motions agree to the tolerance.
+enum class Form { reduced, full };
 
 // Builds the system that the scene needs. `gamma`: whether an output column needs that angle.
 [[nodiscard]] Model assemble(const Scenario& scenario, bool gamma, Form form = Form::reduced);

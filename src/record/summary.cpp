@@ -125,6 +125,15 @@ std::string to_json(const RunSummary& summary) {
       for (const auto& [key, value] : by_key) gradients[measure][key] = value;
     }
   }
+  if (summary.unreliable) {
+    nlohmann::ordered_json& all = json["unreliable"] = nlohmann::ordered_json::array();
+    for (const UnreliableRecord& one : *summary.unreliable) {
+      nlohmann::ordered_json& entry = all.emplace_back(nlohmann::ordered_json::object());
+      entry["key"] = one.key;
+      entry["column"] = one.column;
+      entry["time"] = one.time;
+    }
+  }
   if (!summary.expectations.empty()) {
     nlohmann::ordered_json& all = json["expectations"] = nlohmann::ordered_json::array();
     for (const ExpectationRecord& one : summary.expectations) {
@@ -165,6 +174,14 @@ file::Attributes to_attributes(const RunSummary& summary, const std::string& sce
     for (const auto& [key, value] : by_key) {
       add("gradient d(" + measure + ")/d(" + key + ")", value);
     }
+  }
+  if (summary.unreliable) {
+    std::vector<std::string> unreliable;
+    for (const UnreliableRecord& one : *summary.unreliable) {
+      unreliable.push_back("key=" + one.key + " column=" + one.column +
+                           " time=" + to_text(one.time));
+    }
+    add("unreliable", unreliable);
   }
   if (!summary.expectations.empty()) {
     std::vector<std::string> expectations;

@@ -41,6 +41,12 @@ struct ExpectationRecord {
   bool holds = false;
 };
 
+// A column or measure without a reliable derivative by a key (--sensitivity).
+struct UnreliableRecord {
+  std::string key, column;
+  double time = 0;  // of the column's first unreliable row, s; NaN for a measure
+};
+
 struct RunSummary {
   std::string version;
   std::string instruction_set;  // of the kernels, such as avx2
@@ -65,6 +71,7 @@ struct RunSummary {
   Numbers measures;
   // With --sensitivity: derivatives of each of these measures by keys.
   std::vector<std::pair<std::string, Numbers>> gradients;
+  std::optional<std::vector<UnreliableRecord>> unreliable;
   std::vector<ExpectationRecord> expectations;
   std::optional<MotorPeaks> peaks;  // if a column needs forces, or with plate.inertia
   // With solver.error only: the requested bound and the estimate reached, m.

@@ -9,10 +9,6 @@
 
 #include "model/ball/dynamics.hpp"
 
-namespace bbsim::model {
-class HybridSystem;
-}
-
 namespace bbsim::solve {
 
 // Loads of the motors, named like their output columns.
@@ -44,9 +40,6 @@ class Piece {
                                                      bool /*closely*/) const {
     return {};
   }
-  // The run that the piece belongs to, in the piece's mode. Null if its model is not hybrid(), or
-  // if the piece is a part of another piece. Valid until the run ends.
-  [[nodiscard]] virtual const model::HybridSystem* run() const { return nullptr; }
 
  private:
   double from_, to_;

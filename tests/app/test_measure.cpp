@@ -380,13 +380,32 @@ TEST_CASE("run writes derivatives by keys as columns, and gradients of measures"
   CHECK(summary["gradients"]["end_x"]["gravity"].get<double>() ==
         Approx(values_of(run.out).at("end_x") / 9.80665));
   CHECK(std::abs(summary["gradients"]["end_x"]["ball.radius"].get<double>()) < 1e-9);
+  CHECK(summary["unreliable"] == nlohmann::json::array());
 
   CHECK(run_to("by-key.h5", "incline.yaml").exit_code == 0);
   CHECK(bbsim({"compare", "by-key.h5", "by-key.h5"}, folder.path()).exit_code == 0);
 
-  const Result refused = run_to("none.csv", "pushrod.yaml");
+  // Rounded measurements step.
+  const Result rounded = bbsim({"run", config("rig.yaml"), "-o", "rig.csv", "--sensitivity",
+                                "gravity", "--measure", "rms_x", "--summary", "s.json"},
+                               folder.path());
+  CHECK(rounded.exit_code == 0);
+  CHECK(rounded.err.find("unreliable derivatives by gravity: x (from t = ") != std::string::npos);
+  CHECK(folder.read("rig.csv").find("nan") == std::string::npos);
+  const auto of_rig = nlohmann::json::parse(folder.read("s.json"));
+  CHECK(of_rig["gradients"]["rms_x"]["gravity"].is_null());
+  const auto& first = of_rig["unreliable"][0];
+  CHECK(first["key"] == "gravity");
+  CHECK(first["column"] == "x");
+  CHECK(first["time"].get<double>() > 0);
+  CHECK(of_rig["unreliable"].back() ==
+        nlohmann::json{{"key", "gravity"}, {"column", "rms_x"}, {"time", nullptr}});
+
+  const Result refused =
+      bbsim({"run", config("incline.yaml"), "-o", "none.csv", "--sensitivity", "time.end"},
+            folder.path());
   CHECK(refused.exit_code == 2);
-  CHECK(refused.err.find("--sensitivity: found with backlash") != std::string::npos);
+  CHECK(refused.err.find("--sensitivity: time.end") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(folder.path() / "none.csv"));
 }
 

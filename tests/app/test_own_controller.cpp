@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -79,6 +80,26 @@ std::vector<std::string> with_misdeeds(const std::string& mode, const std::strin
 
 TEST_CASE("the example library reproduces the built-in PID's trajectory bit for bit") {
   CHECK(csv_of({example("library.yaml"), "--set", library}) == csv_of({config("step.yaml")}));
+}
+
+TEST_CASE("derivatives under your own controller are those of the built-in law") {
+  const Folder folder;
+  const auto gradient = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "run");
+    words.insert(words.end(),
+                 {"--set", "controller.sensor.resolution=0", "--set", "time.end=2", "--sensitivity",
+                  "gravity", "--measure", "end_x", "--summary", "s.json", "-o", "rows.csv"});
+    const Result result = bbsim(words, folder.path());
+    CAPTURE(result.err);
+    REQUIRE(result.exit_code == 0);
+    return nlohmann::json::parse(folder.read("s.json"))["gradients"]["end_x"]["gravity"]
+        .get<double>();
+  };
+  const double wanted = gradient({config("step.yaml")});
+  CHECK(gradient({example("library.yaml"), "--set", library}) == Approx(wanted).epsilon(1e-6));
+#ifdef BBSIM_PYTHON
+  CHECK(gradient({example("python.yaml")}) == Approx(wanted).epsilon(1e-6));
+#endif
 }
 
 TEST_CASE("the sketch reproduces it too, with stepped servos") {

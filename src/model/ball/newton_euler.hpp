@@ -34,8 +34,6 @@ struct ContactLaw {
 struct DryDirection {
   double moving = 0;  // 1: use the velocity's direction; 0: use `along`
   double along[2] = {0, 0};
-
-  bool operator==(const DryDirection&) const = default;
 };
 
 // The contact's mode, constant between two switches.
@@ -45,8 +43,6 @@ struct ContactMode {
   bool held = false;    // pivoting friction keeps the spin at zero
   DryDirection roll, slip;
   double turns = 0;  // sign of the spin, which pivoting friction opposes
-
-  bool operator==(const ContactMode&) const = default;
 };
 
 template <class Real>

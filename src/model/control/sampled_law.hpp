@@ -29,19 +29,6 @@ struct SampledLaw {
   Scalar filter;            // time constant of the velocity filter, s
 };
 
-// Calls `use` with each number of a law except those for rounding.
-template <class Law, class Use>
-void for_each_number(Law& of, const Use& use) {
-  for_each_number(of.law, of.law, [&use](auto& number, auto&) { use(number); });
-  for (std::size_t i = 0; i < 2; ++i) {
-    for (auto* const range : {&of.limit[i], &of.sine[i]}) {
-      use(range->low);
-      use(range->high);
-    }
-  }
-  use(of.filter);
-}
-
 // Memory from sample to sample: the ball's measured position (m), its velocity, and the integral
 // parts of the commands.
 template <class Real>

@@ -8,9 +8,7 @@
 namespace bbsim::model {
 
 HybridSystem::HybridSystem(const Model& model, double resolution)
-    : model_(model),
-      log_(model_, std::get<std::optional<Sampling>>(parts_)),
-      resolution_(resolution) {
+    : model_(model), log_(model_, std::get<std::optional<Sampling>>(parts_)) {
   const Model& own = this->model();
   if (!own.stops.empty()) std::get<std::optional<Stops>>(parts_).emplace(own.stops);
   if (own.rig) {
@@ -41,7 +39,6 @@ void HybridSystem::handle_time_event(double t, double* z) {
   observe(t, z);
   while (samples_at(t)) sampling()->take(t, instant_end(t), z);
   act(t, z);
-  if (sampling() == nullptr) note_switch({t, {}});
 }
 
 void HybridSystem::observe(double t, const double* z) {
@@ -78,13 +75,6 @@ void HybridSystem::reset(double t, double* z) {
   for_each(parts_, [&](auto& part) { part.reset_at_limits(t, z); });
 }
 
-void HybridSystem::note_switch(Switch one) {
-  const auto& latest = latest_switches_;
-  if (!latest.empty() && one.t > instant_end(latest.back().t)) latest_switches_.clear();
-  latest_switches_.push_back(one);
-  ++switches_;
-}
-
 void HybridSystem::evaluate_guards(double t, const double* z, double* values) const {
   const GuardContext now(model_, t, z);
   for_each(parts_, [&](const auto& part) {
@@ -107,7 +97,6 @@ Effect HybridSystem::handle_state_event(std::size_t i, double t, double* z) {
   for_each(parts_, [&](auto& part) { part.leave_mode(t, z); });
   with_part_of(i, [](auto& part, std::size_t guard) { part.cross(guard); });
   reset(t, z);
-  note_switch({t, i});
   return note_dry(t, z) == Effect::stop ? Effect::stop : Effect::restart;
 }
 

@@ -18,7 +18,6 @@
 #include "model/hybrid/command_limits.hpp"
 #include "model/hybrid/curve_pieces.hpp"
 #include "model/hybrid/dry_friction.hpp"
-#include "model/hybrid/modes.hpp"
 #include "model/hybrid/monitors.hpp"
 #include "model/hybrid/motor_limits.hpp"
 #include "model/hybrid/sampling.hpp"
@@ -45,8 +44,8 @@ class HybridSystem {
   // `resolution`: the smallest velocity that the integrator distinguishes from rest, m/s.
   HybridSystem(const Model& model, double resolution);
 
-  // The model in the present mode. Only handle_time_event(), act(), handle_state_event() and
-  // follow_friction() change its right-hand side.
+  // The model in the present mode. Only handle_time_event(), act() and handle_state_event()
+  // change its right-hand side.
   [[nodiscard]] const Model& model() const { return model_.get(); }
 
   // Time (s) of the next event that does not depend on the state; infinite if there is none.
@@ -125,21 +124,6 @@ class HybridSystem {
   // Writes the Model::extras() numbers of an output row, the part that depends on the mode.
   void write_extras(double t, const double* z, double* out) const;
 
-  // The smallest velocity that the integrator distinguishes from rest, m/s.
-  [[nodiscard]] double resolution() const { return resolution_; }
-
-  // A switch of the mode or of the input.
-  struct Switch {
-    double t;                          // s
-    std::optional<std::size_t> guard;  // that crossed; none for a time event
-  };
-  // Number of switches, and those of the latest instant. Samples do not count.
-  [[nodiscard]] std::size_t switches() const { return switches_; }
-  [[nodiscard]] const std::vector<Switch>& latest_switches() const { return latest_switches_; }
-
-  // Copies what rests and what moves from another run of the scene.
-  void follow_friction(const Modes& modes) { model::follow_friction(modes, model_.get().system); }
-
   // The events since the start. note_turned() sets the rotation of the ball in the latest ones.
   [[nodiscard]] EventLog& log() { return log_; }
 
@@ -167,7 +151,6 @@ class HybridSystem {
   template <class Use>
   void with_part_of(std::size_t guard, Use use);
   void reset(double t, double* z);
-  void note_switch(Switch one);
   Effect note_dry(double t, const double* z);
 
   SwitchedModel model_;
@@ -176,9 +159,6 @@ class HybridSystem {
   // Time events change the motion only through commands.
   bool only_commands_change_ = false;
   bool touched_ = true, unsettled_ = false;
-  double resolution_;
-  std::size_t switches_ = 0;
-  std::vector<Switch> latest_switches_;
   // Index of each part's first guard; last, the number of guards.
   std::array<std::size_t, std::tuple_size_v<Parts> + 1> first_guard_{};
   std::vector<double> guard_scales_;

@@ -71,7 +71,6 @@ class Sampling : public Part {
   [[nodiscard]] const Pair& measured() const { return measured_; }
   [[nodiscard]] const std::vector<double>& own() const { return own_; }
   [[nodiscard]] const SampledController& controller() const { return controller_; }
-  [[nodiscard]] const SampleExchange& exchange() const { return exchange_; }
 
  private:
   void ask_external(double t, double number, const std::optional<Pair>& seen, const double* z);

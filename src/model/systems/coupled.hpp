@@ -24,8 +24,6 @@ struct MotorMode {
   double integrate = 1;  // 0: the position loop's integral waits at a limit
   double side = 0;       // 1 or -1: the torque asked is above or below the torque given
   double along = 0;      // 1: the torque asked moves along a limit (control/integral_limit.hpp)
-
-  bool operator==(const MotorMode&) const = default;
 };
 
 // The torque asked of a motor, N m: from_command u - from_angle q - from_rate q' + from_integral

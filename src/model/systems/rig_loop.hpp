@@ -32,16 +32,12 @@ struct AxisMode {
   double integrate = 1;  // 0: the command's integral part waits at the limit
   double side = 0;       // 1 or -1: the command is at its upper or lower limit
   double along = 0;      // 1: the command moves along the limit (control/integral_limit.hpp)
-
-  bool operator==(const AxisMode&) const = default;
 };
 
 struct RigMode {
   AxisMode axis[most_servos];            // phi, theta; or each of three servos
   double command[most_servos]{0, 0, 0};  // held by a sampled controller, rad or rad/s^2
   double wanted[2]{0, 0};  // the command before its conversion for linkages or three servos, rad
-
-  bool operator==(const RigMode&) const = default;
 };
 
 // Servo acceleration in free motion: from_command u - from_angle q - from_rate q'.

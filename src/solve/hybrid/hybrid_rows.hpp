@@ -74,7 +74,6 @@ class HybridRows {
         of_.finish(times[i], rows);
       }
     }
-    [[nodiscard]] const model::HybridSystem* run() const override { return &of_.run_; }
     [[nodiscard]] std::optional<Bounds> bounds(Load load, const model::BallConstants& constants,
                                                bool closely) const override {
       return of_.stepper_.bounds(load, constants, closely);
