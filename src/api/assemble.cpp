@@ -4,6 +4,7 @@
 #include "api/assemble.hpp"
 
 namespace bbsim::api {
+
 model::Model assemble(const Scenario& scenario,
                       const std::vector<const scenario::Column*>& columns) {
   return with_places(scenario,
