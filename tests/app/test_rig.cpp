@@ -262,3 +262,89 @@ TEST_CASE("a run of a sliding ball reports when it rolls and when it rests") {
   CHECK(contains(result.err, "the run stopped at t = 3.33288 s"));
   CHECK(contains(result.err, "events.rest is stop; note lets the run continue"));
 }
+
+TEST_CASE("a run with backlash of a micrometer's arc ends at each width") {
+  const Folder folder;
+  folder.write("scene.yaml", R"(
+ball: {radius: 0.06788484106866718, velocity: [0.2, -0.20627556921775614], inertia_factor: 0.3}
+gravity: 0.050339344099273264
+controller:
+  pid: {kv: [[0.068, 0], [0, -0.067]], kp: [[0.117, 0], [0, -0.117]], ki: [[0.12, 0.02], [0, -0.131]]}
+  drives: angle
+  reference: {circle: {radius: 0.00125, rate: -2.49}}
+  sampling: {period: 0.015550203853004405, delay: 0.002723515714144792, jitter: 0.046654180691598116}
+gimbal:
+  servo: {natural_frequency: 89.74217781300791, damping: 0.043122094381324104, angle_limit: 0.10355188673516388,
+          rate_limit: 1.0155454630550638, backlash: 1.0063409423953264e-06}
+  start: {theta: -0.07389699332632566, phi: -0.01643683368793747, phi_rate: 0.02, theta_rate: -0.1301671296793474}
+time: {end: 0.2, step: 0.02}
+)");
+  const std::vector<std::string> words{
+      "sweep",     "scene.yaml", "--vary", "gimbal.servo.backlash=linear:1e-6:1.02e-6:200",
+      "--measure", "end_x",      "-o",     "-",
+      "-q"};
+  const Result result = bbsim(words, folder.path());
+  CAPTURE(result.out);
+  CHECK(result.exit_code == 0);
+  CHECK_FALSE(contains(result.out, ",failed,"));
+  CHECK(bbsim({"run", "scene.yaml", "-q"}, folder.path()).exit_code == 0);
+}
+
+TEST_CASE("a push rod with a tiny arm under a bound on the error ends at its dead point") {
+  const Folder folder;
+  folder.write("scene.yaml", R"(
+gravity: 0.0
+ball: {radius: 0.007595010100005825, spin: 23.929232767321075}
+controller:
+  pd: {kv: [[0.8825, 0], [-0.00577, -1.4099]], kp: [[0.8787, -0.00576], [0, -1.046]]}
+  drives: angle
+  reference: {point: [0.011336428015401322, 0.028303567948590277]}
+  limit: 0.04399576344605273
+gimbal:
+  servo: {natural_frequency: 22.909951277233493, damping: 1.4579541691807154, backlash: 9e-06}
+  linkage: {horn: 0.16670521940592287, arm: 0.0005921103657281963, offset: [0.0016441341510459175, 0.0025211429173098918]}
+time: {end: 3, step: 0.4}
+solver: {error: "100 mm"}
+)");
+  const Result result = bbsim({"run", "scene.yaml", "-o", "-"}, folder.path());
+  CHECK(result.exit_code == 1);
+  CHECK(contains(result.err, "is at a dead point"));
+}
+
+#ifdef BBSIM_PYTHON
+TEST_CASE("legs turn on under a command that no pose fits, up to their dead point") {
+  const Folder folder;
+  folder.write(
+      "far.py",
+      "import json, math, sys\nsys.stdin.readline()\nprint('{\"protocol\": 1}', flush=True)\n"
+      "for line in sys.stdin:\n    t = json.loads(line)['t']\n    g = 0.69 * min(2, t)\n"
+      "    print(json.dumps({'command': [g * math.sin(3.19 * t), -g * math.sin(3.19 * t), "
+      "0.3 * g * math.sin(3.35 * t)]}), flush=True)\n");
+  folder.write("scene.yaml", R"(
+ball: {radius: 0.02, position: [0.01, 0]}
+gimbal:
+  servo: {natural_frequency: 60.0, damping: 1.0}
+  three_servos:
+    {radius_base: 0.072, radius_plate: 0.0717, horn: 0.0466, rod: 0.0948, height: 0.1135,
+     legs: [{angle: 0.026, joint_height: 0.0016},
+            {angle: 1.967, radius_base: 0.0915, radius_plate: 0.0622, horn: 0.0572, rod: 0.121, height: 0.111, joint_height: -0.0047},
+            {angle: 4.436, radius_base: 0.0562, radius_plate: 0.0711, horn: 0.0562, rod: 0.095, height: 0.1018, joint_height: -0.002}]}
+controller:
+  program: {command: [python3, far.py], timeout: "60 s"}
+  drives: legs
+  reference: {point: [0, 0]}
+  sampling: {period: 0.02}
+time: {end: 2.5, step: 0.005}
+output: {columns: [t, phi, theta, servo_phi, phi_command, theta_command]}
+)");
+  for (const char* const method : {"auto", "bdf"}) {
+    const Result result =
+        bbsim({"run", "scene.yaml", "-o", "-", "--set", std::string("solver.method=") + method},
+              folder.path());
+    CAPTURE(method, result.err);
+    CHECK(result.exit_code == 1);
+    CHECK(contains(result.err, "is at a dead point"));
+    CHECK(csv(result.out).at("phi").size() > 90);
+  }
+}
+#endif

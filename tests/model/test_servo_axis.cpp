@@ -202,3 +202,19 @@ TEST_CASE("a servo rests where its equation says, without stiffness at its comma
   CHECK(rests_at({90, 100, 10}) == 0.9);
   CHECK(rests_at({0, 0, 20}) == 1);  // first order
 }
+
+TEST_CASE("the smallest backlash engages at its edge, whatever the rounding of the angles") {
+  for (int i = 0; i < 2000; ++i) {
+    RigServo servo = limited(unlimited, unlimited, unlimited);
+    servo.backlash = 1e-6 * (1 + 1e-3 * i);
+    servo.offset = 0.013;
+    ServoAxis axis(servo, response);
+    AxisMode mode;
+    AxisState state = state_of(-0.1 + 1e-4 * i, 0.5, 1);
+    axis.settle(state, mode);
+    CHECK(mode.ratio == 0);  // in the middle of the gap
+    state = state_of(state.angle + servo.backlash / 2, 0.5, 1);
+    axis.settle(state, mode);
+    CHECK(mode.ratio == 1);
+  }
+}

@@ -159,7 +159,7 @@ void require_exact(const std::vector<Exact>& all, double close) {
 }
 
 // No rounding. Rows, samples, exposures and commands are at different instants.
-const Texts plain = {"controller.sensor.resolution=0", "controller.sampling.resolution=0",
+const Texts unrounded = {"controller.sensor.resolution=0", "controller.sampling.resolution=0",
                      "gimbal.servo.dead_band=0",       "controller.sampling.delay=6.9 ms",
                      "controller.sensor.delay=8.3 ms", "time.end=3"};
 
@@ -230,26 +230,26 @@ TEST_CASE("derivatives through samples and switches agree with exact ones", "[se
   const std::string rig = "configs/rig";
   require_exact(
       {
-          {rig, plain, "ball.radius", "theta", 112, 0.407151643206},
-          {rig, plain, "gravity", "theta", 112, -0.000998189539428},
-          {rig, plain, "controller.gravity_compensation.kp", "theta_rate", 112, 0.00326626365326},
-          {rig, plain, "controller.sampling.delay", "phi_rate", 112, -0.854957979696},
-          {rig, plain, "controller.sampling.period", "theta_rate", 112, -439.024514414},
-          {rig, plain, "controller.sensor.delay", "theta_rate", 112, 4.27576920408},
-          {rig, plain + frames, "controller.sensor.phase", "theta", 112, 0.52644607401},
-          {rig, plain + frames, "controller.sensor.period", "theta", 112, 17.1583665716},
-          {rig, plain + turned, "controller.sensor.rotation", "y", 112, -0.037710938741},
-          {rig, plain + jitter, "controller.sampling.jitter", "theta_rate", 114, -65.1813567798},
-          {rig, plain + slow, "gimbal.servo.rate_limit", "theta_rate", 112, 6.93486268379},
-          {rig, plain + first_order, "gimbal.servo.time_constant", "theta_rate", 112,
+          {rig, unrounded, "ball.radius", "theta", 112, 0.407151643206},
+          {rig, unrounded, "gravity", "theta", 112, -0.000998189539428},
+          {rig, unrounded, "controller.gravity_compensation.kp", "theta_rate", 112, 0.00326626365326},
+          {rig, unrounded, "controller.sampling.delay", "phi_rate", 112, -0.854957979696},
+          {rig, unrounded, "controller.sampling.period", "theta_rate", 112, -439.024514414},
+          {rig, unrounded, "controller.sensor.delay", "theta_rate", 112, 4.27576920408},
+          {rig, unrounded + frames, "controller.sensor.phase", "theta", 112, 0.52644607401},
+          {rig, unrounded + frames, "controller.sensor.period", "theta", 112, 17.1583665716},
+          {rig, unrounded + turned, "controller.sensor.rotation", "y", 112, -0.037710938741},
+          {rig, unrounded + jitter, "controller.sampling.jitter", "theta_rate", 114, -65.1813567798},
+          {rig, unrounded + slow, "gimbal.servo.rate_limit", "theta_rate", 112, 6.93486268379},
+          {rig, unrounded + first_order, "gimbal.servo.time_constant", "theta_rate", 112,
            -1.63015982563},
-          {rig, plain + dead_band, "gravity", "theta", 112, -0.000906342722055},
+          {rig, unrounded + dead_band, "gravity", "theta", 112, -0.000906342722055},
           {"configs/step", pid, "controller.pid.ki.0.0", "x", 112, 0.0152428511965},
           {"configs/step", pid, "controller.limit", "x", 112, -0.0622373448029},
           {"configs/step", pid, "gimbal.mounting.phi_offset", "x", 112, 0.851156741771},
           {"configs/catch", lqr, "controller.lqr.position", "y", 75, 7.43941795962e-06},
           {"configs/catch", lqr, "gimbal.servo.acceleration_limit", "x", 75, -1.71925924191e-06},
-          {rig, plain + viscous, "ball.losses.viscous", "y", 112, 70.9702132122},
+          {rig, unrounded + viscous, "ball.losses.viscous", "y", 112, 70.9702132122},
           {"configs/pushrod", linkage, "gimbal.linkage.horn", "y", 75, -0.0024478035235},
           {"configs/pushrod", linkage, "controller.sampling.delay", "phi_rate", 75, 2.14748013564},
           {"configs/three-servos", legs, "gimbal.three_servos.rod", "y", 75, 7.10218428083e-05},
@@ -284,7 +284,7 @@ TEST_CASE("gradients of measures agree with exact ones", "[sensitivity]") {
   };
   const std::vector<OfMeasures> all = {
       {"configs/rig",
-       plain,
+       unrounded,
        "ball.radius",
        {{"max_tilt", 0.1854115712},
         {"rms_x", -0.00014227322},
@@ -293,7 +293,7 @@ TEST_CASE("gradients of measures agree with exact ones", "[sensitivity]") {
         {"x.Peak", -0.02134560572},
         {"end_vy", -0.1880292528}}},
       {"configs/rig",
-       plain,
+       unrounded,
        "controller.sampling.delay",
        {{"max_tilt", -0.003146401774},
         {"rms_x", 0.0002954820396},
@@ -480,10 +480,10 @@ TEST_CASE("if an event stops the run, the measures' end moves with the key", "[s
 
 TEST_CASE("the strength of noise has a derivative; its seed does not", "[sensitivity]") {
   const std::string key = "controller.sensor.noise";
-  const auto made = run("configs/rig", plain, {key}, {"rms_tracking_error"});
+  const auto made = run("configs/rig", unrounded, {key}, {"rms_tracking_error"});
   CHECK(unreliable(made).empty());
   const auto at = [&](double noise) {
-    return run("configs/rig", plain + Texts{key + "=" + number_text(noise), "solver.rtol=1e-12"},
+    return run("configs/rig", unrounded + Texts{key + "=" + number_text(noise), "solver.rtol=1e-12"},
                {}, {"rms_tracking_error"})
         .summary.measures.front()
         .second;
