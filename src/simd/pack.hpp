@@ -97,7 +97,9 @@ struct Pack {
     }
     return root;
   }
-  BBSIM_INLINE friend Pack value_of(Pack a) { return a; }
+  BBSIM_INLINE friend Pack value_of(Pack a) {
+    return a;
+  }
   // The time that selects an interval of a table. All times of a step lie between the same two
   // knots, so any lane will do.
   BBSIM_INLINE friend double plain(Pack a) {
