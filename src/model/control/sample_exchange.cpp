@@ -18,7 +18,6 @@ SampleExchange::SampleExchange(const SampledLoop& loop)
       sample_{0},
       apply_{loop.sampling.delay},
       frames_(loop.sensor.period),
-      legs_(loop.legs),
       sensor_(loop.sensor),
       times_(loop.sampling, loop.sensor.seed) {
   // Start from the last frame that has arrived at t = 0, or the one before.

@@ -104,8 +104,7 @@ class SampleExchange {
   Queue<Seen> seen_;              // exposed, not yet sampled
   std::optional<Pair> frame_;     // the last one that has arrived
   Queue<Pair> commands_;          // computed, not yet applied
-  bool legs_;                     // whether there are third commands
-  Queue<double> thirds_;
+  Queue<double> thirds_;          // with three servos
   BallSensor sensor_;
   SampleTimes times_;
 };
