@@ -275,7 +275,8 @@ std::vector<std::vector<double>> Sensitivity::find(RunResult& run, Watch& watch)
   summary.unreliable.emplace();
   std::vector<std::vector<double>> found(names_.size());
   for (std::size_t k = 0; k < keys_.size(); ++k) {
-    const auto& [key, value, step] = keys_[k];
+    const std::string& key = keys_[k].name;
+    const double step = keys_[k].step;
     std::string doubts;
     const auto doubt = [&](const std::string& of, double time) {
       summary.unreliable->push_back({key, of, time});
