@@ -170,8 +170,13 @@ Loop loop_of(const Rig& rig) {
   const double delay = servo + code + loop.sensor + loop.filter + period / 2;
   // With a larger bandwidth, noise drives a ball far from the center off the plate.
   constexpr double most = 2.5;
-  loop.bandwidth = std::min(most, std::stod(rounded(0.3 / delay, 2)));
-  const double acceleration = 9.81 / (rig.ball.hollow ? 1 + 2.0 / 3 : 1.4);  // for 1 rad of tilt
+  const double inertia = rig.ball.hollow ? 2.0 / 3 : 0.4;
+  // A plate that turns by 1 rad moves the contact point by so much, m, which the gain of the
+  // velocity feeds back. With this factor all classes keep a gain margin of 6 dB.
+  const double turn = inertia / (1 + inertia) * rig.ball.diameter / 2;
+  const double factor = std::min(1.0, std::sqrt(0.0075 / turn));
+  loop.bandwidth = std::stod(rounded(factor * std::min(most, 0.3 / delay), 2));
+  const double acceleration = 9.81 / (1 + inertia);  // for 1 rad of tilt
   constexpr double damping = 0.9, integral = 0.15;
   loop.kp = loop.bandwidth * loop.bandwidth / acceleration;
   loop.kv = 2 * damping * loop.bandwidth / acceleration;

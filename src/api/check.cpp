@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -58,8 +59,19 @@ void report_margins(Report& report, const Scenario& scenario, const model::Model
   const model::Linearization made =
       model::linearize(scenario, model, model::LinearKind::loop, model::home_point());
   report.push_back({"margins", "of each command's loop, the other one closed"});
-  const Report lines = margin_lines(made);
-  report.insert(report.end(), lines.begin(), lines.end());
+  for (const Report& lines : {margin_lines(made), margin_remarks(made)}) {
+    report.insert(report.end(), lines.begin(), lines.end());
+  }
+}
+
+// Says which axis poles and margins leave out.
+void report_idle_axis(Report& report, const model::Model& model) {
+  const std::optional<int> idle = model::idle_axis(model);
+  if (!idle) return;
+  const bool x = *idle == 0;
+  report.push_back({"", std::string("without ") + (x ? "x and phi" : "y and theta") +
+                            ": no command moves the ball along " + (x ? "x" : "y") +
+                            ", and it has no reference there"});
 }
 
 void report_sampled_loop(Report& report, const Scenario& scenario, const model::Model& model) {
@@ -79,6 +91,7 @@ void report_sampled_loop(Report& report, const Scenario& scenario, const model::
                              : "a sample period";
   report.push_back({"closed loop", std::to_string(poles.size()) + " poles of " + of +
                                        " about home: " + sampled_poles_line(poles)});
+  report_idle_axis(report, model);
   if (const std::string frames = without_frames(scenario, false); !frames.empty()) {
     report.push_back({"", frames});
   }
@@ -104,9 +117,10 @@ void report_sampled_loop(Report& report, const Scenario& scenario, const model::
 // For loops that are open, or whose law bbsim cannot see.
 void report_plant(Report& report, const model::Model& model, const std::string& why) {
   const model::Eigenvalues poles = model::plant_poles(model);
-  report.push_back(
-      {"plant", std::to_string(poles.size()) +
-                    " poles about home under a held command (1/s): " + poles_line(poles)});
+  report.push_back({"plant", poles.empty() ? "poles about home beyond the range of doubles"
+                                           : std::to_string(poles.size()) +
+                                                 " poles about home under a held command (1/s): " +
+                                                 poles_line(poles)});
   report.push_back({"closed loop", "no poles: " + why});
 }
 
@@ -120,13 +134,16 @@ void report_closed_loop(Report& report, const Scenario& scenario, const model::M
   if (model.rig && model.rig->sampled) return report_sampled_loop(report, scenario, model);
   const model::Eigenvalues poles = model::closed_loop_poles(model);
   if (poles.empty()) {
-    report.push_back(
-        {"WARNING", "the closed loop has no linearization about home: the law is singular there"});
+    report.push_back({"WARNING",
+                      "the closed loop has no linearization about home: the law is singular there, "
+                      "or poles exceed "
+                      "the range of doubles"});
     return;
   }
   const std::string warning = instability_warning(scenario, model);
   report.push_back({"closed loop", std::to_string(poles.size()) +
                                        " poles about home (1/s): " + poles_line(poles)});
+  report_idle_axis(report, model);
   if (warning.empty()) {
     report.push_back({"", model.dry ? "stable, without dry friction and limits" : "stable"});
     if (model::why_not_linear(scenario).empty()) report_margins(report, scenario, model);

@@ -161,6 +161,30 @@ Report margin_lines(const model::Linearization& made) {
   return lines;
 }
 
+Report margin_remarks(const model::Linearization& made) {
+  constexpr double least_gain = 6, least_phase = 30;  // dB, deg
+  const auto decibels = [](double factor) { return 20 * std::log10(factor); };
+  Report remarks;
+  for (const model::LoopMargins& loop : made.margins) {
+    const model::Margins& margins = loop.margins;
+    std::string small;
+    const auto add = [&small](const char* name, double value, double least, const char* unit) {
+      if (value < least) {
+        small += (small.empty() ? "" : ", ") + std::string(name) + short_number(value) + unit;
+      }
+    };
+    add("gain ", decibels(margins.gain), least_gain, " dB");
+    if (margins.reduction > 0) add("gain down ", -decibels(margins.reduction), least_gain, " dB");
+    add("phase ", std::abs(margins.phase) * 180 / std::numbers::pi, least_phase, " deg");
+    if (small.empty()) continue;
+    remarks.push_back(
+        {"remark", loop.command.substr(0, loop.command.find('_')) + ": small margins: " + small +
+                       "; with less than 6 dB or 30 deg, a loop rings, and small errors of the "
+                       "model may make it unstable"});
+  }
+  return remarks;
+}
+
 Report report_of(const Linearized& linearized) {
   const Linearization& made = linearized.linearisation;
   const model::LinearSystem& system = made.system;

@@ -41,6 +41,9 @@ struct Linearized {
 // Margins of each command's loop, and the bandwidths.
 [[nodiscard]] Report margin_lines(const Linearization& made);
 
+// Remarks on gain margins under 6 dB and phase margins under 30 degrees of a stable loop.
+[[nodiscard]] Report margin_remarks(const model::Linearization& made);
+
 // Operating points, names and units, poles, zeros and margins.
 [[nodiscard]] Report report_of(const Linearized& made);
 

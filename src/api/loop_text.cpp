@@ -84,33 +84,59 @@ bool is_pd_or_pid(const Scenario& scenario) {
          (scenario.controller->law == Law::pd || scenario.controller->law == Law::pid);
 }
 
-// Reverses theta's row in a state feedback and in the gains with a bit in `which`.
-Scenario with_theta_reversed(const Scenario& scenario, unsigned which) {
-  Scenario reversed = scenario;
-  Controller& controller = *reversed.controller;
-  const auto reverse = [&](Matrix2& gain, unsigned bit) {
-    if ((which & bit) == 0) return;
-    for (double& number : gain[1]) number = -number;
-  };
-  reverse(controller.kv, 1);
-  reverse(controller.kp, 2);
-  reverse(controller.ki, 4);
-  // Columns 5 to 8 multiply the servos' own angles and rates, and keep their signs.
-  for (std::size_t i = 0; i < 4; ++i) controller.gain[1][i] = -controller.gain[1][i];
-  return reversed;
+enum Rows : unsigned { of_phi = 1, of_theta = 2 };
+
+// Reverses these rows in a state feedback and in the gains with a bit in `which`.
+Scenario reversed(const Scenario& scenario, unsigned rows, unsigned which) {
+  Scenario changed = scenario;
+  Controller& controller = *changed.controller;
+  for (const std::size_t row : {0U, 1U}) {
+    if ((rows >> row & 1U) == 0) continue;
+    unsigned bit = 1;
+    for (Matrix2* const gain : {&controller.kv, &controller.kp, &controller.ki}) {
+      if ((which & bit) != 0) (*gain)[row] = {-(*gain)[row][0], -(*gain)[row][1]};
+      bit *= 2;
+    }
+    // Columns 5 to 8 multiply the servos' own angles and rates, and keep their signs.
+    for (std::size_t i = 0; i < 4; ++i) controller.gain[row][i] = -controller.gain[row][i];
+  }
+  return changed;
 }
 
-// Whether the loop is stable with other signs in theta's row.
-bool has_wrong_signs(const Scenario& scenario, const model::Model& model) {
+bool stable_as(const Scenario& scenario, const model::Model& model) {
+  return instability(model::assemble(scenario, model.gamma)).empty();
+}
+
+// Which rows of the gains need other signs for a stable loop; 0 if this does not help.
+unsigned rows_with_wrong_signs(const Scenario& scenario, const model::Model& model) {
   const bool state_feedback =
       scenario.controller && scenario.controller->law == Law::state_feedback;
-  if (!is_pd_or_pid(scenario) && !state_feedback) return false;
+  if (!is_pd_or_pid(scenario) && !state_feedback) return 0;
   const unsigned most = state_feedback ? 1 : 7;
-  for (unsigned which = 1; which <= most; ++which) {
-    const Scenario reversed = with_theta_reversed(scenario, which);
-    if (instability(model::assemble(reversed, model.gamma)).empty()) return true;
+  for (const unsigned rows : {+of_theta, +of_phi, of_phi | of_theta}) {
+    for (unsigned which = 1; which <= most; ++which) {
+      if (stable_as(reversed(scenario, rows, which), model)) return rows;
+    }
   }
-  return false;
+  return 0;
+}
+
+// Whether the loop is unstable because a turn of the plate moves the contact point: also without
+// feedback of the position, but not with a ball of almost no radius.
+bool feeds_back_the_turn(const Scenario& scenario, const model::Model& model) {
+  if (!is_pd_or_pid(scenario) || scenario.controller->drives != Drives::angle) return false;
+  Scenario other = scenario;
+  other.controller->kp = other.controller->ki = {};
+  const model::Model damped = model::assemble(other, model.gamma);
+  const bool sampled = damped.rig && damped.rig->sampled;
+  const int growing = sampled ? model::growing_by_period(model::sampled_poles(damped))
+                              : model::growing(model::closed_loop_poles(damped));
+  if (growing == 0) return false;
+  other = scenario;
+  constexpr double almost_none = 1e-6;
+  other.ball.radius *= almost_none;
+  if (other.ball.groove) other.ball.groove->ball_radius *= almost_none;
+  return stable_as(other, model);
 }
 
 }  // namespace
@@ -122,10 +148,18 @@ std::string instability_warning(const Scenario& scenario, const model::Model& mo
     warning +=
         "; a law that drives accelerations must feed back the tilt: use drives: angle with "
         "gimbal.servo, or lqr";
-  } else if (has_wrong_signs(scenario, model)) {
+  } else if (const unsigned rows = rows_with_wrong_signs(scenario, model); rows != 0) {
+    constexpr const char* whose[] = {"phi's gains have", "theta's gains have",
+                                     "the gains of phi and of theta have"};
+    warning += std::string("; ") + whose[rows - 1] +
+               " the wrong sign: positive phi drives the ball towards +x, positive theta towards "
+               "-y, so a gain k for both is [[k, 0], [0, -k]]";
+  } else if (feeds_back_the_turn(scenario, model)) {
     warning +=
-        "; theta's gains have the wrong sign: positive theta drives the ball towards -y, so a gain "
-        "k for both is [[k, 0], [0, -k]]";
+        "; the derivative of the contact point causes this: the contact point moves as the plate "
+        "turns under the ball, by the ball's radius times the angle, so the gain of the velocity "
+        "feeds the servo's own rate back. Lower that gain, or filter the velocity "
+        "(controller.sampling.derivative_filter)";
   }
   return warning;
 }

@@ -17,8 +17,8 @@ namespace bbsim::api {
 // Poles of a sampled loop, as magnitudes relative to the unit circle.
 [[nodiscard]] std::string sampled_poles_line(const model::Eigenvalues& poles);
 
-// Warns if the closed loop of `model`, the scenario's, is unstable about home, also if other signs
-// of theta's gains would make it stable. Else empty.
+// Warns if the closed loop of `model`, the scenario's, is unstable about home, and says if other
+// signs of the gains, or a smaller ball, would make it stable. Else empty.
 [[nodiscard]] std::string instability_warning(const Scenario& scenario, const model::Model& model);
 
 // Why a sampled loop's poles (if `by_sample`, its equations by samples) leave out its camera's

@@ -32,7 +32,7 @@ namespace bbsim::api {
 namespace {
 
 // Most controllers answer at the first sample; a sketch that filters or waits takes longer.
-constexpr std::size_t samples = 25;
+constexpr std::size_t few_samples = 25, most_samples = 20000;
 using Commands = std::vector<Pair>;
 
 constexpr std::array<const char*, 2> coordinates{"x", "y"}, angles{"phi", "theta"};
@@ -49,9 +49,11 @@ class Bench {
     return model_.with_loop([t](const auto& loop) { return loop.reference().at(t); });
   }
 
+  [[nodiscard]] double period() const { return model_.rig().sampled->sampling.period; }
+
   // Commands for a ball at away(sample) from the reference, m.
-  Commands commands(const std::function<Pair(double)>& away) {
-    return answers(samples, 0, [&](std::size_t i, const Pair& reference) {
+  Commands commands(std::size_t count, const std::function<Pair(double)>& away) {
+    return answers(count, 0, [&](std::size_t i, const Pair& reference) {
       const Pair from = away(static_cast<double>(i));
       std::optional<Pair> seen = Pair{};
       if (!sensor_.read(reference[0] + from[0], reference[1] + from[1], *seen)) seen.reset();
@@ -143,16 +145,35 @@ struct Sides {
 
 // Answers along x and y.
 struct Answers {
+  std::size_t count;  // of samples
   std::array<std::optional<Sides>, 2> near, far;
 
-  // Whether any command of the sample depends on the ball's position.
-  [[nodiscard]] bool depend(std::size_t sample) const {
-    for (const auto* sides : {&near, &far}) {
-      for (const auto& one : *sides) {
-        if (one && one->up[sample] != one->down[sample]) return true;
+  // The first sample at which a command depends on the ball's position.
+  [[nodiscard]] std::optional<std::size_t> first(std::size_t command) const {
+    for (std::size_t i = 0; i < count; ++i) {
+      for (const auto* sides : {&near, &far}) {
+        for (const auto& one : *sides) {
+          if (one && one->up[i][command] != one->down[i][command]) return i;
+        }
       }
     }
-    return false;
+    return {};
+  }
+  // Whether a command keeps one value at all samples and wherever the ball is.
+  [[nodiscard]] bool stands(std::size_t command) const {
+    std::optional<double> value;
+    for (const auto* sides : {&near, &far}) {
+      for (const auto& one : *sides) {
+        if (!one) continue;
+        for (const Commands* some : {&one->up, &one->down}) {
+          for (const Pair& commands : *some) {
+            if (value.value_or(commands[command]) != commands[command]) return false;
+            value = commands[command];
+          }
+        }
+      }
+    }
+    return true;
   }
 
   // Rise of a command with a coordinate about the reference, in its unit per m.
@@ -165,16 +186,17 @@ struct Answers {
   }
 };
 
-Answers ask(Bench& bench, const Scenario& scenario, const std::vector<int>& axes) {
+Answers ask(Bench& bench, const Scenario& scenario, const std::vector<int>& axes,
+            std::size_t count) {
   const auto reference = bench.reference_at(0);
-  Answers answers;
+  Answers answers{count, {}, {}};
   for (const int one : axes) {
     const auto axis = static_cast<std::size_t>(one);
     const auto at = [&](double distance) {
       const auto commands = [&](double away) {
         Pair from{0, 0};
         from[axis] = away;
-        return bench.commands([from](double) { return from; });
+        return bench.commands(count, [from](double) { return from; });
       };
       return Sides{distance, commands(distance), commands(-distance)};
     };
@@ -185,20 +207,50 @@ Answers ask(Bench& bench, const Scenario& scenario, const std::vector<int>& axes
   return answers;
 }
 
+// Samples in the time in which any controller must act: three times that in which the ball rolls
+// the longest distance on a plate tilted by 3 degrees, and the delays.
+std::size_t samples_to_act(const Scenario& scenario, const Bench& bench,
+                           const std::vector<int>& axes) {
+  double distance = 0;
+  const auto reference = bench.reference_at(0);
+  for (const int one : axes) {
+    const auto axis = static_cast<std::size_t>(one);
+    distance = std::max(distance, greatest_distance(scenario, axis, reference[axis].value));
+  }
+  const double acceleration =
+      scenario.gravity * std::sin(3 * std::numbers::pi / 180) / (1 + scenario.ball.inertia_factor);
+  const Controller& controller = *scenario.controller;
+  double time = controller.sampling->delay;
+  if (acceleration > 0) time += 3 * std::sqrt(2 * distance / acceleration);
+  if (controller.sensor) time += controller.sensor->delay + controller.sensor->period.value_or(0);
+  return static_cast<std::size_t>(std::clamp(std::ceil(time / bench.period()),
+                                             static_cast<double>(few_samples),
+                                             static_cast<double>(most_samples)));
+}
+
+// Whether the scene has the ball move along an axis, by its start or its reference.
+bool moves_along(const Scenario& scenario, const Bench& bench, std::size_t axis) {
+  const auto led = bench.reference_at(0)[axis];
+  return led.value != 0 || led.rate != 0 || led.acceleration != 0 ||
+         scenario.ball.position[axis] != 0 || scenario.ball.velocity[axis] != 0;
+}
+
 std::string centimeters(double meters) {
   return short_number(100 * meters) + " cm";
 }
 
 // Assesses the command for phi or theta; `effect` is its effect_of() on x and y. With legs, a
 // remedy exists only for both commands together (turn_of).
-Line line_of(const Answers& answers, std::size_t sample, std::size_t command,
+Line line_of(const Answers& answers, std::size_t command, const std::string& within,
              const Eigen::Vector2d& effect, const std::string& unit, bool legs) {
   constexpr const char* warning = "WARNING";
   const std::string name = std::string(angles[command]) + ": ";
   const std::size_t axis = std::abs(effect[0]) >= std::abs(effect[1]) ? 0 : 1, other = 1 - axis;
+  const std::optional<std::size_t> first = answers.first(command);
+  if (!first) return {warning, name + "does not depend on where the ball is, " + within};
+  const std::size_t sample = *first;
   const double gain = answers.gain(sample, command, axis);
   const double cross = answers.gain(sample, command, other);
-  if (gain == 0 && cross == 0) return {warning, name + "does not depend on where the ball is"};
   // The rest on its own axis may be rounding, or a sensor that is turned slightly.
   if (std::abs(gain) < 0.1 * std::abs(cross)) {
     return {warning, name + "depends on " + coordinates[other] + ", but moves the ball along " +
@@ -297,7 +349,23 @@ Estimate law_about_reference(Bench& bench, std::size_t start, double size) {
   }
   const char* const not_linear = "the controller is not linear about the reference";
   if (!(largest > 0 && apart <= 0.02 * largest)) return {{}, not_linear};
-  return {model::law_of(one, apart), not_linear};
+  Estimate estimate{model::law_of(one, apart), not_linear};
+  // Rounding must not connect an axis that the law leaves alone.
+  for (const Eigen::Index k : {0, 1}) {
+    const auto none = [&](const auto& part) {
+      return std::ranges::all_of(one, [&](const auto& sample) { return part(sample).isZero(0); });
+    };
+    if (!estimate.law) break;
+    if (none([k](const auto& of) { return of.row(k); })) {
+      estimate.law->c.row(k).setZero();
+      estimate.law->d.row(k).setZero();
+    }
+    if (none([k](const auto& of) { return of.col(k); })) {
+      estimate.law->b.col(k).setZero();
+      estimate.law->d.col(k).setZero();
+    }
+  }
+  return estimate;
 }
 
 // Margins of the loop of the plant and the estimated law.
@@ -320,8 +388,10 @@ Report estimated_margins(const Scenario& scenario, const model::Model& model, Be
                         (loop.stable ? ""
                                      : "; the loop is not stable: these are where poles cross the "
                                        "stability limit")});
-    const Report lines = margin_lines(loop);
-    report.insert(report.end(), lines.begin(), lines.end());
+    for (const Report& lines :
+         {margin_lines(loop), loop.stable ? margin_remarks(loop) : Report{}}) {
+      report.insert(report.end(), lines.begin(), lines.end());
+    }
     if (const std::string note = without_frames(scenario, true); !note.empty()) {
       report.push_back({"", note});
     }
@@ -336,37 +406,56 @@ Report estimated_margins(const Scenario& scenario, const model::Model& model, Be
 Report probe(const Scenario& scenario, const model::Model& model) {
   Bench bench(model);
   Report report;
-  // The ball moves, so that a controller takes differences and divides them by time.
-  const auto moves = [](double sample) { return Pair{0.01 - 0.001 * sample, 0.0007 * sample}; };
-  if (bench.commands(moves) != bench.commands(moves)) {
-    report.push_back({"WARNING",
-                      "the controller answers differently to the same samples; does it read a "
-                      "wall clock?"});
+  std::vector<int> axes = model::moving_axes(model);
+  if (scenario.ball.groove) axes = {scenario.ball.groove->axis};
+  const auto depend = [](const Answers& answers, int axis) {
+    return answers.first(static_cast<std::size_t>(axis)).has_value();
+  };
+  Answers answers = ask(bench, scenario, axes, few_samples);
+  if (!std::ranges::all_of(axes, [&](int axis) { return depend(answers, axis); })) {
+    answers = ask(bench, scenario, axes, samples_to_act(scenario, bench, axes));
   }
-  const std::vector<int> axes = model::moving_axes(model);
-  const Answers answers = ask(bench, scenario, axes);
-  std::size_t sample = 0;
-  while (sample < samples && !answers.depend(sample)) ++sample;
-  if (sample == samples) {
-    report.push_back({"WARNING", "its commands do not depend on where the ball is, in " +
-                                     std::to_string(samples) + " samples"});
+  const std::string within =
+      "within " + short_number(static_cast<double>(answers.count) * bench.period()) + " s";
+  // The ball moves, so that a controller takes differences and divides them by time.
+  const auto moves = [](double sample) {
+    return Pair{0.01 * std::cos(0.1 * sample), 0.007 * std::sin(0.1 * sample)};
+  };
+  if (bench.commands(answers.count, moves) != bench.commands(answers.count, moves)) {
+    report.push_back({"WARNING", "the controller answers differently to the same samples, " +
+                                     within + "; does it read a wall clock?"});
+  }
+  if (std::ranges::none_of(axes, [&](int axis) { return depend(answers, axis); })) {
+    report.push_back({"WARNING", "its commands do not depend on where the ball is, " + within});
     return report;
+  }
+  std::size_t sample = 0;  // from which on all commands answer
+  for (const int axis : axes) {
+    sample = std::max(sample, answers.first(static_cast<std::size_t>(axis)).value_or(0));
   }
   if (sample > 0) {
     report.push_back(
-        {"", "it answers to where the ball is from sample " + std::to_string(sample) + " on"});
+        {"", "it answers to where the ball is from sample " + std::to_string(sample) +
+                 " on, t = " + short_number(static_cast<double>(sample) * bench.period()) + " s"});
   }
   const Eigen::MatrixXd effect = effect_of(model);
   const std::string unit = command_unit(scenario.controller->drives);
   const bool legs = model.rig->sampled->legs;
+  std::vector<int> driven;
   for (const int one : axes) {
     const auto command = static_cast<std::size_t>(one);
-    report.push_back(line_of(answers, sample, command, effect.col(one), unit, legs));
+    if (!legs && answers.stands(command) && !moves_along(scenario, bench, command)) {
+      report.push_back({"", std::string(angles[command]) + ": stays the same, and nothing moves " +
+                                "the ball along " + coordinates[command]});
+      continue;
+    }
+    driven.push_back(one);
+    report.push_back(line_of(answers, command, within, effect.col(one), unit, legs));
   }
   if (legs && axes.size() == 2) {
     if (const auto line = turn_of(answers, sample, effect)) report.push_back(*line);
   }
-  const Report margins = estimated_margins(scenario, model, bench, axes, answers, sample);
+  const Report margins = estimated_margins(scenario, model, bench, driven, answers, sample);
   report.insert(report.end(), margins.begin(), margins.end());
   return report;
 }

@@ -12,7 +12,8 @@ namespace bbsim::api {
 // Puts the ball beside the reference, on each axis and either side, and asks the model's controller
 // for commands. The model tells where they drive the ball. Small pulses about the reference give
 // the law, as far as it is linear, and the loop's margins. Runs the controller about twenty times
-// for at most a hundred samples. Throws model::ControllerFault.
+// for a hundred samples, or for as long as a ball needs to roll off if it does not answer before.
+// Throws model::ControllerFault.
 [[nodiscard]] Report probe(const Scenario& scenario, const model::Model& model);
 
 }  // namespace bbsim::api

@@ -60,7 +60,7 @@ FreeNumber read_free(const std::string& text, const ScenarioFamily& family) {
   if (equals == std::string::npos) {
     throw InputError("--free: " + shown(trimmed(text)) +
                      ": found no range; allowed: KEY=FROM:TO, such as "
-                     "controller.pid.kp=1:20");
+                     "controller.gravity_compensation.kp=1:20");
   }
   const auto tied = scenario::tied_keys({text.substr(0, equals), text.substr(equals + 1)});
   if (tied.front().factor != 1) {

@@ -22,6 +22,7 @@
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
 #include "controller/foreign_code.hpp"
+#include "controller/protocol.hpp"
 #include "file/children.hpp"
 
 namespace bbsim::controller {
@@ -122,9 +123,9 @@ void Child::refuse_early_words() {
     if (got <= 0) return;  // receive() finds a closed stream
     size_ = static_cast<std::size_t>(got);
   }
-  const std::string_view words = received();
-  fail("it said " + bbsim::quoted(words.substr(0, words.find('\n')), longest_saying) +
-       " before it was asked; allowed: one line for each request");
+  const std::string_view words = received(), line = words.substr(0, words.find('\n'));
+  fail("it said " + bbsim::quoted(line, longest_saying) + " before it was asked; " +
+       advice_on_text(line) + "allowed: one line for each request");
 }
 
 void Child::send(std::string_view line) {

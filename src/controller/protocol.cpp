@@ -154,10 +154,15 @@ std::optional<std::string> error_of(std::string_view line) {
 std::string refusal(std::string_view line, const std::string& why) {
   if (const auto error = error_of(line))
     return "it gave up: " + bbsim::quoted(*error, longest_saying);
-  return not_understood(line, why);
+  return not_understood(line, advice_on_text(line) + why);
 }
 
 }  // namespace
+
+std::string advice_on_text(std::string_view line) {
+  if (Reader(line).take('{')) return "";
+  return "standard output is only for answers, print all else to standard error; ";
+}
 
 std::string hello_line(const Setup& setup) {
   Json hello = Json::object();

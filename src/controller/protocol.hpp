@@ -67,6 +67,9 @@ inline constexpr std::size_t longest_sample = 1024;
 [[nodiscard]] std::size_t write_sample(const model::ControllerSample& sample, Fields wanted,
                                        char (&line)[longest_sample]);
 
+// For a line that is not a JSON object, where to print other text; else empty.
+[[nodiscard]] std::string advice_on_text(std::string_view line);
+
 // Reads an answer, a line without its line break. Reads as many commands as `command` has room for,
 // two or three, and the numbers of these names into `own`. Returns what is wrong with the answer;
 // empty if nothing is. Allocates no memory unless something is wrong. `first`: it is the first

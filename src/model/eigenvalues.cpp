@@ -11,9 +11,24 @@ namespace bbsim::model {
 std::vector<std::complex<double>> eigenvalues_of(const Eigen::MatrixXd& matrix) {
   if (!matrix.allFinite()) return {};
   // Eigen's solver does not balance: rounding of a stiff servo's entries would reach all others.
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(balanced(matrix), false);
+  const Eigen::MatrixXd even = balanced(matrix);
+  const double unit = unit_of(even);
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(even / unit, false);
   if (solver.info() != Eigen::Success) return {};
-  return {solver.eigenvalues().begin(), solver.eigenvalues().end()};
+  return in_units({solver.eigenvalues().begin(), solver.eigenvalues().end()}, unit);
+}
+
+double unit_of(const Eigen::MatrixXd& matrix) {
+  const double largest = matrix.size() == 0 ? 0 : matrix.cwiseAbs().maxCoeff();
+  return largest > 0 ? std::exp2(std::ilogb(largest)) : 1;
+}
+
+std::vector<std::complex<double>> in_units(std::vector<std::complex<double>> values, double unit) {
+  for (auto& value : values) {
+    value *= unit;
+    if (!std::isfinite(value.real()) || !std::isfinite(value.imag())) return {};
+  }
+  return values;
 }
 
 Eigen::MatrixXd balanced(const Eigen::MatrixXd& matrix, Eigen::VectorXd* scale) {

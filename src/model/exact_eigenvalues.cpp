@@ -144,16 +144,12 @@ Values eigenvalues_of_hessenberg(QuadMatrix& m) {
 
 Values exact_eigenvalues(const Eigen::MatrixXd& matrix) {
   if (!matrix.allFinite()) return {};
-  const Eigen::MatrixXd even = balanced(matrix);
-  const double largest = even.size() == 0 ? 0 : even.cwiseAbs().maxCoeff();
-  if (!(largest > 0)) return Values(static_cast<std::size_t>(matrix.rows()));
   // Square roots go through doubles, so scale squares of entries into their range.
-  const double unit = std::exp2(std::round(std::log2(largest)));
+  const Eigen::MatrixXd even = balanced(matrix);
+  const double unit = unit_of(even);
   QuadMatrix m(even / unit);
   make_hessenberg(m);
-  Values values = eigenvalues_of_hessenberg(m);
-  for (auto& value : values) value *= unit;
-  return values;
+  return in_units(eigenvalues_of_hessenberg(m), unit);
 }
 
 double exact_rounding(Eigen::Index size) {

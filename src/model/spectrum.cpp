@@ -132,13 +132,107 @@ bool has_loop(const System& system) {
   }
 }
 
+std::vector<int> states_of(const std::vector<LinearSignal>& signals, int axis) {
+  const auto begins = [axis](const std::string& name) {
+    return axis == 0 ? name.starts_with("x") || name.starts_with("vx") || name.starts_with("phi")
+                     : name.starts_with("y") || name.starts_with("vy") || name.starts_with("theta");
+  };
+  std::vector<int> states;
+  for (int i = 0; i < std::ssize(signals); ++i) {
+    if (begins(signals[static_cast<std::size_t>(i)].name)) states.push_back(i);
+  }
+  return states;
+}
+
+std::vector<int> others_than(const std::vector<int>& states, Eigen::Index count) {
+  std::vector<int> others;
+  for (int i = 0; i < count; ++i) {
+    if (std::ranges::find(states, i) == states.end()) others.push_back(i);
+  }
+  return others;
+}
+
+LinearLoop sampled_loop(const Model& model) {
+  const LinearPoint home = home_point();
+  const PlantDerivatives plant = plant_derivatives(model, home, Heave::left_out);
+  LinearLoop loop;
+  std::vector<int> states;
+  const SampledCycle cycle(cycle_parts(plant, *model.rig, home, states));
+  const SampledMap map = cycle.map();
+  const auto names = state_signals(plant.places, "");
+  for (const int i : states) loop.states.push_back(names[static_cast<std::size_t>(i)]);
+  std::ranges::move(cycle.memory(""), std::back_inserter(loop.states));
+  loop.a = map.a;
+  loop.law = map.law;
+  return loop;
+}
+
+LinearLoop continuous_loop(const Model& model) {
+  const LoopDerivatives of = loop_derivatives(model, home_point());
+  const std::vector<int> states = loop_states(of, moving_axes(model));
+  const auto names = state_signals(of.places, "");
+  LinearLoop loop{{}, of.of_state(states, states), of.command_of_state(Eigen::all, states)};
+  for (const int i : states) loop.states.push_back(names[static_cast<std::size_t>(i)]);
+  return loop;
+}
+
+bool is_sampled(const Model& model) {
+  return model.rig && model.rig->sampled && feeds_back(model.rig->sampled->law.kind);
+}
+
+bool is_continuous(const Model& model) {
+  return std::visit([](const auto& system) { return has_loop(system); }, model.system);
+}
+
+// Whether a reference leads the ball along an axis.
+bool is_led(const Model& model, int axis) {
+  return std::visit(
+      [axis](const auto& system) {
+        if constexpr (requires { system.reference().is_zero(0); }) {
+          return !system.reference().is_zero(static_cast<std::size_t>(axis));
+        }
+        return true;
+      },
+      model.system);
+}
+
+Eigen::MatrixXd without_idle(const Model& model, const LinearLoop& loop) {
+  const std::optional<int> idle = idle_axis(model, loop);
+  if (!idle) return loop.a;
+  const std::vector<int> kept = states_without(loop.states, idle);
+  return loop.a(kept, kept);
+}
+
 }  // namespace
 
+bool stands_apart(const LinearLoop& loop, int axis) {
+  const std::vector<int> own = states_of(loop.states, axis),
+                         others = others_than(own, loop.a.rows());
+  return loop.law.row(axis).isZero(0) && !own.empty() && !others.empty() &&
+         loop.a(own, others).isZero(0) && loop.a(others, own).isZero(0);
+}
+
+std::optional<int> idle_axis(const Model& model, const LinearLoop& loop) {
+  if (!model.closed_loop()) return {};
+  const auto is_idle = [&](int axis) { return !is_led(model, axis) && stands_apart(loop, axis); };
+  const bool x = is_idle(0), y = is_idle(1);
+  if (x == y) return {};
+  return x ? 0 : 1;
+}
+
+std::optional<int> idle_axis(const Model& model) {
+  if (is_sampled(model)) return idle_axis(model, sampled_loop(model));
+  if (is_continuous(model)) return idle_axis(model, continuous_loop(model));
+  return {};
+}
+
+std::vector<int> states_without(const std::vector<LinearSignal>& states, std::optional<int> axis) {
+  return others_than(axis ? states_of(states, *axis) : std::vector<int>{}, std::ssize(states));
+}
+
 Eigenvalues closed_loop_poles(const Model& model) {
-  if (!std::visit([](const auto& system) { return has_loop(system); }, model.system)) return {};
-  const LoopDerivatives loop = loop_derivatives(model, home_point());
-  const std::vector<int> states = loop_states(loop, moving_axes(model));
-  return sorted_eigenvalues(loop.of_state(states, states));
+  if (!is_continuous(model)) return {};
+  return sorted_eigenvalues(without_idle(model, continuous_loop(model)));
 }
 
 Eigenvalues plant_poles(const Model& model) {
@@ -149,11 +243,8 @@ Eigenvalues plant_poles(const Model& model) {
 }
 
 Eigenvalues sampled_poles(const Model& model) {
-  if (!model.rig || !model.rig->sampled || !feeds_back(model.rig->sampled->law.kind)) return {};
-  const LinearPoint home = home_point();
-  const PlantDerivatives plant = plant_derivatives(model, home, Heave::left_out);
-  std::vector<int> states;
-  return poles_of_period(SampledCycle(cycle_parts(plant, *model.rig, home, states)).map().a);
+  if (!is_sampled(model)) return {};
+  return poles_of_period(without_idle(model, sampled_loop(model)));
 }
 
 int growing(const Eigenvalues& poles) {

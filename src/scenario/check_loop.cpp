@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Reports what is missing beside `controller.drives`: a servo, a motor, a motion (sections.hpp).
+#include "base/number_text.hpp"
 #include "scenario/relations.hpp"
 #include "scenario/sections.hpp"
+#include "yaml/quantity.hpp"
 
 namespace bbsim::scenario {
 namespace {
@@ -27,6 +29,27 @@ void report_missing(yaml::Keys& scenario, const std::string& message) {
   place.context->problems.add(place.position, message);
 }
 
+// Refuses a number as the gain of a law that drives angles, because it pushes the ball away along
+// y.
+void check_signs(yaml::Keys& scenario) {
+  for (const char* const law : {"pd", "pid"}) {
+    const auto gains = find_in(scenario, "controller", law);
+    for (const char* const key : {"kv", "kp", "ki"}) {
+      const auto gain = gains ? yaml::Keys(*gains).find(key) : std::nullopt;
+      if (!gain || gain->node->kind != yaml::Node::Kind::scalar) continue;
+      const double k =
+          yaml::read_quantity(gain->node->text, gain->node->quoted, yaml::Dimension::number)
+              .value.value_or(0);
+      if (k == 0) continue;
+      const std::string theirs = number_text(k), reversed = number_text(-k);
+      report(*gain, "found " + theirs + ", which means [[" + theirs + ", 0], [0, " + theirs +
+                        "]], but positive theta drives the ball towards -y; allowed: [[" + theirs +
+                        ", 0], [0, " + reversed +
+                        "]], or another matrix with rows phi, theta and columns x, y");
+    }
+  }
+}
+
 // Checks nothing for an invalid value of `drives`, which the reader has reported.
 void check_servo(yaml::Keys& scenario) {
   const auto drives = find_in(scenario, "controller", "drives");
@@ -47,6 +70,7 @@ void check_servo(yaml::Keys& scenario) {
     report(*servo,
            "found beside gimbal.motor, but a servo moves at any torque; allowed: one of the two");
   }
+  if (driven == "angle") check_signs(scenario);
   check_relations(scenario, driven == "acceleration"
                                 ? "controller and controller.drives=acceleration|"
                                 : "controller.drives=" + driven);

@@ -102,6 +102,8 @@ Numbers in_gimbal(Gimbal& gimbal, Names names) {
 Numbers in_controller(Controller& controller, Names names) {
   if (names.size() < 2) return {};
   if (names[0] == "pd") {
+    // The reader refuses a number that drives angles.
+    if (names.size() == 2 && controller.drives == Drives::angle) return {};
     if (names[1] == "kv") return in_matrix(controller.kv, names.subspan(2));
     if (names[1] == "kp") return in_matrix(controller.kp, names.subspan(2));
   }

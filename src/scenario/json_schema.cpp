@@ -281,6 +281,16 @@ Json limit_of_numbers() {
               false)}};
 }
 
+// A number other than 0 is no gain of a law that drives angles.
+Json matrices_for_angles() {
+  Json gains = Json::array();
+  for (const char* path : {"controller.pd.kv", "controller.pd.kp", "controller.pid.kv",
+                           "controller.pid.kp", "controller.pid.ki"}) {
+    gains.push_back(at(path, {{"anyOf", {{{"type", "array"}}, {{"const", 0}}}}}, false));
+  }
+  return {{"if", holds(Condition("controller.drives=angle"))}, {"then", {{"allOf", gains}}}};
+}
+
 // Only your own controller gives columns other than bbsim's.
 Json known_columns() {
   const Declared& columns = declared_at("output.columns");
@@ -304,6 +314,7 @@ std::string scenario_json_schema() {
     schema["allOf"].push_back(schema_of(relation));
   }
   schema["allOf"].push_back(limit_of_numbers());
+  schema["allOf"].push_back(matrices_for_angles());
   schema["allOf"].push_back(known_columns());
   return json_text(schema, 1);
 }

@@ -227,8 +227,9 @@ constexpr KeyText controller[] = {
 
 constexpr KeyText laws[] = {
     {.keys = "pd.kv .kp",
-     .meaning = "a number k for [[k, 0], [0, k]], or 2x2; rows phi, theta; columns x, y. In x and "
-                "y you need [[k, 0], [0, -k]] (*Signs*, below)",
+     .meaning =
+         "2x2; rows phi, theta; columns x, y: [[k, 0], [0, -k]] (*Signs*, below). A number k "
+         "stands for [[k, 0], [0, k]]; under `drives: angle`, only 0 is allowed",
      .unit = "below"},
     {.keys = "pid.kv .kp .ki", .meaning = "the same", .unit = "below"},
     {.keys = "state_feedback.gain",

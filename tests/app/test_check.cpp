@@ -85,6 +85,28 @@ TEST_CASE("check's verdict includes the age of the frames that a sampled control
   CHECK(contains(linear.err, "coincide with the samples again after 3 samples"));
 }
 
+TEST_CASE("an axis that no command moves and no reference leads is left out of the verdict") {
+  const std::string part = GENERATE("controller.sampling={period: 0.01, derivative_filter: 0.06}",
+                                    "ball.rolling_radius=0.01", "ball.inertia_factor=0.667",
+                                    "gimbal.mounting.phi_offset=0.01",
+                                    "gimbal.servo.angle_limit=0.4", "ball.losses.viscous=1e-3");
+  const auto check = [&](const std::string& more) {
+    return bbsim({"check", config("beam.yaml"), "--set", part, "--set", more}).out;
+  };
+  CAPTURE(part);
+  const std::string beam = check("ball.position.0=0.1");
+  CHECK(contains(beam, "without y and theta"));
+  CHECK(contains(beam, "\n             stable"));
+  CHECK(contains(beam, "\n  phi        gain"));
+  CHECK_FALSE(contains(beam, "WARNING"));
+  CHECK_FALSE(contains(beam, "\n  theta      "));
+  // Neither is left out if the reference is off it, or if phi moves the ball along it.
+  if (part == "ball.rolling_radius=0.01") return;
+  CHECK(contains(check("controller.reference.point.1=0.01"), "at the stability limit"));
+  CHECK(contains(check("gimbal.mounting.yaw=0.1"), "at the stability limit"));
+  CHECK(contains(check("controller.pd.kp.0.0=-1"), "unstable"));
+}
+
 TEST_CASE("check reports all problems of a scenario together, each with its place") {
   const Folder folder;
   folder.write("bad.yaml",

@@ -110,7 +110,7 @@ TEST_CASE("any misbehavior of a controller is reported, and the rows before it a
       {"joins", "it did not answer within 1 s"},
       {"dies", "failed at sample 5 (t = 0.1 s): it ended with exit code 3."},
       {"crashes", "it was ended by signal 9 (Killed)"},
-      {"garbage", "its answer was \"hello \\x1b[31mworld\": allowed: {\"command\": [PHI, THETA]}"},
+      {"garbage", "its answer was \"hello \\x1b[31mworld\": standard output is only for answers"},
       {"floods", "its answer does not end within 65536 bytes: \"xxx"},
       {"closes", "it closed its standard output; it was still running, and has been ended"},
       {"breaks off", "its answer breaks off: \"{\"comma\"; it ended with exit code 0"},
@@ -123,7 +123,7 @@ TEST_CASE("any misbehavior of a controller is reported, and the rows before it a
       {"three", "found a command that is not two numbers"},
       {"none", "found no command"},
       {"trails", "and more\": allowed"},
-      {"empty", "its answer was nothing: allowed"},
+      {"empty", "its answer was nothing: standard output"},
       {"gives up", "it gave up: \"the plate is gone\""},
   }));
   CAPTURE(mode);
@@ -165,7 +165,7 @@ TEST_CASE("a controller that does not start fails the run before its first row")
       {"dies at once", "it ended with exit code 4"},
       {"leaves", "it ended with exit code 0"},
       {"another version", "found a protocol of another version; allowed: 1"},
-      {"chatters", "its answer was \"Welcome!\""},
+      {"chatters", "its answer was \"Welcome!\": standard output is only for answers"},
   }));
   CAPTURE(mode);
   const Scene scene("\"" + mode + "\"", "timeout: 1", "t, x");

@@ -236,7 +236,43 @@ TEST_CASE("check reports swapped commands and commands that depend on nothing") 
                                      "x; swap the commands, or the coordinates\n"));
   const Result deaf = bbsim(on_step("check", python("deaf.py")), folder.path());
   CHECK_THAT(deaf.out, Contains("\nWARNING      its commands do not depend on where the ball is, "
-                                "in 25 samples\n"));
+                                "within "));
+}
+
+TEST_CASE("check waits for a controller that answers late, and accepts one that drives one axis") {
+  const Folder folder;
+  // Samples of 2 ms; new commands for phi and theta every 40 and 100 of them.
+  folder.write("late.py",
+               "import json, sys\n"
+               "for line in sys.stdin:\n"
+               "    m = json.loads(line)\n"
+               "    if 'protocol' in m:\n"
+               "        u, both, answer = [0, 0], m['parameters']['both'], "
+               "{'protocol': 1, 'reset': True}\n"
+               "    else:\n"
+               "        if m['sample'] % 40 == 39: u[0] = -0.7 * m['ball'][0]\n"
+               "        if m['sample'] % 100 == 99: u[1] = 0.7 * both * m['ball'][1]\n"
+               "        answer = {'command': u}\n"
+               "    print(json.dumps(answer), flush=True)\n");
+  folder.write("s.yaml",
+               "ball: {radius: 0.01, position: [0.04, 0]}\n"
+               "gimbal: {servo: {natural_frequency: 30, damping: 0.8}}\n"
+               "controller:\n"
+               "  program: {command: [python3, late.py], parameters: {both: 1}}\n"
+               "  drives: angle\n  reference: {point: [0, 0]}\n  sampling: {period: 0.002}\n"
+               "time: {end: 1, step: 0.1}\n");
+  const std::string towards = ": pushes the ball towards the reference";
+  const std::string both = bbsim({"check", "s.yaml"}, folder.path()).out;
+  CHECK_THAT(both, Contains("phi" + towards) && Contains("theta" + towards) &&
+                       Contains("from sample 99 on") && !Contains("WARNING"));
+  const std::vector<std::string> one{"check", "s.yaml", "--set",
+                                     "controller.program.parameters.both=0"};
+  CHECK_THAT(bbsim(one, folder.path()).out,
+             Contains("phi" + towards) && Contains("theta: stays") && !Contains("WARNING"));
+  std::vector<std::string> led = one;
+  led.insert(led.end(), {"--set", "controller.reference.point.1=0.01"});
+  CHECK_THAT(bbsim(led, folder.path()).out,
+             Contains("WARNING      theta: does not depend on where the ball is, within 1.2"));
 }
 
 TEST_CASE("check detects a wall clock, and bbsim_clock.py replaces it") {
@@ -263,8 +299,7 @@ TEST_CASE("check detects a wall clock, and bbsim_clock.py replaces it") {
   simulated.replace(simulated.find("CLOCK"), 5, "bbsim_clock.now");
   folder.write("simulated.py", simulated);
   const char* const told =
-      "\nWARNING      the controller answers differently to the same samples; does it read a wall "
-      "clock?\n";
+      "\nWARNING      the controller answers differently to the same samples, within ";
   CHECK_THAT(bbsim(on_step("check", python("wall.py")), folder.path()).out, Contains(told));
   std::vector<std::string> words = on_step("run", python("simulated.py"));
   words.insert(words.end(), {"--set", "gimbal.mounting=null", "-o", "/dev/null", "-q", "--expect",

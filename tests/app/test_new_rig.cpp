@@ -62,6 +62,21 @@ TEST_CASE("rigs at the limits of the options balance their ball") {
   check_balances(folder, rate == "15 Hz" ? "9 mm" : "2 mm");
 }
 
+TEST_CASE("rigs have margins of at least 6 dB and 30 degrees") {
+  const Folder folder;
+  for (const std::string servo : {"hobby-standard", "hobby-micro", "smart-serial"}) {
+    for (const std::string ball : {"ping-pong", "steel", "80 mm 20 g hollow"}) {
+      for (const std::string rate : {"15 Hz", "60 Hz", "200 Hz"}) {
+        CAPTURE(servo, ball, rate);
+        const Words words{"--servo", servo, "--ball", ball, "--camera", rate, "--force"};
+        REQUIRE(new_rig(folder, words).exit_code == 0);
+        CHECK_THAT(bbsim({"check", "my-rig.yaml"}, folder.path()).out,
+                   Contains("\nmargins ") && !Contains("small margins"));
+      }
+    }
+  }
+}
+
 TEST_CASE("a rig follows its options and asks nothing without a terminal") {
   const Folder folder;
   const Result made = new_rig(folder, {});

@@ -21,7 +21,8 @@ const char* const wrong_sign =
     "ball: {radius: 0.01, position: [0.01, 0.01]}\n"
     "plate: {size: [0.3, 0.3]}\n"
     "gimbal: {servo: {natural_frequency: 20, damping: 1}}\n"
-    "controller: {pd: {kv: 0.6, kp: 0.7}, drives: angle, reference: {point: [0, 0]}}\n"
+    "controller: {pd: {kv: [[0.6, 0], [0, 0.6]], kp: [[0.7, 0], [0, 0.7]]}, drives: angle,\n"
+    "  reference: {point: [0, 0]}}\n"
     "time: {end: 1, step: 0.02}\n";
 
 const char* const right_sign =
@@ -58,12 +59,43 @@ TEST_CASE("the sign hint covers a sampled loop, a PID and state feedback") {
   };
   CHECK(contains(said("controller.sampling={period: 0.02}"), hint));
   CHECK(contains(said("controller.sampling={period: 0.02}"), "the sampled loop is unstable"));
-  CHECK(contains(said("controller={pid: {kv: 0.6, kp: 0.7, ki: 0.1}, drives: angle, "
-                      "reference: {point: [0, 0]}}"),
+  CHECK(contains(said("controller={pid: {kv: [[0.6, 0], [0, 0.6]], kp: [[0.7, 0], [0, 0.7]], "
+                      "ki: [[0.1, 0], [0, 0.1]]}, drives: angle, reference: {point: [0, 0]}}"),
                  hint));
   CHECK(contains(said("controller={state_feedback: {gain: [[0.7, 0, 0.6, 0], [0, 0.7, 0, 0.6]]}, "
                       "drives: angle, reference: {point: [0, 0]}}"),
                  hint));
+}
+
+TEST_CASE("the sign hint names the rows whose signs are wrong") {
+  const Folder folder;
+  folder.write("s.yaml", wrong_sign);
+  for (const auto& [gains, told] :
+       {std::pair{"[[-0.7, 0], [0, -0.7]]", "; phi's gains have the wrong sign"},
+        std::pair{"[[-0.7, 0], [0, 0.7]]",
+                  "; the gains of phi and of theta have the wrong sign"}}) {
+    for (const char* more : {"controller.sampling={period: 0.02}", "ball.radius=0.01"}) {
+      const Result result =
+          bbsim({"run", "s.yaml", "--set", std::string("controller.pd.kp=") + gains, "--set",
+                 std::string("controller.pd.kv=") + gains, "--set", more},
+                folder.path());
+      CAPTURE(gains, more, result.err);
+      CHECK(contains(result.err, told));
+    }
+  }
+}
+
+TEST_CASE("a PD that feeds a fast servo's rate back through the contact point is told so") {
+  const Folder folder;
+  folder.write("s.yaml", wrong_sign);
+  const auto said = [&](const std::string& frequency) {
+    return bbsim({"run", "s.yaml", "--set", right_sign, "--set", "ball.radius=0.02", "--set",
+                  "gimbal.servo.natural_frequency=" + frequency},
+                 folder.path())
+        .err;
+  };
+  CHECK_FALSE(contains(said("20"), "warning"));
+  CHECK(contains(said("400"), "; the derivative of the contact point causes this"));
 }
 
 TEST_CASE("a loop that no sign makes stable is reported without the hint") {

@@ -7,7 +7,7 @@
 
 # Rows phi, theta: the gains that hold the ball, or whatever.
 function gain(size, k) {
-  if (chance(0.15)) return between(-size, size)
+  if (chance(0.15)) return between(-size, size)  # refused under drives: angle
   k = by_factors(size / 20, size)
   return chance(0.8) ? both(k) : mixed(k, 1)
 }

@@ -123,8 +123,8 @@ TEST_CASE("faults of an answer are reported with the answer") {
     std::string line, told;
   };
   const auto [line, told] = GENERATE(values<Wrong>({
-      {"", "its answer was nothing: allowed: {\"command\": [PHI, THETA]}"},
-      {"0.1 0.2", "its answer was \"0.1 0.2\": allowed"},
+      {"", "allowed: {\"command\": [PHI, THETA]}"},
+      {"tilt 0.1", "its answer was \"tilt 0.1\": standard output is only for answers"},
       {"[0.1, 0.2]", "allowed"},
       {"{\"command\": [0.1, 0.2]", "allowed"},
       {"{\"command\": [0.1 0.2]}", "found a command that is not two numbers"},

@@ -27,7 +27,8 @@ const std::string continuous =
     "ball: {radius: 0.02, position: [0.05, 0]}\n"
     "time: {end: 10, step: 0.1}\n"
     "gimbal: {servo: {natural_frequency: 30, damping: 0.8, angle_limit: 0.1}}\n"
-    "controller: {pd: {kp: 4, kv: 1}, drives: angle, limit: 0.15, reference: {point: [0, 0]}}\n";
+    "controller: {pd: {kp: [[4, 0], [0, -4]], kv: [[1, 0], [0, -1]]}, drives: angle, limit: 0.15, "
+    "reference: {point: [0, 0]}}\n";
 
 const std::string prescribed =
     "ball: {radius: 0.02}\n"

@@ -246,6 +246,20 @@ TEST_CASE("eigenvalues in quads are accurate beside others 1e25 times as large")
   CHECK(model::exact_eigenvalues(a).empty());
 }
 
+TEST_CASE("eigenvalues near the end of the range of doubles are right, and beyond it refused") {
+  const MatrixXd a = MatrixXd{{0, 1}, {-0.5, -1.5}}, wide = MatrixXd{{1, 1}, {1, 1}};
+  for (const double size : {1e-300, 1.0, 1e200, 1.15e308}) {
+    CAPTURE(size);
+    const Eigenvalues found = model::sorted_eigenvalues(size * a);
+    REQUIRE(found.size() == 2);
+    CHECK(found[0].real() / size == Approx(-0.5));
+    CHECK(found[1].real() / size == Approx(-1));
+    CHECK(model::exact_eigenvalues(size * a).size() == 2);
+  }
+  CHECK(model::sorted_eigenvalues(1.7e308 * wide).empty());
+  CHECK(model::exact_eigenvalues(1.7e308 * wide).empty());
+}
+
 namespace {
 
 double worst_of(const Eigenvalues& found, Eigenvalues expected) {

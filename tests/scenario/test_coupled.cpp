@@ -22,7 +22,8 @@ const std::string commanded =
     "ball: {radius: 0.02, mass: 0.05}\n"
     "plate: {inertia: [4e-3, 6e-3, 1e-2]}\n"
     "gimbal: {motor: {position_loop: {kp: 4}}}\n"
-    "controller: {pd: {kv: 1, kp: 1}, drives: angle, reference: {point: [0, 0]}}\n"
+    "controller: {pd: {kv: [[1, 0], [0, -1]], kp: [[1, 0], [0, -1]]}, drives: angle, reference: "
+    "{point: [0, 0]}}\n"
     "time: {end: 1, step: 0.1}\n";
 
 }  // namespace

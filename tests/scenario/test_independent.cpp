@@ -65,20 +65,21 @@ TEST_CASE("an inserted number equals the number read: prescribed motion") {
 }
 
 TEST_CASE("an inserted number equals the number read: a loop") {
+  check_keys(test::closed_loop, {"controller.pd.kp", "controller.pd.kv"});
   const std::string text =
       "ball: {radius: 0.01, position: [0.1, 0.2]}\n"
       "time: {end: 10, step: 0.1}\n"
       "gimbal: {servo: {natural_frequency: 10, damping: 1}}\n"
       "controller:\n"
-      "  pd: {kv: [[1, 2], [3, 4]], kp: 5}\n"
+      "  pd: {kv: [[1, 2], [3, 4]], kp: [[5, 0], [0, -5]]}\n"
       "  drives: angle\n"
       "  reference: {circle: {radius: 0.05, rate: 2, phase: 1, centre: [0.01, 0.02]}}\n";
-  check_keys(
-      text, {"controller.pd.kv.0.1", "controller.pd.kv.1.0", "controller.pd.kp", "gimbal.start.phi",
-             "gimbal.start.theta", "gimbal.start.phi_rate", "gimbal.start.theta_rate",
-             "gimbal.servo.natural_frequency", "gimbal.servo.damping",
-             "controller.reference.circle.radius", "controller.reference.circle.rate",
-             "controller.reference.circle.phase", "controller.reference.circle.centre.0"});
+  check_keys(text,
+             {"controller.pd.kv.0.1", "controller.pd.kv.1.0", "controller.pd.kp.1.1",
+              "gimbal.start.phi", "gimbal.start.theta", "gimbal.start.phi_rate",
+              "gimbal.start.theta_rate", "gimbal.servo.natural_frequency", "gimbal.servo.damping",
+              "controller.reference.circle.radius", "controller.reference.circle.rate",
+              "controller.reference.circle.phase", "controller.reference.circle.centre.0"});
 }
 
 TEST_CASE("other keys need the scenario read again") {

@@ -20,7 +20,7 @@ const std::string base =
     "ball: {radius: 0.02, mass: 0.05}\n"
     "gimbal: {servo: {natural_frequency: \"5 Hz\", damping: 0.8}}\n"
     "controller:\n"
-    "  pd: {kv: 1, kp: 1}\n"
+    "  pd: {kv: [[1, 0], [0, -1]], kp: [[1, 0], [0, -1]]}\n"
     "  drives: angle\n"
     "  reference: {point: [0, 0]}\n"
     "time: {end: 1, step: 0.1}\n";
@@ -250,7 +250,7 @@ TEST_CASE("a ball in a groove is a smaller one with more inertia, on one axis") 
       "ball: {radius: 0.02, mass: 0.05, rolling_radius: \"1.2 cm\", position: [0.1, 0]}\n"
       "gimbal: {servo: {natural_frequency: \"5 Hz\", damping: 0.8}}\n"
       "controller:\n"
-      "  pd: {kv: 1, kp: 1}\n"
+      "  pd: {kv: [[1, 0], [0, -1]], kp: [[1, 0], [0, -1]]}\n"
       "  drives: angle\n"
       "  reference: {point: [0.05, 0]}\n"
       "  sampling: {period: 0.02}\n"

@@ -65,7 +65,7 @@ TEST_CASE("unknown columns belong to the controller if it is your own") {
   CHECK(scenario::find_column("u_integral")->needs == scenario::Needs::own);
   // The names are now known, but still invalid for scenes without such a controller.
   const std::string built_in =
-      scene("pd: {kv: 1, kp: 1}", "output: {columns: [t, u_integral, phi_comand]}");
+      scene("pd: {kv: 0, kp: 0}", "output: {columns: [t, u_integral, phi_comand]}");
   CHECK(contains(errors(built_in), "output.columns.1: found u_integral; allowed: one of t, x"));
   CHECK(contains(errors(built_in), "did you mean phi_command?"));
   CHECK(contains(errors(scene(program, "output: {columns: [t, 2u]}")), "output.columns.1"));
@@ -92,7 +92,7 @@ TEST_CASE("invalid settings of your own controller are refused at their keys") {
       {"program: {command: [a], parameters: {kp: 1, kp: 2}}", "controller.program.parameters.kp"},
       {"program: {command: [a], parameters: {\"k p\": 1}}", "letters, digits and underscores"},
       {"library: {}", "controller.library.file: missing"},
-      {"program: {command: [a]}\n  pd: {kv: 1, kp: 1}", "allowed: one law"},
+      {"program: {command: [a]}\n  pd: {kv: 0, kp: 0}", "allowed: one law"},
       {"program: {command: [a]}\n  library: {file: b}", "allowed: one law"},
   }));
   CAPTURE(text);

@@ -14,7 +14,7 @@ const std::string base =
     "ball: {radius: 0.02}\n"
     "gimbal: {servo: {natural_frequency: \"5 Hz\", damping: 0.8}}\n"
     "controller:\n"
-    "  pd: {kv: 1, kp: 1}\n"
+    "  pd: {kv: [[1, 0], [0, -1]], kp: [[1, 0], [0, -1]]}\n"
     "  drives: angle\n"
     "  reference: {point: [0, 0]}\n"
     "time: {end: 1, step: 0.1}\n";
@@ -101,7 +101,7 @@ TEST_CASE("each law reads its own gains") {
                 {})
                 .controller;
   };
-  CHECK(law("pid: {kp: 1, kv: 2, ki: 3}").ki == Matrix2{{{3, 0}, {0, 3}}});
+  CHECK(law("pid: {kp: 0, kv: 0, ki: [[3, 0], [0, -3]]}").ki == Matrix2{{{3, 0}, {0, -3}}});
   const Controller feedback = law("state_feedback: {gain: [[1, 2, 3, 4], [5, 6, 7, 8]]}");
   CHECK(feedback.law == Law::state_feedback);
   CHECK(feedback.gain[1][3] == 8);
@@ -162,6 +162,24 @@ TEST_CASE("combinations that mean nothing are refused, with why") {
   }
 }
 
+TEST_CASE("a number as the gain of a PD or PID that drives angles is refused with its matrix") {
+  for (const std::string law : {"pd: {kp: 0.6, kv: 0}", "pid: {kp: 0, ki: -0.6, kv: 0}"}) {
+    const auto refusal = [&](const std::string& drives) {
+      return errors("ball: {radius: 0.02}\n" + drives + ", reference: {point: [0, 0]}, " + law +
+                    "}\ntime: {end: 1, step: 0.1}\n");
+    };
+    CAPTURE(law);
+    CHECK_THAT(
+        refusal("gimbal: {servo: {natural_frequency: 9, damping: 1}}\n"
+                "controller: {drives: angle"),
+        Catch::Matchers::Contains(law.starts_with("pd:") ? "pd.kp: found 0.6"
+                                                         : "pid.ki: found -0.6") &&
+            Catch::Matchers::Contains(law.starts_with("pd:") ? "allowed: [[0.6, 0], [0, -0.6]]"
+                                                             : "allowed: [[-0.6, 0], [0, 0.6]]"));
+    CHECK(refusal("controller: {drives: acceleration").empty());
+  }
+}
+
 TEST_CASE("a seed is allowed with random parts, even if they are switched off") {
   for (const char* drawn : {"noise=0.001", "noise=0", "dropout=0.1"}) {
     CHECK(errors(base, {"controller.sampling.period=0.01", "controller.sensor.seed=3",
@@ -193,7 +211,8 @@ TEST_CASE("measured periods count toward the number of samples") {
     return errors(
         "ball: {radius: 0.02}\n"
         "gimbal: {servo: {natural_frequency: 30, damping: 0.8}}\n"
-        "controller: {pd: {kv: 0.6, kp: 0.7}, drives: angle, reference: {point: [0, 0]},\n"
+        "controller: {pd: {kv: [[0.6, 0], [0, -0.6]], kp: 0}, drives: angle, reference: {point: "
+        "[0, 0]},\n"
         "  sampling: {period: 0.02, jitter: {file: " +
         file + ", period: p}}}\ntime: {end: 1, step: 0.1}\n");
   };

@@ -33,7 +33,7 @@ struct Scene {
     const std::string table = "{table: {file: log.csv, time: t" + extra;
     if (key == "motion") return "gimbal: {motion: {phi: " + table + ", value: phi}}}}\n";
     return "gimbal: {servo: {natural_frequency: 20, damping: 1}}\n"
-           "controller: {pd: {kv: 1, kp: 1}, drives: angle, reference: " +
+           "controller: {pd: {kv: 0, kp: 0}, drives: angle, reference: " +
            table + ", x: x, y: y}}}\n";
   }
 
@@ -141,7 +141,7 @@ TEST_CASE("periods of a clock and angles of a linkage have units") {
             of_curve +
             "}}\n"
             "controller:\n"
-            "  pd: {kv: 1, kp: 1}\n"
+            "  pd: {kv: 0, kp: 0}\n"
             "  drives: angle\n"
             "  assumes: exact\n"
             "  reference: {point: [0, 0]}\n"

@@ -204,8 +204,9 @@ TEST_CASE("an interruption keeps the best result") {
 
 TEST_CASE("faults of the input are reported before tuning starts") {
   const auto free = [](const std::string& text) { return fault(request_of({text})); };
-  CHECK(free(kp) ==
-        "--free: " + kp + ": found no range; allowed: KEY=FROM:TO, such as controller.pid.kp=1:20");
+  CHECK(free(kp) == "--free: " + kp +
+                        ": found no range; allowed: KEY=FROM:TO, such as "
+                        "controller.gravity_compensation.kp=1:20");
   CHECK(contains(free(kp + "=3"), "FROM:TO with FROM below TO"));
   CHECK(contains(free(kp + "=9:3"), "FROM:TO with FROM below TO"));
   CHECK(contains(free("ball.raduis=1:2"), "did you mean ball.radius?"));

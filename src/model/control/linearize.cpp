@@ -142,9 +142,9 @@ std::function<std::complex<double>(double)> tracking(const FrequencyResponse& re
   };
 }
 
-// A closed loop for margins and bandwidth: without the spin, whose pole no command moves. Off home
-// that pole is next to 0, so the response at rest, the pole's side of the border, and the factor
-// that changes that side mean nothing.
+// A closed loop for margins and bandwidth: without an idle axis and without the spin, whose pole no
+// command moves. Off home that pole is next to 0, so the response at rest, the pole's side of the
+// border, and the factor that changes that side mean nothing.
 struct PlainLoop {
   std::vector<int> states;  // indices in the system
   MatrixXd a;
@@ -165,13 +165,14 @@ double slowest_at(const PlantDerivatives& plant) {
                                                              largest(plant.state, angle)));
 }
 
-PlainLoop plain_loop(Linearization& made, double slowest) {
+PlainLoop plain_loop(Linearization& made, double slowest, std::optional<int> idle = {}) {
   const LinearSystem& system = made.system;
   PlainLoop plain;
   plain.slowest = slowest;
-  for (int i = 0; i < static_cast<int>(system.states.size()); ++i) {
-    if (system.states[static_cast<std::size_t>(i)].name != spin_name) plain.states.push_back(i);
-  }
+  plain.states = states_without(system.states, idle);
+  std::erase_if(plain.states, [&](int i) {
+    return system.states[static_cast<std::size_t>(i)].name == spin_name;
+  });
   plain.a = system.a(plain.states, plain.states);
   plain.poles = plain.states.size() == system.states.size() ? made.poles
                 : system.period                             ? poles_of_period(plain.a)
@@ -181,7 +182,7 @@ PlainLoop plain_loop(Linearization& made, double slowest) {
 }
 
 void add_bandwidths(Linearization& made, const PlainLoop& plain, const std::vector<int>& columns,
-                    const std::vector<int>& axes, const LoopParts& parts) {
+                    const std::vector<int>& axes, const LoopParts& parts, std::optional<int> idle) {
   if (!parts.bandwidths[0] && !parts.bandwidths[1]) return;
   const LinearSystem& system = made.system;
   const double period = system.period.value_or(0);
@@ -193,7 +194,7 @@ void add_bandwidths(Linearization& made, const PlainLoop& plain, const std::vect
   std::vector<int> fed_back;
   std::ranges::copy_if(columns, std::back_inserter(fed_back), [](int j) { return j / 2 < 2; });
   for (const int axis : axes) {
-    if (!parts.bandwidths[static_cast<std::size_t>(axis)]) continue;
+    if (axis == idle || !parts.bandwidths[static_cast<std::size_t>(axis)]) continue;
     const auto width = [&](const std::vector<int>& of) {
       return bandwidth_of(tracking(response, of, axes, axis), frequencies);
     };
@@ -273,15 +274,17 @@ Linearization continuous_loop_about(const Scenario& scene, const Model& model,
     made.zeros = tracking_zeros(system.a, loop.of_reference(states, Eigen::all), system.c, axes);
   }
 
-  const PlainLoop plain = plain_loop(made, slowest_at(plant));
+  const std::optional<int> idle =
+      idle_axis(model, {system.states, system.a, loop.command_of_state(Eigen::all, states)});
+  const PlainLoop plain = plain_loop(made, slowest_at(plant), idle);
   for (const int axis : axes) {
-    if (!looks_for(parts, axis)) continue;
+    if (axis == idle || !looks_for(parts, axis)) continue;
     const VectorXd b = plant.of_command(states, axis);
     const Eigen::RowVectorXd c = loop.command_of_state(axis, states);
     add_margins(made, plain, axis, without(system.a, b * c), b, c,
                 parts.margins[static_cast<std::size_t>(axis)]);
   }
-  add_bandwidths(made, plain, columns, axes, parts);
+  add_bandwidths(made, plain, columns, axes, parts, idle);
   return made;
 }
 
@@ -322,14 +325,15 @@ Linearization sampled_loop_about(const Scenario& scene, const Model& model, cons
     made.zeros = transmission_zeros(system.a, closed.of_reference.leftCols(2), system.c,
                                     MatrixXd::Zero(2, 2));
   }
-  const PlainLoop plain = plain_loop(made, slowest_at(plant));
+  const std::optional<int> idle = idle_axis(model, {system.states, system.a, closed.law});
+  const PlainLoop plain = plain_loop(made, slowest_at(plant), idle);
   for (const int axis : axes) {
-    if (!looks_for(parts, axis)) continue;
+    if (axis == idle || !looks_for(parts, axis)) continue;
     const SampledMap open = cycle.map(axis == 0, axis == 1);
     add_margins(made, plain, axis, open.a, open.of_command.col(axis), open.law.row(axis),
                 parts.margins[static_cast<std::size_t>(axis)]);
   }
-  add_bandwidths(made, plain, columns, axes, parts);
+  add_bandwidths(made, plain, columns, axes, parts, idle);
   return made;
 }
 
@@ -388,7 +392,12 @@ Linearization loop_with(const Linearization& plant, const LinearSystem& law,
   system.a = round(commands);
   system.period = of.period;
   made.poles = poles_of_period(system.a);
-  const PlainLoop plain = plain_loop(made, 0);
+  // An axis without a command is left out if it stands apart.
+  std::optional<int> idle;
+  if (axes.size() == 1 && stands_apart({system.states, system.a, commands}, 1 - axes[0])) {
+    idle = 1 - axes[0];
+  }
+  const PlainLoop plain = plain_loop(made, 0, idle);
   for (const int axis : axes) {
     MatrixXd others = commands;
     others.row(axis).setZero();
