@@ -16,7 +16,7 @@ import setuptools
 from setuptools.command.build_ext import build_ext
 
 ROOT = pathlib.Path(__file__).resolve().parent
-TARGETS = ("bbsim_python", "bbsim_hdf5", "bbsim_hdf5_reader")
+TARGETS = ("bbsim_python", "bbsim_hdf5")
 
 
 def pybind11_folder():
@@ -41,10 +41,10 @@ class Build(build_ext):
         into = pathlib.Path(self.build_lib, "bbsim").resolve()
         into.mkdir(parents=True, exist_ok=True)
         built = [build / "python/bbsim" / self.get_ext_filename("_bbsim"),
-                 build / "lib/bbsim/libbbsim_hdf5.so", build / "lib/bbsim/bbsim-hdf5-reader"]
+                 build / "lib/bbsim/libbbsim_hdf5.so"]
         copies = [shutil.copy2(file, into) for file in built]
         subprocess.run(["strip", "--strip-unneeded", *copies], check=True)
-        # The module looks for the HDF5 module and the reader beside itself.
+        # The module looks for the HDF5 module beside itself.
         subprocess.run([ROOT / "scripts/bundle", into / "libraries", *copies], check=True)
 
 

@@ -66,7 +66,7 @@ void AtomicFile::open_temporary() {
   // Before the file exists, so that a signal in between leaves no file.
   remember_temporary(temporary_.c_str());
   descriptor_ = above_standard_streams(
-      open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, any_permissions));
+      open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, any_permissions));
   const int error = descriptor_.is_open() ? 0 : errno;
   const int other = error == 0 && target_.found ? take_after(descriptor_.get(), *target_.found) : 0;
   if (error == 0 && other == 0) return;

@@ -50,11 +50,11 @@ class AtomicFile {
   // Puts the file under its final name. Do not write afterwards.
   void commit();
 
-  // For a library that writes the file itself. The descriptor is also open for reading, except for
-  // devices and pipes.
-  [[nodiscard]] int descriptor() const { return descriptor_.get(); }
+  // For a library that writes the file itself: the temporary's name, empty if the target is written
+  // directly.
+  [[nodiscard]] const std::string& temporary() const { return temporary_; }
 
-  // Throws the OutputError for an errno from a write to descriptor().
+  // Throws the OutputError for an errno from that library's writing.
   [[noreturn]] void fail(int error_number) const { fail_to_write(target_.name, error_number); }
 
   // Bytes. A larger buffer costs page faults; a smaller one costs more calls of write().

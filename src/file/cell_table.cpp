@@ -29,7 +29,7 @@ void CellColumn::add_text(std::string text) {
 
 CellTable read_hdf5_cells(const std::string& file) {
   constexpr std::size_t rows_at_a_time = 65536;
-  Hdf5TableReader reader(file, {rows_at_a_time});
+  Hdf5TableReader reader(file, rows_at_a_time);
   CellTable table;
   for (const Hdf5Column& column : reader.columns()) {
     table.names.push_back(column.name);
@@ -45,13 +45,13 @@ CellTable read_hdf5_cells(const std::string& file) {
       column.numbers.insert(column.numbers.end(), block.values[c].begin(), block.values[c].end());
     }
   }
-  for (const auto& [column, values] : reader.axes()) {
+  for (const auto& [column, values] : reader.head().axes) {
     table.names.push_back(column.name);
     table.units.push_back(column.unit);
     table.columns.emplace_back(values, values.size());  // one row with all values of the axis
   }
   table.rows = reader.rows();
-  table.attributes = reader.attributes();
+  table.attributes = reader.head().attributes;
   return table;
 }
 

@@ -8,29 +8,15 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 namespace bbsim::file {
 namespace {
 
 constexpr const char* module_name = "libbbsim_hdf5.so";
-constexpr const char* reader_name = "bbsim-hdf5-reader";
 constexpr const char* way_out = "; write or read .csv instead, ";
-
-// Finds the file in the first of these folders that contains it.
-ModuleFile find_file(const std::string& what, const char* name,
-                     const std::vector<std::string>& folders) {
-  std::string looked_in;
-  for (const std::string& folder : folders) {
-    std::string file = folder + "/" + name;
-    if (access(file.c_str(), F_OK) == 0) return {std::move(file), ""};
-    looked_in.append(looked_in.empty() ? "" : " and ").append(folder);
-  }
-  return {"", what + " " + name + " is not in " + looked_in + way_out +
-                  "or install all of bbsim, or set BBSIM_MODULE_PATH to the module's folder"};
-}
 
 // The path of the shared library that contains this code; empty if the program contains it.
 std::filesystem::path own_library() {
@@ -56,23 +42,29 @@ std::vector<std::string> folders_above(const std::filesystem::path& library) {
 
 }  // namespace
 
-ModuleFile find_hdf5_reader(const std::vector<std::string>& folders) {
-  return find_file("the HDF5 reader", reader_name, folders);
-}
-
 Hdf5Module open_hdf5_module(const std::vector<std::string>& folders) {
-  const ModuleFile file = find_file("the HDF5 module", module_name, folders);
-  if (file.path.empty()) return {nullptr, file.trouble};
-  // Never closed: HDF5 cleans up when the process ends.
-  void* library = dlopen(file.path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  std::string file, looked_in;
+  for (const std::string& folder : folders) {
+    file = folder + "/" + module_name;
+    if (access(file.c_str(), F_OK) == 0) break;
+    file.clear();
+    looked_in.append(looked_in.empty() ? "" : " and ").append(folder);
+  }
+  if (file.empty()) {
+    return {nullptr, std::string("the HDF5 module ") + module_name + " is not in " + looked_in +
+                         way_out +
+                         "or install all of bbsim, or set BBSIM_MODULE_PATH to the module's folder"};
+  }
+  // Never closed, because the open files of any thread may need it.
+  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
     return {nullptr, std::string("the HDF5 module cannot be loaded: ") + dlerror() + way_out +
                          "or install the HDF5 library that it was built with"};
   }
-  const auto entry = reinterpret_cast<bbsim_hdf5_entry_function>(dlsym(library, BBSIM_HDF5_ENTRY));
-  const bbsim_hdf5_module* functions = entry == nullptr ? nullptr : entry();
-  if (functions == nullptr || functions->interface_version != BBSIM_HDF5_INTERFACE) {
-    return {nullptr, "the HDF5 module " + file.path + " belongs to another version of bbsim" +
+  const auto* functions =
+      static_cast<const hdf5::Module*>(dlsym(library, hdf5::module_symbol));
+  if (functions == nullptr || std::string_view(functions->build) != hdf5::this_build) {
+    return {nullptr, "the HDF5 module " + file + " belongs to another version of bbsim" +
                          way_out + "or install the two together"};
   }
   return {functions, ""};

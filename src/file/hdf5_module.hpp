@@ -1,34 +1,26 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Finds and opens the HDF5 module, which writes files, and finds the program that reads them.
+// Finds and opens the HDF5 module, which writes and reads files.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "file/hdf5/interface.h"
+#include "file/hdf5/interface.hpp"
 
 namespace bbsim::file {
 
 // The module; or, in `trouble`, why it is missing and the remedy, as the end of a sentence.
 struct Hdf5Module {
-  const bbsim_hdf5_module* functions = nullptr;
+  const hdf5::Module* functions = nullptr;
   std::string trouble;
 };
-
-// The path of a file; if it is empty, `trouble` says why.
-struct ModuleFile {
-  std::string path, trouble;
-};
-
-// Looks for the program that reads HDF5 files in these folders, in order.
-[[nodiscard]] ModuleFile find_hdf5_reader(const std::vector<std::string>& folders);
 
 // Looks for the module in these folders, in order, and opens it; it is never closed.
 [[nodiscard]] Hdf5Module open_hdf5_module(const std::vector<std::string>& folders);
 
-// The folders to search for both: BBSIM_MODULE_PATH alone, if it is set; otherwise those above the
+// The folders to search: BBSIM_MODULE_PATH alone, if it is set; otherwise those above the
 // shared library with this code, or ../lib/bbsim (or the system's name for lib) of the program.
 [[nodiscard]] std::vector<std::string> hdf5_module_folders();
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "file/hdf5_file.hpp"
+#include "file/hdf5_table.hpp"
 #include "sweep/case_part.hpp"
 #include "sweep/series_part.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
-#include <utility>
+#include <iterator>
 
 #include "base/error.hpp"
 #include "base/whole.hpp"
@@ -23,7 +23,7 @@ constexpr const char* instruction_set = "instruction_set";
 
 struct Hdf5Part {
   std::string file;
-  file::Hdf5TableReader table;
+  file::Hdf5Head head;
   std::vector<file::InputTable> inputs;
   std::size_t first = 0;  // number of the first case
 };
@@ -53,7 +53,7 @@ file::Attributes without_instruction_set(const file::Attributes& all) {
 InstructionSets instruction_sets_of(const std::vector<Hdf5Part>& parts) {
   InstructionSets all;
   for (const Hdf5Part& part : parts) {
-    for (const auto& [name, value] : part.table.attributes()) {
+    for (const auto& [name, value] : part.head.attributes) {
       if (name == instruction_set) all.add(value.text());
     }
   }
@@ -79,21 +79,20 @@ bool same_inputs(const std::vector<file::InputTable>& a, const std::vector<file:
                     });
 }
 
-Hdf5Part read_part(const std::string& file, file::Hdf5TableReader table) {
+Hdf5Part read_part(const std::string& file) {
+  file::Hdf5TableReader table(file, 1);
   if (table.columns()[0].name != "case" || table.columns()[0].kind != file::Hdf5Kind::number) {
     throw InputError(file + ": found no column case first; allowed: a file that bbsim sweep wrote");
   }
   file::Hdf5Block row;
   const std::size_t first = table.read(row) ? case_in(file, row.values[0][0]) : 0;
-  std::vector<file::InputTable> inputs = table.read_inputs();
-  return {file, std::move(table), std::move(inputs), first};
+  return {file, table.head(), table.read_inputs(), first};
 }
 
 // Returns the parts in the order of their cases.
 std::vector<Hdf5Part> read_parts(const std::vector<std::string>& files) {
-  file::Hdf5TableReaders tables(files, {1, 1});
   std::vector<Hdf5Part> parts;
-  for (const std::string& file : files) parts.push_back(read_part(file, tables.next()));
+  std::ranges::transform(files, std::back_inserter(parts), read_part);
   std::stable_sort(parts.begin(), parts.end(),
                    [](const Hdf5Part& a, const Hdf5Part& b) { return a.first < b.first; });
   return parts;
@@ -101,22 +100,16 @@ std::vector<Hdf5Part> read_parts(const std::vector<std::string>& files) {
 
 void check_same_sweep(const std::vector<Hdf5Part>& parts) {
   const Hdf5Part& model = parts.front();
-  const file::Attributes common = without_instruction_set(model.table.attributes());
+  const file::Attributes common = without_instruction_set(model.head.attributes);
   for (const Hdf5Part& part : parts) {
-    if (part.table.columns() == model.table.columns() && part.table.axes() == model.table.axes() &&
-        without_instruction_set(part.table.attributes()) == common &&
+    if (part.head.columns == model.head.columns && part.head.axes == model.head.axes &&
+        without_instruction_set(part.head.attributes) == common &&
         same_inputs(part.inputs, model.inputs)) {
       continue;
     }
     throw InputError(part.file + ": found other columns or another scenario than in " + model.file +
                      "; allowed: parts of one sweep");
   }
-}
-
-std::vector<std::string> files_of(const std::vector<Hdf5Part>& parts) {
-  std::vector<std::string> files;
-  for (const Hdf5Part& part : parts) files.push_back(part.file);
-  return files;
 }
 
 }  // namespace
@@ -128,13 +121,12 @@ Merged merge_hdf5(const std::vector<std::string>& files, const std::string& targ
   const Hdf5Part& model = parts.front();
   const InstructionSets instruction_sets = instruction_sets_of(parts);
 
-  file::Hdf5TableWriter out(target, model.table.columns(), model.table.axes());
+  file::Hdf5TableWriter out(target, model.head.columns, model.head.axes);
   out.keep(model.inputs);
   Merged merged{0, false, instruction_sets.note()};
-  file::Hdf5TableReaders tables(files_of(parts), {rows_at_a_time(model.table.columns())});
   file::Hdf5Block block;
   for (const Hdf5Part& part : parts) {
-    file::Hdf5TableReader table = tables.next();
+    file::Hdf5TableReader table(part.file, rows_at_a_time(model.head.columns));
     while (table.read(block)) {
       if (stop.load(std::memory_order_relaxed)) {
         merged.interrupted = true;
@@ -145,9 +137,8 @@ Merged merge_hdf5(const std::vector<std::string>& files, const std::string& targ
       }
       out.append(block);
     }
-    static_cast<void>(table.read_inputs());  // same as those of the model
   }
-  file::Attributes attributes = model.table.attributes();
+  file::Attributes attributes = model.head.attributes;
   for (auto& [name, value] : attributes) {
     if (name == "cases" && value.text() != std::to_string(merged.cases)) {
       throw InputError("found " + std::to_string(merged.cases) + " cases of " + value.text() +

@@ -39,8 +39,7 @@
   X(send) X(fsync) X(fdatasync) X(sync_file_range) X(rename) X(unlink) X(close) X(ftruncate)    \
   X(stat) X(lstat) X(fstat) X(fchmod) X(fchown) X(flock) X(fcntl) X(faccessat) X(readlink)      \
   X(malloc) X(calloc) X(realloc) X(aligned_alloc)                                               \
-  X(hdf5_malloc) X(hdf5_calloc) X(hdf5_realloc) X(posix_spawn) X(pthread_create) X(socketpair)  \
-  X(pipe2) X(dlopen)
+  X(posix_spawn) X(pthread_create) X(socketpair) X(pipe2) X(dlopen)
 // clang-format on
 
 #define NAMED(name) call_##name,
@@ -145,17 +144,6 @@ static void* next(void* _Atomic* place, const char* name) {
 #define NEXT(name)            \
   static void* _Atomic known; \
   const __typeof__(&name) next_function = (__typeof__(&name))next(&known, #name)
-
-// The HDF5 reader process ends with one of these.
-_Noreturn void _exit(int code) {
-  NEXT(_exit);
-  say_counts();
-  next_function(code);
-  __builtin_unreachable();
-}
-_Noreturn void _Exit(int code) {
-  _exit(code);
-}
 
 // CALL(result, name, counted as, value at failure, parameters, arguments)
 #define CALL(result, name, as, failed, parameters, arguments) \
@@ -284,21 +272,15 @@ void* __libc_calloc(size_t count, size_t size);
 void* __libc_realloc(void* memory, size_t size);
 void* __libc_memalign(size_t alignment, size_t size);
 
-enum asker { the_program, the_hdf5_library, another };
-static enum asker asker_of(void* caller) {
+// Other libraries, such as HDF5, may crash without memory.
+static bool is_ours(void* caller) {
   struct dl_find_object found;
-  if (_dl_find_object(caller, &found) != 0) return another;
+  if (_dl_find_object(caller, &found) != 0) return false;
   const char* const name = found.dlfo_link_map->l_name;
-  if (strstr(name, "/libhdf5")) return the_hdf5_library;
-  return *name == '\0' || strstr(name, "/libc.so") || strstr(name, "/libbbsim") ? the_program
-                                                                                : another;
+  return *name == '\0' || strstr(name, "/libc.so") || strstr(name, "/libbbsim");
 }
-#define NO_MEMORY(name)      \
-  (atomic_load(&counting) && \
-   memory_fails(asker_of(__builtin_return_address(0)), call_##name, call_hdf5_##name))
-static bool memory_fails(enum asker asker, enum call call, enum call of_hdf5) {
-  return asker != another && fails(asker == the_program ? call : of_hdf5);
-}
+#define NO_MEMORY(name) \
+  (atomic_load(&counting) && is_ours(__builtin_return_address(0)) && fails(call_##name))
 void* malloc(size_t size) {
   return NO_MEMORY(malloc) ? NULL : __libc_malloc(size);
 }

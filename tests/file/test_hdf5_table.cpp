@@ -27,7 +27,6 @@ using bbsim::file::Hdf5Block;
 using bbsim::file::Hdf5Column;
 using bbsim::file::Hdf5Kind;
 using bbsim::file::Hdf5TableReader;
-using bbsim::file::Hdf5TableReaders;
 using bbsim::file::Hdf5TableWriter;
 using bbsim::file::read_table;
 using Catch::Matchers::Contains;
@@ -295,10 +294,10 @@ TEST_CASE("a table of cases reads back: columns, units, axes, attributes, rows")
   write_cases(folder / "a.h5", 2500, 3, 700);
   Hdf5TableReader reader(folder / "a.h5");
   CHECK(reader.columns() == three_kinds(3));
-  REQUIRE(reader.axes().size() == 1);
-  CHECK(reader.axes()[0].first == some_axes[0].first);
-  CHECK(reader.axes()[0].second == some_axes[0].second);
-  CHECK(reader.attributes() == some_attributes);
+  REQUIRE(reader.head().axes.size() == 1);
+  CHECK(reader.head().axes[0].first == some_axes[0].first);
+  CHECK(reader.head().axes[0].second == some_axes[0].second);
+  CHECK(reader.head().attributes == some_attributes);
   CHECK(reader.rows() == 2500);
 
   Hdf5Block block;
@@ -310,7 +309,7 @@ TEST_CASE("a table of cases reads back: columns, units, axes, attributes, rows")
   // In blocks, of which the last may be smaller.
   for (const std::size_t a_block : {1, 341, 1024, 2499, 2500, 2501}) {
     CAPTURE(a_block);
-    Hdf5TableReader in_blocks(folder / "a.h5", {a_block});
+    Hdf5TableReader in_blocks(folder / "a.h5", a_block);
     CHECK(in_blocks.rows() == 2500);
     std::size_t first = 0;
     bool equal = true;
@@ -320,14 +319,6 @@ TEST_CASE("a table of cases reads back: columns, units, axes, attributes, rows")
     CHECK(equal);
     CHECK(first == 2500);
   }
-  // A range of rows.
-  Hdf5TableReader some(folder / "a.h5", {10, 14});
-  CHECK(some.rows() == 2500);
-  CHECK(some.read(block));
-  CHECK(same(block, cases(0, 10, 3)));
-  CHECK(some.read(block));
-  CHECK(same(block, cases(10, 4, 3)));
-  CHECK_FALSE(some.read(block));
   CHECK(folder.entries() == 1);
 }
 
@@ -364,8 +355,8 @@ TEST_CASE("a table without cases, with one case, and with a single column") {
     writer.append(one);
     writer.finish({});
     Hdf5TableReader reader(folder / "one.h5");
-    CHECK(reader.axes().empty());
-    CHECK(reader.attributes().empty());
+    CHECK(reader.head().axes.empty());
+    CHECK(reader.head().attributes.empty());
     CHECK(reader.read(block));
     CHECK(same(block, one));
   }
@@ -398,9 +389,9 @@ TEST_CASE("merged parts give the bytes of the whole") {
     part.finish(some_attributes);
   }
   const Hdf5TableReader first(folder / "1.h5");
-  Hdf5TableWriter merged(folder / "merged.h5", first.columns(), first.axes());
+  Hdf5TableWriter merged(folder / "merged.h5", first.columns(), first.head().axes);
   for (const char* name : {"1.h5", "2.h5", "3.h5"}) {
-    Hdf5TableReader part(folder / name, {333});
+    Hdf5TableReader part(folder / name, 333);
     REQUIRE(part.columns() == first.columns());
     Hdf5Block block;
     while (part.read(block)) merged.append(block);
@@ -418,7 +409,7 @@ TEST_CASE("a hundred thousand cases") {
   Hdf5Block block = cases(0, 10000, width);
   for (std::size_t first = 0; first < rows; first += block.rows) writer.append(block);
   writer.finish({});
-  Hdf5TableReader reader(folder / "a.h5", {block.rows});
+  Hdf5TableReader reader(folder / "a.h5", block.rows);
   REQUIRE(reader.rows() == rows);
   Hdf5Block back;
   bool equal = true;
@@ -436,7 +427,7 @@ TEST_CASE("wide series") {
   CHECK(reader.read(back));
   const bool equal = same(back, cases(0, 700, 5000));
   CHECK(equal);
-  Hdf5TableReader in_blocks(folder / "a.h5", {699});
+  Hdf5TableReader in_blocks(folder / "a.h5", 699);
   CHECK(in_blocks.read(back));
   CHECK(in_blocks.read(back));
   CHECK(same(back, cases(699, 1, 5000)));
@@ -546,8 +537,8 @@ TEST_CASE("a run's HDF5 file is also a table of cases") {
   CHECK(reader.columns() == Columns{{"t", "m", "one value a row"},
                                     {"x", "m", "one value a row"},
                                     {"y", "m", "one value a row"}});
-  CHECK(reader.axes().empty());
-  CHECK(reader.attributes() == Attributes{{"title", "run"}});
+  CHECK(reader.head().axes.empty());
+  CHECK(reader.head().attributes == Attributes{{"title", "run"}});
   Hdf5Block block;
   CHECK(reader.read(block));
   CHECK(same(block, {2000, table.columns, {{}, {}, {}}}));
@@ -630,7 +621,7 @@ TEST_CASE("attributes of other types and of fixed length") {
   Attributes expected = some_attributes;
   expected.emplace_back("number", 1.5);
   expected.emplace_back("fixed", "abc");
-  CHECK(Hdf5TableReader(folder / "a.h5").attributes() == expected);
+  CHECK(Hdf5TableReader(folder / "a.h5").head().attributes == expected);
 }
 
 TEST_CASE("a process forked while a file is written does not write to it, even as it ends") {
@@ -697,7 +688,7 @@ TEST_CASE("files of earlier versions are read: texts of any length, numbers as t
   Hdf5TableReader reader(file);
   CHECK(reader.columns() ==
         Columns{{"case", "1", "number of the case"}, {"status", "", "", Hdf5Kind::text}});
-  CHECK(reader.attributes() == Attributes{{"cases", "2"}});
+  CHECK(reader.head().attributes == Attributes{{"cases", "2"}});
   Hdf5Block block;
   CHECK(reader.read(block));
   CHECK(block.values[0] == std::vector<double>{0, 1});
@@ -745,42 +736,6 @@ TEST_CASE("attributes and names of all kinds round-trip") {
     writer.finish(attributes);
   }
   const Hdf5TableReader reader(folder / "a.h5");
-  CHECK(reader.attributes() == attributes);
+  CHECK(reader.head().attributes == attributes);
   CHECK(reader.columns() == Columns{{"\"x\"\n", "m/s²", "{[\\"}});
-}
-
-TEST_CASE("several files are read by one process, in order") {
-  const Folder folder;
-  std::vector<std::string> files;
-  for (const std::size_t rows : {5, 0, 3000, 1}) {
-    files.push_back(folder / (std::to_string(rows) + ".h5"));
-    write_cases(files.back(), rows, 3, 1000);
-  }
-  Hdf5TableReaders readers(files, {1024});
-  for (const std::size_t rows : {5, 0, 3000, 1}) {
-    Hdf5TableReader reader = readers.next();
-    CHECK(reader.rows() == rows);
-    CHECK(reader.attributes() == some_attributes);
-    Hdf5Block block;
-    bool equal = true;
-    std::size_t first = 0;
-    for (; reader.read(block); first += block.rows) {
-      equal = equal && same(block, cases(first, block.rows, 3));
-    }
-    CHECK(equal);
-    CHECK(first == rows);
-    CHECK(reader.read_inputs().empty());
-  }
-
-  // An invalid file among them gives an error that names it.
-  files[2] = folder.put("text.h5", "t,x\n1,2\n");
-  Hdf5TableReaders others(files, {1, 1});
-  for (int i = 0; i < 2; ++i) {
-    Hdf5TableReader reader = others.next();
-    Hdf5Block block;
-    CHECK(reader.read(block) == (i == 0));
-    CHECK(reader.read_inputs().empty());
-  }
-  CHECK(message_of<InputError>([&] { (void)others.next(); }) ==
-        "cannot read " + files[2] + ": it is not an HDF5 file");
 }

@@ -3,18 +3,20 @@
 
 #include "file/hdf5/attributes.hpp"
 
-#include <cstring>
+#include <cstdint>
+#include <variant>
 
-namespace bbsim::hdf5 {
+namespace bbsim::file::hdf5 {
 namespace {
 
 constexpr const char* writing = "writing an attribute";
 constexpr const char* reading = "reading an attribute";
 
-void write_scalar(hid_t object, const char* name, hid_t in_file, hid_t in_memory,
+void write_scalar(hid_t object, const std::string& name, hid_t in_file, hid_t in_memory,
                   const void* value) {
   const Dataspace space(H5Screate(H5S_SCALAR), writing);
-  Attribute attribute(H5Acreate2(object, name, in_file, space, H5P_DEFAULT, H5P_DEFAULT), writing);
+  Attribute attribute(H5Acreate2(object, name.c_str(), in_file, space, H5P_DEFAULT, H5P_DEFAULT),
+                      writing);
   check(H5Awrite(attribute, in_memory, value), writing);
   attribute.close_checked(writing);
 }
@@ -32,6 +34,13 @@ std::string read_string(hid_t attribute, const Datatype& type) {
   return text.c_str();  // up to the padding
 }
 
+template <class Number>
+Number read_number(hid_t attribute, hid_t in_memory) {
+  Number number = 0;
+  check(H5Aread(attribute, in_memory, &number), reading);
+  return number;
+}
+
 }  // namespace
 
 Datatype string_type_of(std::size_t size) {
@@ -45,51 +54,40 @@ Datatype string_type() {
   return string_type_of(H5T_VARIABLE);
 }
 
-void set_attribute(hid_t object, const char* name, const char* text) {
-  const Datatype type = string_type_of(std::strlen(text) + 1);
-  write_scalar(object, name, type, type, text);
-}
-
-void set_attribute(hid_t object, const char* name, double number) {
-  write_scalar(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &number);
-}
-
-void set_attribute(hid_t object, const char* name, std::int64_t number) {
-  write_scalar(object, name, H5T_STD_I64LE, H5T_NATIVE_INT64, &number);
-}
-
-bool read_attribute(hid_t attribute, Value& value) {
-  const Datatype type(H5Aget_type(attribute), reading);
-  const Dataspace space(H5Aget_space(attribute), reading);
-  if (H5Sget_simple_extent_type(space) != H5S_SCALAR) return false;
-  switch (H5Tget_class(type)) {
-    case H5T_STRING:
-      value = read_string(attribute, type);
-      return true;
-    case H5T_FLOAT: {
-      double number = 0;
-      check(H5Aread(attribute, H5T_NATIVE_DOUBLE, &number), reading);
-      value = number;
-      return true;
-    }
-    case H5T_INTEGER: {
-      std::int64_t number = 0;
-      check(H5Aread(attribute, H5T_NATIVE_INT64, &number), reading);
-      value = number;
-      return true;
-    }
-    default:
-      return false;
+void set_attribute(hid_t object, const std::string& name, const AttributeValue& value) {
+  if (const auto* real = std::get_if<double>(&value.value())) {
+    write_scalar(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, real);
+  } else if (const auto* whole = std::get_if<std::int64_t>(&value.value())) {
+    write_scalar(object, name, H5T_STD_I64LE, H5T_NATIVE_INT64, whole);
+  } else {
+    const std::string& text = std::get<std::string>(value.value());
+    const Datatype type = string_type_of(text.size() + 1);
+    write_scalar(object, name, type, type, text.c_str());
   }
 }
 
-std::string attribute_of(hid_t object, const char* name) {
+std::optional<AttributeValue> value_of(hid_t attribute) {
+  const Datatype type(H5Aget_type(attribute), reading);
+  const Dataspace space(H5Aget_space(attribute), reading);
+  if (H5Sget_simple_extent_type(space) != H5S_SCALAR) return std::nullopt;
+  switch (H5Tget_class(type)) {
+    case H5T_STRING:
+      return read_string(attribute, type);
+    case H5T_FLOAT:
+      return read_number<double>(attribute, H5T_NATIVE_DOUBLE);
+    case H5T_INTEGER:
+      return read_number<std::int64_t>(attribute, H5T_NATIVE_INT64);
+    default:
+      return std::nullopt;
+  }
+}
+
+std::string text_of(hid_t object, const char* name) {
   if (check(H5Aexists(object, name), reading) == 0) return "";
   const Attribute attribute(H5Aopen(object, name, H5P_DEFAULT), reading);
-  Value value;
-  if (!read_attribute(attribute, value)) return "";
-  const auto* text = std::get_if<std::string>(&value);
+  const std::optional<AttributeValue> value = value_of(attribute);
+  const auto* text = value ? std::get_if<std::string>(&value->value()) : nullptr;
   return text == nullptr ? "" : *text;
 }
 
-}  // namespace bbsim::hdf5
+}  // namespace bbsim::file::hdf5

@@ -3,7 +3,19 @@
 
 #include "file/hdf5/handle.hpp"
 
-namespace bbsim::hdf5 {
+#include <cstdlib>
+
+namespace bbsim::file::hdf5 {
+namespace {
+
+// HDF5 gives the system's error in a text only: "..., errno = 28, error message = ...".
+int errno_in(const std::string& text) {
+  constexpr std::string_view mark = "errno = ";
+  const std::size_t place = text.rfind(mark);
+  return place == std::string::npos ? 0 : std::atoi(text.c_str() + place + mark.size());
+}
+
+}  // namespace
 
 void fail(std::string_view doing) {
   std::string reason;
@@ -15,11 +27,18 @@ void fail(std::string_view doing) {
         return 1;  // stop after the first entry
       },
       &reason);
-  throw Failure(std::string(doing) + " failed" + (reason.empty() ? "" : ": " + reason));
+  throw Failure(std::string(doing) + " failed" + (reason.empty() ? "" : ": " + reason),
+                errno_in(reason));
 }
 
-void keep_errors_to_ourselves() {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+Properties file_access() {
+  constexpr const char* doing = "preparing the file";
+  Properties access(H5Pcreate(H5P_FILE_ACCESS), doing);
+  check(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG), doing);
+#if H5_VERSION_GE(1, 12, 1) || (H5_VERSION_GE(1, 10, 7) && !H5_VERSION_GE(1, 12, 0))
+  check(H5Pset_file_locking(access, false, true), doing);
+#endif
+  return access;
 }
 
-}  // namespace bbsim::hdf5
+}  // namespace bbsim::file::hdf5

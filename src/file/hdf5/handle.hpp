@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Owned HDF5 identifiers and checked calls, for the module and the reader.
+// Owned HDF5 identifiers and checked calls.
 #pragma once
 
 #include <hdf5.h>
@@ -11,18 +11,21 @@
 #include <string_view>
 #include <utility>
 
-namespace bbsim::hdf5 {
+namespace bbsim::file::hdf5 {
 
-// A call of HDF5 failed. The module and the reader catch this exception.
+// A call of HDF5 failed. The module catches this exception.
 class Failure : public std::runtime_error {
-  using std::runtime_error::runtime_error;
+ public:
+  explicit Failure(const std::string& text, int system_error = 0)
+      : std::runtime_error(text), system_error_(system_error) {}
+  [[nodiscard]] int system_error() const { return system_error_; }  // an errno; 0: none
+
+ private:
+  int system_error_;
 };
 
 // Throws Failure with the most specific entry of HDF5's error stack.
 [[noreturn]] void fail(std::string_view doing);
-
-// Keeps HDF5 from writing errors to standard error.
-void keep_errors_to_ourselves();
 
 // Returns the result; throws Failure if it is negative, which is HDF5's mark of failure.
 template <class Result>
@@ -62,4 +65,8 @@ using Datatype = Handle<H5Tclose>;
 using Attribute = Handle<H5Aclose>;
 using Properties = Handle<H5Pclose>;
 
-}  // namespace bbsim::hdf5
+// Access to a file without locks: what bbsim writes has no name yet, results do not change once
+// they exist, and many network file systems have no locks.
+[[nodiscard]] Properties file_access();
+
+}  // namespace bbsim::file::hdf5

@@ -4,45 +4,39 @@
 // Writes a table as one extendible dataset per column.
 #pragma once
 
-#include <cstddef>
-#include <memory>
-#include <span>
+#include <string>
 #include <vector>
 
 #include "file/hdf5/handle.hpp"
-#include "file/hdf5/interface.h"
+#include "file/hdf5_table.hpp"
 
-namespace bbsim::hdf5 {
+namespace bbsim::file::hdf5 {
 
-// Every function may throw Failure. A system error, such as a full disk, is recorded in
-// system_error() and takes precedence in reports.
-class Writer {
+// Every function may throw Failure.
+class FileWriter {
  public:
-  void start(int descriptor, std::span<const bbsim_hdf5_column> columns);  // call it first
-  void write_axis(const bbsim_hdf5_column& axis, const double* values);
-  void append(const bbsim_hdf5_values* columns, std::size_t rows);
-  void write_column(const bbsim_hdf5_column& column, const double* values);
-  void write_input(const char* name, const char* file,
-                   std::span<const bbsim_hdf5_input_column> columns, std::size_t rows);
-  void finish(std::span<const bbsim_hdf5_attribute> attributes);
+  FileWriter(const std::string& file, const std::vector<Hdf5Column>& columns,
+             const std::vector<Hdf5Axis>& axes);
 
-  [[nodiscard]] int system_error() const { return *system_error_; }  // an errno, 0 if none
+  void append(const Hdf5Block& block);
+  void add_column(const Hdf5Column& column, const std::vector<double>& values);
+  void keep(const std::vector<InputTable>& inputs);
+  void finish(const Attributes& attributes);
 
  private:
   struct Column {
     Dataset dataset;
-    bbsim_hdf5_kind kind;
+    Hdf5Kind kind;
     hsize_t width;
   };
 
-  void attach_scale(std::span<const bbsim_hdf5_column> columns);
+  void attach_scale(const std::vector<Hdf5Column>& columns);
+  void write_axis(const Hdf5Column& axis, const std::vector<double>& values);
 
-  std::unique_ptr<int> system_error_ = std::make_unique<int>(0);  // outlives file_
   File file_;
-  Group inputs_;  // created for the first input
   std::vector<Column> columns_;
   hid_t scale_ = -1;  // scale of the rows: a column's dataset, or -1
   hsize_t rows_ = 0;
 };
 
-}  // namespace bbsim::hdf5
+}  // namespace bbsim::file::hdf5

@@ -4,7 +4,7 @@
 // Names within bbsim's HDF5 files, for the writer and the reader.
 #pragma once
 
-namespace bbsim::hdf5 {
+namespace bbsim::file::hdf5 {
 
 // The attribute that distinguishes an axis of series from a column.
 inline constexpr const char* axis_mark = "axis";
@@ -15,4 +15,4 @@ inline constexpr const char* inputs_group = "inputs";
 inline constexpr const char* input_file = "file";
 inline constexpr const char* input_title = "column";
 
-}  // namespace bbsim::hdf5
+}  // namespace bbsim::file::hdf5

@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Writes and reads HDF5 tables through the HDF5 module, with its troubles as exceptions.
+#include "file/hdf5_table.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <iterator>
+
+#include "base/error.hpp"
+#include "base/quoted.hpp"
+#include "file/descriptor.hpp"
+#include "file/formats.hpp"
+#include "file/hdf5/interface.hpp"
+#include "file/hdf5_module.hpp"
+
+namespace bbsim::file {
+namespace {
+
+// Rows per call of HDF5: fewer if rows are wide, and always a power of two. This makes the file's
+// bytes independent of the caller's blocks.
+constexpr std::size_t most_rows_at_once = 1024;
+constexpr std::size_t most_bytes_at_once = std::size_t{8} * 1024 * 1024;
+
+// Numbers per row.
+std::size_t width_of(const Hdf5Column& column) {
+  return column.kind == Hdf5Kind::series ? column.width : column.kind == Hdf5Kind::text ? 0 : 1;
+}
+
+std::size_t rows_at_once(const std::vector<Hdf5Column>& columns) {
+  std::size_t bytes = 0;  // of a row, without the text of strings
+  for (const Hdf5Column& column : columns) {
+    bytes += column.kind == Hdf5Kind::text
+                 ? sizeof(std::string)
+                 : std::min(width_of(column), most_bytes_at_once) * sizeof(double);
+  }
+  std::size_t rows = most_rows_at_once;
+  while (rows > 1 && rows * bytes > most_bytes_at_once) rows /= 2;
+  return rows;
+}
+
+[[noreturn]] void refuse_output(const std::string& target, const std::string& reason) {
+  throw OutputError("cannot write " + target + ": " + reason);
+}
+
+const hdf5::Module& module_to_write(const std::string& target) {
+  const Hdf5Module& module = hdf5_module();
+  if (module.functions == nullptr) refuse_output(target, module.trouble);
+  return *module.functions;
+}
+
+// Checks everything before it touches a file.
+const std::string& checked(const std::string& target) {
+  if (is_written_directly(target)) {
+    refuse_output(
+        target,
+        "it is a device, a pipe or standard output, and HDF5 needs a regular file; name one");
+  }
+  require_hdf5(target);
+  return target;
+}
+
+Hdf5Column column_of(const ColumnHeader& header) {
+  return {std::string(header.name), std::string(header.unit), std::string(header.meaning)};
+}
+
+[[noreturn]] void refuse_dataset(const Hdf5TableReader& reader, const std::string& dataset,
+                                 const char* held) {
+  reader.fail("dataset " + shown(dataset) + " is not a column of numbers: it holds " + held);
+}
+
+void check_numbers(const Hdf5TableReader& reader) {
+  for (const Hdf5Column& column : reader.columns()) {
+    if (column.kind == Hdf5Kind::text) refuse_dataset(reader, column.name, "text");
+    if (column.kind == Hdf5Kind::series) {
+      refuse_dataset(reader, column.name, "several numbers a row, in two dimensions");
+    }
+  }
+  for (const auto& [axis, values] : reader.head().axes) {
+    refuse_dataset(reader, axis.name, "the axis of other datasets");
+  }
+}
+
+}  // namespace
+
+void require_hdf5(const std::string& target) {
+  static_cast<void>(module_to_write(target));
+}
+
+Hdf5TableWriter::Hdf5TableWriter(const std::string& target, const std::vector<Hdf5Column>& columns,
+                                 const std::vector<Hdf5Axis>& axes, Durable durable)
+    : target_(target),
+      columns_(columns),
+      rows_at_once_(rows_at_once(columns)),
+      waiting_{0, std::vector<std::vector<double>>(columns.size()),
+               std::vector<std::vector<std::string>>(columns.size())},
+      file_(checked(target), durable) {
+  // Takes the numbers of closed standard streams: HDF5's file would have one, and messages would go
+  // into it.
+  std::array<Descriptor, 3> taken;
+  for (Descriptor& one : taken) one = Descriptor(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+  check(module_to_write(target).create(file_.temporary(), columns, axes, writer_));
+}
+
+Hdf5TableWriter::~Hdf5TableWriter() = default;
+
+void Hdf5TableWriter::append(const Hdf5Block& block) {
+  bool fits = block.values.size() == columns_.size() && block.texts.size() == columns_.size();
+  for (std::size_t c = 0; fits && c < columns_.size(); ++c) {
+    fits = block.values[c].size() == block.rows * width_of(columns_[c]) &&
+           block.texts[c].size() == (columns_[c].kind == Hdf5Kind::text ? block.rows : 0);
+  }
+  if (!fits) refuse_output(target_, "a block of rows does not have the shape of the columns");
+  for (std::size_t first = 0; first < block.rows;) {
+    const std::size_t last = first + std::min(block.rows - first, rows_at_once_ - waiting_.rows);
+    const auto add = [&](auto& to, const auto& from, std::size_t width) {
+      to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(first * width),
+                from.begin() + static_cast<std::ptrdiff_t>(last * width));
+    };
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      add(waiting_.values[c], block.values[c], width_of(columns_[c]));
+      add(waiting_.texts[c], block.texts[c], columns_[c].kind == Hdf5Kind::text ? 1 : 0);
+    }
+    waiting_.rows += last - first;
+    first = last;
+    if (waiting_.rows == rows_at_once_) flush();
+  }
+  rows_ += block.rows;
+}
+
+void Hdf5TableWriter::append(std::span<const double* const> columns, std::size_t rows) {
+  Hdf5Block block{rows, {}, std::vector<std::vector<std::string>>(columns.size())};
+  for (const double* column : columns) block.values.emplace_back(column, column + rows);
+  append(block);
+}
+
+void Hdf5TableWriter::flush() {
+  check(open_writer().append(waiting_));
+  for (auto& column : waiting_.values) column.clear();
+  for (auto& column : waiting_.texts) column.clear();
+  waiting_.rows = 0;
+}
+
+void Hdf5TableWriter::add_column(const ColumnHeader& header, const std::vector<double>& values) {
+  if (values.size() != rows_) {
+    refuse_output(target_, "a column does not have as many rows as the others");
+  }
+  flush();
+  check(open_writer().add_column(column_of(header), values));
+}
+
+void Hdf5TableWriter::keep(const std::vector<InputTable>& inputs) {
+  check(open_writer().keep(inputs));
+}
+
+void Hdf5TableWriter::finish(const Attributes& attributes) {
+  flush();
+  check(open_writer().finish(attributes));
+  writer_.reset();
+  file_.commit();
+}
+
+hdf5::Writer& Hdf5TableWriter::open_writer() {
+  if (writer_ == nullptr) refuse_output(target_, "it is complete, or one of its parts failed");
+  return *writer_;
+}
+
+void Hdf5TableWriter::check(const hdf5::Trouble& trouble) {
+  if (trouble.text.empty()) return;
+  writer_.reset();  // an incomplete file must not get its final name
+  if (trouble.system_error != 0) file_.fail(trouble.system_error);
+  refuse_output(target_, shown(trouble.text, uncut));
+}
+
+Hdf5TableReader::Hdf5TableReader(const std::string& file, std::size_t rows_a_block)
+    : file_(file), rows_a_block_(rows_a_block) {
+  struct stat status {};
+  if (stat(file.c_str(), &status) != 0 || access(file.c_str(), R_OK) != 0) {
+    fail(error_text(errno));
+  }
+  if (!S_ISREG(status.st_mode)) fail("it is not a regular file");
+  const Hdf5Module& module = hdf5_module();
+  if (module.functions == nullptr) fail(module.trouble);
+  check(module.functions->open(file, head_, reader_));
+}
+
+Hdf5TableReader::~Hdf5TableReader() = default;
+Hdf5TableReader::Hdf5TableReader(Hdf5TableReader&&) noexcept = default;
+
+bool Hdf5TableReader::read(Hdf5Block& into) {
+  check(reader_->read(next_, std::min(rows_a_block_, rows() - next_), into));
+  next_ += into.rows;
+  return into.rows > 0;
+}
+
+std::vector<InputTable> Hdf5TableReader::read_inputs() {
+  std::vector<InputTable> inputs;
+  check(reader_->read_inputs(inputs));
+  return inputs;
+}
+
+void Hdf5TableReader::fail(std::string_view reason) const {
+  throw InputError("cannot read " + shown(file_, uncut) + ": " + std::string(reason));
+}
+
+void Hdf5TableReader::check(const hdf5::Trouble& trouble) const {
+  if (trouble.system_error != 0) fail(error_text(trouble.system_error));
+  if (!trouble.text.empty()) fail(shown(trouble.text, uncut));
+}
+
+std::unique_ptr<TableWriter> open_hdf5(const std::string& target,
+                                       const std::vector<ColumnHeader>& headers) {
+  std::vector<Hdf5Column> columns;
+  std::ranges::transform(headers, std::back_inserter(columns), column_of);
+  return std::make_unique<Hdf5TableWriter>(target, columns, std::vector<Hdf5Axis>(), Durable::no);
+}
+
+TableData read_hdf5(const std::string& file) {
+  Hdf5TableReader reader(file);
+  check_numbers(reader);
+  TableData table;
+  for (const Hdf5Column& column : reader.columns()) table.names.push_back(column.name);
+  Hdf5Block block;
+  reader.read(block);
+  table.columns = std::move(block.values);
+  return table;
+}
+
+}  // namespace bbsim::file
