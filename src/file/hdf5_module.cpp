@@ -8,6 +8,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <mutex>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -17,6 +18,9 @@ namespace {
 
 constexpr const char* module_name = "libbbsim_hdf5.so";
 constexpr const char* way_out = "; write or read .csv instead, ";
+
+ForkMutex opening, turns;  // a forked process must not wait for a thread that it does not have
+const Hdf5Module* opened = nullptr;
 
 // The path of the shared library that contains this code; empty if the program contains it.
 std::filesystem::path own_library() {
@@ -51,9 +55,9 @@ Hdf5Module open_hdf5_module(const std::vector<std::string>& folders) {
     looked_in.append(looked_in.empty() ? "" : " and ").append(folder);
   }
   if (file.empty()) {
-    return {nullptr, std::string("the HDF5 module ") + module_name + " is not in " + looked_in +
-                         way_out +
-                         "or install all of bbsim, or set BBSIM_MODULE_PATH to the module's folder"};
+    return {nullptr,
+            std::string("the HDF5 module ") + module_name + " is not in " + looked_in + way_out +
+                "or install all of bbsim, or set BBSIM_MODULE_PATH to the module's folder"};
   }
   // Never closed, because the open files of any thread may need it.
   void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -61,12 +65,12 @@ Hdf5Module open_hdf5_module(const std::vector<std::string>& folders) {
     return {nullptr, std::string("the HDF5 module cannot be loaded: ") + dlerror() + way_out +
                          "or install the HDF5 library that it was built with"};
   }
-  const auto* functions =
-      static_cast<const hdf5::Module*>(dlsym(library, hdf5::module_symbol));
+  auto* functions = static_cast<hdf5::Module*>(dlsym(library, hdf5::module_symbol));
   if (functions == nullptr || std::string_view(functions->build) != hdf5::this_build) {
-    return {nullptr, "the HDF5 module " + file + " belongs to another version of bbsim" +
-                         way_out + "or install the two together"};
+    return {nullptr, "the HDF5 module " + file + " belongs to another version of bbsim" + way_out +
+                         "or install the two together"};
   }
+  functions->turns = &turns;
   return {functions, ""};
 }
 
@@ -88,8 +92,10 @@ std::vector<std::string> hdf5_module_folders() {
 }
 
 const Hdf5Module& hdf5_module() {
-  static const Hdf5Module module = open_hdf5_module(hdf5_module_folders());
-  return module;
+  const std::lock_guard lock(opening);
+  // Never destroyed, because a thread may write until the process ends.
+  if (opened == nullptr) opened = new Hdf5Module(open_hdf5_module(hdf5_module_folders()));
+  return *opened;
 }
 
 }  // namespace bbsim::file

@@ -86,10 +86,10 @@ TEST_CASE("check's verdict includes the age of the frames that a sampled control
 }
 
 TEST_CASE("an axis that no command moves and no reference leads is left out of the verdict") {
-  const std::string part = GENERATE("controller.sampling={period: 0.01, derivative_filter: 0.06}",
-                                    "ball.rolling_radius=0.01", "ball.inertia_factor=0.667",
-                                    "gimbal.mounting.phi_offset=0.01",
-                                    "gimbal.servo.angle_limit=0.4", "ball.losses.viscous=1e-3");
+  const std::string part = GENERATE(
+      "controller.sampling={period: 0.01, derivative_filter: 0.06}", "ball.rolling_radius=0.01",
+      "ball.inertia_factor=0.667", "gimbal.mounting.phi_offset=0.01",
+      "gimbal.servo.angle_limit=0.4", "ball={radius: 0.01, mass: 0.05, losses: {viscous: 1e-5}}");
   const auto check = [&](const std::string& more) {
     return bbsim({"check", config("beam.yaml"), "--set", part, "--set", more}).out;
   };

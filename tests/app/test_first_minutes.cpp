@@ -272,7 +272,7 @@ TEST_CASE("check waits for a controller that answers late, and accepts one that 
   std::vector<std::string> led = one;
   led.insert(led.end(), {"--set", "controller.reference.point.1=0.01"});
   CHECK_THAT(bbsim(led, folder.path()).out,
-             Contains("WARNING      theta: does not depend on where the ball is, within 1.2"));
+             Contains("WARNING      theta: does not depend on where the ball is, within 1.568 s"));
 }
 
 TEST_CASE("check detects a wall clock, and bbsim_clock.py replaces it") {

@@ -28,7 +28,8 @@ const char* const wrong_sign =
 const char* const right_sign =
     "controller.pd={kv: [[0.6, 0], [0, -0.6]], kp: [[0.7, 0], [0, -0.7]]}";
 const char* const hint =
-    "theta's gains have the wrong sign: positive theta drives the ball towards -y";
+    "theta's gains have the wrong sign: positive phi drives the ball towards +x, positive theta "
+    "towards -y";
 
 }  // namespace
 
@@ -216,7 +217,7 @@ TEST_CASE("an angle of more than a turn without a unit gives a warning") {
       bbsim({"run", "s.yaml", "--set", right_sign, "--set", angle_limit}, folder.path());
   CHECK(run.exit_code == 0);
   CHECK(contains(run.err,
-                 "s.yaml:6:24: warning: events.tilt.limit: found 30, which is read in rad; did "
+                 "s.yaml:7:24: warning: events.tilt.limit: found 30, which is read in rad; did "
                  "you mean \"30 deg\"?"));
   CHECK(contains(run.err,
                  "--set gimbal.servo.angle_limit=25: warning: gimbal.servo.angle_limit: "

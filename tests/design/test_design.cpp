@@ -128,7 +128,8 @@ TEST_CASE("a designed log leaves at most half the deviations of the best circle:
 
 TEST_CASE("a designed log leaves at most half the deviations of the best circle: a hobby rig") {
   const ScenarioFamily family(BBSIM_SOURCE_DIR "/configs/rig.yaml",
-                              {"gimbal.servo={time_constant: 80 ms, rate_limit: 300 deg/s}"});
+                              {"gimbal.servo={time_constant: 80 ms, rate_limit: 300 deg/s}",
+                               "controller.gravity_compensation={kp: 10, kv: 8}"});
   api::DesignRequest request = request_of(
       family, {"gimbal.servo.time_constant", "controller.sampling.delay", "ball.inertia_factor"});
   request.length = "8 s";

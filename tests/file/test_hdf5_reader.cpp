@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the reader of HDF5 refuses: data in other files, and sizes that the file cannot hold. Threads
-// may read at once, and no file content reaches a terminal raw.
+// What the reader of HDF5 refuses: data in other files, and sizes that the file cannot hold.
+// Threads may read at once, and no file content reaches a terminal raw.
 #include <hdf5.h>
 
 #include <array>
@@ -107,10 +107,10 @@ TEST_CASE("a dataset that declares more than the file can contain is refused wit
   });
   const std::uintmax_t size = std::filesystem::file_size(file);
   CHECK(size < 5000);
-  CHECK(refusal(file) ==
-        "cannot read " + file +
-            ": dataset t declares 40000000 rows, 320000000 bytes; the file has " +
-            std::to_string(size) + ": it is damaged, or the dataset was never filled");
+  CHECK(refusal(file) == "cannot read " + file +
+                             ": dataset t declares 40000000 rows, 320000000 bytes; the file has " +
+                             std::to_string(size) +
+                             ": it is damaged, or the dataset was never filled");
 
   // The largest possible numbers.
   const std::string most = foreign(folder, "most.h5", [](hid_t id, hid_t creation) {

@@ -396,7 +396,7 @@ TEST_CASE("merged parts give the bytes of the whole") {
     Hdf5Block block;
     while (part.read(block)) merged.append(block);
   }
-  merged.finish(first.attributes());
+  merged.finish(first.head().attributes);
   const bool equal = same_files(folder / "whole.h5", folder / "merged.h5");
   CHECK(equal);
 }
@@ -622,35 +622,6 @@ TEST_CASE("attributes of other types and of fixed length") {
   expected.emplace_back("number", 1.5);
   expected.emplace_back("fixed", "abc");
   CHECK(Hdf5TableReader(folder / "a.h5").head().attributes == expected);
-}
-
-TEST_CASE("a process forked while a file is written does not write to it, even as it ends") {
-  const Folder folder;
-  write_cases(folder / "alone.h5", 3000, 3, 500);
-  std::array<int, 2> ends{};
-  REQUIRE(pipe(ends.data()) == 0);
-  pid_t child = 0;
-  {
-    Hdf5TableWriter writer(folder / "forked.h5", three_kinds(3), some_axes);
-    for (std::size_t first = 0; first < 3000; first += 500) {
-      writer.append(cases(first, 500, 3));
-      if (first != 500) continue;
-      child = fork();
-      if (child != 0) continue;
-      char go = 0;
-      const bool told = read(ends[0], &go, 1) == 1;
-      H5close();  // as at exit()
-      _exit(told ? 0 : 1);
-    }
-    writer.finish(some_attributes);
-  }
-  REQUIRE(write(ends[1], "!", 1) == 1);
-  int status = -1;
-  REQUIRE(waitpid(child, &status, 0) == child);
-  CHECK(status == 0);
-  CHECK(same_files(folder / "forked.h5", folder / "alone.h5"));
-  close(ends[0]);
-  close(ends[1]);
 }
 
 TEST_CASE("files of earlier versions are read: texts of any length, numbers as texts") {

@@ -179,14 +179,14 @@ TEST_CASE("cases of a plan are listed with values of further keys") {
 
 TEST_CASE("text values are listed as texts") {
   const SweepPlan plan = plan_of(
-      vary({{"solver.method", "list:radau,bdf"}, {"controller.pd.kp", "list:1,[[2, 0], [0, 3]]"}}),
+      vary({{"solver.method", "list:radau,bdf"}, {"controller.pd.kp", "list:0,[[2, 0], [0, -3]]"}}),
       loop);
   CHECK_FALSE(plan.axes()[0].numeric);
   CHECK_FALSE(plan.axes()[1].numeric);
   REQUIRE(plan.cases() == 4);
   const auto settings = plan.settings(3);
   CHECK(settings[0].value == "bdf");
-  CHECK(settings[1].value == "[[2, 0], [0, 3]]");
+  CHECK(settings[1].value == "[[2, 0], [0, -3]]");
 }
 
 TEST_CASE("all faults of a sweep are reported before it runs") {
@@ -284,7 +284,7 @@ TEST_CASE("tied keys vary together, each with its factor") {
   }
   SECTION("texts stay unchanged") {
     const SweepPlan texts =
-        plan_of(vary({{"controller.pd.kv,controller.pd.kp", "list:1,[[2, 0], [0, -2]]"}}), loop);
+        plan_of(vary({{"controller.pd.kv,controller.pd.kp", "list:0,[[2, 0], [0, -2]]"}}), loop);
     REQUIRE(texts.cases() == 2);
     CHECK(texts.settings(1)[0].value == "[[2, 0], [0, -2]]");
     CHECK(texts.settings(1)[1].value == "[[2, 0], [0, -2]]");

@@ -145,12 +145,20 @@ struct Exact {
   double value;
 };
 
+// The gains of these scenarios in version 0.3, where they differ.
+Texts gains_then(const std::string& scene) {
+  if (scene != "configs/rig") return {};
+  return {"controller.gravity_compensation={kp: 10, kv: 8}"};
+}
+
 // `close`: relative to the column's largest derivative.
 void require_exact(const std::vector<Exact>& all, double close) {
   for (const Exact& one : all) {
     CAPTURE(one.scene, one.key, one.overrides);
     const auto made =
-        run(one.scene, one.overrides + Texts{"output.columns=[t, " + one.column + "]"}, {one.key});
+        run(one.scene,
+            gains_then(one.scene) + one.overrides + Texts{"output.columns=[t, " + one.column + "]"},
+            {one.key});
     REQUIRE(made.code == ExitCode::done);
     CHECK(unreliable(made).empty());
     const std::vector<double>& found = derivative(made, one.column, one.key);
@@ -344,7 +352,7 @@ TEST_CASE("gradients of measures agree with exact ones", "[sensitivity]") {
   for (const OfMeasures& one : all) {
     Texts measures;
     for (const auto& [name, value] : one.gradients) measures.push_back(name);
-    const auto made = run(one.scene, one.overrides, {one.key}, measures);
+    const auto made = run(one.scene, gains_then(one.scene) + one.overrides, {one.key}, measures);
     for (const auto& [name, value] : one.gradients) {
       CAPTURE(one.scene, one.key, name);
       // Rounding of a run, some 1e-15, over the smallest step, 2^-23.

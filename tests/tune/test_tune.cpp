@@ -66,7 +66,7 @@ TEST_CASE("gains are tuned on random rigs and tested on others") {
   CHECK(made.code == ExitCode::done);
   CHECK(made.reason.empty());
   REQUIRE(tuned.parameters.size() == 2);
-  CHECK(tuned.parameters[0].before == 10);
+  CHECK(tuned.parameters[0].before == 8);
   CHECK(tuned.rigs == 8);
   CHECK(tuned.objective < tuned.before);
   REQUIRE(tuned.requirements.size() == 1);
@@ -104,7 +104,7 @@ TEST_CASE("gains are tuned on random rigs and tested on others") {
 
 TEST_CASE("a margin can be required together with measures, on random rigs") {
   api::TuneRequest request = small();
-  request.require = {"max_tilt < 1.5 deg", "phi_delay_margin > 40 ms"};
+  request.require = {"max_tilt < 1.5 deg", "phi_delay_margin > 150 ms"};
   const api::TuneResult made = tune(request);
   REQUIRE(made.tuned);
   CHECK(made.code == ExitCode::done);
@@ -112,8 +112,8 @@ TEST_CASE("a margin can be required together with measures, on random rigs") {
   REQUIRE(requirements.size() == 2);
   CHECK(requirements[0].holds);
   CHECK(requirements[1].holds);
-  CHECK(requirements[1].before < 0.04);  // the example's rig tolerates 29 ms
-  CHECK(requirements[1].value > 0.04);
+  CHECK(requirements[1].before < 0.15);  // the example's rig tolerates 129 ms
+  CHECK(requirements[1].value > 0.15);
   // Without the requirement the gains are higher and the margin smaller.
   request.require.pop_back();
   const api::TuneResult bold = tune(request);
@@ -125,12 +125,12 @@ TEST_CASE("tuning the slowest mode needs no run, and an infinite margin meets an
   api::TuneRequest request = request_of({kp + "=4:30", kv + "=3:20"});
   request.minimize = "spectral_abscissa";
   // The response stays above -3 dB up to half the sampling rate: infinite bandwidth.
-  request.require = {"phi_phase_margin > 40 deg", "x_bandwidth > 1"};
+  request.require = {"phi_phase_margin > 30 deg", "x_bandwidth > 1"};
   const api::TuneResult made = tune(request);
   REQUIRE(made.tuned);
   CHECK(made.code == ExitCode::done);
   CHECK(made.tuned->objective < made.tuned->before);
-  CHECK(made.tuned->requirements[0].value > 0.698);
+  CHECK(made.tuned->requirements[0].value > 0.523);
   CHECK(made.tuned->requirements[1].holds);
   CHECK(nlohmann::json::parse(made.json)["requirements"][1]["value"].is_null());
 

@@ -53,7 +53,7 @@ TEST_CASE("an override of null removes a key, or an item of a list") {
   CHECK(parse(closed_loop, {"controller.limit=0.1", "controller.limit=null"}).controller->limit ==
         std::nullopt);
   const Scenario other = parse(
-      closed_loop, {"controller.pd=null", "controller.pid={kp: 1, kv: 2, ki: 3}",
+      closed_loop, {"controller.pd=null", "controller.pid={kp: [[1, 0], [0, -1]], kv: 0, ki: 0}",
                     "controller.drives=angle", "gimbal.servo={natural_frequency: 10, damping: 1}"});
   CHECK(other.controller->law == Law::pid);
   CHECK_FALSE(parse(closed_loop, {"controller=null", "gimbal.motion={}"}).controller.has_value());

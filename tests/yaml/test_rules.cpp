@@ -97,7 +97,8 @@ TEST_CASE("the start of the gimbal belongs to a controller") {
 
 TEST_CASE("the servo belongs to a controller that drives angle") {
   const std::string servo = "gimbal: {servo: {natural_frequency: 10, damping: 0}}\n";
-  const Scenario scenario = parse(closed_loop + servo, {"controller.drives=angle"});
+  const std::string pd = "controller.pd={kv: [[1, 0], [0, -1]], kp: 0}";
+  const Scenario scenario = parse(closed_loop + servo, {pd, "controller.drives=angle"});
   REQUIRE(scenario.gimbal.servo);
   CHECK(scenario.gimbal.servo->natural_frequency == 10);
   CHECK(scenario.gimbal.servo->damping == 0);
@@ -106,7 +107,7 @@ TEST_CASE("the servo belongs to a controller that drives angle") {
   CHECK(errors(closed_loop + servo) ==
         "scenario.yaml:4:10: gimbal.servo: found, but controller.drives is acceleration, which no "
         "servo follows; allowed: only with drives: angle");
-  CHECK(errors(closed_loop, {"controller.drives=angle"}) ==
+  CHECK(errors(closed_loop, {pd, "controller.drives=angle"}) ==
         "scenario.yaml:1:1: gimbal.servo: missing, but controller.drives is angle; allowed: a "
         "mapping with natural_frequency, damping");
   check_refused(open_loop, "gimbal.servo={natural_frequency: 10, damping: 1}",

@@ -7,8 +7,8 @@
 // contain a C++ runtime, and neither can catch what the other throws. Each function therefore
 // returns its trouble, which the program turns into an OutputError or InputError.
 //
-// Any thread may call these functions: the module makes them take turns, because Debian's HDF5 is
-// for one thread at a time.
+// Any thread may call these functions: they take turns, because Debian's HDF5 is for one thread at
+// a time.
 #pragma once
 
 #include <cstddef>
@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "base/fork_mutex.hpp"
 #include "file/hdf5_table.hpp"
 
 namespace bbsim::file::hdf5 {
@@ -53,6 +54,9 @@ struct Module {
   Trouble (*create)(const std::string& file, const std::vector<Hdf5Column>& columns,
                     const std::vector<Hdf5Axis>& axes, std::unique_ptr<Writer>& into);
   Trouble (*open)(const std::string& file, Hdf5Head& head, std::unique_ptr<Reader>& into);
+  // The program's, set before the first call. One of the module's would be registered for forks
+  // while a library is loaded, and a fork may wait for that.
+  ForkMutex* turns = nullptr;
 };
 inline constexpr const char* module_symbol = "bbsim_hdf5_module";
 

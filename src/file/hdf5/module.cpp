@@ -11,19 +11,20 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/fork_mutex.hpp"
 #include "file/hdf5/interface.hpp"
 #include "file/hdf5/reader.hpp"
 #include "file/hdf5/writer.hpp"
 
+extern "C" {
+extern __attribute__((visibility("default"))) bbsim::file::hdf5::Module bbsim_hdf5_module;
+}
+
 namespace bbsim::file::hdf5 {
 namespace {
 
-ForkMutex one_thread;
-
 template <class Action>
 Trouble guarded(Action action) noexcept {
-  const std::lock_guard lock(one_thread);
+  const std::lock_guard lock(*bbsim_hdf5_module.turns);
   try {
     // HDF5's cleanup at exit may crash if memory ran out earlier, and all files are closed by then.
     // This call has no effect if other code already uses HDF5.
@@ -97,6 +98,5 @@ Trouble open(const std::string& file, Hdf5Head& head, std::unique_ptr<Reader>& i
 }  // namespace
 }  // namespace bbsim::file::hdf5
 
-extern "C" __attribute__((visibility("default"))) const bbsim::file::hdf5::Module
-    bbsim_hdf5_module{bbsim::file::hdf5::this_build, bbsim::file::hdf5::create,
-                      bbsim::file::hdf5::open};
+bbsim::file::hdf5::Module bbsim_hdf5_module{bbsim::file::hdf5::this_build,
+                                            bbsim::file::hdf5::create, bbsim::file::hdf5::open};

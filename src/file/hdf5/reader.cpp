@@ -93,7 +93,9 @@ Attributes attributes_of(hid_t root) {
                                              H5P_DEFAULT, H5P_DEFAULT),
                               doing);
     if (const auto value = value_of(attribute)) {
-      const auto name = [&](char* to, std::size_t size) { return H5Aget_name(attribute, size, to); };
+      const auto name = [&](char* to, std::size_t size) {
+        return H5Aget_name(attribute, size, to);
+      };
       attributes.emplace_back(name_from(name, doing), *value);
     }
   }
@@ -241,8 +243,7 @@ FileReader::Column FileReader::column_of(hid_t dataset, const std::string& name,
     refuse(path, "it has " + std::to_string(rank) + " dimensions; numbers may have 1 or 2, text 1");
   }
   const Properties creation(H5Dget_create_plist(dataset), doing);
-  if (H5Pget_layout(creation) == H5D_VIRTUAL ||
-      check(H5Pget_external_count(creation), doing) > 0) {
+  if (H5Pget_layout(creation) == H5D_VIRTUAL || check(H5Pget_external_count(creation), doing) > 0) {
     refuse(path, "its numbers are in other files; allowed: data in the file itself");
   }
   std::array<hsize_t, 2> size{};

@@ -118,8 +118,8 @@ Dataset create_dataset(hid_t file, const Hdf5Column& column, bool is_packed) {
   const Datatype type = type_of(column, doing);
   constexpr std::size_t bytes_of_a_reference = 16;  // to a string of any length
   const bool of_any_length = check(H5Tis_variable_str(type), doing) > 0;
-  const std::size_t bytes = of_any_length ? bytes_of_a_reference
-                                          : H5Tget_size(type) * (rank == 2 ? column.width : 1);
+  const std::size_t bytes =
+      of_any_length ? bytes_of_a_reference : H5Tget_size(type) * (rank == 2 ? column.width : 1);
   const Properties access(H5Pcreate(H5P_DATASET_ACCESS), doing);
   check(H5Pset_chunk_cache(access, 1, std::min<std::size_t>(chunk[0] * bytes, largest_cache), 1.0),
         doing);
