@@ -265,8 +265,8 @@ void FileWriter::append(const Hdf5Block& block) {
     const Dataspace space(H5Dget_space(dataset), writing_rows);
     check(H5Sselect_hyperslab(space, H5S_SELECT_SET, first.data(), nullptr, count.data(), nullptr),
           writing_rows);
-    const auto write = [&](hid_t type, const void* values) {
-      check(H5Dwrite(dataset, type, memory, space, H5P_DEFAULT, values), writing_rows);
+    const auto write = [&, &to = dataset](hid_t type, const void* values) {
+      check(H5Dwrite(to, type, memory, space, H5P_DEFAULT, values), writing_rows);
     };
     if (is_of_fixed_length(kind, width)) {
       write(string_type_of(width), side_by_side(block.texts[c], width).data());
