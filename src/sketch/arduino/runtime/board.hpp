@@ -47,7 +47,14 @@ void run_sketch();
 void construct_globals();
 // Runs the destructors of global variables and what the sketch gave to atexit(), unless it failed.
 void destroy_globals();
-void end_sketch();  // frees the stack
+void end_sketch();  // frees the stack and what keep() copied
+// Copies data that the board needs until end_sketch(); zeros if `from` is null. It is no global
+// object with a destructor, because none of these runs after a sketch has failed.
+void* keep_bytes(const void* from, size_t size);
+template <class Any>
+Any* keep(const Any* from, size_t count) {
+  return static_cast<Any*>(keep_bytes(from, count * sizeof(Any)));
+}
 bool setup_has_returned();
 // Whether an access to this address is one beyond the end of the sketch's stack.
 bool is_beyond_stack(const void* address);

@@ -4,8 +4,6 @@
 // The sketch as a controller. Runs in a copy of the library (copies.cpp).
 #include <signal.h>
 
-#include <vector>
-
 #include "Arduino.h"
 #include "runtime/board.hpp"
 
@@ -15,18 +13,6 @@ namespace {
 Nanoseconds switched_on_before = 0;  // time of t = 0 on the board's clock
 double period = 0;                   // s
 size_t column_count = 0;
-
-// The data that board.wiring points to. They live as long as this copy of the library.
-std::vector<bbsim_wired_input> inputs;
-std::vector<int32_t> ignored;
-std::vector<unsigned char> eeprom;
-std::string frame, lost;
-
-template <class Any>
-const Any* keep(std::vector<Any>& in, const Any* from, size_t count) {
-  in.assign(from, from + count);
-  return in.data();
-}
 
 bool is_wired(const bbsim_wired_servo& servo) {
   return servo.pin >= 0 || servo.channel >= 0;
@@ -54,11 +40,11 @@ const char* create(const bbsim_setup* setup, const bbsim_wiring* wiring) {
   }
   board.wiring = *wiring;
   bbsim_wiring& own = board.wiring;
-  own.inputs = keep(inputs, own.inputs, own.input_count);
-  own.ignored = keep(ignored, own.ignored, own.ignored_count);
-  own.eeprom = keep(eeprom, own.eeprom, own.eeprom_size);
-  own.camera.frame = (frame = own.camera.frame).c_str();
-  own.camera.lost = (lost = own.camera.lost).c_str();
+  own.inputs = keep(own.inputs, own.input_count);
+  own.ignored = keep(own.ignored, own.ignored_count);
+  own.eeprom = keep(own.eeprom, own.eeprom_size);
+  own.camera.frame = keep(own.camera.frame, strlen(own.camera.frame) + 1);
+  own.camera.lost = keep(own.camera.lost, strlen(own.camera.lost) + 1);
   const bbsim_call_costs& costs = own.costs;
   board.costs = {
       nanoseconds(costs.clock), nanoseconds(costs.digital),      nanoseconds(costs.analog),

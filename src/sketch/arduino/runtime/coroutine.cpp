@@ -8,6 +8,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/mman.h>
 #include <ucontext.h>
 
@@ -39,6 +40,8 @@ constexpr size_t stack_size = size_t{1} << 20;
 constexpr size_t guard_size = size_t{1} << 16;  // an overflow of the stack is a signal
 ucontext_t outside, inside;
 void* stack = MAP_FAILED;
+void* kept[8];
+size_t kept_count = 0;
 bool setup_returned = false;
 
 // What is to be called at the end, newest first.
@@ -127,6 +130,14 @@ void hand_over() {
 void end_sketch() {
   if (stack != MAP_FAILED) munmap(stack, stack_size);
   stack = MAP_FAILED;
+  while (kept_count > 0) free(kept[--kept_count]);
+}
+
+void* keep_bytes(const void* from, size_t size) {
+  void* const copy = calloc(1, size + 1);
+  if (copy == nullptr || kept_count == sizeof kept / sizeof *kept) abort();
+  kept[kept_count++] = copy;
+  return from == nullptr ? copy : memcpy(copy, from, size);
 }
 
 bool setup_has_returned() {

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Serial ports: the text that the sketch prints, and the frames of a camera.
-#include <vector>
-
 #include "Arduino.h"
 #include "runtime/board.hpp"
 
@@ -16,7 +14,8 @@ struct Watched {
   double value;
   bool printed;
 };
-std::vector<Watched> watched;
+Watched* watched = nullptr;
+size_t watched_count = 0;
 
 // Whether the text has a number: also "nan" and "inf", as whole words, and "ovf", which print()
 // writes for large numbers. The run then ends.
@@ -34,7 +33,8 @@ bool read_number(const char* text, double& number) {
 // Reads "name:value" pairs, separated by commas, tabs or blanks, as the plotter of the IDE does.
 void read_numbers(const char* line) {
   for (const char* at = line; (at = strchr(at, ':')) != nullptr; ++at) {
-    for (Watched& one : watched) {
+    for (size_t i = 0; i < watched_count; ++i) {
+      Watched& one = watched[i];
       const auto length = static_cast<ptrdiff_t>(strlen(one.name));
       if (at - line < length) continue;
       const char* const start = at - length;
@@ -110,7 +110,8 @@ void send_frames() {
 }
 
 void watch_columns(const char* const* names, size_t count) {
-  watched.resize(count);
+  watched = keep<Watched>(nullptr, count);
+  watched_count = count;
   for (size_t i = 0; i < count; ++i) {
     snprintf(watched[i].name, sizeof watched[i].name, "%s", names[i]);
   }
