@@ -29,12 +29,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double unlimited = std::numeric_limits<double>::infinity();
-
-Index at(std::size_t i) {
-  return static_cast<Index>(i);
-}
-
 std::vector<double> rms_of(const WindowsFit& windows, const VectorXd& residuals) {
   std::vector<double> rms;
   for (const ColumnSize& size : sizes_of(windows, residuals)) rms.push_back(size.rms);

@@ -21,7 +21,6 @@
 namespace bbsim::fit {
 namespace {
 
-constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr double usual_delay = 0.2;  // s; a camera's delay is at most that
 
 // Typical magnitude for a dimension; empty if magnitudes span orders of magnitude, such as those of

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,8 @@
 #include "scenario/family.hpp"
 
 namespace bbsim::fit {
+
+inline constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 // The number u of a key is 0 at its value before the fit. The value is start exp(u) if it must be
 // positive, otherwise start + scale u. Differences and covariances then have size 1.

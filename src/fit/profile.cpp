@@ -17,11 +17,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-namespace {
-
-constexpr double unlimited = std::numeric_limits<double>::infinity();
-
-}  // namespace
+namespace {}  // namespace
 
 struct Profiles::Point {
   VectorXd u, residuals;

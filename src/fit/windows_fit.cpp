@@ -30,10 +30,6 @@ constexpr double key_step = 1e-3, start_step = 1e-3;
 // Directions of a start with less effect than this part stay fixed.
 constexpr double start_threshold = 1e-9;
 
-Index at(std::size_t i) {
-  return static_cast<Index>(i);
-}
-
 const scenario::Column* column_of_state(std::size_t state) {
   constexpr std::string_view names[] = {"x",     "y",        "vx",         "vy",  "phi",
                                         "theta", "phi_rate", "theta_rate", "spin"};

@@ -17,6 +17,10 @@
 
 namespace bbsim::fit {
 
+inline Eigen::Index at(std::size_t i) {
+  return static_cast<Eigen::Index>(i);
+}
+
 // A log shows offset + scale column(t - delay) of each compared column.
 struct Sensors {
   std::vector<double> scales, offsets;

@@ -15,13 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-namespace {
-
-Index at(std::size_t i) {
-  return static_cast<Index>(i);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 void WindowsFit::join() {
   if (trial_u_.size() > 0 || task_.keys.empty()) base_ = trial_;

@@ -24,7 +24,7 @@ model::Sample end_of(const solve::Outcome& outcome) {
   return end;
 }
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
 // Groups the measures by their windows.
 std::vector<std::unique_ptr<WindowMeasures>> by_window(const std::vector<Measure>& measures) {
@@ -153,7 +153,7 @@ void Recorder::finish(const solve::Outcome& outcome, double* results) {
   if (quick_) {
     track_->finish(results);
   } else if (outcome.rows == 0) {
-    std::fill_n(results, asked_.measures.size(), nothing);
+    std::fill_n(results, asked_.measures.size(), not_measured);
     whys_.assign(asked_.measures.size(), "the run ended before it began");
   } else {
     finish_each(outcome, results);
