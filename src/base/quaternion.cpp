@@ -21,10 +21,6 @@ Quaternion product(const Quaternion& a, const Quaternion& b) {
           a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]};
 }
 
-Quaternion conjugate(const Quaternion& q) {
-  return {q[0], -q[1], -q[2], -q[3]};
-}
-
 Quaternion normalised(const Quaternion& q) {
   const double size = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
   return {q[0] / size, q[1] / size, q[2] / size, q[3] / size};

@@ -17,8 +17,6 @@ using Quaternion = std::array<double, 4>;
 // The rotation b followed by the rotation a.
 [[nodiscard]] Quaternion product(const Quaternion& a, const Quaternion& b);
 
-[[nodiscard]] Quaternion conjugate(const Quaternion& q);
-
 // q scaled to norm 1. q must not be 0.
 [[nodiscard]] Quaternion normalised(const Quaternion& q);
 

@@ -8,7 +8,6 @@
 
 #include "base/json.hpp"
 #include "base/number_text.hpp"
-#include "file/atomic_file.hpp"
 
 namespace bbsim::record {
 namespace {
@@ -154,10 +153,6 @@ std::string to_json(const RunSummary& summary) {
   json["scenario_text"] = summary.scenario_text;
   constexpr int indent = 2;
   return json_text(json, indent) + "\n";
-}
-
-void write_summary(const std::string& file, const RunSummary& summary) {
-  file::write_file(file, to_json(summary));
 }
 
 file::Attributes to_attributes(const RunSummary& summary, const std::string& scenario_text) {

@@ -87,9 +87,6 @@ struct RunSummary {
 // bit for bit; those that are not finite are null. Bytes that are not UTF-8 become U+FFFD.
 [[nodiscard]] std::string to_json(const RunSummary& summary);
 
-// Writes to_json() whole or not at all; "-" is standard output. Throws OutputError.
-void write_summary(const std::string& file, const RunSummary& summary);
-
 // The same names and values as attributes, and `scenario_text`. Names of `statistics` have no
 // prefix. Numbers are numbers, and lists have one entry per line. `output` and `cpu_seconds` are
 // left out, because they differ between equal runs.

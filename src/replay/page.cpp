@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json.hpp"
-#include "file/atomic_file.hpp"
 #include "replay/base64.hpp"
 #include "replay/kept_rows.hpp"
 #include "replay/rotation.hpp"
@@ -324,10 +323,6 @@ std::string page_template() {
 
 std::string template_file() {
   return file_of_template(template_name);
-}
-
-void write_page(const std::string& file, const Scene& scene) {
-  file::write_file(file, page(scene, page_template()));
 }
 
 }  // namespace bbsim::replay

@@ -36,7 +36,4 @@ inline constexpr const char* page_mark = "A replay made by bbsim";
 // The most rows that each run of a page may keep.
 [[nodiscard]] std::size_t rows_allowed(const Scene& scene);
 
-// Writes page(scene, page_template()) whole or not at all; "-" is standard output.
-void write_page(const std::string& file, const Scene& scene);
-
 }  // namespace bbsim::replay

@@ -6,12 +6,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "base/error.hpp"
 #include "catch.hpp"
 #include "record/summary.hpp"
-#include "support/folder.hpp"
 
-using bbsim::OutputError;
 using bbsim::file::AttributeValue;
 using bbsim::record::RunSummary;
 using bbsim::record::to_attributes;
@@ -140,13 +137,4 @@ TEST_CASE("equal runs have equal attributes, whatever the output") {
   other.output = "elsewhere.h5";
   other.statistics.cpu_seconds = 7;
   CHECK(to_attributes(other, "") == to_attributes(a_run(), ""));
-}
-
-TEST_CASE("the summary is written completely or not at all") {
-  const Folder folder;
-  write_summary(folder / "a.json", a_run());
-  CHECK(content_of(folder / "a.json") == to_json(a_run()));
-  CHECK(folder.entries() == 1);
-  CHECK_THROWS_AS(write_summary("/dev/full", a_run()), OutputError);
-  CHECK_THROWS_AS(write_summary(folder / "none/a.json", a_run()), OutputError);
 }
