@@ -20,7 +20,7 @@ constexpr const char* module_name = "libbbsim_hdf5.so";
 constexpr const char* way_out = "; write or read .csv instead, ";
 
 ForkMutex opening, turns;  // a forked process must not wait for a thread that it does not have
-const Hdf5Module* opened = nullptr;
+const Hdf5Module* the_module = nullptr;
 
 // The path of the shared library that contains this code; empty if the program contains it.
 std::filesystem::path own_library() {
@@ -94,8 +94,8 @@ std::vector<std::string> hdf5_module_folders() {
 const Hdf5Module& hdf5_module() {
   const std::lock_guard lock(opening);
   // Never destroyed, because a thread may write until the process ends.
-  if (opened == nullptr) opened = new Hdf5Module(open_hdf5_module(hdf5_module_folders()));
-  return *opened;
+  if (the_module == nullptr) the_module = new Hdf5Module(open_hdf5_module(hdf5_module_folders()));
+  return *the_module;
 }
 
 }  // namespace bbsim::file
