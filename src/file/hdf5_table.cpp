@@ -45,6 +45,8 @@ std::size_t rows_at_once(const std::vector<Hdf5Column>& columns) {
   return rows;
 }
 
+constexpr const char* no_memory = "there is not enough memory for its content";
+
 [[noreturn]] void refuse_output(const std::string& target, const std::string& reason) {
   throw OutputError("cannot write " + target + ": " + reason);
 }
@@ -172,8 +174,9 @@ hdf5::Writer& Hdf5TableWriter::open_writer() {
 }
 
 void Hdf5TableWriter::check(const hdf5::Trouble& trouble) {
-  if (trouble.text.empty()) return;
+  if (trouble.text.empty() && !trouble.no_memory) return;
   writer_.reset();  // an incomplete file must not get its final name
+  if (trouble.no_memory) refuse_output(target_, no_memory);
   if (trouble.system_error != 0) file_.fail(trouble.system_error);
   refuse_output(target_, shown(trouble.text, uncut));
 }
@@ -210,6 +213,7 @@ void Hdf5TableReader::fail(std::string_view reason) const {
 }
 
 void Hdf5TableReader::check(const hdf5::Trouble& trouble) const {
+  if (trouble.no_memory) fail(no_memory);
   if (trouble.system_error != 0) fail(error_text(trouble.system_error));
   if (!trouble.text.empty()) fail(shown(trouble.text, uncut));
 }

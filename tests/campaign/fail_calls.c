@@ -284,6 +284,12 @@ static bool is_ours(void* caller) {
 void* malloc(size_t size) {
   return NO_MEMORY(malloc) ? NULL : __libc_malloc(size);
 }
+// The C library's would call malloc on behalf of any library.
+char* strdup(const char* text) {
+  const size_t size = strlen(text) + 1;
+  char* const copy = NO_MEMORY(malloc) ? NULL : __libc_malloc(size);
+  return copy ? memcpy(copy, text, size) : NULL;
+}
 void* calloc(size_t count, size_t size) {
   return NO_MEMORY(calloc) ? NULL : __libc_calloc(count, size);
 }

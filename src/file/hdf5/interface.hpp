@@ -24,6 +24,7 @@ namespace bbsim::file::hdf5 {
 struct Trouble {
   std::string text{};    // the end of a sentence; empty: none
   int system_error = 0;  // the errno, where the system is the cause
+  bool no_memory = false;
 };
 
 // A file that is being written. After a failure, it can only be destroyed.

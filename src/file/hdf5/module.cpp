@@ -7,8 +7,6 @@
 #include <exception>
 #include <memory>
 #include <mutex>
-#include <new>
-#include <stdexcept>
 #include <utility>
 
 #include "file/hdf5/interface.hpp"
@@ -25,22 +23,22 @@ namespace {
 template <class Action>
 Trouble guarded(Action action) noexcept {
   const std::lock_guard lock(*bbsim_hdf5_module.turns);
+  Trouble trouble;
   try {
     // HDF5's cleanup at exit may crash if memory ran out earlier, and all files are closed by then.
     // This call has no effect if other code already uses HDF5.
     [[maybe_unused]] static const herr_t ignored = H5dont_atexit();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // keeps HDF5 from writing to standard error
-    action();
-    return {};
-  } catch (const Failure& failure) {
-    return {failure.what(), failure.system_error()};
-  } catch (const std::bad_alloc&) {
-    return {"there is not enough memory for its content"};
-  } catch (const std::length_error&) {
-    return {"there is not enough memory for its content"};
-  } catch (const std::exception& exception) {
-    return {exception.what()};
+    try {
+      action();
+    } catch (const Failure& failure) {
+      trouble.system_error = failure.system_error();
+      trouble.text = failure.what();
+    }
+  } catch (const std::exception&) {
+    trouble.no_memory = true;  // std::bad_alloc or std::length_error, also in the handler above
   }
+  return trouble;
 }
 
 class GuardedWriter final : public Writer {
