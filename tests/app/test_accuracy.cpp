@@ -8,7 +8,7 @@
 #include "catch.hpp"
 #include "process.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_accuracy {
 
 namespace {
 
@@ -69,3 +69,5 @@ TEST_CASE("accuracy draws SVG, PNG and PDF and refuses other formats") {
   CHECK(other.exit_code == 2);
   CHECK(contains(other.err, ".svg, .png or .pdf"));
 }
+
+}  // namespace bbsim_test::test_accuracy

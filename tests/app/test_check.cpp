@@ -7,7 +7,7 @@
 #include "catch.hpp"
 #include "process.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_check {
 
 namespace {
 
@@ -173,3 +173,5 @@ TEST_CASE("every scenario of configs/ is valid and runs") {
     CHECK(result.exit_code == 0);
   }
 }
+
+}  // namespace bbsim_test::test_check

@@ -13,6 +13,8 @@
 
 #include "catch.hpp"
 
+namespace bbsim_test::test_citation {
+
 namespace {
 
 constexpr std::array known_keys{"abstract",
@@ -113,3 +115,5 @@ TEST_CASE("faults of a citation file are found") {
     CHECK_FALSE(faults_of(YAML::Load(text)).empty());
   }
 }
+
+}  // namespace bbsim_test::test_citation

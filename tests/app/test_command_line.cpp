@@ -13,7 +13,8 @@
 #include "catch.hpp"
 #include "shell.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_command_line {
+
 using Names = std::vector<std::string>;
 
 namespace {
@@ -304,3 +305,5 @@ TEST_CASE("names from outside do not reach the terminal as control sequences") {
     CHECK(result.err.size() + result.out.size() > 0);
   }
 }
+
+}  // namespace bbsim_test::test_command_line

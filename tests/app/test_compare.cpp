@@ -9,7 +9,7 @@
 #include "catch.hpp"
 #include "shell.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_compare {
 
 namespace {
 
@@ -198,3 +198,5 @@ TEST_CASE("a log is compared with a run of a scenario at the log's times") {
   CHECK(bbsim({"compare", "log.csv", "log.csv", "--set", "ball.radius=0.02"}, folder.path())
             .exit_code == 2);
 }
+
+}  // namespace bbsim_test::test_compare

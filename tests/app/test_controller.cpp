@@ -15,7 +15,7 @@
 #include "catch.hpp"
 #include "process.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_controller {
 
 namespace {
 
@@ -362,3 +362,5 @@ TEST_CASE("an error bound holds with your own controller, which restarts for eac
   CHECK(count(result.err, "controller: started") > 1);
   CHECK(scene.processes_in_the_end().second == 0);
 }
+
+}  // namespace bbsim_test::test_controller

@@ -13,7 +13,8 @@
 #include "catch.hpp"
 #include "process.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_design {
+
 using Catch::Matchers::Contains;
 
 namespace {
@@ -145,3 +146,5 @@ time: {end: 7.2, step: 20 ms}
     CHECK(std::abs(played[2] - asked[2] / degree) < 0.0011);
   }
 }
+
+}  // namespace bbsim_test::test_design

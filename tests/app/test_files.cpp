@@ -18,7 +18,8 @@
 #include "process.hpp"
 #include "rights.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_files {
+
 using Names = std::vector<std::string>;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
@@ -742,3 +743,5 @@ TEST_CASE("sweep outputs that cannot be written give exit code 3") {
     CHECK(result.seconds < 20);
   }
 }
+
+}  // namespace bbsim_test::test_files

@@ -12,7 +12,8 @@
 #include "catch.hpp"
 #include "process.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_first_minutes {
+
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
@@ -321,3 +322,5 @@ TEST_CASE("output that a controller repeats at each start of check is shown once
   CHECK(check.err == "controller: hello\n");
 }
 #endif
+
+}  // namespace bbsim_test::test_first_minutes

@@ -11,7 +11,8 @@
 #include "catch.hpp"
 #include "process.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_fit {
+
 using Catch::Matchers::Contains;
 
 namespace {
@@ -112,3 +113,5 @@ TEST_CASE("fit --report leaves a complete page or none") {
   }
   CHECK(fit.folder.files() == std::vector<std::string>{"log.csv"});
 }
+
+}  // namespace bbsim_test::test_fit

@@ -11,6 +11,8 @@
 #include "file/hdf5_table.hpp"
 #include "process.hpp"
 
+namespace bbsim_test::test_hdf5 {
+
 // Inside, `bbsim` is the function that runs the program; `bbsim::` remains the namespace.
 namespace bbsim_test {
 
@@ -185,3 +187,5 @@ TEST_CASE("files of version 0.3.0 are read") {
 }
 
 }  // namespace bbsim_test
+
+}  // namespace bbsim_test::test_hdf5

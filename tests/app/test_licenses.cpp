@@ -7,7 +7,8 @@
 #include "catch.hpp"
 #include "process.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_licenses {
+
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 
@@ -83,3 +84,5 @@ TEST_CASE("a run's page has the notices of exactly its libraries, once each") {
   REQUIRE(bbsim({"replay", "s.csv", "-q", "-o", "s.html"}, folder.path()).exit_code == 0);
   CHECK(count(folder.read("s.html"), "/*!\n") == 0);
 }
+
+}  // namespace bbsim_test::test_licenses

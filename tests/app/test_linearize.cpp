@@ -14,7 +14,8 @@
 #include "process.hpp"
 #include "shell.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_linearize {
+
 using nlohmann::json;
 
 namespace {
@@ -301,3 +302,5 @@ TEST_CASE("a scenario's name stays text in the programs that linearize writes") 
   CHECK_FALSE(std::filesystem::exists(folder / "ran"));
 }
 #endif
+
+}  // namespace bbsim_test::test_linearize

@@ -13,7 +13,7 @@
 #include "process.hpp"
 #include "shell.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_measure {
 
 namespace {
 
@@ -455,3 +455,5 @@ TEST_CASE("measures of the loop equal linearize's to the last digit") {
   CHECK(fault({"--measure", "stable", "--sensitivity", "gravity"})
             .find("allowed: measures of the motion") != std::string::npos);
 }
+
+}  // namespace bbsim_test::test_measure

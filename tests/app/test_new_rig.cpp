@@ -9,7 +9,8 @@
 #include "process.hpp"
 #include "shell.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_new_rig {
+
 using Catch::Matchers::Contains;
 
 namespace {
@@ -193,3 +194,5 @@ TEST_CASE("on a terminal, a rig without options is set up by questions") {
   CHECK_THAT(shown, !Contains("[ping-pong]: "));
   CHECK_THAT(folder.read("legs.yaml"), Contains("three_servos: "));
 }
+
+}  // namespace bbsim_test::test_new_rig

@@ -13,7 +13,7 @@
 #include "catch.hpp"
 #include "process.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_own_controller {
 
 namespace {
 
@@ -297,3 +297,5 @@ TEST_CASE("a library starts anew for each case of a sweep, with or without reset
     CHECK(contains(result.out, "0,9,done,,0.2,11\n1,9.5,done,,0.2,11\n2,10,done,,0.2,11\n"));
   }
 }
+
+}  // namespace bbsim_test::test_own_controller

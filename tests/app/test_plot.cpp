@@ -14,7 +14,8 @@
 #include "process.hpp"
 #include "support/svg_texts.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_plot {
+
 using Catch::Matchers::Contains;
 
 namespace {
@@ -314,3 +315,5 @@ TEST_CASE("a user's gnuplot settings have no effect") {
   CHECK(fault_of_xml(folder.read("run.svg")).empty());
   CHECK(folder.files() == std::vector<std::string>{".gnuplot", "run.csv", "run.svg"});
 }
+
+}  // namespace bbsim_test::test_plot

@@ -13,7 +13,8 @@
 #include "progress_line.hpp"
 #include "shell.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_progress {
+
 using bbsim::app::log_line;
 using bbsim::app::progress_line;
 using bbsim::app::ProgressState;
@@ -163,3 +164,5 @@ TEST_CASE("without a scenario on a terminal, the program says that it waits for 
                "reading a CSV from the terminal"));
   CHECK_FALSE(contains(on_terminal({"run", "-", "-q"}, 80, folder.path(), 0.5), "reading"));
 }
+
+}  // namespace bbsim_test::test_progress

@@ -14,7 +14,8 @@
 #include "catch.hpp"
 #include "process.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_replay {
+
 using Catch::Matchers::Contains;
 
 namespace {
@@ -202,3 +203,5 @@ TEST_CASE("an interrupted run is shown as far as it got") {
   CHECK(run.at("status") == "interrupted");
   CHECK_THAT(run.at("reason").get<std::string>(), Contains("interrupted at t = "));
 }
+
+}  // namespace bbsim_test::test_replay

@@ -13,7 +13,7 @@
 #include "catch.hpp"
 #include "process.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_rig {
 
 namespace {
 
@@ -363,3 +363,5 @@ output: {columns: [t, phi, theta, servo_phi, phi_command, theta_command]}
   }
 }
 #endif
+
+}  // namespace bbsim_test::test_rig

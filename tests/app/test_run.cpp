@@ -11,7 +11,8 @@
 #include "catch.hpp"
 #include "process.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_run {
+
 using Names = std::vector<std::string>;
 using Catch::Matchers::Contains;
 
@@ -303,3 +304,5 @@ TEST_CASE("a run that takes a million steps per second says so, and how to end i
   CHECK(contains(result.err, "steps per second of motion"));
   CHECK(contains(result.err, "Ctrl-C ends it and keeps its rows"));
 }
+
+}  // namespace bbsim_test::test_run

@@ -14,7 +14,7 @@
 #include "catch.hpp"
 #include "process.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_sweep {
 
 namespace {
 
@@ -469,3 +469,5 @@ TEST_CASE("an interrupted stability map resumes to the same bytes") {
           0);
   CHECK(folder.read("s.csv") == folder.read("t.csv"));
 }
+
+}  // namespace bbsim_test::test_sweep

@@ -9,7 +9,8 @@
 #include "catch.hpp"
 #include "process.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_tune {
+
 using Catch::Matchers::Contains;
 
 namespace {
@@ -79,3 +80,5 @@ TEST_CASE("tune refuses invalid input with exit code 2") {
   CHECK_THAT(refused(tune({"--minimize", "max_tilt", "-o", config("rig.yaml")})),
              Contains("the scenario"));
 }
+
+}  // namespace bbsim_test::test_tune

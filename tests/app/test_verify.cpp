@@ -7,7 +7,7 @@
 #include "catch.hpp"
 #include "process.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_verify {
 
 namespace {
 
@@ -53,3 +53,5 @@ TEST_CASE("verify refuses a faulty scenario before it checks anything") {
   CHECK(rig.out.empty());
   CHECK(contains(rig.err, "simpler models are compared over"));
 }
+
+}  // namespace bbsim_test::test_verify

@@ -8,7 +8,7 @@
 #include "catch.hpp"
 #include "process.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_warnings {
 
 namespace {
 
@@ -258,3 +258,5 @@ TEST_CASE("a regulator without a gain is reported at its place") {
       {"run", "s.yaml", "--set", "controller.lqr={position: 1, command: 1e300}"}, folder.path());
   CHECK(contains(set.err, "--set controller.lqr={position: 1, command: 1e300}: controller.lqr: "));
 }
+
+}  // namespace bbsim_test::test_warnings

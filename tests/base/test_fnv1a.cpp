@@ -4,6 +4,8 @@
 #include "base/fnv1a.hpp"
 #include "catch.hpp"
 
+namespace bbsim_test::test_fnv1a {
+
 using namespace bbsim;
 
 // Test vectors of its authors.
@@ -13,3 +15,5 @@ TEST_CASE("FNV-1a gives its authors' values") {
   CHECK(fnv1a("foobar") == 0x85944171F73967E8U);
   CHECK(fnv1a(fnv1a_start, std::uint64_t{'a'}) == fnv1a("a"));
 }
+
+}  // namespace bbsim_test::test_fnv1a

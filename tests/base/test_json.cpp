@@ -8,6 +8,8 @@
 #include "base/json.hpp"
 #include "catch.hpp"
 
+namespace bbsim_test::test_json {
+
 using namespace bbsim;
 
 namespace {
@@ -40,3 +42,5 @@ TEST_CASE("brackets in strings do not count") {
   CHECK(parse_json("[\"\\\\\", " + nested(deepest_json) + "]").is_discarded());
   CHECK(parse_json("[\"\\\\\", " + nested(deepest_json - 1) + "]").size() == 2);
 }
+
+}  // namespace bbsim_test::test_json

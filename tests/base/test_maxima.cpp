@@ -10,6 +10,8 @@
 #include "base/maxima.hpp"
 #include "catch.hpp"
 
+namespace bbsim_test::test_maxima {
+
 using namespace bbsim;
 
 namespace {
@@ -161,3 +163,5 @@ TEST_CASE("a maximum next to an end is found through refined values") {
   });
   CHECK(std::abs(greatest) < 1e-16);
 }
+
+}  // namespace bbsim_test::test_maxima

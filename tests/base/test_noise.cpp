@@ -8,6 +8,8 @@
 #include "catch.hpp"
 #include "model/control/sampled_controller.hpp"
 
+namespace bbsim_test::test_noise {
+
 using namespace bbsim;
 using namespace bbsim::model;
 
@@ -73,3 +75,5 @@ TEST_CASE("a sensor rounds, misses what is outside its area, and drops its share
   for (int i = 0; i < n; ++i) missed += drops.read(0, 0, seen) ? 0 : 1;
   CHECK(std::abs(missed - 0.25 * n) < 5 * std::sqrt(n * 0.25 * 0.75));
 }
+
+}  // namespace bbsim_test::test_noise

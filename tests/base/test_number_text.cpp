@@ -12,6 +12,8 @@
 #include "base/number_text.hpp"
 #include "catch.hpp"
 
+namespace bbsim_test::test_number_text {
+
 using bbsim::number_text;
 
 TEST_CASE("numbers are written with as few digits as round-trip, fixed or scientific") {
@@ -48,3 +50,5 @@ TEST_CASE("numbers of all sizes are read back to the bit") {
   }
   CHECK(different == 0);
 }
+
+}  // namespace bbsim_test::test_number_text

@@ -7,6 +7,8 @@
 #include "base/printable.hpp"
 #include "catch.hpp"
 
+namespace bbsim_test::test_printable {
+
 using bbsim::printable;
 
 TEST_CASE("plain text, in any script, stays as it is") {
@@ -53,3 +55,5 @@ TEST_CASE("escaping printable text again changes nothing") {
   const std::string once = printable("\x1b\xe9\u202e\n");
   CHECK(printable(once) == once);
 }
+
+}  // namespace bbsim_test::test_printable

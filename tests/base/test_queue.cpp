@@ -7,6 +7,8 @@
 #include "base/queue.hpp"
 #include "catch.hpp"
 
+namespace bbsim_test::test_queue {
+
 using namespace bbsim;
 
 TEST_CASE("a queue returns its elements in order, however full it was") {
@@ -28,3 +30,5 @@ TEST_CASE("a queue returns its elements in order, however full it was") {
     REQUIRE(queue.empty() == same.empty());
   }
 }
+
+}  // namespace bbsim_test::test_queue

@@ -5,6 +5,8 @@
 #include "base/quoted.hpp"
 #include "catch.hpp"
 
+namespace bbsim_test::test_quoted {
+
 using bbsim::quoted;
 using bbsim::shown;
 using bbsim::uncut;
@@ -32,3 +34,5 @@ TEST_CASE("quoted text and empty text") {
   CHECK(quoted("") == "nothing");
   CHECK(quoted("abcdef", 3) == "\"abc...\"");
 }
+
+}  // namespace bbsim_test::test_quoted

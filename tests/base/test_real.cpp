@@ -7,6 +7,8 @@
 #include "base/real.hpp"
 #include "catch.hpp"
 
+namespace bbsim_test::test_real {
+
 using namespace bbsim;
 
 TEST_CASE("the nearest integer equals the C library's") {
@@ -19,3 +21,5 @@ TEST_CASE("the nearest integer equals the C library's") {
   CHECK(std::isnan(nearest_integer(std::nan(""))));
   CHECK(std::isinf(nearest_integer(-INFINITY)));
 }
+
+}  // namespace bbsim_test::test_real

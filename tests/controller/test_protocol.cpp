@@ -13,6 +13,8 @@
 #include "catch.hpp"
 #include "controller/protocol.hpp"
 
+namespace bbsim_test::test_protocol {
+
 using namespace bbsim;
 using controller::read_answer;
 using nlohmann::json;
@@ -255,3 +257,5 @@ TEST_CASE("with three legs a sample has three servos, and an answer three comman
                            "S2, S3]}, optionally with \"NAME\": NUMBER"));
   CHECK(!read("{\"command\": [0.1, 0.2, 1e999]}", {}, 3).fault.empty());
 }
+
+}  // namespace bbsim_test::test_protocol

@@ -19,6 +19,8 @@
 #include "catch.hpp"
 #include "support/folder.hpp"
 
+namespace bbsim_test::test_design {
+
 using namespace bbsim;
 
 namespace {
@@ -320,3 +322,5 @@ TEST_CASE("an interrupted design has no result") {
   CHECK(made.code == ExitCode::interrupted);
   CHECK(made.table.empty());
 }
+
+}  // namespace bbsim_test::test_design

@@ -15,6 +15,8 @@
 #include "design/motion.hpp"
 #include "design/multisine.hpp"
 
+namespace bbsim_test::test_motion {
+
 using namespace bbsim;
 using design::Motion;
 using design::Plays;
@@ -182,3 +184,5 @@ TEST_CASE("deviations come from the inverse, and are infinite for keys that cann
   CHECK(three[2] == Approx(0.5));
   CHECK(std::isfinite(design::merit_of(torn)));
 }
+
+}  // namespace bbsim_test::test_motion

@@ -20,6 +20,8 @@
 #include "support/limits.hpp"
 #include "support/rights.hpp"
 
+namespace bbsim_test::test_atomic_file {
+
 using bbsim::OutputError;
 using bbsim::file::AtomicFile;
 using bbsim::file::write_file;
@@ -326,3 +328,5 @@ TEST_CASE("a forked process leaves its parent's temporaries alone") {
   CHECK(folder.entries() == 0);
   bbsim::file::forget_temporary(name.c_str());
 }
+
+}  // namespace bbsim_test::test_atomic_file

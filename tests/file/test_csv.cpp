@@ -20,6 +20,8 @@
 #include "support/folder.hpp"
 #include "support/tables.hpp"
 
+namespace bbsim_test::test_csv {
+
 using bbsim::InputError;
 using bbsim::OutputError;
 using bbsim::file::open_table;
@@ -270,3 +272,5 @@ TEST_CASE("a pipe is read as data arrive") {
   writer.join();
   CHECK(table.columns == std::vector<std::vector<double>>{{1, 3, 5}, {2, 4, 6}});
 }
+
+}  // namespace bbsim_test::test_csv

@@ -21,6 +21,8 @@
 #include "support/limits.hpp"
 #include "support/tables.hpp"
 
+namespace bbsim_test::test_hdf5 {
+
 using bbsim::InputError;
 using bbsim::OutputError;
 using bbsim::file::hdf5_module_folders;
@@ -431,3 +433,5 @@ TEST_CASE("the module is found through the environment or beside the program") {
   CHECK(hdf5_module_folders().at(0) == program.parent_path().parent_path() / "lib/bbsim");
   if (before != nullptr) setenv("BBSIM_MODULE_PATH", kept.c_str(), 1);
 }
+
+}  // namespace bbsim_test::test_hdf5

@@ -17,6 +17,8 @@
 #include "support/folder.hpp"
 #include "support/tables.hpp"
 
+namespace bbsim_test::test_hdf5_reader {
+
 using bbsim::InputError;
 using bbsim::file::Hdf5Block;
 using bbsim::file::Hdf5TableReader;
@@ -200,3 +202,5 @@ TEST_CASE("dataset names are shown safe for a terminal") {
                              ": dataset x\\x1b]0;title\\x07\\n is not a column: it has 3 "
                              "dimensions; numbers may have 1 or 2, text 1");
 }
+
+}  // namespace bbsim_test::test_hdf5_reader

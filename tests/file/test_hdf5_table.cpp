@@ -19,6 +19,8 @@
 #include "support/limits.hpp"
 #include "support/tables.hpp"
 
+namespace bbsim_test::test_hdf5_table {
+
 using bbsim::InputError;
 using bbsim::OutputError;
 using bbsim::file::Attributes;
@@ -710,3 +712,5 @@ TEST_CASE("attributes and names of all kinds round-trip") {
   CHECK(reader.head().attributes == attributes);
   CHECK(reader.columns() == Columns{{"\"x\"\n", "m/s²", "{[\\"}});
 }
+
+}  // namespace bbsim_test::test_hdf5_table

@@ -14,6 +14,8 @@
 #include "file/outputs.hpp"
 #include "support/folder.hpp"
 
+namespace bbsim_test::test_outputs {
+
 using bbsim::InputError;
 using bbsim::file::Outputs;
 using Catch::Matchers::Contains;
@@ -101,3 +103,5 @@ TEST_CASE("a standard stream redirected to a file counts as that file") {
     return refusal("-", "", file).find("standard input (the scenario)") != std::string::npos;
   }));
 }
+
+}  // namespace bbsim_test::test_outputs

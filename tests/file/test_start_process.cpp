@@ -13,6 +13,8 @@
 #include "file/descriptor.hpp"
 #include "file/start_process.hpp"
 
+namespace bbsim_test::test_start_process {
+
 using namespace bbsim::file;
 
 namespace {
@@ -62,3 +64,5 @@ TEST_CASE("a process that cannot be started has a reason") {
   CHECK(start_process({{"no-such-program-as-this"}, 0, 1}, error) == 0);
   CHECK(error == ENOENT);
 }
+
+}  // namespace bbsim_test::test_start_process

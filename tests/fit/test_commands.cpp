@@ -21,6 +21,8 @@
 #include "scenario/family.hpp"
 #include "support/folder.hpp"
 
+namespace bbsim_test::test_commands {
+
 using namespace bbsim;
 
 namespace {
@@ -208,3 +210,5 @@ controller:
     CHECK(one.sd < 0.1 * truth[k]);
   }
 }
+
+}  // namespace bbsim_test::test_commands

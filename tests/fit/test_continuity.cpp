@@ -18,6 +18,8 @@
 #include "fit/data.hpp"
 #include "rig.hpp"
 
+namespace bbsim_test::test_continuity {
+
 using namespace bbsim;
 
 namespace {
@@ -183,3 +185,5 @@ TEST_CASE("windows are not joined if their starts are not the whole state") {
                  "--continuity: found a sampled controller, whose state is not part of a window's "
                  "start; allowed: scenes with no state but that of the ball and of the gimbal"));
 }
+
+}  // namespace bbsim_test::test_continuity

@@ -9,6 +9,8 @@
 #include "catch.hpp"
 #include "rig.hpp"
 
+namespace bbsim_test::test_coverage {
+
 using namespace bbsim;
 
 namespace {
@@ -60,3 +62,5 @@ TEST_CASE("residuals of a wrong model are not white") {
                                       {"ball.inertia_factor", "gimbal.motion.phi.table.offset"});
   CHECK_FALSE(wrong.white);
 }
+
+}  // namespace bbsim_test::test_coverage

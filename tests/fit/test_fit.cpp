@@ -15,6 +15,8 @@
 #include "fit/student.hpp"
 #include "rig.hpp"
 
+namespace bbsim_test::test_fit {
+
 using namespace bbsim;
 
 namespace {
@@ -496,3 +498,5 @@ TEST_CASE("input that a fit cannot use is refused") {
   rig.folder().put("log.csv", "t,phi,theta\n0,0,0\n1,0,0\n2,0,0\n3,0,0\n10,0,0\n");
   CHECK(contains(refused({"ball.radius"}), "has no column to compare"));
 }
+
+}  // namespace bbsim_test::test_fit

@@ -12,6 +12,8 @@
 #include "replay/read_page.hpp"
 #include "rig.hpp"
 
+namespace bbsim_test::test_fit_page {
+
 using namespace bbsim;
 
 namespace {
@@ -152,3 +154,5 @@ TEST_CASE("the page of a single-axis fit has no top view") {
   CHECK(json["place"].is_null());
   CHECK(json["columns"].size() == 1);
 }
+
+}  // namespace bbsim_test::test_fit_page

@@ -12,6 +12,8 @@
 #include "rig.hpp"
 #include "scenario/columns.hpp"
 
+namespace bbsim_test::test_windows {
+
 using namespace bbsim;
 
 namespace {
@@ -91,3 +93,5 @@ TEST_CASE("a scene started at a later time continues the scene") {
     CHECK(rest[i] == Approx(whole[i]).margin(1e-8));
   }
 }
+
+}  // namespace bbsim_test::test_windows

@@ -13,6 +13,8 @@
 
 #include "catch.hpp"
 
+namespace bbsim_test::test_library {
+
 namespace {
 
 const std::string configs = BBSIM_SOURCE_DIR "/configs/";
@@ -223,3 +225,5 @@ TEST_CASE("a linear system has its names and sizes") {
   CHECK(bbsim::linearize(bbsim::Scenario::from_file(configs + "rig.yaml"), "sampled").period ==
         0.02);
 }
+
+}  // namespace bbsim_test::test_library

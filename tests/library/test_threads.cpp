@@ -18,6 +18,8 @@
 #include "catch.hpp"
 #include "support/folder.hpp"
 
+namespace bbsim_test::test_threads {
+
 namespace {
 
 constexpr std::size_t threads = 8;
@@ -203,3 +205,5 @@ TEST_CASE("one thread ends the work of seven others") {
   });
   for (const bbsim::Status status : found) CHECK(status == bbsim::Status::interrupted);
 }
+
+}  // namespace bbsim_test::test_threads

@@ -14,9 +14,10 @@
 #include "model/systems/any_jacobian.hpp"
 #include "support/scenes.hpp"
 
+namespace bbsim_test::test_assemble {
+
 using namespace bbsim;
 using namespace bbsim::model;
-using namespace bbsim_test;
 using Names = std::vector<std::string>;
 
 namespace {
@@ -186,3 +187,5 @@ TEST_CASE("stops are the knots of tables inside the scene") {
   scene.gimbal.motion->phi = {Table{"m.csv", {0, 1, 2, 3, 5}, {0, 0.1, 0, 0.1, 0}}, 0.2};
   CHECK(assemble(scene, false).stops == std::vector<double>{1, 2, 3});
 }
+
+}  // namespace bbsim_test::test_assemble

@@ -12,8 +12,9 @@
 #include "support/largest.hpp"
 #include "support/reading.hpp"
 
+namespace bbsim_test::test_coupled {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 namespace {
 
@@ -139,3 +140,5 @@ TEST_CASE("scenes without losses, sliding and torques are unchanged") {
   with.ball.losses.rolling = 1e-9;
   CHECK(std::holds_alternative<model::CoupledGiven<>>(model::assemble(with, false).system));
 }
+
+}  // namespace bbsim_test::test_coupled

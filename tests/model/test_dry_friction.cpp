@@ -10,6 +10,8 @@
 #include "model/hybrid/hybrid_system.hpp"
 #include "support/reading.hpp"
 
+namespace bbsim_test::test_dry_friction {
+
 using namespace bbsim;
 using namespace bbsim::model;
 
@@ -163,3 +165,5 @@ TEST_CASE("a motor's torque stays within its limit") {
   CHECK(start.guards()[4 * phi + 2] == Approx(0.4));  // beyond the limit
   CHECK(start.guards()[4 * (1 - phi) + 2] == Approx(0.1));
 }
+
+}  // namespace bbsim_test::test_dry_friction

@@ -12,6 +12,8 @@
 #include "model/random_states.hpp"
 #include "support/scenes.hpp"
 
+namespace bbsim_test::test_dynamics {
+
 using namespace bbsim::model;
 using bbsim_test::Random;
 
@@ -86,3 +88,5 @@ TEST_CASE("the energy changes by the power of the motor torques") {
     CHECK(std::abs(rate - power) < 1e-9);
   }
 }
+
+}  // namespace bbsim_test::test_dynamics

@@ -10,6 +10,8 @@
 #include "model/random_states.hpp"
 #include "model/twist_form.hpp"
 
+namespace bbsim_test::test_equation27 {
+
 using namespace bbsim::model;
 using bbsim_test::Random;
 
@@ -129,3 +131,5 @@ TEST_CASE("omitting terms known to be zero does not change the rest") {
     CHECK(u_acceleration<double>(level, theta, on_y, r) == 0);
   }
 }
+
+}  // namespace bbsim_test::test_equation27

@@ -9,6 +9,8 @@
 #include "catch.hpp"
 #include "model/control/frequency.hpp"
 
+namespace bbsim_test::test_frequency {
+
 using namespace bbsim;
 using bbsim::model::FrequencyResponse;
 using bbsim::model::Margins;
@@ -153,3 +155,5 @@ TEST_CASE("frequencies to look at are sorted and resolve every resonance") {
   CHECK(sampled.back() <= pi / 0.1);
   CHECK(sampled.back() > 0.99 * pi / 0.1);
 }
+
+}  // namespace bbsim_test::test_frequency

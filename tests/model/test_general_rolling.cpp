@@ -11,6 +11,8 @@
 #include "model/twist_form.hpp"
 #include "support/scenes.hpp"
 
+namespace bbsim_test::test_general_rolling {
+
 using namespace bbsim;
 using namespace bbsim::model;
 using bbsim_test::Random;
@@ -131,3 +133,5 @@ TEST_CASE("on any rig the motors' power equals the rate of change of the energy"
     CHECK(std::abs(rate - power) < h * h * 20 * 8000 + 1e-15 * 20 / h);
   }
 }
+
+}  // namespace bbsim_test::test_general_rolling

@@ -9,6 +9,8 @@
 #include "catch.hpp"
 #include "model/servo/held_motion.hpp"
 
+namespace bbsim_test::test_held_motion {
+
 using namespace bbsim::model;
 
 namespace {
@@ -177,3 +179,5 @@ TEST_CASE("a line that starts at its fall waits until it was clearly above, or i
   // Times count from the piece's start, so it is found up to rounding of the time itself.
   CHECK(fall({0.25, -1, 0}, {{0, 0}, 0, 1, 0}, 1e6) == Approx(0.25).epsilon(1e-9));
 }
+
+}  // namespace bbsim_test::test_held_motion

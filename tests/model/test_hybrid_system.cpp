@@ -11,6 +11,8 @@
 #include "model/hybrid/hybrid_system.hpp"
 #include "support/reading.hpp"
 
+namespace bbsim_test::test_hybrid_system {
+
 using namespace bbsim;
 using namespace bbsim::model;
 
@@ -170,3 +172,5 @@ TEST_CASE("stops of the input are passed in order") {
   }
   CHECK(run.next_time_event() == unlimited);
 }
+
+}  // namespace bbsim_test::test_hybrid_system

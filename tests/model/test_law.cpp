@@ -7,6 +7,8 @@
 #include "catch.hpp"
 #include "model/control/law.hpp"
 
+namespace bbsim_test::test_law {
+
 using bbsim::model::ControlLaw;
 using bbsim::model::for_each_number;
 
@@ -22,3 +24,5 @@ TEST_CASE("the list of a law's numbers has each of them once") {
   for_each_number(other, other,
                   [&expected](double& number, double&) { CHECK(number == ++expected); });
 }
+
+}  // namespace bbsim_test::test_law

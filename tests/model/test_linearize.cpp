@@ -20,8 +20,9 @@
 #include "support/reading.hpp"
 #include "support/scenes.hpp"
 
+namespace bbsim_test::test_linearize {
+
 using namespace bbsim;
-using namespace bbsim_test;
 using Eigen::MatrixXd;
 using model::Linearization;
 using model::LinearKind;
@@ -757,3 +758,5 @@ TEST_CASE("dry friction is refused as nonlinear, with the reason") {
   CHECK_THAT(refusal(test::parse(torque_lqr(), {"gimbal.motor.friction=0.01"})),
              Catch::Contains("found gimbal.motor.friction, which is dry"));
 }
+
+}  // namespace bbsim_test::test_linearize

@@ -18,6 +18,8 @@
 #include "scenario/calibration.hpp"
 #include "simd/gradient.hpp"
 
+namespace bbsim_test::test_linkage {
+
 using namespace bbsim;
 using namespace bbsim::model;
 using Catch::Matchers::Contains;
@@ -641,3 +643,5 @@ TEST_CASE("three servos: a ratio is the inverse's slope at home") {
     CHECK(angle[1] == Approx(wanted[1]).margin(1e-18));
   }
 }
+
+}  // namespace bbsim_test::test_linkage

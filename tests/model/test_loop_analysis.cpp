@@ -11,8 +11,9 @@
 #include "scenario/reader.hpp"
 #include "support/scenes.hpp"
 
+namespace bbsim_test::test_loop_analysis {
+
 using namespace bbsim;
-using namespace bbsim_test;
 using model::LoopAnalysis;
 
 namespace {
@@ -123,3 +124,5 @@ TEST_CASE("with one axis the other one has no margin") {
   CHECK(std::isnan(other.value));
   CHECK(std::string(other.why) == "the ball moves along the other axis only");
 }
+
+}  // namespace bbsim_test::test_loop_analysis

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Riccati equations, LQR gains, and the poles of sampled loops.
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <cmath>
 #include <complex>
 
@@ -12,13 +12,16 @@
 #include "model/control/common_cycle.hpp"
 #include "model/control/riccati.hpp"
 #include "model/control/sampled_cycle.hpp"
+#include "model/dense.hpp"
 #include "model/spectrum.hpp"
 #include "support/run_in_memory.hpp"
 #include "support/scenes.hpp"
 
+namespace bbsim_test::test_lqr {
+
 using namespace bbsim;
-using namespace bbsim_test;
 using Eigen::MatrixXd;
+using model::operator*;  // compiles in a fraction of the time of Eigen's
 
 namespace {
 
@@ -76,14 +79,14 @@ TEST_CASE("LQR gains of the rig solve their equation and stabilize it") {
   const auto built = model::assemble_rig<true>(lqr_scene(false), {});
   const model::LinearPlant plant = model::plant_at_home(built.loop);
   const LqrWeights weights = lqr_scene(false).controller->weights;
-  const auto gain = model::lqr_gain(plant, weights, 0);
+  const MatrixXd gain = model::lqr_gain(plant, weights, 0);
   const MatrixXd closed = plant.a - plant.b * gain;
-  for (const auto& pole : closed.eigenvalues()) CHECK(pole.real() < -0.1);
+  for (const auto& pole : model::sorted_eigenvalues(closed)) CHECK(pole.real() < -0.1);
 
   const model::LinearPlant step = model::zero_order_hold(plant, 0.02);
-  const auto sampled = model::lqr_gain(plant, weights, 0.02);
+  const MatrixXd sampled = model::lqr_gain(plant, weights, 0.02);
   const MatrixXd map = step.a - step.b * sampled;
-  for (const auto& pole : map.eigenvalues()) CHECK(std::abs(pole) < 0.999);
+  for (const auto& pole : model::sorted_eigenvalues(map)) CHECK(std::abs(pole) < 0.999);
 
   // The residual of the continuous equation, with the cost matrix of this gain.
   MatrixXd q = MatrixXd::Zero(8, 8);
@@ -91,10 +94,10 @@ TEST_CASE("LQR gains of the rig solve their equation and stabilize it") {
   const auto solved =
       model::solve_continuous_riccati(plant.a, plant.b, q, MatrixXd::Identity(2, 2));
   const MatrixXd& x = solved.cost;
-  const MatrixXd residual =
-      plant.a.transpose() * x + x * plant.a - x * plant.b * plant.b.transpose() * x + q;
+  const MatrixXd quadratic = x * plant.b * model::transposed(plant.b) * x;
+  const MatrixXd residual = model::transposed(plant.a) * x + x * plant.a - quadratic + q;
   // Rounding of the largest term, times the doubling's conditioning of some thousand.
-  CHECK(residual.norm() < 1e-12 * (x * plant.b * plant.b.transpose() * x).norm());
+  CHECK(residual.norm() < 1e-12 * quadratic.norm());
 }
 
 TEST_CASE("LQR brings the ball home, sampled or continuous") {
@@ -231,3 +234,5 @@ TEST_CASE("delays make a sampled loop unstable when its poles say so") {
   const double end = std::abs(run.samples.back().ball.x);
   CHECK((end > 1e-5) == slow);
 }
+
+}  // namespace bbsim_test::test_lqr

@@ -18,8 +18,9 @@
 #include "support/sanitizers.hpp"
 #include "support/scenes.hpp"
 
+namespace bbsim_test::test_margins {
+
 using namespace bbsim;
-using namespace bbsim_test;
 using Eigen::MatrixXd;
 using model::Eigenvalues;
 using model::Linearization;
@@ -450,3 +451,5 @@ TEST_CASE("an external controller's margins from its pulses equal those of the b
     }
   }
 }
+
+}  // namespace bbsim_test::test_margins

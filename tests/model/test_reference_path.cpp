@@ -15,9 +15,10 @@
 #include "model/signals/reference_path.hpp"
 #include "support/scenes.hpp"
 
+namespace bbsim_test::test_reference_path {
+
 using namespace bbsim;
 using namespace bbsim::model;
-using namespace bbsim_test;
 
 namespace {
 
@@ -318,3 +319,5 @@ TEST_CASE("jumps of a reference within the scene are stops, with the moments jus
   CHECK(2 - model.just_before(2) < 1e-14);
   CHECK(model.just_before(1.5) == std::nextafter(1.5, 0.0));
 }
+
+}  // namespace bbsim_test::test_reference_path

@@ -8,6 +8,8 @@
 #include "catch.hpp"
 #include "model/servo/servo_axis.hpp"
 
+namespace bbsim_test::test_servo_axis {
+
 using namespace bbsim::model;
 
 namespace {
@@ -218,3 +220,5 @@ TEST_CASE("the smallest backlash engages at its edge, whatever the rounding of t
     CHECK(mode.ratio == 1);
   }
 }
+
+}  // namespace bbsim_test::test_servo_axis

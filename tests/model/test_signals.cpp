@@ -10,6 +10,8 @@
 #include "model/random_states.hpp"
 #include "model/signals/signal_pair.hpp"
 
+namespace bbsim_test::test_signals {
+
 using namespace bbsim;
 using namespace bbsim::model;
 
@@ -96,3 +98,5 @@ TEST_CASE("a spline of a smooth function converges with fourth order") {
   };
   CHECK(std::log2(error(20) / error(40)) > 3.7);  // observed order, one-sided
 }
+
+}  // namespace bbsim_test::test_signals

@@ -11,6 +11,8 @@
 #include "plot/axis.hpp"
 #include "plot/text.hpp"
 
+namespace bbsim_test::test_axis {
+
 using namespace bbsim::plot;
 
 namespace {
@@ -134,3 +136,5 @@ TEST_CASE("labels below a panel keep a letter's distance, however long they are"
     for (const std::string& label : labels) CHECK(apart > width_of(label, 13) + 8);
   }
 }
+
+}  // namespace bbsim_test::test_axis

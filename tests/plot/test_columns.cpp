@@ -8,8 +8,9 @@
 #include "plot/columns.hpp"
 #include "results.hpp"
 
+namespace bbsim_test::test_columns {
+
 using namespace bbsim;
-using namespace bbsim_test;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -154,3 +155,5 @@ TEST_CASE("a column known only to the file has the file's unit") {
   CHECK(panels[1].unit.text == "m");
   CHECK(panels[2].unit.text == "°");
 }
+
+}  // namespace bbsim_test::test_columns

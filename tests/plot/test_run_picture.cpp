@@ -11,8 +11,9 @@
 #include "plot/run_picture.hpp"
 #include "results.hpp"
 
+namespace bbsim_test::test_run_picture {
+
 using namespace bbsim;
-using namespace bbsim_test;
 using namespace bbsim::plot;
 using Catch::Matchers::Contains;
 
@@ -280,3 +281,5 @@ TEST_CASE("the path can be requested, alone or with columns") {
   CHECK(run_picture({run}, {{"phi"}, {"path"}}).panels.size() == 2);
   CHECK(run_picture({run}, {{"phi"}}).panels.size() == 1);
 }
+
+}  // namespace bbsim_test::test_run_picture

@@ -8,6 +8,8 @@
 #include "catch.hpp"
 #include "plot/script.hpp"
 
+namespace bbsim_test::test_script {
+
 using namespace bbsim::plot;
 using Catch::Matchers::Contains;
 
@@ -74,3 +76,5 @@ TEST_CASE("a picture's mark is a comment of its format") {
   CHECK(marked("picture" + end, Format::png) == "picture" + chunk + end);
   CHECK(marked("no picture", Format::png) == "no picture");
 }
+
+}  // namespace bbsim_test::test_script

@@ -9,8 +9,9 @@
 #include "results.hpp"
 #include "results/sweep_table.hpp"
 
+namespace bbsim_test::test_sweep {
+
 using namespace bbsim;
-using namespace bbsim_test;
 using namespace bbsim::plot;
 using namespace bbsim::results;
 using Catch::Matchers::Contains;
@@ -251,3 +252,5 @@ TEST_CASE("keys and measures missing from a sweep cannot be drawn") {
   CHECK_THROWS_WITH(sweep_picture(sweep_of({repeated("a", 3, 1, 1)}), {}),
                     Contains("no key varies"));
 }
+
+}  // namespace bbsim_test::test_sweep

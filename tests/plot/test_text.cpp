@@ -4,6 +4,8 @@
 #include "catch.hpp"
 #include "plot/text.hpp"
 
+namespace bbsim_test::test_text {
+
 using namespace bbsim::plot;
 
 TEST_CASE("a text becomes one line of valid UTF-8 without control characters") {
@@ -44,3 +46,5 @@ TEST_CASE("characters missing from every font are replaced") {
   CHECK(with_letters("漢 😀", none) == "� �");
   CHECK(with_letters("漢 😀", all) == "漢 😀");
 }
+
+}  // namespace bbsim_test::test_text

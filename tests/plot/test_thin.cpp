@@ -7,6 +7,8 @@
 #include "catch.hpp"
 #include "plot/thin.hpp"
 
+namespace bbsim_test::test_thin {
+
 using namespace bbsim::plot;
 
 namespace {
@@ -78,3 +80,5 @@ TEST_CASE("a path of mostly gaps is thinned in finite time") {
   }
   CHECK(thin_path(path, panel_to(100, 0, 100)).x.size() <= path.x.size());
 }
+
+}  // namespace bbsim_test::test_thin

@@ -15,6 +15,8 @@
 #include "scenario/reader.hpp"
 #include "solve/integrate.hpp"
 
+namespace bbsim_test::test_ball_turn {
+
 using namespace bbsim;
 
 namespace {
@@ -166,3 +168,5 @@ TEST_CASE("requesting the orientation changes no other column") {
     CHECK(with.columns[c] == without.columns[c]);
   }
 }
+
+}  // namespace bbsim_test::test_ball_turn

@@ -12,6 +12,8 @@
 #include "record/compare.hpp"
 #include "support/folder.hpp"
 
+namespace bbsim_test::test_compare {
+
 using bbsim::InputError;
 using bbsim::file::CellColumn;
 using bbsim::file::CellTable;
@@ -277,3 +279,5 @@ TEST_CASE("several numbers per row are compared one by one, with their times") {
   CHECK_THAT(to_text(compare(a, narrow), "a", "b", {}),
              Contains("different: column x has 3 numbers a row in a, 2 in b\n"));
 }
+
+}  // namespace bbsim_test::test_compare

@@ -17,8 +17,9 @@
 #include "study/error_control.hpp"
 #include "support/scenes.hpp"
 
+namespace bbsim_test::test_extremes {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 namespace {
 
@@ -345,3 +346,5 @@ TEST_CASE("a peak that half of the points miss is found, however low everything 
   CHECK(extremes[0].value == Approx(1).epsilon(1e-12));
   CHECK(extremes[0].t == Approx(1.4).epsilon(1e-6));
 }
+
+}  // namespace bbsim_test::test_extremes

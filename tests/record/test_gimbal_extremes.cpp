@@ -10,6 +10,8 @@
 #include "record/track/gimbal_extremes.hpp"
 #include "support/greatest_of.hpp"
 
+namespace bbsim_test::test_gimbal_extremes {
+
 using namespace bbsim;
 using namespace bbsim::record;
 using bbsim_test::greatest_of;
@@ -99,3 +101,5 @@ TEST_CASE("cached values of one motion are not used for another") {
     CHECK(found.rate == fresh.rate);
   }
 }
+
+}  // namespace bbsim_test::test_gimbal_extremes

@@ -16,6 +16,8 @@
 #include "scenario/reader.hpp"
 #include "solve/integrate.hpp"
 
+namespace bbsim_test::test_instants {
+
 using namespace bbsim;
 using namespace bbsim::record;
 using scenario::find_measure;
@@ -412,3 +414,5 @@ TEST_CASE("a window of stored rows is cut by linear interpolation") {
     CHECK_THROWS_AS(run.measures_named({wrong}), InputError);
   }
 }
+
+}  // namespace bbsim_test::test_instants

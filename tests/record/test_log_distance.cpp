@@ -9,6 +9,8 @@
 #include "catch.hpp"
 #include "record/log_distance.hpp"
 
+namespace bbsim_test::test_log_distance {
+
 using bbsim::InputError;
 using bbsim::file::TableData;
 using bbsim::record::log_distance;
@@ -78,3 +80,5 @@ TEST_CASE("logs that cannot be compared are refused with the remedy") {
                     Contains("no column in common"));
   CHECK_THROWS_AS(time_offset({{"t", "x"}, {{0, 1, 2}, {1, 1, 1}}}, "log", run, "run"), InputError);
 }
+
+}  // namespace bbsim_test::test_log_distance

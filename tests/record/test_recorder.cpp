@@ -12,6 +12,8 @@
 #include "scenario/reader.hpp"
 #include "solve/integrate.hpp"
 
+namespace bbsim_test::test_recorder {
+
 using namespace bbsim;
 using namespace bbsim::record;
 using namespace bbsim::scenario;
@@ -95,3 +97,5 @@ TEST_CASE("a recorder knows why a measure has no value") {
         "when x stays above 0 is not a number: it does not stay there; "
         "find x at 3 is not a number: the time is outside the measured part");
 }
+
+}  // namespace bbsim_test::test_recorder

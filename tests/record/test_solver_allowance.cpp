@@ -8,6 +8,8 @@
 #include "record/compare.hpp"
 #include "record/solver_allowance.hpp"
 
+namespace bbsim_test::test_solver_allowance {
+
 using bbsim::file::Attributes;
 using bbsim::file::CellTable;
 using bbsim::record::Allowances;
@@ -83,3 +85,5 @@ TEST_CASE("an error bound is the allowance of positions; everything else uses th
   CHECK(allowances->of("vx").atol == Approx(1e-12 + 200 * (1e-8 * 3 + 1e-10)));
   CHECK_THAT(allowances->reason, Contains("positions to 1e-06 m") && Contains("5e-06 m"));
 }
+
+}  // namespace bbsim_test::test_solver_allowance

@@ -9,6 +9,8 @@
 #include "catch.hpp"
 #include "record/summarise.hpp"
 
+namespace bbsim_test::test_summarise {
+
 using namespace bbsim;
 using namespace bbsim::record;
 
@@ -70,3 +72,5 @@ TEST_CASE("large values that are nearly equal keep their deviation") {
   CHECK(groups[0].figures[0].mean == 1e9 + 2);
   CHECK(groups[0].figures[0].deviation == 1);
 }
+
+}  // namespace bbsim_test::test_summarise

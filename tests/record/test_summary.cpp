@@ -9,6 +9,8 @@
 #include "catch.hpp"
 #include "record/summary.hpp"
 
+namespace bbsim_test::test_summary {
+
 using bbsim::file::AttributeValue;
 using bbsim::record::RunSummary;
 using bbsim::record::to_attributes;
@@ -138,3 +140,5 @@ TEST_CASE("equal runs have equal attributes, whatever the output") {
   other.statistics.cpu_seconds = 7;
   CHECK(to_attributes(other, "") == to_attributes(a_run(), ""));
 }
+
+}  // namespace bbsim_test::test_summary

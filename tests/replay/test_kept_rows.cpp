@@ -11,6 +11,8 @@
 #include "replay/rotation.hpp"
 #include "replay/sweep_cases.hpp"
 
+namespace bbsim_test::test_kept_rows {
+
 using bbsim::product;
 using bbsim::Quaternion;
 using namespace bbsim::replay;
@@ -136,3 +138,5 @@ TEST_CASE("a large grid is thinned to a grid, and other sweeps evenly") {
   CHECK(others.size() == 1667);
   CHECK(others[1] == 3);
 }
+
+}  // namespace bbsim_test::test_kept_rows

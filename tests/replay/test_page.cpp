@@ -16,12 +16,13 @@
 #include "replay/stage.hpp"
 #include "scenario/columns.hpp"
 
+namespace bbsim_test::test_page {
+
 using bbsim::InputError;
 using bbsim::OutputError;
 using bbsim::replay::page;
 using bbsim::replay::Run;
 using bbsim::replay::Scene;
-using namespace bbsim_test;
 
 namespace {
 
@@ -322,3 +323,5 @@ TEST_CASE("a page has the plots of all columns, with commands beside their targe
   CHECK(found.at("phi_command rad") == "Gimbal");
   CHECK(found.at("phi_command N m") == found.at("phi_torque N m"));
 }
+
+}  // namespace bbsim_test::test_page

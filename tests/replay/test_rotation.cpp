@@ -9,6 +9,8 @@
 #include "catch.hpp"
 #include "replay/rotation.hpp"
 
+namespace bbsim_test::test_rotation {
+
 using bbsim::Quaternion;
 using namespace bbsim::replay;
 
@@ -101,3 +103,5 @@ TEST_CASE("a row of NaN keeps the last orientation, and the next row continues")
   CHECK(turned[1] == turned[0]);
   for (const auto& q : turned) CHECK(eigen(q).norm() == Approx(1));
 }
+
+}  // namespace bbsim_test::test_rotation

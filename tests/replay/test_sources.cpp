@@ -14,6 +14,8 @@
 #include "scenario/reader.hpp"
 #include "support/folder.hpp"
 
+namespace bbsim_test::test_sources {
+
 using namespace bbsim;
 using namespace bbsim::replay;
 
@@ -197,3 +199,5 @@ TEST_CASE("a result includes its summary's data and the ball's orientation") {
   CHECK(run.orientation[1] == Quaternion{0, 0, 1, 0});
   CHECK(run.orientation[2] == run.orientation[1]);  // unknown, so the last one is kept
 }
+
+}  // namespace bbsim_test::test_sources

@@ -11,6 +11,8 @@
 #include "results/log.hpp"
 #include "support/folder.hpp"
 
+namespace bbsim_test::test_log {
+
 using namespace bbsim;
 using Catch::Matchers::Contains;
 using results::LogChoice;
@@ -160,3 +162,5 @@ TEST_CASE("a map is refused if its place is wrong") {
   CHECK_THAT(refused({{}, {}, "", "later"}), Contains("--time-offset: found \"later\""));
   CHECK_THAT(refused({{}, {}, "0 s", ""}), Contains("--period"));
 }
+
+}  // namespace bbsim_test::test_log

@@ -11,6 +11,8 @@
 #include "results/read_result.hpp"
 #include "support/folder.hpp"
 
+namespace bbsim_test::test_read_result {
+
 using namespace bbsim;
 using Catch::Matchers::Contains;
 
@@ -158,3 +160,5 @@ TEST_CASE("a named scenario takes precedence over the one beside the file") {
   CHECK(result.events.size() == 1);
   CHECK_THROWS_AS(read(csv, {"", scene, {"plate.diametre=0.6"}}), InputError);
 }
+
+}  // namespace bbsim_test::test_read_result

@@ -14,6 +14,8 @@
 #include "catch.hpp"
 #include "scenario/columns.hpp"
 
+namespace bbsim_test::test_columns {
+
 using namespace bbsim::scenario;
 
 namespace {
@@ -139,3 +141,5 @@ TEST_CASE("a column's name gives its axis") {
   for (const char* name : {"y", "vy", "theta", "torque_theta", "push_y"}) CHECK(axis_of(name) == 2);
   for (const char* name : {"t", "tilt", "servo_third", "push_power"}) CHECK(axis_of(name) == 0);
 }
+
+}  // namespace bbsim_test::test_columns

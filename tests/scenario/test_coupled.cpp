@@ -6,6 +6,8 @@
 #include "scenario/coupled.hpp"
 #include "support/reading.hpp"
 
+namespace bbsim_test::test_coupled {
+
 using namespace bbsim;
 using namespace bbsim::test;
 using Catch::Matchers::Contains;
@@ -151,3 +153,5 @@ TEST_CASE("impossible moments of inertia give a warning") {
   REQUIRE(offset.size() == 1);
   CHECK(offset[0].find("plate.centre_of_mass") != std::string::npos);
 }
+
+}  // namespace bbsim_test::test_coupled

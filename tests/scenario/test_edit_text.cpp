@@ -9,6 +9,8 @@
 #include "scenario/edit_text.hpp"
 #include "scenario/key_value.hpp"
 
+namespace bbsim_test::test_edit_text {
+
 using namespace bbsim;
 
 TEST_CASE("numbers change in a scenario's text, and nothing else") {
@@ -144,3 +146,5 @@ TEST_CASE("the unit, range and default of a number") {
   CHECK_FALSE(number_key("ball.raduis"));
   CHECK_FALSE(number_key("title"));
 }
+
+}  // namespace bbsim_test::test_edit_text

@@ -10,6 +10,8 @@
 #include "scenario/independent.hpp"
 #include "support/reading.hpp"
 
+namespace bbsim_test::test_independent {
+
 using namespace bbsim;
 
 namespace {
@@ -92,3 +94,5 @@ TEST_CASE("other keys need the scenario read again") {
   Scenario rig = test::parse(test::closed_loop + "events: {lift_off: stop}\n");
   CHECK(independent_number(rig, "gravity").empty());
 }
+
+}  // namespace bbsim_test::test_independent

@@ -16,6 +16,8 @@
 #include "catch.hpp"
 #include "scenario/keys.hpp"
 
+namespace bbsim_test::test_keys {
+
 using namespace bbsim;
 using namespace bbsim::scenario;
 using yaml::Declared;
@@ -185,3 +187,5 @@ TEST_CASE("each row in the documents describes keys that are read, and repeats n
     }
   }
 }
+
+}  // namespace bbsim_test::test_keys

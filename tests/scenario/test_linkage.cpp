@@ -10,6 +10,8 @@
 #include "scenario/calibration.hpp"
 #include "support/reading.hpp"
 
+namespace bbsim_test::test_linkage {
+
 using namespace bbsim;
 using namespace bbsim::test;
 using Catch::Matchers::Contains;
@@ -362,3 +364,5 @@ TEST_CASE("invalid values of these keys are refused with a reason") {
                     {"ball.push={x: 1}"}),
              Contains("ball.push: found beside feedback_linearisation"));
 }
+
+}  // namespace bbsim_test::test_linkage

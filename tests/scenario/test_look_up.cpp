@@ -7,6 +7,8 @@
 #include "catch.hpp"
 #include "scenario/look_up.hpp"
 
+namespace bbsim_test::test_look_up {
+
 using bbsim::number_at;
 using bbsim::place_of;
 using bbsim::Source;
@@ -41,3 +43,5 @@ TEST_CASE("a key's number is found despite other errors in the text") {
   CHECK_FALSE(number_at(source, "ball.mass", Dimension::mass).has_value());
   CHECK_FALSE(number_at({"b.yaml", ": {", {}}, "ball.radius", Dimension::length).has_value());
 }
+
+}  // namespace bbsim_test::test_look_up

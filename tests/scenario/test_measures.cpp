@@ -14,6 +14,8 @@
 #include "scenario/expectation.hpp"
 #include "scenario/measures.hpp"
 
+namespace bbsim_test::test_measures {
+
 using namespace bbsim::scenario;
 using Kind = Measure::Kind;
 
@@ -190,3 +192,5 @@ TEST_CASE("measures of the loop need a scene with a law, and no window") {
   const double none[] = {1, infinite, std::nan("")};
   CHECK(why_not_finite(mixed, none, {}) == "max_tilt is infinite; x_bandwidth is not a number");
 }
+
+}  // namespace bbsim_test::test_measures

@@ -5,6 +5,8 @@
 #include "catch.hpp"
 #include "support/reading.hpp"
 
+namespace bbsim_test::test_messages {
+
 using Catch::Matchers::Contains;
 using namespace bbsim::test;
 
@@ -183,3 +185,5 @@ TEST_CASE("a long value is cut off") {
   const std::string found = errors(open_loop + "gravity: " + std::string(1000, 'x') + "\n");
   CHECK(found.starts_with("scenario.yaml:4:10: gravity: found " + std::string(60, 'x') + "...;"));
 }
+
+}  // namespace bbsim_test::test_messages

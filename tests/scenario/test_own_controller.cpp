@@ -6,6 +6,8 @@
 #include "scenario/columns.hpp"
 #include "support/reading.hpp"
 
+namespace bbsim_test::test_own_controller {
+
 using namespace bbsim;
 using namespace bbsim::test;
 
@@ -108,3 +110,5 @@ TEST_CASE("your own controller needs samples") {
         "scenario.yaml:4:3: controller.program: found without controller.sampling; allowed: only "
         "with it, since bbsim calls it once per sample");
 }
+
+}  // namespace bbsim_test::test_own_controller

@@ -8,6 +8,8 @@
 #include "catch.hpp"
 #include "support/reading.hpp"
 
+namespace bbsim_test::test_profile {
+
 using namespace bbsim;
 using namespace bbsim::test;
 using Catch::Matchers::Contains;
@@ -231,3 +233,5 @@ TEST_CASE("a table's column names are shown safe for a terminal") {
   }
   CHECK_THAT(message, Contains("one of t, x\\u009b2J"));
 }
+
+}  // namespace bbsim_test::test_profile

@@ -9,6 +9,8 @@
 #include "catch.hpp"
 #include "support/reading.hpp"
 
+namespace bbsim_test::test_reference {
+
 using namespace bbsim;
 using namespace bbsim::test;
 using Catch::Matchers::Contains;
@@ -241,3 +243,5 @@ TEST_CASE("a staircase holds each point from its time on") {
   CHECK(problem("{staircase: {points: [[0, 0], [1, 0]], times: [1, 1]}}") ==
         staircase + "times.1: found 1, after 1; allowed: strictly increasing times");
 }
+
+}  // namespace bbsim_test::test_reference

@@ -5,6 +5,8 @@
 #include "catch.hpp"
 #include "support/reading.hpp"
 
+namespace bbsim_test::test_rig {
+
 using namespace bbsim;
 using namespace bbsim::test;
 
@@ -220,3 +222,5 @@ TEST_CASE("measured periods count toward the number of samples") {
   CHECK(problems("1e-9").find("controller.sampling.jitter: found more than 1e8 samples") !=
         std::string::npos);
 }
+
+}  // namespace bbsim_test::test_rig

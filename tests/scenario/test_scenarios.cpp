@@ -8,6 +8,8 @@
 #include "catch.hpp"
 #include "support/reading.hpp"
 
+namespace bbsim_test::test_scenarios {
+
 using namespace bbsim;
 
 namespace {
@@ -129,3 +131,5 @@ TEST_CASE("stiff-servo") {
   CHECK(scenario.gimbal.servo->natural_frequency == 2000);
   CHECK(scenario.gimbal.servo->damping == 1);
 }
+
+}  // namespace bbsim_test::test_scenarios

@@ -11,6 +11,8 @@
 #include "scenario/look_up.hpp"
 #include "support/reading.hpp"
 
+namespace bbsim_test::test_spelling {
+
 using namespace bbsim;
 using namespace bbsim::test;
 
@@ -132,3 +134,5 @@ TEST_CASE("parameters of your own controller have one spelling") {
   CHECK(given[1].name == "centre");
   CHECK(given[1].value == 5);
 }
+
+}  // namespace bbsim_test::test_spelling

@@ -9,6 +9,8 @@
 #include "scenario/unit_doubts.hpp"
 #include "support/reading.hpp"
 
+namespace bbsim_test::test_units {
+
 using namespace bbsim;
 using namespace bbsim::test;
 using namespace bbsim::scenario;
@@ -179,3 +181,5 @@ TEST_CASE("log columns are checked for other units by their names") {
   CHECK_FALSE(doubt_of(100, "phi_deg"));
   CHECK(largest_size({1, -3, std::nan(""), 2}) == 3);
 }
+
+}  // namespace bbsim_test::test_units

@@ -9,6 +9,8 @@
 #include "scenario/variation.hpp"
 #include "support/reading.hpp"
 
+namespace bbsim_test::test_variation {
+
 using namespace bbsim;
 using namespace bbsim::scenario;
 using Kind = VariationSpec::Kind;
@@ -112,3 +114,5 @@ TEST_CASE("a scenario's sweep block is read and checked") {
   CHECK(error("{measure: [max_speed]}").find("max_tilt") != std::string::npos);
   CHECK(error("{vari: {}}").find("did you mean sweep.vary?") != std::string::npos);
 }
+
+}  // namespace bbsim_test::test_variation

@@ -10,7 +10,7 @@
 #include "catch.hpp"
 #include "sketch/sketch.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_board {
 
 namespace {
 
@@ -363,3 +363,5 @@ TEST_CASE("the library has a default name, which replaces no other file") {
   CHECK(without.exit_code == 3);
   CHECK(contains(without.err, "there is no C++ compiler no-such-compiler (CXX)"));
 }
+
+}  // namespace bbsim_test::test_board

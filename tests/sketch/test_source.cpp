@@ -10,6 +10,8 @@
 #include "sketch/libraries.hpp"
 #include "sketch/source.hpp"
 
+namespace bbsim_test::test_source {
+
 using bbsim::sketch::find_libraries;
 using bbsim::sketch::includes_of;
 using bbsim::sketch::joined;
@@ -104,3 +106,5 @@ TEST_CASE("a sketch of many functions is read once, not once for each") {
   const std::string source = of(text);
   CHECK(source.find("\nvoid f99999 ( );\n#line 1 \"a.ino\"\nvoid setup()") != std::string::npos);
 }
+
+}  // namespace bbsim_test::test_source

@@ -10,7 +10,7 @@
 #include "catch.hpp"
 #include "sketch/sketch.hpp"
 
-using namespace bbsim_test;
+namespace bbsim_test::test_styles {
 
 namespace {
 
@@ -114,3 +114,5 @@ TEST_CASE("the public PID_v1 compiles unchanged") {
   CAPTURE(run.err);
   CHECK(run.exit_code == 0);
 }
+
+}  // namespace bbsim_test::test_styles

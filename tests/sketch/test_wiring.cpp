@@ -9,6 +9,8 @@
 #include "catch.hpp"
 #include "sketch/wiring.hpp"
 
+namespace bbsim_test::test_wiring {
+
 using bbsim::sketch::Wiring;
 
 namespace {
@@ -116,3 +118,5 @@ TEST_CASE("all faults of a wiring are reported together, each with its place") {
   CHECK(contains(fault_of("servos: {}"), "servos.phi: missing"));
   CHECK(contains(fault_of("servos: {phi: {pin: 1}}\neeprom: {file: nowhere}"), "nowhere"));
 }
+
+}  // namespace bbsim_test::test_wiring

@@ -10,8 +10,9 @@
 #include "support/largest.hpp"
 #include "support/run_in_memory.hpp"
 
+namespace bbsim_test::test_against_reference {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 namespace {
 
@@ -101,3 +102,5 @@ TEST_CASE("the printed law follows the exact solution until it blows up") {
     CHECK(std::abs(run.samples[i].ball.y - reference["y"][i]) < 1e-5);
   }
 }
+
+}  // namespace bbsim_test::test_against_reference

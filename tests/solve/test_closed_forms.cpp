@@ -9,8 +9,9 @@
 #include "catch.hpp"
 #include "support/run_in_memory.hpp"
 
+namespace bbsim_test::test_closed_forms {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 namespace {
 
@@ -152,3 +153,5 @@ TEST_CASE("a stop request ends the run and keeps its rows") {
   CHECK(run.outcome.rows >= 1);
   CHECK(run.outcome.rows < 101);
 }
+
+}  // namespace bbsim_test::test_closed_forms

@@ -19,8 +19,9 @@
 #include "solve/radau/radau.hpp"
 #include "support/run_in_memory.hpp"
 
+namespace bbsim_test::test_closed_loops {
+
 using namespace bbsim;
-using namespace bbsim_test;
 using namespace bbsim::solve::ensemble;
 
 namespace {
@@ -405,3 +406,5 @@ TEST_CASE("the last row of a loop in lanes equals its last state") {
     }
   }
 }
+
+}  // namespace bbsim_test::test_closed_loops

@@ -11,8 +11,9 @@
 #include "support/largest.hpp"
 #include "support/run_in_memory.hpp"
 
+namespace bbsim_test::test_coupled_references {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 namespace {
 
@@ -64,3 +65,5 @@ TEST_CASE("losses and torques are within 1e-9 of quad-precision solutions") {
   static_cast<void>(worst_difference(name, run));
   CHECK(energy_gap(scenario_named(name), run) < 1e-9);
 }
+
+}  // namespace bbsim_test::test_coupled_references

@@ -4,8 +4,9 @@
 // An endless run is ended with a reason after bounded work; an event on the way still stops it.
 #include "solve/hard_cases.hpp"
 
+namespace bbsim_test::test_creep {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 TEST_CASE("a run that creeps ends with its reason, with every method") {
   const Method method = GENERATE(Method::automatic, Method::bdf, Method::adams);
@@ -29,3 +30,5 @@ TEST_CASE("an event that occurs before creeping is detected stops the run") {
   REQUIRE(run.outcome.ending == solve::Ending::stopped);
   CHECK(run.outcome.occurrences.back().name == "tilt");
 }
+
+}  // namespace bbsim_test::test_creep

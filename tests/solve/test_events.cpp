@@ -10,8 +10,9 @@
 #include "support/run_in_memory.hpp"
 #include "support/scenes.hpp"
 
+namespace bbsim_test::test_events {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 namespace {
 
@@ -256,3 +257,5 @@ TEST_CASE("the state at a stop has the ball's turn and the controller's measurem
     CHECK(std::abs(at.measured[0] - at.ball.x) < 0.1);
   }
 }
+
+}  // namespace bbsim_test::test_events

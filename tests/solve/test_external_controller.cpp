@@ -19,8 +19,9 @@
 #include "solve/integrate.hpp"
 #include "support/scenes.hpp"
 
+namespace bbsim_test::test_external_controller {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 namespace {
 
@@ -169,3 +170,5 @@ TEST_CASE("a run without an attached controller is an internal error") {
   const model::Model model = model::assemble(with_own(scene), true);
   CHECK_THROWS_AS(run(model, scene), std::logic_error);
 }
+
+}  // namespace bbsim_test::test_external_controller

@@ -11,8 +11,9 @@
 #include "solve/ensemble_runs.hpp"
 #include "study/reference_table.hpp"
 
+namespace bbsim_test::test_given_motions {
+
 using namespace bbsim;
-using namespace bbsim_test;
 using namespace bbsim::solve::ensemble;
 
 namespace {
@@ -195,3 +196,5 @@ TEST_CASE("the greatest tilt and rate are those of the motion, for any terms") {
   CHECK(runs[0].greatest[versine] == Approx(tilted).epsilon(1e-9));
   CHECK(runs[0].greatest[rate_squared] == Approx(rate).epsilon(1e-9));
 }
+
+}  // namespace bbsim_test::test_given_motions

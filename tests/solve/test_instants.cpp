@@ -10,8 +10,9 @@
 #include "catch.hpp"
 #include "support/run_in_memory.hpp"
 
+namespace bbsim_test::test_instants {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 namespace {
 
@@ -116,3 +117,5 @@ TEST_CASE("an output grid has no time twice, for any number of rows") {
     }
   }
 }
+
+}  // namespace bbsim_test::test_instants

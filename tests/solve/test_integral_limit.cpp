@@ -14,8 +14,9 @@
 #include "support/reading.hpp"
 #include "support/run_in_memory.hpp"
 
+namespace bbsim_test::test_integral_limit {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 namespace {
 
@@ -299,3 +300,5 @@ TEST_CASE("at a limit, the waiting rest and the error's rate determine how a com
   CHECK(OutwardRate{-1, 0.5}.at_limit() == AtLimit::within);
   CHECK(OutwardRate{-1, -1}.at_limit() == AtLimit::within);
 }
+
+}  // namespace bbsim_test::test_integral_limit

@@ -13,8 +13,9 @@
 #include "support/run_in_memory.hpp"
 #include "support/scenes.hpp"
 
+namespace bbsim_test::test_linkages {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 namespace {
 
@@ -321,3 +322,5 @@ TEST_CASE("with a linkage the command's resolution stays within the controller's
   // 0.4 it is 0.1585 rad, with the curve 0.1745 rad.
   CHECK(run.samples.back().command[0] == Approx(exact ? 0.174 : 0.156).epsilon(1e-14));
 }
+
+}  // namespace bbsim_test::test_linkages

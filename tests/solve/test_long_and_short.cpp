@@ -8,8 +8,9 @@
 #include "base/error.hpp"
 #include "solve/hard_cases.hpp"
 
+namespace bbsim_test::test_long_and_short {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 TEST_CASE("a hundred thousand periods: the error does not grow") {
   struct Case {
@@ -205,3 +206,5 @@ TEST_CASE("forward and back again") {
   // gamma returns by the same amount.
   CHECK(std::abs(forwards.samples.back().gamma + backwards.samples.back().gamma) * r < allowed);
 }
+
+}  // namespace bbsim_test::test_long_and_short

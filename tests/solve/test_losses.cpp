@@ -11,8 +11,9 @@
 #include "support/reading.hpp"
 #include "support/run_in_memory.hpp"
 
+namespace bbsim_test::test_losses {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 namespace {
 
@@ -279,3 +280,5 @@ TEST_CASE("a ball that slides without turning is not at rest") {
     CHECK(event.sample.ball.y_dot == 0);
   }
 }
+
+}  // namespace bbsim_test::test_losses

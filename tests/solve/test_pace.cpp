@@ -8,6 +8,8 @@
 #include "solve/outcome.hpp"
 #include "solve/pace.hpp"
 
+namespace bbsim_test::test_pace {
+
 using namespace bbsim::solve;
 
 namespace {
@@ -102,3 +104,5 @@ TEST_CASE("a run that ends without all its rows has failed") {
     CHECK(with_all_rows(outcome, 12).ending == other);
   }
 }
+
+}  // namespace bbsim_test::test_pace

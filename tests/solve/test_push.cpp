@@ -9,8 +9,9 @@
 #include "support/run_in_memory.hpp"
 #include "support/scenes.hpp"
 
+namespace bbsim_test::test_push {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 namespace {
 
@@ -128,3 +129,5 @@ TEST_CASE("a push moves a ball held by rolling resistance once it exceeds c_rr N
     CHECK(std::abs(now.ball.x - 0.01 / (1.4 * 0.05) * t * t * t / 6) < 1e-9);
   }
 }
+
+}  // namespace bbsim_test::test_push

@@ -18,8 +18,9 @@
 #include "support/largest.hpp"
 #include "support/run_in_memory.hpp"
 
+namespace bbsim_test::test_radau {
+
 using namespace bbsim;
-using namespace bbsim_test;
 using solve::radau::RadauStepper;
 using solve::radau::StepKernels;
 
@@ -303,3 +304,5 @@ TEST_CASE("a collocation run can be stopped from outside") {
   CHECK(result.run.statistics.steps == 1);
   CHECK(result.run.reached < 10);
 }
+
+}  // namespace bbsim_test::test_radau

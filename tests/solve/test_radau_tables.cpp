@@ -10,6 +10,8 @@
 #include "simd/pack.hpp"
 #include "solve/collocation/radau_table.hpp"
 
+namespace bbsim_test::test_radau_tables {
+
 using namespace bbsim::solve::radau;
 
 namespace {
@@ -99,3 +101,5 @@ TEST_CASE("sine and cosine in lanes are accurate to two units in the last place"
   CHECK(sin_cos(P(0.0)).sin[0] == 0);
   CHECK(sin_cos(P(0.0)).cos[0] == 1);
 }
+
+}  // namespace bbsim_test::test_radau_tables

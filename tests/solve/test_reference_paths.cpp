@@ -11,8 +11,9 @@
 #include "catch.hpp"
 #include "support/run_in_memory.hpp"
 
+namespace bbsim_test::test_reference_paths {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 namespace {
 
@@ -208,3 +209,5 @@ TEST_CASE("a sampled law sees a jump of the reference at the next sample") {
   CHECK(command_at(0.901, 0.92) == 0);
   CHECK(std::abs(command_at(0.901, 0.93) - asked) < 1e-15);
 }
+
+}  // namespace bbsim_test::test_reference_paths

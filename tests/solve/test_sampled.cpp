@@ -8,8 +8,9 @@
 #include "support/run_in_memory.hpp"
 #include "support/scenes.hpp"
 
+namespace bbsim_test::test_sampled {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 namespace {
 
@@ -233,3 +234,5 @@ TEST_CASE("dropouts do not change the noise of the remaining samples") {
   for (std::size_t i = 0; i < with.samples.size(); ++i)
     CHECK(same(with.samples[i], without.samples[i]));
 }
+
+}  // namespace bbsim_test::test_sampled

@@ -16,8 +16,9 @@
 #include "solve/sampled/sampled.hpp"
 #include "support/run_in_memory.hpp"
 
+namespace bbsim_test::test_sampled_stepper {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 namespace {
 
@@ -350,3 +351,5 @@ TEST_CASE(
   CHECK(by_own < 1e-10);
   CHECK(by_general < 1e-9);
 }
+
+}  // namespace bbsim_test::test_sampled_stepper

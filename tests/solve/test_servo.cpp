@@ -8,8 +8,9 @@
 #include "support/run_in_memory.hpp"
 #include "support/scenes.hpp"
 
+namespace bbsim_test::test_servo {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 namespace {
 
@@ -193,3 +194,5 @@ TEST_CASE("a dead band keeps small command changes from the servo") {
   }
   CHECK(kept > 10);
 }
+
+}  // namespace bbsim_test::test_servo

@@ -11,8 +11,9 @@
 #include "support/largest.hpp"
 #include "support/run_in_memory.hpp"
 
+namespace bbsim_test::test_sliding {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 namespace {
 
@@ -207,3 +208,5 @@ TEST_CASE("slipping and lift-off do not depend on the ball's mass") {
     }
   }
 }
+
+}  // namespace bbsim_test::test_sliding

@@ -10,8 +10,9 @@
 #include "support/largest.hpp"
 #include "support/run_in_memory.hpp"
 
+namespace bbsim_test::test_switches {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 namespace {
 
@@ -216,3 +217,5 @@ TEST_CASE("a check run has other stages and more steps between samples, on any r
     }
   }
 }
+
+}  // namespace bbsim_test::test_switches

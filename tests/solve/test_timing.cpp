@@ -9,8 +9,9 @@
 #include "support/run_in_memory.hpp"
 #include "support/scenes.hpp"
 
+namespace bbsim_test::test_timing {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 namespace {
 
@@ -166,3 +167,5 @@ TEST_CASE("a ball controlled with an offset sensor rests where the sensor report
   CHECK(last.ball.x == Approx(c * x + s * y).epsilon(1e-4));
   CHECK(last.ball.y == Approx(c * y - s * x).epsilon(1e-4));
 }
+
+}  // namespace bbsim_test::test_timing

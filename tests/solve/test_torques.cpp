@@ -12,8 +12,9 @@
 #include "support/reading.hpp"
 #include "support/run_in_memory.hpp"
 
+namespace bbsim_test::test_torques {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 namespace {
 
@@ -218,3 +219,5 @@ TEST_CASE("a position loop's integral removes the deflection by the ball's weigh
   CHECK(std::abs(level.samples.back().gimbal.phi) < 1e-4);
   CHECK(bent.samples.back().ball.x == Approx(0.1).epsilon(0.02));
 }
+
+}  // namespace bbsim_test::test_torques

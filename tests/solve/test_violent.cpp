@@ -6,8 +6,9 @@
 
 #include "solve/hard_cases.hpp"
 
+namespace bbsim_test::test_violent {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 namespace {
 
@@ -138,3 +139,5 @@ TEST_CASE("a pulse of 1 ms in 1000 s has its effect") {
       (scene.gravity * 0.02 * 0.5e-3 * 256 / 315 * 1 + 0.05 * 4e-4 / 0.5e-3 * 64 * 2048 / 45045);
   CHECK(std::abs(run.samples.back().ball.x_dot / speed - 1) < 0.01);
 }
+
+}  // namespace bbsim_test::test_violent

@@ -16,6 +16,8 @@
 #include "study/accuracy.hpp"
 #include "study/accuracy_text.hpp"
 
+namespace bbsim_test::test_accuracy {
+
 using bbsim::Method;
 using bbsim::study::AccuracyPoint;
 using bbsim::study::AccuracyStudy;
@@ -159,3 +161,5 @@ TEST_CASE("the plot of a study has a curve for each method that finished") {
   // A logarithmic axis has no zero.
   CHECK(script.find("\n0 ") == std::string::npos);
 }
+
+}  // namespace bbsim_test::test_accuracy

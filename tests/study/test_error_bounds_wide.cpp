@@ -19,8 +19,9 @@
 #include "study/reference.hpp"
 #include "support/run_in_memory.hpp"
 
+namespace bbsim_test::test_error_bounds_wide {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 namespace {
 
@@ -225,3 +226,5 @@ TEST_CASE("bounds and estimates over thousands of random scenes", "[.][wide]") {
     std::fflush(stdout);
   }
 }
+
+}  // namespace bbsim_test::test_error_bounds_wide

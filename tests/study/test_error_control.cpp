@@ -12,8 +12,9 @@
 #include "study/reference.hpp"
 #include "support/run_in_memory.hpp"
 
+namespace bbsim_test::test_error_control {
+
 using namespace bbsim;
-using namespace bbsim_test;
 
 namespace {
 
@@ -208,3 +209,5 @@ TEST_CASE("each row has an estimate, and the greatest is that of the run") {
   // At the start, where both runs begin, only rounding differs.
   CHECK(result.row_estimates.front() < 1e-3 * result.estimate);
 }
+
+}  // namespace bbsim_test::test_error_control

@@ -15,6 +15,8 @@
 #include "solve/integrate.hpp"
 #include "study/reference.hpp"
 
+namespace bbsim_test::test_reference {
+
 using bbsim::plain;
 using bbsim::Quad;
 using bbsim::Scenario;
@@ -280,3 +282,5 @@ TEST_CASE("a reference can be interrupted, and reports its progress") {
   CHECK(solution.reached < 10);
   CHECK(solution.rows() < grid.size());
 }
+
+}  // namespace bbsim_test::test_reference

@@ -13,6 +13,8 @@
 #include "study/full_model.hpp"
 #include "study/verify.hpp"
 
+namespace bbsim_test::test_verify {
+
 using namespace bbsim;
 using study::Check;
 
@@ -111,3 +113,5 @@ TEST_CASE("diverging models are compared as far as they go") {
     CHECK(std::isfinite(model.dy));
   }
 }
+
+}  // namespace bbsim_test::test_verify

@@ -13,6 +13,8 @@
 #include "support/folder.hpp"
 #include "sweep/case_file.hpp"
 
+namespace bbsim_test::test_case_file {
+
 using namespace bbsim::file;
 using namespace bbsim::sweep;
 using bbsim::InputError;
@@ -395,3 +397,5 @@ TEST_CASE("an output that is not a regular file gets its rows immediately") {
   close(ends[0]);
   close(ends[1]);
 }
+
+}  // namespace bbsim_test::test_case_file

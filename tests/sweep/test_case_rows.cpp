@@ -11,6 +11,8 @@
 #include "support/folder.hpp"
 #include "sweep/case_rows.hpp"
 
+namespace bbsim_test::test_case_rows {
+
 using namespace bbsim::file;
 using namespace bbsim::sweep;
 using bbsim::InputError;
@@ -110,3 +112,5 @@ TEST_CASE("the columns determine which fields are numbers and which are texts") 
   CHECK_FALSE(reader.read("1,heavy,done").empty());
   CHECK_FALSE(reader.read("1,9.81,done,3").empty());
 }
+
+}  // namespace bbsim_test::test_case_rows

@@ -24,6 +24,8 @@
 #include "sweep/sweep.hpp"
 #include "sweep/sweep_measures.hpp"
 
+namespace bbsim_test::test_engines {
+
 using namespace bbsim;
 using namespace bbsim::sweep;
 
@@ -774,3 +776,5 @@ TEST_CASE("a sweep to the limits of doubles has no finished case without a finit
     CHECK(!(distance == 0));
   }
 }
+
+}  // namespace bbsim_test::test_engines

@@ -19,6 +19,8 @@
 #include "sweep/single.hpp"
 #include "sweep/sweep.hpp"
 
+namespace bbsim_test::test_extremes {
+
 using namespace bbsim;
 using namespace bbsim::sweep;
 using bbsim_test::greatest_of;
@@ -224,3 +226,5 @@ TEST_CASE("extremes agree with a solution in quad precision") {
   CHECK(results.numbers[1] == Approx(greatest_of(distances)).epsilon(1e-11));
   CHECK(results.numbers[2] == Approx(greatest_of(errors)).epsilon(1e-11));
 }
+
+}  // namespace bbsim_test::test_extremes

@@ -13,6 +13,8 @@
 #include "sweep/sweep.hpp"
 #include "sweep/sweep_measures.hpp"
 
+namespace bbsim_test::test_loop_measures {
+
 using namespace bbsim;
 using namespace bbsim::sweep;
 
@@ -168,3 +170,5 @@ TEST_CASE("a measure of the loop is refused if no case has it, but not if some d
   CHECK(results.numbers[4] > 0);
   CHECK(results.status[1].reason.empty());
 }
+
+}  // namespace bbsim_test::test_loop_measures

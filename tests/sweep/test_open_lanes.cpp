@@ -12,6 +12,8 @@
 #include "sweep/single.hpp"
 #include "sweep/sweep.hpp"
 
+namespace bbsim_test::test_open_lanes {
+
 using namespace bbsim;
 using namespace bbsim::sweep;
 
@@ -236,3 +238,5 @@ TEST_CASE("long motions agree with single runs") {
            "gimbal.motion.theta.sinusoid.amplitude=1e-4");
   CHECK(difference_from_single(Setup("configs/fig2a.yaml", {amplitude}, shaken)) < 600 * 1e-12);
 }
+
+}  // namespace bbsim_test::test_open_lanes

@@ -16,6 +16,8 @@
 #include "catch.hpp"
 #include "sweep/plan.hpp"
 
+namespace bbsim_test::test_plan {
+
 using namespace bbsim;
 using namespace bbsim::sweep;
 
@@ -384,3 +386,5 @@ TEST_CASE("a refusal in a sweep names its case") {
   const std::string own = fault(vary({{"ball.spin", "list:0,1"}}), scene, {"ball.mass=-1"});
   CHECK(own.starts_with("--set ball.mass=-1: "));
 }
+
+}  // namespace bbsim_test::test_plan

@@ -19,6 +19,8 @@
 #include "support/reading.hpp"
 #include "support/run_in_memory.hpp"
 
+namespace bbsim_test::test_sensitivity {
+
 using namespace bbsim;
 
 namespace {
@@ -555,3 +557,5 @@ TEST_CASE("keys and scenes without derivatives are refused", "[sensitivity]") {
   refuses("fig2a", "gravity", "needs valid values", {"gravity=0"});
   refuses("fig2a", "ball.radius", "repeats the run", {"solver.error=1e-6"});
 }
+
+}  // namespace bbsim_test::test_sensitivity

@@ -12,6 +12,8 @@
 #include "base/error.hpp"
 #include "catch.hpp"
 
+namespace bbsim_test::test_tune {
+
 using namespace bbsim;
 
 namespace {
@@ -236,3 +238,5 @@ TEST_CASE("faults of the input are reported before tuning starts") {
   CHECK(contains(with([](auto& r) { r.quantile = 1.5; }), "--quantile: found 1.5"));
   CHECK(contains(with([](auto& r) { r.quantile = 0; }), "--quantile: found 0"));
 }
+
+}  // namespace bbsim_test::test_tune

@@ -12,6 +12,8 @@
 #include "tune/cobyla.hpp"
 #include "tune/worst_case.hpp"
 
+namespace bbsim_test::test_worst_case {
+
 using namespace bbsim::tune;
 
 namespace {
@@ -178,3 +180,5 @@ TEST_CASE("a quantile is one of the values") {
   CHECK(quantile_of({3, unlimited, 2, 4}, 0.5) == 3);
   CHECK(quantile_of({7}, 0.01) == 7);
 }
+
+}  // namespace bbsim_test::test_worst_case

@@ -10,6 +10,8 @@
 #include "catch.hpp"
 #include "support/reading.hpp"
 
+namespace bbsim_test::test_hostile {
+
 using namespace bbsim;
 using namespace bbsim::test;
 using Catch::Matchers::Contains;
@@ -146,3 +148,5 @@ TEST_CASE("damaged files are read or refused, never worse") {
   CHECK(refused > runs / 4);
   CHECK(refused < runs);
 }
+
+}  // namespace bbsim_test::test_hostile

@@ -6,6 +6,8 @@
 #include "catch.hpp"
 #include "yaml/nearest.hpp"
 
+namespace bbsim_test::test_nearest {
+
 using bbsim::yaml::nearest_name;
 
 TEST_CASE("the nearest name has the fewest typing errors") {
@@ -23,3 +25,5 @@ TEST_CASE("the nearest name has the fewest typing errors") {
   CHECK(nearest_name(std::string(1000, 'r'), names).empty());
   CHECK(nearest_name("radius", {}).empty());
 }
+
+}  // namespace bbsim_test::test_nearest

@@ -5,6 +5,8 @@
 #include "catch.hpp"
 #include "support/reading.hpp"
 
+namespace bbsim_test::test_override {
+
 using namespace bbsim;
 using namespace bbsim::test;
 
@@ -152,3 +154,5 @@ TEST_CASE("one of a pair can be set if the scenario has no list") {
                      "gimbal: {motion: {}}\n")
             .find("ball.velocity: found a mapping") != std::string::npos);
 }
+
+}  // namespace bbsim_test::test_override

@@ -12,6 +12,8 @@
 #include "catch.hpp"
 #include "yaml/quantity.hpp"
 
+namespace bbsim_test::test_quantity {
+
 using bbsim::yaml::Dimension;
 using bbsim::yaml::read_quantity;
 
@@ -184,3 +186,5 @@ TEST_CASE("numbers of a file are converted to SI like quantities") {
   CHECK(plain("5 N cm", Dimension::torque) == 0.05);
   CHECK(fault("5 N", Dimension::length, false) == ", a force");
 }
+
+}  // namespace bbsim_test::test_quantity

@@ -5,6 +5,8 @@
 #include "catch.hpp"
 #include "support/reading.hpp"
 
+namespace bbsim_test::test_rules {
+
 using namespace bbsim;
 using namespace bbsim::test;
 using Catch::Matchers::Contains;
@@ -190,3 +192,5 @@ TEST_CASE("a title is a text") {
   CHECK_THAT(errors("title: [a]\n" + open_loop), Contains("title: found a list of 1"));
   CHECK_THAT(errors("title: \"a\\0\"\n" + open_loop), Contains("with control characters"));
 }
+
+}  // namespace bbsim_test::test_rules

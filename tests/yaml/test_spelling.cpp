@@ -4,6 +4,8 @@
 #include "catch.hpp"
 #include "yaml/spelling.hpp"
 
+namespace bbsim_test::test_spelling {
+
 using bbsim::yaml::american;
 using bbsim::yaml::british;
 using bbsim::yaml::other_spelling;
@@ -29,3 +31,5 @@ TEST_CASE("the other spelling of a name is returned if it exists") {
   CHECK(other_spelling("feedback_linearization") == "feedback_linearisation");
   CHECK_FALSE(other_spelling("radius"));
 }
+
+}  // namespace bbsim_test::test_spelling

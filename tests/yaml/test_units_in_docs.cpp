@@ -11,6 +11,8 @@
 #include "catch.hpp"
 #include "yaml/quantity.hpp"
 
+namespace bbsim_test::test_units_in_docs {
+
 using bbsim::yaml::Dimension;
 using bbsim::yaml::read_quantity;
 
@@ -63,3 +65,5 @@ TEST_CASE("the docs list the units of every dimension") {
   CHECK(docs.at("velocity") == in_code(Dimension::velocity));
   CHECK(docs.at("acceleration") == in_code(Dimension::acceleration));
 }
+
+}  // namespace bbsim_test::test_units_in_docs

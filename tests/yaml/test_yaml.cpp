@@ -5,6 +5,8 @@
 #include "catch.hpp"
 #include "support/reading.hpp"
 
+namespace bbsim_test::test_yaml {
+
 using namespace bbsim::test;
 using Catch::Matchers::Contains;
 
@@ -101,3 +103,5 @@ TEST_CASE("aliases repeat their anchors") {
         "scenario.yaml:1:8: found an alias inside what it stands for; allowed: an alias of "
         "something complete");
 }
+
+}  // namespace bbsim_test::test_yaml

@@ -7,7 +7,7 @@
 
 namespace bbsim::model {
 
-CommonCycle common_cycle(const Sampling& sampling, const Sensor& sensor) {
+CommonCycle common_cycle(const bbsim::Sampling& sampling, const Sensor& sensor) {
   if (!sensor.period) return {};
   constexpr double most = 500;
   for (double samples = 1; samples <= most && sampling.is_even(); ++samples) {

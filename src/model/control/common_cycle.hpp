@@ -15,7 +15,7 @@ struct CommonCycle {
   bool known = true;
 };
 
-[[nodiscard]] CommonCycle common_cycle(const Sampling& sampling, const Sensor& sensor);
+[[nodiscard]] CommonCycle common_cycle(const bbsim::Sampling& sampling, const Sensor& sensor);
 
 // Instants of different clocks closer than this, relative to the sampling period, count as equal.
 inline constexpr double one_instant = 1e-9;

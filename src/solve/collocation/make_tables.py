@@ -6,7 +6,7 @@
     python3 src/solve/collocation/make_tables.py radau > src/solve/collocation/radau_table.hpp
     python3 src/solve/collocation/make_tables.py sine > src/simd/sine_table.hpp
 
-Needs mpmath; works with 60 digits and prints 25, more than a double resolves.
+Needs mpmath; works with 60 digits and prints the shortest text of the nearest double.
 
 Nodes: the right Radau points, roots of P_s - P_(s-1) on [-1, 1]. On the nodes a polynomial of
 degree s - 1 has Legendre coefficients `legendre` times its values; integrating its Legendre series
@@ -75,7 +75,7 @@ def tables(s):
 
 
 def number(value):
-    return mp.nstr(value, 25, min_fixed=-3, max_fixed=20)
+    return repr(float(value))
 
 
 def show(values):
