@@ -8,7 +8,7 @@ namespace bbsim::api {
 model::Model assemble(const Scenario& scenario,
                       const std::vector<const scenario::Column*>& columns) {
   return with_places(scenario,
-                     [&] { return model::assemble(scenario, scenario::need_gamma(columns)); });
+                     [&] { return model::assemble(scenario, scenario::integrals_for(columns)); });
 }
 
 model::Model assemble(const Scenario& scenario, const std::vector<const scenario::Column*>& columns,

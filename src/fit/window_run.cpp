@@ -87,7 +87,7 @@ std::vector<double> run_window(const Scenario& scene, const Start& start,
   if (begins_anywhere(scene)) begun.gimbal.start = {start[4], start[5], start[6], start[7]};
   std::optional<model::Model> assembled;
   try {
-    assembled = model::assemble(begun, scenario::need_gamma(columns));
+    assembled = model::assemble(begun, scenario::integrals_for(columns));
   } catch (const InputError& error) {
     why = error.what();
     return {};

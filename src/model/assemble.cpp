@@ -133,7 +133,7 @@ std::vector<double> stops_at(const std::vector<double>& knots, double end) {
 
 }  // namespace
 
-Model assemble(const Scenario& scenario, bool gamma, Form form) {
+Model assemble(const Scenario& scenario, scenario::Integrals integrals, Form form) {
   // The gimbal's angles or torques if prescribed; otherwise the controller's reference.
   SignalPair input;
   if (scenario.controller) {
@@ -186,13 +186,14 @@ Model assemble(const Scenario& scenario, bool gamma, Form form) {
   };
   Model model{system(),
               initial_state(scenario, shape),
-              gamma && shape == Shape::full,
+              integrals.gamma && shape == Shape::full,
               scenario.ball.radius,
               std::move(stops),
               rig,
               {},
               dry,
-              std::move(jumps)};
+              std::move(jumps),
+              integrals.work};
   EventMonitors events = event_monitors(scenario);
   if (!events.monitors.empty()) model.events = std::move(events);
   return model;

@@ -13,6 +13,7 @@
 #include "model/events/event_monitors.hpp"
 #include "model/systems/list.hpp"
 #include "model/systems/rig.hpp"
+#include "scenario/integrals.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim::model {
@@ -52,6 +53,7 @@ struct Model {
   std::optional<EventMonitors> events{};  // set if there are events
   std::optional<DryParts> dry{};          // set if something dry switches
   std::vector<double> jumps{};            // the stops at which the reference itself jumps, s
+  bool work = true;                       // whether the state motor_work is wanted, if there is one
 
   // Whether the reference jumps at the instant t, s.
   [[nodiscard]] bool jumps_at(double t) const;
@@ -85,8 +87,9 @@ struct Model {
 // it. `full`: without these reductions. Motions agree to the tolerance.
 enum class Form { reduced, full };
 
-// Builds the system that the scene needs. `gamma`: whether an output column needs that angle.
-[[nodiscard]] Model assemble(const Scenario& scenario, bool gamma, Form form = Form::reduced);
+// Builds the system that the scene needs. `integrals`: what output columns need.
+[[nodiscard]] Model assemble(const Scenario& scenario, scenario::Integrals integrals,
+                             Form form = Form::reduced);
 
 // Index of u = r gamma' among the states, or -1 if symmetry keeps it zero.
 template <class AnySystem>

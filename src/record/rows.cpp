@@ -29,6 +29,7 @@ Detail detail_for(Needs needs) {
     case Needs::torques:
     case Needs::armature:
     case Needs::coupled:
+    case Needs::work:
     case Needs::pushed:
       return Detail::motion;
     case Needs::commands:

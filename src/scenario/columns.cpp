@@ -95,8 +95,10 @@ bool any_needs(const std::vector<const Column*>& columns, Needs what) {
                              [what](const Column* column) { return column->needs == what; });
 }
 
-bool need_gamma(const std::vector<const Column*>& columns) {
-  return any_needs(columns, Needs::gamma) || any_needs(columns, Needs::orientation);
+Integrals integrals_for(const std::vector<const Column*>& columns) {
+  Integrals all(any_needs(columns, Needs::gamma) || any_needs(columns, Needs::orientation));
+  all.work = any_needs(columns, Needs::work);
+  return all;
 }
 
 int axis_of(std::string_view name) {
@@ -158,6 +160,7 @@ Missing missing(const Column& column, const Scenario& scenario) {
       return {"gimbal.motor.dc is not known",
               "columns of the torque, such as phi_torque; or give gimbal.motor.dc"};
     case Needs::coupled:
+    case Needs::work:
       if (is_coupled(scenario) || is_linked(scenario)) return {};
       return {"the ball rolls without losses",
               "other columns, such as energy; or give ball.losses, or slip with action: slide"};

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scenario/integrals.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim::scenario {
@@ -33,6 +34,7 @@ enum class Needs {
   torques,        // torques that move the gimbal
   armature,       // DC motors that move the gimbal
   coupled,        // is_coupled() or is_linked() (coupled.hpp)
+  work,           // the same, and the work of its motors
   pushed          // a push on the ball
 };
 
@@ -255,7 +257,7 @@ inline constexpr std::array catalogue = {
     Column{
         "motor_work", "motors' work", "J",
         "work of the motors on ball, plate, ring and rotors since the start, before their friction",
-        Needs::coupled, Panel::energy, Role::main, "motors' work"},
+        Needs::work, Panel::energy, Role::main, "motors' work"},
     Column{"phi_torque_asked", "φ torque asked", "N m",
            "torque asked of phi's motor, before its limits", Needs::torques, Panel::given_torques,
            Role::command},
@@ -319,9 +321,6 @@ inline constexpr std::size_t most_own_columns = 64;
 
 // Whether a column is computed from forces, torques or energy.
 [[nodiscard]] bool need_dynamics(const std::vector<const Column*>& columns);
-
-// Whether a column is computed from gamma, which the model then integrates.
-[[nodiscard]] bool need_gamma(const std::vector<const Column*>& columns);
 
 // The axis that a column belongs to, by its name: 1 for x and phi, 2 for y and theta, else 0.
 [[nodiscard]] int axis_of(std::string_view name);

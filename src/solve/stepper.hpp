@@ -4,7 +4,6 @@
 // The interface of all integrators: one step at a time.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -53,7 +52,7 @@ class Stepper {
 
   // The servos' motion since start(), if the stepper moves servos in closed form; otherwise null.
   // If not null, HybridSystem predicts the servos' switches, and no step crosses one.
-  [[nodiscard]] virtual const std::array<model::HeldMotion, 2>* servos() const { return nullptr; }
+  [[nodiscard]] virtual const model::HeldMotions* servos() const { return nullptr; }
   // Whether it is certain that no monitor of the scene's events changes sides within the last step,
   // ends included. `occurring` has the present side of each monitor. Call it before the next step.
   [[nodiscard]] virtual bool no_monitor_changes(const std::vector<char>& /*occurring*/) {

@@ -71,8 +71,9 @@ class SingleRunner : public CaseRunner {
     for (const PlanAxis& axis : task.plan.axes()) {
       if (axis.key.starts_with("solver")) same_tolerances_ = false;
     }
-    gamma_ = scenario::any_needs(task.measures, scenario::Needs::gamma) ||
-             scenario::need_gamma(task.series);
+    integrals_ = scenario::integrals_for(task.series);
+    integrals_.gamma |= scenario::any_needs(task.measures, scenario::Needs::gamma);
+    integrals_.work |= scenario::any_needs(task.measures, scenario::Needs::work);
   }
 
   std::size_t run(std::size_t first, std::size_t count, CaseResults& into,
@@ -94,7 +95,7 @@ class SingleRunner : public CaseRunner {
     try {
       const Scenario& scenario =
           scenario_.at(number, &into.values[place * task_.plan.axes().size()]);
-      model::Model model = model::assemble(scenario, gamma_);
+      model::Model model = model::assemble(scenario, integrals_);
       if (scenario.controller && scenario.controller->own) {
         if (!controllers_) controllers_.emplace(task_.report, &stop);
         controllers_->attach(scenario, model);
@@ -158,7 +159,7 @@ class SingleRunner : public CaseRunner {
   std::optional<controller::Host> controllers_;        // for cases with your own controller
   std::optional<solve::radau::RadauStepper> stepper_;  // reuses its memory from case to case
   bool same_signals_, same_tolerances_ = true;
-  bool gamma_ = false;
+  scenario::Integrals integrals_ = false;
 };
 
 }  // namespace

@@ -540,7 +540,7 @@ class Environments(unittest.TestCase):
             np.testing.assert_array_equal(one[:, :3], other[:, :3])
 
     def test_what_lanes_cannot_carry(self):
-        for settings in ({"time.end": 1e5}, {"solver.method": "bdf"}, {"controller.sampling.jitter": "1 ms"}):
+        for settings in ({"time.end": 1e5}, {"solver.method": "bdf"}, {"gimbal.mounting.height": "1 cm"}):
             with self.subTest(settings):
                 envs = bbsim.VectorEnv(CONFIGS / "rig.yaml", 9, set=settings)
                 envs.reset(seed=1)

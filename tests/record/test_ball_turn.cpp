@@ -39,7 +39,7 @@ file::TableData run(const std::string& name, const std::string& overrides_column
   const Scenario scene =
       read_scenario(std::string(BBSIM_SOURCE_DIR) + "/configs/" + name + ".yaml", overrides);
   const auto columns = scenario::columns_named(scene.output.columns);
-  const model::Model model = model::assemble(scene, scenario::need_gamma(columns));
+  const model::Model model = model::assemble(scene, scenario::integrals_for(columns));
   const solve::OutputGrid grid(scene.time);
   file::MemoryTable table(scenario::names_of(columns));
   const model::BallConstants constants = model::constants_of(scene);

@@ -57,6 +57,7 @@ InDocs in_docs(const Column& column) {
     case Needs::armature:
       return {"Motors", "the same, and `motor.dc`"};
     case Needs::coupled:
+    case Needs::work:
       return {column.panel == Panel::slip ? "The ball" : "Forces, torques and energy",
               "[losses and others](#when-a-column-is-available)"};
     case Needs::pushed:

@@ -55,10 +55,16 @@ Both run_of(const model::Model& model, const solve::OutputGrid& grid,
   return run;
 }
 
+// How many numbers of a row both ways compute: of a rig with a linkage not the motors' work, the
+// last state.
+std::size_t shared(const model::Model& model) {
+  return model.rig->between.none() ? model.row_size() : model.size() - 1;
+}
+
 // Largest difference of any number in any row, relative to its size.
 double largest_difference(const model::Model& model, const Both& a, const Both& b) {
   REQUIRE(a.rows.rows() == b.rows.rows());
-  std::vector<double> size(model.row_size(), 1e-3);
+  std::vector<double> size(shared(model), 1e-3);
   for (std::size_t i = 0; i < a.rows.rows(); ++i) {
     for (std::size_t k = 0; k < size.size(); ++k) {
       size[k] = std::max(size[k], std::abs(a.rows.row(i)[k]));
@@ -112,6 +118,26 @@ const Case cases[] = {
     {"servos fed back", "{servo: {natural_frequency: 40, damping: 1}}",
      "lqr: {position: 20, velocity: 1, angle: 1, rate: 0.01, command: 1}, drives: angle, limit: "
      "0.2"},
+    {"push rods, all limits",
+     "{servo: {natural_frequency: 31.4, damping: 0.8, rate_limit: 1.5, backlash: 0.006}, "
+     "mounting: {height: 0.02, phi_offset: 0.01}, linkage: {horn: 0.024, arm: 0.06, offset: "
+     "[-0.016, 0.07]}}",
+     "gravity_compensation: {kp: 8, kv: 6}, drives: angle, limit: 0.2"},
+    {"a rod on one axis that the controller inverts",
+     "{servo: {time_constant: 0.03, rate_limit: 2}, linkage: {phi: {horn: 0.024, arm: 0.06, "
+     "offset: [-0.016, 0.07]}}}",
+     "gravity_compensation: {kp: 8, kv: 6}, drives: angle, limit: 0.2, assumes: exact"},
+    {"three legs",
+     "{servo: {natural_frequency: 31.4, damping: 0.8, rate_limit: 1.5, backlash: 0.006}, "
+     "three_servos: {radius_base: 0.06, radius_plate: 0.09, horn: 0.04, rod: 0.1, height: 0.11}}",
+     "gravity_compensation: {kp: 6, kv: 5}, drives: angle, limit: 0.2"},
+    {"three unequal and stiff legs",
+     "{servo: {natural_frequency: 600, damping: 0.7}, three_servos: {legs: "
+     "[{angle: 0, radius_base: 0.06, radius_plate: 0.09, horn: 0.04, rod: 0.1, height: 0.11}, "
+     "{angle: 2.0, radius_base: 0.06, radius_plate: 0.085, horn: 0.045, rod: 0.1, height: 0.11}, "
+     "{angle: -2.1, radius_base: 0.065, radius_plate: 0.09, horn: 0.04, rod: 0.105, height: "
+     "0.11}]}}",
+     "gravity_compensation: {kp: 6, kv: 5}, drives: angle, limit: 0.2"},
 };
 
 std::string text_of(const Case& one, const std::string& sampling, const std::string& columns) {
@@ -132,14 +158,25 @@ std::string text_of(const Case& one, const std::string& sampling, const std::str
 const char* const sampling =
     "sampling: {period: 0.02, delay: 0.006, derivative_filter: 0.03}, "
     "sensor: {delay: 0.011, noise: 2e-4, seed: 3, dropout: 0.1}";
+// No two periods are equal, and frames come between samples.
+const char* const uneven =
+    "sampling: {period: 0.02, delay: 0.006, jitter: 0.002, derivative_filter: 0.03}, "
+    "sensor: {period: 0.033, phase: 0.004, delay: 0.011, noise: 2e-4, seed: 3}";
+
+scenario::Integrals without_work(bool gamma) {
+  scenario::Integrals integrals(gamma);
+  integrals.work = false;
+  return integrals;
+}
 
 }  // namespace
 
 TEST_CASE("a rig by pieces is the rig in general, whatever its servos, law and mounting") {
+  const char* const sampling_of = GENERATE(as<const char*>{}, sampling, uneven);
   for (const Case& one : cases) {
-    INFO(one.what);
-    const Scenario scene = scene_of(text_of(one, sampling, "t, x, gamma"));
-    const model::Model model = model::assemble(scene, true);
+    INFO(one.what << ", " << sampling_of);
+    const Scenario scene = scene_of(text_of(one, sampling_of, "t, x, gamma"));
+    const model::Model model = model::assemble(scene, without_work(true));
     REQUIRE(solve::sampled::knows(model));
     const solve::OutputGrid grid(scene.time);
     const Both general = run_of(model, grid, generally(grid));
@@ -168,6 +205,12 @@ TEST_CASE("integrate() solves sampled rigs by pieces, and no others") {
   continuous.controller->sampling.reset();
   continuous.controller->sensor.reset();
   CHECK_FALSE(solve::sampled::knows(model::assemble(continuous, false)));
+  // With a linkage, unless the motors' work is asked for, or something else moves the ball.
+  Scenario linked = scene_of(text_of(cases[12], sampling, "t, x"));
+  CHECK(solve::sampled::knows(model::assemble(linked, without_work(false))));
+  CHECK_FALSE(solve::sampled::knows(model::assemble(linked, false)));
+  linked.ball.losses.viscous = 1e-6;
+  CHECK_FALSE(solve::sampled::knows(model::assemble(linked, without_work(false))));
 }
 
 TEST_CASE("pieces too long for their tolerance are split") {
@@ -320,7 +363,7 @@ TEST_CASE("bounds of a piece contain the motors' loads within it") {
     INFO(one.what);
     Scenario scene = scene_of(text_of(one, sampling, "t, x"));
     scene.time.end = 0.5;
-    const model::Model model = model::assemble(scene, false);
+    const model::Model model = model::assemble(scene, without_work(false));
     const model::BallConstants constants = model::constants_of(scene);
     const solve::OutputGrid grid(scene.time);
     Looks looks(model, constants);

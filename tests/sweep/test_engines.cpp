@@ -553,6 +553,12 @@ TEST_CASE("rigs in lanes are those of single runs") {
   SECTION("with noise, events and all limits of configs/rig.yaml") {
     check_rig_lanes(Setup("configs/rig.yaml", gains_and_seeds, {"time.end=10"}, loop_measures, 7));
   }
+  SECTION("with unequal periods, drawn anew in each lane, and backlash") {
+    check_rig_lanes(
+        Setup("configs/rig.yaml", gains_and_seeds,
+              {"time.end=5", "controller.sampling.jitter=1 ms", "gimbal.servo.backlash=0.3 deg"},
+              loop_measures, 7));
+  }
   SECTION("rigs that switch, each at its own times") {
     const std::string servo = GENERATE(
         "{natural_frequency: 5 Hz, damping: 0.8, rate_limit: 20 deg/s, angle_limit: 4 deg}",

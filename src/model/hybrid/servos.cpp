@@ -118,10 +118,10 @@ std::array<bool, most_servos> Servos::follow(const std::array<double, most_servo
   return jumps;
 }
 
-std::array<HeldMotion, 2> Servos::held_motions(const double* z) const {
+HeldMotions Servos::held_motions(const double* z) const {
   return model_.with_loop([&](const auto& loop) {
-    std::array<HeldMotion, 2> motions;
-    for (std::size_t i = 0; i < 2; ++i) {
+    HeldMotions motions;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
       motions[i] = held_motion(loop.servo().of[i], loop.mode.axis[i], loop.mode.command[i],
                                z[SwitchedModel::angle + i], z[model_.rate() + i]);
     }
@@ -129,10 +129,10 @@ std::array<HeldMotion, 2> Servos::held_motions(const double* z) const {
   });
 }
 
-Crossing Servos::next_crossing(double t, const std::array<HeldMotion, 2>& motions, double end) {
+Crossing Servos::next_crossing(double t, const HeldMotions& motions, double end) {
   Crossing first;
   if (guards_ == 0) return first;
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
     const ServoAxis::Crossing next = axes_[i].first_crossing(
         motions[i], model_.mode().command[i], t, std::min(end, first.time) - t, answers_);
     // Rounds up, so that the guard has crossed at that time even if the step is below the rounding

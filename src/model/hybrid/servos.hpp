@@ -33,12 +33,11 @@ class Servos : public Part {
   // Whether the last reset() may have changed a mode.
   [[nodiscard]] bool chose() const { return chose_; }
 
-  // The motions of phi's and theta's servos from the states z, in the present mode, while their
-  // commands are held. For rigs without linkages.
-  [[nodiscard]] std::array<HeldMotion, 2> held_motions(const double* z) const;
+  // The motions of the servos from the states z, in the present mode, while their commands are
+  // held.
+  [[nodiscard]] HeldMotions held_motions(const double* z) const;
   // The first crossing within (t, end], for servos with these motions from t.
-  [[nodiscard]] Crossing next_crossing(double t, const std::array<HeldMotion, 2>& motions,
-                                       double end);
+  [[nodiscard]] Crossing next_crossing(double t, const HeldMotions& motions, double end);
   [[nodiscard]] const ServoAxis& axis(std::size_t i) const { return axes_[i]; }
 
  private:

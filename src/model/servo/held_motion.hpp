@@ -14,6 +14,7 @@
 // These hold in all modes, and stay accurate as damping or stiffness vanish.
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "model/servo/impulse_series.hpp"
@@ -56,6 +57,9 @@ struct HeldMotion {
             at.slope * acceleration - law.stiffness * at.value * rate};
   }
 };
+
+// Of the servos of a gimbal. A gimbal with two servos leaves the third at rest.
+using HeldMotions = std::array<HeldMotion, most_servos>;
 
 // The motion in the given mode from an angle (rad) and a rate (rad/s).
 [[nodiscard]] HeldMotion held_motion(const ServoResponse& servo, const AxisMode& mode,

@@ -16,6 +16,9 @@
 
 namespace bbsim::model {
 
+// The largest number of servos of a gimbal.
+inline constexpr int most_servos = 3;
+
 // The servos turn the plane directly.
 struct Direct {
   static constexpr bool direct = true;

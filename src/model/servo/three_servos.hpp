@@ -287,17 +287,19 @@ struct ThreeServos {
 
   // The pose at these servo angles. From home, Newton's iteration follows the plate while the
   // servos go to their angles in equal parts: directly from home it may end in another solution. It
-  // then goes on until its steps are small, which takes many only near the edge of the workspace.
-  // All this needs no derivatives. The last two steps square the error twice, and provide them.
+  // starts from `near`, the pose a short motion before, if that is given. It then goes on until its
+  // steps are small, which takes many only near the edge of the workspace. All this needs no
+  // derivatives. The last steps square the error, and provide them.
   template <class Real>
   [[nodiscard]] Pose<Real> pose(const Real (&servo)[3], const Real (&sine)[3],
-                                const Real (&cosine)[3]) const {
+                                const Real (&cosine)[3], const Pose<double>* near = nullptr) const {
     using Value = std::decay_t<decltype(value_of(servo[0]))>;
-    constexpr int parts = 4, most_steps = 40;
+    constexpr int parts = 4, most_steps = 40, last_steps = std::is_same_v<Real, Value> ? 1 : 2;
     constexpr double small = 1e-18;  // the square of a step
     Pose<Value> at{Value(0.0), Value(0.0), Value(leg[0].height)}, next;
     Value between[3], s[3], c[3], whole;
-    for (int k = 1; k < parts; ++k) {
+    if (near != nullptr) at = {Value(near->p), Value(near->q), Value(near->z)};
+    for (int k = 1; k < parts && near == nullptr; ++k) {
       for (int i = 0; i < 3; ++i) {
         const double from = leg[i].level, part = static_cast<double>(k) / parts;
         between[i] = part * value_of(servo[i]) + Value((1 - part) * from);
@@ -320,11 +322,27 @@ struct ThreeServos {
     }
     Pose<Real> pose{Real(at.p), Real(at.q), Real(at.z)}, better;
     Real determinant_there;
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < last_steps; ++k) {
       newton_step(sine, cosine, pose, better, determinant_there);
       pose = better;
     }
     return pose;
+  }
+
+  // How far the servos are from the edge of the workspace in a pose: the determinant over its value
+  // at home, less `before_edge`, and the sines of the angles between horns and rods.
+  static constexpr int edge_count = 4;
+  template <class Real>
+  void edges(const Pose<Real>& at, const Real (&sine)[3], const Real (&cosine)[3],
+             const Real& determinant_there, Real* into) const {
+    Joint<Real> joint[3];
+    joints(
+        at, [](double value) { return Real(value); }, joint);
+    into[0] = (1 / determinant) * determinant_there - Real(before_edge);
+    for (int i = 0; i < 3; ++i) {
+      const Joint<Real> rod = rod_of(i, joint[i], sine[i], cosine[i]);
+      into[1 + i] = (leg[i].side / leg[i].rod) * (rod.x * sine[i] - rod.z * cosine[i]);
+    }
   }
 
   // The plane's axes for these servo angles (from home), rates and accelerations.
@@ -333,12 +351,19 @@ struct ThreeServos {
               GimbalAngle<Real> (&axis)[2]) const {
     Real sine[3], cosine[3];
     directions(servo, sine, cosine);
-    const Pose<Real> at = pose(servo, sine, cosine);
+    planes_in(pose(servo, sine, cosine), sine, cosine, rate, acceleration, axis);
+  }
+
+  // The same in a pose that is known. Returns the determinant of the leg equations.
+  template <class Real>
+  Real planes_in(const Pose<Real>& at, const Real (&sine)[3], const Real (&cosine)[3],
+                 const Real (&rate)[3], const Real (&acceleration)[3],
+                 GimbalAngle<Real> (&axis)[2]) const {
     Slopes<Real> m[3];
     Real right[3], first[3], second[3];
     slopes(at, sine, cosine, m);
     for (int i = 0; i < 3; ++i) right[i] = -(m[i].of_horn * (leg[i].turns * rate[i]));
-    solve(m, right, first);
+    const Real whole = solve(m, right, first);
     // The second derivative of the leg equations without the accelerations of p, q and z.
     const Real none = Real(0.0);
     const Pose<Motion2<Real>> moving{
@@ -366,6 +391,7 @@ struct ThreeServos {
     const Motion2<Real> sin_phi = p / cos_theta;
     put(0, sin_phi, root_along(one - sin_phi * sin_phi, one).v, axis[0]);
     put(1, {-q.v, -q.d, -q.dd}, cos_theta.v, axis[1]);
+    return whole;
   }
 
   void angles(const double (&servo)[3], double (&plane)[2]) const {
@@ -430,25 +456,17 @@ struct ThreeServos {
     }
   }
 
-  // The distance from the edge of the workspace: the least sine of the angles between horns and
-  // rods, and the determinant over its value at home, less `before_edge`; -1 beyond the edge, where
-  // no pose fits the servos' angles. Where the determinant is zero, the plate's rate is infinite.
+  // The least of the edges(); -1 beyond the edge, where no pose fits the servos' angles. Where the
+  // determinant is zero, the plate's rate is infinite.
   [[nodiscard]] double margin(const double (&servo)[3]) const {
     double sine[3], cosine[3], whole = 0;
     directions(servo, sine, cosine);
     const Pose<double> at = pose(servo, sine, cosine);
     Pose<double> next;
     if (!(newton_step(sine, cosine, at, next, whole) < 1e-12)) return -1;
-    double least = whole / determinant - before_edge;
-    for (int i = 0; i < 3; ++i) {
-      const Leg& of = leg[i];
-      Joint<double> joint[3];
-      joints(
-          at, [](double value) { return value; }, joint);
-      const Joint<double> rod = rod_of(i, joint[i], sine[i], cosine[i]);
-      least = std::fmin(least, of.side * (rod.x * sine[i] - rod.z * cosine[i]) / of.rod);
-    }
-    return least;
+    double margins[edge_count];
+    edges(at, sine, cosine, whole, margins);
+    return std::fmin(std::fmin(margins[0], margins[1]), std::fmin(margins[2], margins[3]));
   }
 
  private:

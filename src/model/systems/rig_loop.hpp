@@ -18,9 +18,6 @@
 
 namespace bbsim::model {
 
-// The largest number of servos of a gimbal.
-inline constexpr int most_servos = 3;
-
 // The mode of one axis or servo between two switches.
 struct AxisMode {
   // Servo acceleration = demand_factor * demand + set_acceleration, rad/s^2.

@@ -12,7 +12,7 @@
 
 namespace bbsim::solve::sampled {
 
-// For loops with a constant period.
+// Unequal periods seldom recur; their pieces have the lengths that they have.
 class Instants {
  public:
   // `cut`: pieces end at samples, too.

@@ -11,6 +11,7 @@
 #include <cstddef>
 
 #include "model/ball/contact_force.hpp"
+#include "model/servo/three_servos.hpp"
 
 namespace bbsim::solve::sampled {
 
@@ -34,7 +35,8 @@ struct alignas(64) MotionTable {
   double lost_angle_by_rate, lost_angle_by_acceleration;
 };
 
-// One axis: its servo at the start of the piece, and the linear map from its angle to the plate's.
+// One servo at the start of the piece, and the linear map from its angle to that of the plate or of
+// the horn that moves it.
 struct PieceAxis {
   const MotionTable* table;
   double angle, rate, acceleration;
@@ -50,6 +52,9 @@ struct Scene {
   bool gamma;         // whether the integral of u is under error control too
   double friction;    // friction coefficient up to which the ball rolls; 0: not monitored
   bool force, loads;  // whether forces and the motors' torques are wanted
+  // The mechanism between horns and plate, for the kernels of that kind.
+  const model::Linkages* linkages;
+  const model::ThreeServos* three;
 };
 
 // All numbers of the last piece. The ball's velocities are x', y' and u = r gamma'; its positions
@@ -59,6 +64,8 @@ struct alignas(64) Piece {
   struct Plane {
     double sin[nodes], cos[nodes], rate[nodes], acceleration[nodes];
   } plane[2];
+  // How far three servos are from the edge of their workspace (ThreeServos::edges).
+  double edges[model::ThreeServos::edge_count][nodes];
   // Shifted Legendre coefficients of the accelerations times the length.
   double series[3][nodes];
   double position[3], velocity[3];          // at the start
@@ -66,7 +73,12 @@ struct alignas(64) Piece {
   double guess[3];     // of the accelerations: those at the end of the last piece
   double contraction;  // of the last pieces' iterations
   double length;       // s
-  PieceAxis axis[2];
+  PieceAxis axis[model::most_servos];
+  // Behind a mechanism: the plate at the start, and the greatest rate of phi or theta for a unit
+  // rate of one servo.
+  model::GimbalAngle<double> plane_start[2];
+  model::ThreeServos::Pose<double> pose_start;
+  double gain;
 };
 
 struct Attempt {
@@ -115,14 +127,15 @@ struct alignas(64) NodeAnswers {
 };
 
 struct Kernels {
-  // For the paper's rig, and for any rig.
+  // For the paper's rig, for any rig whose servos turn the plate directly, and for rigs with
+  // linkages and with three servos.
   struct Of {
     // Solves for the ball over the piece, from its start, length and axes.
     void (*attempt)(Piece& piece, const Scene& scene, Attempt& result);
     // Computes the ranges over the start and nodes. Leaves ranges that are not wanted unchanged.
     void (*evaluate_quantities)(const Piece& piece, const Scene& scene, Range* ranges,
                                 Loads& loads);
-  } papers, general;
+  } papers, general, linked, three;
   // Computes responses by power series, which the length must suit (model::suits_series()).
   void (*answers)(double damping, double stiffness, double length, NodeAnswers& answers);
   // The ranges of the three loads over the Chebyshev points.

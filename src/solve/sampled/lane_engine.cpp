@@ -35,7 +35,7 @@ const LaneKernels& choose_lane_kernels() {
 }
 
 bool moves(const model::Model& model) {
-  return knows(model) && !model.gamma &&
+  return knows(model) && !model.gamma && model.rig->between.none() &&
          std::get<model::RigLoop<false>>(model.system).rolling() == model::GeneralRolling{};
 }
 

@@ -23,7 +23,7 @@
 namespace bbsim::solve::sampled {
 
 // Whether lanes can move the model: it passes knows(), has no gamma, and is the paper's rig except
-// for its servos and controller.
+// for its servos and controller, without a mechanism between servos and plate.
 [[nodiscard]] bool moves(const model::Model& model);
 
 // Each rig keeps its HybridSystem with its own sensor, servos and limits. The balls are computed

@@ -391,7 +391,7 @@ struct LaneKernel {
       piece.plane[i].sin[nodes - 1] = axis.plane_sin[nodes - 1][lane];
     }
     Attempt result{true, 0, 0, 0};
-    One::estimate(piece, of, result);
+    One::template estimate<model::Direct>(piece, of, result);
     return result.error;
   }
 

@@ -155,9 +155,12 @@ struct Kernel {
 
   // Whether the plate's angle stays within pi/4.
   BBSIM_INLINE static bool is_small(const PieceAxis& axis) {
-    const double moves = axis.table->most_by_rate * size_of(axis.rate) +
-                         axis.table->most_by_acceleration * size_of(axis.acceleration);
-    return size_of(axis.ratio * axis.angle + axis.offset) + size_of(axis.ratio) * moves < 0.785;
+    return size_of(axis.ratio * axis.angle + axis.offset) + motion_of(axis) < 0.785;
+  }
+  // A bound of how far the plate or the horn turns from its start to any node, rad.
+  BBSIM_INLINE static double motion_of(const PieceAxis& axis) {
+    return size_of(axis.ratio) * (axis.table->most_by_rate * size_of(axis.rate) +
+                                  axis.table->most_by_acceleration * size_of(axis.acceleration));
   }
 
   struct Rates {
@@ -192,22 +195,78 @@ struct Kernel {
   // about the next piece.
   static constexpr double least_contraction = 1e-2;
 
+  // Computes the plate's motion at the nodes from that of the horns.
+  template <class Link>
+  static void move_plate(Piece& piece, const Link& link) {
+    constexpr int servos = Link::servos;
+    [[maybe_unused]] bool is_short = true;  // the pose at the start leads to that at the nodes
+    for (int i = 0; i < servos; ++i) is_short = is_short && motion_of(piece.axis[i]) < 0.25;
+    for (int p = 0; p < packs; ++p) {
+      P horn[servos], rate[servos], acting[servos];
+      for (int i = 0; i < servos; ++i) {
+        const PieceAxis& of = piece.axis[i];
+        const auto row = [&](MotionTable::Row of_motion) {
+          return P::load(of.table->by_rate[of_motion] + p * lanes) * P(of.rate) +
+                 P::load(of.table->by_acceleration[of_motion] + p * lanes) * P(of.acceleration);
+        };
+        const P ratio(of.ratio);
+        horn[i] = P(of.ratio * of.angle + of.offset) + ratio * row(MotionTable::angle);
+        rate[i] = ratio * row(MotionTable::rate);
+        acting[i] = ratio * row(MotionTable::acceleration);
+      }
+      model::GimbalAngle<P> axis[2];
+      if constexpr (servos == 3) {
+        P sine[3], cosine[3], edges[Link::edge_count];
+        link.directions(horn, sine, cosine);
+        const auto pose = link.pose(horn, sine, cosine, is_short ? &piece.pose_start : nullptr);
+        const P whole = link.planes_in(pose, sine, cosine, rate, acting, axis);
+        link.edges(pose, sine, cosine, whole, edges);
+        for (int k = 0; k < Link::edge_count; ++k) edges[k].store(piece.edges[k] + p * lanes);
+      } else {
+        link.planes(horn, rate, acting, axis);
+      }
+      for (int i = 0; i < 2; ++i) store_axis(axis[i], piece.plane[i], p);
+    }
+  }
+  BBSIM_INLINE static void store_axis(const model::GimbalAngle<P>& axis, Piece::Plane& into,
+                                      int p) {
+    axis.sin.store(into.sin + p * lanes);
+    axis.cos.store(into.cos + p * lanes);
+    axis.rate.store(into.rate + p * lanes);
+    axis.acceleration.store(into.acceleration + p * lanes);
+  }
+  template <class Link>
+  BBSIM_INLINE static const Link& link_of(const Scene& scene) {
+    if constexpr (Link::servos == 3) {
+      return *scene.three;
+    } else {
+      return *scene.linkages;
+    }
+  }
+
   // With everything inlined the compiler sees which coefficients are zero.
-  template <bool papers>
+  template <bool papers, class Link>
   [[gnu::flatten]] static void attempt(Piece& piece, const Scene& scene, Attempt& result) {
     const double h = piece.length;
-    const bool small = is_small(piece.axis[0]) && is_small(piece.axis[1]);
+    bool small = false;
+    if constexpr (Link::direct) {
+      small = is_small(piece.axis[0]) && is_small(piece.axis[1]);
+    } else {
+      move_plate(piece, link_of<Link>(scene));
+    }
     Rates rates[packs];
     for_each<packs>([&](auto p) __attribute__((always_inline)) {
       model::GimbalAngle<P> axis[2];
 #pragma GCC unroll 2
       for (int i = 0; i < 2; ++i) {
-        axis[i] = plane_axis(piece.axis[i], p, small);
-        Piece::Plane& into = piece.plane[i];
-        axis[i].sin.store(into.sin + p * lanes);
-        axis[i].cos.store(into.cos + p * lanes);
-        axis[i].rate.store(into.rate + p * lanes);
-        axis[i].acceleration.store(into.acceleration + p * lanes);
+        Piece::Plane& at = piece.plane[i];
+        if constexpr (Link::direct) {
+          axis[i] = plane_axis(piece.axis[i], p, small);
+          store_axis(axis[i], at, p);
+        } else {
+          axis[i] = {P::load(at.sin + p * lanes), P::load(at.cos + p * lanes),
+                     P::load(at.rate + p * lanes), P::load(at.acceleration + p * lanes)};
+        }
       }
       rates[p] = coefficients<papers>(axis[0], axis[1], scene);
     });
@@ -328,29 +387,33 @@ struct Kernel {
       piece.position_end[i] =
           piece.position[i] + h * (piece.velocity[i] + (series[0] - series[1] / 3) / 2);
     }
-    estimate(piece, scene, result);
+    estimate<Link>(piece, scene, result);
   }
 
   // An upper bound of the ball's error from servo motions that are too fast for the nodes. A gimbal
   // acceleration acts on the ball at its height above the axes, and at its distance times the sine
   // of the tilt. A jump that is over by the first node has on average half of its initial value.
+  template <class Link>
   BBSIM_INLINE static double unseen(const Piece& piece, const Scene& scene) {
     double acceleration = 0, lost = 0, tilt = 0;
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < Link::servos; ++i) {
       const PieceAxis& axis = piece.axis[i];
       const MotionTable& motion = *axis.table;
-      acceleration += size_of(axis.ratio * (motion.missed_by_rate * axis.rate +
-                                            motion.missed_by_acceleration * axis.acceleration));
+      const double ratio = Link::direct ? axis.ratio : axis.ratio * piece.gain;
+      acceleration += size_of(ratio * (motion.missed_by_rate * axis.rate +
+                                       motion.missed_by_acceleration * axis.acceleration));
       // The larger tilt of start and end: a motion that is over by the first node may start far
       // away.
-      tilt += larger_of(size_of(piece.plane[i].sin[nodes - 1]),
-                        smaller_of(size_of(axis.ratio * axis.angle + axis.offset), 1.0));
+      if (i < 2) {
+        const double start = Link::direct ? size_of(axis.ratio * axis.angle + axis.offset)
+                                          : size_of(piece.plane_start[i].sin);
+        tilt += larger_of(size_of(piece.plane[i].sin[nodes - 1]), smaller_of(start, 1.0));
+      }
       if (!motion.lost) continue;
-      lost +=
-          size_of(axis.ratio) * (size_of(motion.lost_rate_by_rate * axis.rate +
-                                         motion.lost_rate_by_acceleration * axis.acceleration) +
-                                 size_of(motion.lost_angle_by_rate * axis.rate +
-                                         motion.lost_angle_by_acceleration * axis.acceleration));
+      lost += size_of(ratio) * (size_of(motion.lost_rate_by_rate * axis.rate +
+                                        motion.lost_rate_by_acceleration * axis.acceleration) +
+                                size_of(motion.lost_angle_by_rate * axis.rate +
+                                        motion.lost_angle_by_acceleration * axis.acceleration));
     }
     tilt += size_of(scene.rolling.sin_skew) + size_of(scene.rolling.sin_base);
     return (Rule::c[0] / 2 * piece.length * acceleration + lost) *
@@ -360,11 +423,13 @@ struct Kernel {
 
   // The error from the decay of the last Legendre coefficients, as in radau/step.hpp: the first
   // coefficient left out, integrated once for a velocity and twice for a position.
+  template <class Link>
   BBSIM_INLINE static void estimate(const Piece& piece, const Scene& scene, Attempt& result) {
     constexpr double once = 1.0 / (2 * nodes + 1);
-    result.error = unseen(piece, scene) / (scene.rtol * smaller_of(size_of(piece.velocity[0]),
-                                                                   size_of(piece.velocity[1])) +
-                                           scene.atol);
+    result.error =
+        unseen<Link>(piece, scene) /
+        (scene.rtol * smaller_of(size_of(piece.velocity[0]), size_of(piece.velocity[1])) +
+         scene.atol);
     result.worst_state = 2;
     for (int i = 0; i < 3; ++i) {
       const double* const k = piece.series[i];
@@ -399,7 +464,7 @@ struct Kernel {
     if (!is_finite(result.error)) result.converged = false;
   }
 
-  template <bool papers>
+  template <bool papers, class Link>
   [[gnu::flatten]] static void evaluate_quantities(const Piece& piece, const Scene& scene,
                                                    Range* ranges, Loads& loads) {
     P least[quantity_count], most[quantity_count];
@@ -408,16 +473,31 @@ struct Kernel {
     const bool force = scene.force || scene.loads;
     // Values at the start, from the polynomial of the accelerations and from the servos.
     double started[2];
-    Vector angles{};
 #pragma GCC unroll 2
     for (int i = 0; i < 2; ++i) {
       const double* const k = piece.series[i];
       started[i] = ((k[0] - k[1]) + (k[2] - k[3]) + ((k[4] - k[5]) + (k[6] - k[7]))) / piece.length;
-      angles[i] = piece.axis[i].ratio * piece.axis[i].angle + piece.axis[i].offset;
     }
-    const SinCos<P> waves = is_small(piece.axis[0]) && is_small(piece.axis[1])
-                                ? simd::sin_cos_of_small(P::of(angles))
-                                : sin_cos(P::of(angles));
+    model::GimbalAngle<double> plane_start[2];
+    if constexpr (Link::direct) {
+      Vector angles{};
+#pragma GCC unroll 2
+      for (int i = 0; i < 2; ++i) {
+        angles[i] = piece.axis[i].ratio * piece.axis[i].angle + piece.axis[i].offset;
+      }
+      const SinCos<P> waves = is_small(piece.axis[0]) && is_small(piece.axis[1])
+                                  ? simd::sin_cos_of_small(P::of(angles))
+                                  : sin_cos(P::of(angles));
+#pragma GCC unroll 2
+      for (int i = 0; i < 2; ++i) {
+        const PieceAxis& of = piece.axis[i];
+        plane_start[i] = {waves.sin[i], waves.cos[i], of.ratio * of.rate,
+                          of.ratio * of.acceleration};
+      }
+    } else {
+      plane_start[0] = piece.plane_start[0];
+      plane_start[1] = piece.plane_start[1];
+    }
     const model::GeneralRolling papers_rig{};
     const model::GeneralRolling& rolling = papers ? papers_rig : scene.rolling;
     for_each<packs>([&](auto p) __attribute__((always_inline)) {
@@ -441,10 +521,9 @@ struct Kernel {
 #pragma GCC unroll 2
       for (int i = 0; i < 2; ++i) {
         const Piece::Plane& of = piece.plane[i];
-        const PieceAxis& start = piece.axis[i];
-        axis[i] = {at(of.sin, waves.sin[i]), at(of.cos, waves.cos[i]),
-                   at(of.rate, start.ratio * start.rate),
-                   at(of.acceleration, start.ratio * start.acceleration)};
+        const model::GimbalAngle<double>& start = plane_start[i];
+        axis[i] = {at(of.sin, start.sin), at(of.cos, start.cos), at(of.rate, start.rate),
+                   at(of.acceleration, start.acceleration)};
       }
       const model::MovingPlane<P> plane = model::moving_plane(rolling, axis[0], axis[1]);
       take(Quantity::up, plane.up.z);
@@ -582,8 +661,12 @@ struct Kernel {
     }
   }
 
-  static constexpr Kernels kernels{{&attempt<true>, &evaluate_quantities<true>},
-                                   {&attempt<false>, &evaluate_quantities<false>},
+  template <bool papers, class Link>
+  static constexpr Kernels::Of of{&attempt<papers, Link>, &evaluate_quantities<papers, Link>};
+  static constexpr Kernels kernels{of<true, model::Direct>,
+                                   of<false, model::Direct>,
+                                   of<false, model::Linkages>,
+                                   of<false, model::ThreeServos>,
                                    &answers,
                                    &narrow,
                                    &evaluate};

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
+#include <variant>
 
 #include "base/instant.hpp"
 #include "simd/instruction_set.hpp"
@@ -15,7 +17,36 @@
 namespace bbsim::solve::sampled {
 namespace {
 
-constexpr std::size_t angle = model::RigLayout::angle, rate = model::RigLayout::rate;
+constexpr std::size_t angle = model::RigLayout::angle;
+
+// Whether nothing but the plate's motion acts on a rolling ball: no viscous couple, no push.
+template <class Link>
+bool only_rolls(const model::CoupledLoop<model::SignalPair, Link>& coupled) {
+  return coupled.by == model::GimbalBy::servos && coupled.parts.ball.law.viscous == 0 &&
+         coupled.push.on.is_zero(0) && coupled.push.on.is_zero(1);
+}
+
+// Calls `use` with the rig's loop if the servos' motion determines the plate's, which determines
+// the ball's. Returns false if it does not.
+template <class Use>
+bool with_given_plate(const model::System& system, Use use) {
+  return std::visit(
+      [&](const auto& any) {
+        using Any = std::decay_t<decltype(any)>;
+        if constexpr (std::is_same_v<Any, model::RigLoop<false>>) {
+          use(any);
+          return true;
+        } else if constexpr (model::is_coupled_loop<Any>) {
+          if constexpr (Any::pushes) {
+            if (!only_rolls(any)) return false;
+            use(any.loop);
+            return true;
+          }
+        }
+        return false;
+      },
+      system);
+}
 
 }  // namespace
 
@@ -25,19 +56,23 @@ const Kernels& choose_kernels() {
 }
 
 bool knows(const model::Model& model) {
-  if (!model.rig || !model.rig->sampled || model.dry) return false;
-  // Even sampling gives pieces of a few lengths, whose tables are made once.
-  return model.rig->sampled->sampling.is_even() &&
-         std::holds_alternative<model::RigLoop<false>>(model.system);
+  // A measured curve switches from piece to piece, which no closed form predicts.
+  if (!model.rig || !model.rig->sampled || model.dry || model.rig->between.has_pieces()) {
+    return false;
+  }
+  const bool works = model.work && !std::holds_alternative<model::RigLoop<false>>(model.system);
+  return !works && with_given_plate(model.system, [](const auto& /*loop*/) {});
 }
 
 HeldStepper::HeldStepper(const model::Model& model, const Kernels& kernels, Tolerances tolerances)
-    : model_(&model), kernels_(kernels), tables_(kernels), instants_(*model.rig->sampled) {
-  const Loop& of = loop();
-  kernel_ = of.rolling() == model::GeneralRolling{} ? kernels.papers : kernels.general;
-  scene_.radius = of.radius();
-  scene_.gravity = of.gravity();
-  scene_.rolling = of.rolling();
+    : model_(&model),
+      kernels_(kernels),
+      tables_(kernels),
+      instants_(*model.rig->sampled),
+      servos_(static_cast<std::size_t>(model.rig->servos)),
+      rate_(angle + servos_),
+      reached_(model.size()) {
+  with_given_plate(model.system, [this](const auto& loop) { take(loop); });
   scene_.rtol = tolerances.rtol;
   scene_.atol = tolerances.atol;
   scene_.gamma = model.gamma;
@@ -48,33 +83,60 @@ HeldStepper::HeldStepper(const model::Model& model, const Kernels& kernels, Tole
       if (monitor.kind == Kind::slip || monitor.kind == Kind::lift_off) scene_.force = true;
     }
   }
-  tempo_ = of.reference().highest_frequency();
   piece_.contraction = 1e-2;
 }
 
+template <class Loop>
+void HeldStepper::take(const Loop& loop) {
+  using Link = std::decay_t<decltype(loop.link)>;
+  if constexpr (std::is_same_v<Link, model::Linkages>) {
+    kernel_ = kernels_.linked;
+    scene_.linkages = &loop.link;
+  } else if constexpr (std::is_same_v<Link, model::ThreeServos>) {
+    kernel_ = kernels_.three;
+    scene_.three = &loop.link;
+    piece_.gain = 0;
+    for (int i = 0; i < Link::servos; ++i) {
+      double level[3] = {}, rates[3] = {}, none[3] = {};
+      for (int k = 0; k < Link::servos; ++k) level[k] = loop.link.leg[k].level;
+      rates[i] = 1;
+      model::GimbalAngle<double> plane[2];
+      loop.link.planes(level, rates, none, plane);
+      piece_.gain = std::max({piece_.gain, std::abs(plane[0].rate), std::abs(plane[1].rate)});
+    }
+  } else {
+    kernel_ = loop.rolling() == model::GeneralRolling{} ? kernels_.papers : kernels_.general;
+  }
+  mode_ = &loop.mode;
+  response_ = loop.servo();
+  scene_.radius = loop.radius();
+  scene_.gravity = loop.gravity();
+  scene_.rolling = loop.rolling();
+  tempo_ = loop.reference().highest_frequency();
+}
+
 void HeldStepper::take_modes() {
-  const model::RigMode& mode = loop().mode;
-  for (std::size_t i = 0; i < 2; ++i) {
-    servo_[i] = model::held_motion(loop().servo().of[i], mode.axis[i], mode.command[i],
-                                   reached_[angle + i], reached_[rate + i]);
-    piece_.axis[i].ratio = mode.axis[i].ratio;
-    piece_.axis[i].offset = mode.axis[i].offset;
+  for (std::size_t i = 0; i < servos_; ++i) {
+    servo_[i] = model::held_motion(response_.of[i], mode_->axis[i], mode_->command[i],
+                                   reached_[angle + i], reached_[rate_ + i]);
+    piece_.axis[i].ratio = mode_->axis[i].ratio;
+    piece_.axis[i].offset = mode_->axis[i].offset;
   }
 }
 
 void HeldStepper::start(double t, const double* z) {
   if (attempted_) {
     if (model_->gamma && t != time_) {
-      double row[size + 1];
+      double row[model::CoupledLayout<model::most_servos>::states + 1];
       evaluate(&t, 1, row);
-      turned_ = row[size];
+      turned_ = row[reached_.size()];
     }
     for (int i = 0; i < 3; ++i) piece_.guess[i] = piece_.acceleration_at[i][nodes - 1];
   }
   attempted_ = false;
   evaluated_ = false;
   time_ = t;
-  std::copy_n(z, size, reached_.begin());
+  std::copy_n(z, reached_.size(), reached_.begin());
   take_modes();
   settle();
 }
@@ -83,11 +145,11 @@ void HeldStepper::start(double t, const double* z) {
 void HeldStepper::settle() {
   if (attempted_) {
     for (int i = 0; i < 3; ++i) piece_.guess[i] = piece_.acceleration_at[i][nodes - 1];
-    for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t i = 0; i < servos_; ++i) {
       const model::HeldMotion& was = servo_[i];
       const MotionTable& table = *piece_.axis[i].table;
       constexpr auto row = MotionTable::acceleration;
-      servo_[i] = {was.law, reached_[angle + i], reached_[rate + i],
+      servo_[i] = {was.law, reached_[angle + i], reached_[rate_ + i],
                    table.by_rate[row][nodes - 1] * was.rate +
                        table.by_acceleration[row][nodes - 1] * was.acceleration};
     }
@@ -101,15 +163,46 @@ void HeldStepper::settle() {
 
 void HeldStepper::prepare(double length) {
   piece_.length = length;
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < servos_; ++i) {
     const model::HeldMotion& servo = servo_[i];
     PieceAxis& axis = piece_.axis[i];
-    // Both servos usually have the same law.
-    axis.table = i == 1 && servo.law == servo_[0].law ? piece_.axis[0].table
-                                                      : &tables_.of(servo.law, length);
+    // The servos usually have the same law.
+    axis.table =
+        i > 0 && servo.law == servo_[0].law ? piece_.axis[0].table : &tables_.of(servo.law, length);
     axis.angle = servo.angle;
     axis.rate = servo.rate;
     axis.acceleration = servo.acceleration;
+  }
+  if (scene_.linkages != nullptr) {
+    start_plate(*scene_.linkages);
+    piece_.gain = 0;
+    for (int i = 0; i < 2; ++i) {
+      const PieceAxis& of = piece_.axis[i];
+      const auto turn = scene_.linkages->of[i].plain_turn(of.ratio * of.angle + of.offset);
+      piece_.gain = std::max(piece_.gain, std::abs(turn.slope));
+    }
+  } else if (scene_.three != nullptr) {
+    start_plate(*scene_.three);
+  }
+}
+
+// Computes the plate's motion at the start of the piece.
+template <class Link>
+void HeldStepper::start_plate(const Link& link) {
+  double horn[Link::servos], rate[Link::servos], acting[Link::servos];
+  for (int i = 0; i < Link::servos; ++i) {
+    const PieceAxis& of = piece_.axis[i];
+    horn[i] = of.ratio * of.angle + of.offset;
+    rate[i] = of.ratio * of.rate;
+    acting[i] = of.ratio * of.acceleration;
+  }
+  if constexpr (Link::servos == 3) {
+    double sine[3], cosine[3];
+    link.directions(horn, sine, cosine);
+    piece_.pose_start = link.pose(horn, sine, cosine);
+    link.planes_in(piece_.pose_start, sine, cosine, rate, acting, piece_.plane_start);
+  } else {
+    link.planes(horn, rate, acting, piece_.plane_start);
   }
 }
 
@@ -160,20 +253,20 @@ void HeldStepper::finish() {
   reached_[1] = piece_.position_end[1];
   turned_ = piece_.position_end[2];
   for (std::size_t i = 0; i < 3; ++i) reached_[2 + i] = piece_.velocity_end[i];
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < servos_; ++i) {
     const PieceAxis& axis = piece_.axis[i];
     const auto row = [&](MotionTable::Row of) {
       return axis.table->by_rate[of][nodes - 1] * axis.rate +
              axis.table->by_acceleration[of][nodes - 1] * axis.acceleration;
     };
     reached_[angle + i] = axis.angle + row(MotionTable::angle);
-    reached_[rate + i] = row(MotionTable::rate);
+    reached_[rate_ + i] = row(MotionTable::rate);
   }
 }
 
 void HeldStepper::evaluate(const double* times, std::size_t count, double* rows) {
   constexpr std::size_t together = 16;
-  const std::size_t row = size + (model_->gamma ? 1 : 0);
+  const std::size_t row = reached_.size() + (model_->gamma ? 1 : 0);
   for (std::size_t first = 0; first < count; first += together) {
     evaluate_some(times + first, std::min(together, count - first), rows + first * row);
   }
@@ -230,10 +323,12 @@ void HeldStepper::evaluate_some(const double* times, std::size_t count, double* 
     others = others || known[i] == nullptr;
   }
   if (others) kernels_.evaluate(piece_, after, count, ball);
+  const std::size_t size = reached_.size();
   for (std::size_t i = 0; i < count; ++i) {
     double* const row = rows + i * (size + (model_->gamma ? 1 : 0));
-    if (is_end(i)) {  // a row at the end is exactly the state there
-      std::copy(reached_.begin(), reached_.end(), row);
+    // A row at the end is exactly the state there. States beside the ball's and the servos' stay.
+    std::copy(reached_.begin(), reached_.end(), row);
+    if (is_end(i)) {
       if (model_->gamma) row[size] = turned_;
       continue;
     }
@@ -241,20 +336,20 @@ void HeldStepper::evaluate_some(const double* times, std::size_t count, double* 
     std::copy_n(ball[i], 5, row);
     if (model_->gamma) row[size] = ball[i][5];
     const model::ImpulseAnswer* answer = nullptr;
-    for (std::size_t k = 0; k < 2; ++k) {
+    for (std::size_t k = 0; k < servos_; ++k) {
       const model::HeldMotion& servo = servo_[k];
       if (k == 0 || !(servo.law == servo_[0].law)) {
         answer = &instants_.answer(servo.law, time_, after[i]);
       }
       const model::HeldMotion::Instant at = servo.after(*answer);
       row[angle + k] = at.angle;
-      row[rate + k] = at.rate;
+      row[rate_ + k] = at.rate;
     }
   }
 }
 
 std::vector<double> HeldStepper::state() const {
-  return {reached_.begin(), reached_.end()};
+  return reached_;
 }
 
 // As for radau, if 8 nodes just resolve the motion. Usually half as many would do.
@@ -275,10 +370,34 @@ bool HeldStepper::no_monitor_changes(const std::vector<char>& occurring) {
   if (!attempted_) return false;
   for (std::size_t m = 0; m < occurring.size(); ++m) {
     const auto range_of = [this](Quantity quantity) { return range(quantity); };
+    if (model_->events->monitors[m].kind == model::Monitor::Kind::dead_point) {
+      if (occurring[m] != 0 || !stays_off_dead_points()) return false;
+      continue;
+    }
     if (!stays_in_range(model_->events->monitors[m], model_->events->plate, occurring[m] != 0,
                         range_of)) {
       return false;
     }
+  }
+  return true;
+}
+
+// Whether the mechanism is certain to stay within its range over the last step.
+bool HeldStepper::stays_off_dead_points() const {
+  if (scene_.three != nullptr) {
+    for (const auto& edge : piece_.edges) {
+      const auto [least, most] = std::minmax_element(edge, edge + nodes);
+      if (!(widened({*least, *most}).least > 0)) return false;
+    }
+    return true;
+  }
+  for (std::size_t i = 0; i < servos_; ++i) {
+    const PieceAxis& axis = piece_.axis[i];
+    const model::MotionReach to = model::reach(servo_[i], piece_.length);
+    const double center = axis.ratio * to.centre + axis.offset;
+    const double most = std::abs(axis.ratio) * to.angle_most;
+    const model::LinkCurve& curve = scene_.linkages->of[i];
+    if (!(center - most > curve.low && center + most < curve.high)) return false;
   }
   return true;
 }

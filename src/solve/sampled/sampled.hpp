@@ -46,15 +46,12 @@ class HeldStepper : public Stepper {
   [[nodiscard]] std::size_t detail() const override { return nodes; }
   [[nodiscard]] std::size_t parts() const override;
 
-  [[nodiscard]] const std::array<model::HeldMotion, 2>* servos() const override { return &servo_; }
+  [[nodiscard]] const model::HeldMotions* servos() const override { return &servo_; }
   [[nodiscard]] bool no_monitor_changes(const std::vector<char>& occurring) override;
   [[nodiscard]] std::optional<Bounds> bounds(Load load, const model::BallConstants& constants,
                                              bool closely) override;
 
  private:
-  using Loop = model::RigLoop<false>;
-  static constexpr std::size_t size = Loop::size;
-
   // The contribution of each coefficient of an acceleration's series to the velocity and to the
   // position, `after` seconds into a piece of `length` s.
   struct Shares {
@@ -64,10 +61,14 @@ class HeldStepper : public Stepper {
     void evaluate(const Piece& piece, double (&ball)[6]) const;
   };
 
-  [[nodiscard]] const Loop& loop() const { return std::get<Loop>(model_->system); }
+  template <class Loop>
+  void take(const Loop& loop);
   void take_modes();
   void settle();
   void prepare(double length);
+  template <class Link>
+  void start_plate(const Link& link);
+  [[nodiscard]] bool stays_off_dead_points() const;
   void finish();
   void evaluate_some(const double* times, std::size_t count, double* rows);
   [[nodiscard]] const Shares* shares(double after);
@@ -82,8 +83,11 @@ class HeldStepper : public Stepper {
   Instants instants_;
   std::array<Shares, 4> shares_{};  // two instants within pieces of each of two lengths
   std::size_t next_shares_ = 0;
-  std::array<model::HeldMotion, 2> servo_{};    // from the start of the last step
-  std::array<double, size> reached_{};          // states at its end
+  std::size_t servos_, rate_;  // how many; the index of the first one's rate
+  const model::RigMode* mode_ = nullptr;
+  model::ServoResponses response_;
+  model::HeldMotions servo_{};                  // from the start of the last step
+  std::vector<double> reached_;                 // states at its end
   std::array<Range, quantity_count> ranges_{};  // of the last step
   Loads at_points_{};
   std::array<Range, 3> close_{};

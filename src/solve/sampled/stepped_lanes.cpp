@@ -23,7 +23,7 @@ class SteppedLanes::Motion : public Stepper {
   // Enough if 8 nodes just resolve the motion.
   [[nodiscard]] std::size_t parts() const override { return 2 * nodes; }
   // GuardSearch only checks that this is not null.
-  [[nodiscard]] const std::array<model::HeldMotion, 2>* servos() const override { return &servos_; }
+  [[nodiscard]] const model::HeldMotions* servos() const override { return &servos_; }
 
   // Unused: no driver steps this object.
   void start(double, const double*) override {}
@@ -36,7 +36,7 @@ class SteppedLanes::Motion : public Stepper {
  private:
   const LaneStep& step_;
   std::size_t lane_;
-  std::array<model::HeldMotion, 2> servos_{};
+  model::HeldMotions servos_{};
 };
 
 SteppedLanes::SteppedLanes(Tolerances tolerances) : LaneEngine(tolerances) {
