@@ -394,9 +394,11 @@ std::array<double, 3> Between::told(Pair wanted) const {
 Pair Between::tilt(const std::array<double, 3>& servo) const {
   const double at[3] = {servo[0], servo[1], servo[2]};
   if (!(three->margin(at) > 0)) return {no_number, no_number};
-  double plane[2];
-  three->angles(at, plane);
-  return {plane[0] - three->offset[0], plane[1] - three->offset[1]};
+  const double none[3] = {};
+  GimbalAngle<double> axis[2];
+  three->planes(at, none, none, axis);
+  return {std::atan2(axis[0].sin, axis[0].cos) - three->offset[0],
+          std::atan2(axis[1].sin, axis[1].cos) - three->offset[1]};
 }
 
 void Between::believed(const double* servo, const double* rate, double (&into)[4]) const {

@@ -394,15 +394,6 @@ struct ThreeServos {
     return whole;
   }
 
-  void angles(const double (&servo)[3], double (&plane)[2]) const {
-    double sine[3], cosine[3];
-    directions(servo, sine, cosine);
-    const Pose<double> at = pose(servo, sine, cosine);
-    const double theta = std::asin(-at.q);
-    plane[0] = std::asin(at.p / std::cos(theta)) + offset[0];
-    plane[1] = theta + offset[1];
-  }
-
   // The servo angles (from home) for these tilts at the height of home: (M60) and (M55).
   template <class Real>
   void told(const Real (&wanted)[2], Real (&servo)[3]) const {

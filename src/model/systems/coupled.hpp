@@ -422,14 +422,18 @@ class CoupledLoop {
     if constexpr (pushes) {
       const auto now = push.on.at(t);
       sample.push = {now[0].value, now[1].value};
+    }
+    return sample;
+  }
+  // The sample in the present mode, for monitors: with the distance from a dead point.
+  [[nodiscard]] Sample sample(double t, const double* z, Detail = Detail::all) const {
+    Sample sample = this->sample(t, z, extras(t, z));
+    if constexpr (!Link::direct) {
       double horn[servos];
       loop.horns(z, horn);
       sample.to_dead_point = loop.link.margin(horn);
     }
     return sample;
-  }
-  [[nodiscard]] Sample sample(double t, const double* z, Detail = Detail::all) const {
-    return sample(t, z, extras(t, z));
   }
 
   [[nodiscard]] const Signals& reference() const { return loop.reference(); }

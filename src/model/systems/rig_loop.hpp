@@ -8,6 +8,7 @@
 // is as smooth as equation (27). HybridSystem decides when the mode switches.
 #pragma once
 
+#include <cmath>
 #include <cstring>
 #include <type_traits>
 
@@ -283,9 +284,13 @@ class RigLoop {
     } else {
       GimbalAngle<double> axis[2];
       planes(z, acceleration, axis);
-      double horn[servos];
-      horns(z, horn);
-      link.angles(horn, extras.angle);
+      if constexpr (servos == 3) {  // less than half a turn
+        for (int i = 0; i < 2; ++i) extras.angle[i] = std::atan2(axis[i].sin, axis[i].cos);
+      } else {
+        double horn[servos];
+        horns(z, horn);
+        link.angles(horn, extras.angle);
+      }
       for (int i = 0; i < 2; ++i) {
         extras.rate[i] = axis[i].rate;
         extras.acceleration[i] = axis[i].acceleration;
