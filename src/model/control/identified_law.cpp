@@ -27,7 +27,7 @@ MatrixXd hankel(const PulseResponse& response, Index first, Index blocks) {
   return of;
 }
 
-double largest_of(const PulseResponse& response) {
+double largest_number(const PulseResponse& response) {
   double largest = 0;
   for (const MatrixXd& one : response) largest = std::max(largest, one.cwiseAbs().maxCoeff());
   return largest;
@@ -59,7 +59,7 @@ std::optional<LinearSystem> law_of(const PulseResponse& response, double noise) 
   }
   law.a = product(transposed(left), product(next, right));
 
-  const double near = 0.02 * largest_of(response);
+  const double near = 0.02 * largest_number(response);
   MatrixXd state = law.b;
   for (std::size_t k = 1; k < response.size(); ++k) {
     const MatrixXd off = product(law.c, state) - response[k];
