@@ -26,12 +26,14 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// phi and theta of a plate on three servos at these angles, rad.
+// phi and theta of a plate on three servos at these angles, rad, from its normal: (M61).
 void angles_of(const model::ThreeServos& three, const double (&servo)[3], double (&plane)[2]) {
-  const double none[3] = {};
-  model::GimbalAngle<double> axis[2];
-  three.planes(servo, none, none, axis);
-  for (int i = 0; i < 2; ++i) plane[i] = std::atan2(axis[i].sin, axis[i].cos);
+  double sine[3], cosine[3];
+  three.directions(servo, sine, cosine);
+  const auto at = three.pose(servo, sine, cosine);
+  const double theta = std::asin(-at.q);
+  plane[0] = std::asin(at.p / std::cos(theta)) + three.offset[0];
+  plane[1] = theta + three.offset[1];
 }
 
 // Horn, arm and rod of a desktop rig, all different.
@@ -518,6 +520,7 @@ TEST_CASE("three servos: rates and accelerations of the plane are derivatives of
     angles_of(three, at, plane[k + 2]);
   }
   for (int i = 0; i < 2; ++i) {
+    CHECK(std::abs(std::atan2(axis[i].sin, axis[i].cos) - plane[2][i]) < 1e-15);
     const double first = (8 * (plane[3][i] - plane[1][i]) - (plane[4][i] - plane[0][i])) / (12 * h);
     const double second =
         (16 * (plane[3][i] + plane[1][i]) - (plane[4][i] + plane[0][i]) - 30 * plane[2][i]) /

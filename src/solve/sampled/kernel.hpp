@@ -78,6 +78,7 @@ struct alignas(64) Piece {
   // rate of one servo.
   model::GimbalAngle<double> plane_start[2];
   model::ThreeServos::Pose<double> pose_start;
+  double edges_start[model::ThreeServos::edge_count];
   double gain;
 };
 

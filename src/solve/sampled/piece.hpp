@@ -139,18 +139,21 @@ struct Kernel {
     return mask;
   }
 
+  // How far a servo's angle has moved since the start, its rate or its acceleration, at the nodes
+  // of a pack.
+  BBSIM_INLINE static P motion_at(const PieceAxis& axis, MotionTable::Row row, int p) {
+    return P::load(axis.table->by_rate[row] + p * lanes) * P(axis.rate) +
+           P::load(axis.table->by_acceleration[row] + p * lanes) * P(axis.acceleration);
+  }
+
   // The plate's axis at the nodes of a pack.
   BBSIM_INLINE static model::GimbalAngle<P> plane_axis(const PieceAxis& axis, int p, bool small) {
-    const MotionTable& motion = *axis.table;
-    const auto row = [&](MotionTable::Row of) __attribute__((always_inline)) {
-      return P::load(motion.by_rate[of] + p * lanes) * P(axis.rate) +
-             P::load(motion.by_acceleration[of] + p * lanes) * P(axis.acceleration);
-    };
     const P ratio(axis.ratio);
-    const P angle = P(axis.ratio * axis.angle + axis.offset) + ratio * row(MotionTable::angle);
+    const P angle =
+        P(axis.ratio * axis.angle + axis.offset) + ratio * motion_at(axis, MotionTable::angle, p);
     const SinCos<P> wave = small ? simd::sin_cos_of_small(angle) : sin_cos(angle);
-    return {wave.sin, wave.cos, ratio * row(MotionTable::rate),
-            ratio * row(MotionTable::acceleration)};
+    return {wave.sin, wave.cos, ratio * motion_at(axis, MotionTable::rate, p),
+            ratio * motion_at(axis, MotionTable::acceleration, p)};
   }
 
   // Whether the plate's angle stays within pi/4.
@@ -205,14 +208,10 @@ struct Kernel {
       P horn[servos], rate[servos], acting[servos];
       for (int i = 0; i < servos; ++i) {
         const PieceAxis& of = piece.axis[i];
-        const auto row = [&](MotionTable::Row of_motion) {
-          return P::load(of.table->by_rate[of_motion] + p * lanes) * P(of.rate) +
-                 P::load(of.table->by_acceleration[of_motion] + p * lanes) * P(of.acceleration);
-        };
         const P ratio(of.ratio);
-        horn[i] = P(of.ratio * of.angle + of.offset) + ratio * row(MotionTable::angle);
-        rate[i] = ratio * row(MotionTable::rate);
-        acting[i] = ratio * row(MotionTable::acceleration);
+        horn[i] = P(of.ratio * of.angle + of.offset) + ratio * motion_at(of, MotionTable::angle, p);
+        rate[i] = ratio * motion_at(of, MotionTable::rate, p);
+        acting[i] = ratio * motion_at(of, MotionTable::acceleration, p);
       }
       model::GimbalAngle<P> axis[2];
       if constexpr (servos == 3) {

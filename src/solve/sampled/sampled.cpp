@@ -200,7 +200,9 @@ void HeldStepper::start_plate(const Link& link) {
     double sine[3], cosine[3];
     link.directions(horn, sine, cosine);
     piece_.pose_start = link.pose(horn, sine, cosine);
-    link.planes_in(piece_.pose_start, sine, cosine, rate, acting, piece_.plane_start);
+    const double whole =
+        link.planes_in(piece_.pose_start, sine, cosine, rate, acting, piece_.plane_start);
+    link.edges(piece_.pose_start, sine, cosine, whole, piece_.edges_start);
   } else {
     link.planes(horn, rate, acting, piece_.plane_start);
   }
@@ -385,7 +387,10 @@ bool HeldStepper::no_monitor_changes(const std::vector<char>& occurring) {
 // Whether the mechanism is certain to stay within its range over the last step.
 bool HeldStepper::stays_off_dead_points() const {
   if (scene_.three != nullptr) {
-    for (const auto& edge : piece_.edges) {
+    for (int k = 0; k < model::ThreeServos::edge_count; ++k) {
+      double edge[nodes];  // the start replaces the first node, as for all ranges
+      std::copy_n(piece_.edges[k], nodes, edge);
+      edge[0] = piece_.edges_start[k];
       const auto [least, most] = std::minmax_element(edge, edge + nodes);
       if (!(widened({*least, *most}).least > 0)) return false;
     }

@@ -23,8 +23,8 @@ namespace bbsim::solve::sampled {
 // BBSIM_SIMD is set, but not to an instruction set of this processor.
 [[nodiscard]] const Kernels& choose_kernels();
 
-// Whether HeldStepper can run the model: its command is held between samples, and its servos move
-// in closed form in every mode.
+// Whether HeldStepper can run the model: its command is held between samples, its servos move in
+// closed form in every mode, and nothing but their motion moves the plate and the ball.
 [[nodiscard]] bool knows(const model::Model& model);
 
 // A stepper for models that pass knows(). A step usually reaches its limit, because pieces are
