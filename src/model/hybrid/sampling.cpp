@@ -46,7 +46,9 @@ void Sampling::take(double t, double end, const double* z) {
   const double* const angle = z + SwitchedModel::angle;
   const double* const rate = z + model_.rate();
   double servo[4] = {angle[0], angle[1], rate[0], rate[1]};
-  if (!is_direct_) model_.rig().between.believed(angle, rate, servo);
+  if (!is_direct_ && controller_.law().law.feeds_servos_back()) {
+    model_.rig().between.believed(angle, rate, servo);
+  }
   const Pair command = controller_.command(seen, servo, reference_at(t));
   this->end(command, controller_.last_seen());
 }

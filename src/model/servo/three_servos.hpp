@@ -285,39 +285,52 @@ struct ThreeServos {
     return step[0] * step[0] + step[1] * step[1] + rise * rise;
   }
 
-  // The pose at these servo angles. From home, Newton's iteration follows the plate while the
-  // servos go to their angles in equal parts: directly from home it may end in another solution. It
-  // starts from `near`, the pose a short motion before, if that is given. It then goes on until its
-  // steps are small, which takes many only near the edge of the workspace. All this needs no
-  // derivatives. The last steps square the error, and provide them.
-  template <class Real>
-  [[nodiscard]] Pose<Real> pose(const Real (&servo)[3], const Real (&sine)[3],
-                                const Real (&cosine)[3], const Pose<double>* near = nullptr) const {
-    using Value = std::decay_t<decltype(value_of(servo[0]))>;
-    constexpr int parts = 4, most_steps = 40, last_steps = std::is_same_v<Real, Value> ? 1 : 2;
-    constexpr double small = 1e-18;  // the square of a step
-    Pose<Value> at{Value(0.0), Value(0.0), Value(leg[0].height)}, next;
-    Value between[3], s[3], c[3], whole;
-    if (near != nullptr) at = {Value(near->p), Value(near->q), Value(near->z)};
-    for (int k = 1; k < parts && near == nullptr; ++k) {
+  // Where Newton's iteration gets from the pose `known`, which belongs to the angles `from`, while
+  // the servos go to their angles in equal parts: one step for each part but the last. From far
+  // away the iteration may end in another solution.
+  template <class Known, class Value>
+  [[nodiscard]] Pose<Value> follow(const Pose<Known>& known, const Known (&from)[3],
+                                   const Value (&servo)[3], int parts) const {
+    Pose<Value> at{Value(known.p), Value(known.q), Value(known.z)}, next;
+    Value between[3], sine[3], cosine[3], whole;
+    for (int k = 1; k < parts; ++k) {
+      const double part = static_cast<double>(k) / parts;
       for (int i = 0; i < 3; ++i) {
-        const double from = leg[i].level, part = static_cast<double>(k) / parts;
-        between[i] = part * value_of(servo[i]) + Value((1 - part) * from);
+        between[i] = part * servo[i] + Value((1 - part) * from[i]);
       }
-      directions(between, s, c);
-      newton_step(s, c, at, next, whole);
+      directions(between, sine, cosine);
+      newton_step(sine, cosine, at, next, whole);
       at = next;
     }
+    return at;
+  }
+  // The number of parts for servos that move this far, rad.
+  [[nodiscard]] static int parts_for(double motion) {
+    constexpr double far = 0.25, most = 64;
+    return motion < far ? 1 : motion < most * far ? 1 + static_cast<int>(motion / far) : 64;
+  }
+
+  // The pose in these directions of the horns near a pose. Newton's iteration goes on until its
+  // steps are small, which takes many only near the edge of the workspace. This needs no
+  // derivatives. The last steps square the error, and provide them.
+  template <class Real, class Value>
+  [[nodiscard]] Pose<Real> pose_near(Pose<Value> at, const Real (&sine)[3],
+                                     const Real (&cosine)[3]) const {
+    constexpr int most_steps = 40, last_steps = std::is_same_v<Real, Value> ? 1 : 2;
+    constexpr double small = 1e-12;  // the square of a step
+    Pose<Value> next;
+    Value s[3], c[3], whole;
     for (int i = 0; i < 3; ++i) {
       s[i] = value_of(sine[i]);
       c[i] = value_of(cosine[i]);
     }
+    auto goes_on = exceeds(Value(1.0), Value(0.0));
     for (int k = 0; k < most_steps; ++k) {
       const Value square = newton_step(s, c, at, next, whole);
       // A lane that has arrived waits for the others, so that its result does not depend on them.
-      const auto goes_on = exceeds(square, Value(small));
       at = {choose(goes_on, next.p, at.p), choose(goes_on, next.q, at.q),
             choose(goes_on, next.z, at.z)};
+      goes_on = goes_on & exceeds(square, Value(small));
       if (!(largest_of(square) > small)) break;
     }
     Pose<Real> pose{Real(at.p), Real(at.q), Real(at.z)}, better;
@@ -327,6 +340,37 @@ struct ThreeServos {
       pose = better;
     }
     return pose;
+  }
+
+  // The pose at home, and the servos' angles there, rad.
+  [[nodiscard]] Pose<double> home(double (&servo)[3]) const {
+    for (int i = 0; i < 3; ++i) servo[i] = leg[i].level;
+    return {0, 0, leg[0].height};
+  }
+
+  // The pose at these servo angles, followed from home.
+  template <class Real>
+  [[nodiscard]] Pose<Real> pose(const Real (&servo)[3], const Real (&sine)[3],
+                                const Real (&cosine)[3]) const {
+    using Value = std::decay_t<decltype(value_of(servo[0]))>;
+    constexpr int parts = 4;
+    const Value to[3] = {value_of(servo[0]), value_of(servo[1]), value_of(servo[2])};
+    double from[3];
+    const Pose<double> known = home(from);
+    return pose_near(follow(known, from, to, parts), sine, cosine);
+  }
+
+  // The derivatives of p, q and z by the servos' angles.
+  void pose_slopes(const Pose<double>& at, const double (&sine)[3], const double (&cosine)[3],
+                   double (&by)[3][3]) const {
+    Slopes<double> m[3];
+    slopes(at, sine, cosine, m);
+    for (int i = 0; i < 3; ++i) {
+      double right[3] = {}, moved[3];
+      right[i] = -(m[i].of_horn * leg[i].turns);
+      solve(m, right, moved);
+      for (int k = 0; k < 3; ++k) by[k][i] = moved[k];
+    }
   }
 
   // How far the servos are from the edge of the workspace in a pose: the determinant over its value

@@ -77,7 +77,8 @@ struct alignas(64) Piece {
   // Behind a mechanism: the plate at the start, and the greatest rate of phi or theta for a unit
   // rate of one servo.
   model::GimbalAngle<double> plane_start[2];
-  model::ThreeServos::Pose<double> pose_start;
+  model::ThreeServos::Pose<double> pose_start, pose_end;
+  double pose_slopes[3][3];  // at the start (ThreeServos::pose_slopes)
   double edges_start[model::ThreeServos::edge_count];
   double gain;
 };

@@ -198,12 +198,30 @@ struct Kernel {
   // about the next piece.
   static constexpr double least_contraction = 1e-2;
 
+  // A pose near that for these angles of the horns, which move by less than 0.25 rad in a part.
+  BBSIM_INLINE static model::ThreeServos::Pose<P> pose_towards(const Piece& piece,
+                                                               const model::ThreeServos& link,
+                                                               const P (&horn)[3], int parts) {
+    double from[3];
+    for (int i = 0; i < 3; ++i) {
+      from[i] = piece.axis[i].ratio * piece.axis[i].angle + piece.axis[i].offset;
+    }
+    const auto& start = piece.pose_start;
+    if (parts > 1) return link.follow(start, from, horn, parts);
+    P at[3] = {P(start.p), P(start.q), P(start.z)};
+    for (int k = 0; k < 3; ++k) {
+      for (int i = 0; i < 3; ++i) at[k] += P(piece.pose_slopes[k][i]) * (horn[i] - P(from[i]));
+    }
+    return {at[0], at[1], at[2]};
+  }
+  BBSIM_INLINE static double last_of(P values) { return values.v[lanes - 1]; }
+
   // Computes the plate's motion at the nodes from that of the horns.
   template <class Link>
   static void move_plate(Piece& piece, const Link& link) {
     constexpr int servos = Link::servos;
-    [[maybe_unused]] bool is_short = true;  // the pose at the start leads to that at the nodes
-    for (int i = 0; i < servos; ++i) is_short = is_short && motion_of(piece.axis[i]) < 0.25;
+    [[maybe_unused]] double motion = 0;
+    for (int i = 0; i < servos; ++i) motion = larger_of(motion, motion_of(piece.axis[i]));
     for (int p = 0; p < packs; ++p) {
       P horn[servos], rate[servos], acting[servos];
       for (int i = 0; i < servos; ++i) {
@@ -217,7 +235,9 @@ struct Kernel {
       if constexpr (servos == 3) {
         P sine[3], cosine[3], edges[Link::edge_count];
         link.directions(horn, sine, cosine);
-        const auto pose = link.pose(horn, sine, cosine, is_short ? &piece.pose_start : nullptr);
+        const auto pose =
+            link.pose_near(pose_towards(piece, link, horn, Link::parts_for(motion)), sine, cosine);
+        piece.pose_end = {last_of(pose.p), last_of(pose.q), last_of(pose.z)};
         const P whole = link.planes_in(pose, sine, cosine, rate, acting, axis);
         link.edges(pose, sine, cosine, whole, edges);
         for (int k = 0; k < Link::edge_count; ++k) edges[k].store(piece.edges[k] + p * lanes);

@@ -95,6 +95,7 @@ void HeldStepper::take(const Loop& loop) {
   } else if constexpr (std::is_same_v<Link, model::ThreeServos>) {
     kernel_ = kernels_.three;
     scene_.three = &loop.link;
+    pose_ = loop.link.home(pose_angles_);
     piece_.gain = 0;
     for (int i = 0; i < Link::servos; ++i) {
       double level[3] = {}, rates[3] = {}, none[3] = {};
@@ -199,7 +200,12 @@ void HeldStepper::start_plate(const Link& link) {
   if constexpr (Link::servos == 3) {
     double sine[3], cosine[3];
     link.directions(horn, sine, cosine);
-    piece_.pose_start = link.pose(horn, sine, cosine);
+    double motion = 0;
+    for (int i = 0; i < 3; ++i) motion = std::max(motion, std::abs(horn[i] - pose_angles_[i]));
+    const auto near = link.follow(pose_, pose_angles_, horn, Link::parts_for(motion));
+    piece_.pose_start = pose_ = link.pose_near(near, sine, cosine);
+    std::copy_n(horn, 3, pose_angles_);
+    link.pose_slopes(pose_, sine, cosine, piece_.pose_slopes);
     const double whole =
         link.planes_in(piece_.pose_start, sine, cosine, rate, acting, piece_.plane_start);
     link.edges(piece_.pose_start, sine, cosine, whole, piece_.edges_start);
@@ -263,7 +269,9 @@ void HeldStepper::finish() {
     };
     reached_[angle + i] = axis.angle + row(MotionTable::angle);
     reached_[rate_ + i] = row(MotionTable::rate);
+    if (scene_.three != nullptr) pose_angles_[i] = axis.ratio * reached_[angle + i] + axis.offset;
   }
+  if (scene_.three != nullptr) pose_ = piece_.pose_end;
 }
 
 void HeldStepper::evaluate(const double* times, std::size_t count, double* rows) {

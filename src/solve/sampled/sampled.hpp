@@ -99,7 +99,10 @@ class HeldStepper : public Stepper {
   double last_error_ = 0;
   double tempo_ = 0;        // of the reference, rad/s
   bool attempted_ = false;  // a step was made that is not yet the present state
-  double turned_ = 0;       // integral of u at the step's end, m
+  // A pose of three servos that is near, and the horns' angles in it, rad.
+  model::ThreeServos::Pose<double> pose_{};
+  double pose_angles_[3]{};
+  double turned_ = 0;  // integral of u at the step's end, m
   std::size_t worst_state_ = 0;
   Statistics statistics_;
 };
