@@ -117,7 +117,9 @@ std::optional<model::Model> Environments::model_for_lane(const Scenario& scenari
     return {};
   }
   try {
-    model::Model model = model::assemble(commanded, false);
+    scenario::Integrals integrals = false;  // rows come from single runs
+    integrals.work = false;
+    model::Model model = model::assemble(commanded, integrals);
     if (!solve::sampled::moves(model)) return {};
     model.rig->sampled->external = std::make_shared<Unasked>();
     return model;

@@ -27,8 +27,18 @@ bool is_carried(const Scenario& scenario, const model::Model& model) {
          solve::sampled::carries(model);
 }
 
+// The model of a case without gamma, which lanes lack.
+model::Model model_of(const Scenario& scenario, const SweepTask& task) {
+  scenario::Integrals integrals = false;
+  integrals.work = scenario::any_needs(task.measures, scenario::Needs::work);
+  return model::assemble(scenario, integrals);
+}
+
 const model::SignalPair& reference_of(const model::Model& model) {
-  return std::get<model::RigLoop<false>>(model.system).reference();
+  const model::SignalPair* reference = nullptr;
+  solve::sampled::with_given_plate(model.system,
+                                   [&](const auto& loop) { reference = &loop.reference(); });
+  return *reference;
 }
 
 bool share_reference(const SweepPlan& plan) {
@@ -75,7 +85,7 @@ class RigCarrier : public GroupCarrier {
   void take(GroupCase& one) {
     try {
       const Scenario& scenario = scenario_.at(one.number, one.values);
-      model::Model model = model::assemble(scenario, false);
+      model::Model model = model_of(scenario, task_);
       if (!is_carried(scenario, model) || solve::OutputGrid(scenario.time) != grid_ ||
           scenario.solver.rtol != tolerances_.rtol || scenario.solver.atol != tolerances_.atol ||
           (!rigs_.empty() && !solve::sampled::go_together(rigs_.front().model, model)) ||
@@ -113,7 +123,7 @@ bool can_use_rig_lanes(const SweepTask& task) {
       const Scenario scenario =
           task.family.read(task.plan.settings(sample_case(i, task.plan.cases())));
       if (!scenario.controller) return false;
-      if (is_carried(scenario, model::assemble(scenario, false))) ++found;
+      if (is_carried(scenario, model_of(scenario, task))) ++found;
     } catch (const InputError&) {  // reported when the case is run
       continue;
     }

@@ -649,6 +649,35 @@ TEST_CASE("rigs in lanes are those of single runs") {
                           {{"controller.gravity_compensation.kp", "uniform:6:14"}},
                           {"time.end=4", "controller.reference=" + reference}, loop_measures, 14));
   }
+  SECTION("behind push rods, which the controller inverts or takes for a ratio") {
+    const std::string law = GENERATE("gravity_compensation: {kp: 5, kv: 5}",
+                                     "lqr: {position: 60, velocity: 1, angle: 1, rate: 0.1, "
+                                     "command: 20}");
+    const std::string assumes = GENERATE("ratio", "exact");
+    CAPTURE(law, assumes);
+    check_rig_lanes(Setup(
+        "configs/pushrod.yaml",
+        {{"gimbal.linkage.horn", "uniform:2 cm:2.6 cm"}, {"controller.sensor.seed", "list:1,2,3"}},
+        {"time.end=4", "controller={" + law + ", drives: angle, assumes: " + assumes +
+                           ", limit: 15 deg, reference: {circle: "
+                           "{radius: 5 cm, rate: -0.3}}, sampling: {period: "
+                           "20 ms, delay: 10 ms, jitter: 1 ms}, sensor: "
+                           "{noise: 0.3 mm}}"},
+        loop_measures, 5));
+  }
+  SECTION("on three legs, with hollow balls") {
+    const std::string assumes = GENERATE("ratio", "exact");
+    check_rig_lanes(Setup("configs/three-servos.yaml",
+                          {{"controller.gravity_compensation.kp", "uniform:4:8"},
+                           {"gimbal.three_servos.rod", "uniform:9.8 cm:10.2 cm"}},
+                          {"time.end=4", "controller.assumes=" + assumes}, loop_measures, 14));
+  }
+  SECTION("any ball on a plate above the axes, turned about its normal") {
+    check_rig_lanes(Setup("configs/rig.yaml",
+                          {{"ball.inertia_factor", "uniform:0.4:0.667"},
+                           {"gimbal.mounting.height", "uniform:0:4 cm"}},
+                          {"time.end=4", "gimbal.mounting={yaw: 20 deg}"}, loop_measures, 14));
+  }
   SECTION("a controller's command at the end") {
     check_rig_lanes(Setup("configs/rig.yaml", gains_and_seeds, {"time.end=2.005"},
                           {"end_phi_command", "end_x_measured", "end_vx", "end_phi", "end_x"}, 5));

@@ -27,22 +27,22 @@ template <class Real>
 
 // The plane's motion: the axes a_theta and a_phi about which the angles turn it, the upward
 // vertical, its angular velocity Omega and acceleration; (M15) to (M17).
-template <class Real>
+template <class Real, class Number = double>
 struct MovingPlane {
-  double theta_axis[2];  // z: 0
+  Number theta_axis[2];  // z: 0
   Vector3<Real> phi_axis, up, omega, omega_dot;
 };
 
-template <class Real>
-[[nodiscard]] inline MovingPlane<Real> moving_plane(const GeneralRolling& rolling,
-                                                    const GimbalAngle<Real>& phi,
-                                                    const GimbalAngle<Real>& theta) {
+template <class Real, class Number>
+[[nodiscard]] inline MovingPlane<Real, Number> moving_plane(const GeneralRollingOf<Number>& rolling,
+                                                            const GimbalAngle<Real>& phi,
+                                                            const GimbalAngle<Real>& theta) {
   const auto plane = rolling.kinematics(phi, theta);
   const auto& a = plane.theta_axis;
   const auto& b = plane.phi_axis;
   const auto& slope = plane.phi_axis_slope;
   const Real both = phi.rate * theta.rate;
-  MovingPlane<Real> motion{
+  MovingPlane<Real, Number> motion{
       {a[0], a[1]}, {b[0], b[1], b[2]}, {plane.up[0], plane.up[1], plane.up[2]}, {}, {}};
   motion.omega = {a[0] * theta.rate + b[0] * phi.rate, a[1] * theta.rate + b[1] * phi.rate,
                   b[2] * phi.rate};
@@ -54,11 +54,11 @@ template <class Real>
 
 // Contact force per mass of the ball, m/s^2: (M5). x_ddot, y_ddot: acceleration of the ball in the
 // plane; height: of the plane above the gimbal's center, m; r: radius of the ball, m.
-template <class Real, class Ball, class Scalar>
-[[nodiscard]] inline Vector3<Real> force_by_mass(const MovingPlane<Real>& plane, const Ball& ball,
-                                                 const Real& x_ddot, const Real& y_ddot,
-                                                 const Scalar& height, const Scalar& r,
-                                                 const Scalar& g) {
+template <class Real, class Number, class Ball, class Scalar>
+[[nodiscard]] inline Vector3<Real> force_by_mass(const MovingPlane<Real, Number>& plane,
+                                                 const Ball& ball, const Real& x_ddot,
+                                                 const Real& y_ddot, const Scalar& height,
+                                                 const Scalar& r, const Scalar& g) {
   const Vector3<Real> centre{ball.x, ball.y, Real(height + r)};
   const Vector3<Real>& omega = plane.omega;
   const Vector3<Real> turned = cross(omega, cross(omega, centre));

@@ -14,28 +14,30 @@ namespace bbsim::model {
 // The plane's kinematics for R = Ry(phi) Rz(skew) Rx(theta) Rz(yaw - skew) on a base tilted about
 // its x axis, in the plane's frame: (M15) to (M17). phi_axis_slope is the derivative of phi_axis
 // with respect to theta.
-template <class Theta, class Both>
+template <class Theta, class Both, class Number = double>
 struct PlaneKinematics {
-  double theta_axis[2];  // z: 0
+  Number theta_axis[2];  // z: 0
   Theta phi_axis[3], phi_axis_slope[3];
   Both up[3];
 };
 
-// Replaces Equation27 in a system. For the paper's rig it equals (27) up to rounding.
-struct GeneralRolling {
-  double k = 0.4;     // kappa: the ball's moment of inertia over m r^2
-  double height = 0;  // of the contact plane above the gimbal's center, m
-  double cos_skew = 1, sin_skew = 0;
-  double cos_turn = 1, sin_turn = 0;  // of yaw - skew
-  double cos_base = 1, sin_base = 0;
+// Replaces Equation27 in a system. For the paper's rig it equals (27) up to rounding. Number: of
+// the rig's constants.
+template <class Number>
+struct GeneralRollingOf {
+  Number k = Number(0.4);       // kappa: the ball's moment of inertia over m r^2
+  Number height = Number(0.0);  // of the contact plane above the gimbal's center, m
+  Number cos_skew = Number(1.0), sin_skew = Number(0.0);
+  Number cos_turn = Number(1.0), sin_turn = Number(0.0);  // of yaw - skew
+  Number cos_base = Number(1.0), sin_base = Number(0.0);
 
-  bool operator==(const GeneralRolling&) const = default;
+  bool operator==(const GeneralRollingOf&) const = default;
 
   template <class Phi, class Theta>
   [[nodiscard]] auto kinematics(const Phi& phi, const Theta& theta) const {
     using T = std::decay_t<decltype(theta.cos)>;
     using B = std::decay_t<decltype(phi.cos * theta.cos)>;
-    PlaneKinematics<T, B> plane;
+    PlaneKinematics<T, B, Number> plane;
     plane.theta_axis[0] = cos_turn;
     plane.theta_axis[1] = -sin_turn;
     const T& c = theta.cos;
@@ -64,10 +66,10 @@ struct GeneralRolling {
   // Newton's and Euler's equations of the ball in the plane's frame, with the contact force
   // eliminated: (M18) to (M20). Arguments as in model/ball/rolling.hpp.
   template <class Real, class Phi, class Theta, class Ball>
-  [[nodiscard]] Rates<Real> rates(const Phi& phi, const Theta& theta, const Ball& ball, double r,
-                                  double g) const {
+  [[nodiscard]] Rates<Real> rates(const Phi& phi, const Theta& theta, const Ball& ball,
+                                  const Number& r, const Number& g) const {
     const auto plane = kinematics(phi, theta);
-    const double a[3] = {plane.theta_axis[0], plane.theta_axis[1], 0};
+    const Number a[3] = {plane.theta_axis[0], plane.theta_axis[1], Number(0.0)};
     using T = std::decay_t<decltype(plane.phi_axis[0] * phi.rate)>;
     T omega[3], omega_dot[3];
     const T both = T(phi.rate * theta.rate);
@@ -76,7 +78,7 @@ struct GeneralRolling {
       omega_dot[i] = a[i] * theta.acceleration + plane.phi_axis[i] * phi.acceleration +
                      plane.phi_axis_slope[i] * both;
     }
-    const double above = r + height;
+    const Number above = r + height;
     const T squared = omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2];
     const Real along = omega[0] * ball.x + omega[1] * ball.y + above * omega[2];
     // A_x + g up_x and A_y + g up_y: the center's acceleration without x'' and y'', plus gravity.
@@ -85,7 +87,7 @@ struct GeneralRolling {
                         g * plane.up[0];
     const Real y_rest = 2 * (omega[2] * ball.x_dot) + omega_dot[2] * ball.x - above * omega_dot[0] +
                         omega[1] * along - squared * ball.y + g * plane.up[1];
-    const double share = 1 / (1 + k);
+    const Number share = Number(1.0) / (Number(1.0) + k);
     Rates<Real> rates;
     rates.x =
         -(share * (k * (r * omega_dot[1] - omega[2] * ball.y_dot - omega[0] * ball.u) + x_rest));
@@ -94,6 +96,7 @@ struct GeneralRolling {
     return rates;
   }
 };
+using GeneralRolling = GeneralRollingOf<double>;
 
 // Whether the rig is the paper's, to which equation (27) applies.
 [[nodiscard]] bool is_the_papers(const Scenario& scene);

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "model/systems/given_plate.hpp"
+
 namespace bbsim::model {
 
 HybridSystem::HybridSystem(const Model& model, double resolution)
@@ -17,8 +19,8 @@ HybridSystem::HybridSystem(const Model& model, double resolution)
     if (rig.limits_commands()) std::get<std::optional<CommandLimits>>(parts_).emplace(model_);
     if (rig.between.has_pieces()) std::get<std::optional<CurvePieces>>(parts_).emplace(model_);
     std::get<std::optional<Servos>>(parts_).emplace(model_);
-    only_commands_change_ =
-        rig.sampled && !own.dry && std::holds_alternative<RigLoop<false>>(own.system);
+    only_commands_change_ = rig.sampled && !own.dry && !rig.between.has_pieces() &&
+                            with_given_plate(own.system, [](const auto& /*loop*/) {});
   }
   if (own.dry) {
     if (own.dry->limits_torque()) std::get<std::optional<MotorLimits>>(parts_).emplace(model_);

@@ -43,6 +43,26 @@ struct PieceAxis {
   double ratio, offset;
 };
 
+// The motion of the plate over a piece. The servos determine it.
+struct alignas(64) PlateMotion {
+  struct Plane {
+    double sin[nodes], cos[nodes], rate[nodes], acceleration[nodes];
+  } plane[2];
+  // How far three servos are from the edge of their workspace (ThreeServos::edges).
+  double edges[model::ThreeServos::edge_count][nodes];
+  PieceAxis axis[model::most_servos];
+  // The greatest rate of phi or theta for a unit rate of one horn; 1 without a mechanism.
+  double gain;
+  // The mechanism between horns and plate. Without one both are null, and what follows is unused.
+  const model::Linkages* linkages;
+  const model::ThreeServos* three;
+  model::GimbalAngle<double> plane_start[2];
+  double edges_start[model::ThreeServos::edge_count];
+  // Of three servos: the poses, and the derivatives of the first one (ThreeServos::pose_slopes).
+  model::ThreeServos::Pose<double> pose_start, pose_end;
+  double pose_slopes[3][3];
+};
+
 // Constants of a run.
 struct Scene {
   double radius, mass, gravity;
@@ -52,20 +72,12 @@ struct Scene {
   bool gamma;         // whether the integral of u is under error control too
   double friction;    // friction coefficient up to which the ball rolls; 0: not monitored
   bool force, loads;  // whether forces and the motors' torques are wanted
-  // The mechanism between horns and plate, for the kernels of that kind.
-  const model::Linkages* linkages;
-  const model::ThreeServos* three;
 };
 
 // All numbers of the last piece. The ball's velocities are x', y' and u = r gamma'; its positions
 // are x, y and the integral of u.
 struct alignas(64) Piece {
   double velocity_at[3][nodes], position_at[2][nodes], acceleration_at[3][nodes];
-  struct Plane {
-    double sin[nodes], cos[nodes], rate[nodes], acceleration[nodes];
-  } plane[2];
-  // How far three servos are from the edge of their workspace (ThreeServos::edges).
-  double edges[model::ThreeServos::edge_count][nodes];
   // Shifted Legendre coefficients of the accelerations times the length.
   double series[3][nodes];
   double position[3], velocity[3];          // at the start
@@ -73,14 +85,7 @@ struct alignas(64) Piece {
   double guess[3];     // of the accelerations: those at the end of the last piece
   double contraction;  // of the last pieces' iterations
   double length;       // s
-  PieceAxis axis[model::most_servos];
-  // Behind a mechanism: the plate at the start, and the greatest rate of phi or theta for a unit
-  // rate of one servo.
-  model::GimbalAngle<double> plane_start[2];
-  model::ThreeServos::Pose<double> pose_start, pose_end;
-  double pose_slopes[3][3];  // at the start (ThreeServos::pose_slopes)
-  double edges_start[model::ThreeServos::edge_count];
-  double gain;
+  PlateMotion plate;
 };
 
 struct Attempt {

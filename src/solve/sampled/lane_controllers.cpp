@@ -57,16 +57,21 @@ void LaneControllers::sample(std::size_t l, model::HybridSystem& run, double t, 
   control.is_first.of[l] = since_[l].any ? 0 : 1;
   control.elapsed.of[l] = since_[l].elapsed(run.model().rig->sampled->sampling.period);
   since_[l].see();
-  constexpr auto angle = static_cast<std::size_t>(model::RigLayout::angle);
-  constexpr auto rate = static_cast<std::size_t>(model::RigLayout::rate);
+  const model::Rig& rig = *run.model().rig;
+  const double* const angle = z + model::RigLayout::angle;
+  const double* const rate = angle + rig.servos;
+  double servo[4] = {angle[0], angle[1], rate[0], rate[1]};
+  if (!rig.between.none() && rig.sampled->law.feeds_servos_back()) {
+    rig.between.believed(angle, rate, servo);
+  }
   const auto& reference = sampling.reference_at(t);
   for (std::size_t i = 0; i < 2; ++i) {
     control.reference[i][0].of[l] = reference[i].value;
     control.reference[i][1].of[l] = reference[i].rate;
     control.reference[i][2].of[l] = reference[i].acceleration;
     control.seen[i].of[l] = (*seen)[i];
-    control.servo[i].of[l] = z[angle + i];
-    control.servo[2 + i].of[l] = z[rate + i];
+    control.servo[i].of[l] = servo[i];
+    control.servo[2 + i].of[l] = servo[2 + i];
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include "solve/sampled/lane_engine.hpp"
 
+#include <bit>
 #include <cmath>
 
 #include "model/model.hpp"
@@ -14,7 +15,6 @@ namespace bbsim::solve::sampled {
 namespace {
 
 constexpr auto angle_state = static_cast<std::size_t>(model::RigLayout::angle);
-constexpr auto rate_state = static_cast<std::size_t>(model::RigLayout::rate);
 
 // A lane with more rejections is left to a single run, which can report why it fails.
 constexpr int most_rejections = 40;
@@ -28,6 +28,19 @@ void lose_nothing(LaneAxis& axis) {
   }
 }
 
+// Sets what the error estimate needs of a table.
+void put(const MotionTable& table, LaneAxis& axis, std::size_t l) {
+  axis.most_by_rate[l] = table.most_by_rate;
+  axis.most_by_acceleration[l] = table.most_by_acceleration;
+  axis.missed_by_rate[l] = table.missed_by_rate;
+  axis.missed_by_acceleration[l] = table.missed_by_acceleration;
+  axis.lost = axis.lost || table.lost;
+  axis.lost_rate_by_rate[l] = table.lost_rate_by_rate;
+  axis.lost_rate_by_acceleration[l] = table.lost_rate_by_acceleration;
+  axis.lost_angle_by_rate[l] = table.lost_angle_by_rate;
+  axis.lost_angle_by_acceleration[l] = table.lost_angle_by_acceleration;
+}
+
 }  // namespace
 
 const LaneKernels& choose_lane_kernels() {
@@ -35,8 +48,7 @@ const LaneKernels& choose_lane_kernels() {
 }
 
 bool moves(const model::Model& model) {
-  return knows(model) && !model.gamma && model.rig->between.none() &&
-         std::get<model::RigLoop<false>>(model.system).rolling() == model::GeneralRolling{};
+  return knows(model) && !model.gamma && !model.rig->sampled->legs;
 }
 
 LaneEngine::LaneEngine(Tolerances tolerances)
@@ -50,12 +62,33 @@ LaneEngine::LaneEngine(Tolerances tolerances)
   step_.servos_ = servos_.get();
   step_.kernels_ = &choose_kernels();
   step_.lane_kernels_ = &kernels_;
+  pieces_->servos = 2;
+  std::fill_n(pieces_->gain, group, 1.0);
+}
+
+bool LaneEngine::has_room(const model::Model& model) const {
+  const bool direct = std::holds_alternative<model::RigLoop<false>>(model.system);
+  return model.rig->servos == pieces_->servos && direct == (pieces_->plates == nullptr);
+}
+
+void LaneEngine::make_room(const model::Model& model) {
+  scene_.papers = true;
+  if (has_room(model)) return;
+  const bool direct = std::holds_alternative<model::RigLoop<false>>(model.system);
+  if (!direct && !plates_) plates_ = std::make_unique<std::array<PlateMotion, group>>();
+  pieces_->plates = direct ? nullptr : plates_->data();
+  pieces_->servos = model.rig->servos;
+  if (direct) std::fill_n(pieces_->gain, group, 1.0);
+  forget_tables();
 }
 
 void LaneEngine::open(std::size_t l, const model::Model& model, double end, bool cut) {
   Lane& lane = lanes_[l];
   lane.run.emplace(model, tolerances_.atol);
   lane.instants.emplace(*model.rig->sampled, cut);
+  lane.plate.emplace(lane.run->model());
+  searches_[l].reset();
+  step_.rigs_[l] = {&lane.run->model(), lane.z.data()};
   std::copy(model.initial.begin(), model.initial.end(), lane.z.begin());
   lane.time = 0;
   lane.end = end;
@@ -64,7 +97,13 @@ void LaneEngine::open(std::size_t l, const model::Model& model, double end, bool
   lane.standstill = {};
   lane.waits = false;
   scene_.radius[l] = model.radius;
-  scene_.gravity[l] = loop_of(model).gravity();
+  with_given_plate(model.system, [&](const auto& loop) {
+    scene_.gravity[l] = loop.gravity();
+    const auto numbers =
+        std::bit_cast<std::array<double, rolling_numbers>>(model::GeneralRolling(loop.rolling()));
+    for (std::size_t i = 0; i < numbers.size(); ++i) scene_.rolling[i][l] = numbers[i];
+    scene_.papers = scene_.papers && loop.rolling() == model::GeneralRolling{};
+  });
   take_monitors(l, model);
   clear(l);
 }
@@ -95,6 +134,7 @@ void LaneEngine::take_monitors(std::size_t l, const model::Model& model) {
       scene_.least[quantity][l] = std::max(scene_.least[quantity][l], least);
       scene_.most[quantity][l] = std::min(scene_.most[quantity][l], most);
     };
+    if (monitor.kind == Kind::dead_point) continue;  // is_quiet()
     // No value is within this range, so the lane is given up.
     if (!for_each_range(monitor, model.events->plate, stays)) {
       stays(Quantity::x, model::unlimited, -model::unlimited);
@@ -106,9 +146,9 @@ void LaneEngine::take_monitors(std::size_t l, const model::Model& model) {
 void LaneEngine::clear(std::size_t l) {
   for (std::size_t i = 0; i < 3; ++i) {
     pieces_->velocity[i][l] = pieces_->guess[i][l] = 0;
-    if (i == 2) continue;
+    if (i < 2) pieces_->position[i][l] = 0;
     LaneAxis& axis = pieces_->axis[i];
-    pieces_->position[i][l] = axis.angle[l] = axis.rate[l] = axis.acceleration[l] = 0;
+    axis.angle[l] = axis.rate[l] = axis.acceleration[l] = 0;
     axis.ratio[l] = axis.offset[l] = 0;
     LaneServo& servo = servos_->of[i];
     servo.push[l] = servo.by_command[l] = servo.stiffness[l] = servo.damping[l] = 0;
@@ -117,17 +157,18 @@ void LaneEngine::clear(std::size_t l) {
 }
 
 void LaneEngine::take_commands(std::size_t l) {
-  const model::RigMode& mode = loop_of(lanes_[l].run->model()).mode;
-  for (std::size_t i = 0; i < 2; ++i) servos_->of[i].command[l] = mode.command[i];
+  const model::RigMode& mode = lanes_[l].plate->mode();
+  for (std::size_t i = 0; i < lanes_[l].plate->servos(); ++i)
+    servos_->of[i].command[l] = mode.command[i];
 }
 
 void LaneEngine::take_mode(std::size_t l) {
   take_commands(l);
   const model::HybridSystem& run = *lanes_[l].run;
-  const Loop& loop = loop_of(run.model());
-  for (std::size_t i = 0; i < 2; ++i) {
-    const model::AxisMode& mode = loop.mode.axis[i];
-    const model::ServoResponse& response = loop.servo().of[i];
+  const HeldPlate& plate = *lanes_[l].plate;
+  for (std::size_t i = 0; i < plate.servos(); ++i) {
+    const model::AxisMode& mode = plate.mode().axis[i];
+    const model::ServoResponse& response = plate.response().of[i];
     LaneServo& servo = servos_->of[i];
     const double free = mode.demand_factor;
     servo.push[l] = mode.set_acceleration;
@@ -150,10 +191,12 @@ void LaneEngine::put_start(std::size_t l) {
   const Lane& lane = lanes_[l];
   for (std::size_t i = 0; i < 3; ++i) {
     pieces_->velocity[i][l] = lane.z[2 + i];
-    if (i == 2) continue;
-    pieces_->position[i][l] = lane.z[i];
+    if (i < 2) pieces_->position[i][l] = lane.z[i];
+  }
+  const std::size_t servos = lane.plate->servos();
+  for (std::size_t i = 0; i < servos; ++i) {
     pieces_->axis[i].angle[l] = lane.z[angle_state + i];
-    pieces_->axis[i].rate[l] = lane.z[rate_state + i];
+    pieces_->axis[i].rate[l] = lane.z[angle_state + servos + i];
   }
 }
 
@@ -163,8 +206,7 @@ void LaneEngine::predict_crossing(std::size_t l) {
   lane.predicted_to = lane.run->next_change();
   lane.crossing = {};
   if (servos_->clear[l] != 0) return;
-  lane.crossing = lane.run->servos()->next_crossing(
-      lane.time, {step_.servo(l, 0), step_.servo(l, 1)}, lane.predicted_to);
+  lane.crossing = lane.run->servos()->next_crossing(lane.time, step_.servos(l), lane.predicted_to);
 }
 
 // Finds the motion of the servos of an axis over the pieces. Usually all lanes share one table.
@@ -183,17 +225,6 @@ void LaneEngine::load_tables(std::size_t i) {
   const auto asked_of = [&](std::size_t l) {
     return Loaded{{servo.stiffness[l], servo.damping[l]}, pieces_->length[l]};
   };
-  const auto put = [&axis](const MotionTable& table, std::size_t l) {
-    axis.most_by_rate[l] = table.most_by_rate;
-    axis.most_by_acceleration[l] = table.most_by_acceleration;
-    axis.missed_by_rate[l] = table.missed_by_rate;
-    axis.missed_by_acceleration[l] = table.missed_by_acceleration;
-    axis.lost = axis.lost || table.lost;
-    axis.lost_rate_by_rate[l] = table.lost_rate_by_rate;
-    axis.lost_rate_by_acceleration[l] = table.lost_rate_by_acceleration;
-    axis.lost_angle_by_rate[l] = table.lost_angle_by_rate;
-    axis.lost_angle_by_acceleration[l] = table.lost_angle_by_acceleration;
-  };
   if (alike) {
     const Loaded asked = asked_of(one);
     if (axis.shared != nullptr && shared_[i] == asked) return;
@@ -201,7 +232,7 @@ void LaneEngine::load_tables(std::size_t i) {
     shared_tables_[i] = lanes_[one].tables.of(asked.law, asked.length);
     axis.shared = &shared_tables_[i];
     axis.lost = false;
-    for (std::size_t l = 0; l < group; ++l) put(shared_tables_[i], l);
+    for (std::size_t l = 0; l < group; ++l) put(shared_tables_[i], axis, l);
     return;
   }
   if (axis.shared != nullptr) loaded_[i].fill({});
@@ -225,7 +256,7 @@ void LaneEngine::load_tables(std::size_t i) {
     if (!(asked[l].length > 0) || loaded_[i][l] == asked[l]) continue;
     loaded_[i][l] = asked[l];
     const MotionTable& table = lanes_[l].tables.of(asked[l].law, asked[l].length);
-    put(table, l);
+    put(table, axis, l);
     for (int row = 0; row < MotionTable::rows; ++row) {
       for (int n = 0; n < nodes; ++n) {
         axis.by_rate[row][n][l] = table.by_rate[row][n];
@@ -233,6 +264,48 @@ void LaneEngine::load_tables(std::size_t i) {
       }
     }
   }
+}
+
+// Prepares the plates behind mechanisms.
+void LaneEngine::load_plates() {
+  for (LaneAxis& axis : pieces_->axis) axis.lost = false;
+  for (std::size_t l = 0; l < group; ++l) {
+    if (!(pieces_->length[l] > 0)) continue;
+    Lane& lane = lanes_[l];
+    PlateMotion& motion = pieces_->plates[l];
+    lane.plate->prepare(step_.servos(l), pieces_->length[l], lane.tables, motion);
+    std::array<double, LaneStep::most_states> end;
+    lane.plate->write_end(motion, end.data());
+    const std::size_t servos = lane.plate->servos();
+    for (std::size_t i = 0; i < servos; ++i) {
+      LaneAxis& axis = pieces_->axis[i];
+      put(*motion.axis[i].table, axis, l);
+      axis.angle_end[l] = end[angle_state + i];
+      axis.rate_end[l] = end[angle_state + servos + i];
+    }
+  }
+}
+
+bool LaneEngine::is_quiet(std::size_t l) const {
+  if (step_.quantities_.quiet[l] == 0) return false;
+  return pieces_->plates == nullptr || lanes_[l].plate->stays_off_dead_points(
+                                           pieces_->plates[l], step_.servos(l), pieces_->length[l]);
+}
+
+GuardSearch& LaneEngine::search_in(std::size_t l) {
+  if (!motions_[l]) motions_[l].emplace(step_, l);
+  if (!searches_[l]) {
+    searches_[l].emplace(*lanes_[l].run, *motions_[l]);
+    searches_[l]->after_switch();
+  }
+  return *searches_[l];
+}
+
+bool LaneEngine::has_event(std::size_t l) {
+  GuardSearch& search = search_in(l);
+  search.after_switch();
+  search.begin_step();
+  return search.begin(lanes_[l].time, step_.to(l)) == model::Effect::stop || search.next();
 }
 
 void LaneEngine::plan_lane(std::size_t l, double limit) {
@@ -294,17 +367,20 @@ void LaneEngine::state_at(std::size_t l, double t, const double (*ball)[group], 
     if (i < 2) lane.z[i] = at_end ? pieces_->position_end[i][l] : ball[i][l];
   }
   if (!servos && !at_end) return;
-  for (std::size_t i = 0; i < 2; ++i) {
+  const std::size_t count = lane.plate->servos();
+  for (std::size_t i = 0; i < count; ++i) {
+    double& angle = lane.z[angle_state + i];
+    double& rate = lane.z[angle_state + count + i];
     const LaneAxis& axis = pieces_->axis[i];
     if (at_end) {
-      lane.z[angle_state + i] = axis.angle_end[l];
-      lane.z[rate_state + i] = axis.rate_end[l];
+      angle = axis.angle_end[l];
+      rate = axis.rate_end[l];
     } else {
       const model::HeldMotion servo = step_.servo(l, i);
       const model::HeldMotion::Instant at =
           servo.after(lane.instants->answer(servo.law, lane.until, t - lane.time));
-      lane.z[angle_state + i] = at.angle;
-      lane.z[rate_state + i] = at.rate;
+      angle = at.angle;
+      rate = at.rate;
     }
   }
 }
@@ -316,6 +392,7 @@ void LaneEngine::go_on(std::size_t l) {
     for (std::size_t i = 0; i < 3; ++i) {
       pieces_->guess[i][l] = pieces_->acceleration_at[i][nodes - 1][l];
     }
+    if (pieces_->plates != nullptr) lane.plate->pass(pieces_->plates[l]);
   }
   if (!lane.restarts) {
     state_at(l, lane.until, nullptr, true);

@@ -13,7 +13,9 @@
 #include <optional>
 
 #include "model/hybrid/hybrid_system.hpp"
+#include "solve/hybrid/guard_search.hpp"
 #include "solve/outcome.hpp"
+#include "solve/sampled/held_plate.hpp"
 #include "solve/sampled/instants.hpp"
 #include "solve/sampled/lane_kernel.hpp"
 #include "solve/sampled/lane_step.hpp"
@@ -22,8 +24,8 @@
 
 namespace bbsim::solve::sampled {
 
-// Whether lanes can move the model: it passes knows(), has no gamma, and is the paper's rig except
-// for its servos and controller, without a mechanism between servos and plate.
+// Whether lanes can move the model: it passes knows(), has no gamma, and its commands are not
+// angles of three servos.
 [[nodiscard]] bool moves(const model::Model& model);
 
 // Each rig keeps its HybridSystem with its own sensor, servos and limits. The balls are computed
@@ -36,19 +38,17 @@ class LaneEngine {
   explicit LaneEngine(Tolerances tolerances);
   ~LaneEngine() = default;
 
-  using Loop = model::RigLoop<false>;
-  static constexpr std::size_t size = Loop::size;
-
   struct Lane {
     std::optional<model::HybridSystem> run;
     std::optional<Instants> instants;
+    std::optional<HeldPlate> plate;
     MotionTables tables{choose_kernels()};
-    std::array<double, size> z{};  // at `time`
-    double time = 0;               // s
-    double end = 0;                // of the run, s
-    double limit = 0;              // that the present piece reaches at most, s
-    double until = 0;              // end of the present piece, s
-    double step = 0;               // its length before rounding to the nominal one, s
+    std::array<double, LaneStep::most_states> z{};  // at `time`
+    double time = 0;                                // s
+    double end = 0;                                 // of the run, s
+    double limit = 0;                               // that the present piece reaches at most, s
+    double until = 0;                               // end of the present piece, s
+    double step = 0;  // its length before rounding to the nominal one, s
     double next_step = std::numeric_limits<double>::infinity();
     model::Crossing crossing;
     double predicted_to = 0;  // crossings are predicted up to here, s
@@ -95,10 +95,15 @@ class LaneEngine {
   void state_at(std::size_t lane, double t, const double (*ball)[group], bool servos);
   // Discards the servo motions that were computed for other rigs.
   void forget_tables();
-
-  [[nodiscard]] static const Loop& loop_of(const model::Model& model) {
-    return std::get<Loop>(model.system);
-  }
+  // Makes room for rigs like the model: all that move at once have, or do not have, a mechanism.
+  void make_room(const model::Model& model);
+  // Whether the model's servos are those that the lanes have room for.
+  [[nodiscard]] bool has_room(const model::Model& model) const;
+  // Whether bounds exclude every event over a lane's piece; and if not, whether one occurs.
+  [[nodiscard]] bool is_quiet(std::size_t lane) const;
+  [[nodiscard]] bool has_event(std::size_t lane);
+  // The search for events in a lane. A new one has checked no monitor since the last switch.
+  GuardSearch& search_in(std::size_t lane);
 
   Tolerances tolerances_;
   const LaneKernels& kernels_;
@@ -107,6 +112,7 @@ class LaneEngine {
   LaneScene scene_{};
   LaneStep step_;
   std::array<Lane, group> lanes_;
+  std::array<std::optional<GuardSearch>, group> searches_;
 
  private:
   // The law and length of the table that pieces_ has for an axis, in a lane or in all.
@@ -122,6 +128,10 @@ class LaneEngine {
   void plan_lane(std::size_t lane, double limit);
   void load_tables(std::size_t axis);
 
+  void load_plates();
+
+  std::array<std::optional<LaneMotion>, group> motions_;
+  std::unique_ptr<std::array<PlateMotion, group>> plates_;  // aligned
   std::array<std::array<Loaded, group>, 2> loaded_{};
   std::array<Loaded, 2> shared_{};
   std::array<MotionTable, 2> shared_tables_{};
@@ -142,7 +152,11 @@ bool LaneEngine::plan(const Limit& limit_of) {
     if (lane.unpredicted) predict_crossing(l);
     plan_lane(l, std::min(limit_of(lane), lane.crossing.time));
   }
-  for (std::size_t i = 0; i < 2; ++i) load_tables(i);
+  if (pieces_->plates != nullptr) {
+    load_plates();
+  } else {
+    for (std::size_t i = 0; i < 2; ++i) load_tables(i);
+  }
   return any;
 }
 

@@ -18,8 +18,7 @@ namespace bbsim::solve::sampled {
 // sweep has the same companions everywhere.
 inline constexpr int group = 8;
 
-// One axis of all rigs: the servo at the start, its motion (MotionTable), and the plate at the
-// nodes.
+// One servo of all rigs at the start, and its motion (MotionTable).
 struct alignas(64) LaneAxis {
   double angle[group], rate[group], acceleration[group];
   double angle_end[group], rate_end[group];
@@ -29,11 +28,15 @@ struct alignas(64) LaneAxis {
   double lost_rate_by_rate[group], lost_rate_by_acceleration[group];
   double lost_angle_by_rate[group], lost_angle_by_acceleration[group];
   double by_rate[MotionTable::rows][nodes][group], by_acceleration[MotionTable::rows][nodes][group];
-  double plane_sin[nodes][group], plane_cos[nodes][group];
-  double plane_rate[nodes][group], plane_acceleration[nodes][group];
   bool lost;  // whether any lane has a loss; otherwise the lost_* are zero
   // The table that all lanes use. If null, by_rate and by_acceleration have one for each lane.
   const MotionTable* shared;
+};
+
+// An angle of all plates at the nodes and at the start.
+struct alignas(64) LanePlane {
+  double sin[nodes][group], cos[nodes][group], rate[nodes][group], acceleration[nodes][group];
+  double sin_start[group], cos_start[group], rate_start[group], acceleration_start[group];
 };
 
 // The last piece of each rig, like Piece for a single rig. A lane without a piece has zero length,
@@ -42,7 +45,9 @@ struct alignas(64) LanePieces {
   double length[group];                           // s
   double position[2][group], velocity[3][group];  // at the start
   double guess[3][group];  // of the accelerations: those at the end of the last piece
-  LaneAxis axis[2];
+  LaneAxis axis[model::most_servos];
+  double gain[group];  // PlateMotion::gain
+  LanePlane plane[2];
   double velocity_at[3][nodes][group], position_at[2][nodes][group];
   double acceleration_at[3][nodes][group];
   double series[3][nodes][group];
@@ -52,6 +57,9 @@ struct alignas(64) LanePieces {
   // closer_error() gives the estimate itself. `hopeless` if substitution failed.
   double error[group];
   int iterations;  // of the last attempt, in all packs
+  int servos;
+  // The motion of each lane's plate behind a mechanism; null if the servos turn it directly.
+  PlateMotion* plates;
 };
 
 inline constexpr double hopeless = 1e300;
@@ -67,18 +75,21 @@ struct alignas(64) LaneServo {
   double root[group], inverse_root[group];
 };
 struct alignas(64) LaneServos {
-  LaneServo of[2];
+  LaneServo of[model::most_servos];
   double clear[group];  // 1 if no servo switches while the commands are held; otherwise 0
 };
 
+inline constexpr int rolling_numbers = sizeof(model::GeneralRolling) / sizeof(double);
 struct alignas(64) LaneScene {
   double radius[group], gravity[group], friction[group];
+  double rolling[rolling_numbers][group];  // the numbers of a model::GeneralRolling
   // For each Quantity up to the grip, the range in which no event occurs.
   double least[Quantity::grip + 1][group], most[Quantity::grip + 1][group];
   double rtol, atol;
   // Whether to evaluate the contact force, the plate's tilt and rate, and the distance from the
   // reference.
   bool force, gimbal, reference;
+  bool papers;  // whether all lanes have the paper's rolling
 };
 
 // Quantities whose maximum over a run is wanted. They are smooth: squares instead of roots.

@@ -23,10 +23,19 @@ struct LaneKernel {
   static constexpr int lanes = Isa::lanes;
   static constexpr auto& table = One::table;
 
-  // Which of x, y, x', y', u the paper's x'', y'' and u' depend on.
+  // Which of x, y, x', y', u the accelerations x'', y'' and u' depend on, in (27) and in (M18) to
+  // (M20).
   static constexpr bool depends[3][5] = {{true, true, false, true, true},
                                          {true, true, true, false, true},
                                          {false, false, true, true, false}};
+
+  using Rolling = model::GeneralRollingOf<P>;
+  BBSIM_INLINE static Rolling rolling_of(const LaneScene& scene, int first) {
+    const auto number = [&](int i) __attribute__((always_inline)) {
+      return P::load(scene.rolling[i] + first);
+    };
+    return {number(0), number(1), number(2), number(3), number(4), number(5), number(6), number(7)};
+  }
 
   // The accelerations at a node as affine functions of the state.
   struct Rates {
@@ -43,6 +52,10 @@ struct LaneKernel {
   };
 
   using Mask = typename P::Mask;
+
+  BBSIM_INLINE static bool is_direct(const LanePieces& pieces) {
+    return pieces.plates == nullptr;
+  }
 
   BBSIM_INLINE static bool all_small(const LanePieces& pieces, int first) {
     bool small = true;
@@ -67,8 +80,7 @@ struct LaneKernel {
         return P::load(values + first);
       };
       Mask clear = Mask{} - 1;
-#pragma GCC unroll 2
-      for (int i = 0; i < 2; ++i) {
+      for (int i = 0; i < pieces.servos; ++i) {
         const LaneServo& servo = servos.of[i];
         LaneAxis& axis = pieces.axis[i];
         const P angle = of(axis.angle), rate = of(axis.rate), damped = of(servo.damping) * rate;
@@ -151,9 +163,9 @@ struct LaneKernel {
     }
   }
 
-  // The plate's axis at a node. Stores it for evaluate_quantities().
-  BBSIM_INLINE static model::GimbalAngle<P> plane_axis(LaneAxis& axis, int node, int first,
-                                                       bool small) {
+  // The plate's axis at a node, for servos that turn it directly.
+  BBSIM_INLINE static model::GimbalAngle<P> move_axis(LaneAxis& axis, LanePlane& plane, int node,
+                                                      int first, bool small) {
     const P start_rate = P::load(axis.rate + first);
     const P start_acceleration = P::load(axis.acceleration + first);
     const P ratio = P::load(axis.ratio + first);
@@ -178,28 +190,71 @@ struct LaneKernel {
     const SinCos<P> wave = small ? simd::sin_cos_of_small(angle) : sin_cos(angle);
     const model::GimbalAngle<P> at{wave.sin, wave.cos, ratio * row[MotionTable::rate],
                                    ratio * row[MotionTable::acceleration]};
-    at.sin.store(axis.plane_sin[node] + first);
-    at.cos.store(axis.plane_cos[node] + first);
-    at.rate.store(axis.plane_rate[node] + first);
-    at.acceleration.store(axis.plane_acceleration[node] + first);
+    at.sin.store(plane.sin[node] + first);
+    at.cos.store(plane.cos[node] + first);
+    at.rate.store(plane.rate[node] + first);
+    at.acceleration.store(plane.acceleration[node] + first);
     return at;
   }
 
+  BBSIM_INLINE static model::GimbalAngle<P> plane_at(const LanePlane& plane, int node, int first) {
+    return {P::load(plane.sin[node] + first), P::load(plane.cos[node] + first),
+            P::load(plane.rate[node] + first), P::load(plane.acceleration[node] + first)};
+  }
+
+  // Computes each plate behind a mechanism, with the nodes in the lanes.
+  static void move_plates(LanePieces& pieces) {
+    for (int l = 0; l < group; ++l) {
+      if (!(pieces.length[l] > 0)) continue;
+      PlateMotion& motion = pieces.plates[l];
+      One::move_plate(motion);
+      pieces.gain[l] = motion.gain;
+      for (int i = 0; i < 2; ++i) {
+        const PlateMotion::Plane& from = motion.plane[i];
+        LanePlane& to = pieces.plane[i];
+        for (int n = 0; n < nodes; ++n) {
+          to.sin[n][l] = from.sin[n];
+          to.cos[n][l] = from.cos[n];
+          to.rate[n][l] = from.rate[n];
+          to.acceleration[n][l] = from.acceleration[n];
+        }
+        const model::GimbalAngle<double>& start = motion.plane_start[i];
+        to.sin_start[l] = start.sin;
+        to.cos_start[l] = start.cos;
+        to.rate_start[l] = start.rate;
+        to.acceleration_start[l] = start.acceleration;
+      }
+    }
+  }
+
+  template <bool papers>
   [[gnu::flatten]] static void attempt_some(LanePieces& pieces, const LaneScene& scene, int first) {
     const P h = P::load(pieces.length + first);
     const P r = P::load(scene.radius + first), g = P::load(scene.gravity + first);
-    const bool small = all_small(pieces, first);
+    const bool direct = is_direct(pieces);
+    const bool small = direct && all_small(pieces, first);
     Rates rates[nodes];
 #pragma GCC unroll 1
     for (int n = 0; n < nodes; ++n) {
-      const model::GimbalAngle<P> phi = plane_axis(pieces.axis[0], n, first, small);
-      const model::GimbalAngle<P> theta = plane_axis(pieces.axis[1], n, first, small);
+      const auto plane = [&](int i) __attribute__((always_inline)) {
+        return direct ? move_axis(pieces.axis[i], pieces.plane[i], n, first, small)
+                      : plane_at(pieces.plane[i], n, first);
+      };
+      const model::GimbalAngle<P> phi = plane(0), theta = plane(1);
       const model::RollingState<Ball, Ball, Ball> ball{Ball::variable(0), Ball::variable(1),
                                                        Ball::variable(2), Ball::variable(3),
                                                        Ball::variable(4)};
-      const Ball of[3] = {model::x_acceleration<Ball>(phi, theta, ball, r, g),
-                          model::y_acceleration<Ball>(phi, theta, ball, r, g),
-                          model::u_acceleration<Ball>(phi, theta, ball, r)};
+      Ball of[3];
+      if constexpr (papers) {
+        of[0] = model::x_acceleration<Ball>(phi, theta, ball, r, g);
+        of[1] = model::y_acceleration<Ball>(phi, theta, ball, r, g);
+        of[2] = model::u_acceleration<Ball>(phi, theta, ball, r);
+      } else {
+        const auto all = rolling_of(scene, first).template rates<Ball>(phi, theta, ball, r, g);
+        of[0] = all.x;
+        of[1] = all.y;
+        of[2] = all.u;
+      }
 #pragma GCC unroll 3
       for (int i = 0; i < 3; ++i) {
         // Includes the length, so that k at a node is the acceleration times h.
@@ -333,8 +388,7 @@ struct LaneKernel {
 #pragma GCC unroll 2
     for (int i = 0; i < 2; ++i) most = larger_of(most, tail[i] * of_position);
     P acceleration(0.0), lost(0.0), tilt(0.0), distance(0.0);
-#pragma GCC unroll 2
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < pieces.servos; ++i) {
       const LaneAxis& axis = pieces.axis[i];
       const auto of = [&](const double* values) __attribute__((always_inline)) {
         return P::load(values + first);
@@ -349,18 +403,33 @@ struct LaneKernel {
                         of(axis.lost_angle_by_acceleration) * of(axis.acceleration);
         lost += size_of(of(axis.ratio)) * (size_of(rate) + size_of(angle));
       }
-      const P start = of(axis.ratio) * of(axis.angle) + of(axis.offset);
-      tilt += larger_of(size_of(of(axis.plane_sin[nodes - 1])), smaller_of(size_of(start), P(1.0)));
-      distance += size_of(of(pieces.position[i]));
     }
+#pragma GCC unroll 2
+    for (int i = 0; i < 2; ++i) {
+      const LaneAxis& axis = pieces.axis[i];
+      const P start = is_direct(pieces)
+                          ? P::load(axis.ratio + first) * P::load(axis.angle + first) +
+                                P::load(axis.offset + first)
+                          : P::load(pieces.plane[i].sin_start + first);
+      tilt += larger_of(size_of(P::load(pieces.plane[i].sin[nodes - 1] + first)),
+                        smaller_of(size_of(start), P(1.0)));
+      distance += size_of(P::load(pieces.position[i] + first));
+    }
+    const Rolling rolling = rolling_of(scene, first);
+    tilt += size_of(rolling.sin_skew) + size_of(rolling.sin_base);
     const P unseen = (P(One::Rule::c[0] / 2) * h * acceleration + lost) *
-                     (P::load(scene.radius + first) + tilt * distance);
+                     P::load(pieces.gain + first) *
+                     (P::load(scene.radius + first) + size_of(rolling.height) + tilt * distance);
     return larger_of(P(once) * most, unseen) * P(1 / scene.atol);
   }
 
   static void attempt(LanePieces& pieces, const LaneScene& scene) {
     pieces.iterations = 0;
-    for (int first = 0; first < group; first += lanes) attempt_some(pieces, scene, first);
+    if (!is_direct(pieces)) move_plates(pieces);
+    for (int first = 0; first < group; first += lanes) {
+      scene.papers ? attempt_some<true>(pieces, scene, first)
+                   : attempt_some<false>(pieces, scene, first);
+    }
   }
 
   static double closer_error(const LanePieces& pieces, const LaneScene& scene, int lane) {
@@ -368,6 +437,9 @@ struct LaneKernel {
     MotionTable tables[2]{};
     Scene of{};
     of.radius = scene.radius[lane];
+    of.rolling.height = scene.rolling[1][lane];
+    of.rolling.sin_skew = scene.rolling[3][lane];
+    of.rolling.sin_base = scene.rolling[7][lane];
     of.rtol = scene.rtol;
     of.atol = scene.atol;
     piece.length = pieces.length[lane];
@@ -378,6 +450,19 @@ struct LaneKernel {
       if (i == 2) continue;
       piece.position[i] = pieces.position[i][lane];
       piece.position_end[i] = pieces.position_end[i][lane];
+    }
+    Attempt result{true, 0, 0, 0};
+    if (!is_direct(pieces)) {
+      piece.plate = pieces.plates[lane];
+      if (piece.plate.three != nullptr) {
+        One::template estimate<model::ThreeServos>(piece, of, result);
+      } else {
+        One::template estimate<model::Linkages>(piece, of, result);
+      }
+      return result.error;
+    }
+    piece.plate.gain = 1;
+    for (int i = 0; i < 2; ++i) {
       const LaneAxis& axis = pieces.axis[i];
       tables[i].missed_by_rate = axis.missed_by_rate[lane];
       tables[i].missed_by_acceleration = axis.missed_by_acceleration[lane];
@@ -386,15 +471,16 @@ struct LaneKernel {
       tables[i].lost_rate_by_acceleration = axis.lost_rate_by_acceleration[lane];
       tables[i].lost_angle_by_rate = axis.lost_angle_by_rate[lane];
       tables[i].lost_angle_by_acceleration = axis.lost_angle_by_acceleration[lane];
-      piece.axis[i] = {&tables[i],       axis.angle[lane], axis.rate[lane], axis.acceleration[lane],
-                       axis.ratio[lane], axis.offset[lane]};
-      piece.plane[i].sin[nodes - 1] = axis.plane_sin[nodes - 1][lane];
+      piece.plate.axis[i] = {&tables[i],       axis.angle[lane],
+                             axis.rate[lane],  axis.acceleration[lane],
+                             axis.ratio[lane], axis.offset[lane]};
+      piece.plate.plane[i].sin[nodes - 1] = pieces.plane[i].sin[nodes - 1][lane];
     }
-    Attempt result{true, 0, 0, 0};
     One::template estimate<model::Direct>(piece, of, result);
     return result.error;
   }
 
+  template <bool papers>
   [[gnu::flatten]] static void evaluate_some(const LanePieces& pieces, const LaneScene& scene,
                                              const LaneReference& reference,
                                              LaneQuantities& quantities, int first) {
@@ -403,8 +489,16 @@ struct LaneKernel {
     };
     const P h = of(pieces.length);
     const P inverse = P(1.0) / P::of(h.v > Vector{} ? h.v : P(1.0).v);
-    const bool small = all_small(pieces, first);
-    const model::GeneralRolling papers_rig{};
+    const bool direct = is_direct(pieces);
+    const bool small = direct && all_small(pieces, first);
+    const auto rolling = [&]() __attribute__((always_inline)) {
+      if constexpr (papers) {
+        return model::GeneralRolling{};
+      } else {
+        return rolling_of(scene, first);
+      }
+    }
+    ();
     constexpr int ranges = Quantity::grip + 1;
     P least[ranges], most[ranges], least_size[sizes], most_size[sizes];
 #pragma GCC unroll 1
@@ -432,6 +526,12 @@ struct LaneKernel {
             sum += m % 2 == 0 ? of(pieces.series[i][m]) : -of(pieces.series[i][m]);
           }
           acceleration[i] = sum * inverse;
+          const LanePlane& plane = pieces.plane[i];
+          if (!direct) {
+            axis[i] = {of(plane.sin_start), of(plane.cos_start), of(plane.rate_start),
+                       of(plane.acceleration_start)};
+            continue;
+          }
           const LaneAxis& from = pieces.axis[i];
           const P angle = of(from.ratio) * of(from.angle) + of(from.offset);
           const SinCos<P> wave = small ? simd::sin_cos_of_small(angle) : sin_cos(angle);
@@ -444,9 +544,7 @@ struct LaneKernel {
                 of(pieces.velocity_at[2][n])};
         for (int i = 0; i < 2; ++i) {
           acceleration[i] = of(pieces.acceleration_at[i][n]);
-          const LaneAxis& from = pieces.axis[i];
-          axis[i] = {of(from.plane_sin[n]), of(from.plane_cos[n]), of(from.plane_rate[n]),
-                     of(from.plane_acceleration[n])};
+          axis[i] = plane_at(pieces.plane[i], n, first);
         }
       }
       take(Quantity::x, ball.x);
@@ -454,13 +552,13 @@ struct LaneKernel {
       const P distance_squared = ball.x * ball.x + ball.y * ball.y;
       take(Quantity::distance_squared, distance_squared);
       take_size(Size::distance_squared, distance_squared);
-      const model::MovingPlane<P> plane = model::moving_plane(papers_rig, axis[0], axis[1]);
+      const auto plane = model::moving_plane(rolling, axis[0], axis[1]);
       take(Quantity::up, plane.up.z);
       if (scene.gimbal) {
         // 1 - cos a cos b = A + B - A B, with the versines A and B, each sin^2 / (1 + cos).
         const P a = axis[0].sin * axis[0].sin / (P(1.0) + axis[0].cos);
         const P b = axis[1].sin * axis[1].sin / (P(1.0) + axis[1].cos);
-        take_size(Size::versine, small ? a + b - a * b : P(1.0) - plane.up.z);
+        take_size(Size::versine, small || !direct ? a + b - a * b : P(1.0) - plane.up.z);
         take_size(Size::rate_squared, axis[0].rate * axis[0].rate + axis[1].rate * axis[1].rate);
       }
       if (scene.reference) {
@@ -476,7 +574,7 @@ struct LaneKernel {
       }
       if (!scene.force) continue;
       const model::Vector3<P> by_mass =
-          model::force_by_mass(plane, ball, acceleration[0], acceleration[1], P(0.0),
+          model::force_by_mass(plane, ball, acceleration[0], acceleration[1], P(rolling.height),
                                of(scene.radius), of(scene.gravity));
       take(Quantity::normal, by_mass.z);
       const P held = of(scene.friction) * by_mass.z;
@@ -502,7 +600,8 @@ struct LaneKernel {
   static void evaluate_quantities(const LanePieces& pieces, const LaneScene& scene,
                                   const LaneReference& reference, LaneQuantities& quantities) {
     for (int first = 0; first < group; first += lanes) {
-      evaluate_some(pieces, scene, reference, quantities, first);
+      scene.papers ? evaluate_some<true>(pieces, scene, reference, quantities, first)
+                   : evaluate_some<false>(pieces, scene, reference, quantities, first);
     }
   }
 

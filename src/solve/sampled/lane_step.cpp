@@ -4,11 +4,14 @@
 #include "solve/sampled/lane_step.hpp"
 
 #include <algorithm>
+#include <type_traits>
+
+#include "solve/sampled/held_plate.hpp"
 
 namespace bbsim::solve::sampled {
 namespace {
 
-constexpr std::size_t angle_state = model::RigLayout::angle, rate_state = model::RigLayout::rate;
+constexpr std::size_t angle_state = model::RigLayout::angle;
 
 }  // namespace
 
@@ -27,6 +30,14 @@ model::HeldMotion LaneStep::servo(std::size_t lane, std::size_t i) const {
           axis.acceleration[lane]};
 }
 
+model::HeldMotions LaneStep::servos(std::size_t lane) const {
+  model::HeldMotions motions{};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(pieces_->servos); ++i) {
+    motions[i] = servo(lane, i);
+  }
+  return motions;
+}
+
 void LaneStep::evaluate(std::size_t lane, const double* times, std::size_t count,
                         double* rows) const {
   const LanePieces& of = *pieces_;
@@ -37,7 +48,9 @@ void LaneStep::evaluate(std::size_t lane, const double* times, std::size_t count
     piece.position[i] = i < 2 ? of.position[i][lane] : 0;
   }
   piece.length = of.length[lane];
-  const model::HeldMotion servos[2] = {servo(lane, 0), servo(lane, 1)};
+  const model::HeldMotions moves = servos(lane);
+  const auto servo_count = static_cast<std::size_t>(of.servos);
+  const std::size_t size = rigs_[lane].model->size();
   constexpr std::size_t together = 16;
   double after[together], ball[together][6];
   for (std::size_t first = 0; first < count; first += together) {
@@ -45,15 +58,17 @@ void LaneStep::evaluate(std::size_t lane, const double* times, std::size_t count
     for (std::size_t i = 0; i < some; ++i) after[i] = times[first + i] - from_[lane];
     kernels_->evaluate(piece, after, some, ball);
     for (std::size_t i = 0; i < some; ++i) {
-      double* const row = rows + (first + i) * states;
+      double* const row = rows + (first + i) * size;
+      // States beside the ball's and the servos' stay.
+      std::copy_n(rigs_[lane].z, size, row);
       std::copy_n(ball[i], 5, row);
-      const model::ImpulseAnswer answer = model::answer(servos[0].law, after[i]);
-      for (std::size_t k = 0; k < 2; ++k) {
-        const bool alike = servos[k].law == servos[0].law;
+      const model::ImpulseAnswer answer = model::answer(moves[0].law, after[i]);
+      for (std::size_t k = 0; k < servo_count; ++k) {
+        const bool alike = moves[k].law == moves[0].law;
         const model::HeldMotion::Instant now =
-            alike ? servos[k].after(answer) : servos[k].after(after[i]);
+            alike ? moves[k].after(answer) : moves[k].after(after[i]);
         row[angle_state + k] = now.angle;
-        row[rate_state + k] = now.rate;
+        row[angle_state + servo_count + k] = now.rate;
       }
     }
   }
@@ -62,20 +77,21 @@ void LaneStep::evaluate(std::size_t lane, const double* times, std::size_t count
 void LaneStep::evaluate(std::size_t lane, const double* times, std::size_t count,
                         Track* track) const {
   constexpr std::size_t together = 32;
-  double rows[together * states];
-  const LaneAxis &phi = pieces_->axis[0], &theta = pieces_->axis[1];
+  double rows[together * most_states];
+  const model::Model& model = *rigs_[lane].model;
   for (std::size_t first = 0; first < count; first += together) {
     const std::size_t some = std::min(together, count - first);
     evaluate(lane, times + first, some, rows);
-    for (std::size_t i = 0; i < some; ++i) {
-      const double* const row = rows + i * states;
-      track[first + i] = {row[0],
-                          row[1],
-                          phi.ratio[lane] * row[angle_state] + phi.offset[lane],
-                          theta.ratio[lane] * row[angle_state + 1] + theta.offset[lane],
-                          phi.ratio[lane] * row[rate_state],
-                          theta.ratio[lane] * row[rate_state + 1]};
-    }
+    with_given_plate(model.system, [&](const auto& loop) {
+      const double none[std::decay_t<decltype(loop)>::servos] = {};
+      for (std::size_t i = 0; i < some; ++i) {
+        const double* const row = rows + i * model.size();
+        model::RigExtras plate{};
+        loop.fill(row, none, plate);
+        track[first + i] = {row[0],         row[1],        plate.angle[0],
+                            plate.angle[1], plate.rate[0], plate.rate[1]};
+      }
+    });
   }
 }
 

@@ -6,10 +6,13 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
+#include <vector>
 
+#include "model/model.hpp"
 #include "model/servo/held_motion.hpp"
-#include "model/systems/rig_loop.hpp"
 #include "solve/sampled/lane_kernel.hpp"
+#include "solve/stepper.hpp"
 
 namespace bbsim::solve::sampled {
 
@@ -37,11 +40,12 @@ class LaneStep {
 
   // Evaluates the motion at `count` times (s) within a lane's piece.
   void evaluate(std::size_t lane, const double* times, std::size_t count, Track* track) const;
-  // The same as states, packed as in the system: rows of `states` numbers.
-  static constexpr std::size_t states = model::RigLoop<false>::size;
+  // The same as states, packed as in the system: rows of Model::size() numbers.
   void evaluate(std::size_t lane, const double* times, std::size_t count, double* rows) const;
-  // The motion of an axis's servo from the start of the lane's piece.
+  static constexpr std::size_t most_states = model::CoupledLayout<model::most_servos>::states;
+  // The motions of one servo and of all from the start of the lane's piece.
   [[nodiscard]] model::HeldMotion servo(std::size_t lane, std::size_t axis) const;
+  [[nodiscard]] model::HeldMotions servos(std::size_t lane) const;
 
  private:
   friend class LaneEngine;
@@ -53,8 +57,43 @@ class LaneStep {
   const Kernels* kernels_ = nullptr;
   const LaneKernels* lane_kernels_ = nullptr;
   LaneQuantities quantities_{};
+  // The rig of each lane in its present mode, and its states.
+  struct Rig {
+    const model::Model* model;
+    const double* z;
+  };
+  std::array<Rig, group> rigs_{};
   std::array<bool, group> has_{}, whole_{};
   std::array<double, group> from_{}, to_{};
+};
+
+// The piece of a lane as a Stepper, for GuardSearch.
+class LaneMotion : public Stepper {
+ public:
+  LaneMotion(const LaneStep& step, std::size_t lane) : step_(step), lane_(lane) {}
+
+  void evaluate(const double* times, std::size_t count, double* rows) override {
+    step_.evaluate(lane_, times, count, rows);
+  }
+  [[nodiscard]] double time() const override { return step_.to(lane_); }
+  [[nodiscard]] std::size_t detail() const override { return nodes; }
+  // Enough if 8 nodes just resolve the motion.
+  [[nodiscard]] std::size_t parts() const override { return 2 * nodes; }
+  // GuardSearch only checks that this is not null.
+  [[nodiscard]] const model::HeldMotions* servos() const override { return &servos_; }
+
+  // Unused: no driver steps this object.
+  void start(double, const double*) override {}
+  [[nodiscard]] std::optional<Failure> step(double) override { return step_is_lost; }
+  void jump() override {}
+  [[nodiscard]] std::vector<double> state() const override { return {}; }
+  [[nodiscard]] std::size_t worst_state() const override { return 0; }
+  [[nodiscard]] Statistics statistics() const override { return {}; }
+
+ private:
+  const LaneStep& step_;
+  std::size_t lane_;
+  model::HeldMotions servos_{};
 };
 
 }  // namespace bbsim::solve::sampled

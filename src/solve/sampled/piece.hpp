@@ -199,33 +199,35 @@ struct Kernel {
   static constexpr double least_contraction = 1e-2;
 
   // A pose near that for these angles of the horns, which move by less than 0.25 rad in a part.
-  BBSIM_INLINE static model::ThreeServos::Pose<P> pose_towards(const Piece& piece,
-                                                               const model::ThreeServos& link,
+  BBSIM_INLINE static model::ThreeServos::Pose<P> pose_towards(const PlateMotion& plate,
                                                                const P (&horn)[3], int parts) {
     double from[3];
     for (int i = 0; i < 3; ++i) {
-      from[i] = piece.axis[i].ratio * piece.axis[i].angle + piece.axis[i].offset;
+      from[i] = plate.axis[i].ratio * plate.axis[i].angle + plate.axis[i].offset;
     }
-    const auto& start = piece.pose_start;
-    if (parts > 1) return link.follow(start, from, horn, parts);
+    const auto& start = plate.pose_start;
+    if (parts > 1) return plate.three->follow(start, from, horn, parts);
     P at[3] = {P(start.p), P(start.q), P(start.z)};
     for (int k = 0; k < 3; ++k) {
-      for (int i = 0; i < 3; ++i) at[k] += P(piece.pose_slopes[k][i]) * (horn[i] - P(from[i]));
+      for (int i = 0; i < 3; ++i) at[k] += P(plate.pose_slopes[k][i]) * (horn[i] - P(from[i]));
     }
     return {at[0], at[1], at[2]};
   }
-  BBSIM_INLINE static double last_of(P values) { return values.v[lanes - 1]; }
+  BBSIM_INLINE static double last_of(P values) {
+    const double last = values.v[lanes - 1];
+    return last;
+  }
 
   // Computes the plate's motion at the nodes from that of the horns.
   template <class Link>
-  static void move_plate(Piece& piece, const Link& link) {
+  static void move_plate(PlateMotion& plate, const Link& link) {
     constexpr int servos = Link::servos;
     [[maybe_unused]] double motion = 0;
-    for (int i = 0; i < servos; ++i) motion = larger_of(motion, motion_of(piece.axis[i]));
+    for (int i = 0; i < servos; ++i) motion = larger_of(motion, motion_of(plate.axis[i]));
     for (int p = 0; p < packs; ++p) {
       P horn[servos], rate[servos], acting[servos];
       for (int i = 0; i < servos; ++i) {
-        const PieceAxis& of = piece.axis[i];
+        const PieceAxis& of = plate.axis[i];
         const P ratio(of.ratio);
         horn[i] = P(of.ratio * of.angle + of.offset) + ratio * motion_at(of, MotionTable::angle, p);
         rate[i] = ratio * motion_at(of, MotionTable::rate, p);
@@ -235,32 +237,32 @@ struct Kernel {
       if constexpr (servos == 3) {
         P sine[3], cosine[3], edges[Link::edge_count];
         link.directions(horn, sine, cosine);
-        const auto pose =
-            link.pose_near(pose_towards(piece, link, horn, Link::parts_for(motion)), sine, cosine);
-        piece.pose_end = {last_of(pose.p), last_of(pose.q), last_of(pose.z)};
+        const auto near = pose_towards(plate, horn, Link::parts_for(motion));
+        const auto pose = link.pose_near(near, sine, cosine);
         const P whole = link.planes_in(pose, sine, cosine, rate, acting, axis);
         link.edges(pose, sine, cosine, whole, edges);
-        for (int k = 0; k < Link::edge_count; ++k) edges[k].store(piece.edges[k] + p * lanes);
+        for (int k = 0; k < Link::edge_count; ++k) edges[k].store(plate.edges[k] + p * lanes);
+        plate.pose_end = {last_of(pose.p), last_of(pose.q), last_of(pose.z)};
       } else {
         link.planes(horn, rate, acting, axis);
       }
-      for (int i = 0; i < 2; ++i) store_axis(axis[i], piece.plane[i], p);
+      for (int i = 0; i < 2; ++i) store_axis(axis[i], plate.plane[i], p);
     }
   }
-  BBSIM_INLINE static void store_axis(const model::GimbalAngle<P>& axis, Piece::Plane& into,
+  // The same for either mechanism.
+  [[gnu::flatten]] static void move_plate(PlateMotion& plate) {
+    if (plate.three != nullptr) {
+      move_plate(plate, *plate.three);
+    } else {
+      move_plate(plate, *plate.linkages);
+    }
+  }
+  BBSIM_INLINE static void store_axis(const model::GimbalAngle<P>& axis, PlateMotion::Plane& into,
                                       int p) {
     axis.sin.store(into.sin + p * lanes);
     axis.cos.store(into.cos + p * lanes);
     axis.rate.store(into.rate + p * lanes);
     axis.acceleration.store(into.acceleration + p * lanes);
-  }
-  template <class Link>
-  BBSIM_INLINE static const Link& link_of(const Scene& scene) {
-    if constexpr (Link::servos == 3) {
-      return *scene.three;
-    } else {
-      return *scene.linkages;
-    }
   }
 
   // With everything inlined the compiler sees which coefficients are zero.
@@ -269,18 +271,20 @@ struct Kernel {
     const double h = piece.length;
     bool small = false;
     if constexpr (Link::direct) {
-      small = is_small(piece.axis[0]) && is_small(piece.axis[1]);
+      small = is_small(piece.plate.axis[0]) && is_small(piece.plate.axis[1]);
+    } else if constexpr (Link::servos == 3) {
+      move_plate(piece.plate, *piece.plate.three);
     } else {
-      move_plate(piece, link_of<Link>(scene));
+      move_plate(piece.plate, *piece.plate.linkages);
     }
     Rates rates[packs];
     for_each<packs>([&](auto p) __attribute__((always_inline)) {
       model::GimbalAngle<P> axis[2];
 #pragma GCC unroll 2
       for (int i = 0; i < 2; ++i) {
-        Piece::Plane& at = piece.plane[i];
+        PlateMotion::Plane& at = piece.plate.plane[i];
         if constexpr (Link::direct) {
-          axis[i] = plane_axis(piece.axis[i], p, small);
+          axis[i] = plane_axis(piece.plate.axis[i], p, small);
           store_axis(axis[i], at, p);
         } else {
           axis[i] = {P::load(at.sin + p * lanes), P::load(at.cos + p * lanes),
@@ -416,17 +420,17 @@ struct Kernel {
   BBSIM_INLINE static double unseen(const Piece& piece, const Scene& scene) {
     double acceleration = 0, lost = 0, tilt = 0;
     for (int i = 0; i < Link::servos; ++i) {
-      const PieceAxis& axis = piece.axis[i];
+      const PieceAxis& axis = piece.plate.axis[i];
       const MotionTable& motion = *axis.table;
-      const double ratio = Link::direct ? axis.ratio : axis.ratio * piece.gain;
+      const double ratio = axis.ratio * piece.plate.gain;
       acceleration += size_of(ratio * (motion.missed_by_rate * axis.rate +
                                        motion.missed_by_acceleration * axis.acceleration));
       // The larger tilt of start and end: a motion that is over by the first node may start far
       // away.
       if (i < 2) {
         const double start = Link::direct ? size_of(axis.ratio * axis.angle + axis.offset)
-                                          : size_of(piece.plane_start[i].sin);
-        tilt += larger_of(size_of(piece.plane[i].sin[nodes - 1]), smaller_of(start, 1.0));
+                                          : size_of(piece.plate.plane_start[i].sin);
+        tilt += larger_of(size_of(piece.plate.plane[i].sin[nodes - 1]), smaller_of(start, 1.0));
       }
       if (!motion.lost) continue;
       lost += size_of(ratio) * (size_of(motion.lost_rate_by_rate * axis.rate +
@@ -502,20 +506,21 @@ struct Kernel {
       Vector angles{};
 #pragma GCC unroll 2
       for (int i = 0; i < 2; ++i) {
-        angles[i] = piece.axis[i].ratio * piece.axis[i].angle + piece.axis[i].offset;
+        angles[i] =
+            piece.plate.axis[i].ratio * piece.plate.axis[i].angle + piece.plate.axis[i].offset;
       }
-      const SinCos<P> waves = is_small(piece.axis[0]) && is_small(piece.axis[1])
+      const SinCos<P> waves = is_small(piece.plate.axis[0]) && is_small(piece.plate.axis[1])
                                   ? simd::sin_cos_of_small(P::of(angles))
                                   : sin_cos(P::of(angles));
 #pragma GCC unroll 2
       for (int i = 0; i < 2; ++i) {
-        const PieceAxis& of = piece.axis[i];
+        const PieceAxis& of = piece.plate.axis[i];
         plane_start[i] = {waves.sin[i], waves.cos[i], of.ratio * of.rate,
                           of.ratio * of.acceleration};
       }
     } else {
-      plane_start[0] = piece.plane_start[0];
-      plane_start[1] = piece.plane_start[1];
+      plane_start[0] = piece.plate.plane_start[0];
+      plane_start[1] = piece.plate.plane_start[1];
     }
     const model::GeneralRolling papers_rig{};
     const model::GeneralRolling& rolling = papers ? papers_rig : scene.rolling;
@@ -539,7 +544,7 @@ struct Kernel {
       model::GimbalAngle<P> axis[2];
 #pragma GCC unroll 2
       for (int i = 0; i < 2; ++i) {
-        const Piece::Plane& of = piece.plane[i];
+        const PlateMotion::Plane& of = piece.plate.plane[i];
         const model::GimbalAngle<double>& start = plane_start[i];
         axis[i] = {at(of.sin, start.sin), at(of.cos, start.cos), at(of.rate, start.rate),
                    at(of.acceleration, start.acceleration)};

@@ -11,13 +11,22 @@
 namespace bbsim::solve::sampled {
 
 bool carries(const model::Model& model) {
-  return moves(model) && !model.rig->sampled->external &&
-         model.rig->sampled->law.kind != model::LawKind::held;
+  if (!moves(model) || model.rig->sampled->external ||
+      model.rig->sampled->law.kind == model::LawKind::held) {
+    return false;
+  }
+  // The sizes of the plate's motion suppose axes that are square and a level base.
+  bool square = false;
+  with_given_plate(model.system, [&](const auto& loop) {
+    square = loop.rolling().sin_skew == 0 && loop.rolling().sin_base == 0;
+  });
+  return square;
 }
 
 bool go_together(const model::Model& one, const model::Model& other) {
   const model::SampledLoop &a = *one.rig->sampled, &b = *other.rig->sampled;
-  return a.law.kind == b.law.kind && one.stops == other.stops;
+  return a.law.kind == b.law.kind && one.stops == other.stops &&
+         one.system.index() == other.system.index();
 }
 
 RigLanes::RigLanes(Tolerances tolerances, const OutputGrid& grid, const LaneAsked& asked)
@@ -72,18 +81,19 @@ void RigLanes::fill_reference() {
 
 void RigLanes::take_reference(std::size_t l) {
   const model::Model& model = lanes_[l].run->model();
-  const auto view = loop_of(model).reference().view();
   // Until it jumps, the reference is constant.
   const bool jumps = model.jumps_at(lanes_[l].until);
   const double length = jumps ? step_.to_[l] - step_.from_[l] : pieces_->length[l];
-  kernels_.reference(view, step_.from_[l], length, reference_->one);
+  with_given_plate(model.system, [&](const auto& loop) {
+    kernels_.reference(loop.reference().view(), step_.from_[l], length, reference_->one);
+  });
 }
 
 void RigLanes::evaluate_quantities() {
   if (asked_.reference) fill_reference();
   kernels_.evaluate_quantities(*pieces_, scene_, *reference_, step_.quantities_);
   for (std::size_t l = 0; l < group; ++l) {
-    if (!step_.has_[l] || step_.quantities_.quiet[l] != 0) continue;
+    if (!step_.has_[l] || is_quiet(l) || !has_event(l)) continue;
     lanes_[l].alive = lanes_[l].moved = step_.has_[l] = false;
   }
 }
@@ -91,7 +101,8 @@ void RigLanes::evaluate_quantities() {
 void RigLanes::end_lane(std::size_t l, double t, LaneSink& sink) {
   Lane& lane = lanes_[l];
   std::vector<double> row(lane.run->model().row_size());
-  std::copy(lane.z.begin(), lane.z.end(), row.begin());
+  const std::size_t size = lane.run->model().size();
+  std::copy_n(lane.z.begin(), size, row.begin());
   lane.run->write_extras(t, lane.z.data(), row.data() + size);
   sink.accept_end(l, t, row);
   lane.alive = false;
@@ -142,6 +153,7 @@ std::array<bool, group> RigLanes::integrate(const model::Model* const* models, s
   scene_.force = false;
   controllers_.begin();
   shared_reference_ = {};
+  make_room(*models[0]);
   for (std::size_t l = 0; l < group; ++l) {
     if (l < count) {
       begin(l, *models[l], sink);

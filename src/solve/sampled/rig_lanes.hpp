@@ -16,10 +16,11 @@
 
 namespace bbsim::solve::sampled {
 
-// Whether RigLanes can integrate the model: it passes moves(), and its law is built in.
+// Whether RigLanes can integrate the model: it passes moves(), its law is built in, its axes are
+// square and its base is level.
 [[nodiscard]] bool carries(const model::Model& model);
 
-// Whether two such rigs can share a group: the same kind of law and the same stops. Their periods
+// Whether two such rigs can share a group: the same kind of law, mechanism and stops. Their periods
 // and delays may differ. Their references must be the same, which is not checked.
 [[nodiscard]] bool go_together(const model::Model& one, const model::Model& other);
 
@@ -42,8 +43,8 @@ struct LaneAsked {
 // Integrates groups of rigs from t = 0 over an output grid (LaneEngine). Laws are computed together
 // (LaneControllers).
 //
-// A rig is given up if an event occurs in it, or if bounds cannot exclude one. It must then be run
-// alone. After its first group the object allocates little. Use one object per thread.
+// A rig is given up if an event occurs in it. It must then be run alone. After its first group the
+// object allocates little. Use one object per thread.
 class RigLanes : private LaneEngine {
  public:
   RigLanes(Tolerances tolerances, const OutputGrid& grid, const LaneAsked& asked);

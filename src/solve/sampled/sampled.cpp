@@ -19,35 +19,6 @@ namespace {
 
 constexpr std::size_t angle = model::RigLayout::angle;
 
-// Whether nothing but the plate's motion acts on a rolling ball: no viscous couple, no push.
-template <class Link>
-bool only_rolls(const model::CoupledLoop<model::SignalPair, Link>& coupled) {
-  return coupled.by == model::GimbalBy::servos && coupled.parts.ball.law.viscous == 0 &&
-         coupled.push.on.is_zero(0) && coupled.push.on.is_zero(1);
-}
-
-// Calls `use` with the rig's loop if the servos' motion determines the plate's, which determines
-// the ball's. Returns false if it does not.
-template <class Use>
-bool with_given_plate(const model::System& system, Use use) {
-  return std::visit(
-      [&](const auto& any) {
-        using Any = std::decay_t<decltype(any)>;
-        if constexpr (std::is_same_v<Any, model::RigLoop<false>>) {
-          use(any);
-          return true;
-        } else if constexpr (model::is_coupled_loop<Any>) {
-          if constexpr (Any::pushes) {
-            if (!only_rolls(any)) return false;
-            use(any.loop);
-            return true;
-          }
-        }
-        return false;
-      },
-      system);
-}
-
 }  // namespace
 
 const Kernels& choose_kernels() {
@@ -69,10 +40,24 @@ HeldStepper::HeldStepper(const model::Model& model, const Kernels& kernels, Tole
       kernels_(kernels),
       tables_(kernels),
       instants_(*model.rig->sampled),
-      servos_(static_cast<std::size_t>(model.rig->servos)),
+      plate_(model),
+      servos_(plate_.servos()),
       rate_(angle + servos_),
       reached_(model.size()) {
-  with_given_plate(model.system, [this](const auto& loop) { take(loop); });
+  with_given_plate(model.system, [this](const auto& loop) {
+    using Link = std::decay_t<decltype(loop.link)>;
+    if constexpr (std::is_same_v<Link, model::Linkages>) {
+      kernel_ = kernels_.linked;
+    } else if constexpr (std::is_same_v<Link, model::ThreeServos>) {
+      kernel_ = kernels_.three;
+    } else {
+      kernel_ = loop.rolling() == model::GeneralRolling{} ? kernels_.papers : kernels_.general;
+    }
+    scene_.radius = loop.radius();
+    scene_.gravity = loop.gravity();
+    scene_.rolling = loop.rolling();
+    tempo_ = loop.reference().highest_frequency();
+  });
   scene_.rtol = tolerances.rtol;
   scene_.atol = tolerances.atol;
   scene_.gamma = model.gamma;
@@ -84,45 +69,6 @@ HeldStepper::HeldStepper(const model::Model& model, const Kernels& kernels, Tole
     }
   }
   piece_.contraction = 1e-2;
-}
-
-template <class Loop>
-void HeldStepper::take(const Loop& loop) {
-  using Link = std::decay_t<decltype(loop.link)>;
-  if constexpr (std::is_same_v<Link, model::Linkages>) {
-    kernel_ = kernels_.linked;
-    scene_.linkages = &loop.link;
-  } else if constexpr (std::is_same_v<Link, model::ThreeServos>) {
-    kernel_ = kernels_.three;
-    scene_.three = &loop.link;
-    pose_ = loop.link.home(pose_angles_);
-    piece_.gain = 0;
-    for (int i = 0; i < Link::servos; ++i) {
-      double level[3] = {}, rates[3] = {}, none[3] = {};
-      for (int k = 0; k < Link::servos; ++k) level[k] = loop.link.leg[k].level;
-      rates[i] = 1;
-      model::GimbalAngle<double> plane[2];
-      loop.link.planes(level, rates, none, plane);
-      piece_.gain = std::max({piece_.gain, std::abs(plane[0].rate), std::abs(plane[1].rate)});
-    }
-  } else {
-    kernel_ = loop.rolling() == model::GeneralRolling{} ? kernels_.papers : kernels_.general;
-  }
-  mode_ = &loop.mode;
-  response_ = loop.servo();
-  scene_.radius = loop.radius();
-  scene_.gravity = loop.gravity();
-  scene_.rolling = loop.rolling();
-  tempo_ = loop.reference().highest_frequency();
-}
-
-void HeldStepper::take_modes() {
-  for (std::size_t i = 0; i < servos_; ++i) {
-    servo_[i] = model::held_motion(response_.of[i], mode_->axis[i], mode_->command[i],
-                                   reached_[angle + i], reached_[rate_ + i]);
-    piece_.axis[i].ratio = mode_->axis[i].ratio;
-    piece_.axis[i].offset = mode_->axis[i].offset;
-  }
 }
 
 void HeldStepper::start(double t, const double* z) {
@@ -138,7 +84,7 @@ void HeldStepper::start(double t, const double* z) {
   evaluated_ = false;
   time_ = t;
   std::copy_n(z, reached_.size(), reached_.begin());
-  take_modes();
+  servo_ = plate_.motions(z);
   settle();
 }
 
@@ -148,7 +94,7 @@ void HeldStepper::settle() {
     for (int i = 0; i < 3; ++i) piece_.guess[i] = piece_.acceleration_at[i][nodes - 1];
     for (std::size_t i = 0; i < servos_; ++i) {
       const model::HeldMotion& was = servo_[i];
-      const MotionTable& table = *piece_.axis[i].table;
+      const MotionTable& table = *piece_.plate.axis[i].table;
       constexpr auto row = MotionTable::acceleration;
       servo_[i] = {was.law, reached_[angle + i], reached_[rate_ + i],
                    table.by_rate[row][nodes - 1] * was.rate +
@@ -160,58 +106,6 @@ void HeldStepper::settle() {
   piece_.position[1] = reached_[1];
   piece_.position[2] = turned_;
   for (std::size_t i = 0; i < 3; ++i) piece_.velocity[i] = reached_[2 + i];
-}
-
-void HeldStepper::prepare(double length) {
-  piece_.length = length;
-  for (std::size_t i = 0; i < servos_; ++i) {
-    const model::HeldMotion& servo = servo_[i];
-    PieceAxis& axis = piece_.axis[i];
-    // The servos usually have the same law.
-    axis.table =
-        i > 0 && servo.law == servo_[0].law ? piece_.axis[0].table : &tables_.of(servo.law, length);
-    axis.angle = servo.angle;
-    axis.rate = servo.rate;
-    axis.acceleration = servo.acceleration;
-  }
-  if (scene_.linkages != nullptr) {
-    start_plate(*scene_.linkages);
-    piece_.gain = 0;
-    for (int i = 0; i < 2; ++i) {
-      const PieceAxis& of = piece_.axis[i];
-      const auto turn = scene_.linkages->of[i].plain_turn(of.ratio * of.angle + of.offset);
-      piece_.gain = std::max(piece_.gain, std::abs(turn.slope));
-    }
-  } else if (scene_.three != nullptr) {
-    start_plate(*scene_.three);
-  }
-}
-
-// Computes the plate's motion at the start of the piece.
-template <class Link>
-void HeldStepper::start_plate(const Link& link) {
-  double horn[Link::servos], rate[Link::servos], acting[Link::servos];
-  for (int i = 0; i < Link::servos; ++i) {
-    const PieceAxis& of = piece_.axis[i];
-    horn[i] = of.ratio * of.angle + of.offset;
-    rate[i] = of.ratio * of.rate;
-    acting[i] = of.ratio * of.acceleration;
-  }
-  if constexpr (Link::servos == 3) {
-    double sine[3], cosine[3];
-    link.directions(horn, sine, cosine);
-    double motion = 0;
-    for (int i = 0; i < 3; ++i) motion = std::max(motion, std::abs(horn[i] - pose_angles_[i]));
-    const auto near = link.follow(pose_, pose_angles_, horn, Link::parts_for(motion));
-    piece_.pose_start = pose_ = link.pose_near(near, sine, cosine);
-    std::copy_n(horn, 3, pose_angles_);
-    link.pose_slopes(pose_, sine, cosine, piece_.pose_slopes);
-    const double whole =
-        link.planes_in(piece_.pose_start, sine, cosine, rate, acting, piece_.plane_start);
-    link.edges(piece_.pose_start, sine, cosine, whole, piece_.edges_start);
-  } else {
-    link.planes(horn, rate, acting, piece_.plane_start);
-  }
 }
 
 std::optional<Failure> HeldStepper::step(double limit) {
@@ -226,7 +120,8 @@ std::optional<Failure> HeldStepper::step(double limit) {
   for (;;) {
     const auto [step, arrives] = stride(left, next_step_);
     if (!arrives && is_lost(step, time_)) return step_is_lost;
-    prepare(instants_.nominal(time_, step));
+    piece_.length = instants_.nominal(time_, step);
+    plate_.prepare(servo_, piece_.length, tables_, piece_.plate);
     Attempt attempt;
     kernel_.attempt(piece_, scene_, attempt);
     statistics_.nonlinear_iterations += static_cast<std::size_t>(attempt.iterations);
@@ -261,17 +156,8 @@ void HeldStepper::finish() {
   reached_[1] = piece_.position_end[1];
   turned_ = piece_.position_end[2];
   for (std::size_t i = 0; i < 3; ++i) reached_[2 + i] = piece_.velocity_end[i];
-  for (std::size_t i = 0; i < servos_; ++i) {
-    const PieceAxis& axis = piece_.axis[i];
-    const auto row = [&](MotionTable::Row of) {
-      return axis.table->by_rate[of][nodes - 1] * axis.rate +
-             axis.table->by_acceleration[of][nodes - 1] * axis.acceleration;
-    };
-    reached_[angle + i] = axis.angle + row(MotionTable::angle);
-    reached_[rate_ + i] = row(MotionTable::rate);
-    if (scene_.three != nullptr) pose_angles_[i] = axis.ratio * reached_[angle + i] + axis.offset;
-  }
-  if (scene_.three != nullptr) pose_ = piece_.pose_end;
+  plate_.write_end(piece_.plate, reached_.data());
+  plate_.pass(piece_.plate);
 }
 
 void HeldStepper::evaluate(const double* times, std::size_t count, double* rows) {
@@ -381,36 +267,15 @@ bool HeldStepper::no_monitor_changes(const std::vector<char>& occurring) {
   for (std::size_t m = 0; m < occurring.size(); ++m) {
     const auto range_of = [this](Quantity quantity) { return range(quantity); };
     if (model_->events->monitors[m].kind == model::Monitor::Kind::dead_point) {
-      if (occurring[m] != 0 || !stays_off_dead_points()) return false;
+      if (occurring[m] != 0 || !plate_.stays_off_dead_points(piece_.plate, servo_, piece_.length)) {
+        return false;
+      }
       continue;
     }
     if (!stays_in_range(model_->events->monitors[m], model_->events->plate, occurring[m] != 0,
                         range_of)) {
       return false;
     }
-  }
-  return true;
-}
-
-// Whether the mechanism is certain to stay within its range over the last step.
-bool HeldStepper::stays_off_dead_points() const {
-  if (scene_.three != nullptr) {
-    for (int k = 0; k < model::ThreeServos::edge_count; ++k) {
-      double edge[nodes];  // the start replaces the first node, as for all ranges
-      std::copy_n(piece_.edges[k], nodes, edge);
-      edge[0] = piece_.edges_start[k];
-      const auto [least, most] = std::minmax_element(edge, edge + nodes);
-      if (!(widened({*least, *most}).least > 0)) return false;
-    }
-    return true;
-  }
-  for (std::size_t i = 0; i < servos_; ++i) {
-    const PieceAxis& axis = piece_.axis[i];
-    const model::MotionReach to = model::reach(servo_[i], piece_.length);
-    const double center = axis.ratio * to.centre + axis.offset;
-    const double most = std::abs(axis.ratio) * to.angle_most;
-    const model::LinkCurve& curve = scene_.linkages->of[i];
-    if (!(center - most > curve.low && center + most < curve.high)) return false;
   }
   return true;
 }

@@ -12,6 +12,7 @@
 
 #include "model/model.hpp"
 #include "solve/outcome.hpp"
+#include "solve/sampled/held_plate.hpp"
 #include "solve/sampled/instants.hpp"
 #include "solve/sampled/kernel.hpp"
 #include "solve/sampled/motion_tables.hpp"
@@ -61,14 +62,7 @@ class HeldStepper : public Stepper {
     void evaluate(const Piece& piece, double (&ball)[6]) const;
   };
 
-  template <class Loop>
-  void take(const Loop& loop);
-  void take_modes();
   void settle();
-  void prepare(double length);
-  template <class Link>
-  void start_plate(const Link& link);
-  [[nodiscard]] bool stays_off_dead_points() const;
   void finish();
   void evaluate_some(const double* times, std::size_t count, double* rows);
   [[nodiscard]] const Shares* shares(double after);
@@ -83,9 +77,8 @@ class HeldStepper : public Stepper {
   Instants instants_;
   std::array<Shares, 4> shares_{};  // two instants within pieces of each of two lengths
   std::size_t next_shares_ = 0;
-  std::size_t servos_, rate_;  // how many; the index of the first one's rate
-  const model::RigMode* mode_ = nullptr;
-  model::ServoResponses response_;
+  HeldPlate plate_;
+  std::size_t servos_, rate_;                   // how many; the index of the first one's rate
   model::HeldMotions servo_{};                  // from the start of the last step
   std::vector<double> reached_;                 // states at its end
   std::array<Range, quantity_count> ranges_{};  // of the last step
@@ -99,10 +92,7 @@ class HeldStepper : public Stepper {
   double last_error_ = 0;
   double tempo_ = 0;        // of the reference, rad/s
   bool attempted_ = false;  // a step was made that is not yet the present state
-  // A pose of three servos that is near, and the horns' angles in it, rad.
-  model::ThreeServos::Pose<double> pose_{};
-  double pose_angles_[3]{};
-  double turned_ = 0;  // integral of u at the step's end, m
+  double turned_ = 0;       // integral of u at the step's end, m
   std::size_t worst_state_ = 0;
   Statistics statistics_;
 };

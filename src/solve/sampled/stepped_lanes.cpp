@@ -10,45 +10,18 @@
 
 namespace bbsim::solve::sampled {
 
-// The last piece of a lane as a Stepper, for GuardSearch.
-class SteppedLanes::Motion : public Stepper {
- public:
-  Motion(const LaneStep& step, std::size_t lane) : step_(step), lane_(lane) {}
-
-  void evaluate(const double* times, std::size_t count, double* rows) override {
-    step_.evaluate(lane_, times, count, rows);
-  }
-  [[nodiscard]] double time() const override { return step_.to(lane_); }
-  [[nodiscard]] std::size_t detail() const override { return nodes; }
-  // Enough if 8 nodes just resolve the motion.
-  [[nodiscard]] std::size_t parts() const override { return 2 * nodes; }
-  // GuardSearch only checks that this is not null.
-  [[nodiscard]] const model::HeldMotions* servos() const override { return &servos_; }
-
-  // Unused: no driver steps this object.
-  void start(double, const double*) override {}
-  [[nodiscard]] std::optional<Failure> step(double) override { return step_is_lost; }
-  void jump() override {}
-  [[nodiscard]] std::vector<double> state() const override { return {}; }
-  [[nodiscard]] std::size_t worst_state() const override { return 0; }
-  [[nodiscard]] Statistics statistics() const override { return {}; }
-
- private:
-  const LaneStep& step_;
-  std::size_t lane_;
-  model::HeldMotions servos_{};
-};
-
 SteppedLanes::SteppedLanes(Tolerances tolerances) : LaneEngine(tolerances) {
   for (std::size_t l = 0; l < group; ++l) clear(l);
 }
 
-SteppedLanes::~SteppedLanes() = default;
-
 void SteppedLanes::begin(std::size_t l, const model::Model& model, double end) {
   drop(l);
   // Rigs that begin together must not depend on earlier rigs.
-  if (std::ranges::none_of(lanes_, &Lane::alive)) forget_tables();
+  if (std::ranges::none_of(lanes_, &Lane::alive)) {
+    forget_tables();
+    make_room(model);
+  }
+  if (!has_room(model)) return this->end(l, State::given_up);
   open(l, model, end, true);
   lanes_[l].alive = true;
   ask(l);
@@ -73,11 +46,13 @@ void SteppedLanes::ask(std::size_t l) {
   model::Sampling& sampling = *lane.run->sampling();
   now.seen = sampling.begin(lane.run->instant_end(lane.time));
   now.reference = sampling.reference_at(lane.time);
-  constexpr std::size_t angle = model::RigLayout::angle, rate = model::RigLayout::rate;
-  for (std::size_t i = 0; i < 2; ++i) {
-    now.servo[i] = lane.z[angle + i];
-    now.servo_rate[i] = lane.z[rate + i];
-  }
+  const double* const angles = lane.z.data() + model::RigLayout::angle;
+  const double* const rates = angles + lane.plate->servos();
+  double servo[4] = {angles[0], angles[1], rates[0], rates[1]};
+  const model::Between& between = lane.run->model().rig->between;
+  if (between.three) between.believed(angles, rates, servo);
+  now.servo = {servo[0], servo[1]};
+  now.servo_rate = {servo[2], servo[3]};
   lane.waits = true;
   kept_[l] = pieces_->contraction[l];
   states_[l] = State::waits;
@@ -149,8 +124,7 @@ void SteppedLanes::evaluate_quantities() {
   for (std::size_t l = 0; l < group; ++l) {
     if (!step_.has_[l]) continue;
     const std::vector<char>& occurring = lanes_[l].run->occurring();
-    if (step_.quantities_.quiet[l] != 0 &&
-        std::find(occurring.begin(), occurring.end(), 1) == occurring.end()) {
+    if (is_quiet(l) && std::find(occurring.begin(), occurring.end(), 1) == occurring.end()) {
       searches_[l].reset();
     } else {
       search(l);
@@ -161,12 +135,7 @@ void SteppedLanes::evaluate_quantities() {
 // Finds the events within a lane's piece.
 void SteppedLanes::search(std::size_t l) {
   Lane& lane = lanes_[l];
-  if (!motions_[l]) motions_[l] = std::make_unique<Motion>(step_, l);
-  if (!searches_[l]) {
-    searches_[l].emplace(*lane.run, *motions_[l]);
-    searches_[l]->after_switch();  // no monitor was checked since the last switch
-  }
-  GuardSearch& search = *searches_[l];
+  GuardSearch& search = search_in(l);
   search.begin_step();
   if (search.begin(lane.time, step_.to(l)) == model::Effect::stop) return end(l, State::stopped);
   while (const auto crossing = search.next()) {

@@ -6,11 +6,9 @@
 
 #include <array>
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <vector>
 
-#include "solve/hybrid/guard_search.hpp"
 #include "solve/sampled/lane_engine.hpp"
 
 namespace bbsim::solve::sampled {
@@ -31,7 +29,6 @@ class SteppedLanes : private LaneEngine {
   enum class State { empty, waits, done, stopped, given_up };
 
   explicit SteppedLanes(Tolerances tolerances);
-  ~SteppedLanes();
 
   // Begins a rig in a lane, up to `end` s. It then waits at t = 0. moves() must hold, and the
   // controller must be external; it is not called.
@@ -51,8 +48,6 @@ class SteppedLanes : private LaneEngine {
   void advance();
 
  private:
-  class Motion;
-
   void ask(std::size_t lane);
   void end(std::size_t lane, State how);
   void evaluate_quantities();
@@ -63,9 +58,7 @@ class SteppedLanes : private LaneEngine {
   std::array<LaneSample, group> samples_{};
   std::array<bool, group> asks_{};    // the lane has come to a sample
   std::array<double, group> kept_{};  // the contraction of a lane that waits
-  std::array<std::unique_ptr<Motion>, group> motions_;
-  std::array<std::optional<GuardSearch>, group> searches_;  // of a lane near an event
-  std::vector<double> found_;                               // the states at an event
+  std::vector<double> found_;         // the states at an event
 };
 
 }  // namespace bbsim::solve::sampled

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The servos of one rig over a piece under a held command, and the plate that they move.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "model/model.hpp"
+#include "model/servo/held_motion.hpp"
+#include "model/systems/given_plate.hpp"
+#include "solve/sampled/kernel.hpp"
+#include "solve/sampled/motion_tables.hpp"
+
+namespace bbsim::solve::sampled {
+
+using model::with_given_plate;
+
+class HeldPlate {
+ public:
+  // with_given_plate() must hold for the model, which must live.
+  explicit HeldPlate(const model::Model& model);
+
+  [[nodiscard]] std::size_t servos() const { return servos_; }
+  // Whether a mechanism is between servos and plate.
+  [[nodiscard]] bool has_mechanism() const { return linkages_ != nullptr || three_ != nullptr; }
+  [[nodiscard]] const model::RigMode& mode() const { return *mode_; }
+  [[nodiscard]] const model::ServoResponses& response() const { return response_; }
+
+  // The servos' motions from states z, in the present mode.
+  [[nodiscard]] model::HeldMotions motions(const double* z) const;
+
+  // Sets the servos of a piece of `length` s in the present mode, and the plate at its start if it
+  // is behind a mechanism. The tables must live as long as the motion is used.
+  void prepare(const model::HeldMotions& motions, double length, MotionTables& tables,
+               PlateMotion& motion);
+  // Writes the servos' angles and rates at the end of the piece into states z.
+  void write_end(const PlateMotion& motion, double* z) const;
+  // Goes on from near the end of a piece whose plate was computed.
+  void pass(const PlateMotion& motion);
+
+  // Whether the mechanism is certain to stay within its range over the piece.
+  [[nodiscard]] bool stays_off_dead_points(const PlateMotion& motion,
+                                           const model::HeldMotions& motions, double length) const;
+
+ private:
+  template <class Link>
+  void start_plate(const Link& link, PlateMotion& motion);
+
+  std::size_t servos_ = 2;
+  const model::RigMode* mode_ = nullptr;
+  model::ServoResponses response_;
+  const model::Linkages* linkages_ = nullptr;
+  const model::ThreeServos* three_ = nullptr;
+  // A pose of three servos near the next one, and the horns' angles in it, rad.
+  model::ThreeServos::Pose<double> pose_{};
+  double horns_[model::ThreeServos::servos]{};
+  double gain_ = 1;  // of three servos, at home (PlateMotion::gain)
+};
+
+}  // namespace bbsim::solve::sampled
