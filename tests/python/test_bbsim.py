@@ -492,6 +492,8 @@ class Environments(unittest.TestCase):
             "controller.pd": {"kv": [[0.5, 0], [0, -0.5]], "kp": [[0.7, 0], [0, -0.7]]}, "controller.limit": 3,
         }  # fmt: skip
         small = {"plate.size": ["14 cm", "14 cm"]}
+        legs = {"radius_base": "6 cm", "radius_plate": "9 cm", "horn": "4 cm", "rod": "10 cm", "height": "11 cm"}
+        crooked = {"gimbal.mounting": {"height": "2 cm", "skew": "3 deg", "yaw": "5 deg", "base_tilt": "1 deg"}}
         for name, drawn, settings, ends in (
             ("as it is", rigs, {}, "both"),
             ("each ends at its own time", {**rigs, "time.end": (0.3, 1)}, {}, "both"),
@@ -507,6 +509,9 @@ class Environments(unittest.TestCase):
             ("a limit of the acceleration", {}, {"gimbal.servo": {**servo, "acceleration_limit": 20}}, "both"),
             ("backlash", rigs, {"gimbal.servo.backlash": "0.5 deg"}, "both"),
             ("accelerations", {"ball.position.0": (0.03, 0.07)}, accelerations, "truncated"),
+            ("push rods", rigs, {"gimbal.linkage": {"horn": "2.4 cm", "arm": "6 cm", "offset": ["-1.6 cm", "7 cm"]}}, "both"),
+            ("three legs", rigs, {"gimbal.three_servos": legs}, "both"),
+            ("other balls on a crooked gimbal", {**rigs, "ball.inertia_factor": (0.4, 0.667)}, crooked, "both"),
             ("a small plate", rigs, {**small, "time.end": 5}, "terminated"),
         ):
             with self.subTest(name):
@@ -540,7 +545,7 @@ class Environments(unittest.TestCase):
             np.testing.assert_array_equal(one[:, :3], other[:, :3])
 
     def test_what_lanes_cannot_carry(self):
-        for settings in ({"time.end": 1e5}, {"solver.method": "bdf"}, {"gimbal.mounting.height": "1 cm"}):
+        for settings in ({"time.end": 1e5}, {"solver.method": "bdf"}, {"ball.mass": "50 g", "ball.losses.viscous": 1e-6}):
             with self.subTest(settings):
                 envs = bbsim.VectorEnv(CONFIGS / "rig.yaml", 9, set=settings)
                 envs.reset(seed=1)

@@ -138,6 +138,10 @@ const Case cases[] = {
      "{angle: -2.1, radius_base: 0.065, radius_plate: 0.09, horn: 0.04, rod: 0.105, height: "
      "0.11}]}}",
      "gravity_compensation: {kp: 6, kv: 5}, drives: angle, limit: 0.2"},
+    {"three legs of which some are at the rate limit",
+     "{servo: {natural_frequency: 31.4, damping: 0.8, rate_limit: 0.4}, "
+     "three_servos: {radius_base: 0.06, radius_plate: 0.09, horn: 0.04, rod: 0.1, height: 0.11}}",
+     "gravity_compensation: {kp: 6, kv: 5}, drives: angle, limit: 0.2"},
 };
 
 std::string text_of(const Case& one, const std::string& sampling, const std::string& columns) {

@@ -231,13 +231,12 @@ void HeldStepper::evaluate_some(const double* times, std::size_t count, double* 
     if (known[i] != nullptr) known[i]->evaluate(piece_, ball[i]);
     std::copy_n(ball[i], 5, row);
     if (model_->gamma) row[size] = ball[i][5];
-    const model::ImpulseAnswer* answer = nullptr;
+    const model::HeldLaw& first = servo_[0].law;  // usually that of all servos
+    const model::ImpulseAnswer of_first = instants_.answer(first, time_, after[i]);
     for (std::size_t k = 0; k < servos_; ++k) {
       const model::HeldMotion& servo = servo_[k];
-      if (k == 0 || !(servo.law == servo_[0].law)) {
-        answer = &instants_.answer(servo.law, time_, after[i]);
-      }
-      const model::HeldMotion::Instant at = servo.after(*answer);
+      const model::HeldMotion::Instant at =
+          servo.after(servo.law == first ? of_first : instants_.answer(servo.law, time_, after[i]));
       row[angle + k] = at.angle;
       row[rate_ + k] = at.rate;
     }
