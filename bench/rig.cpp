@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Compares configs/rig.yaml with the same rig written by hand (rig_by_hand.hpp): processor time of
-// a run, and error against the solution.
+// a run, and error against the solution. Then compares rigs with push rods, three legs and jitter
+// with configs/rig.yaml.
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -54,10 +55,10 @@ class Prepared {
  public:
   explicit Prepared(Scenario of)
       : scene_(std::move(of)),
-        model_(model::assemble(scene_, false)),
+        columns_(scenario::columns_named(scene_.output.columns)),
+        model_(model::assemble(scene_, scenario::integrals_for(columns_))),
         constants_(model::constants_of(scene_)),
-        grid_(scene_.time),
-        columns_(scenario::columns_named(scene_.output.columns)) {}
+        grid_(scene_.time) {}
   Prepared(const Prepared&) = delete;
   Prepared& operator=(const Prepared&) = delete;
 
@@ -73,17 +74,17 @@ class Prepared {
 
  private:
   Scenario scene_;
+  std::vector<const scenario::Column*> columns_;
   model::Model model_;
   model::BallConstants constants_;
   solve::OutputGrid grid_;
-  std::vector<const scenario::Column*> columns_;
 };
 
 // A sweep of the scene over gains and noise seeds, with the default measures.
 class Swept {
  public:
-  Swept(const std::string& file, std::size_t cases)
-      : family_(file, {}),
+  Swept(const std::string& file, std::size_t cases, const std::vector<std::string>& set = {})
+      : family_(file, set),
         plan_(family_, sweep_of(cases)),
         task_{family_, plan_, measures()},
         engine_(sweep::choose_engine(task_)),
@@ -254,12 +255,69 @@ void measure(const std::string& file, bool noise, double budget) {
   }
 }
 
+// A rig, and bounds on its time a sample relative to configs/rig.yaml: of a run, and swept.
+struct Mechanism {
+  const char* name;
+  std::string file;
+  std::vector<std::string> set;
+  double most = 0, most_swept = 0;  // 0: no target
+};
+
+void compare_mechanisms(double budget) {
+  const std::string configs = BBSIM_SOURCE_DIR "/configs/", rig = configs + "rig.yaml";
+  const std::string rods = "gimbal.linkage={horn: 2.4 cm, arm: 6 cm, offset: [-1.6 cm, 7 cm]}";
+  const std::string legs =
+      "gimbal.three_servos={radius_base: 6 cm, radius_plate: 9 cm, horn: 4 cm, rod: 10 cm, "
+      "height: 11 cm}";
+  const std::string jitter = "controller.sampling.jitter=1 ms";
+  const std::vector<Mechanism> all{
+      {"rig.yaml", rig, {}},
+      {"behind push rods", rig, {rods}, 2, 2},
+      {"on three legs", rig, {legs}, 2, 2},
+      {"with jitter", rig, {jitter}, 2, 2},
+      {"with jitter behind push rods", rig, {jitter, rods}, 4, 4},
+      {"pushrod.yaml: backlash, jitter, camera", configs + "pushrod.yaml", {}, 6, 8},
+      {"three-servos.yaml", configs + "three-servos.yaml", {}, 2, 2},
+  };
+  std::printf("%-40s %9s %6s %9s %6s\n", "a sample of", "us", "ratio", "swept us", "ratio");
+  double first = 0, first_swept = 0;
+  for (const Mechanism& one : all) {
+    Scenario scene = ScenarioFamily(one.file, one.set).read({});
+    scene.plate.inertia.reset();  // no peak torques
+    const double samples = scene.time.end / scene.controller->sampling->period;
+    const Prepared whole(scene);
+    Swept swept(one.file, 200, one.set);
+    Taken taken;
+    double least = std::numeric_limits<double>::infinity(), spent = 0;
+    while (spent < budget) {
+      const CpuClock clock;
+      whole.run(taken);
+      least = std::min(least, clock.seconds());
+      swept.run();
+      spent += clock.seconds();
+    }
+    const double run = least / samples;
+    const double of_case = swept.seconds() / static_cast<double>(swept.cases()) / samples;
+    if (first == 0) {
+      first = run;
+      first_swept = of_case;
+    }
+    std::printf("%-40s %9.2f %6.2f %9.2f %6.2f", one.name, 1e6 * run, run / first, 1e6 * of_case,
+                of_case / first_swept);
+    if (one.most > 0) {
+      const bool holds = run <= one.most * first && of_case <= one.most_swept * first_swept;
+      std::printf("  <= %g, %g swept %s", one.most, one.most_swept, holds ? "holds" : "FAILS");
+    }
+    std::printf("  (%s)\n", swept.engine().c_str());
+  }
+}
+
 }  // namespace
 
 int main(int count, char** words) {
   const std::string file = BBSIM_SOURCE_DIR "/configs/rig.yaml";
   double budget = 0.5;
-  CLI::App app("Times configs/rig.yaml against the same rig written by hand.");
+  CLI::App app("Times configs/rig.yaml against the same rig written by hand, and other rigs.");
   app.add_option("--budget", budget, "most seconds to spend on a program")->capture_default_str();
   CLI11_PARSE(app, count, words);
   try {
@@ -271,6 +329,8 @@ int main(int count, char** words) {
     measure(file, true, budget);
     std::printf("\n");
     measure(file, false, budget);
+    std::printf("\n");
+    compare_mechanisms(4 * budget);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
