@@ -131,7 +131,7 @@ struct RunOptions {
   std::function<bool(double fraction)> goes_on{};
 };
 
-enum class Status { done, stopped, failed, interrupted };
+enum class Status { done, stopped, failed, interrupted, refused };  // refused: only cases
 
 struct Result {
   Status status = Status::done;
@@ -201,6 +201,47 @@ struct Table {
 
 // Throws like run().
 [[nodiscard]] BBSIM_API Table sweep(const Scenario& scenario, const SweepOptions& options = {});
+
+// A key with a value for each case: numbers (SI), or texts such as "2 cm".
+struct CaseKey {
+  std::string key;
+  std::vector<double> numbers{};
+  std::vector<std::string> texts{};  // an empty one leaves the scenario's own value
+};
+
+// x, y, vx, vy, phi, theta, phi_rate, theta_rate, spin (SI). The angles are those of gimbal.start;
+// they count only if a controller or torques move the gimbal.
+using State = std::array<double, 9>;
+
+struct SimulateOptions {
+  std::vector<std::string> columns{}, measures{};
+  // Times at which the columns are wanted (s), which do not decrease; by default the scenario's
+  // output times. `own_times`: a list for each case, all of one length, one after the other.
+  std::optional<std::vector<double>> times{};
+  bool own_times = false;
+  // For each case: the part of the scenario's time that it covers (s), by default all, and the
+  // state at its begin, by default the scenario's.
+  std::vector<double> begin{}, end{};
+  std::vector<State> start{};
+  bool events = true;       // false: without events that stop a run or only observe it
+  std::size_t threads = 0;  // at most 1024; 0: one per processor
+  std::function<bool(double fraction)> goes_on{};
+};
+
+// For each column a value for each time of each case, one case after the other; for each measure
+// one for each case. NaN where a case has none.
+struct Cases {
+  std::size_t times = 0;  // of a case
+  std::vector<std::vector<double>> columns, measures;
+  std::vector<Status> status;
+  std::vector<std::string> reason;  // why a case is not done, or a measure is not finite
+};
+
+// Runs a scenario `count` times, in SIMD lanes where these carry it. Throws like run(), but a case
+// with bad values of its own is only refused, unless no case is sound.
+[[nodiscard]] BBSIM_API Cases simulate(const Scenario& scenario, std::size_t count,
+                                       const std::vector<CaseKey>& keys,
+                                       const SimulateOptions& options = {});
 
 // dz = A z + B u, y = C z + D u; dz is z', or z one `period` later. Matrices are lists of rows.
 struct LinearSystem {

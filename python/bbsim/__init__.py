@@ -21,12 +21,13 @@ from . import _bbsim
 from ._bbsim import Sample, __version__
 from ._environments import Env, VectorEnv
 from ._errors import ControllerError, Error, InputError, OutputError, Problem
-from ._result import Linearization, Result
+from ._result import Linearization, OpenLoop, Result
 from ._scenario import Scenario, Settings, given, specification
+from ._simulate import Simulated, simulate
 
 __all__ = [
-    "ControllerError", "Env", "Error", "InputError", "Linearization", "OutputError", "Problem",
-    "Result", "Sample", "VectorEnv", "__version__", "check", "linearize", "run", "sweep",
+    "ControllerError", "Env", "Error", "InputError", "Linearization", "OpenLoop", "OutputError", "Problem",
+    "Result", "Sample", "Simulated", "VectorEnv", "__version__", "check", "linearize", "run", "simulate", "sweep",
 ]  # fmt: skip
 
 

@@ -61,6 +61,41 @@ class Sweep:
     engine: str
     columns: List[SweepColumn]
 
+class CaseKey:
+    def __init__(self, key: str, numbers: _Array, texts: Sequence[str]) -> None: ...
+
+class CasesAsked:
+    def __init__(
+        self,
+        count: int,
+        keys: Sequence[CaseKey],
+        columns: Sequence[str],
+        measures: Sequence[str],
+        times: Optional[_Array],
+        begin: _Array,
+        end: _Array,
+        start: _Array,
+        events: bool,
+    ) -> None: ...
+
+class CasesResult:
+    times: int
+    status: List[str]
+    reason: List[str]
+    def column(self, place: int) -> _Array: ...
+    def measure(self, place: int) -> _Array: ...
+
+START: List[str]
+
+class LinearSystem:
+    A: _Array
+    B: _Array
+    C: _Array
+    D: _Array
+    dt: Optional[float]
+    states: List[Tuple[str, str]]
+    inputs: List[Tuple[str, str]]
+
 class Linearized:
     A: _Array
     B: _Array
@@ -73,6 +108,7 @@ class Linearized:
     kind: str
     at: str
     note: str
+    def open_loop(self, command: str) -> Optional[LinearSystem]: ...
     def json(self) -> str: ...
     def report(self) -> str: ...
 
@@ -97,4 +133,7 @@ def run(given: Given, measures: Optional[Sequence[str]], expect: Sequence[str], 
 def check(given: Given) -> str: ...
 def linearize(given: Given, kind: Optional[str], at: str) -> Linearized: ...
 def sweep(given: Given, choice: SweepChoice, threads: float) -> Sweep: ...
+def simulate(given: Given, asked: CasesAsked, threads: float) -> CasesResult: ...
+def frequencies(poles: Sequence[complex], closed: Sequence[complex], period: float) -> List[float]: ...
+def number_at(given: Given, key: str, value: str) -> Optional[float]: ...
 def key_and_hint(message: str) -> Tuple[str, str]: ...

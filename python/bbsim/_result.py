@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Sequence
 import numpy as np
 
 from . import _bbsim
+from ._errors import InputError
 
 if TYPE_CHECKING:
     import matplotlib.figure
@@ -169,7 +170,73 @@ class Result:
         )
 
 
-class Linearization:
+class _StateSpace:
+    """dz = A z + B u, y = C z + D u: dz is z', or z after one period ``dt``."""
+
+    A: Array
+    B: Array
+    C: Array
+    D: Array
+    dt: Optional[float]
+    states: List[str]
+    inputs: List[str]
+    outputs: List[str]
+
+    def to_scipy(self) -> Any:
+        """A ``scipy.signal.StateSpace``."""
+        from scipy.signal import StateSpace
+
+        matrices = (self.A, self.B, self.C, self.D)
+        return StateSpace(*matrices, dt=self.dt) if self.dt else StateSpace(*matrices)
+
+    def to_control(self) -> Any:
+        """A state space of python-control."""
+        import control
+
+        return control.ss(
+            self.A, self.B, self.C, self.D, self.dt or 0,
+            states=self.states, inputs=self.inputs, outputs=self.outputs,
+        )
+
+
+class OpenLoop(_StateSpace):
+    """The loop broken at the command of one axis, with the other one closed.
+
+    One input and one output, with the sign for which -1 is the critical point. A sampled loop goes from
+    sample to sample, with all its delays; in continuous time ``dt`` is 0.
+    """
+
+    def __init__(self, made: _bbsim.LinearSystem) -> None:
+        self.A, self.B, self.C, self.D = made.A, made.B, made.C, made.D
+        self.dt: float = made.dt or 0.0
+        self.states = [name for name, _ in made.states]
+        (self.command, self.unit), = made.inputs
+        self.inputs = [self.command]
+        self.outputs = [self.command]
+
+    def response(self, frequencies: Any) -> "np.ndarray[Any, np.dtype[np.complex128]]":
+        """The frequency response at these angular frequencies (rad/s); not finite at a pole."""
+        w = np.asarray(frequencies, dtype=np.float64)
+        points = np.exp(1j * w * self.dt) if self.dt else 1j * w
+        systems = points[..., None, None] * np.eye(len(self.A)) - self.A
+        return self.D[0, 0] + np.squeeze(self.C @ _solved(systems, self.B), axis=(-2, -1))
+
+    def __repr__(self) -> str:
+        time = f"every {self.dt} s" if self.dt else "in continuous time"
+        return f"<bbsim.OpenLoop at {self.command}, {len(self.states)} states, {time}>"
+
+
+def _solved(systems: "np.ndarray[Any, np.dtype[np.complex128]]", right: Array) -> Any:
+    """The solutions of systems with one right-hand side; nan for those that are singular."""
+    try:
+        return np.linalg.solve(systems, np.broadcast_to(right, (*systems.shape[:-1], right.shape[1])))
+    except np.linalg.LinAlgError:
+        if systems.ndim == 2:
+            return np.full((systems.shape[0], right.shape[1]), np.nan)
+        return np.stack([_solved(one, right) for one in systems])
+
+
+class Linearization(_StateSpace):
     """A scene as a linear system: dz = A z + B u, y = C z + D u.
 
     In continuous time ``dt`` is None and dz is z'; otherwise dz is z after one period ``dt``.
@@ -177,11 +244,8 @@ class Linearization:
 
     def __init__(self, made: _bbsim.Linearized) -> None:
         self._made = made
-        self.A: Array = made.A
-        self.B: Array = made.B
-        self.C: Array = made.C
-        self.D: Array = made.D
-        self.dt: Optional[float] = made.dt
+        self.A, self.B, self.C, self.D = made.A, made.B, made.C, made.D
+        self.dt = made.dt
         self.states: List[str] = [name for name, _ in made.states]
         self.inputs: List[str] = [name for name, _ in made.inputs]
         self.outputs: List[str] = [name for name, _ in made.outputs]
@@ -203,21 +267,19 @@ class Linearization:
         """The margins of each command's loop, as ``bbsim linearize`` writes them; {} for a plant."""
         return self._json.get("margins") or {}
 
-    def to_scipy(self) -> Any:
-        """A ``scipy.signal.StateSpace``."""
-        from scipy.signal import StateSpace
+    def open_loop(self, axis: str) -> OpenLoop:
+        """The loop broken at the command of this axis, ``"phi"`` or ``"theta"``, the other one closed.
 
-        matrices = (self.A, self.B, self.C, self.D)
-        return StateSpace(*matrices) if self.dt is None else StateSpace(*matrices, dt=self.dt)
-
-    def to_control(self) -> Any:
-        """A state space of python-control."""
-        import control
-
-        return control.ss(
-            self.A, self.B, self.C, self.D, 0 if self.dt is None else self.dt,
-            states=self.states, inputs=self.inputs, outputs=self.outputs,
-        )
+        It has the margins of ``margins[f"{axis}_command"]``. Raises InputError for a plant, and for an axis
+        along which no command moves the ball.
+        """
+        if axis not in ("phi", "theta"):
+            raise InputError([("", f"axis: found {axis!r}; allowed: phi, theta")])
+        found = self._made.open_loop(f"{axis}_command")
+        if found is None:
+            why = "its command closes no loop" if self.kind == "loop" else f"this is the {self.kind}, without a loop"
+            raise InputError([("", f"axis: found {axis}, but {why}; allowed: axes of a closed loop")])
+        return OpenLoop(found)
 
     def __repr__(self) -> str:
         return self._made.report().rstrip("\n")

@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/cases.hpp"
 #include "api/check.hpp"
 #include "api/environments.hpp"
 #include "api/fault.hpp"
@@ -143,6 +144,12 @@ api::RunResult run(const Given& given, const std::optional<std::vector<std::stri
   });
 }
 
+// The number (SI) that a text such as "2 cm" gives the key; empty if the key has no single number.
+std::optional<double> number_at(const Given& given, const std::string& key,
+                                const std::string& value) {
+  return family_of(given).number_at(key, {{key, value}});
+}
+
 std::string check(const Given& given) {
   Work work(given);
   return work.beside([&] {
@@ -156,6 +163,7 @@ api::Linearized linearize(const Given& given, const std::optional<std::string>& 
   api::LinearizeRequest request;
   request.kind = api::kind_named(kind.value_or(""));
   request.at = at;
+  request.estimates = true;
   Work work(given);
   api::Linearized made = work.beside([&] {
     const ScenarioFamily family = work.family();
@@ -176,6 +184,89 @@ api::SweepResult sweep(const Given& given, const api::SweepChoice& choice, doubl
     request.threads = work.has_callable() ? 1 : threads;
     return api::sweep(request, work.watch());
   });
+}
+
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+std::vector<double> list_of(const Numbers& numbers) {
+  return {numbers.data(), numbers.data() + numbers.size()};
+}
+
+struct CasesAsked {
+  std::size_t count;
+  std::vector<sweep::SweepPlan::ListedKey> keys;
+  std::vector<std::string> columns, measures;
+  std::optional<sweep::CaseTimes> times;
+  sweep::Windows windows;
+};
+
+api::CasesResult simulate(const Given& given, const CasesAsked& asked, double threads) {
+  Work work(given);
+  return work.beside([&] {
+    const ScenarioFamily family = work.family();
+    api::CasesRequest request{family,         asked.count, asked.keys,   asked.columns,
+                              asked.measures, asked.times, asked.windows};
+    request.threads = work.has_callable() ? 1 : threads;
+    return api::run_cases(request, work.watch());
+  });
+}
+
+void define_simulate(py::module_& module) {
+  using api::CasesResult;
+  using Key = sweep::SweepPlan::ListedKey;
+  py::class_<Key>(module, "CaseKey")
+      .def(py::init([](std::string key, const Numbers& numbers, std::vector<std::string> texts) {
+             return Key{std::move(key), list_of(numbers), std::move(texts)};
+           }),
+           py::arg("key"), py::arg("numbers"), py::arg("texts"));
+  py::class_<CasesAsked>(module, "CasesAsked")
+      .def(
+          py::init([](std::size_t count, std::vector<Key> keys, std::vector<std::string> columns,
+                      std::vector<std::string> measures, const std::optional<Numbers>& times,
+                      const Numbers& begin, const Numbers& end, const Numbers& start, bool events) {
+            CasesAsked asked{count,
+                             std::move(keys),
+                             std::move(columns),
+                             std::move(measures),
+                             {},
+                             {list_of(begin), list_of(end), {}, events}};
+            for (py::ssize_t i = 0; i < start.size(); i += sweep::start_names.size()) {
+              std::copy_n(start.data() + i, sweep::start_names.size(),
+                          asked.windows.start.emplace_back().begin());
+            }
+            if (times) {
+              asked.times = {list_of(*times),
+                             static_cast<std::size_t>(times->shape(times->ndim() - 1)),
+                             times->ndim() == 2};
+            }
+            return asked;
+          }),
+          py::arg("count"), py::arg("keys"), py::arg("columns"), py::arg("measures"),
+          py::arg("times"), py::arg("begin"), py::arg("end"), py::arg("start"), py::arg("events"));
+  py::class_<CasesResult>(module, "CasesResult")
+      .def("column",
+           [](const py::object& self, std::size_t place) {
+             const auto& made = self.cast<const CasesResult&>();
+             return Column({made.status.size(), made.times}, made.columns.at(place).data(), self);
+           })
+      .def("measure",
+           [](const py::object& self, std::size_t place) {
+             return view(self.cast<const CasesResult&>().measures.at(place), self);
+           })
+      .def_property_readonly("times", [](const CasesResult& made) { return made.times; })
+      .def_property_readonly("status",
+                             [](const CasesResult& made) {
+                               std::vector<std::string> words;
+                               for (const auto& one : made.status) words.push_back(one.word);
+                               return words;
+                             })
+      .def_property_readonly("reason", [](const CasesResult& made) {
+        std::vector<std::string> texts;
+        for (const auto& one : made.status) texts.push_back(one.reason);
+        return texts;
+      });
+  module.attr("START") = py::cast(sweep::start_names);
+  module.def("simulate", &simulate, py::arg("given"), py::arg("asked"), py::arg("threads"));
 }
 
 void define_run(py::module_& module) {
@@ -235,21 +326,31 @@ void define_sweep(py::module_& module) {
   module.def("sweep", &sweep, py::arg("given"), py::arg("choice"), py::arg("threads"));
 }
 
+std::vector<std::pair<std::string, std::string>> names_of(
+    const std::vector<model::LinearSignal>& signals) {
+  std::vector<std::pair<std::string, std::string>> names;
+  for (const model::LinearSignal& signal : signals) names.emplace_back(signal.name, signal.unit);
+  return names;
+}
+
 void define_linearize(py::module_& module) {
   using api::Linearized;
   const auto matrix = [](Eigen::MatrixXd model::LinearSystem::*member) {
     return [member](const Linearized& made) { return made.linearisation.system.*member; };
   };
   const auto signals = [](std::vector<model::LinearSignal> model::LinearSystem::*member) {
-    return [member](const Linearized& made) {
-      std::vector<std::pair<std::string, std::string>> names;
-      for (const model::LinearSignal& signal : made.linearisation.system.*member) {
-        names.emplace_back(signal.name, signal.unit);
-      }
-      return names;
-    };
+    return [member](const Linearized& made) { return names_of(made.linearisation.system.*member); };
   };
   using model::LinearSystem;
+  py::class_<LinearSystem>(module, "LinearSystem")
+      .def_readonly("A", &LinearSystem::a)
+      .def_readonly("B", &LinearSystem::b)
+      .def_readonly("C", &LinearSystem::c)
+      .def_readonly("D", &LinearSystem::d)
+      .def_readonly("dt", &LinearSystem::period)
+      .def_property_readonly("states", [](const LinearSystem& its) { return names_of(its.states); })
+      .def_property_readonly("inputs",
+                             [](const LinearSystem& its) { return names_of(its.inputs); });
   py::class_<Linearized>(module, "Linearized")
       .def_property_readonly("A", matrix(&LinearSystem::a))
       .def_property_readonly("B", matrix(&LinearSystem::b))
@@ -263,12 +364,20 @@ void define_linearize(py::module_& module) {
       .def_readonly("kind", &Linearized::kind)
       .def_readonly("at", &Linearized::at)
       .def_readonly("note", &Linearized::note)
+      .def("open_loop",
+           [](const Linearized& made, const std::string& command) -> std::optional<LinearSystem> {
+             const auto& loops = made.linearisation.margins;
+             const auto found = std::ranges::find(loops, command, &model::LoopMargins::command);
+             if (found == loops.end()) return {};
+             return found->open;
+           })
       .def("json", [](const Linearized& made) { return api::file_text(made, ".json"); })
       .def("report", [](const Linearized& made) { return to_text(api::report_of(made)); });
+  module.def("frequencies", &model::frequencies_to_look_at, py::arg("poles"), py::arg("closed"),
+             py::arg("period"));
   module.def("linearize", &linearize, py::arg("given"), py::arg("kind"), py::arg("at"));
 }
 
-using Commands = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using api::Environments;
 
 std::unique_ptr<Environments> environments(const Given& given, std::size_t count,
@@ -300,7 +409,7 @@ void begin(Environments& its, const Beginnings& these) {
 }
 
 // Steps the runs that do not begin.
-void step(Environments& its, const Commands& commands, const Beginnings& these) {
+void step(Environments& its, const Numbers& commands, const Beginnings& these) {
   const auto count = static_cast<py::ssize_t>(its.count());
   if (commands.ndim() != 2 || commands.shape(0) != count || commands.shape(1) != 2) {
     throw py::value_error("actions: found another shape; allowed: (" + std::to_string(count) +
@@ -404,9 +513,11 @@ PYBIND11_MODULE(_bbsim, module) {
   define_sample(module);
   define_run(module);
   define_sweep(module);
+  define_simulate(module);
   define_linearize(module);
   define_environments(module);
   module.def("check", &check, py::arg("given"));
+  module.def("number_at", &number_at, py::arg("given"), py::arg("key"), py::arg("value"));
   module.def(
       "key_and_hint",
       [](const std::string& message) {

@@ -23,4 +23,11 @@ controller::Host make_host(Watch& watch) {
                           watch.stop());
 }
 
+void try_controller(const ScenarioFamily& family, Scenario first, Watch& watch) {
+  if (!first.controller || !first.controller->own) return;
+  first.source = family.source();  // for the places of its keys
+  controller::Host host = make_host(watch);
+  static_cast<void>(assemble(first, scenario::columns_named(first.output.columns), host));
+}
+
 }  // namespace bbsim::api

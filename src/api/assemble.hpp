@@ -11,6 +11,7 @@
 #include "controller/host.hpp"
 #include "model/model.hpp"
 #include "scenario/columns.hpp"
+#include "scenario/family.hpp"
 #include "scenario/look_up.hpp"
 
 namespace bbsim::api {
@@ -36,5 +37,9 @@ auto with_places(const Scenario& scenario, const Make& make) {
 
 // Host that passes what controllers say to the watch and stops waiting when the watch stops.
 [[nodiscard]] controller::Host make_host(Watch& watch);
+
+// Starts the user's controller once, before many runs: if it cannot start, the scenario is at
+// fault, not each case. `first` is the scenario of the first case.
+void try_controller(const ScenarioFamily& family, Scenario first, Watch& watch);
 
 }  // namespace bbsim::api

@@ -200,7 +200,7 @@ void report_controller(Report& report, const Scenario& scenario, Watch& watch) {
   // A function of the calling program is not probed: it may remember earlier calls.
   if (std::holds_alternative<ControllerFactory>(scenario.controller->own->by)) return;
   const Report found = with_places(scenario, [&] {
-    Report answers = probe(scenario, model);
+    Report answers = probe(scenario, model).report;
     host.require_printed();
     const std::string unheard = host.unheard();
     if (!unheard.empty()) throw KeyError("controller.library.wiring", unheard);

@@ -10,6 +10,7 @@
 
 #include "api/assemble.hpp"
 #include "api/loop_text.hpp"
+#include "api/probe.hpp"
 #include "base/number_text.hpp"
 #include "base/short_number.hpp"
 #include "record/linear_text.hpp"
@@ -87,6 +88,15 @@ std::optional<model::LinearPoint> point_at(double time, const Scenario& scenario
   return {};
 }
 
+Linearization estimated_loop(const Scenario& scenario, Watch& watch) {
+  controller::Host host = make_host(watch);
+  const model::Model model =
+      assemble(scenario, scenario::columns_named(scenario.output.columns), host);
+  Probed found = with_places(scenario, [&] { return probe(scenario, model); });
+  if (!found.loop) throw InputError("linearize: no estimate of the loop: " + found.why);
+  return std::move(*found.loop);
+}
+
 }  // namespace
 
 std::optional<LinearKind> kind_named(const std::string& name) {
@@ -106,6 +116,12 @@ Linearized linearize(const LinearizeRequest& request, Watch& watch) {
   made.scenario = scenario.source.file;
   made.kind = kinds[static_cast<std::size_t>(kind)];
   made.at = request.at;
+  const bool own = scenario.controller && scenario.controller->own;
+  if (request.estimates && own && kind == LinearKind::loop && request.at == "home") {
+    made.linearisation = estimated_loop(scenario, watch);
+    made.note = "the law is an estimate from its answers to small pulses about the reference";
+    return made;
+  }
   model::LinearPoint point = model::home_point();
   if (request.at == "equilibrium") {
     point = model::equilibrium(scenario);

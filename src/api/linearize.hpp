@@ -25,6 +25,9 @@ struct LinearizeRequest {
   Scenario scenario;
   std::optional<LinearKind> kind{};  // empty: the usual one for the scene
   std::string at = "home";           // or equilibrium, or a time of the run, such as "2 s"
+  // The loop of your own controller, about home, may be estimated as `bbsim check` does; it has no
+  // inputs and outputs.
+  bool estimates = false;
 };
 
 struct Linearized {

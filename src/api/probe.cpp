@@ -14,6 +14,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "api/linearize.hpp"
@@ -368,18 +369,20 @@ Estimate law_about_reference(Bench& bench, std::size_t start, double size) {
   return estimate;
 }
 
-// Margins of the loop of the plant and the estimated law.
-Report estimated_margins(const Scenario& scenario, const model::Model& model, Bench& bench,
-                         const std::vector<int>& axes, const Answers& answers, std::size_t start) {
-  const std::string none = "margins: no estimate: ";
+// The loop of the plant and the estimated law, and its margins.
+Probed estimated_loop(const Scenario& scenario, const model::Model& model, Bench& bench,
+                      const std::vector<int>& axes, const Answers& answers, std::size_t start) {
+  const auto none = [](const std::string& why) {
+    return Probed{{{"", "margins: no estimate: " + why}}, {}, why};
+  };
   double size = std::numeric_limits<double>::infinity();
   for (const auto& near : answers.near) size = std::min(size, near ? near->distance / 10 : size);
   try {
     const model::Linearization plant =
         model::linearize(scenario, model, model::LinearKind::sampled, model::home_point());
     const Estimate estimate = law_about_reference(bench, start, size);
-    if (!estimate.law) return {{"", none + estimate.why}};
-    const model::Linearization loop = model::loop_with(plant, *estimate.law, axes);
+    if (!estimate.law) return none(estimate.why);
+    model::Linearization loop = model::loop_with(plant, *estimate.law, axes);
     Report report;
     if (!loop.stable) report.push_back({"WARNING", "the loop is not stable, by its estimate"});
     report.push_back(
@@ -395,15 +398,15 @@ Report estimated_margins(const Scenario& scenario, const model::Model& model, Be
     if (const std::string note = without_frames(scenario, true); !note.empty()) {
       report.push_back({"", note});
     }
-    return report;
+    return {report, std::move(loop), {}};
   } catch (const InputError& error) {  // the plant has no linear system
-    return {{"", none + error.what()}};
+    return none(error.what());
   }
 }
 
 }  // namespace
 
-Report probe(const Scenario& scenario, const model::Model& model) {
+Probed probe(const Scenario& scenario, const model::Model& model) {
   Bench bench(model);
   Report report;
   std::vector<int> axes = model::moving_axes(model);
@@ -426,8 +429,9 @@ Report probe(const Scenario& scenario, const model::Model& model) {
                                      within + "; does it read a wall clock?"});
   }
   if (std::ranges::none_of(axes, [&](int axis) { return depend(answers, axis); })) {
-    report.push_back({"WARNING", "its commands do not depend on where the ball is, " + within});
-    return report;
+    const std::string idle = "its commands do not depend on where the ball is, " + within;
+    report.push_back({"WARNING", idle});
+    return {report, {}, idle};
   }
   std::size_t sample = 0;  // from which on all commands answer
   for (const int axis : axes) {
@@ -455,9 +459,9 @@ Report probe(const Scenario& scenario, const model::Model& model) {
   if (legs && axes.size() == 2) {
     if (const auto line = turn_of(answers, sample, effect)) report.push_back(*line);
   }
-  const Report margins = estimated_margins(scenario, model, bench, driven, answers, sample);
-  report.insert(report.end(), margins.begin(), margins.end());
-  return report;
+  Probed found = estimated_loop(scenario, model, bench, driven, answers, sample);
+  found.report.insert(found.report.begin(), report.begin(), report.end());
+  return found;
 }
 
 }  // namespace bbsim::api

@@ -70,14 +70,6 @@ void declare_files(const SweepRequest& request, const Scenario& first) {
   if (!request.summary.empty()) outputs.writes(request.summary, "--summary");
 }
 
-// Tries the user's controller once: if it cannot start, the scenario is at fault, not each case.
-void try_controller(const ScenarioFamily& family, Scenario first, Watch& watch) {
-  if (!first.controller || !first.controller->own) return;
-  first.source = family.source();  // for the places of its keys
-  controller::Host host = make_host(watch);
-  static_cast<void>(assemble(first, scenario::columns_named(first.output.columns), host));
-}
-
 // Destination of a sweep's rows. The threads that compute them call prepare().
 struct CaseSink {
   std::function<void(sweep::CaseResults&)> prepare;

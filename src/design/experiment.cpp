@@ -8,10 +8,10 @@
 #include <string_view>
 #include <utility>
 
-#include "fit/clock_shift.hpp"
 #include "fit/fit.hpp"
 #include "fit/windows_fit.hpp"
 #include "scenario/columns.hpp"
+#include "sweep/clock_shift.hpp"
 
 namespace bbsim::design {
 namespace {
@@ -88,7 +88,7 @@ std::optional<Use> Experiment::use(const ScenarioFamily& family, const Adapt& ad
   const std::vector<double> times = even_times(task_.length, step);
   std::string why;
   const std::vector<double> values =
-      fit::run_window(fit::from_time(scenario, 0, task_.length), fit::start_of(scenario), times,
+      fit::run_window(sweep::from_time(scenario, 0, task_.length), fit::start_of(scenario), times,
                       columns_named(columns_of_use(task_.limits)), why);
   if (values.empty()) return {};
   return use_of(task_.limits, values);
@@ -148,7 +148,7 @@ Experiment::Information Experiment::information(const ScenarioFamily& family,
   const Scenario scenario = scene(family, adapt);
   std::string why;
   const std::vector<double> run = fit::run_window(
-      fit::from_time(scenario, 0, task_.length), fit::start_of(scenario), log_.times,
+      sweep::from_time(scenario, 0, task_.length), fit::start_of(scenario), log_.times,
       columns_named({"x", "y", "vx", "vy", "phi", "theta", "phi_rate", "theta_rate", "spin"}), why);
   Information made;
   const auto keys = static_cast<Index>(task_.keys.size());

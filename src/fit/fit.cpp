@@ -11,7 +11,6 @@
 
 #include "base/error.hpp"
 #include "base/short_number.hpp"
-#include "fit/clock_shift.hpp"
 #include "fit/ideal_rig.hpp"
 #include "fit/minimize.hpp"
 #include "fit/profile.hpp"
@@ -21,6 +20,7 @@
 #include "fit/suggestion.hpp"
 #include "fit/windows_fit.hpp"
 #include "model/dense.hpp"
+#include "sweep/clock_shift.hpp"
 
 namespace bbsim::fit {
 namespace {
@@ -431,13 +431,13 @@ void require_whole_starts(const Scenario& scenario) {
 
 // Refuses windows beyond the scenario's tables, where splines would run away.
 void require_tables(const Task& task, const std::vector<Window>& windows) {
-  std::vector<Span> spans;
+  std::vector<sweep::Span> spans;
   for (const Log& log : task.logs) {
-    spans.push_back(span_of_tables(task.family.read(log.settings)));
+    spans.push_back(sweep::span_of_tables(task.family.read(log.settings)));
   }
   for (const Window& window : windows) {
     const Log& log = task.logs[window.log];
-    const Span& span = spans[window.log];
+    const sweep::Span& span = spans[window.log];
     const double end = window.begin + window.times.back();
     const double slack = 1e-6 * std::max(1.0, std::abs(end));
     if (window.begin >= span.from - slack && end <= span.to + slack) continue;

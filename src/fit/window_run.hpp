@@ -4,18 +4,16 @@
 // Runs a scene over a window of a log.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
 #include "fit/data.hpp"
 #include "scenario/scenario.hpp"
+#include "sweep/window.hpp"
 
 namespace bbsim::fit {
 
-// State at a window's start: x, y, vx, vy, phi, theta, phi_rate, theta_rate, spin (SI). The angles
-// are those of gimbal.start; they matter only if a controller or torques move the gimbal.
-using Start = std::array<double, 9>;
+using sweep::Start, sweep::start_of, sweep::begins_anywhere;
 
 // The scenario without events that end a run early or only observe it, with tight tolerances.
 [[nodiscard]] Scenario prepared(Scenario scenario);
@@ -27,10 +25,5 @@ using Start = std::array<double, 9>;
                                              const std::vector<double>& times,
                                              const std::vector<const scenario::Column*>& columns,
                                              std::string& why);
-
-[[nodiscard]] Start start_of(const Scenario& scenario);
-
-// Whether the gimbal's state at a window's start is free: no given motion or commands set it.
-[[nodiscard]] bool begins_anywhere(const Scenario& scenario);
 
 }  // namespace bbsim::fit

@@ -14,7 +14,6 @@
 
 #include "base/error.hpp"
 #include "base/short_number.hpp"
-#include "fit/played_servos.hpp"
 
 namespace bbsim::fit {
 namespace {
@@ -161,7 +160,7 @@ Variant WindowsFit::variant(const VectorXd& u, std::string* why) const {
 WindowsFit::Scene WindowsFit::scene_of(std::size_t w, const Variant& variant) const {
   const Window& window = windows_[w];
   const double end = has_joint(w) ? windows_[w + 1].begin : window.begin + window.times.back();
-  return {window_of(variant.scenes[window.log], window.begin, end), variant.sensors};
+  return {sweep::window_of(variant.scenes[window.log], window.begin, end), variant.sensors};
 }
 
 void WindowsFit::for_each_window(const std::function<void(std::size_t)>& work) const {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "api/cases.hpp"
 #include "api/check.hpp"
 #include "api/fault.hpp"
 #include "api/inputs.hpp"
@@ -183,13 +184,17 @@ api::RunRequest request_of(const Scenario& scenario, const RunOptions& options) 
   return request;
 }
 
+Status status_of(const std::string& word) {
+  return word == "done"      ? Status::done
+         : word == "stopped" ? Status::stopped
+         : word == "failed"  ? Status::failed
+         : word == "refused" ? Status::refused
+                             : Status::interrupted;
+}
+
 Result result_of(api::RunResult made) {
   Result result;
-  const std::string& status = made.summary.status;
-  result.status = status == "done"      ? Status::done
-                  : status == "stopped" ? Status::stopped
-                  : status == "failed"  ? Status::failed
-                                        : Status::interrupted;
+  result.status = status_of(made.summary.status);
   result.summary = record::to_json(made.summary);
   result.reason = std::move(made.summary.reason);
   result.columns = std::move(made.columns);
@@ -301,6 +306,35 @@ const Table::Column& Table::column(std::string_view name) const {
   const auto found = std::ranges::find(columns, name, &Column::name);
   if (found == columns.end()) refuse("there is no column " + std::string(name));
   return *found;
+}
+
+Cases simulate(const Scenario& scenario, std::size_t count, const std::vector<CaseKey>& keys,
+               const SimulateOptions& options) {
+  return guarded([&] {
+    const ScenarioFamily family = scenario.state().family();
+    api::CasesRequest request{family, count};
+    for (const CaseKey& key : keys) request.keys.push_back({key.key, key.numbers, key.texts});
+    request.columns = options.columns;
+    request.measures = options.measures;
+    if (options.times) {
+      const std::size_t each = options.own_times ? std::max<std::size_t>(count, 1) : 1;
+      if (options.times->size() % each != 0) {
+        refuse("times: found " + std::to_string(options.times->size()) + "; allowed: as many for " +
+               "each of " + std::to_string(count) + " cases");
+      }
+      request.times = {*options.times, options.times->size() / each, options.own_times};
+    }
+    request.windows = {options.begin, options.end, options.start, options.events};
+    request.threads = static_cast<double>(options.threads);
+    Watch watch(options.goes_on);
+    api::CasesResult made = api::run_cases(request, watch);
+    Cases cases{made.times, std::move(made.columns), std::move(made.measures), {}, {}};
+    for (sweep::CaseStatus& status : made.status) {
+      cases.status.push_back(status_of(status.word));
+      cases.reason.push_back(std::move(status.reason));
+    }
+    return cases;
+  });
 }
 
 LinearSystem linearize(const Scenario& scenario, const std::string& kind, const std::string& at) {

@@ -46,7 +46,8 @@ class GroupRunner : public CaseRunner {
     for (std::size_t i = place; i < place + count; ++i) {
       double* const values = &into.values[i * axes];
       task_.plan.values(into.first + i, values);
-      cases_.push_back({into.first + i, values, &into.numbers[i * numbers] + 1});
+      cases_.push_back({into.first + i, values, &into.numbers[i * numbers] + 1, &into.series,
+                        i * task_.series_rows});
     }
     carrier_->carry(cases_, stop);
     for (const GroupCase& one : cases_) {
@@ -66,6 +67,9 @@ class GroupRunner : public CaseRunner {
       if (stop.load(std::memory_order_relaxed)) return at - place;
       if (single_->run(one.number, 1, alone_, stop) == 0) return at - place;
       std::copy(alone_.numbers.begin(), alone_.numbers.end(), results);
+      for (std::size_t c = 0; c < into.series.size(); ++c) {
+        std::ranges::copy(alone_.series[c], into.series[c].data() + one.place);
+      }
       status = alone_.status[0];
     }
     return count;
@@ -81,6 +85,16 @@ class GroupRunner : public CaseRunner {
 };
 
 }  // namespace
+
+bool can_share_rows(const SweepTask& task) {
+  return (task.windows == nullptr || !task.windows->cut()) &&
+         (task.times == nullptr || !task.times->each);
+}
+
+std::optional<TimedRows> timed_rows(const SweepTask& task, const Scenario& first) {
+  if (task.times == nullptr) return {};
+  return rows_at(task.times->of(0), 0, first.time.end);
+}
 
 std::unique_ptr<CaseRunner> group_runner(const SweepTask& task, const Scenario& first,
                                          std::size_t group, std::unique_ptr<GroupCarrier> carrier) {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "scenario/scenario.hpp"
 #include "sweep/task.hpp"
@@ -19,10 +20,19 @@ struct GroupCase {
   std::size_t number;    // of the case, in the sweep
   const double* values;  // one number for each axis
   double* measures;      // the results
-  bool carried = false;  // run to its end, with its measures written
+  // The series of all cases, and where this one's begin.
+  std::vector<std::vector<double>>* series;
+  std::size_t place;
+  bool carried = false;  // run to its end, with its measures and series written
   // Time at which the motion grew without bound, s; empty if it reached the end.
   std::optional<double> unbounded_at = {};
 };
+
+// Whether all cases have output rows at the same times if they end at the same time, as cases in
+// lanes must.
+[[nodiscard]] bool can_share_rows(const SweepTask& task);
+// Those rows, if the task has times of its own; `first` is as below.
+[[nodiscard]] std::optional<TimedRows> timed_rows(const SweepTask& task, const Scenario& first);
 
 // Integrates a group of cases in lanes.
 class GroupCarrier {

@@ -140,11 +140,13 @@ class LaneCarrier : public GroupCarrier, private ensemble::Study {
  public:
   LaneCarrier(const SweepTask& task, const Scenario& first)
       : scenario_(task),
+        series_(task.series),
+        timed_(timed_rows(task, first)),
         track_(task.measures),
-        grid_(first.time),
+        grid_(timed_ ? timed_->grid : solve::OutputGrid(first.time)),
         given_(actuation_of(first) == Actuation::given),
         motion_(given_ ? model::given_motion(first) : model::SignalPair()),
-        lanes_({actuation_of(first), grid_, !given_,
+        lanes_({actuation_of(first), grid_, !given_ || !series_.empty(),
                 given_ ? model_of(first).stops : std::vector<double>(), motion_.view().shared},
                ensemble::choose_nodes(actuation_of(first), first.solver.rtol,
                                       motion_.highest_frequency() * first.time.end),
@@ -204,6 +206,13 @@ class LaneCarrier : public GroupCarrier, private ensemble::Study {
                                  std::sqrt(greatest->rate_squared)};
         for (std::size_t m = 0; m < known_.size(); ++m) one.measures[m] = values[known_[m]];
       }
+      if (!series_.empty()) {
+        std::vector<const double*> columns;
+        for (const scenario::Column* const column : series_) {
+          columns.push_back(column->name == "x" ? run.x : run.y);
+        }
+        SeriesWriter(*one.series, one.place, timed_ ? &*timed_ : nullptr).append(columns, run.rows);
+      }
       one.carried = true;
       if (unbounded) one.unbounded_at = run.reached;
     }
@@ -235,6 +244,8 @@ class LaneCarrier : public GroupCarrier, private ensemble::Study {
   }
 
   CaseScenario scenario_;
+  const std::vector<const scenario::Column*>& series_;  // x and y
+  std::optional<TimedRows> timed_;
   record::TrackMeasures track_;
   solve::OutputGrid grid_;
   bool given_;                // whether the gimbal's motion is given
@@ -251,8 +262,11 @@ class LaneCarrier : public GroupCarrier, private ensemble::Study {
 
 // Conditions for any source of the gimbal's motion. All cases give the same answer.
 bool can_be_asked(const SweepTask& task) {
-  return task.series.empty() && record::are_track_measures(task.measures) &&
-         task.plan.independent();
+  return can_share_rows(task) && record::are_track_measures(task.measures) &&
+         task.plan.independent() &&
+         std::ranges::all_of(task.series, [](const scenario::Column* column) {
+           return column->name == "x" || column->name == "y";
+         });
 }
 bool is_by_collocation(const Scenario& scenario) {
   return !scenario.solver.error && solve::choose_method(scenario.solver.method) == Method::radau;
@@ -263,7 +277,7 @@ bool is_by_collocation(const Scenario& scenario) {
 bool can_use_open_lanes(const SweepTask& task) {
   if (task.plan.cases() < least_given || !can_be_asked(task)) return false;
   // Planar cases are carried like the others.
-  const Scenario scenario = task.family.read(task.plan.settings(0));
+  const Scenario scenario = task.family.read(task.plan.first_settings());
   return scenario.gimbal.motion && is_by_collocation(scenario) &&
          sinusoids(scenario.gimbal.motion->phi) + sinusoids(scenario.gimbal.motion->theta) <=
              ensemble::most_harmonics &&
@@ -286,7 +300,7 @@ std::size_t lane_group() {
 }
 
 std::unique_ptr<CaseRunner> lane_runner(const SweepTask& task) {
-  const Scenario first = task.family.read(task.plan.settings(0));
+  const Scenario first = task.family.read(task.plan.first_settings());
   return group_runner(task, first, in_turn, std::make_unique<LaneCarrier>(task, first));
 }
 

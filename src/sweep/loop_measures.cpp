@@ -109,9 +109,8 @@ bool is_of_loop_only(const SweepTask& task) {
 }
 
 SweepTask task_of_motion(const SweepTask& task) {
-  SweepTask motion{task.family, task.plan, scenario::split_loop_measures(task.measures).of_motion,
-                   task.series, task.series_rows};
-  motion.report = task.report;
+  SweepTask motion = task;
+  motion.measures = scenario::split_loop_measures(task.measures).of_motion;
   return motion;
 }
 

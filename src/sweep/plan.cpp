@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/fnv1a.hpp"
@@ -13,6 +14,7 @@
 #include "base/number_text.hpp"
 #include "base/whole.hpp"
 #include "scenario/independent.hpp"
+#include "sweep/sample_cases.hpp"
 #include "yaml/problems.hpp"
 #include "yaml/quantity.hpp"
 #include "yaml/spelling.hpp"
@@ -370,8 +372,65 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, const SweepPlan* of,
   relate(family);
 }
 
+SweepPlan::SweepPlan(const ScenarioFamily& family, std::vector<ListedKey> keys, std::size_t cases,
+                     std::vector<Setting> always)
+    : always_(std::move(always)), combine_(Combine::zip), cases_(cases) {
+  std::vector<Setting> seen;
+  for (ListedKey& one : keys) {
+    check_apart(one.key, seen);
+    check_overrides(one.key, family.source());
+    PlanAxis& axis = axes_.emplace_back();
+    axis.key = std::move(one.key);
+    axis.lead = axes_.size() - 1;
+    axis.numeric = one.texts.empty();
+    axis.count = cases;
+    axis.numbers = std::move(one.numbers);
+    axis.texts = std::move(one.texts);
+    seen.push_back({axis.key, ""});
+  }
+  if (cases == 0) return;
+  find_first(family);
+  relate(family);
+  // Independent numbers are not read again, so that a wrong one would pass.
+  if (independent() && !can_read_extremes(family)) {
+    for (PlanAxis& axis : axes_) axis.independent = false;
+  }
+}
+
+void SweepPlan::find_first(const ScenarioFamily& family) {
+  constexpr std::size_t most_tried = 64;
+  for (std::size_t i = 0; i < std::min(cases_, most_tried); ++i) {
+    first_ = cases_ > most_tried ? sample_case(static_cast<int>(i), cases_) : i;
+    try {
+      static_cast<void>(family.read(settings(first_)));
+      return;
+    } catch (const InputError&) {  // the last lines report the first case's
+    }
+  }
+  const std::vector<Setting> values = settings(0);
+  static_cast<void>(read_case(family, 0, values, [&] { return family.read(values); }));
+}
+
+bool SweepPlan::can_read_extremes(const ScenarioFamily& family) const {
+  std::vector<double> at(axes_.size());
+  values(first_, at.data());
+  for (std::size_t a = 0; a < axes_.size(); ++a) {
+    const auto [least, most] = std::ranges::minmax(axes_[a].numbers);
+    for (const double value : {least, most}) {
+      std::vector<double> moved = at;
+      moved[a] = value;
+      try {
+        static_cast<void>(family.read(settings_of(moved)));
+      } catch (const InputError&) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
 void SweepPlan::relate(const ScenarioFamily& family) {
-  Scenario first = family.read(settings(0));
+  Scenario first = family.read(first_settings());
   // Holds for all axes or for none: a key of another kind may change the meaning of the others.
   const bool independent = std::all_of(axes_.begin(), axes_.end(), [&](const PlanAxis& axis) {
     return axis.numeric && !independent_number(first, axis.key).empty();
@@ -427,7 +486,8 @@ std::vector<Setting> SweepPlan::settings_of(const std::vector<double>& values) c
   std::vector<Setting> settings = always_;
   settings.reserve(always_.size() + axes_.size());
   for (std::size_t a = 0; a < axes_.size(); ++a) {
-    settings.push_back({axes_[a].key, value_text(axes_[a], values[a])});
+    std::string text = value_text(axes_[a], values[a]);
+    if (!text.empty()) settings.push_back({axes_[a].key, std::move(text)});
   }
   return settings;
 }

@@ -56,11 +56,24 @@ class SweepPlan {
   SweepPlan(const ScenarioFamily& family, const SweepPlan* of, const std::vector<std::string>& keys,
             const std::vector<Listed>& cases, std::vector<ScenarioFamily::Setting> always = {});
 
+  // A key with a value for each case: numbers (SI), or texts in YAML. An empty text leaves the
+  // scenario's own value.
+  struct ListedKey {
+    std::string key;
+    std::vector<double> numbers{};
+    std::vector<std::string> texts{};
+  };
+  // Lists cases, which all have the settings `always`. Cases may have errors, which appear when
+  // they are run. Throws InputError for keys that overlap each other or an override, and if no case
+  // can be read; beyond 64 cases, if none of 64 from all over the list can.
+  SweepPlan(const ScenarioFamily& family, std::vector<ListedKey> keys, std::size_t cases,
+            std::vector<ScenarioFamily::Setting> always);
+
   [[nodiscard]] std::size_t cases() const { return cases_; }
   [[nodiscard]] const std::vector<PlanAxis>& axes() const { return axes_; }
 
   // Whether no rule relates the number at any varied key to another key.
-  [[nodiscard]] bool independent() const { return axes_.front().independent; }
+  [[nodiscard]] bool independent() const { return axes_.empty() || axes_.front().independent; }
 
   // Whether all cases have the same motion or reference at the same times.
   [[nodiscard]] bool shares_signals() const;
@@ -70,6 +83,10 @@ class SweepPlan {
 
   // The values of a case as settings of a scenario.
   [[nodiscard]] std::vector<ScenarioFamily::Setting> settings(std::size_t number) const;
+  // Those of the first case; of a case that can be read, if the first cannot.
+  [[nodiscard]] std::vector<ScenarioFamily::Setting> first_settings() const {
+    return settings(first_);
+  }
 
   // Settings in which a number is 0 only if its key takes no other value. Their scene is symmetric
   // only if every case is. Requires independent(). No case need have these settings.
@@ -86,6 +103,8 @@ class SweepPlan {
 
   // Finds out whether the keys are independent.
   void relate(const ScenarioFamily& family);
+  void find_first(const ScenarioFamily& family);
+  [[nodiscard]] bool can_read_extremes(const ScenarioFamily& family) const;
   void add_axes(const ScenarioFamily& family, const Sweep& sweep, const Variations& variations,
                 std::size_t which);
   [[nodiscard]] std::vector<ScenarioFamily::Setting> settings_of(
@@ -96,7 +115,7 @@ class SweepPlan {
   std::vector<PlanAxis> axes_;
   std::vector<ScenarioFamily::Setting> always_;
   Combine combine_;
-  std::size_t samples_ = 1, cases_ = 1;
+  std::size_t samples_ = 1, cases_ = 1, first_ = 0;
   std::uint64_t seed_ = 0;
 };
 

@@ -35,10 +35,12 @@ Size size_of(std::string_view column) {
 }  // namespace
 
 RigLaneMeasures::RigLaneMeasures(const std::vector<scenario::Measure>& measures,
+                                 const std::vector<const scenario::Column*>& series,
                                  const solve::OutputGrid& grid)
     : measures_(measures),
       grid_(grid),
       end_(scenario::end_columns(measures)),
+      series_(series),
       points_(search_.points(parts)),
       times_(parts + 1),
       values_(parts + 1),
@@ -55,13 +57,15 @@ RigLaneMeasures::RigLaneMeasures(const std::vector<scenario::Measure>& measures,
 }
 
 solve::sampled::LaneAsked RigLaneMeasures::asks_for() const {
-  return {wants(Size::versine) || wants(Size::rate_squared), wants(Size::error_squared)};
+  return {wants(Size::versine) || wants(Size::rate_squared), wants(Size::error_squared),
+          !series_.columns().empty()};
 }
 
 void RigLaneMeasures::begin(const model::SignalPair& reference) {
   reference_ = &reference;
   for (auto& greatest : greatest_) greatest.fill(0);
   squares_.fill({});
+  for (std::vector<double>& rows : rows_) rows.clear();
   if (!wants_rms_ || !at_rows_.empty()) return;
   at_rows_.resize(grid_.size());
   for (std::size_t i = 0; i < grid_.size(); ++i) {
@@ -131,6 +135,10 @@ void RigLaneMeasures::accept_row(std::size_t lane, std::size_t row, double x, do
   squares_[lane].add(y - reference[1]);
 }
 
+void RigLaneMeasures::accept_whole(std::size_t lane, std::span<const double> row) {
+  rows_[lane].insert(rows_[lane].end(), row.begin(), row.end());
+}
+
 void RigLaneMeasures::accept_end(std::size_t lane, double t, std::span<const double> row) {
   last_time_[lane] = t;
   last_row_[lane].assign(row.begin(), row.end());
@@ -173,6 +181,17 @@ bool RigLaneMeasures::finish(std::size_t lane, const model::Model& model,
     }
   }
   return true;
+}
+
+void RigLaneMeasures::write_series(std::size_t lane, const model::Model& model,
+                                   const model::BallConstants& constants, file::TableWriter& into) {
+  std::vector<double> times(grid_.size());
+  for (std::size_t i = 0; i < times.size(); ++i) times[i] = grid_[i];
+  series_.begin(model, constants);
+  series_.evaluate(times.data(), rows_[lane].data(), times.size());
+  std::vector<const double*> columns;
+  for (std::size_t c = 0; c < series_.columns().size(); ++c) columns.push_back(series_[c]);
+  into.append(columns, times.size());
 }
 
 }  // namespace bbsim::sweep

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Takes the measures of sampled rigs in lanes, with a case in each lane.
+// Takes the measures and series of sampled rigs in lanes, with a case in each lane.
 #pragma once
 
 #include <array>
@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "file/table_writer.hpp"
 #include "record/rows.hpp"
 #include "record/square_sum.hpp"
 #include "record/track/spans.hpp"
@@ -20,7 +21,9 @@ namespace bbsim::sweep {
 class RigLaneMeasures : public solve::sampled::LaneSink {
  public:
   // Requires record::are_track_measures(measures).
-  RigLaneMeasures(const std::vector<scenario::Measure>& measures, const solve::OutputGrid& grid);
+  RigLaneMeasures(const std::vector<scenario::Measure>& measures,
+                  const std::vector<const scenario::Column*>& series,
+                  const solve::OutputGrid& grid);
 
   [[nodiscard]] solve::sampled::LaneAsked asks_for() const;
 
@@ -30,12 +33,16 @@ class RigLaneMeasures : public solve::sampled::LaneSink {
 
   void accept(const solve::sampled::LaneStep& step) override;
   void accept_row(std::size_t lane, std::size_t row, double x, double y) override;
+  void accept_whole(std::size_t lane, std::span<const double> row) override;
   void accept_end(std::size_t lane, double t, std::span<const double> row) override;
 
   // Writes the measures of a lane, one after the other. False if a square overflowed or vanished:
   // the case then needs another runner.
   [[nodiscard]] bool finish(std::size_t lane, const model::Model& model,
                             const model::BallConstants& constants, double* results);
+  // Writes the series of a lane that has reached its end.
+  void write_series(std::size_t lane, const model::Model& model,
+                    const model::BallConstants& constants, file::TableWriter& into);
 
  private:
   static constexpr std::size_t group = solve::sampled::group;
@@ -54,13 +61,15 @@ class RigLaneMeasures : public solve::sampled::LaneSink {
   const solve::OutputGrid& grid_;
   std::array<bool, sizes> wants_{};
   bool wants_rms_ = false;
-  record::Rows end_;  // evaluates columns at the last row
+  record::Rows end_;     // evaluates columns at the last row
+  record::Rows series_;  // evaluates those of all rows
 
   const model::SignalPair* reference_ = nullptr;
   std::vector<std::array<double, 2>> at_rows_;  // the reference at each output row, m
   std::array<std::array<double, group>, sizes> greatest_{};
   std::array<record::SquareSum, group> squares_{};
   std::array<std::vector<double>, group> last_row_;
+  std::array<std::vector<double>, group> rows_;  // whole ones, if there are series
   std::array<double, group> last_time_{};
 
   record::SpanSearch search_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -48,14 +49,22 @@ bool share_reference(const SweepPlan& plan) {
   });
 }
 
+// Whether the rows of a rig in a lane have all that the column needs.
+bool is_in_rows(const scenario::Column* column) {
+  using scenario::Needs;
+  const auto lacks = {Needs::gamma, Needs::orientation, Needs::work, Needs::own};
+  return std::ranges::find(lacks, column->needs) == lacks.end();
+}
+
 class RigCarrier : public GroupCarrier {
  public:
   RigCarrier(const SweepTask& task, const Scenario& first)
       : task_(task),
         scenario_(task),
-        grid_(first.time),
+        timed_(timed_rows(task, first)),
+        grid_(timed_ ? timed_->grid : solve::OutputGrid(first.time)),
         tolerances_{first.solver.rtol, first.solver.atol},
-        measures_(task.measures, grid_),
+        measures_(task.measures, task.series, grid_),
         lanes_(tolerances_, grid_, measures_.asks_for()) {}
 
   void carry(std::span<GroupCase> cases, const std::atomic<bool>& stop) override {
@@ -70,6 +79,10 @@ class RigCarrier : public GroupCarrier {
       const Rig& rig = rigs_[lane];
       rig.of->carried =
           carried[lane] && measures_.finish(lane, rig.model, rig.constants, rig.of->measures);
+      if (rig.of->carried && !task_.series.empty()) {
+        SeriesWriter writer(*rig.of->series, rig.of->place, timed_ ? &*timed_ : nullptr);
+        measures_.write_series(lane, rig.model, rig.constants, writer);
+      }
     }
   }
 
@@ -81,12 +94,16 @@ class RigCarrier : public GroupCarrier {
     model::BallConstants constants;
   };
 
+  [[nodiscard]] bool has_rows(const OutputTimes& time) const {
+    return timed_ ? time.end == grid_.end() : solve::OutputGrid(time) == grid_;
+  }
+
   // Gives the case a lane if it fits into its group.
   void take(GroupCase& one) {
     try {
       const Scenario& scenario = scenario_.at(one.number, one.values);
       model::Model model = model_of(scenario, task_);
-      if (!is_carried(scenario, model) || solve::OutputGrid(scenario.time) != grid_ ||
+      if (!is_carried(scenario, model) || !has_rows(scenario.time) ||
           scenario.solver.rtol != tolerances_.rtol || scenario.solver.atol != tolerances_.atol ||
           (!rigs_.empty() && !solve::sampled::go_together(rigs_.front().model, model)) ||
           std::ranges::any_of(task_.measures, [&](const scenario::Measure& measure) {
@@ -101,6 +118,7 @@ class RigCarrier : public GroupCarrier {
 
   const SweepTask& task_;
   CaseScenario scenario_;
+  std::optional<TimedRows> timed_;
   solve::OutputGrid grid_;
   solve::Tolerances tolerances_;
   RigLaneMeasures measures_;
@@ -112,8 +130,9 @@ class RigCarrier : public GroupCarrier {
 
 bool can_use_rig_lanes(const SweepTask& task) {
   // Fewer cases would leave lanes empty, and single runs match `bbsim run` bit for bit.
-  if (task.plan.cases() < solve::sampled::group || !task.series.empty() ||
-      !record::are_track_measures(task.measures) || !share_reference(task.plan)) {
+  if (task.plan.cases() < solve::sampled::group || !can_share_rows(task) ||
+      !record::are_track_measures(task.measures) || !share_reference(task.plan) ||
+      !std::ranges::all_of(task.series, is_in_rows)) {
     return false;
   }
   constexpr int looked_at = 16;
@@ -136,7 +155,7 @@ std::size_t rig_group() {
 }
 
 std::unique_ptr<CaseRunner> rig_lane_runner(const SweepTask& task) {
-  const Scenario first = task.family.read(task.plan.settings(0));
+  const Scenario first = task.family.read(task.plan.first_settings());
   return group_runner(task, first, solve::sampled::group,
                       std::make_unique<RigCarrier>(task, first));
 }

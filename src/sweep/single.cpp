@@ -41,25 +41,6 @@ CaseStatus status_of(const solve::Outcome& outcome) {
   return {};
 }
 
-// Writes a Recorder's columns to the rows of one case.
-class SeriesWriter : public file::TableWriter {
- public:
-  SeriesWriter(std::vector<std::vector<double>>& series, std::size_t first_row)
-      : series_(series), row_(first_row) {}
-
-  void append(std::span<const double* const> columns, std::size_t rows) override {
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-      std::copy_n(columns[c], rows, series_[c].begin() + static_cast<std::ptrdiff_t>(row_));
-    }
-    row_ += rows;
-  }
-  void finish(const file::Attributes&) override {}
-
- private:
-  std::vector<std::vector<double>>& series_;
-  std::size_t row_;
-};
-
 class SingleRunner : public CaseRunner {
  public:
   explicit SingleRunner(const SweepTask& task)
@@ -67,7 +48,7 @@ class SingleRunner : public CaseRunner {
         scenario_(task),
         recorder_({task.series, task.measures}),
         kernels_(solve::radau::choose_kernels()),
-        same_signals_(task.plan.shares_signals()) {
+        same_signals_(task.plan.shares_signals() && task.windows == nullptr) {
     for (const PlanAxis& axis : task.plan.axes()) {
       if (axis.key.starts_with("solver")) same_tolerances_ = false;
     }
@@ -101,9 +82,14 @@ class SingleRunner : public CaseRunner {
         controllers_->attach(scenario, model);
       }
       const model::BallConstants constants = model::constants_of(scenario);
-      const solve::OutputGrid grid(scenario.time);
+      const double begin = task_.windows != nullptr ? task_.windows->begin_of(number) : 0;
+      std::optional<TimedRows> timed;
+      if (task_.times != nullptr) {
+        timed = rows_at(task_.times->of(number), begin, begin + scenario.time.end);
+      }
+      const solve::OutputGrid grid = timed ? timed->grid : solve::OutputGrid(scenario.time);
       const Solver& solver = scenario.solver;
-      SeriesWriter series(into.series, place * task_.series_rows);
+      SeriesWriter series(into.series, place * task_.series_rows, timed ? &*timed : nullptr);
       const bool by_radau = !solver.error && solve::choose_method(solver.method) == Method::radau;
       recorder_.begin(model, constants, grid, &series, {by_radau, same_signals_});
       const solve::Watch watch{&stop, {}};

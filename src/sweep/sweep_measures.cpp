@@ -33,7 +33,7 @@ bool any_case_has(const scenario::Measure& measure, const ScenarioFamily& family
 
 std::vector<scenario::Measure> sweep_measures(const std::vector<std::string>& names,
                                               const ScenarioFamily& family, const SweepPlan& plan) {
-  const Scenario first = family.read(plan.settings(0));
+  const Scenario first = family.read(plan.first_settings());
   std::vector<scenario::Measure> measures;
   for (const std::string& name : names) {
     const auto measure = scenario::find_measure(name);

@@ -14,7 +14,9 @@
 #include "controller/child.hpp"
 #include "scenario/family.hpp"
 #include "scenario/measures.hpp"
+#include "sweep/case_times.hpp"
 #include "sweep/plan.hpp"
+#include "sweep/window.hpp"
 
 namespace bbsim::sweep {
 
@@ -26,6 +28,9 @@ struct SweepTask {
   // rows.
   std::vector<const scenario::Column*> series{};
   std::size_t series_rows = 0;
+  // Times of the series, instead of those of the output rows; the task then has no measures.
+  const CaseTimes* times = nullptr;
+  const Windows* windows = nullptr;  // null: each case is a whole run of its scenario
   // Receives the standard error of controller programs, from all threads.
   controller::Report report = [](std::string_view) {};
 };
@@ -48,6 +53,7 @@ struct CaseResults {
   std::vector<std::vector<double>> series;
   std::string text;  // the rows as text, which `prepare` of run_sweep() may write
 
+  // `cases` cases that have no results yet.
   void resize(std::size_t cases, const SweepTask& task);
   // Keeps the first `cases` cases.
   void cut(std::size_t cases, const SweepTask& task);

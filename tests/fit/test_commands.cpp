@@ -15,11 +15,11 @@
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "catch.hpp"
-#include "fit/played_servos.hpp"
 #include "fit/window_run.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/family.hpp"
 #include "support/folder.hpp"
+#include "sweep/window.hpp"
 
 namespace bbsim_test::test_commands {
 
@@ -133,7 +133,7 @@ output: {columns: [phi, theta, phi_rate, theta_rate]}
     const double begin = first * 1e-3;
     std::string why;
     const std::vector<double> part = fit::run_window(
-        fit::window_of(scene, begin, begin + times.back()), {}, times, columns, why);
+        sweep::window_of(scene, begin, begin + times.back()), {}, times, columns, why);
     REQUIRE(part.size() == 4 * times.size());
     // The servos settle in the second before the window: exp(-25) of 4 degrees and 2 rad/s remains.
     const double tolerances[] = {1e-10, 1e-10, 1e-9, 1e-9};

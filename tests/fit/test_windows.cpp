@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "fit/clock_shift.hpp"
 #include "fit/data.hpp"
 #include "fit/window_run.hpp"
 #include "rig.hpp"
 #include "scenario/columns.hpp"
+#include "sweep/clock_shift.hpp"
 
 namespace bbsim_test::test_windows {
 
@@ -41,7 +41,7 @@ std::vector<double> run_from(const Scenario& scenario, double begin, double end,
       scenario::find_column("vy"), scenario::find_column("spin")};
   std::string why;
   const std::vector<double> values = fit::run_window(
-      fit::from_time(fit::prepared(scenario), begin, end), start, window.times, columns, why);
+      sweep::from_time(fit::prepared(scenario), begin, end), start, window.times, columns, why);
   INFO(why);
   REQUIRE(values.size() == 5 * times.size());
   return values;

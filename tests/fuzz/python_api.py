@@ -149,6 +149,30 @@ class Odd:
         measures = self.perhaps(self.one_of((), "max_tilt"))
         self.bbsim.sweep(self.scenario(), vary, measures, set=self.settings(), **given)
 
+    def simulate(self, _):
+        np, draw = self.np, self.random
+        n = self.one_of(0, 1, 3, 9)
+        cases = self.perhaps(
+            self.one_of(
+                {}, {"ball.radius": np.linspace(0.01, 0.02, n)}, {"ball.radius": ["2 cm"] * n}, {"none": [1.0] * n},
+                [{"ball.radius": 0.01}, {}], [self.value()], {"ball.radius": self.value(), "gravity": self.value()},
+            )
+        )  # fmt: skip
+        columns = self.perhaps(self.one_of("x", ["t", "x", "phi"], ["x", "none"], []))
+        parts = {
+            "times": self.one_of(None, [0, 0.1, 0.2], np.full((n, 3), 0.1), [0.2, 0.1]),
+            "begin": self.one_of(None, None, 0.05, np.full(n, 0.1)),
+            "end": self.one_of(None, None, 0.2, np.full(n, 0.15)),
+            "start": self.one_of(None, None, np.zeros((n, 9))),
+            "events": self.one_of(True, False),
+            "threads": 1,
+        }
+        name = self.one_of(*parts)
+        parts[name] = self.perhaps(parts[name], 0.5)
+        measures = self.perhaps(self.one_of((), "max_tilt", ["end_x", "phi_delay_margin"]))
+        made = self.bbsim.simulate(self.scenario(), cases, columns, measures=measures, set=self.settings(), **parts)
+        self.one_of(lambda: made[self.perhaps("x")], lambda: repr(made), lambda: draw.choice(made.reason or [""]))()
+
     def environments(self, _):
         np, draw = self.np, self.random
         bounds = self.perhaps(self.one_of((0.01, 0.02), (0.02, 0.01), lambda random: self.perhaps(0.02)))
@@ -186,7 +210,7 @@ def call(seed, folder):
     import bbsim
 
     odd = Odd(bbsim, np, seed)
-    which = odd.one_of("run", "check", "linearize", "sweep", "environments", "environments")
+    which = odd.one_of("run", "check", "linearize", "sweep", "simulate", "environments", "environments")
     try:
         getattr(odd, which)(folder)
     except KeyboardInterrupt:

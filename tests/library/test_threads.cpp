@@ -102,6 +102,24 @@ TEST_CASE("eight threads sweep, each with its own threads") {
   same_at_once([&](std::size_t i) { return tilts(names[i % 4], "linear:0.01:0.02:20"); });
 }
 
+TEST_CASE("eight threads simulate cases, each with its own threads") {
+  const auto columns = [](const std::string& name, const bbsim::SimulateOptions& more) {
+    bbsim::SimulateOptions options = more;
+    options.columns = {"t", "x", "y"};
+    options.threads = 3;
+    std::vector<double> radii;
+    for (int i = 0; i < 40; ++i) radii.push_back(0.01 + 2.5e-4 * i);
+    return bbsim::simulate(shipped(name), radii.size(), {{"ball.radius", radii}}, options).columns;
+  };
+  const std::array<std::string, 4> names{"fig2a", "fig2b", "rig", "slides"};
+  same_at_once([&](std::size_t i) {
+    bbsim::SimulateOptions options;
+    options.times = {0.1, 0.25, 0.9};
+    if (i >= 4) options.begin.assign(40, 0.1);
+    return columns(names[i % 4], options);
+  });
+}
+
 TEST_CASE("eight threads step, and a stepper moves between threads") {
   const bbsim::Scenario rig = shipped("rig");
   std::vector<bbsim::Stepper> steppers;

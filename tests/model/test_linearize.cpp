@@ -621,6 +621,25 @@ TEST_CASE("a gimbal under torques is linear with the ball's losses and the plate
   }
 }
 
+TEST_CASE("an open loop that is closed by 1 + L = 0 is the loop") {
+  const std::string sampled = ", sampling: {period: 0.02, delay: 0.025}, sensor: {delay: 0.01}";
+  for (const Scenario& scene :
+       {pd_scene(), test::parse(torque_lqr()), test::parse(three_legs(sampled))}) {
+    const Linearization made = linear(scene, LinearKind::loop);
+    REQUIRE(made.margins.size() == 2);
+    for (const model::LoopMargins& loop : made.margins) {
+      const model::LinearSystem& open = loop.open;
+      CHECK(open.period == made.system.period);
+      CHECK(open.inputs[0].name == loop.command);
+      CHECK(static_cast<Eigen::Index>(open.states.size()) == open.a.rows());
+      const Eigen::MatrixXd closed = open.a - open.b * open.c;
+      CHECK(
+          distance(open.period ? model::poles_of_period(closed) : model::sorted_eigenvalues(closed),
+                   made.poles) < 1e-6);
+    }
+  }
+}
+
 TEST_CASE("B of torques and of three servos' commands agrees with differences") {
   const auto check = [](const Scenario& scene, auto loop, const model::LinearPoint& at) {
     const Linearization made = linear(scene, LinearKind::plant, at);

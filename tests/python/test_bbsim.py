@@ -21,6 +21,7 @@ from pathlib import Path
 import numpy as np
 
 import bbsim
+from bbsim import _loops
 
 PROGRAM = os.environ["BBSIM"]
 CONFIGS = Path(os.environ["BBSIM_SOURCE"]) / "configs"
@@ -800,6 +801,265 @@ class Environments(unittest.TestCase):
             subprocess.run([sys.executable, "-c", script], check=True, env={**os.environ, "PYTHONPATH": path})
 
 
+class InjectingLaw:
+    """The law of rig.yaml near home, with sines added to the command of one axis."""
+
+    AMPLITUDE = 2e-5  # rad: the scene is linear to 1e-8 of this
+
+    def __init__(self, axis, frequencies, kp=8, kv=4, gravity=9.81, period=0.02, filter=0.03):
+        self.axis, self.frequencies, self.gains, self.period = axis, np.asarray(frequencies), (kp, kv), period
+        self.keep = filter / (filter + period)
+        self.per_acceleration = (1.4 / gravity, -1.4 / gravity)  # rad per m/s^2; theta drives the ball towards -y
+        self.reset()
+
+    def reset(self):
+        self.position, self.velocity = np.zeros(2), np.zeros(2)
+        self.answers, self.sent = [], []
+
+    def __call__(self, sample):
+        seen = np.array(sample.ball)
+        self.velocity = self.keep * self.velocity + (1 - self.keep) * (seen - self.position) / self.period
+        self.position = seen
+        kp, kv = self.gains
+        command = self.per_acceleration * (-kp * self.position - kv * self.velocity)
+        self.answers.append(command[self.axis])
+        command[self.axis] += self.AMPLITUDE * np.sin(self.frequencies * sample.t + np.arange(len(self.frequencies))).sum()
+        self.sent.append(command[self.axis])
+        return tuple(command)
+
+
+class OpenLoops(unittest.TestCase):
+    def test_bode_is_what_a_simulation_measures(self):
+        # Ten sines that fit into a window of 2048 samples, from 0.46 rad/s to just below the Nyquist frequency.
+        window, skipped, period = 2048, 1000, 0.02
+        numbers = np.array([3, 7, 15, 30, 60, 100, 180, 300, 500, 1000])
+        frequencies = 2 * np.pi * numbers / (window * period)
+        scene = {
+            "gravity": 9.81,
+            "ball": {"radius": "2 cm", "mass": "33 g"},
+            "gimbal": {"servo": {"natural_frequency": "5 Hz", "damping": 0.8}},
+            "controller": {
+                "drives": "angle",
+                "reference": {"point": [0, 0]},
+                "sampling": {"period": "20 ms", "delay": "10 ms"},
+                "sensor": {"delay": "10 ms"},
+            },
+            "time": {"end": (skipped + window) * period, "step": 1},
+            "solver": {"rtol": 1e-10, "atol": 1e-16},
+        }
+        loop = bbsim.linearize(CONFIGS / "rig.yaml")
+        bode = _loops.bode(CONFIGS / "rig.yaml")
+        for axis, name in enumerate(("phi", "theta")):
+            law = InjectingLaw(axis, frequencies)
+            scene["controller"]["callable"] = law
+            self.assertEqual(bbsim.run(scene).status, "done")
+            answers, sent = (np.fft.rfft(each[skipped : skipped + window])[numbers] for each in (law.answers, law.sent))
+            measured = -answers / sent
+            np.testing.assert_allclose(measured, loop.open_loop(name).response(frequencies), rtol=0.002)
+            gain, phase = (np.interp(frequencies, bode["frequency"], bode[f"{name}_{part}"]) for part in ("gain", "phase"))
+            np.testing.assert_allclose(measured, gain * np.exp(1j * phase), rtol=0.01)
+
+    def test_margins_are_those_of_check(self):
+        for scene in (CONFIGS / "rig.yaml", CONFIGS / "fig2b.yaml", CONFIGS / "torque-lqr.yaml", CONFIGS / "three-servos.yaml"):
+            margins = _loops.margins(scene)
+            self.assertEqual(set(margins), {"phi", "theta"})
+            for axis, its in margins.items():
+                with self.subTest(scene.name, axis=axis):
+                    loop = bbsim.linearize(scene).open_loop(axis)
+                    checked = bbsim.check(scene)
+                    for key, shown in (("gain", "gain by"), ("phase", "phase"), ("delay", "delay")):
+                        if its[key] is None:
+                            continue
+                        found = loop.response(its[f"{key}_frequency"])
+                        if key == "gain":
+                            np.testing.assert_allclose(found, -1 / its[key], rtol=1e-9)
+                            self.assertIn(f"gain by {its[key]:.6g}", checked)
+                            continue
+                        self.assertAlmostEqual(abs(found), 1, 9)
+                        lag = its["phase"] if key == "phase" else its["delay"] * its["delay_frequency"]
+                        np.testing.assert_allclose(found * np.exp(-1j * lag), -1, atol=1e-8)
+                        number = f"{math.degrees(abs(lag)):.6g} deg" if key == "phase" else f"{its['delay']:.6g} s"
+                        self.assertIn(f"{shown} {number}", checked)
+
+    def test_columns(self):
+        rig, circle = CONFIGS / "rig.yaml", CONFIGS / "fig2b.yaml"
+        for scene in (rig, circle):
+            bode, nyquist = _loops.bode(scene), _loops.nyquist(scene)
+            self.assertEqual(list(bode), ["frequency", "phi_gain", "phi_phase", "theta_gain", "theta_phase"])
+            self.assertEqual(list(nyquist), ["frequency", "phi_real", "phi_imag", "theta_real", "theta_imag"])
+            self.assertTrue((np.diff(bode["frequency"]) > 0).all())
+            self.assertLess(np.abs(np.diff(bode["phi_phase"])).max(), 0.5)
+            np.testing.assert_allclose(
+                bode["phi_gain"] * np.exp(1j * bode["phi_phase"]), nyquist["phi_real"] + 1j * nyquist["phi_imag"], rtol=1e-12
+            )
+        self.assertAlmostEqual(_loops.bode(rig)["frequency"][-1], math.pi / 0.02, 9)
+        self.assertEqual((bbsim.linearize(rig).open_loop("phi").dt, bbsim.linearize(circle).open_loop("phi").dt), (0.02, 0))
+
+        poles = _loops.poles(circle)
+        self.assertEqual(list(poles), ["real", "imag", "damping", "frequency"])
+        np.testing.assert_allclose(poles["real"], -poles["damping"] * poles["frequency"], atol=1e-12)
+        sampled = _loops.poles(rig)
+        at = np.exp(sampled["frequency"] * 0.02 * (-sampled["damping"] + 1j * np.sqrt(1 - sampled["damping"] ** 2)))
+        np.testing.assert_allclose(np.abs(at), np.hypot(sampled["real"], sampled["imag"]), atol=1e-9)
+
+        key = "controller.gravity_compensation.kp"
+        values = _loops.values_between(rig, key, 2, "4", 3)
+        np.testing.assert_array_equal(values, [2, 3, 4])
+        np.testing.assert_allclose(_loops.values_between(rig, "ball.radius", "1 cm", 0.02, 2), [0.01, 0.02])
+        locus = _loops.root_locus(rig, key, values)
+        self.assertEqual(list(locus), ["value", "real", "imag"])
+        middle = locus["value"] == 3
+        np.testing.assert_array_equal(
+            locus["real"][middle] + 1j * locus["imag"][middle], bbsim.linearize(rig, {key: 3.0}).poles
+        )
+
+    def test_a_step_is_that_of_a_small_jump(self):
+        jump = 1e-5
+        for scene in (
+            {**LOOP, "controller": {**LOOP["controller"], "sensor": {"delay": "10 ms"}}},
+            {**LOOP, "controller": {key: LOOP["controller"][key] for key in ("pd", "drives")}},
+        ):
+            scene = {**scene, "ball": {"radius": "1 cm"}}
+            scene["controller"]["reference"] = {"point": [jump, 0]}
+            step = _loops.step(scene, end=4.0)
+            self.assertEqual(list(step), ["t", "x", "y"])
+            made = bbsim.simulate(scene, [{}], "x", step["t"], set={"solver.atol": 1e-15})
+            np.testing.assert_allclose(made["x"][0] / jump, step["x"], atol=1e-5)
+            self.assertEqual(step["y"][0], 0)
+        self.assertAlmostEqual(_loops.step(CONFIGS / "rig.yaml")["y"][-1], 1, 2)
+
+    def test_a_callable_by_its_estimate(self):
+        scene = with_callable(SampledPd())
+        built_in = bbsim.linearize({**LOOP, "controller": {**LOOP["controller"], "sensor": {"delay": "10 ms"}}}, kind="loop")
+        estimate = bbsim.linearize(scene, {"controller.sensor.dropout": 0}, kind="loop")
+        self.assertIn("estimate", estimate.note)
+        frequencies = np.array([0.1, 1, 10, 100])
+        for axis in ("phi", "theta"):
+            np.testing.assert_allclose(
+                estimate.open_loop(axis).response(frequencies), built_in.open_loop(axis).response(frequencies), rtol=1e-3
+            )
+            self.assertAlmostEqual(
+                estimate.margins[f"{axis}_command"]["phase"], built_in.margins[f"{axis}_command"]["phase"], 3
+            )
+        self.assertEqual(list(_loops.poles(scene)), ["real", "imag", "damping", "frequency"])
+        with self.assertRaises(bbsim.InputError) as caught:
+            bbsim.linearize(with_callable(lambda sample: (0, 0)), kind="loop")
+        self.assertIn("do not depend", str(caught.exception))
+        with self.assertRaises(bbsim.InputError):  # an estimate has no reference
+            _loops.step(scene)
+
+    def test_scenes_without_a_loop(self):
+        for scene in ("fig2a", "recorded"):
+            with self.assertRaises(bbsim.InputError):
+                _loops.bode(CONFIGS / f"{scene}.yaml")
+        with self.assertRaises(bbsim.InputError):
+            bbsim.linearize(CONFIGS / "rig.yaml", kind="plant").open_loop("phi")
+        with self.assertRaises(bbsim.InputError):
+            bbsim.linearize(CONFIGS / "rig.yaml").open_loop("x")
+        with self.assertRaises(bbsim.InputError):
+            _loops.values_between(CONFIGS / "rig.yaml", "ball.position", 1, 2, 3)
+
+
+class Simulations(unittest.TestCase):
+    def test_columns_measures_and_times(self):
+        radii = np.linspace(0.015, 0.025, 10)
+        times = np.array([0, 0.3, 0.3, 1.94, 2])
+        made = bbsim.simulate(
+            CONFIGS / "rig.yaml", {"ball.radius": radii}, ["x", "t", "phi_command"], times, "end_x", set={"time.end": 2}
+        )
+        self.assertEqual(made["x"].shape, (10, 5))
+        self.assertEqual((len(made), made.columns, list(made.status)), (10, ["x", "t", "phi_command"], ["done"] * 10))
+        self.assertEqual(made.reason, [""] * 10)
+        np.testing.assert_array_equal(made["t"], np.tile(times, (10, 1)))
+        swept = bbsim.sweep(CONFIGS / "rig.yaml", {"ball.radius": radii}, "end_x", set={"time.end": 2})
+        np.testing.assert_allclose(made.measures["end_x"], swept["end_x"], rtol=1e-12)
+        for i in (0, 9):
+            run = bbsim.run(CONFIGS / "rig.yaml", {"ball.radius": radii[i], "time.end": 2})
+            for name in ("x", "phi_command"):
+                np.testing.assert_allclose(made[name][i], run[name][[0, 15, 15, 97, 100]], atol=1e-6)
+        with self.assertRaises(KeyError):
+            made["y"]
+        import pickle
+
+        again = pickle.loads(pickle.dumps(made))
+        np.testing.assert_array_equal(again["x"], made["x"])
+
+    def test_lists_texts_and_default_rows(self):
+        cases = [{"ball.radius": "1 cm"}, {"ball.radius": 0.02, "ball.position": [0.05, 0.01]}, {}]
+        made = bbsim.simulate(CONFIGS / "fig2b.yaml", cases, "y", set={"time.end": 1})
+        for i, case in enumerate(cases):
+            run = bbsim.run(CONFIGS / "fig2b.yaml", {**case, "time.end": 1})
+            np.testing.assert_allclose(made["y"][i], run["y"], atol=1e-9)
+
+    def test_windows(self):
+        scene = {**LOOP, "controller": {**LOOP["controller"]}}
+        scene["controller"].update(sampling={"period": "20 ms"}, sensor={}, limit=10)
+        states = ["x", "y", "vx", "vy", "phi", "theta", "phi_rate", "theta_rate", "spin"]
+        whole = bbsim.run(scene, {"output.columns": ["t", *states]})
+        rows = np.array([50, 100, 150])
+        begin = whole["t"][rows]
+        start = np.column_stack([whole[name] for name in states])[rows]
+        made = bbsim.simulate(scene, {}, states, begin[:, None] + [0, 0, 0], begin=begin, end=begin + 1, start=start)
+        self.assertEqual(made["x"].shape, (3, 3))
+        for k, name in enumerate(states):
+            np.testing.assert_allclose(made[name], np.tile(start[:, k, None], (1, 3)), atol=1e-12)
+        default = bbsim.simulate(scene, {}, "x", begin=2, end=3)
+        self.assertEqual(np.isfinite(default["x"]).sum(), 51)
+        self.assertTrue(np.isfinite(default["x"][0, 100:151]).all())
+
+    def test_each_case_ends_in_its_own_way(self):
+        made = bbsim.simulate(
+            CONFIGS / "rig.yaml", {"ball.radius": [0.02, -1, 0.02], "ball.position.0": [0, 0, 0.4]}, "x",
+            set={"time.end": 1},
+        )
+        self.assertEqual(list(made.status), ["done", "refused", "stopped"])
+        self.assertIn("ball.radius", made.reason[1])
+        self.assertEqual(made.reason[2], "edge")
+        self.assertIn("1 refused", repr(made))
+
+    def test_a_callable(self):
+        made = bbsim.simulate(with_callable(SampledPd()), {"ball.radius": [0.01, 0.02]}, "x", [0, 1, 2])
+        run = bbsim.run(with_callable(SampledPd()), {"ball.radius": 0.02})
+        np.testing.assert_array_equal(made["x"][1], run["x"][[0, 50, 100]])
+
+        def breaks(sample):
+            raise ValueError("no idea")
+
+        with self.assertRaises(bbsim.ControllerError):
+            bbsim.simulate(with_callable(breaks), {"ball.radius": [0.01, 0.02]}, "x")
+
+    def test_odd_arguments(self):
+        def refused(*told, cases=None, columns="x", **rest):
+            with self.assertRaises(bbsim.InputError) as caught:
+                bbsim.simulate(CONFIGS / "fig2b.yaml", {"ball.radius": [0.01, 0.02]} if cases is None else cases, columns, **rest)
+            for one in told:
+                self.assertIn(one, str(caught.exception))
+
+        refused("radius", cases={"ball.radios": [1, 2]})
+        refused("cases: ball.radius", "allowed", cases={"ball.radius": "2 cm"})
+        refused("cases: ball.radius", cases={"ball.radius": 0.02})
+        refused("cases: gravity", "for 2", cases={"ball.radius": [0.01, 0.02], "gravity": [9]})
+        refused("cases: case 1", cases={"ball.radius": [0.01, math.nan]})
+        refused("cases", cases="ball.radius")
+        refused("did you mean phi", columns="phy")
+        refused("did you mean max_tilt", measures="max_tild")
+        refused("times", "shape ()", times=1.0)
+        refused("times", "(n, m)", times=np.zeros((1, 2, 3)))
+        refused("times", "for 2", times=np.zeros((3, 2)))
+        refused("times", times=["now"])
+        refused("do not decrease", times=[0.2, 0.1])
+        refused("allowed", times=[0, math.nan])
+        refused("0 to 21 s", times=[0, 22])
+        refused("begin", begin=[1])
+        refused("begin", "shape (1, 2)", begin=[[1, 2]])
+        refused("end: case 0", begin=[1, 1], end=[1, 2])
+        refused("start", "(n, 9)", "theta_rate", start=[[1, 2]])
+        refused("threads", threads=-1)
+        with self.assertRaises(TypeError):
+            bbsim.simulate(CONFIGS / "fig2b.yaml", {"ball.radius": [object()]}, "x")
+        self.assertEqual(bbsim.simulate(CONFIGS / "fig2b.yaml", [], "x", [0, 1])["x"].shape, (0, 2))
+
+
 class Faults(unittest.TestCase):
     def test_input(self):
         with self.assertRaises(bbsim.InputError) as caught:
@@ -872,6 +1132,10 @@ class Interruptions(unittest.TestCase):
     def test_sweep(self):
         self.interrupted(f"bbsim.sweep('{CONFIGS}/rig.yaml', {{'gravity': 'linear:9:10:10000000'}})")
 
+    def test_simulate(self):
+        work = f"import numpy as np; bbsim.simulate('{CONFIGS}/rig.yaml', {{'gravity': np.linspace(9, 10, 10**6)}}, [], measures='end_x')"
+        self.interrupted(work)
+
     def test_callable(self):
         self.interrupted(
             f"s = dict(controller=dict(callable=lambda sample: (0, 0), drives='angle', sampling=dict(period='20 ms'), "
@@ -902,6 +1166,7 @@ class Processes(unittest.TestCase):
         for work in (
             f"bbsim.run({str(CONFIGS / 'fig2b.yaml')!r})",
             f"bbsim.sweep({str(CONFIGS / 'rig.yaml')!r}, {{'gravity': 'linear:9:10:20'}})",
+            f"bbsim.simulate({str(CONFIGS / 'rig.yaml')!r}, {{'gravity': np.linspace(9, 10, 20)}}, 'x')",
             "envs.step(np.zeros((64, 2)))",
             "bbsim.run(scene)",
             "bbsim.run(scene, {'time.end': 1e6})",

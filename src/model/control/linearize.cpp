@@ -205,17 +205,21 @@ void add_bandwidths(Linearization& made, const PlainLoop& plain, const std::vect
 }
 
 // Adds the margins of one command's loop. A, B and C are those of the loop opened there.
-void add_margins(Linearization& made, const PlainLoop& plain, int axis, const MatrixXd& a,
-                 const VectorXd& b, const Eigen::RowVectorXd& c, MarginParts parts = {}) {
-  const double period = made.system.period.value_or(0);
+void add_margins(Linearization& made, const PlainLoop& plain, int axis, const std::string& unit,
+                 const MatrixXd& a, const VectorXd& b, const Eigen::RowVectorXd& c,
+                 MarginParts parts = {}) {
+  const LinearSystem& system = made.system;
+  const double period = system.period.value_or(0);
   const std::vector<int>& of = plain.states;
-  const MatrixXd open = a(of, of);
-  // The sign makes L that of 1 + L = 0.
-  const FrequencyResponse response(open, b(of), -c(of), MatrixXd::Zero(1, 1), period);
-  made.margins.push_back(
-      {std::string(angle_name(axis)) + "_command",
-       margins_of(response, frequencies_to_look_at(eigenvalues_of(open), plain.poles, period),
-                  plain.slowest, parts)});
+  const std::string command = std::string(angle_name(axis)) + "_command";
+  LinearSystem open{
+      signals_of(system.states, of), {{command, unit}}, {{command, unit}}, a(of, of), b(of), -c(of),
+      MatrixXd::Zero(1, 1),          system.period};
+  const FrequencyResponse response(open.a, open.b, open.c, open.d, period);
+  const Margins margins =
+      margins_of(response, frequencies_to_look_at(eigenvalues_of(open.a), plain.poles, period),
+                 plain.slowest, parts);
+  made.margins.push_back({command, margins, std::move(open)});
 }
 
 // Whether any margin of an axis' command is asked for.
@@ -281,7 +285,7 @@ Linearization continuous_loop_about(const Scenario& scene, const Model& model,
     if (axis == idle || !looks_for(parts, axis)) continue;
     const VectorXd b = plant.of_command(states, axis);
     const Eigen::RowVectorXd c = loop.command_of_state(axis, states);
-    add_margins(made, plain, axis, without(system.a, b * c), b, c,
+    add_margins(made, plain, axis, command_unit(scene), without(system.a, b * c), b, c,
                 parts.margins[static_cast<std::size_t>(axis)]);
   }
   add_bandwidths(made, plain, columns, axes, parts, idle);
@@ -330,8 +334,8 @@ Linearization sampled_loop_about(const Scenario& scene, const Model& model, cons
   for (const int axis : axes) {
     if (axis == idle || !looks_for(parts, axis)) continue;
     const SampledMap open = cycle.map(axis == 0, axis == 1);
-    add_margins(made, plain, axis, open.a, open.of_command.col(axis), open.law.row(axis),
-                parts.margins[static_cast<std::size_t>(axis)]);
+    add_margins(made, plain, axis, command_unit(scene), open.a, open.of_command.col(axis),
+                open.law.row(axis), parts.margins[static_cast<std::size_t>(axis)]);
   }
   add_bandwidths(made, plain, columns, axes, parts, idle);
   return made;
@@ -390,6 +394,8 @@ Linearization loop_with(const Linearization& plant, const LinearSystem& law,
     system.states.push_back({"law_" + std::to_string(i + 1), "1"});
   }
   system.a = round(commands);
+  system.b.resize(n + m, 0);
+  system.c.resize(0, n + m);
   system.period = of.period;
   made.poles = poles_of_period(system.a);
   // An axis without a command is left out if it stands apart.
@@ -403,7 +409,8 @@ Linearization loop_with(const Linearization& plant, const LinearSystem& law,
     others.row(axis).setZero();
     VectorXd b = VectorXd::Zero(n + m);
     b.head(n) = of.b.col(axis);
-    add_margins(made, plain, axis, round(others), b, commands.row(axis));
+    add_margins(made, plain, axis, of.inputs[static_cast<std::size_t>(axis)].unit, round(others), b,
+                commands.row(axis));
   }
   return made;
 }
@@ -464,9 +471,12 @@ Linearization linearize(const Scenario& scene, const Model& model, LinearKind ki
                         const LinearPoint& at, const LoopParts& parts) {
   require_linear(scene);
   Linearization made = linearize_as(scene, model, kind, at, parts);
-  LinearSystem& system = made.system;
-  for (MatrixXd* matrix : {&system.a, &system.b, &system.c, &system.d}) {
-    *matrix = with_plain_zeros(*matrix);
+  std::vector<LinearSystem*> all{&made.system};
+  for (LoopMargins& loop : made.margins) all.push_back(&loop.open);
+  for (LinearSystem* const one : all) {
+    for (MatrixXd* const matrix : {&one->a, &one->b, &one->c, &one->d}) {
+      *matrix = with_plain_zeros(*matrix);
+    }
   }
   make_zeros_plain(made.poles);
   make_zeros_plain(made.zeros);

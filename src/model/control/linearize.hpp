@@ -26,6 +26,9 @@ enum class LinearKind { plant, loop, sampled };
 struct LoopMargins {
   std::string command;  // such as phi_command
   Margins margins;
+  // L of 1 + L = 0: from the command to minus what the law answers. Without states that no command
+  // moves, such as the spin.
+  LinearSystem open;
 };
 
 struct Bandwidth {

@@ -44,13 +44,13 @@ void RigLanes::begin(std::size_t l, const model::Model& model, LaneSink& sink) {
   open(l, model, grid_.end(), false);
   lane.run->sampling()->share_reference(shared_reference_);
   feeds_servos_back_[l] = model.rig->sampled->law.feeds_servos_back();
-  next_row_[l] = 1;
+  next_row_[l] = 0;
   lane.run->handle_time_event(0, lane.z.data());
   controllers_.take_over(l, lane.run->sampling()->controller());
   const std::vector<char>& occurring = lane.run->occurring();
   lane.alive = lane.run->check_events(0, lane.z.data()) == model::Effect::none &&
                std::find(occurring.begin(), occurring.end(), 1) == occurring.end();
-  sink.accept_row(l, 0, lane.z[0], lane.z[1]);
+  pass_row(l, sink);
   start(l);
 }
 
@@ -98,14 +98,20 @@ void RigLanes::evaluate_quantities() {
   }
 }
 
-void RigLanes::end_lane(std::size_t l, double t, LaneSink& sink) {
-  Lane& lane = lanes_[l];
+std::vector<double> RigLanes::whole_row(std::size_t l, double t) const {
+  const Lane& lane = lanes_[l];
   std::vector<double> row(lane.run->model().row_size());
   const std::size_t size = lane.run->model().size();
   std::copy_n(lane.z.begin(), size, row.begin());
   lane.run->write_extras(t, lane.z.data(), row.data() + size);
-  sink.accept_end(l, t, row);
-  lane.alive = false;
+  return row;
+}
+
+// Passes on the next row of a lane, which has its state.
+void RigLanes::pass_row(std::size_t l, LaneSink& sink) {
+  const std::size_t row = next_row_[l]++;
+  sink.accept_row(l, row, lanes_[l].z[0], lanes_[l].z[1]);
+  if (asked_.rows) sink.accept_whole(l, whole_row(l, grid_[row]));
 }
 
 // Takes samples, applies commands and passes rows on, each at its time, up to the ends of the
@@ -119,7 +125,8 @@ void RigLanes::pass_instants(LaneSink& sink) {
       if (!lane.moved || lane.settled) continue;
       const double t = next.when[l];
       const bool last = grid_.end() - t <= lane.run->rounding(t);
-      state_at(l, t, next.ball, (next.is_event[l] && feeds_servos_back_[l]) || last);
+      const bool is_row = asked_.rows && grid_[next_row_[l]] - t <= lane.run->rounding(t);
+      state_at(l, t, next.ball, (next.is_event[l] && feeds_servos_back_[l]) || is_row || last);
       if (!next.is_event[l]) continue;
       lane.run->observe(t, lane.z.data());
       if (lane.run->samples_at(t)) controllers_.sample(l, *lane.run, t, lane.z.data());
@@ -136,11 +143,11 @@ void RigLanes::pass_instants(LaneSink& sink) {
       }
       while (next_row_[l] < grid_.size() &&
              grid_[next_row_[l]] - t <= (next.is_event[l] ? lane.run->rounding(t) : 0)) {
-        sink.accept_row(l, next_row_[l]++, lane.z[0], lane.z[1]);
+        pass_row(l, sink);
       }
       if (next_row_[l] == grid_.size()) {
-        end_lane(l, grid_.end(), sink);
-        lane.moved = false;
+        sink.accept_end(l, grid_.end(), whole_row(l, grid_.end()));
+        lane.alive = lane.moved = false;
       } else if (lane.restarts) {
         lane.until = t;
       }

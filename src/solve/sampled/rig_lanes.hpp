@@ -31,6 +31,8 @@ class LaneSink {
   virtual void accept(const LaneStep& step) = 0;
   // Output row `row` of a lane: only x and y of the ball.
   virtual void accept_row(std::size_t lane, std::size_t row, double x, double y) = 0;
+  // The same row, complete: Model::row_size() numbers. Only if LaneAsked::rows.
+  virtual void accept_whole(std::size_t /*lane*/, std::span<const double> /*row*/) {}
   // The lane's last row, complete: Model::row_size() numbers.
   virtual void accept_end(std::size_t lane, double t, std::span<const double> row) = 0;
 };
@@ -38,6 +40,7 @@ class LaneSink {
 // What a sink needs besides the ball's position.
 struct LaneAsked {
   bool gimbal = false, reference = false;  // the plate's tilt and rate; the tracking error
+  bool rows = false;                       // complete rows
 };
 
 // Integrates groups of rigs from t = 0 over an output grid (LaneEngine). Laws are computed together
@@ -61,7 +64,8 @@ class RigLanes : private LaneEngine {
   void fill_reference();
   void take_reference(std::size_t lane);
   void pass_instants(LaneSink& sink);
-  void end_lane(std::size_t lane, double t, LaneSink& sink);
+  void pass_row(std::size_t lane, LaneSink& sink);
+  [[nodiscard]] std::vector<double> whole_row(std::size_t lane, double t) const;
 
   OutputGrid grid_;
   LaneAsked asked_;

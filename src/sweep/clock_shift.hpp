@@ -6,7 +6,7 @@
 
 #include "scenario/scenario.hpp"
 
-namespace bbsim::fit {
+namespace bbsim::sweep {
 
 // Moves the clock so that t = 0 is `begin`, and ends the run at `end` (s, old clock). Motions,
 // torques, pushes and the reference continue as they are then. Tables lose rows that are too far
@@ -20,4 +20,4 @@ struct Span {
 };
 [[nodiscard]] Span span_of_tables(const Scenario& scenario);
 
-}  // namespace bbsim::fit
+}  // namespace bbsim::sweep

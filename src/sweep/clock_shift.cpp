@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "fit/clock_shift.hpp"
+#include "sweep/clock_shift.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <numbers>
 #include <type_traits>
 
-namespace bbsim::fit {
+namespace bbsim::sweep {
 namespace {
 
 using Numbers = std::vector<double>;
@@ -128,4 +128,4 @@ Span span_of_tables(const Scenario& scenario) {
   return span;
 }
 
-}  // namespace bbsim::fit
+}  // namespace bbsim::sweep

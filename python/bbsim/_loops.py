@@ -1,0 +1,179 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Frequency responses, poles and step responses of a scenario's loop, as columns of numbers."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Dict, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _bbsim
+from ._errors import InputError
+from ._result import Linearization, OpenLoop
+from ._scenario import Scenario, Settings, as_yaml, given
+
+Array = "np.ndarray[Any, np.dtype[np.float64]]"
+Complex = "np.ndarray[Any, np.dtype[np.complex128]]"
+Columns = Dict[str, Array]
+
+AXES = ("phi", "theta")
+
+
+def linearized(scenario: Scenario, set: Settings = None) -> Linearization:
+    """The closed loop about home. Raises InputError for a scene without one."""
+    return Linearization(_bbsim.linearize(given(scenario, set), "loop", "home"))
+
+
+def open_loops(loop: Linearization) -> Dict[str, OpenLoop]:
+    """The open loops of the axes that have one."""
+    return {axis: loop.open_loop(axis) for axis in AXES if f"{axis}_command" in loop.margins}
+
+
+def rates(poles: Complex, dt: Optional[float]) -> Complex:
+    """The poles in 1/s; with a period, s of z = exp(s dt)."""
+    if not dt:
+        return poles
+    with np.errstate(divide="ignore"):
+        return np.log(poles.astype(np.complex128)) / dt
+
+
+def frequencies(loops: Dict[str, OpenLoop]) -> Array:
+    """Rising angular frequencies (rad/s), dense where the responses change, up to the Nyquist frequency."""
+    poles, closed, dt = [], [], 0.0
+    for one in loops.values():
+        dt = one.dt
+        poles.append(np.linalg.eigvals(one.A))
+        closed.append(np.linalg.eigvals(one.A - one.B @ one.C))
+    every = np.concatenate([*poles, *closed])
+    points = np.array(_bbsim.frequencies(list(np.concatenate(poles)), list(np.concatenate(closed)), dt))
+    sizes = np.abs(rates(every[np.abs(every) > 1e-6] if dt else every, dt))
+    sizes = sizes[sizes > 1e-6 * sizes.max()]
+    far = 30
+    return points[(points >= sizes.min() / far) & (points <= max(sizes.max() * far, points[-1] if dt else 0))]
+
+
+def responses(scenario: Scenario, set: Settings = None) -> Tuple[Linearization, Array, Dict[str, Complex]]:
+    """The loop, frequencies, and the open-loop response of each axis; nan for an axis without a loop."""
+    loop = linearized(scenario, set)
+    loops = open_loops(loop)
+    if not loops:
+        raise InputError([("", "found a scene in which no command closes a loop; allowed: a controller that feeds back")])
+    at = frequencies(loops)
+    nothing = np.full(len(at), np.nan, dtype=np.complex128)
+    return loop, at, {axis: loops[axis].response(at) if axis in loops else nothing for axis in AXES}
+
+
+def phase_of(response: Complex) -> Array:
+    """The phase without jumps, rad; at the lowest frequency between -7/4 pi and pi/4."""
+    phase = np.unwrap(np.angle(response))
+    first = phase[0] if len(phase) > 0 else 0.0
+    return phase - 2 * math.pi * np.round((first + 0.75 * math.pi) / (2 * math.pi))
+
+
+def bode(scenario: Scenario, set: Settings = None) -> Columns:
+    """frequency (rad/s), phi_gain, phi_phase (rad), theta_gain, theta_phase of the open loops.
+
+    Each loop is broken at its command, with the other one closed, and with the sign for which -1 is the
+    critical point. Raises InputError for a scene without a loop.
+    """
+    _, at, found = responses(scenario, set)
+    columns = {"frequency": at}
+    for axis in AXES:
+        columns[f"{axis}_gain"] = np.abs(found[axis])
+        columns[f"{axis}_phase"] = phase_of(found[axis])
+    return columns
+
+
+def nyquist(scenario: Scenario, set: Settings = None) -> Columns:
+    """frequency (rad/s), phi_real, phi_imag, theta_real, theta_imag of the open loops, as in bode()."""
+    _, at, found = responses(scenario, set)
+    columns = {"frequency": at}
+    for axis in AXES:
+        columns[f"{axis}_real"] = found[axis].real
+        columns[f"{axis}_imag"] = found[axis].imag
+    return columns
+
+
+def margins(scenario: Scenario, set: Settings = None) -> Dict[str, Dict[str, Any]]:
+    """The margins of each axis's loop, as ``bbsim check`` prints them: gain, phase, delay."""
+    found = linearized(scenario, set).margins
+    return {axis: found[f"{axis}_command"] for axis in AXES if f"{axis}_command" in found}
+
+
+def poles(scenario: Scenario, set: Settings = None) -> Columns:
+    """real, imag, damping, frequency (rad/s) of the closed loop's poles.
+
+    Those of a sampled loop are z; damping and frequency are those of s, with z = exp(s period).
+    """
+    loop = linearized(scenario, set)
+    at = rates(loop.poles, loop.dt)
+    size = np.abs(at)
+    with np.errstate(invalid="ignore"):
+        damping = np.where(np.isinf(size), 1.0, -at.real / size)
+    return {"real": loop.poles.real, "imag": loop.poles.imag, "damping": damping, "frequency": size}
+
+
+def values_between(
+    scenario: Scenario, key: str, low: Union[str, float], high: Union[str, float], count: int, set: Settings = None
+) -> Array:
+    """Evenly spaced values of a key (SI); the bounds may be texts such as "2 cm"."""
+    ends = []
+    for bound in (low, high):
+        number = _bbsim.number_at(given(scenario, set), key, as_yaml(bound))
+        if number is None:
+            raise InputError([("", f"{key}: found {bound}; allowed: the bounds of a key that holds one number")])
+        ends.append(number)
+    return np.linspace(*ends, count)
+
+
+def root_locus(scenario: Scenario, key: str, values: Sequence[float], set: Settings = None) -> Columns:
+    """value, real, imag: a row for each pole of the closed loop at each value of the key (SI)."""
+    columns: Dict[str, list[float]] = {"value": [], "real": [], "imag": []}
+    for value in values:
+        found = linearized(scenario, {**(set or {}), key: float(value)}).poles
+        columns["value"] += [float(value)] * len(found)
+        columns["real"] += list(found.real)
+        columns["imag"] += list(found.imag)
+    return {name: np.array(column) for name, column in columns.items()}
+
+
+def step(scenario: Scenario, set: Settings = None, end: Optional[float] = None) -> Columns:
+    """t (s), x and y: the linear responses to a unit step of x_reference and of y_reference.
+
+    ``end`` (s) is by default when the slowest mode has decayed to 0.1 %, or has grown tenfold. A sampled
+    loop has a row for each sample. nan for an axis that the loop leaves out.
+    """
+    loop = linearized(scenario, set)
+    if not loop.inputs:
+        raise InputError([("", "found a controller of your own, whose answer to a reference is not known; allowed: a law of bbsim")])
+    decay = rates(loop.poles, loop.dt).real
+    decay = decay[np.isfinite(decay) & (np.abs(decay) > 1e-6 * np.abs(decay[np.isfinite(decay)]).max())]
+    if end is None:
+        growth = decay.max()
+        end = math.log(1000) / -growth if growth < 0 else math.log(10) / growth
+    most = 20000
+    count = min(int(round(end / loop.dt)), most) if loop.dt else 500
+    period = loop.dt or end / count
+    advance, push = (loop.A, loop.B) if loop.dt else _held(loop.A, loop.B, period)
+    columns = {"t": np.arange(count + 1) * period}
+    for output in ("x", "y"):
+        column = np.full(count + 1, np.nan)
+        if output in loop.outputs and f"{output}_reference" in loop.inputs:
+            row, of = loop.outputs.index(output), loop.inputs.index(f"{output}_reference")
+            state = np.zeros(len(loop.A))
+            for k in range(count + 1):
+                column[k] = loop.C[row] @ state + loop.D[row, of]
+                state = advance @ state + push[:, of]
+        columns[output] = column
+    return columns
+
+
+def _held(a: Array, b: Array, time: float) -> Tuple[Array, Array]:
+    """The exact map over a time with constant inputs."""
+    from scipy.linalg import expm
+
+    n, m = b.shape
+    whole = expm(time * np.block([[a, b], [np.zeros((m, n + m))]]))
+    return whole[:n, :n], whole[:n, n:]
