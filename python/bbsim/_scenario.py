@@ -90,7 +90,10 @@ def _without_callable(scenario: Mapping[str, Any]) -> Tuple[Mapping[str, Any], O
     return {**scenario, "controller": {"library": {"file": f"Python: {name}"}, **rest}}, function
 
 
-def given(scenario: Scenario, settings: Settings = None, error: Any = None) -> _bbsim.Given:
+def given(scenario: Union[Scenario, _bbsim.Given], settings: Settings = None, error: Any = None) -> _bbsim.Given:
+    """The scenario with settings. One that is already given stays as it is, and simulate() reads it only once."""
+    if isinstance(scenario, _bbsim.Given):
+        return scenario
     overrides: List[str] = [f"{key}={as_yaml(value)}" for key, value in (settings or {}).items()]
     if error is not None:
         overrides.append(f"solver.error={as_yaml(error)}")

@@ -42,6 +42,8 @@ struct Given {
   std::optional<std::string> text;  // if empty: the file `name`
   std::vector<std::string> overrides;
   py::object callable;  // or None
+  // Read once for all calls of simulate(), which a fit calls often. Needs the interpreter's lock.
+  mutable std::shared_ptr<const ScenarioFamily> family{};
 };
 
 ScenarioFamily family_of(const Given& given) {
@@ -202,13 +204,17 @@ struct CasesAsked {
 
 api::CasesResult simulate(const Given& given, const CasesAsked& asked, double threads) {
   Work work(given);
-  return work.beside([&] {
-    const ScenarioFamily family = work.family();
-    api::CasesRequest request{family,         asked.count, asked.keys,   asked.columns,
+  std::shared_ptr<const ScenarioFamily> family = given.family;
+  api::CasesResult made = work.beside([&] {
+    if (!family) family = std::make_shared<const ScenarioFamily>(work.family());
+    api::CasesRequest request{*family,        asked.count, asked.keys,   asked.columns,
                               asked.measures, asked.times, asked.windows};
     request.threads = work.has_callable() ? 1 : threads;
     return api::run_cases(request, work.watch());
   });
+  // The controller of a callable belongs to this call.
+  if (!work.has_callable()) given.family = std::move(family);
+  return made;
 }
 
 void define_simulate(py::module_& module) {
@@ -506,8 +512,8 @@ PYBIND11_MODULE(_bbsim, module) {
   py::class_<Given>(module, "Given")
       .def(py::init([](std::string name, std::optional<std::string> text,
                        std::vector<std::string> overrides, py::object callable) {
-             return Given{std::move(name), std::move(text), std::move(overrides),
-                          std::move(callable)};
+             return Given{
+                 std::move(name), std::move(text), std::move(overrides), std::move(callable), {}};
            }),
            py::arg("name"), py::arg("text"), py::arg("overrides"), py::arg("callable"));
   define_sample(module);

@@ -948,6 +948,32 @@ class OpenLoops(unittest.TestCase):
         with self.assertRaises(bbsim.InputError):  # an estimate has no reference
             _loops.step(scene)
 
+    def test_pictures(self):
+        try:
+            from bbsim import _loop_pictures as pictures
+        except ImportError as lacking:
+            self.skipTest(str(lacking))
+        key = "controller.gravity_compensation.kp"
+        for scene in (CONFIGS / "rig.yaml", CONFIGS / "fig2b.yaml", CONFIGS / "beam.yaml"):
+            loop, margins = bbsim.linearize(scene), _loops.margins(scene)
+            bode = pictures.bode(_loops.bode(scene), margins)
+            texts = {text.get_text() for axes in bode.axes for text in axes.texts}
+            for its in margins.values():
+                self.assertIn(f"{math.degrees(its['phase']):.3g}°", texts)
+                self.assertIn(f"{20 * math.log10(its['gain']):+.3g} dB", texts)
+            figures = [bode, pictures.nyquist(_loops.nyquist(scene)), pictures.poles(_loops.poles(scene), loop.dt)]
+            figures.append(pictures.step(_loops.step(scene)))
+            if scene.stem == "rig":
+                locus = pictures.root_locus(_loops.root_locus(scene, key, [2, 4, 8]), loop.dt, key)
+                self.assertEqual(len(locus.axes), 2)
+                figures.append(locus)
+            for figure in figures:
+                with warnings.catch_warnings():
+                    warnings.simplefilter("error")
+                    drawn = io.StringIO()
+                    figure.savefig(drawn, format="svg")
+                self.assertIn("</svg>", drawn.getvalue())
+
     def test_scenes_without_a_loop(self):
         for scene in ("fig2a", "recorded"):
             with self.assertRaises(bbsim.InputError):

@@ -1,0 +1,189 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Draws the columns of _loops: frequency responses with margins, poles with a grid of damping, step responses."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Dict, List, Mapping, Optional, Tuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MultipleLocator
+
+Array = "np.ndarray[Any, np.dtype[np.float64]]"
+Columns = Mapping[str, Array]
+Margins = Mapping[str, Mapping[str, Any]]
+
+MM = 1 / 25.4  # inches
+AXES = ("phi", "theta")
+NAMES = {"phi": "φ", "theta": "θ"}
+COLORS = {"phi": "#0072b2", "theta": "#d55e00"}
+DASHES = {"phi": "-", "theta": (0, (4, 1.5))}
+QUIET = {"color": "#909090", "lw": 0.6}
+GRID = {"color": "#d0d0d0", "lw": 0.5, "zorder": 0}
+DAMPINGS = (0.1, 0.3, 0.5, 0.7, 0.9)
+
+
+def _figure(width: float, height: float) -> Figure:
+    return Figure(figsize=(width * MM, height * MM), layout="constrained", facecolor="white")
+
+
+def _curves(columns: Columns, part: str) -> List[Tuple[str, str, Array]]:
+    """Axis, label and values of each curve to draw: one for both axes if they do not differ."""
+    found = {axis: columns[f"{axis}_{part}"] for axis in AXES}
+    present = [axis for axis in AXES if np.isfinite(found[axis]).any()]
+    if len(present) == 2 and np.allclose(found["phi"], found["theta"], rtol=1e-6, atol=0, equal_nan=True):
+        return [("phi", "φ, θ", found["phi"])]
+    return [(axis, NAMES[axis], found[axis]) for axis in present]
+
+
+def _decibels(gain: Any) -> Any:
+    with np.errstate(divide="ignore"):
+        return 20 * np.log10(gain)
+
+
+def bode(columns: Columns, margins: Margins, width: float = 135.0) -> Figure:
+    """Gain and phase of the open loops over the frequency, with the margins marked. ``width`` in mm."""
+    figure = _figure(width, 0.85 * width)
+    above, below = figure.subplots(2, 1, sharex=True)
+    at = columns["frequency"]
+    for axis, label, gain in _curves(columns, "gain"):
+        above.semilogx(at, _decibels(gain), color=COLORS[axis], ls=DASHES[axis], label=label)
+        phase = np.degrees(columns[f"{axis}_phase"])
+        below.semilogx(at, phase, color=COLORS[axis], ls=DASHES[axis])
+        its = margins.get(axis, {})
+        _mark_gains(above, its, COLORS[axis])
+        _mark_phase(below, its, at, phase, COLORS[axis])
+    above.axhline(0, **QUIET)
+    above.set_ylabel("gain (dB)")
+    above.legend(frameon=False)
+    below.axhline(-180, **QUIET)
+    below.set_ylabel("phase (°)")
+    below.set_xlabel("frequency (rad/s)")
+    below.yaxis.set_major_locator(MultipleLocator(90))
+    for axes in (above, below):
+        axes.grid(color="#e4e4e4", lw=0.5)
+        axes.margins(x=0)
+    return figure
+
+
+def _mark_gains(axes: Axes, its: Mapping[str, Any], color: str) -> None:
+    for name in ("gain", "gain_reduction"):
+        factor, where = its.get(name), its.get(f"{name}_frequency")
+        if factor is None or not where:
+            continue
+        level = -_decibels(factor)
+        axes.vlines(where, *sorted((level, 0)), color=color, lw=1.6)
+        axes.annotate(f"{_decibels(factor):+.3g} dB", (where, level), (4, 0), textcoords="offset points", color=color, va="center")
+
+
+def _mark_phase(axes: Axes, its: Mapping[str, Any], at: Array, phase: Array, color: str) -> None:
+    margin, where = its.get("phase"), its.get("phase_frequency")
+    if margin is None or not where:
+        return
+    level = float(np.interp(where, at, phase))
+    critical = level - math.degrees(margin)  # an odd multiple of 180 degrees
+    axes.vlines(where, *sorted((critical, level)), color=color, lw=1.6)
+    axes.annotate(
+        f"{math.degrees(margin):.3g}°", (where, (critical + level) / 2), (4, 0), textcoords="offset points", color=color, va="center"
+    )
+
+
+def nyquist(columns: Columns, width: float = 100.0) -> Figure:
+    """The open loops in the complex plane, with -1 and the unit circle; mirrored for negative frequencies."""
+    figure = _figure(width, width)
+    axes = figure.subplots()
+    turn = np.linspace(0, 2 * math.pi, 200)
+    axes.plot(np.cos(turn), np.sin(turn), **QUIET)
+    for axis, label, real in _curves(columns, "real"):
+        imag = columns[f"{axis}_imag"]
+        axes.plot(real, imag, color=COLORS[axis], ls=DASHES[axis], label=label)
+        axes.plot(real, -imag, color=COLORS[axis], ls=(0, (1, 1.2)), lw=0.8)
+    axes.plot([-1], [0], "k+", ms=8)
+    far = 2.5  # integrators go to infinity
+    axes.set(xlim=(-far, far), ylim=(-far, far), aspect="equal", xlabel="real part", ylabel="imaginary part")
+    axes.grid(color="#e4e4e4", lw=0.5)
+    axes.legend(frameon=False)
+    return figure
+
+
+def _grid(axes: Axes, dt: Optional[float], reach: float) -> None:
+    """Lines of equal damping ratio, and of equal natural frequency, in the plane of s or of z."""
+    frequencies = np.array([0.2, 0.4, 0.6, 0.8, 1.0]) * (math.pi / dt if dt else reach)
+    along = np.linspace(0, 1, 200)
+    for damping in DAMPINGS:
+        to = math.pi / dt / math.sqrt(1 - damping**2) if dt else 2 * reach
+        s = along * to * complex(-damping, math.sqrt(1 - damping**2))
+        _line(axes, np.exp(s * dt) if dt else s)
+        place = (np.exp(s * dt) if dt else s)[60 if dt else 90]
+        if dt or abs(place) < reach:
+            axes.text(place.real, place.imag, f"{damping:g}", color="#909090", size="x-small", ha="right")
+    for frequency in frequencies:
+        s = frequency * np.exp(1j * math.pi * (0.5 + 0.5 * along))
+        _line(axes, np.exp(s * dt) if dt else s)
+    if dt:
+        turn = np.exp(1j * 2 * math.pi * along)
+        axes.plot(turn.real, turn.imag, **QUIET)
+    else:
+        axes.axvline(0, **QUIET)
+
+
+def _line(axes: Axes, points: Any) -> None:
+    for sign in (1, -1):
+        axes.plot(points.real, sign * points.imag, **GRID)
+
+
+def _plane(columns: Columns, dt: Optional[float], width: float) -> Tuple[Figure, Axes]:
+    figure = _figure(width, width)
+    axes = figure.subplots()
+    real, imag = columns["real"], columns["imag"]
+    finite = np.isfinite(real) & np.isfinite(imag)
+    reach = float(np.abs(real[finite] + 1j * imag[finite]).max(initial=0.0)) or 1.0
+    if dt:
+        reach = max(1.0, reach)
+    _grid(axes, dt, reach)
+    room = 1.08 * reach
+    axes.set(xlim=(-room, room if dt or real[finite].max(initial=0.0) > 0.3 * reach else 0.3 * reach), ylim=(-room, room))
+    axes.set_aspect("equal")
+    unit = "" if dt else " (1/s)"
+    axes.set(xlabel=f"real part of {'z' if dt else 's'}{unit}", ylabel=f"imaginary part{unit}")
+    return figure, axes
+
+
+def poles(columns: Columns, dt: Optional[float], width: float = 100.0) -> Figure:
+    """The closed loop's poles: of s, or with a period ``dt`` (s) of z."""
+    figure, axes = _plane(columns, dt, width)
+    axes.plot(columns["real"], columns["imag"], "x", color=COLORS["phi"], ms=6)
+    return figure
+
+
+def root_locus(columns: Columns, dt: Optional[float], key: str, unit: str = "", width: float = 110.0) -> Figure:
+    """The poles at each value of a key, colored by it; crosses at its first value, circles at its last."""
+    figure, axes = _plane(columns, dt, width)
+    value = columns["value"]
+    points = axes.scatter(columns["real"], columns["imag"], c=value, s=5, cmap="viridis", lw=0, zorder=2)
+    for end, shape in ((value[0], "x"), (value[-1], "o")):
+        at = value == end
+        axes.plot(columns["real"][at], columns["imag"][at], shape, color="black", ms=5, mfc="none", mew=0.8)
+    figure.colorbar(points, ax=axes, shrink=0.8)
+    figure.suptitle(f"{key} ({unit})" if unit else key, fontsize="medium")
+    return figure
+
+
+def step(columns: Columns, width: float = 135.0) -> Figure:
+    """The response of x and y to a unit step of their references."""
+    figure = _figure(width, 0.55 * width)
+    axes = figure.subplots()
+    axes.axhline(1, **QUIET)
+    looks: Dict[str, str] = {"x": "phi", "y": "theta"}
+    same = np.allclose(columns["x"], columns["y"], rtol=1e-6, atol=1e-9)
+    for name, axis in looks.items():
+        if np.isfinite(columns[name]).any() and not (same and name == "y"):
+            axes.plot(columns["t"], columns[name], color=COLORS[axis], ls=DASHES[axis], label="x, y" if same else name)
+    axes.set(xlabel="t (s)", ylabel="response to a unit step")
+    axes.grid(color="#e4e4e4", lw=0.5)
+    axes.margins(x=0)
+    axes.legend(frameon=False)
+    return figure
