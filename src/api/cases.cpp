@@ -21,6 +21,7 @@
 #include "solve/output_grid.hpp"
 #include "sweep/sweep.hpp"
 #include "sweep/sweep_measures.hpp"
+#include "yaml/nearest.hpp"
 
 namespace bbsim::api {
 namespace {
@@ -113,17 +114,29 @@ void check_times(const CasesRequest& request, double end) {
   }
 }
 
-// The setting that makes the scenarios check the columns. The time is no column of the series.
-std::vector<ScenarioFamily::Setting> setting_of(const std::vector<std::string>& columns) {
-  std::string list;
-  for (const std::string& name : columns) {
-    if (!scenario::is_own_name(name)) {
-      refuse("columns", bbsim::quoted(name), "the names that `bbsim columns` lists");
+// Numbers of your own controller must also be among output.columns.
+void check_columns(const std::vector<std::string>& names, const Scenario& first) {
+  const std::vector<std::string> own = scenario::own_columns(first);
+  for (auto name = names.begin(); name != names.end(); ++name) {
+    const std::string found = shown(*name);
+    const scenario::Column* const column = scenario::find_column(*name);
+    const bool is_known = column != nullptr && (column->needs != scenario::Needs::own ||
+                                                std::ranges::find(own, *name) != own.end());
+    if (!is_known) {
+      std::vector<std::string_view> all;
+      for (const scenario::Column& one : scenario::catalogue) all.push_back(one.name);
+      const std::string_view nearest = yaml::nearest_name(*name, all);
+      refuse("columns",
+             found + (nearest.empty() ? "" : " (did you mean " + std::string(nearest) + "?)"),
+             "the names that `bbsim columns` lists");
     }
-    list += (list.empty() ? "" : ", ") + name;
+    if (const scenario::Missing lacks = scenario::missing(*column, first)) {
+      refuse("columns", found + ", but " + lacks.why, lacks.instead);
+    }
+    if (std::find(names.begin(), name, *name) != name) {
+      refuse("columns", found + " again", "each column once");
+    }
   }
-  if (list.empty()) return {};
-  return {{"output.columns", '[' + list + ']'}};
 }
 
 class Cases {
@@ -172,6 +185,7 @@ class Cases {
     if (!request_.columns.empty()) {
       task.series = series_;
       task.series_rows = times_.count;
+      task.series_in_lanes = true;
       if (own_rows) task.times = &times_;
       finished = run(task);
       task.series.clear();
@@ -262,9 +276,10 @@ CasesResult run_cases(const CasesRequest& request, Watch& watch) {
   require_whole("threads", request.threads, 0, most_threads);
   require_whole("cases", static_cast<double>(request.count), 0, most_cases);
   check_keys(request);
-  const std::vector<ScenarioFamily::Setting> columns = setting_of(request.columns);
-  const sweep::SweepPlan plan(request.family, request.keys, request.count, columns);
-  Scenario first = request.family.read(request.count > 0 ? plan.first_settings() : columns);
+  const sweep::SweepPlan plan(request.family, request.keys, request.count);
+  using Settings = std::vector<ScenarioFamily::Setting>;
+  Scenario first = request.family.read(request.count > 0 ? plan.first_settings() : Settings{});
+  check_columns(request.columns, first);
   const bool any_end = varies_time(request);
   const double end = any_end ? std::numeric_limits<double>::infinity() : first.time.end;
   check_windows(request, end);

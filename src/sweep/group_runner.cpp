@@ -87,7 +87,8 @@ class GroupRunner : public CaseRunner {
 }  // namespace
 
 bool can_share_rows(const SweepTask& task) {
-  return (task.windows == nullptr || !task.windows->cut()) &&
+  return (task.series.empty() || task.series_in_lanes) &&
+         (task.windows == nullptr || !task.windows->cut()) &&
          (task.times == nullptr || !task.times->each);
 }
 

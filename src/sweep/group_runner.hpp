@@ -28,8 +28,8 @@ struct GroupCase {
   std::optional<double> unbounded_at = {};
 };
 
-// Whether all cases have output rows at the same times if they end at the same time, as cases in
-// lanes must.
+// Whether lanes may carry the rows: all cases have them at the same times if they end at the same
+// time.
 [[nodiscard]] bool can_share_rows(const SweepTask& task);
 // Those rows, if the task has times of its own; `first` is as below.
 [[nodiscard]] std::optional<TimedRows> timed_rows(const SweepTask& task, const Scenario& first);

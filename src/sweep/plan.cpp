@@ -372,9 +372,8 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, const SweepPlan* of,
   relate(family);
 }
 
-SweepPlan::SweepPlan(const ScenarioFamily& family, std::vector<ListedKey> keys, std::size_t cases,
-                     std::vector<Setting> always)
-    : always_(std::move(always)), combine_(Combine::zip), cases_(cases) {
+SweepPlan::SweepPlan(const ScenarioFamily& family, std::vector<ListedKey> keys, std::size_t cases)
+    : combine_(Combine::zip), cases_(cases) {
   std::vector<Setting> seen;
   for (ListedKey& one : keys) {
     check_apart(one.key, seen);

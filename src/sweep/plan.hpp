@@ -63,11 +63,10 @@ class SweepPlan {
     std::vector<double> numbers{};
     std::vector<std::string> texts{};
   };
-  // Lists cases, which all have the settings `always`. Cases may have errors, which appear when
-  // they are run. Throws InputError for keys that overlap each other or an override, and if no case
-  // can be read; beyond 64 cases, if none of 64 from all over the list can.
-  SweepPlan(const ScenarioFamily& family, std::vector<ListedKey> keys, std::size_t cases,
-            std::vector<ScenarioFamily::Setting> always);
+  // Lists cases. They may have errors, which appear when they are run. Throws InputError for keys
+  // that overlap each other or an override, and if no case can be read; beyond 64 cases, if none of
+  // 64 from all over the list can.
+  SweepPlan(const ScenarioFamily& family, std::vector<ListedKey> keys, std::size_t cases);
 
   [[nodiscard]] std::size_t cases() const { return cases_; }
   [[nodiscard]] const std::vector<PlanAxis>& axes() const { return axes_; }

@@ -106,8 +106,12 @@ class RigCarrier : public GroupCarrier {
       if (!is_carried(scenario, model) || !has_rows(scenario.time) ||
           scenario.solver.rtol != tolerances_.rtol || scenario.solver.atol != tolerances_.atol ||
           (!rigs_.empty() && !solve::sampled::go_together(rigs_.front().model, model)) ||
-          std::ranges::any_of(task_.measures, [&](const scenario::Measure& measure) {
-            return bool(scenario::missing(measure, scenario));
+          std::ranges::any_of(task_.measures,
+                              [&](const scenario::Measure& measure) {
+                                return bool(scenario::missing(measure, scenario));
+                              }) ||
+          std::ranges::any_of(task_.series, [&](const scenario::Column* column) {
+            return bool(scenario::missing(*column, scenario));
           })) {
         return;
       }

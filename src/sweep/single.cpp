@@ -76,6 +76,10 @@ class SingleRunner : public CaseRunner {
     try {
       const Scenario& scenario =
           scenario_.at(number, &into.values[place * task_.plan.axes().size()]);
+      for (const scenario::Column* const column : task_.series) {
+        const scenario::Missing lacks = scenario::missing(*column, scenario);
+        if (lacks) throw InputError(std::string(column->name) + ": " + lacks.why);
+      }
       model::Model model = model::assemble(scenario, integrals_);
       if (scenario.controller && scenario.controller->own) {
         if (!controllers_) controllers_.emplace(task_.report, &stop);

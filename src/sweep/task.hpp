@@ -25,9 +25,11 @@ struct SweepTask {
   const SweepPlan& plan;
   std::vector<scenario::Measure> measures;
   // Columns of the output rows that are kept for each case. All cases must have the same number of
-  // rows.
+  // rows. A case that lacks a column is refused.
   std::vector<const scenario::Column*> series{};
   std::size_t series_rows = 0;
+  // Whether lanes may compute the series: these then agree with runs within the tolerance only.
+  bool series_in_lanes = false;
   // Times of the series, instead of those of the output rows; the task then has no measures.
   const CaseTimes* times = nullptr;
   const Windows* windows = nullptr;  // null: each case is a whole run of its scenario

@@ -209,6 +209,11 @@ TEST_CASE("each case has its own status and reason") {
                       [](double x) { return std::isnan(x); }));
     CHECK(std::isnan(first[3 * cases.times - 1]));
   }
+  const bbsim::Cases lacks = bbsim::simulate(
+      shipped("rig"), 2, {{"plate.inertia", {}, {"", "null"}}}, {.columns = {"motor_torque_phi"}});
+  CHECK(lacks.status[0] == bbsim::Status::done);
+  CHECK(lacks.status[1] == bbsim::Status::refused);
+  CHECK(tells(lacks.reason[1], {"plate.inertia"}));
   options.events = false;
   CHECK(bbsim::simulate(rig, 3, keys, options).status[2] == bbsim::Status::done);
   // If no case is sound, the first one's faults are the caller's.
@@ -239,10 +244,10 @@ TEST_CASE("texts, and keys that only some cases have") {
 }
 
 TEST_CASE("odd arguments are refused with their place and what is allowed") {
-  CHECK(tells(refusal_of({.columns = {"phy"}}), {"output.columns", "phy", "did you mean phi"}));
-  CHECK(tells(refusal_of({.columns = {"x]"}}), {"columns: found", "allowed: "}));
-  CHECK(tells(refusal_of({.columns = {"x", "x"}}), {"output.columns", "once"}));
-  CHECK(tells(refusal_of({.columns = {"phi_torque"}}), {"output.columns", "phi_torque"}));
+  CHECK(tells(refusal_of({.columns = {"phy"}}), {"columns: found phy", "did you mean phi"}));
+  CHECK(tells(refusal_of({.columns = {"x]"}}), {"columns: found x]", "allowed: "}));
+  CHECK(tells(refusal_of({.columns = {"x", "x"}}), {"columns: found x again", "once"}));
+  CHECK(tells(refusal_of({.columns = {"phi_torque"}}), {"columns: found phi_torque, but"}));
   CHECK(tells(refusal_of({.measures = {"max_tild"}}), {"max_tild", "did you mean max_tilt"}));
   CHECK(tells(refusal_of({}, 1, {{"ball.radios", {0.01}}}), {"ball.radios", "radius"}));
   CHECK(tells(refusal_of({}, 2, {{"ball.radius", {0.01}}}), {"ball.radius", "1 cases", "for 2"}));

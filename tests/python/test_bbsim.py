@@ -1048,6 +1048,13 @@ class Simulations(unittest.TestCase):
         run = bbsim.run(with_callable(SampledPd()), {"ball.radius": 0.02})
         np.testing.assert_array_equal(made["x"][1], run["x"][[0, 50, 100]])
 
+        def tells(sample):
+            return 0, 0, {"count": sample.sample}
+
+        scene = with_callable(tells, output={"columns": ["t", "count"]})
+        self.assertEqual(bbsim.simulate(scene, [{}], "x", [0, 1])["x"].shape, (1, 2))
+        self.assertEqual(bbsim.simulate(scene, [{}], "count", [0, 1])["count"].tolist(), [[0, 50]])
+
         def breaks(sample):
             raise ValueError("no idea")
 
