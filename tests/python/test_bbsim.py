@@ -1090,7 +1090,11 @@ class Simulations(unittest.TestCase):
         refused("threads", threads=-1)
         with self.assertRaises(TypeError):
             bbsim.simulate(CONFIGS / "fig2b.yaml", {"ball.radius": [object()]}, "x")
-        self.assertEqual(bbsim.simulate(CONFIGS / "fig2b.yaml", [], "x", [0, 1])["x"].shape, (0, 2))
+        for times, shape in (([0, 1], (0, 2)), (np.empty((0, 2)), (0, 2))):
+            self.assertEqual(bbsim.simulate(CONFIGS / "fig2b.yaml", [], "x", times)["x"].shape, shape)
+        for times in ([], np.empty((2, 0))):
+            made = bbsim.simulate(CONFIGS / "fig2b.yaml", {"ball.radius": [0.01, 0.02]}, "x", times)
+            self.assertEqual((made["x"].shape, list(made.status)), ((2, 0), ["done", "done"]))
 
 
 class Faults(unittest.TestCase):

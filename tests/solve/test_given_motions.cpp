@@ -21,7 +21,9 @@ namespace {
 constexpr double end = 10;
 
 Ensemble lanes_of(int nodes, double rtol) {
-  return {{Actuation::given, solve::OutputGrid({end, end}), false}, nodes, {rtol, rtol / 100}};
+  return {{Actuation::given, solve::OutputGrid(OutputTimes{end, end}), false},
+          nodes,
+          {rtol, rtol / 100}};
 }
 
 // A ball under a motion.

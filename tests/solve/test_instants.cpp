@@ -108,7 +108,7 @@ TEST_CASE("an output grid has no time twice, for any number of rows") {
   for (const double count : {1e6, 1e8, 999999999.0}) {
     for (const double off : {0.0, 1e-9, -1e-9, 1e-16, -1e-16, 2.3e-16}) {
       const double step = 1e-3, end = count * step * (1 + off);
-      const solve::OutputGrid grid({end, step});
+      const solve::OutputGrid grid(OutputTimes{end, step});
       const std::size_t rows = grid.size();
       CAPTURE(count, off, rows);
       CHECK(grid[rows - 1] == end);
