@@ -5,7 +5,6 @@
 #include "api/accuracy.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,9 +12,7 @@
 #include "base/short_number.hpp"
 #include "commands.hpp"
 #include "file/atomic_file.hpp"
-#include "file/format.hpp"
 #include "file/outputs.hpp"
-#include "gnuplot.hpp"
 #include "progress.hpp"
 #include "terminal.hpp"
 
@@ -24,7 +21,7 @@ namespace {
 
 struct AccuracyArguments {
   ScenarioArguments scenario;
-  std::string csv, plot;
+  std::string csv;
   std::string rtols = "1e-3:1e-13";
   std::vector<std::string> methods;
 };
@@ -50,14 +47,6 @@ std::vector<Method> methods_named(const std::vector<std::string>& names) {
   return methods;
 }
 
-api::Picture picture_of(const std::string& file) {
-  const std::string ending = file::lower_ending(file);
-  if (ending == ".svg") return api::Picture::svg;
-  if (ending == ".png") return api::Picture::png;
-  if (ending == ".pdf") return api::Picture::pdf;
-  throw InputError("--plot: found " + file + "; allowed: a name that ends in .svg, .png or .pdf");
-}
-
 void explain_reference(const api::AccuracyStudy& study, double end) {
   say("the reference's own error: about " + rounded(study.reference_error, 2) + " m");
   if (!study.reference_complete && !study.interrupted) {
@@ -73,21 +62,10 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
   const std::vector<double> rtols = api::tolerance_ladder(arguments.rtols);
   if (arguments.csv != "-") prints(outputs);
   if (!arguments.csv.empty()) outputs.writes(arguments.csv, "--csv");
-  if (!arguments.plot.empty()) outputs.writes(arguments.plot, "--plot");
-  // Open the files and look for gnuplot before the work.
-  std::unique_ptr<file::AtomicFile> csv, plot;
+  std::unique_ptr<file::AtomicFile> csv;  // opened before the work
   if (!arguments.csv.empty()) csv = std::make_unique<file::AtomicFile>(arguments.csv);
-  const api::Picture picture =
-      arguments.plot.empty() ? api::Picture::svg : picture_of(arguments.plot);
-  if (!arguments.plot.empty()) {
-    require_gnuplot();
-    plot = std::make_unique<file::AtomicFile>(arguments.plot);
-  }
 
   Progress progress("accuracy", options.quiet);
-  const std::string title = scenario.title.empty()
-                                ? std::filesystem::path(scenario.source.file).stem().string()
-                                : scenario.title;
   const api::AccuracyStudy study = api::accuracy(scenario, methods, rtols, progress);
 
   if (!options.quiet) explain_reference(study, scenario.time.end);
@@ -96,16 +74,11 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
     csv->commit();
   }
   if (arguments.csv != "-") print(api::accuracy_table(study));
-  const bool any = api::any_complete(study);
-  if (plot && any) {
-    plot->write(run_gnuplot(api::accuracy_plot(study, title, picture)));
-    plot->commit();
-  }
   if (study.interrupted) {
     say("interrupted.");
     return ExitCode::interrupted;
   }
-  if (any) return ExitCode::done;
+  if (api::any_complete(study)) return ExitCode::done;
   say("no method reached the end of the scene; `bbsim run` says why");
   return ExitCode::ended_early;
 }
@@ -131,8 +104,6 @@ void add_accuracy(Command& command, const Options& options) {
       .shows_default();
   command.option("--csv", arguments->csv, "write all points to FILE as CSV; - is standard output")
       .takes("FILE");
-  command.option("--plot", arguments->plot, "draw time over error to FILE, with gnuplot")
-      .takes("FILE.svg|.png|.pdf");
   command.does([arguments, &options] { return accuracy(*arguments, options); });
 }
 

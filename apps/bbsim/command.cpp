@@ -80,6 +80,11 @@ Option& Option::takes_whole(double least, double most) {
   return *this;
 }
 
+Option& Option::takes_one() {
+  option_->expected(1)->allow_extra_args(false);
+  return *this;
+}
+
 Option& Option::takes_one_of(const std::vector<std::string>& words) {
   option_->check(CLI::IsMember(words).description("").name(std::string(one_of) +
                                                            CLI::detail::join(words, " ")));
@@ -89,6 +94,10 @@ Option& Option::takes_one_of(const std::vector<std::string>& words) {
 Option& Option::excludes(const Option& other) {
   option_->excludes(other.option_);
   return *this;
+}
+
+std::string Command::name() const {
+  return app_->get_name();
 }
 
 void Command::footer(const std::string& text) {

@@ -41,6 +41,8 @@ class Option {
   Option& may_be_repeated();
   // Takes a whole number, also as 1e6.
   Option& takes_whole(double least, double most = largest_whole);
+  // Takes one value, though it is stored as a list.
+  Option& takes_one();
   Option& takes_one_of(const std::vector<std::string>& words);
   Option& excludes(const Option& other);
 
@@ -56,6 +58,7 @@ class Command {
   // If the command line names the command, `chosen` becomes its action. Both outlive the command.
   Command(CLI::App& app, Chosen& chosen) : app_(&app), chosen_(&chosen) {}
 
+  [[nodiscard]] std::string name() const;
   // Text below the options in the command's help.
   void footer(const std::string& text);
   // `names` of an option, or of an argument without dashes; `value` outlives the parsing.

@@ -204,7 +204,9 @@ void add_commands(CLI::App& app, std::span<char* const> words,
   for (const NamedCommand& command : commands) {
     const bool named = is_named(command);
     if (names_one && !named) continue;
-    CLI::App* const added = app.add_subcommand(command.name, command.description);
+    CLI::App* const added = app.add_subcommand(
+        command.name,
+        command.description != nullptr ? command.description : description_beside(command.name));
     if (!command.alias.empty()) added->alias(std::string(command.alias));
     if (!named) continue;
     Command its(*added, chosen);

@@ -11,7 +11,7 @@
 namespace bbsim::app {
 
 struct NamedCommand {
-  const char *name, *description;
+  const char *name, *description;  // without a description: beside the program
   void (*add_options)(Command& command, const Options& options);
   std::string_view alias{};  // empty: none
 };

@@ -120,7 +120,10 @@ void add_fit(Command& command, const Options& options);
 void add_design(Command& command, const Options& options);
 void add_tune(Command& command, const Options& options);
 void add_sketch(Command& command, const Options& options);
-void add_plot(Command& command, const Options& options);
 void add_replay(Command& command, const Options& options);
+
+// Any command that lives beside the program, and its description.
+void add_beside(Command& command, const Options& options);
+[[nodiscard]] std::string description_beside(const std::string& command);
 
 }  // namespace bbsim::app

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "bbsim_commands.hpp"
 #include "bbsim_examples.hpp"
 #include "bbsim_licenses.hpp"
 #include "bbsim_templates.hpp"
@@ -20,6 +21,10 @@ std::span<const EmbeddedFile> example_files() {
 
 std::span<const EmbeddedFile> template_files() {
   return bbsim_templates;
+}
+
+std::span<const EmbeddedFile> command_tables() {
+  return bbsim_commands;
 }
 
 std::span<const EmbeddedFile> license_files() {

@@ -19,6 +19,8 @@ struct EmbeddedFile {
 [[nodiscard]] std::span<const EmbeddedFile> example_files();
 // examples/templates/: controllers to start from.
 [[nodiscard]] std::span<const EmbeddedFile> template_files();
+// The options of commands that live beside the program.
+[[nodiscard]] std::span<const EmbeddedFile> command_tables();
 // Licenses of bbsim and of the libraries in it.
 [[nodiscard]] std::span<const EmbeddedFile> license_files();
 

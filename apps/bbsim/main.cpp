@@ -91,7 +91,7 @@ constexpr bbsim::app::NamedCommand commands[] = {
     {"tune", "Tune keys of a scenario, such as gains, on the worst of many rigs",
      bbsim::app::add_tune},
     {"sketch", "Compile an Arduino sketch into a controller", bbsim::app::add_sketch},
-    {"plot", "Draw runs and sweeps", bbsim::app::add_plot},
+    {"plot", nullptr, bbsim::app::add_beside},
     {"replay", "Write one HTML file that replays runs or sweeps", bbsim::app::add_replay},
     {"compare", "Compare two results of runs or sweeps, CSV or HDF5", bbsim::app::add_compare},
     {"verify", "Check this build against known answers; print the error of simpler models",

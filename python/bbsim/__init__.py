@@ -13,7 +13,7 @@ A scenario is the path of a YAML file, YAML text, or a dict. All numbers are in 
 from __future__ import annotations
 
 import os
-from typing import Any, Mapping, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, List, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
@@ -27,8 +27,23 @@ from ._simulate import Simulated, simulate
 
 __all__ = [
     "ControllerError", "Env", "Error", "InputError", "Linearization", "OpenLoop", "OutputError", "Problem",
-    "Result", "Sample", "Simulated", "VectorEnv", "__version__", "check", "linearize", "run", "simulate", "sweep",
+    "Result", "Sample", "Simulated", "VectorEnv", "__version__", "check", "linearize", "plot", "run", "simulate", "sweep",
 ]  # fmt: skip
+
+if TYPE_CHECKING:
+    from ._plot import plot
+
+
+def __getattr__(name: str) -> Any:
+    if name != "plot":
+        raise AttributeError(f"module 'bbsim' has no attribute {name!r}")
+    from ._plot import plot  # here, because matplotlib takes longer to import than most runs take
+
+    return plot
+
+
+def __dir__() -> List[str]:
+    return sorted({*globals(), *__all__})
 
 
 def _names(names: Union[str, Sequence[str]]) -> Sequence[str]:

@@ -7,7 +7,7 @@ from __future__ import annotations
 import html
 import json
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Sequence
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Sequence, Union
 
 import numpy as np
 
@@ -106,29 +106,11 @@ class Result:
         frame.attrs["units"] = dict(self.units)
         return frame
 
-    def plot(self, columns: Optional[Sequence[str]] = None) -> "matplotlib.figure.Figure":
-        """Draws columns over time with matplotlib: all, or the given ones; one panel per unit."""
-        import matplotlib.pyplot as plt
+    def plot(self, columns: Union[str, Sequence[str]] = (), **options: Any) -> "matplotlib.figure.Figure":
+        """Draws the run with ``bbsim.plot``: all columns, or the panels ``["path", "x,x_reference", "phi"]``."""
+        from ._plot import plot
 
-        names = list(columns) if columns is not None else [n for n in self.columns if n != "t"]
-        panels: Dict[str, List[str]] = {}
-        for name in names:
-            self[name]  # raises for an unknown column
-            panels.setdefault(self.units[name], []).append(name)
-        times = self["t"] if "t" in self else np.arange(len(self))
-        figure, axes = plt.subplots(
-            len(panels), 1, sharex=True, squeeze=False, figsize=(7, 1 + 2 * len(panels)), layout="constrained"
-        )
-        for axis, (unit, members) in zip(axes[:, 0], panels.items()):
-            for name in members:
-                axis.plot(times, self[name], label=name)
-            axis.set_ylabel("" if unit == "1" else unit)
-            axis.legend(loc="best")
-            axis.grid(alpha=0.3)
-        axes[-1, 0].set_xlabel("t in s" if "t" in self else "row")
-        if self._run.title:
-            figure.suptitle(self._run.title)
-        return figure
+        return plot(self, columns=columns, **options)
 
     def _repr_html_(self) -> str:
         rows = [("status", self.status)]

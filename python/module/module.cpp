@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -18,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/accuracy.hpp"
 #include "api/cases.hpp"
 #include "api/check.hpp"
 #include "api/environments.hpp"
@@ -29,6 +31,7 @@
 #include "base/error.hpp"
 #include "callable.hpp"
 #include "file/outputs.hpp"
+#include "results.hpp"
 #include "scenario/family.hpp"
 #include "scenario/measures.hpp"
 #include "watch.hpp"
@@ -275,6 +278,24 @@ void define_simulate(py::module_& module) {
   module.def("simulate", &simulate, py::arg("given"), py::arg("asked"), py::arg("threads"));
 }
 
+// The scenario's title, or its name without one; and what `bbsim accuracy --csv` writes for all
+// methods.
+std::pair<std::string, std::string> accuracy(const Given& given, const std::string& rtols) {
+  std::vector<Method> methods;
+  for (const NamedMethod& known : named_methods) {
+    if (known.method != Method::automatic) methods.push_back(known.method);
+  }
+  const std::vector<double> ladder = api::tolerance_ladder(rtols);
+  Work work(given);
+  return work.beside([&] {
+    const Scenario scenario = first_of(work.family());
+    const std::string title =
+        scenario.title.empty() ? std::filesystem::path(given.name).stem().string() : scenario.title;
+    return std::pair(title,
+                     api::accuracy_csv(api::accuracy(scenario, methods, ladder, work.watch())));
+  });
+}
+
 void define_run(py::module_& module) {
   using api::RunResult;
   const auto text = [](std::string record::RunSummary::*member) {
@@ -493,6 +514,8 @@ void translate(std::exception_ptr pointer) {
       problems.append(py::make_tuple(problem.where, problem.message));
     }
     raise("InputError", problems);
+  } catch (const ReaderGone& error) {
+    PyErr_SetString(PyExc_BrokenPipeError, error.what());
   } catch (const OutputError& error) {
     raise("OutputError", py::str(error.what()));
   } catch (const model::ControllerFault& fault) {
@@ -522,8 +545,10 @@ PYBIND11_MODULE(_bbsim, module) {
   define_simulate(module);
   define_linearize(module);
   define_environments(module);
+  define_results(module);
   module.def("check", &check, py::arg("given"));
   module.def("number_at", &number_at, py::arg("given"), py::arg("key"), py::arg("value"));
+  module.def("accuracy", &accuracy, py::arg("given"), py::arg("rtols"));
   module.def(
       "key_and_hint",
       [](const std::string& message) {

@@ -17,7 +17,6 @@
 namespace bbsim::api {
 
 using study::AccuracyStudy;
-using study::Picture;
 
 // Throws InputError for a scene with a switch or an event.
 [[nodiscard]] AccuracyStudy accuracy(const Scenario& scenario, const std::vector<Method>& methods,
@@ -30,7 +29,6 @@ using study::Picture;
 [[nodiscard]] bool any_complete(const AccuracyStudy& study);
 
 using study::accuracy_csv;
-using study::accuracy_plot;
 using study::accuracy_table;
 
 using study::Verification;

@@ -12,4 +12,7 @@ namespace bbsim::file {
 // The candidates for share/bbsim, in order; BBSIM_SHARE_PATH alone, if it is set.
 [[nodiscard]] std::vector<std::string> share_folders();
 
+// The candidates for libexec/bbsim, in order: programs that are part of this one.
+[[nodiscard]] std::vector<std::string> libexec_folders();
+
 }  // namespace bbsim::file

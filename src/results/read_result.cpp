@@ -192,6 +192,14 @@ std::string summary_beside(const std::string& file) {
   return summary;
 }
 
+Result result_of(std::vector<Column> columns, const std::string& summary) {
+  Result result;
+  result.columns = std::move(columns);
+  if (!result.columns.empty()) result.rows = result.columns.front().numbers.size();
+  if (!summary.empty()) take_summary(result, parse_json(summary));
+  return result;
+}
+
 Result read_result(const std::string& file, const Beside& beside, const LogChoice& log,
                    std::vector<std::string>* notes) {
   if (const std::string ending = file::lower_ending(file); ending == ".yaml" || ending == ".yml") {

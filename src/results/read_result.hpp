@@ -29,6 +29,10 @@ struct Beside {
                                  const LogChoice& log = {},
                                  std::vector<std::string>* notes = nullptr);
 
+// A result in memory: its columns, of one length, and its summary as `run --summary` writes it,
+// which may be empty.
+[[nodiscard]] Result result_of(std::vector<Column> columns, const std::string& summary);
+
 // NAME.json beside NAME.csv, which read_result() may use; empty if there is none.
 [[nodiscard]] std::string summary_beside(const std::string& file);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Writes a study of accuracy as a table for people, as CSV for programs, or as a gnuplot script.
+// Writes a study of accuracy as a table for people, or as CSV for programs.
 #pragma once
 
 #include <string>
@@ -15,12 +15,5 @@ namespace bbsim::study {
 
 // method,rtol,atol,error_m,time_us,steps,rhs_evaluations,jacobian_evaluations,status
 [[nodiscard]] std::string accuracy_csv(const AccuracyStudy& study);
-
-enum class Picture { svg, png, pdf };
-
-// A gnuplot script that writes a work-precision diagram to its standard output: time over error,
-// both logarithmic, with one curve for each method. Runs that ended early are left out.
-[[nodiscard]] std::string accuracy_plot(const AccuracyStudy& study, const std::string& title,
-                                        Picture picture);
 
 }  // namespace bbsim::study

@@ -50,24 +50,4 @@ TEST_CASE("accuracy refuses an unknown method or an invalid range") {
   CHECK(contains(range.err, "coarse"));
 }
 
-TEST_CASE("accuracy draws SVG, PNG and PDF and refuses other formats") {
-  const Folder folder;
-  const std::string scenario = std::string(BBSIM_SOURCE_DIR) + "/tests/data/scenarios/fig2a.yaml";
-  const auto drawn = [&](const std::string& file) {
-    return bbsim(
-        {"accuracy", scenario, "--methods", "radau", "--rtol", "1e-5", "--plot", file, "-q"},
-        folder.path());
-  };
-  for (const auto& [file, begin] : {std::pair<std::string, std::string>{"a.svg", "<?xml"},
-                                    {"a.png", "\x89PNG"},
-                                    {"a.pdf", "%PDF-"}}) {
-    CAPTURE(file);
-    CHECK(drawn(file).exit_code == 0);
-    CHECK(folder.read(file).starts_with(begin));
-  }
-  const Result other = drawn("a.gif");
-  CHECK(other.exit_code == 2);
-  CHECK(contains(other.err, ".svg, .png or .pdf"));
-}
-
 }  // namespace bbsim_test::test_accuracy

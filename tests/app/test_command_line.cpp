@@ -294,7 +294,6 @@ TEST_CASE("names from outside do not reach the terminal as control sequences") {
       {"compare", "a.csv", "a.csv", "--columns", red},
       {"accuracy", fig2a, "--methods", red},
       {"accuracy", fig2a, "--rtol", red},
-      {"accuracy", fig2a, "--plot", red},
       {"help", red},
   };
   for (const Names& arguments : cases) {

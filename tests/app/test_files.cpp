@@ -104,7 +104,6 @@ TEST_CASE("no command overwrites its input or writes two outputs to one file") {
       {"run", "table.yaml", "-o", "t.csv"},
       {"run", "table.yaml", "-o", "new.csv", "--summary", "t.csv"},
       {"accuracy", "in.yaml", "--csv", "in.yaml"},
-      {"accuracy", "in.yaml", "--csv", "x.csv", "--plot", "./x.csv.svg/../x.csv"},
       {"sweep", "d.csv", "--vary", "gravity=list:1,2", "-o", "d.csv"},
       {"sweep", "table.yaml", "--vary", "gravity=list:1,2", "-o", "t.csv"},
       with(sweep, {"-o", "x.csv", "--summary", "x.csv"}),
@@ -116,7 +115,7 @@ TEST_CASE("no command overwrites its input or writes two outputs to one file") {
     CAPTURE(line);
     const Result result = bbsim(words, folder.path());
     CHECK(result.exit_code == 2);
-    if (line.find("svg") == std::string::npos) CHECK_THAT(result.err, Contains("the same file as"));
+    CHECK_THAT(result.err, Contains("the same file as"));
   }
   folder.write("y.csv.part", scene);
   const Result part =
@@ -138,22 +137,18 @@ TEST_CASE("no command overwrites a table that it displays") {
   const auto run = [&](const Names& words) { return bbsim(words, folder.path()); };
 
   std::string shown = scene_with_table;
-  for (const char* const name : {"t.html", "t.svg"}) {
-    CAPTURE(name);
-    folder.write("shown.yaml", std::string(shown).replace(shown.find("t.csv"), 5, name));
-    folder.write(name, table);
-    REQUIRE(run({"run", "shown.yaml", "-q", "-o", "r.csv", "--summary", "r.json"}).exit_code == 0);
-    const std::string command = name == std::string("t.html") ? "replay" : "plot";
-    for (const Names& more : {Names{}, Names{"--scenario", "shown.yaml"}}) {
-      const Result result = run(with({command, "r.csv", "-o", name}, more));
-      CHECK(result.exit_code == 2);
-      CHECK_THAT(result.err, Contains("(a table of the scenario), which is read here"));
-      CHECK(folder.read(name) == table);
-    }
+  folder.write("shown.yaml", shown.replace(shown.find("t.csv"), 5, "t.html"));
+  folder.write("t.html", table);
+  REQUIRE(run({"run", "shown.yaml", "-q", "-o", "r.csv", "--summary", "r.json"}).exit_code == 0);
+  for (const Names& more : {Names{}, Names{"--scenario", "shown.yaml"}}) {
+    const Result result = run(with({"replay", "r.csv", "-o", "t.html"}, more));
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.err, Contains("(a table of the scenario), which is read here"));
+    CHECK(folder.read("t.html") == table);
   }
 }
 
-TEST_CASE("linearize, measure, plot and replay overwrite no input, with or without -o") {
+TEST_CASE("linearize, measure and replay overwrite no input, with or without -o") {
   const Folder folder;
   folder.write("own.yaml",
                "ball: {radius: 0.02}\n"
@@ -180,17 +175,10 @@ TEST_CASE("linearize, measure, plot and replay overwrite no input, with or witho
   REQUIRE(bbsim({"run", "in.yaml", "-q", "-o", "r.csv", "--summary", "r.json"}, folder.path())
               .exit_code == 0);
   const std::string summary = folder.read("r.json");
-  for (const char* const name : {"r.svg", "t.svg", "t.html"}) {
-    fs::create_symlink("r.json", folder / name);
-  }
-  for (const Names& words : {Names{"plot", "r.csv"}, Names{"plot", "r.csv", "-o", "t.svg"},
-                             Names{"plot", "--overlay", "r.csv", "r.csv", "-o", "t.svg"},
-                             Names{"replay", "r.csv", "-o", "t.html"}}) {
-    CAPTURE(words);
-    const Result result = bbsim(words, folder.path());
-    CHECK(result.exit_code == 2);
-    CHECK_THAT(result.err, Contains("r.json (the summary of r.csv), which is read here"));
-  }
+  fs::create_symlink("r.json", folder / "t.html");
+  const Result replay = bbsim({"replay", "r.csv", "-o", "t.html"}, folder.path());
+  CHECK(replay.exit_code == 2);
+  CHECK_THAT(replay.err, Contains("r.json (the summary of r.csv), which is read here"));
   Launch launch{{"measure", "r.csv", "--measure", "max_x"}, folder.path()};
   launch.prepare = [] { static_cast<void>(std::freopen("r.json", "a", stdout)); };
   CHECK(bbsim(launch).exit_code == 2);
@@ -252,7 +240,7 @@ TEST_CASE("without -o only a command's own earlier output is replaced") {
             .exit_code == 0);
 }
 
-TEST_CASE("without -o sweeps, pictures and pages also replace only their own earlier output") {
+TEST_CASE("without -o sweeps and pages also replace only their own earlier output") {
   const Folder folder;
   folder.write("a.yaml", scene);
   REQUIRE(bbsim({"run", "a.yaml", "-q", "-o", "a.csv"}, folder.path()).exit_code == 0);
@@ -262,9 +250,6 @@ TEST_CASE("without -o sweeps, pictures and pages also replace only their own ear
   };
   const auto [words, file] = GENERATE(values<Way>({
       {{"sweep", "a.yaml", "--vary", "gravity=list:9,10"}, "a-sweep.csv"},
-      {{"plot", "a.csv"}, "a.svg"},
-      {{"plot", "a.csv", "--format", "png"}, "a.png"},
-      {{"plot", "a.csv", "--format", "pdf"}, "a.pdf"},
       {{"replay", "a.csv"}, "a.html"},
       {{"replay", "a.yaml"}, "a.html"},
   }));
@@ -290,16 +275,14 @@ TEST_CASE("a summary that nests without end is refused") {
   const std::size_t nesting = 100'000;
   summary.insert(1, "\"deep\": " + std::string(nesting, '[') + std::string(nesting, ']') + ",");
   folder.write("r.json", summary);
-  for (const Names& words : {Names{"plot", "r.csv", "-q"}, Names{"replay", "r.csv", "-q"},
-                             Names{"measure", "r.csv", "--measure", "max_x"}}) {
+  for (const Names& words :
+       {Names{"replay", "r.csv", "-q"}, Names{"measure", "r.csv", "--measure", "max_x"}}) {
     CAPTURE(words);
     CHECK(bbsim(words, folder.path()).exit_code == 0);  // no summary was requested
   }
-  for (const Names& words : {Names{"plot", "r.csv"}, Names{"replay", "r.csv"}}) {
-    const Result result = bbsim(with(words, {"--summary", "r.json"}), folder.path());
-    CHECK(result.exit_code == 2);
-    CHECK_THAT(result.err, Contains("r.json: is not a summary"));
-  }
+  const Result result = bbsim({"replay", "r.csv", "--summary", "r.json"}, folder.path());
+  CHECK(result.exit_code == 2);
+  CHECK_THAT(result.err, Contains("r.json: is not a summary"));
 }
 
 TEST_CASE("a folder, unreadable file or device in place of a summary gives exit code 2") {
@@ -315,15 +298,12 @@ TEST_CASE("a folder, unreadable file or device in place of a summary gives exit 
   for (const auto& [file, why] :
        {Way{"folder", "is a directory"}, Way{"closed", "permission denied"},
         Way{"nowhere", "no such file"}, Way{"/dev/null", "/dev/null: "}}) {
-    for (const Names& words :
-         {Names{"plot", "r.csv", "--summary", file}, Names{"replay", "r.csv", "--summary", file}}) {
-      CAPTURE(words);
-      Launch launch{words, folder.path()};
-      launch.prepare = drop_rights_over_files;
-      const Result result = bbsim(launch);
-      CHECK(result.exit_code == 2);
-      CHECK_THAT(result.err, Contains(why));
-    }
+    CAPTURE(file);
+    Launch launch{{"replay", "r.csv", "--summary", file}, folder.path()};
+    launch.prepare = drop_rights_over_files;
+    const Result result = bbsim(launch);
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.err, Contains(why));
   }
   CHECK(folder.files() == Names{"closed", "folder", "in.yaml", "r.csv"});
 }

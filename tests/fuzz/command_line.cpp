@@ -163,7 +163,7 @@ void* bbsim::controller::open_library(const std::string& /*path*/, std::string& 
 
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
   setenv("BBSIM_MODULE_PATH", BBSIM_MODULE_FOLDER, 1);
-  setenv("PATH", "/nowhere", 1);  // no gnuplot
+  setenv("PATH", "/nowhere", 1);  // no other program
   return 0;
 }
 

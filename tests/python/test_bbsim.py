@@ -208,12 +208,6 @@ class Runs(unittest.TestCase):
             frame = made.to_pandas()
             self.assertIsInstance(frame, pandas.DataFrame)
             self.assertEqual(list(frame.columns), made.columns)
-        try:
-            import matplotlib
-        except ImportError:
-            return
-        matplotlib.use("Agg")
-        self.assertEqual(len(made.plot(["x", "y", "phi"]).axes), 2)
 
     def test_threads(self):
         scenes = [CONFIGS / "fig2b.yaml", CONFIGS / "rig.yaml", with_callable(SampledPd())]
@@ -1267,12 +1261,10 @@ class Examples(unittest.TestCase):
 class Documents(unittest.TestCase):
     def test_the_notebook_runs(self):
         try:
-            import matplotlib
             import pandas  # noqa: F401
             import scipy  # noqa: F401
         except ImportError as lacking:
             self.skipTest(str(lacking))
-        matplotlib.use("Agg")
         text = (CONFIGS.parent / "docs/tutorials/notebook.md").read_text()
         blocks = text.split("```python\n")[1:]
         self.assertGreater(len(blocks), 6)

@@ -149,17 +149,4 @@ TEST_CASE("the CSV of a study has its columns by name") {
         "adams,0.001,1e-05,inf,1e+06,12,34,5,failed\n");
 }
 
-TEST_CASE("the plot of a study has a curve for each method that finished") {
-  AccuracyStudy study;
-  study.points = {point(Method::bdf, 1e-5, 2.5e-7, 1.25e-4), point(Method::bdf, 1e-6, 0, 2e-4),
-                  point(Method::adams, 1e-5, 1e-7, 1)};
-  study.points.back().ending = bbsim::solve::Ending::failed;
-  const std::string script = accuracy_plot(study, "ball's path", bbsim::study::Picture::svg);
-  CHECK(script.find("set title 'ball''s path'") != std::string::npos);
-  CHECK(script.find("title 'bdf'") != std::string::npos);
-  CHECK(script.find("title 'adams'") == std::string::npos);
-  // A logarithmic axis has no zero.
-  CHECK(script.find("\n0 ") == std::string::npos);
-}
-
 }  // namespace bbsim_test::test_accuracy

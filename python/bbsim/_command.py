@@ -1,0 +1,113 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The commands that are written in Python: their options, from commands.json, and their exit codes."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import json
+import logging
+import re
+import signal
+import sys
+from pathlib import Path
+from typing import Any, Dict, List, NoReturn, Optional, Sequence
+
+from . import _bbsim
+from ._errors import ControllerError, InputError, OutputError
+
+_DONE, _ENDED_EARLY, _INPUT_AT_FAULT, _OUTPUT_FAILED, _INTERRUPTED = 0, 1, 2, 3, 130
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        raise InputError([("", f"{message}\nRun {self.prog} --help for more information.")])
+
+
+def _name_of(option: Dict[str, Any]) -> str:
+    """The keyword of an option: some_name of "-s,--some-name"."""
+    return str(option["names"]).split(",")[-1].lstrip("-").replace("-", "_").lower()
+
+
+def _table(name: str) -> Dict[str, Any]:
+    return json.loads((Path(__file__).parent / "commands.json").read_text("utf-8"))[name]  # type: ignore[no-any-return]
+
+
+def _parsed(name: str, table: Dict[str, Any], words: Sequence[str]) -> Dict[str, Any]:
+    parser = _Parser(
+        prog=f"bbsim {name}", description=table["description"], epilog=table["footer"], allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )  # fmt: skip
+    quiet = "print results and the reason why a run ended early; no messages, no progress"
+    parser.add_argument("-q", "--quiet", action="store_true", help=quiet)
+    known = ["quiet", "help"]
+    for option in table["options"]:
+        names = option["names"].split(",")
+        known.append(names[-1].lstrip("-"))
+        how: Dict[str, Any] = {"help": option["help"].replace("%", "%%")}
+        if option.get("flag"):
+            how["action"] = "store_true"
+        elif not names[0].startswith("-"):
+            how.update(metavar=names[0], nargs="+" if option.get("repeatable") else None)
+            names = [_name_of(option)]
+        else:
+            how.update(metavar=option["takes"], dest=_name_of(option), choices=option.get("choices"))
+            if option.get("repeatable"):
+                how.update(action="append", default=[])
+        parser.add_argument(*names, **how)
+    parsed, rest = parser.parse_known_intermixed_args(words)
+    for word in rest:
+        word = word.split("=")[0]
+        near = _bbsim.nearest(word.lstrip("-"), known)
+        parser.error(f"unknown option {word} of bbsim {name}" + (f"; did you mean --{near}?" if near else ""))
+    for key, value in vars(parsed).items():
+        if "" in (value if isinstance(value, list) else [value]):
+            parser.error(f"--{key}: found nothing; allowed: a value, or leave the option out")
+    return vars(parsed)
+
+
+def _say(text: str) -> None:
+    # In one piece, so that other processes cannot split the message.
+    sys.stderr.write(_bbsim.printable(text) + "\n")
+
+
+def _told(error: InputError, table: Dict[str, Any]) -> str:
+    """The messages, with options named as on a command line."""
+    options = [option["names"].split(",")[-1] for option in table["options"]]
+    names = "|".join(re.escape(option[2:]) for option in options if option.startswith("--"))
+    return "\n".join(re.sub(rf"^({names}): ", r"--\1: ", str(problem)) for problem in error.problems)
+
+
+def main(name: str, words: Optional[List[str]] = None) -> int:
+    """Carries out `bbsim NAME`; returns its exit code."""
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) == signal.SIG_DFL:
+            signal.signal(number, signal.default_int_handler)
+    logging.disable(logging.ERROR)  # of matplotlib, on its own folders
+    table = _table(name)
+    try:
+        options = _parsed(name, table, sys.argv[1:] if words is None else words)
+        quiet = options.pop("quiet")
+        command = importlib.import_module(f"bbsim._{name}").command
+        return command(options, (lambda text: None) if quiet else _say) or _DONE
+    except InputError as error:
+        _say(_told(error, table))
+        return _INPUT_AT_FAULT
+    except BrokenPipeError:  # the reader has seen enough
+        return _OUTPUT_FAILED
+    except OutputError as error:
+        _say(str(error))
+        return _OUTPUT_FAILED
+    except ControllerError as error:
+        _say(str(error))
+        return _ENDED_EARLY
+    except MemoryError:
+        _say("out of memory: ask for fewer output rows, or end other programs")
+        return _ENDED_EARLY
+    except KeyboardInterrupt:
+        return _INTERRUPTED
+
+
+def plot() -> int:
+    return main("plot")

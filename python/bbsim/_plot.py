@@ -1,0 +1,280 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pictures of runs, sweeps and logs: bbsim.plot and `bbsim plot`."""
+
+from __future__ import annotations
+
+import io
+import os
+import re
+import sys
+from pathlib import Path
+from typing import Any, Dict, List, Mapping, NoReturn, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _bbsim
+from ._errors import InputError
+from ._plot_accuracy import draw_accuracy
+from ._plot_runs import draw_runs
+from ._plot_sheet import FONT, Figure, require_font, style
+from ._plot_sweeps import draw_sweep
+from ._result import Result
+from ._scenario import as_yaml, given
+
+File = Union[str, "os.PathLike[str]"]
+Drawn = Union[File, Result, "np.ndarray[Any, np.dtype[np.void]]"]
+Texts = Union[str, Sequence[str]]
+
+_FORMATS = ("svg", "png", "pdf")
+_MARK = "drawn by bbsim plot"  # identifies pictures of bbsim
+
+
+def _listed(texts: Optional[Texts]) -> List[str]:
+    return [] if texts is None else [texts] if isinstance(texts, str) else list(texts)
+
+
+def _settings(settings: Union[Mapping[str, Any], Texts, None]) -> Mapping[str, Any]:
+    if isinstance(settings, Mapping):
+        return settings
+    return dict(one.split("=", 1) for one in _listed(settings) if "=" in one or _refuse_setting(one))
+
+
+def _refuse_setting(text: str) -> NoReturn:
+    raise InputError([("", f"set: found {text}; allowed: KEY=VALUE")])
+
+
+def _parts(texts: Optional[Texts], separator: str) -> List[str]:
+    return [part.strip() for text in _listed(texts) for part in text.split(separator)]
+
+
+def _millimeters(width: Union[float, str, None]) -> Optional[float]:
+    """A length in mm: meters as a number, or a text such as "88 mm"."""
+    if width is None:
+        return None
+    found = re.fullmatch(r"\s*([0-9.]+(?:e-?[0-9]+)?)\s*(mm|cm|m|)\s*", str(width))
+    size = float(found[1]) * {"mm": 1, "cm": 10}.get(found[2], 1000) if found and found[1].count(".") < 2 else 0.0
+    if not 50 <= size <= 600:
+        raise InputError([("", f'width: found {width}; allowed: a length from 50 mm to 600 mm, such as "88 mm"')])
+    return size
+
+
+def _in_memory(drawn: Any) -> _bbsim.Stored:
+    if isinstance(drawn, Result):
+        columns = [(name, drawn.units[name], drawn[name], []) for name in drawn.columns]
+        return _bbsim.Stored(columns, drawn._run.summary())
+    if not isinstance(drawn, np.ndarray) or not drawn.dtype.names:
+        allowed = "allowed: files, results of bbsim.run, arrays of bbsim.sweep"
+        raise TypeError(f"found {type(drawn).__name__}; {allowed}")
+    columns = []
+    for name in drawn.dtype.names:
+        is_text = drawn[name].dtype.kind == "U"
+        numbers = np.full(len(drawn), np.nan) if is_text else drawn[name].astype(float)
+        columns.append((name, "", numbers, list(map(str, drawn[name])) if is_text else []))
+    return _bbsim.Stored(columns, "")
+
+
+class _Options:
+    """What all pictures of one call share."""
+
+    def __init__(self, **options: Any) -> None:
+        self.columns, self.over = _parts(options["columns"], ";"), _parts(options["over"], ",")
+        self.width, self.font = _millimeters(options["width"]), options["font"] or FONT
+        self.accuracy, self.csv = bool(options["accuracy"]), options["csv"]
+        self.scenario, self.summary = (os.fspath(options[name] or "") for name in ("scenario", "summary"))
+        self.set = _settings(options["set"])
+        self.log = (_listed(options["map"]), _parts(options["header"], ","), options["period"] or "", options["time_offset"] or "")
+        require_font(self.font)
+        if self.csv and not self.accuracy:
+            raise InputError([("", "csv: allowed with --accuracy, whose numbers it takes")])
+        if self.set and not self.scenario and not self.accuracy:
+            raise InputError([("", "set: allowed with --scenario, in which it sets a key")])
+
+    def read(self, files: Sequence[Any], notes: List[str]) -> List[_bbsim.Stored]:
+        stored, overrides = [], [f"{key}={as_yaml(value)}" for key, value in self.set.items()]
+        for file in files:
+            if isinstance(file, (str, os.PathLike)):
+                one, its = _bbsim.read_result(os.fspath(file), self.summary, self.scenario, overrides, *self.log)
+                notes += its
+                stored.append(one)
+            else:
+                stored.append(_in_memory(file))
+        return stored
+
+    def draw(self, results: Sequence[_bbsim.Stored]) -> Tuple[Figure, str]:
+        """The figure, and what is in it."""
+        with style(self.font):
+            if not any(result.is_sweep for result in results):
+                if self.over:
+                    name = results[0].file or "the result"
+                    raise InputError([("", f"over: {name} is not a sweep; bbsim draws a run over time")])
+                asked = [[name.strip() for name in panel.split(",")] for panel in self.columns]
+                figure, panels = draw_runs(results, asked, self.width)
+                rows, what = sum(result.rows - result.has_end_row for result in results), "rows"
+            else:
+                if len(results) > 1:
+                    raise InputError([("", "overlay: found a sweep; allowed: runs, since a sweep has its own picture")])
+                figure, panels = draw_sweep(results[0], _parts(self.columns, ","), self.over, self.width)
+                rows, what = results[0].rows, "cases"
+        return figure, f"{rows} {what}, {panels} panel{'s' if panels != 1 else ''}"
+
+    def draw_accuracy(self, scenario: Any) -> Tuple[Figure, str]:
+        title, text = _bbsim.accuracy(given(scenario, self.set), "1e-3:1e-13")
+        if self.csv:
+            _bbsim.write_file(os.fspath(self.csv), text.encode())
+        if "done" not in text:
+            raise InputError([("", "no method reached the end of the scene; `bbsim run` says why")])
+        with style(self.font):
+            figure, points = draw_accuracy(text, title, self.width)
+        return figure, f"{points} points"
+
+
+def plot(
+    files: Union[Drawn, Sequence[Drawn]],
+    *,
+    columns: Texts = (),
+    over: Texts = (),
+    summary: Optional[File] = None,
+    scenario: Optional[File] = None,
+    set: Union[Mapping[str, Any], Texts, None] = None,
+    map: Texts = (),
+    header: Texts = (),
+    period: Optional[str] = None,
+    time_offset: Optional[str] = None,
+    accuracy: bool = False,
+    csv: Optional[File] = None,
+    width: Union[float, str, None] = None,
+    font: Optional[str] = None,
+    output: Optional[File] = None,
+    format: Optional[str] = None,
+) -> Figure:
+    """Draws runs, a sweep or a log; returns a matplotlib figure. The keywords are the options of ``bbsim plot``.
+
+    files    CSV or HDF5 files, results of ``bbsim.run``, or an array of ``bbsim.sweep``; several runs
+             are compared in one figure. With ``accuracy``, a scenario
+    columns  the panels: ``["path", "x,x_reference", "phi"]``; for a sweep, measures
+    over     for a sweep, the keys to draw over
+    width    the width of the figure: 0.088 (m) or "88 mm"
+    font     the font of all texts, in place of DejaVu Sans
+    output   also writes the figure to this file, .svg, .png or .pdf
+
+    Raises InputError and OutputError.
+    """
+    options = _Options(
+        columns=columns, over=over, summary=summary, scenario=scenario, set=set, map=map, header=header, period=period,
+        time_offset=time_offset, accuracy=accuracy, csv=csv, width=width, font=font,
+    )  # fmt: skip
+    chosen = _format(None if output is None else os.fspath(output), format)
+    if accuracy:
+        figure, _ = options.draw_accuracy(files)
+    else:
+        all_files = files if isinstance(files, (list, tuple)) else [files]
+        figure, _ = options.draw(options.read(all_files, []))
+    if output is not None:
+        _save(figure, os.fspath(output), chosen)
+    return figure
+
+
+def _format(output: Optional[str], asked: Optional[str]) -> str:
+    """From `format`, else from the ending of the output."""
+    name = asked or ("svg" if output in (None, "-") else Path(str(output)).suffix[1:].lower())
+    if name in _FORMATS:
+        return name
+    if asked:
+        raise InputError([("", f"format: found {asked}; allowed: svg, png and pdf")])
+    raise InputError([("", f"output: found {output}; allowed: a name that ends in .svg, .png or .pdf")])
+
+
+def _save(figure: Figure, output: str, format: str) -> None:
+    """Writes a file that appears whole, with the same bytes each time, and with a mark of bbsim's."""
+    drawn = io.BytesIO()
+    metadata = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {"Comment": _MARK}}[format]
+    figure.savefig(drawn, format=format, metadata=metadata)
+    end = {"svg": f"<!-- {_MARK} -->\n", "pdf": f"% {_MARK}\n", "png": ""}[format]
+    _bbsim.write_file(output, drawn.getvalue() + end.encode())
+
+
+def _tasks(files: List[str], options: Dict[str, Any], ending: str) -> List[Tuple[List[str], str]]:
+    """The files of each picture, and its name."""
+    output = options["output"]
+    if len(files) > 1 and options["accuracy"]:
+        raise InputError([("", "accuracy: found several files; allowed: one scenario")])
+    if len(files) > 1 and not options["overlay"] and output:
+        allowed = "allowed: with --overlay, which draws them in one picture"
+        raise InputError([("", f"output: found {output} for several files; {allowed}")])
+
+    def named(file: str, more: str) -> str:
+        if output:
+            return str(output)
+        if file == "-":
+            raise InputError([("", "output: missing; standard input (-) gives the picture no name")])
+        return f"{Path(Path(file).name if options['accuracy'] else file).with_suffix('')}{more}.{ending}"
+
+    if options["accuracy"]:
+        return [(files, named(files[0], "-accuracy"))]
+    if options["overlay"] and len(files) > 1:
+        return [(files, named(files[0], "-overlay"))]
+    return [([file], named(file, "")) for file in files]
+
+
+def _declare(outputs: _bbsim.Outputs, tasks: Sequence[Tuple[List[str], str]], options: Dict[str, Any]) -> None:
+    """Call it before any of the files is opened."""
+    for file in [file for files, _ in tasks for file in files]:
+        outputs.reads(file, "what is drawn")
+        summary = _bbsim.summary_beside(file)
+        if summary:
+            outputs.reads(summary, f"the summary of {file}")
+    for name in ("summary", "scenario"):
+        if options[name]:
+            outputs.reads(options[name], f"--{name}")
+    if options["csv"]:
+        outputs.writes(options["csv"], "--csv")
+    for files, output in tasks:
+        outputs.writes(output, _option(files, options))
+
+
+def _option(files: Sequence[str], options: Dict[str, Any]) -> str:
+    return "-o" if options["output"] else f"the picture of {files[0]}, without -o"
+
+
+def _read(
+    shared: _Options, files: Sequence[str], output: str, options: Dict[str, Any], say: Any
+) -> List[_bbsim.Stored]:
+    if "-" in files and sys.stdin.isatty():
+        say("reading a CSV from the terminal; Ctrl-D ends it, Ctrl-C ends bbsim")
+    notes: List[str] = []
+    results = shared.read(files, notes)
+    for note in notes:
+        say(note)
+    outputs = _bbsim.Outputs()
+    for result in results:
+        outputs.reads_with(result)
+    outputs.writes(output, _option(files, options))
+    return results
+
+
+def command(options: Dict[str, Any], say: Any) -> None:
+    """`bbsim plot`; `say` prints a message unless -q is given."""
+    _bbsim.end_at_signals()
+    files = options["files"]
+    format = _format(options["output"], options["format"])
+    shared = _Options(**options)
+    tasks = _tasks(files, options, format)
+    if len(files) > 1 and options["summary"]:
+        raise InputError([("", "summary: found several files; allowed: one run, to which the summary belongs")])
+    _declare(_bbsim.Outputs(), tasks, options)
+    # Draw what can be drawn, even if other files have faults.
+    problems: List[Tuple[str, str]] = []
+    for its, output in tasks:
+        try:
+            results = [] if options["accuracy"] else _read(shared, its, output, options, say)
+            if not options["output"] and not options["force"]:
+                _bbsim.require_mark(output, "a picture of bbsim's", _MARK)
+            figure, content = shared.draw(results) if results else shared.draw_accuracy(its[0])
+            _save(figure, output, format)
+            if output != "-":
+                say(f"{output}: {content}")
+        except InputError as error:
+            problems += [(problem.place, problem.message) for problem in error.problems]
+    if problems:
+        raise InputError(problems)

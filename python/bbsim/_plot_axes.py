@@ -1,0 +1,249 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Units and axes that fit a range of values and keep labels short."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import Counter
+from dataclasses import dataclass
+from typing import Any, List, Optional, Sequence, Tuple
+
+import numpy as np
+from matplotlib.ticker import FixedFormatter, FixedLocator, FuncFormatter, MultipleLocator, NullLocator
+
+from ._plot_sheet import SMALL, TEXT, cut, number, width_of
+
+Range = Optional[Tuple[float, float]]  # the interval that finite values cover; None if there are none
+
+_ROUNDING = 1e-9  # a range below this part of its values' size counts as rounding
+_SMALLEST = 1e-290  # smaller values count as zero
+CLOSE = 1e-3  # below this width relative to the values' size, labels need more than four digits to differ
+_AUTO = {  # prefixes with their sizes, and the smallest value that takes each
+    "m": [("n", 1e-9, 0), ("µ", 1e-6, 1e-7), ("m", 1e-3, 1e-4), ("c", 1e-2, 1e-2), ("", 1, 1), ("k", 1e3, 1e4)],
+    "s": [("n", 1e-9, 0), ("µ", 1e-6, 1e-6), ("m", 1e-3, 1e-3), ("", 1, 0.1)],
+    "N": [("n", 1e-9, 0), ("µ", 1e-6, 1e-6), ("m", 1e-3, 1e-3), ("", 1, 1), ("k", 1e3, 1e3), ("M", 1e6, 1e6)],
+}
+_AUTO.update({"m/s": _AUTO["m"], "N m": _AUTO["N"], "J": _AUTO["N"], "W": _AUTO["N"]})
+
+
+def covered(*arrays: Any) -> Range:
+    low, high = math.inf, -math.inf
+    for array in arrays:
+        values = np.asarray(array, float)
+        finite = values[np.isfinite(values)]
+        if len(finite):
+            low, high = min(low, float(finite.min())), max(high, float(finite.max()))
+    return None if low > high else (low, high)
+
+
+def width(range_: Range) -> float:
+    return 0.0 if range_ is None else range_[1] - range_[0]
+
+
+def largest(range_: Range) -> float:
+    return 0.0 if range_ is None else max(map(abs, range_))
+
+
+def is_wide(range_: Range) -> bool:
+    """Whether the range is wider than the rounding of its values."""
+    return range_ is not None and range_[1] / 2 - range_[0] / 2 > max(_ROUNDING / 2 * largest(range_), _SMALLEST)
+
+
+@dataclass(frozen=True)
+class Unit:
+    """The unit in which a quantity is drawn: times `factor`, a value in SI has it. Empty for a plain number."""
+
+    text: str = ""
+    factor: float = 1.0
+    prefix: Optional[str] = None  # the scenario's own; None: chosen by the size of the values
+
+
+@dataclass(frozen=True)
+class Scale:
+    """The drawn value is (value - offset) * factor."""
+
+    factor: float = 1.0
+    offset: float = 0.0
+    unit: str = ""
+    shift: str = ""  # follows the quantity's name: " − 0.1 m"
+
+    def __call__(self, values: Any) -> Any:
+        return (np.asarray(values, float) - self.offset) * self.factor
+
+    def of(self, range_: Range) -> Range:
+        return None if range_ is None else (float(self(range_[0])), float(self(range_[1])))
+
+    def heading(self, name: str) -> str:
+        return f"{name}{self.shift}" + (f" ({self.unit})" if self.unit else "")
+
+
+class Units:
+    """How a scenario writes lengths and angles; both None if it does not tell."""
+
+    def __init__(self, text: str = "") -> None:
+        text = re.sub("#.*", "", text)
+        lengths = Counter(re.findall(r"\d\s*([mc]?)m\b(?!/s\^2)", text)).most_common(1)
+        self.prefix = lengths[0][0] if lengths else None
+        self.degrees = not re.search(r"\d\s*rad\b", text) or bool(re.search(r"\d\s*deg\b", text))
+
+    def drawn(self, unit: str, turns: bool = False) -> Unit:
+        """The unit in which values in an SI unit are drawn; `turns` stay in radians."""
+        if unit in ("", "1"):
+            return Unit()
+        if unit in ("rad", "rad/s", "rad/s^2"):
+            superscript = unit.replace("^2", "²")
+            in_degrees = self.degrees and (not turns or unit == "rad/s^2")
+            return Unit(superscript.replace("rad", "°"), 180 / math.pi) if in_degrees else Unit(superscript)
+        return Unit(unit, 1.0, self.prefix if unit in ("m", "m/s") else None)
+
+
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def power_of_ten(exponent: int) -> str:
+    return "10" + str(exponent).translate(_SUPERSCRIPTS)
+
+
+def _prefixed(unit: Unit, most: float) -> Scale:
+    """The scale for values of at most this size. Adds a power of ten if labels would still be long."""
+    if most < _SMALLEST and unit.text == "m":
+        most = 0.1  # zero lengths: centimeters suit a plate
+    if most < _SMALLEST:
+        return Scale(unit.factor, 0.0, unit.text)
+    prefixes = _AUTO.get(unit.text, [("", 1, 0)])
+    prefix, size, _ = [one for one in prefixes if most >= one[2]][-1]
+    if unit.prefix is not None:
+        own = next(one for one in prefixes if one[0] == unit.prefix)
+        if 0.05 <= most / own[1] < 1e4:
+            prefix, size, _ = own
+    factor = unit.factor / size
+    if 1e-2 <= most * factor < 1e5:
+        return Scale(factor, 0.0, prefix + unit.text)
+    exponent = math.floor((math.log10(most) + math.log10(factor)) / 3) * 3
+    # In two factors, because one could overflow.
+    factor = factor * 10.0 ** (-exponent // 2) * 10.0 ** (-exponent - -exponent // 2)
+    return Scale(factor, 0.0, f"{power_of_ten(exponent)} {prefix}{unit.text}".rstrip())
+
+
+def _shifted(unit: Unit, range_: Tuple[float, float], wide: float) -> Scale:
+    """A scale whose labels are differences from a round value near the middle of the range."""
+    scale = _prefixed(unit, wide)
+    step = 10.0 ** math.ceil(math.log10(wide * unit.factor))
+    middle = round((range_[0] / 2 + range_[1] / 2) * unit.factor / step) * step
+    shift = (" + " if middle < 0 else " − ") + f"{number(abs(middle), 12)} {unit.text}".rstrip()
+    return Scale(scale.factor, middle / unit.factor, scale.unit, shift)
+
+
+def choose_scale(unit: Unit, range_: Range, close: float = CLOSE) -> Scale:
+    """The scale for values in SI; differences from a round value if they are `close` together."""
+    if range_ is not None and is_wide(range_) and width(range_) <= close * largest(range_):
+        return _shifted(unit, range_, width(range_))
+    return _prefixed(unit, largest(range_))
+
+
+def choose_scales(unit: Unit, x: Range, y: Range) -> Tuple[Scale, Scale]:
+    """The scales of the two axes of a plane, with the same factor."""
+    wide, size = max(width(x), width(y)), max(largest(x), largest(y))
+    far = [range_ is not None and wide <= CLOSE * largest(range_) for range_ in (x, y)]
+    if wide <= _ROUNDING * size or not any(far):
+        scale = _prefixed(unit, size)
+        return scale, scale
+    one, other = (
+        _shifted(unit, range_, wide) if off and range_ else _prefixed(unit, wide) for range_, off in zip((x, y), far)
+    )
+    return one, other
+
+
+def _nice_step(rough: float) -> float:
+    size = 10.0 ** math.floor(math.log10(rough))
+    digits = rough / size
+    return size * (1 if digits < 1.5 else 2 if digits < 3.5 else 5 if digits < 7.5 else 10)
+
+
+def decimals_of(step: float) -> int:
+    return max(0, -math.floor(math.log10(step) + 1e-9))
+
+
+def fixed(value: float, decimals: int) -> str:
+    text = f"{value:.{decimals}f}"
+    return text.replace("-", "" if float(text) == 0 else "−")
+
+
+def _spaced(axis: Any) -> float:
+    """Millimeters for each tick."""
+    return 11.0 if axis.axis_name == "x" else 4.5
+
+
+def linear_limits(range_: Range, air: float = 0.06) -> Tuple[float, float]:
+    """The ends of an axis over a range, with free space at both."""
+    if range_ is None:
+        return 0.0, 1.0
+    if not is_wide(range_):  # a constant, with its value in the middle
+        half = largest(range_) / 2 if largest(range_) > _SMALLEST else 1.0
+        return range_[0] - half, range_[1] + half
+    more = air * width(range_)
+    return range_[0] - more, range_[1] + more
+
+
+def _limit(axis: Any, low: float, high: float, label: str, numbered: bool, room: float) -> None:
+    getattr(axis.axes, f"set_{axis.axis_name}lim")(low, high)
+    axis.set_tick_params(**{"labelbottom" if axis.axis_name == "x" else "labelleft": numbered})
+    if label and numbered:
+        axis.set_label_text(cut(label, room, TEXT))
+
+
+def linear(
+    axis: Any, low: float, high: float, millimeters: float, label: str = "", *,
+    numbered: bool = True, least: float = 0.0, step: Optional[float] = None,
+) -> float:  # fmt: skip
+    """Round ticks at least `least` apart; their labels do not overlap. Returns the distance of ticks."""
+    if step is None:
+        for ticks in range(max(2, min(8, int(millimeters / _spaced(axis)))), 0, -1):
+            step = max(_nice_step((high - low) / ticks), least)
+            widest = max(width_of(fixed(end, decimals_of(step)), SMALL) for end in (low, high))
+            if axis.axis_name == "y" or step / (high - low) * millimeters > widest + 2:
+                break
+    assert step is not None
+    decimals = decimals_of(step)
+    axis.set_major_locator(MultipleLocator(step))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: fixed(value, decimals)))
+    _limit(axis, low, high, label, numbered, millimeters)
+    return step
+
+
+def better_by_log(range_: Range, decades: float = 3) -> bool:
+    return range_ is not None and range_[0] > 0 and range_[1] / range_[0] > 10**decades
+
+
+def logarithmic(
+    axis: Any, range_: Range, millimeters: float, label: str = "", *, air: float = 0.0, numbered: bool = True
+) -> None:
+    """An axis over positive values, with labels at decades, and at 2 and 5 if there is room."""
+    low, high = range_ if range_ is not None else (1.0, 10.0)
+    more = (high / low) ** air if is_wide(range_) else 2.0
+    low, high = low / more, high * more
+    decades = math.log10(high) - math.log10(low)
+    most = max(2.0, millimeters / _spaced(axis))
+    mantissas = [1, 2, 5] if 3 * decades <= most else [1, 3] if 2 * decades <= most else [1]
+    every = max(1, math.ceil(decades / most))
+    at: List[float] = []
+    labels: List[str] = []
+    for exponent in range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1):
+        for mantissa in mantissas if exponent % every == 0 else []:
+            value = mantissa * 10.0**exponent
+            if not low * (1 - 1e-9) <= value <= high * (1 + 1e-9):
+                continue
+            at.append(value)
+            ten = power_of_ten(exponent)
+            labels.append(number(value) if -3 <= exponent <= 4 else ten if mantissa == 1 else f"{mantissa}·{ten}")
+    getattr(axis.axes, f"set_{axis.axis_name}scale")("log")
+    ticks(axis, at, labels)
+    _limit(axis, low, high, label, numbered, millimeters)
+
+
+def ticks(axis: Any, at: Sequence[float], labels: Sequence[str]) -> None:
+    axis.set_major_locator(FixedLocator(at))
+    axis.set_major_formatter(FixedFormatter(labels))
+    axis.set_minor_locator(NullLocator())

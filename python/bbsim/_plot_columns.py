@@ -1,0 +1,207 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Which columns of runs share a panel, with their names and units there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence
+
+import numpy as np
+
+from . import _bbsim
+from ._errors import InputError
+from ._plot_axes import Range, Unit, Units, covered, is_wide, width
+from ._plot_sheet import Stroke, clean, stroke
+
+MAIN, REFERENCE, MEASURED, COMMAND = range(4)  # roles of columns
+
+
+class Known(NamedTuple):
+    """What bbsim knows of a column."""
+
+    name: str
+    symbol: str
+    unit: str
+    panel: int
+    heading: str
+    role: int
+    beside: str
+    axis: int
+
+
+@dataclass
+class Line:
+    column: str
+    role: int
+    name: str  # in a legend
+
+
+@dataclass
+class Panel:
+    unit: Unit
+    lines: List[Line]
+    name: str = ""
+
+    def count(self, role: int) -> int:
+        return sum(line.role == role for line in self.lines)
+
+
+def _misfit(t: Any, u: Any, angle: Any, twice: bool) -> float:
+    """Root mean square of u minus the angle, or minus its second derivative over time."""
+    before, after = t[1:-1] - t[:-2], t[2:] - t[1:-1]
+    even = (before > 0) & (np.abs(after - before) < 1e-6 * before)
+    with np.errstate(all="ignore"):
+        other = (angle[2:] - 2 * angle[1:-1] + angle[:-2]) / (before * after) if twice else angle[1:-1]
+        difference = (u[1:-1] - other)[even]
+    difference = difference[np.isfinite(difference)]
+    return float(np.sqrt(np.mean(difference**2))) if len(difference) else 0.0
+
+
+def _command_unit(run: _bbsim.Stored) -> str:
+    """From the scenario; without one, angles or accelerations, whichever fits the commands better."""
+    if run.command_unit is not None:
+        return run.command_unit
+    misfits = [0.0, 0.0]
+    for axis in ("phi", "theta"):
+        if {"t", axis, f"{axis}_command"} <= set(run.names):
+            values = [run.numbers(name) for name in ("t", f"{axis}_command", axis)]
+            misfits = [misfits[i] + _misfit(*values, twice=bool(i)) for i in range(2)]
+    return "rad/s^2" if misfits[1] < misfits[0] else "rad"
+
+
+class Runs:
+    """The runs of a picture, and how their columns are drawn."""
+
+    def __init__(self, runs: Sequence[_bbsim.Stored]) -> None:
+        self.runs = runs
+        self.one = len(runs) == 1
+        self.units = Units(next((run.scenario_text for run in runs if run.scenario_text), ""))
+        self.known = {one[0]: Known(*one) for one in _bbsim.known_columns(_command_unit(runs[0]))}
+
+    def having(self, column: str) -> List[_bbsim.Stored]:
+        return [run for run in self.runs if column in run.names]
+
+    def range(self, column: str) -> Range:
+        return covered(*(run.numbers(column) for run in self.having(column)))
+
+    def unit(self, column: str) -> Unit:
+        """Plain if one of the runs does not tell its unit."""
+        if not all(run.units_known or run.unit(column) for run in self.having(column)):
+            return Unit()
+        known = self.known.get(column)
+        if known is not None:
+            if known.role == COMMAND and not all(run.units_known for run in self.runs):
+                known = Known(*next(one for one in _bbsim.known_columns("rad") if one[0] == column))
+            return self.units.drawn(known.unit, column in ("gamma", "spin"))
+        return self.units.drawn(next((run.unit(column) for run in self.having(column) if run.unit(column)), ""))
+
+    def line(self, column: str) -> Line:
+        known = self.known.get(column)
+        return Line(column, known.role, known.symbol) if known else Line(column, MAIN, clean(column))
+
+    def axis(self, column: str) -> int:
+        return self.known[column].axis if column in self.known else 0
+
+    def stroke(self, run: _bbsim.Stored) -> Stroke:
+        return stroke(next(i for i, other in enumerate(self.runs) if other is run))
+
+    # Panels
+
+    def planned(self) -> List[Panel]:
+        """A panel for each quantity, in an order that suits a control engineer; own columns last."""
+        panels: List[Panel] = []
+        names = set(column for run in self.runs for column in run.names if self.range(column) is not None)
+        last_place = max(known.panel for known in self.known.values())  # of columns without a panel
+        places: Dict[int, Panel] = {}
+        for name, known in self.known.items():
+            if name in names and known.panel != last_place:
+                places.setdefault(known.panel, Panel(self.unit(name), [])).lines.append(self.line(name))
+        for place in sorted(places):
+            panel = places[place]
+            # x and y, or phi and theta, share a panel if it has no other quantity.
+            alone = [one.lines[0].column for one in panels[-1:] + [panel] if len(one.lines) == 1]
+            if alone in (["x", "y"], ["phi", "theta"]):
+                panels[-1].lines.append(panel.lines[0])
+            else:
+                panels.append(panel)
+        planned = {line.column for panel in panels for line in panel.lines} | {"t"}
+        for run in self.runs:
+            for column in run.names:
+                if column in names - planned:
+                    planned.add(column)
+                    panels.append(Panel(self.unit(column), [self.line(column)]))
+        return self._finished(panels, may_split=True)
+
+    def asked(self, lists: Sequence[Sequence[str]]) -> List[Panel]:
+        panels = []
+        for names in lists:
+            panel: Optional[Panel] = None
+            for name in names:
+                found = f"columns: found {name or 'nothing'}"
+                if name == "t":
+                    raise InputError([("", f"{found}, over which the others are drawn")])
+                if not self.having(name):
+                    raise InputError([("", found + self._allowed(name))])
+                if self.range(name) is None:
+                    raise InputError([("", f"{found}, which holds no finite number")])
+                panel = panel or Panel(self.unit(name), [])
+                if self.unit(name) != panel.unit:
+                    beside = f"{found} in a panel with {panel.lines[0].column}, which has another unit"
+                    raise InputError([("", f"{beside}; a semicolon begins another panel")])
+                panel.lines.append(self.line(name))
+            if panel:
+                panels.append(panel)
+        return self._finished(panels, may_split=False)
+
+    def _allowed(self, name: str) -> str:
+        names = self.runs[0].names
+        near = _bbsim.nearest(name, [*names, "path"])
+        source = self.runs[0].file or "the result"
+        return (f"; did you mean {near}?" if near else "") + (
+            f"; {source} has {', '.join(names)}, and path is their picture in the plane"
+        )
+
+    def _finished(self, wanted: Sequence[Panel], may_split: bool) -> List[Panel]:
+        panels: List[Panel] = []
+        for panel in wanted:
+            if not self.one:
+                # Lines of a panel differ by run, so two quantities cannot share one. References can: they are bands.
+                panels += self._split(panel, [line for line in panel.lines if line.role != REFERENCE])
+            elif may_split and panel.count(MAIN) > 1 and (panel.count(COMMAND) or self._flattens(panel)):
+                panels += self._split(panel, [line for line in panel.lines if line.role == MAIN])
+            else:
+                panels.append(panel)
+        for panel in panels:
+            self._name(panel)
+        return panels
+
+    def _flattens(self, panel: Panel) -> bool:
+        """Whether one of the lines would look flat beside another."""
+        ranges = [self.range(line.column) for line in panel.lines if line.role == MAIN]
+        widths = [width(range_) for range_ in ranges if is_wide(range_)]
+        return bool(widths) and max(widths) > 50 * min(widths)
+
+    def _split(self, panel: Panel, leaders: List[Line]) -> List[Panel]:
+        """A panel for each leader; other lines join that of their axis, or else the first one."""
+        parts = [Panel(panel.unit, [line]) for line in leaders] or [Panel(panel.unit, [])]
+        for line in panel.lines:
+            if not any(line is leader for leader in leaders):
+                same = [part for part in parts if part.lines and self.axis(part.lines[0].column) == self.axis(line.column)]
+                (same or parts)[0].lines.append(line)
+        return parts
+
+    def _name(self, panel: Panel) -> None:
+        """Sets the heading, and shortens names of lines that the heading completes."""
+        mains = [self.known.get(line.column) for line in panel.lines if line.role == MAIN]
+        common = {known.heading if known else "" for known in mains}
+        if len(mains) > 1 and len(common) == 1 and "" not in common:
+            panel.name = common.pop()
+            for line in panel.lines:
+                line.name = (self.known[line.column].beside if line.column in self.known else "") or line.name
+            return
+        panel.name = ", ".join(line.name for line in panel.lines if line.role == MAIN or not mains)
+        if len(mains) == 1:
+            for line in panel.lines:
+                main = (mains[0].beside if mains[0] else "") or line.name
+                line.name = (main, "reference", "as seen", "command")[line.role]

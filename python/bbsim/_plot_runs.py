@@ -1,0 +1,333 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Draws runs: the path in the plate, and columns over time."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Dict, List, Optional, Sequence, Tuple
+
+import numpy as np
+
+from . import _bbsim
+from ._errors import InputError
+from ._plot_axes import Unit, choose_scale, choose_scales, covered, is_wide, largest, linear, linear_limits, width
+from ._plot_columns import COMMAND, MAIN, MEASURED, REFERENCE, Panel, Runs
+from ._plot_sheet import BAND, ORANGE, Box, Legend, Sheet, Stroke, mark, number, stroke, thin_over_time, thin_path
+
+_MEASURED_STROKE: Stroke = {"color": "#f2c45c", "lw": 2.4}
+_COMMAND_STROKE: Stroke = {"color": "#707070", "lw": 0.7}
+_MOST_UPRIGHTS = 40  # with more events, marks stand at the panels' top only, without lines
+
+
+class _Abscissa:
+    """The time axis of runs; row numbers if one of them has no t."""
+
+    def __init__(self, runs: Runs) -> None:
+        self.is_time = all("t" in run.names and not run.is_text("t") for run in runs.runs)
+        if self.is_time:
+            ends = [event.t for run in runs.runs for event in run.events]
+            range_ = covered(ends, *(run.numbers("t") for run in runs.runs))
+        else:
+            range_ = (0.0, max(run.rows for run in runs.runs) - 1.0)
+        self.scale = choose_scale(runs.unit("t") if self.is_time else Unit(), range_)
+        self.limits = linear_limits(self.scale.of(range_), 0)
+
+    def of(self, run: _bbsim.Stored) -> Any:
+        return self.scale(run.numbers("t") if self.is_time else np.arange(run.rows))
+
+
+class _Marks:
+    """The mark of each kind of event, the same in all panels."""
+
+    def __init__(self, runs: Runs) -> None:
+        self.runs = runs
+        self.kinds = list(dict.fromkeys(event.name for run in self.runs.runs for event in run.events))
+
+    def stroke(self, run: _bbsim.Stored, kind: str) -> Stroke:
+        color = ORANGE if self.runs.one else self.runs.stroke(run)["color"]
+        return mark(("^", "D", "s", " s", "+")[self.kinds.index(kind) % 5], color, 3.5)
+
+    def legend(self) -> Legend:
+        entries = []
+        for kind in self.kinds:
+            events = [event for run in self.runs.runs for event in run.events if event.name == kind]
+            text = kind + (f", {len(events)} times" if len(events) > 1 else "")
+            look = self.stroke(self.runs.runs[0], kind)
+            if self.runs.one:
+                text += " (stops)" if any(event.stopped for event in events) else ""
+            else:
+                look = {**look, "color": "#000000"}
+            entries.append((text, look))
+        return entries
+
+
+def _lone(x: Any, y: Any) -> Tuple[Any, Any]:
+    """The points between two gaps, through which no line goes."""
+    drawn = np.isfinite(x) & np.isfinite(y)
+    beside = np.concatenate([[False], drawn[:-1]]) | np.concatenate([drawn[1:], [False]])
+    return x[drawn & ~beside], y[drawn & ~beside]
+
+
+def _is_held(run: _bbsim.Stored, role: int) -> bool:
+    """A sampled controller holds each command until the next one; a sensor holds its value."""
+    return role == MEASURED or (role == COMMAND and run.sampled is not False)
+
+
+def _line_stroke(runs: Runs, run: _bbsim.Stored, role: int, mains_before: int) -> Stroke:
+    if role == REFERENCE:
+        return BAND
+    if not runs.one:
+        return runs.stroke(run)
+    return {MEASURED: _MEASURED_STROKE, COMMAND: _COMMAND_STROKE}.get(role) or stroke(mains_before)
+
+
+def _time_panel(
+    sheet: Sheet, box: Box, runs: Runs, planned: Panel, abscissa: _Abscissa, marks: _Marks, lowest: bool
+) -> None:
+    across, up = box[2] - box[0], box[3] - box[1]
+    range_ = covered(*(runs.range(line.column) or [] for line in planned.lines))
+    demanded = any(line.column == "friction_demand" for line in planned.lines)
+    limits = sorted({run.friction for run in runs.runs if run.friction is not None}) if demanded else []
+    shown = covered(range_ or [], limits)
+    in_sight = width(shown) < 20 * width(range_)  # a limit far away appears only in the legend
+    if not in_sight:
+        shown = range_
+    scale = choose_scale(planned.unit, shown)
+
+    legend, curves = [], []
+    for run in runs.runs:
+        mains = 0
+        for line in planned.lines:
+            look = _line_stroke(runs, run, line.role, mains)
+            mains += line.role == MAIN
+            if len(planned.lines) > 1 and run is runs.runs[0] and (runs.one or line.role == REFERENCE):
+                legend.append((line.name, look))
+            if line.column in run.names:
+                curves.append((run, line, look))
+    edge: Stroke = {"color": "#000000", "lw": 0.8, "ls": (0, (4, 2))}
+    if limits:
+        names = "coefficient " + ", ".join(map(number, limits)) + ("" if in_sight else ", far above")
+        legend.append((names, edge))
+    axes = sheet.panel(box, scale.heading(planned.name), legend)
+    linear(axes.xaxis, *abscissa.limits, across, abscissa.scale.heading("t" if abscissa.is_time else "row"), numbered=lowest)
+    linear(axes.yaxis, *linear_limits(scale.of(shown)), up)
+
+    # References and measurements are bands below the thin lines of commands and the motion.
+    order = [REFERENCE, MEASURED, COMMAND, MAIN]
+    for run, line, look in sorted(curves, key=lambda curve: order.index(curve[1].role)):
+        x, y = abscissa.of(run), scale(run.numbers(line.column))
+        how = "steps-post" if _is_held(run, line.role) else "default"
+        axes.plot(*thin_over_time(x, y, *abscissa.limits, across), drawstyle=how, **look)
+        dots = _lone(x, y)
+        if len(dots[0]):
+            axes.plot(*thin_over_time(*dots, *abscissa.limits, across), **mark("o", look["color"], 2.0))
+    if in_sight:
+        for value in limits:
+            axes.axhline(float(scale(value)), **edge)
+    for run in runs.runs if abscissa.is_time else []:
+        _mark_events(axes, run, abscissa, marks)
+
+
+def _mark_events(axes: Any, run: _bbsim.Stored, abscissa: _Abscissa, marks: _Marks) -> None:
+    """Marks events at the top of the panel, with vertical lines if they are few."""
+    above = axes.get_xaxis_transform()
+    for kind in dict.fromkeys(event.name for event in run.events):
+        times = abscissa.scale([event.t for event in run.events if event.name == kind])
+        look = marks.stroke(run, kind)
+        if len(run.events) <= _MOST_UPRIGHTS:
+            upright = np.tile([0.0, 1.0, np.nan], len(times))
+            axes.plot(np.repeat(times, 3), upright, transform=above, color=look["color"], lw=0.6, ls=":", marker="")
+        axes.plot(times, np.ones(len(times)), transform=above, clip_on=False, **look)
+
+
+def _points(run: _bbsim.Stored, suffix: str = "") -> Tuple[Any, Any]:
+    names = [f"x{suffix}", f"y{suffix}"]
+    if not set(names) <= set(run.names):
+        return np.empty(0), np.empty(0)
+    x, y = (run.numbers(name) for name in names)
+    gone = ~(np.isfinite(x) & np.isfinite(y))
+    return np.where(gone, np.nan, x), np.where(gone, np.nan, y)
+
+
+def _stands_still(points: Tuple[Any, Any]) -> bool:
+    return not any(is_wide(covered(part)) for part in points)
+
+
+def _plates(runs: Sequence[_bbsim.Stored]) -> List[Tuple[Any, Any]]:
+    """The edges of the known plates, m."""
+    edges = []
+    for size in dict.fromkeys(tuple(run.plate) for run in runs if run.plate):
+        if len(size) == 1:
+            turn = np.linspace(0, 2 * math.pi, 181)
+            edges.append((size[0] / 2 * np.cos(turn), size[0] / 2 * np.sin(turn)))
+        else:
+            edges.append((size[0] / 2 * np.array([-1, 1, 1, -1, -1]), size[1] / 2 * np.array([-1, -1, 1, 1, -1])))
+    return edges
+
+
+class _Path:
+    """The paths in the plane, to scale."""
+
+    def __init__(self, runs: Runs) -> None:
+        self._runs = runs
+        paths = [_points(run, suffix) for run in runs.runs for suffix in ("", "_reference")]
+        self.exists = any(covered(_points(run)[0]) for run in runs.runs)
+        spots = ([event.x for run in runs.runs for event in run.events], [event.y for run in runs.runs for event in run.events])
+        self._x, self._y = (covered(*(path[i] for path in paths)) for i in range(2))
+        longer, shorter = max(width(self._x), width(self._y)), min(width(self._x), width(self._y))
+        plates = _plates(runs.runs)
+        # Whether the picture shows no more than the columns: the ball stays on a line along x or y.
+        self.is_along_an_axis = self.exists and not plates and shorter < 1e-6 * longer
+        self._x, self._y = (covered(range_ or [], more) for range_, more in zip((self._x, self._y), spots))
+        # A plate ten times the path's size would make the path too small to see.
+        most = 10 * max(width(self._x), width(self._y))
+        self._edges = [edge for edge in plates if max(width(covered(part)) for part in edge) <= most]
+        self._x, self._y = (
+            covered(range_ or [], *(edge[i] for edge in self._edges)) for i, range_ in enumerate((self._x, self._y))
+        )
+
+    def legend(self) -> Legend:
+        entries: Dict[str, Stroke] = {"path": stroke(0)} if self._runs.one else {}
+        for run in self._runs.runs:
+            reference = _points(run, "_reference")
+            if covered(reference[0]) is not None:
+                entries["reference"] = mark("x", "#009e73", 5) if _stands_still(reference) else BAND
+        if self._edges:
+            entries["plate's edge"] = {"color": "#404040", "lw": 0.9}
+        return [*entries.items(), ("start", mark(" o")), ("end", mark("o", size=4))]
+
+    def draw(self, sheet: Sheet, box: Box, marks: _Marks) -> None:
+        runs = self._runs
+        across, up = box[2] - box[0], box[3] - box[1]
+        x_scale, y_scale = choose_scales(runs.unit("x"), self._x, self._y)
+        x, y = x_scale.of(self._x) or (0.0, 1.0), y_scale.of(self._y) or (0.0, 1.0)
+        # Widens the shorter range until both axes have the same scale.
+        wide, most = max(width(x), width(y) * across / up), max(largest(x), largest(y))
+        half = 0.54 * (wide if wide > 1e-9 * most else most or 1.0)
+        axes = sheet.panel(box, y_scale.heading("y"))
+        middle = x[0] / 2 + x[1] / 2
+        step = linear(axes.xaxis, middle - half, middle + half, across, x_scale.heading("x"))
+        middle, tall = y[0] / 2 + y[1] / 2, half * up / across
+        linear(axes.yaxis, middle - tall, middle + tall, up, step=step)
+
+        def line(points: Tuple[Any, Any], look: Stroke) -> None:
+            drawn = x_scale(points[0]), y_scale(points[1])
+            axes.plot(*thin_path(*drawn, across / (2 * half)), **look)
+            axes.plot(*_lone(*drawn), **mark("o", look["color"], 2.0))
+
+        def spot(points: Tuple[Any, Any], at: int, look: Stroke) -> None:
+            finite = np.flatnonzero(np.isfinite(points[0]))
+            if len(finite):
+                axes.plot(x_scale(points[0][finite[at]]), y_scale(points[1][finite[at]]), **look)
+
+        references = [_points(run, "_reference") for run in runs.runs]
+        for reference in references:
+            if not _stands_still(reference):
+                line(reference, BAND)
+        for edge in self._edges:
+            line(edge, {"color": "#404040", "lw": 0.9})
+        for run in runs.runs:
+            line(_points(run), runs.stroke(run))
+        for reference in references:
+            if _stands_still(reference):
+                spot(reference, 0, mark("x", "#009e73", 5))
+        for run in runs.runs:
+            color = "#000000" if runs.one else runs.stroke(run)["color"]
+            spot(_points(run), 0, mark(" o", color))
+            spot(_points(run), -1, mark("o", color, 4))
+            for event in run.events:
+                axes.plot(x_scale(event.x), y_scale(event.y), **marks.stroke(run, event.name))
+
+
+_LEFT, _RIGHT, _BETWEEN = 12.0, 4.0, 16.0  # mm: beside the panels, and between two columns of them
+_ABOVE, _BELOW, _UNDER = 4.8, 1.2, 9.0  # of a panel: heading, gap, and labels of a time axis
+_NARROW = 125.0  # mm: narrower pictures have one column
+
+
+def _columns(path: bool, panels: int, wide: Optional[float]) -> Tuple[float, float, List[List[float]]]:
+    """The width, the height of the path, and for each column the heights of its panels with their gaps, mm."""
+    least = 20.0
+
+    def stack(count: int, whole: float = 0.0) -> List[float]:
+        return [max(whole / max(count, 1), least)] * count
+
+    two = 180.0 if wide is None else wide
+    half = (two - _LEFT - _RIGHT - _BETWEEN) / 2
+    if path and panels == 0:
+        sheet = 88.0 if wide is None else wide
+        return sheet, min(sheet - _LEFT - _RIGHT, 130.0), [[]]
+    if two < _NARROW or (not path and panels <= 6):
+        sheet = 135.0 if wide is None else wide
+        heights = stack(panels, 66 if panels > 1 else 54)
+        return sheet, 0.85 * (sheet - _LEFT - _RIGHT) if path else 0.0, [heights]
+    if path and panels < 6:
+        right = stack(panels, half + 4)
+        return two, sum(right) - _ABOVE - _BELOW, [[], right]
+    if path:
+        right = stack((panels + 5) // 2)
+        left = stack(panels - len(right))
+        return two, sum(right) - sum(left) - _ABOVE - _BELOW - (_UNDER if left else 0), [left, right]
+    return two, 0.0, [stack(panels - panels // 2), stack(panels // 2)]
+
+
+def _status(run: _bbsim.Stored) -> str:
+    if run.status in ("", "done"):
+        return ""
+    text = run.status
+    if run.end_time is not None:
+        text += f" at t = {number(run.end_time, 6)} s"
+    return text + (f": {run.events[-1].name}" if run.status == "stopped" and run.events else "")
+
+
+def _titles(runs: Runs) -> Tuple[str, str, Legend]:
+    first = runs.runs[0]
+    title = first.title if all(run.title == first.title for run in runs.runs) else ""
+    if not runs.one:
+        shown = [run.shown_file for run in runs.runs]
+        names = [run.file if shown.count(run.shown_file) > 1 else run.shown_file for run in runs.runs]
+        if not any(names):
+            names = [run.title if not title and run.title else f"run {i + 1}" for i, run in enumerate(runs.runs)]
+        return title, "", [
+            (", ".join(filter(None, [name, _status(run)])), runs.stroke(run)) for name, run in zip(names, runs.runs)
+        ]
+    title, subtitle = (title, first.shown_file) if title else (first.shown_file, "")
+    return title, ", ".join(filter(None, [subtitle, _status(first)])), []
+
+
+def draw_runs(results: Sequence[_bbsim.Stored], asked: Sequence[Sequence[str]], wide: Optional[float]) -> Tuple[Any, int]:
+    """The figure of one run, or of a comparison of several; and its number of panels."""
+    runs, path = Runs(results), _Path(Runs(results))
+    lists = [list(names) for names in asked if list(names) != ["path"]]
+    if len(lists) < len(asked) and not path.exists:
+        raise InputError([("", f"columns: found path; {results[0].file or 'the result'} has no numbers x and y")])
+    panels = runs.asked(lists) if asked else runs.planned()
+    with_path = len(lists) < len(asked) if asked else path.exists and (not panels or not path.is_along_an_axis)
+    if not panels and not with_path:
+        name = results[0].file or "the result"
+        raise InputError([("", f"{name}: nothing to draw: no column but t holds finite numbers")])
+
+    sheet_width, path_height, columns = _columns(with_path, len(panels), wide)
+    abscissa, marks = _Abscissa(runs), _Marks(runs)
+    title, subtitle, legend = _titles(runs)
+    legend = [*legend, *(path.legend() if with_path else ()), *marks.legend()]
+    part = (sheet_width - _LEFT - _RIGHT - _BETWEEN * (len(columns) - 1)) / len(columns)
+    lefts = [_LEFT + i * (part + _BETWEEN) for i in range(len(columns))]
+    path_room = _ABOVE + path_height + _BELOW if with_path else 0.0
+    # Below the path stand the labels of its axis, if panels follow there.
+    top = path_room + (_UNDER if with_path and columns[0] else 0.0)
+    tallest = max(sum(heights) + (top if i == 0 else 0.0) for i, heights in enumerate(columns))
+    sheet = Sheet(sheet_width, tallest + _UNDER, title, subtitle, legend)
+    if with_path:
+        path.draw(sheet, (_LEFT, _ABOVE, _LEFT + part, path_room - _BELOW), marks)
+    # With a path, panels fill the right column first.
+    order = sorted(range(len(columns)), reverse=with_path)
+    waiting = iter(panels)
+    for column in order:
+        at = top if column == 0 else 0.0
+        for i, height in enumerate(columns[column]):
+            box = (lefts[column], at + _ABOVE, lefts[column] + part, at + height - _BELOW)
+            _time_panel(sheet, box, runs, next(waiting), abscissa, marks, i + 1 == len(columns[column]))
+            at += height
+    return sheet.figure, len(panels) + with_path
+

@@ -1,0 +1,237 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The look of bbsim's pictures: a figure with boxes in millimeters, texts that fit, strokes, legends."""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import math
+import re
+import warnings
+from typing import Any, Dict, Iterator, List, Sequence, Tuple
+
+import matplotlib
+import numpy as np
+from matplotlib import font_manager, ft2font
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure as _Figure
+from matplotlib.lines import Line2D
+
+from ._errors import InputError
+
+MM = 1 / 25.4  # inches
+TITLE, TEXT, SMALL = 9.5, 8.0, 7.0  # points
+FONT = "DejaVu Sans"  # comes with matplotlib, and has Greek letters, superscripts and arrows
+
+Stroke = Dict[str, Any]  # of Line2D
+Legend = Sequence[Tuple[str, Stroke]]
+Box = Tuple[float, float, float, float]  # left, top, right, bottom: mm from the left, and from below the heading
+
+_STYLE = {
+    "text.parse_math": False,  # texts are the user's
+    "text.color": "#202020", "axes.labelcolor": "#202020", "axes.edgecolor": "#404040",
+    "xtick.color": "#404040", "ytick.color": "#404040", "xtick.labelcolor": "#202020", "ytick.labelcolor": "#202020",
+    "font.size": TEXT, "axes.labelsize": TEXT, "legend.fontsize": SMALL,
+    "xtick.labelsize": SMALL, "ytick.labelsize": SMALL, "axes.labelpad": 2.0,
+    "axes.linewidth": 0.6, "xtick.major.width": 0.6, "ytick.major.width": 0.6,
+    "xtick.major.size": 2.5, "ytick.major.size": 2.5, "xtick.major.pad": 2.0, "ytick.major.pad": 2.0,
+    "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True,
+    "axes.grid": True, "grid.color": "#e4e4e4", "grid.linewidth": 0.5,
+    "lines.linewidth": 1.1, "lines.markersize": 4.0, "lines.solid_capstyle": "round",
+    "svg.fonttype": "none", "svg.hashsalt": "bbsim", "pdf.fonttype": 42, "savefig.dpi": 200,
+}  # fmt: skip
+
+
+@contextlib.contextmanager
+def style(font: str) -> Iterator[None]:
+    """bbsim's look instead of the user's settings."""
+    with matplotlib.rc_context(), warnings.catch_warnings():
+        matplotlib.rcdefaults()
+        matplotlib.rcParams.update(_STYLE)
+        matplotlib.rcParams["font.family"] = [font] if font == FONT else [font, FONT]
+        warnings.filterwarnings("ignore", message="Glyph .* missing")  # shown as a box
+        yield
+
+
+@functools.lru_cache(maxsize=None)
+def _face(font: str) -> Any:
+    path = font_manager.findfont(font_manager.FontProperties(family=font), fallback_to_default=False)
+    return font_manager.get_font(path)
+
+
+def require_font(font: str) -> None:
+    try:
+        _face(font)
+    except ValueError:
+        allowed = f"allowed: a font that matplotlib finds, such as {FONT}"
+        raise InputError([("", f"font: found {font}; {allowed}")]) from None
+
+
+class Figure(_Figure):
+    """A matplotlib figure that notebooks show, and that is saved in bbsim's look."""
+
+    bbsim_font = FONT
+
+    def savefig(self, file: Any, **options: Any) -> None:
+        with style(self.bbsim_font):
+            super().savefig(file, **options)
+
+    def _repr_svg_(self) -> str:
+        import io
+
+        drawn = io.StringIO()
+        self.savefig(drawn, format="svg", metadata={"Date": None})
+        return drawn.getvalue()
+
+
+def clean(text: str) -> str:
+    """One line that every format can hold, without characters that hide or turn others."""
+    text = re.sub("[\0-\x1f\x7f-\x9f\u2028\u2029]+", " ", text).strip()
+    return re.sub("[\u200b-\u200f\u202a-\u202e\u2066-\u2069\ufdd0-\ufdef\ufeff\ufffe\uffff\ud800-\udfff]", "\ufffd", text)
+
+
+def width_of(text: str, size: float) -> float:
+    """The width of a text, mm."""
+    face = _face(matplotlib.rcParams["font.family"][0])
+    face.set_size(size, 72)
+    face.set_text(text, 0.0, flags=ft2font.LOAD_NO_HINTING)
+    return float(face.get_width_height()[0]) / 64 / 72 / MM
+
+
+def cut(text: str, room: float, size: float) -> str:
+    """The cleaned text, shortened to the room (mm) with … in the middle: names differ at either end."""
+    text = clean(text)
+    if width_of(text, size) <= room:
+        return text
+    for keep in range(len(text) - 1, 0, -1):
+        after = keep // 2
+        kept = text[: keep - after] + "…" + text[len(text) - after :]
+        if width_of(kept, size) <= room:
+            return kept
+    return "…"
+
+
+def _cut_all(texts: Sequence[str], room: float) -> List[str]:
+    """The texts of a legend; the longest ones are cut until they fit into the room together."""
+    widths = [width_of(clean(text), SMALL) for text in texts]
+    most = max(widths)
+    while sum(min(width, most) for width in widths) > room and most > 3:
+        most *= 0.95
+    return [cut(text, most, SMALL) for text in texts]
+
+
+def number(value: float, digits: int = 4) -> str:
+    """A number for readers."""
+    return f"{value:.{digits}g}".replace("-", "−")
+
+
+# Distinct with any color vision (Okabe and Ito's palette). Dashes distinguish lines without color.
+_COLORS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"]
+_DASHES = ["-", (0, (4, 1.5)), (0, (1, 1.2)), (0, (5, 1.2, 1, 1.2))]
+BAND: Stroke = {"color": "#d0d0d0", "lw": 3.5}  # of references
+ORANGE = "#d55e00"
+
+
+def stroke(index: int) -> Stroke:
+    """That of the index-th line."""
+    return {"color": _COLORS[index % len(_COLORS)], "lw": 1.1, "ls": _DASHES[index % len(_DASHES)]}
+
+
+def mark(shape: str, color: str = "#000000", size: float = 4.5) -> Stroke:
+    """A marker without a line; `shape` with a leading blank is hollow."""
+    face = "none" if shape.startswith(" ") else color
+    return {"color": color, "ls": "none", "marker": shape.strip(), "ms": size, "mfc": face, "mew": 0.9}
+
+
+class Sheet:
+    """A figure with a heading, and boxes below it. Make and use it within style()."""
+
+    _ROW, _LINE, _PAD, _GAP = 3.7, 5.0, 1.0, 4.0  # mm: of a legend: a row, a line's sample, beside it, between names
+    _SAMPLE = _LINE + _PAD
+
+    def __init__(self, width: float, height: float, title: str, subtitle: str = "", legend: Legend = ()) -> None:
+        self.width, room = width, width - 8
+        names = [cut(name, room - self._SAMPLE, SMALL) for name, _ in legend]
+        widest = max((width_of(name, SMALL) for name in names), default=0.0) + self._SAMPLE + self._GAP
+        columns = max(1, min(int((room + self._GAP) / widest), len(names))) if names else 1
+        rows = math.ceil(len(names) / columns)
+        top = 2.0
+        lines = []
+        for text, size, color, step in ((title, TITLE, "#202020", 5.2), (subtitle, SMALL, "#505050", 4.0)):
+            if clean(text):
+                lines.append((top, cut(text, room, size), size, color))
+                top += step
+        self._heading = top + (rows * self._ROW + 1.5 if rows else 0.5)
+        self.height = self._heading + height
+        self.figure = Figure(figsize=(width * MM, self.height * MM), facecolor="white")
+        self.figure.bbsim_font = matplotlib.rcParams["font.family"][0]
+        for at, text, size, color in lines:
+            self.figure.text(0.5, 1 - at / self.height, text, ha="center", va="top", size=size, color=color)
+        if names:
+            handles = [Line2D([], [], **line) for _, line in legend]
+            self._legend(self.figure, handles, names, columns, "upper center", (0.5, 1 - top / self.height))
+
+    def _legend(self, owner: Any, handles: Any, names: List[str], columns: int, where: str, anchor: Any) -> None:
+        em = SMALL / 72 / MM
+        owner.legend(
+            handles, names, ncol=columns, loc=where, bbox_to_anchor=anchor, frameon=False, borderpad=0,
+            borderaxespad=0, handlelength=self._LINE / em, handletextpad=self._PAD / em, columnspacing=self._GAP / em, labelspacing=0.35,
+            numpoints=1,
+        )  # fmt: skip
+
+    def axes(self, box: Box) -> Axes:
+        left, top, right, bottom = box
+        return self.figure.add_axes(
+            [left / self.width, 1 - (self._heading + bottom) / self.height,
+             (right - left) / self.width, (bottom - top) / self.height]
+        )  # fmt: skip
+
+    def panel(self, box: Box, heading: str, legend: Legend = ()) -> Axes:
+        """Axes with a heading above their left corner, and a legend in one row beside it."""
+        axes = self.axes(box)
+        width = box[2] - box[0]
+        heading = cut(heading, width * (0.55 if legend else 1), TEXT)
+        offset = 1 + 1.4 / (box[3] - box[1])
+        axes.text(-0.5 / width, offset, heading, transform=axes.transAxes, size=TEXT, va="baseline", ha="left")
+        if legend:
+            room = width - width_of(heading, TEXT) - len(legend) * (self._SAMPLE + self._GAP)
+            names = _cut_all([name for name, _ in legend], room)
+            handles = [Line2D([], [], **line) for _, line in legend]
+            self._legend(axes, handles, names, len(names), "lower right", (1, 1 + 1.2 / (box[3] - box[1])))
+        return axes
+
+
+def thin_over_time(x: Any, y: Any, low: float, high: float, millimeters: float) -> Tuple[Any, Any]:
+    """Of growing x, the first, lowest, highest and last point of each twelfth of a millimeter, and the gaps."""
+    bins = int(12 * millimeters)
+    if len(x) < 4 * bins or not np.all(x[1:] >= x[:-1]) or not high > low:
+        return x, y
+    place = np.floor((x - low) / (high - low) * bins)
+    starts = np.concatenate([[0], np.flatnonzero(np.diff(place)) + 1])
+    which = np.repeat(np.arange(len(starts)), np.diff(np.concatenate([starts, [len(x)]])))
+    gap = np.isnan(y)
+    kept = [starts, np.append(starts[1:], len(x)) - 1, np.flatnonzero(gap & ~np.concatenate([[False], gap[:-1]]))]
+    for reduce, never in ((np.minimum, np.inf), (np.maximum, -np.inf)):
+        values = np.where(gap, never, y)
+        extreme = np.flatnonzero(values == reduce.reduceat(values, starts)[which])
+        kept.append(extreme[np.unique(which[extreme], return_index=True)[1]])
+    chosen = np.unique(np.concatenate(kept))
+    return x[chosen], y[chosen]
+
+
+def thin_path(x: Any, y: Any, millimeters: float) -> Tuple[Any, Any]:
+    """A path of at most 50,000 points; of those in one cell of a fine grid after each other, the first remains.
+
+    `millimeters` is the length of a unit of x and y.
+    """
+    cell = 0.03
+    while len(x) > 4000:
+        places = np.nan_to_num(np.stack([x, y]) * (millimeters / cell), nan=1e300, posinf=1e300, neginf=-1e300).round()
+        moves = np.append(np.any(np.diff(places) != 0, axis=0), True)
+        chosen = np.concatenate([[True], moves[:-1]]) | (np.arange(len(x)) == len(x) - 1)
+        x, y = x[chosen], y[chosen]
+        if len(x) <= 50000:
+            break
+        cell *= 2
+    return x, y

@@ -1,0 +1,410 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Draws sweeps: measures over the keys that vary, as lines, maps or histograms."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Dict, List, Optional, Sequence, Tuple
+
+import numpy as np
+from matplotlib.colors import LogNorm, Normalize
+
+from . import _bbsim
+from ._errors import InputError
+from ._plot_axes import (
+    CLOSE, Range, Unit, Units, better_by_log, choose_scale, covered, is_wide, linear, linear_limits, logarithmic, ticks,
+    width,
+)  # fmt: skip
+from ._plot_sheet import ORANGE, SMALL, Box, Legend, Sheet, Stroke, cut, mark, number, stroke
+
+_MOST_GROUPS = 5  # more values make a map instead of a line for each
+_MOST_BANDS = 3  # more would hide each other
+_MOST_MARKERS = 60  # lines with more points have no markers
+_MANY_POINTS, _MOST_POINTS = 500, 20000  # of random cases: small ones above the first, only some above the second
+_MOST_CELLS = 160  # of a map along one side; more values share cells
+
+
+class _Sweep:
+    def __init__(self, stored: _bbsim.Stored) -> None:
+        self.stored = stored
+        self.table = _bbsim.sweep_table(stored)
+        self.done = np.array(self.table.status) == "done"
+        self.units = Units(stored.scenario_text)
+
+    def mark(self, status: str) -> Stroke:
+        """The mark of each status except `done`."""
+        place = [other for other, _ in self.table.others].index(status)
+        return mark(("x", "+", " s", "D", "^")[place % 5], ORANGE, 4)
+
+
+class _Measure:
+    """A measure's values, and its axis: in a fitting unit, logarithmic if the values span decades."""
+
+    def __init__(self, sweep: _Sweep, name: str, close: float = CLOSE, decades: float = 3) -> None:
+        self.name, self.values = name, sweep.stored.numbers(name)
+        whole = covered(self.values[sweep.done])
+        self.log = better_by_log(whole, decades)
+        unit, column = _bbsim.measure_unit(name)
+        # Frequencies of the loop stay in rad/s.
+        drawn = sweep.units.drawn(unit, column in ("gamma", "spin")) if column or unit != "rad/s" else Unit(unit)
+        self.scale = choose_scale(drawn, whole, 0 if self.log else close)
+        self.range = self.scale.of(whole)
+        self.heading = self.scale.heading(name)
+
+    def set(self, axis: Any, millimeters: float, air: float, label: str = "", numbered: bool = True) -> None:
+        if self.log:
+            logarithmic(axis, self.range, millimeters, label, air=air, numbered=numbered)
+        else:
+            linear(axis, *linear_limits(self.range, air), millimeters, label, numbered=numbered)
+
+
+class _Key:
+    """The axis of a key: numbers, logarithmic if they grow by equal factors, or texts side by side."""
+
+    def __init__(self, sweep: _Sweep, key: _bbsim.SweepKey) -> None:
+        self.key, self.distinct, self.is_text = key, key.distinct, bool(key.labels)
+        followers = sweep.table.followers(key)
+        self.label = key.name + (", with " + ", ".join(followers) if followers else "")
+        self.log, self.scale = False, choose_scale(Unit(), None)
+        if not self.is_text:
+            self.log = _by_equal_factors(self.distinct)
+            self.scale = choose_scale(sweep.units.drawn(key.unit), covered(self.distinct), 0 if self.log else CLOSE)
+            self.label = self.scale.heading(self.label)
+
+    def place(self, values: Any) -> Any:
+        return np.asarray(values, float) if self.is_text else self.scale(values)
+
+    def edges(self) -> Any:
+        """Of the values' cells: halfway between neighbors, and beyond the outermost values."""
+        at = np.log(self.place(self.distinct)) if self.log else self.place(self.distinct)
+        middle = (at[1:] + at[:-1]) / 2
+        edges = np.concatenate([[2 * at[0] - middle[0]], middle, [2 * at[-1] - middle[-1]]])
+        return np.exp(edges) if self.log else edges
+
+    def set(self, axis: Any, millimeters: float, cells: bool, numbered: bool = True) -> None:
+        """Leaves half the distance to the next value at both ends if `cells`, else room for a marker."""
+        ends = self.edges() if cells else self.place(self.distinct)
+        range_: Range = (float(ends[0]), float(ends[-1]))
+        air = 0.0 if cells else 0.02
+        if self.log:
+            logarithmic(axis, range_, millimeters, self.label, air=air, numbered=numbered)
+            return
+        if not self.is_text:
+            linear(axis, *linear_limits(range_, air), millimeters, self.label, numbered=numbered)
+            return
+        count = len(self.key.labels)
+        linear(axis, -0.5, count - 0.5, millimeters, self.label, numbered=numbered)
+        room = 0.9 * millimeters / count if axis.axis_name == "x" else 9.0
+        ticks(axis, range(count), [cut(label, room, SMALL) for label in self.key.labels])
+
+
+def _by_equal_factors(values: Any) -> bool:
+    """Whether positive values grow by equal factors, over at least a factor of ten."""
+    if len(values) < 3 or values[0] <= 0 or values[-1] / values[0] < 10:
+        return False
+    factors = values[1:] / values[:-1]
+    return bool(np.all(np.abs(factors / factors[0] - 1) < 1e-3))
+
+
+# Panels
+
+@dataclass
+class _Place:
+    sheet: Sheet
+    box: Box
+    lowest: bool  # of its column: the others have no labels below
+
+    @property
+    def across(self) -> float:
+        return self.box[2] - self.box[0]
+
+    @property
+    def up(self) -> float:
+        return self.box[3] - self.box[1]
+
+
+def _group_stroke(group: int) -> Stroke:
+    marker = mark(("o", "^", "s", "D", " o")[group % 5], stroke(group)["color"], 3)
+    return {**marker, **stroke(group)}
+
+
+def _group_legend(group: Optional[_bbsim.SweepKey]) -> Legend:
+    if group is None:
+        return []
+    names = group.labels or [number(value) for value in group.distinct]
+    return [(f"{group.name} = {name}", _group_stroke(g)) for g, name in enumerate(names)]
+
+
+def _lines(sweep: _Sweep, name: str, over: _bbsim.SweepKey, group: Optional[_bbsim.SweepKey], place: _Place) -> None:
+    """A curve for each value of `group` through the medians, with a band that holds nine of ten cases."""
+    along, up = _Key(sweep, over), _Measure(sweep, name)
+    axes = place.sheet.panel(place.box, up.heading)
+    along.set(axes.xaxis, place.across, cells=False, numbered=place.lowest)
+    up.set(axes.yaxis, place.up, 0.08)
+    groups = [0.0] if group is None else list(group.distinct)
+    chosen = np.arange(len(over.values)) % (len(over.values) // _MOST_POINTS + 1 if over.drawn else 1) == 0
+    for g, value in enumerate(groups):
+        mine = chosen & (np.full(len(chosen), True) if group is None else group.values == value)
+        look = _group_stroke(g)
+        if len(over.distinct) > _MOST_MARKERS and not over.drawn:
+            look["marker"] = ""
+        if along.is_text or over.drawn:  # no lines between texts or random values
+            look["ls"] = "none"
+        if over.drawn and len(over.values) > _MANY_POINTS:
+            look["ms"] = 1.5
+        good = mine & sweep.done & np.isfinite(up.values)
+        order = np.argsort(over.values[good], kind="stable")
+        at, first = np.unique(over.values[good][order], return_index=True)
+        bundles = np.split(up.scale(up.values[good][order]), first[1:]) if len(at) else []
+        present = np.unique(over.values[mine & ~np.isnan(over.values)])
+        low, middle, high = np.full((3, len(present)), np.nan)
+        for value, bundle in zip(at, bundles):
+            i = np.searchsorted(present, value)
+            low[i], middle[i], high[i] = np.quantile(bundle, [0.05, 0.5, 0.95])
+        x = along.place(present)
+        if any(len(bundle) > 1 for bundle in bundles) and len(groups) <= _MOST_BANDS:
+            axes.fill_between(x, low, high, color=look["color"], alpha=0.25, lw=0)
+        axes.plot(x, middle, **look)
+    status = np.array(sweep.table.status)
+    for other, _ in sweep.table.others:  # at the foot
+        x = along.place(np.unique(over.values[chosen & (status == other)]))
+        axes.plot(x, np.zeros(len(x)), transform=axes.get_xaxis_transform(), clip_on=False, **sweep.mark(other))
+
+
+def _shared(key: _Key) -> Tuple[Any, Any]:
+    """Edges of a map's cells along a key, and the cell of each case; -1 for cases without a value."""
+    values, distinct = key.key.values, key.distinct
+    cells = min(len(distinct), _MOST_CELLS)
+    edges = key.edges()[[-(-cell * len(distinct) // cells) for cell in range(cells + 1)]]
+    found = np.searchsorted(distinct, np.nan_to_num(values)) * cells // len(distinct)
+    return edges, np.where(np.isnan(values), -1, np.minimum(found, cells - 1))
+
+
+def _map(sweep: _Sweep, name: str, over: _bbsim.SweepKey, against: _bbsim.SweepKey, place: _Place) -> None:
+    """A map of medians, with a color scale on its right, logarithmic over more than two decades."""
+    scale_room = 16.0
+    left, top, right, bottom = place.box
+    place = _Place(place.sheet, (left, top, right - scale_room, bottom), place.lowest)
+    along, up, colors = _Key(sweep, over), _Key(sweep, against), _Measure(sweep, name, close=1e-2, decades=2)
+    axes = place.sheet.panel(place.box, colors.heading)
+    axes.grid(False)
+    axes.spines[:].set_visible(True)
+    along.set(axes.xaxis, place.across, cells=True, numbered=place.lowest)
+    up.set(axes.yaxis, place.up, cells=True)
+    x_edges, columns = _shared(along)
+    y_edges, rows = _shared(up)
+    shape = len(y_edges) - 1, len(x_edges) - 1
+    there = (columns >= 0) & (rows >= 0)
+    cells = np.where(there, rows * shape[1] + columns, -1)
+    medians = np.full(shape, np.nan)
+    good = there & sweep.done & np.isfinite(colors.values)
+    order = np.argsort(cells[good], kind="stable")
+    at, first = np.unique(cells[good][order], return_index=True)
+    if len(at):
+        bundles = np.split(colors.scale(colors.values[good][order]), first[1:])
+        medians.flat[at] = [np.median(bundle) for bundle in bundles]
+    present = np.full(shape, np.nan)
+    present.flat[np.unique(cells[there])] = 0
+    many = medians.size > 2500  # as one image in SVG and PDF
+    gray = Normalize(0, 1)
+    axes.pcolormesh(x_edges, y_edges, np.ma.masked_invalid(present + 0.85), cmap="gray", norm=gray, rasterized=many)
+    if colors.range is not None:
+        low, high = colors.range if is_wide(colors.range) else linear_limits(colors.range, 0)
+        norm = (LogNorm if colors.log else Normalize)(low, high)
+        drawn = np.ma.masked_invalid(medians)
+        mesh = axes.pcolormesh(x_edges, y_edges, drawn, cmap="viridis", norm=norm, rasterized=many)
+        # The gradient is drawn by itself: colorbar() takes as long as the rest of a panel.
+        scale = place.sheet.axes((right - scale_room + 2.5, top, right - scale_room + 5, bottom))
+        scale.grid(False)
+        scale.spines[:].set_visible(True)
+        ends = np.geomspace(low, high, 129) if colors.log else np.linspace(low, high, 129)
+        middles = np.sqrt(ends[1:] * ends[:-1]) if colors.log else (ends[1:] + ends[:-1]) / 2
+        colors.set(scale.yaxis, place.up, 0.0)
+        scale.pcolormesh([0, 1], ends, middles[:, None], cmap="viridis", norm=norm, rasterized=True)
+        scale.set_xticks([])
+        scale.set_ylim(low, high)
+        scale.yaxis.tick_right()
+        if place.across / shape[1] >= 7 and place.up / shape[0] >= 3.2:
+            _write_values(axes, mesh, x_edges, y_edges, medians, colors, along, up)
+    _mark_cells(sweep, axes, cells, there, x_edges, y_edges, along, up, min(place.across / shape[1], place.up / shape[0]))
+
+
+def _middles(edges: Any, log: bool) -> Any:
+    return np.sqrt(edges[1:] * edges[:-1]) if log else (edges[1:] + edges[:-1]) / 2
+
+
+def _write_values(
+    axes: Any, mesh: Any, x_edges: Any, y_edges: Any, medians: Any, colors: _Measure, along: _Key, up: _Key
+) -> None:
+    x, y = _middles(x_edges, along.log), _middles(y_edges, up.log)
+    for (row, column), value in np.ndenumerate(medians):
+        if np.isfinite(value):
+            white = mesh.norm(value) < 0.55  # readable on the dark half of the colors
+            color = "#ffffff" if white else "#000000"
+            axes.text(x[column], y[row], number(value, 3), size=6, ha="center", va="center_baseline", color=color)
+
+
+def _mark_cells(
+    sweep: _Sweep, axes: Any, cells: Any, there: Any, x_edges: Any, y_edges: Any, along: _Key, up: _Key, size: float
+) -> None:
+    """Marks cells with a case that is not done, by the status of the first one."""
+    status, x, y = np.array(sweep.table.status), _middles(x_edges, along.log), _middles(y_edges, up.log)
+    marked: Dict[str, List[int]] = {}
+    which = np.flatnonzero(there & ~sweep.done)
+    for cell, first in zip(*np.unique(cells[which], return_index=True)):
+        marked.setdefault(status[which[first]], []).append(cell)
+    for other, of in marked.items():
+        look = {**sweep.mark(other), "ms": min(max(size / 0.35 * 0.55, 0.8), 4.0)}
+        look["mew"] = min(0.9, look["ms"] / 4)
+        axes.plot(x[np.array(of) % len(x)], y[np.array(of) // len(x)], rasterized=len(of) > 2500, **look)
+
+
+def _histogram(sweep: _Sweep, name: str, place: _Place) -> None:
+    along = _Measure(sweep, name)
+    good = along.values[sweep.done & np.isfinite(along.values)]
+    values = np.sort(np.log(along.scale(good)) if along.log else along.scale(good))
+    legend: List[Tuple[str, Stroke]] = []
+    edges, counts, at = np.empty(0), np.ones(1), []
+    median: Stroke = {"color": "#000000", "lw": 0.9}
+    tail: Stroke = {**median, "lw": 0.7, "ls": (0, (4, 2))}
+    if len(values):
+        counts, edges = _bars(values, is_wide(along.range), along)
+        at = np.quantile(values, [0.05, 0.5, 0.95])
+        at = np.exp(at) if along.log else at
+        ends = np.exp(values[[0, -1]]) if along.log else values[[0, -1]]
+        digits = _digits_between(*ends)
+        if number(at[0], digits) == number(at[2], digits):
+            at, legend = at[1:2], [(f"all {number(at[1], digits)}", median)]
+        else:
+            tails = f"5, 95 %: {number(at[0], digits)}, {number(at[2], digits)}"
+            legend = [(f"median {number(at[1], digits)}", median), (tails, tail)]
+    axes = place.sheet.panel(place.box, "", legend)
+    along.set(axes.xaxis, place.across, 0.03, along.heading)
+    linear(axes.yaxis, 0, 1.05 * counts.max(), place.up, "cases", least=1)
+    if len(edges):
+        axes.stairs(counts, np.exp(edges) if along.log else edges, fill=True, color="#7fb8d8")
+    for value in at:
+        axes.axvline(value, **(median if value == at[len(at) // 2] else tail))
+
+
+def _bars(values: Any, wide: bool, along: _Measure) -> Tuple[Any, Any]:
+    """Counts and edges, with the bin width of Freedman and Diaconis within visible limits."""
+    if not wide:  # one bar, no wider than others would be
+        thick = 0.05 if along.log else width(linear_limits(along.range, 0.03)) / 40
+        return np.array([len(values)]), np.array([values[0] - thick / 2, values[0] + thick / 2])
+    bin_ = 2 * (np.quantile(values, 0.75) - np.quantile(values, 0.25)) / np.cbrt(len(values))
+    count = (values[-1] - values[0]) / bin_ if bin_ > 0 else 10
+    return np.histogram(values, int(min(max(math.ceil(count), 5), 60)))
+
+
+def _digits_between(low: float, high: float) -> int:
+    """The number of digits that resolve a hundredth of a range."""
+    part = (high - low) / max(abs(low), abs(high), 1e-300)
+    return min(max(2 - math.floor(math.log10(part)), 3), 12) if part > 0 else 4
+
+
+# What is drawn over what
+
+@dataclass
+class _Form:
+    """The keys on the axes: two for a map, one for lines, none for histograms."""
+
+    over: Optional[_bbsim.SweepKey] = None
+    against: Optional[_bbsim.SweepKey] = None
+    group: Optional[_bbsim.SweepKey] = None  # a line for each of its values
+
+
+def _makes_groups(key: _bbsim.SweepKey) -> bool:
+    return len(key.distinct) <= _MOST_GROUPS or bool(key.labels)
+
+
+def _choose_form(table: _bbsim.SweepTable, names: Sequence[str]) -> _Form:
+    # Keys with listed values, except those that vary with another key.
+    listed = [key for k, key in enumerate(table.keys) if not key.drawn and key.leader == k]
+    if names:
+        if len(names) > 2:
+            raise InputError([("", f"over: found {', '.join(names)}; allowed: one key, or two")])
+        if len(set(names)) < len(names):
+            raise InputError([("", f"over: found {names[0]} twice")])
+        keys = {key.name: key for key in table.keys}
+        for name in names:
+            if name not in keys:
+                raise InputError([("", f"over: found {name}; what varies: {', '.join(keys)}")])
+        first = keys[names[0]]
+        if len(names) == 2:
+            return _Form(first, keys[names[1]])
+        groups = [key for key in listed if key.leader != first.leader and _makes_groups(key)]
+        return _Form(first, group=groups[0] if groups and not first.drawn else None)
+    # The two with the most values, in the file's order.
+    by_count = sorted(listed, key=lambda key: -len(key.distinct))
+    if not by_count:
+        return _Form()
+    if len(by_count) == 1:
+        return _Form(by_count[0])
+    first, second = by_count[:2]
+    if _makes_groups(second) and not first.labels:
+        return _Form(first, group=second)
+    return _Form(*sorted((first, second), key=lambda key: key.leader))
+
+
+def _choose_measures(sweep: _Sweep, asked: Sequence[str]) -> List[str]:
+    """Those asked for; by default those that vary, or all if none does."""
+    known = sweep.table.measures
+    for name in asked:
+        if name not in known and not (name == "end_time" and name in sweep.stored.names):
+            source = sweep.stored.file or "the sweep"
+            raise InputError([("", f"columns: found {name or 'nothing'}; measures of {source}: {', '.join(known)}")])
+    return list(asked) or [name for name in known if is_wide(_Measure(sweep, name).range)] or known
+
+
+def _taken_over(table: _bbsim.SweepTable, form: _Form) -> str:
+    """Describes medians over the keys that are not on an axis."""
+    if form.over is None or form.over.drawn:
+        return ""
+    axes = {key.leader for key in (form.over, form.against, form.group) if key is not None}
+    rest = [key for key in table.keys if key.leader not in axes]
+    listed = ", ".join(key.name for key in rest if not key.drawn)
+    drawn = ", ".join(key.name for key in rest if key.drawn)
+    if not rest:
+        return ""
+    bands = form.against is None and (form.group is None or len(form.group.distinct) <= _MOST_BANDS)
+    how = "median, and 5 to 95 % as a band, over " if bands else "median over "
+    return "; " + how + " and ".join(filter(None, [listed, drawn and f"draws of {drawn}"]))
+
+
+def draw_sweep(stored: _bbsim.Stored, asked: Sequence[str], over: Sequence[str], wide: Optional[float]) -> Tuple[Any, int]:
+    """The figure of a sweep, without cases that are not done, which marks show; and its number of panels."""
+    sweep = _Sweep(stored)
+    source = stored.file or "the sweep"
+    if not sweep.table.keys:
+        raise InputError([("", f"{source}: nothing to draw: no key varies")])
+    measures = _choose_measures(sweep, asked)
+    if not measures:
+        raise InputError([("", f"{source}: nothing to draw: it has no measures")])
+    form = _choose_form(sweep.table, over)
+    histogram, is_map = form.over is None, form.against is not None
+    one = len(measures) == 1
+    sheet_width = wide or (135.0 if one else 180.0)
+    columns = 1 if one or sheet_width < 125 else 2
+    left, right, between = (15.0, 4.0, 19.0)
+    part = (sheet_width - left - right - between * (columns - 1)) / columns
+    pitch = 0.42 * part + 20 if one else 0.5 * part + 11 if is_map else 34.5 if histogram else 30.5
+    rows = -(-len(measures) // columns)
+    title, subtitle = (stored.title, stored.shown_file) if stored.title else (stored.shown_file, "")
+    cases = f"{stored.rows} cases{_taken_over(sweep.table, form)}"
+    others = [(f"{word}: {n} case{'s' if n > 1 else ''}", sweep.mark(word)) for word, n in sweep.table.others]
+    legend = [*_group_legend(form.group), *others]
+    sheet = Sheet(sheet_width, pitch * rows + (1 if histogram else 8.5), title, ", ".join(filter(None, [subtitle, cases])), legend)
+    for m, name in enumerate(measures):
+        x, y = left + (m % columns) * (part + between), pitch * (m // columns)
+        box = (x, y + 5.0, x + part, y + pitch - (9.5 if histogram else 1.5))
+        place = _Place(sheet, box, m + columns >= len(measures))
+        if form.over is None:
+            _histogram(sweep, name, place)
+        elif form.against is not None:
+            _map(sweep, name, form.over, form.against, place)
+        else:
+            _lines(sweep, name, form.over, form.group, place)
+    return sheet.figure, len(measures)
