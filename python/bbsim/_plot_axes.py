@@ -116,7 +116,7 @@ def _prefixed(unit: Unit, most: float) -> Scale:
     prefix, size, _ = [one for one in prefixes if most >= one[2]][-1]
     if unit.prefix is not None:
         own = next(one for one in prefixes if one[0] == unit.prefix)
-        if 0.05 <= most / own[1] < 1e4:
+        if 0.5 <= most / own[1] < 1e4:
             prefix, size, _ = own
     factor = unit.factor / size
     if 1e-2 <= most * factor < 1e5:
