@@ -43,7 +43,7 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> List[str]:
-    return sorted({*globals(), *__all__})
+    return __all__
 
 
 def _names(names: Union[str, Sequence[str]]) -> Sequence[str]:

@@ -83,7 +83,8 @@ class _Options:
         self.accuracy, self.csv = bool(options["accuracy"]), options["csv"]
         self.scenario, self.summary = (os.fspath(options[name] or "") for name in ("scenario", "summary"))
         self.set = _settings(options["set"])
-        self.log = (_listed(options["map"]), _parts(options["header"], ","), options["period"] or "", options["time_offset"] or "")
+        header = _parts(options["header"], ",")
+        self.log = (_listed(options["map"]), header, options["period"] or "", options["time_offset"] or "")
         require_font(self.font)
         if self.csv and not self.accuracy:
             raise InputError([("", "csv: allowed with --accuracy, whose numbers it takes")])

@@ -12,15 +12,14 @@ from ._plot_sheet import Sheet, mark, stroke
 
 
 def draw_accuracy(text: str, title: str, wide: Optional[float]) -> Tuple[Any, int]:
-    """The figure of a table as `bbsim accuracy --csv` writes it, without runs that ended early; and its number of points."""
+    """The figure of a table of `bbsim accuracy --csv`, without runs that ended early; and its number of points."""
     points: Dict[str, List[Tuple[float, float]]] = {}
     for row in csv.DictReader(text.splitlines()):
         if row["status"] == "done":
             # A logarithm has no zero. An error below all rounding can be zero.
             points.setdefault(row["method"], []).append((max(float(row["error_m"]), 1e-20), float(row["time_us"])))
-    looks = {
-        method: {**mark(("o", "^", "s", "D")[i % 4], stroke(i)["color"], 3.5), **stroke(i)} for i, method in enumerate(points)
-    }
+    shapes = ("o", "^", "s", "D")
+    looks = {name: {**mark(shapes[i % 4], stroke(i)["color"], 3.5), **stroke(i)} for i, name in enumerate(points)}
     width = wide or 135.0
     height = 0.6 * (width - 19)
     sheet = Sheet(width, height + 14, title, "", list(looks.items()))

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import re
 from collections import Counter
@@ -171,6 +172,10 @@ def fixed(value: float, decimals: int) -> str:
     return text.replace("-", "" if float(text) == 0 else "−")
 
 
+def _label(decimals: int, value: float, _position: int) -> str:
+    return fixed(value, decimals)
+
+
 def _spaced(axis: Any) -> float:
     """Millimeters for each tick."""
     return 11.0 if axis.axis_name == "x" else 4.5
@@ -208,7 +213,7 @@ def linear(
     assert step is not None
     decimals = decimals_of(step)
     axis.set_major_locator(MultipleLocator(step))
-    axis.set_major_formatter(FuncFormatter(lambda value, _: fixed(value, decimals)))
+    axis.set_major_formatter(FuncFormatter(functools.partial(_label, decimals)))
     _limit(axis, low, high, label, numbered, millimeters)
     return step
 

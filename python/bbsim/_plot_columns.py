@@ -187,7 +187,8 @@ class Runs:
         parts = [Panel(panel.unit, [line]) for line in leaders] or [Panel(panel.unit, [])]
         for line in panel.lines:
             if not any(line is leader for leader in leaders):
-                same = [part for part in parts if part.lines and self.axis(part.lines[0].column) == self.axis(line.column)]
+                axis = self.axis(line.column)
+                same = [part for part in parts if part.lines and self.axis(part.lines[0].column) == axis]
                 (same or parts)[0].lines.append(line)
         return parts
 

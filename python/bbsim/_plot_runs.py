@@ -13,7 +13,7 @@ from . import _bbsim
 from ._errors import InputError
 from ._plot_axes import Unit, choose_scale, choose_scales, covered, is_wide, largest, linear, linear_limits, width
 from ._plot_columns import COMMAND, MAIN, MEASURED, REFERENCE, Panel, Runs
-from ._plot_sheet import BAND, ORANGE, Box, Legend, Sheet, Stroke, mark, number, stroke, thin_over_time, thin_path
+from ._plot_sheet import BAND, ORANGE, Box, Legend, Sheet, Stroke, mark, number, stroke
 
 _MEASURED_STROKE: Stroke = {"color": "#f2c45c", "lw": 2.4}
 _COMMAND_STROKE: Stroke = {"color": "#707070", "lw": 0.7}
@@ -110,7 +110,8 @@ def _time_panel(
         names = "coefficient " + ", ".join(map(number, limits)) + ("" if in_sight else ", far above")
         legend.append((names, edge))
     axes = sheet.panel(box, scale.heading(planned.name), legend)
-    linear(axes.xaxis, *abscissa.limits, across, abscissa.scale.heading("t" if abscissa.is_time else "row"), numbered=lowest)
+    label = abscissa.scale.heading("t" if abscissa.is_time else "row")
+    linear(axes.xaxis, *abscissa.limits, across, label, numbered=lowest)
     linear(axes.yaxis, *linear_limits(scale.of(shown)), up)
 
     # References and measurements are bands below the thin lines of commands and the motion.
@@ -118,10 +119,10 @@ def _time_panel(
     for run, line, look in sorted(curves, key=lambda curve: order.index(curve[1].role)):
         x, y = abscissa.of(run), scale(run.numbers(line.column))
         how = "steps-post" if _is_held(run, line.role) else "default"
-        axes.plot(*thin_over_time(x, y, *abscissa.limits, across), drawstyle=how, **look)
+        axes.plot(x, y, drawstyle=how, **look)
         dots = _lone(x, y)
         if len(dots[0]):
-            axes.plot(*thin_over_time(*dots, *abscissa.limits, across), **mark("o", look["color"], 2.0))
+            axes.plot(*dots, **mark("o", look["color"], 2.0))
     if in_sight:
         for value in limits:
             axes.axhline(float(scale(value)), **edge)
@@ -173,7 +174,8 @@ class _Path:
         self._runs = runs
         paths = [_points(run, suffix) for run in runs.runs for suffix in ("", "_reference")]
         self.exists = any(covered(_points(run)[0]) for run in runs.runs)
-        spots = ([event.x for run in runs.runs for event in run.events], [event.y for run in runs.runs for event in run.events])
+        events = [event for run in runs.runs for event in run.events]
+        spots = ([event.x for event in events], [event.y for event in events])
         self._x, self._y = (covered(*(path[i] for path in paths)) for i in range(2))
         longer, shorter = max(width(self._x), width(self._y)), min(width(self._x), width(self._y))
         plates = _plates(runs.runs)
@@ -213,7 +215,7 @@ class _Path:
 
         def line(points: Tuple[Any, Any], look: Stroke) -> None:
             drawn = x_scale(points[0]), y_scale(points[1])
-            axes.plot(*thin_path(*drawn, across / (2 * half)), **look)
+            axes.plot(*drawn, **look)
             axes.plot(*_lone(*drawn), **mark("o", look["color"], 2.0))
 
         def spot(points: Tuple[Any, Any], at: int, look: Stroke) -> None:

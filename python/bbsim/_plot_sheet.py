@@ -12,7 +12,6 @@ import warnings
 from typing import Any, Dict, Iterator, List, Sequence, Tuple
 
 import matplotlib
-import numpy as np
 from matplotlib import font_manager, ft2font
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure as _Figure
@@ -38,6 +37,7 @@ _STYLE = {
     "xtick.major.size": 2.5, "ytick.major.size": 2.5, "xtick.major.pad": 2.0, "ytick.major.pad": 2.0,
     "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True,
     "axes.grid": True, "grid.color": "#e4e4e4", "grid.linewidth": 0.5,
+    "path.simplify": True, "path.simplify_threshold": 1 / 9,  # of a pixel: millions of rows keep their extremes
     "lines.linewidth": 1.1, "lines.markersize": 4.0, "lines.solid_capstyle": "round",
     "svg.fonttype": "none", "svg.hashsalt": "bbsim", "pdf.fonttype": 42, "savefig.dpi": 200,
 }  # fmt: skip
@@ -88,7 +88,8 @@ class Figure(_Figure):
 def clean(text: str) -> str:
     """One line that every format can hold, without characters that hide or turn others."""
     text = re.sub("[\0-\x1f\x7f-\x9f\u2028\u2029]+", " ", text).strip()
-    return re.sub("[\u200b-\u200f\u202a-\u202e\u2066-\u2069\ufdd0-\ufdef\ufeff\ufffe\uffff\ud800-\udfff]", "\ufffd", text)
+    hostile = "\u200b-\u200f\u202a-\u202e\u2066-\u2069\ufdd0-\ufdef\ufeff\ufffe\uffff\ud800-\udfff"
+    return re.sub(f"[{hostile}]", "\ufffd", text)
 
 
 def width_of(text: str, size: float) -> float:
@@ -176,8 +177,8 @@ class Sheet:
         em = SMALL / 72 / MM
         owner.legend(
             handles, names, ncol=columns, loc=where, bbox_to_anchor=anchor, frameon=False, borderpad=0,
-            borderaxespad=0, handlelength=self._LINE / em, handletextpad=self._PAD / em, columnspacing=self._GAP / em, labelspacing=0.35,
-            numpoints=1,
+            borderaxespad=0, handlelength=self._LINE / em, handletextpad=self._PAD / em, columnspacing=self._GAP / em,
+            labelspacing=0.35, numpoints=1,
         )  # fmt: skip
 
     def axes(self, box: Box) -> Axes:
@@ -200,38 +201,3 @@ class Sheet:
             handles = [Line2D([], [], **line) for _, line in legend]
             self._legend(axes, handles, names, len(names), "lower right", (1, 1 + 1.2 / (box[3] - box[1])))
         return axes
-
-
-def thin_over_time(x: Any, y: Any, low: float, high: float, millimeters: float) -> Tuple[Any, Any]:
-    """Of growing x, the first, lowest, highest and last point of each twelfth of a millimeter, and the gaps."""
-    bins = int(12 * millimeters)
-    if len(x) < 4 * bins or not np.all(x[1:] >= x[:-1]) or not high > low:
-        return x, y
-    place = np.floor((x - low) / (high - low) * bins)
-    starts = np.concatenate([[0], np.flatnonzero(np.diff(place)) + 1])
-    which = np.repeat(np.arange(len(starts)), np.diff(np.concatenate([starts, [len(x)]])))
-    gap = np.isnan(y)
-    kept = [starts, np.append(starts[1:], len(x)) - 1, np.flatnonzero(gap & ~np.concatenate([[False], gap[:-1]]))]
-    for reduce, never in ((np.minimum, np.inf), (np.maximum, -np.inf)):
-        values = np.where(gap, never, y)
-        extreme = np.flatnonzero(values == reduce.reduceat(values, starts)[which])
-        kept.append(extreme[np.unique(which[extreme], return_index=True)[1]])
-    chosen = np.unique(np.concatenate(kept))
-    return x[chosen], y[chosen]
-
-
-def thin_path(x: Any, y: Any, millimeters: float) -> Tuple[Any, Any]:
-    """A path of at most 50,000 points; of those in one cell of a fine grid after each other, the first remains.
-
-    `millimeters` is the length of a unit of x and y.
-    """
-    cell = 0.03
-    while len(x) > 4000:
-        places = np.nan_to_num(np.stack([x, y]) * (millimeters / cell), nan=1e300, posinf=1e300, neginf=-1e300).round()
-        moves = np.append(np.any(np.diff(places) != 0, axis=0), True)
-        chosen = np.concatenate([[True], moves[:-1]]) | (np.arange(len(x)) == len(x) - 1)
-        x, y = x[chosen], y[chosen]
-        if len(x) <= 50000:
-            break
-        cell *= 2
-    return x, y

@@ -396,7 +396,8 @@ def draw_sweep(stored: _bbsim.Stored, asked: Sequence[str], over: Sequence[str],
     cases = f"{stored.rows} cases{_taken_over(sweep.table, form)}"
     others = [(f"{word}: {n} case{'s' if n > 1 else ''}", sweep.mark(word)) for word, n in sweep.table.others]
     legend = [*_group_legend(form.group), *others]
-    sheet = Sheet(sheet_width, pitch * rows + (1 if histogram else 8.5), title, ", ".join(filter(None, [subtitle, cases])), legend)
+    subtitle = ", ".join(filter(None, [subtitle, cases]))
+    sheet = Sheet(sheet_width, pitch * rows + (1 if histogram else 8.5), title, subtitle, legend)
     for m, name in enumerate(measures):
         x, y = left + (m % columns) * (part + between), pitch * (m // columns)
         box = (x, y + 5.0, x + part, y + pitch - (9.5 if histogram else 1.5))
