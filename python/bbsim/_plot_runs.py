@@ -107,7 +107,7 @@ def _time_panel(
                 curves.append((run, line, look))
     edge: Stroke = {"color": "#000000", "lw": 0.8, "ls": (0, (4, 2))}
     if limits:
-        names = "coefficient " + ", ".join(map(number, limits)) + ("" if in_sight else ", far above")
+        names = "coefficient " + ", ".join(map(number, limits)) + ("" if in_sight else ", above")
         legend.append((names, edge))
     axes = sheet.panel(box, scale.heading(planned.name), legend)
     label = abscissa.scale.heading("t" if abscissa.is_time else "row")
