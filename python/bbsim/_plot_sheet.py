@@ -35,7 +35,7 @@ _STYLE = {
     "xtick.labelsize": SMALL, "ytick.labelsize": SMALL, "axes.labelpad": 2.0,
     "axes.linewidth": 0.6, "xtick.major.width": 0.6, "ytick.major.width": 0.6,
     "xtick.major.size": 2.5, "ytick.major.size": 2.5, "xtick.major.pad": 2.0, "ytick.major.pad": 2.0,
-    "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True,
+    "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True, "axes.titley": 1.0,  # else sought
     "axes.grid": True, "grid.color": "#e4e4e4", "grid.linewidth": 0.5,
     "path.simplify": True, "path.simplify_threshold": 1 / 9,  # of a pixel: millions of rows keep their extremes
     "lines.linewidth": 1.1, "lines.markersize": 4.0, "lines.solid_capstyle": "round",

@@ -38,10 +38,6 @@ const Column* find_column(std::string_view name) {
   return known == own.by_name.end() ? nullptr : &known->second;
 }
 
-const Column* find_result_column(std::string_view name) {
-  return name == position_error.name ? &position_error : find_column(name);
-}
-
 const Column& own_column(std::string_view name) {
   OwnColumns& own = all_own_columns();
   const std::lock_guard lock(own.mutex);

@@ -295,9 +295,6 @@ inline constexpr Column position_error{
 // them.
 [[nodiscard]] const Column* find_column(std::string_view name);
 
-// The same for columns of results, which may also have position_error.
-[[nodiscard]] const Column* find_result_column(std::string_view name);
-
 // Returns the column of a number from your own controller. Requires is_own_name() and a name that
 // is not in the catalogue. The column exists until the program ends.
 const Column& own_column(std::string_view name);
