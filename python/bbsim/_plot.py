@@ -170,6 +170,8 @@ def plot(
         figure, _ = options.draw_accuracy(files)
     else:
         all_files = files if isinstance(files, (list, tuple)) else [files]
+        if not all_files:
+            raise InputError([("", "files: found none; allowed: a file, a result, or a list of them")])
         figure, _ = options.draw(options.read(all_files, []))
     if output is not None:
         _save(figure, os.fspath(output), chosen)

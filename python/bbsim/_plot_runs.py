@@ -299,7 +299,8 @@ def _titles(runs: Runs) -> Tuple[str, str, Legend]:
 
 def draw_runs(results: Sequence[_bbsim.Stored], asked: Sequence[Sequence[str]], wide: Optional[float]) -> Tuple[Any, int]:
     """The figure of one run, or of a comparison of several; and its number of panels."""
-    runs, path = Runs(results), _Path(Runs(results))
+    runs = Runs(results)
+    path = _Path(runs)
     lists = [list(names) for names in asked if list(names) != ["path"]]
     if len(lists) < len(asked) and not path.exists:
         raise InputError([("", f"columns: found path; {results[0].file or 'the result'} has no numbers x and y")])
