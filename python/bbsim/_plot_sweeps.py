@@ -146,7 +146,7 @@ def _lines(sweep: _Sweep, name: str, over: _bbsim.SweepKey, group: Optional[_bbs
     groups = [0.0] if group is None else list(group.distinct)
     chosen = np.arange(len(over.values)) % (len(over.values) // _MOST_POINTS + 1 if over.drawn else 1) == 0
     for g, value in enumerate(groups):
-        mine = chosen & (np.full(len(chosen), True) if group is None else group.values == value)
+        mine = chosen & ~np.isnan(over.values) & (True if group is None else group.values == value)
         look = _group_stroke(g)
         if len(over.distinct) > _MOST_MARKERS and not over.drawn:
             look["marker"] = ""
@@ -158,7 +158,7 @@ def _lines(sweep: _Sweep, name: str, over: _bbsim.SweepKey, group: Optional[_bbs
         order = np.argsort(over.values[good], kind="stable")
         at, first = np.unique(over.values[good][order], return_index=True)
         bundles = np.split(up.scale(up.values[good][order]), first[1:]) if len(at) else []
-        present = np.unique(over.values[mine & ~np.isnan(over.values)])
+        present = np.unique(over.values[mine])
         low, middle, high = np.full((3, len(present)), np.nan)
         for value, bundle in zip(at, bundles):
             i = np.searchsorted(present, value)
