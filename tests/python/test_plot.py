@@ -229,6 +229,16 @@ class Content(Case):
         self.require_clear(figure)
         self.assertEqual(figure.axes[1].get_yscale(), "log")
 
+    def test_cases_without_a_value_or_an_end(self):
+        rows = "0,1,9,done,1,1\n1,2,9,done,1,2\n2,,9,done,1,2\n3,3,9.5,failed,0.2,\n4,2,10,done,1,4\n"
+        (self.folder / "s.csv").write_text("case,ball.radius,gravity,status,end_time,end_x\n" + rows)
+        axes = bbsim.plot(self.folder / "s.csv", columns="end_x", over="ball.radius").axes[0]
+        for line, points in zip(axes.lines, ([[1, 1], [2, 2]], [[3, np.nan]], [[2, 4]])):  # by gravity
+            np.testing.assert_array_equal(line.get_xydata(), points)
+        self.assertEqual(list(axes.lines[-1].get_xdata()), [3])  # at the foot: failed
+        self.require_clear(bbsim.plot(self.folder / "s.csv", over="ball.radius,gravity"))
+        self.assertRaisesRegex(bbsim.InputError, "files: found none", bbsim.plot, [])
+
     def test_hostile_titles_are_texts(self):
         title = "a $x$ 'quote' {_sub} ^sup \\\\n <b>&amp; ]]> %d"
         scene = {"title": title, "ball": {"radius": 0.01}, "gimbal": {"motion": {"phi": 0.01}}, "time": {"end": 1, "step": 0.1}}
