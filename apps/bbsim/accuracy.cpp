@@ -48,7 +48,8 @@ std::vector<Method> methods_named(const std::vector<std::string>& names) {
 }
 
 void explain_reference(const api::AccuracyStudy& study, double end) {
-  say("the reference's own error: about " + rounded(study.reference_error, 2) + " m");
+  say("the reference's own error: about " + rounded(study.reference_error, 2) + " m" +
+      (study.reference_by_cvode ? " (CVODE's Adams method at rtol 1e-13)" : ""));
   if (!study.reference_complete && !study.interrupted) {
     say("the reference solution ended at t = " + short_number(study.reference_reached) + " s of " +
         short_number(end) + " s; the errors are those up to then: " + study.reference_reason);
@@ -88,7 +89,9 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
 void add_accuracy(Command& command, const Options& options) {
   command.footer(
       "The error is the largest |dx| or |dy| over the output times, against a solution in quad "
-      "precision. The time is the median processor time of repeated runs, without files. atol is "
+      "precision, or by CVODE at rtol 1e-13 for scenes that switch, then without resolutions of "
+      "commands and sensors. The time is the median processor time of repeated runs, without "
+      "files. atol is "
       "rtol / 100. A second table names the fastest choice for each decade of error.\n"
       "CSV columns: method, rtol, atol, error_m, time_us, steps, rhs_evaluations, "
       "jacobian_evaluations, status.");

@@ -9,14 +9,14 @@ from typing import Any, Dict, List, Mapping, Optional, Tuple
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.ticker import MultipleLocator
+from matplotlib.ticker import MultipleLocator, NullFormatter
+
+from ._plot_sheet import MM, Figure
 
 Array = "np.ndarray[Any, np.dtype[np.float64]]"
 Columns = Mapping[str, Array]
 Margins = Mapping[str, Mapping[str, Any]]
 
-MM = 1 / 25.4  # inches
 AXES = ("phi", "theta")
 NAMES = {"phi": "φ", "theta": "θ"}
 COLORS = {"phi": "#0072b2", "theta": "#d55e00"}
@@ -39,6 +39,11 @@ def _curves(columns: Columns, part: str) -> List[Tuple[str, str, Array]]:
     return [(axis, NAMES[axis], found[axis]) for axis in present]
 
 
+def _legend(axes: Axes) -> None:
+    """Above the panel, since curves may go anywhere in it."""
+    axes.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2, frameon=False, borderaxespad=0.2)
+
+
 def _decibels(gain: Any) -> Any:
     with np.errstate(divide="ignore"):
         return 20 * np.log10(gain)
@@ -58,11 +63,13 @@ def bode(columns: Columns, margins: Margins, width: float = 135.0) -> Figure:
         _mark_phase(below, its, at, phase, COLORS[axis])
     above.axhline(0, **QUIET)
     above.set_ylabel("gain (dB)")
-    above.legend(frameon=False)
+    _legend(above)
     below.axhline(-180, **QUIET)
     below.set_ylabel("phase (°)")
     below.set_xlabel("frequency (rad/s)")
     below.yaxis.set_major_locator(MultipleLocator(90))
+    below.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
+    below.xaxis.set_minor_formatter(NullFormatter())
     for axes in (above, below):
         axes.grid(color="#e4e4e4", lw=0.5)
         axes.margins(x=0)
@@ -76,7 +83,7 @@ def _mark_gains(axes: Axes, its: Mapping[str, Any], color: str) -> None:
             continue
         level = -_decibels(factor)
         axes.vlines(where, *sorted((level, 0)), color=color, lw=1.6)
-        axes.annotate(f"{_decibels(factor):+.3g} dB", (where, level), (4, 0), textcoords="offset points", color=color, va="center")
+        _label(axes, f"{_decibels(factor):+.3g} dB", where, 0, 3 if level < 0 else -9, color)
 
 
 def _mark_phase(axes: Axes, its: Mapping[str, Any], at: Array, phase: Array, color: str) -> None:
@@ -86,9 +93,12 @@ def _mark_phase(axes: Axes, its: Mapping[str, Any], at: Array, phase: Array, col
     level = float(np.interp(where, at, phase))
     critical = level - math.degrees(margin)  # an odd multiple of 180 degrees
     axes.vlines(where, *sorted((critical, level)), color=color, lw=1.6)
-    axes.annotate(
-        f"{math.degrees(margin):.3g}°", (where, (critical + level) / 2), (4, 0), textcoords="offset points", color=color, va="center"
-    )
+    _label(axes, f"{math.degrees(margin):.3g}°", where, critical, -9, color)
+
+
+def _label(axes: Axes, text: str, x: float, y: float, above: float, color: str) -> None:
+    """Beside the line that a margin ends at, on the side without the curve."""
+    axes.annotate(text, (x, y), (3, above), textcoords="offset points", color=color)
 
 
 def nyquist(columns: Columns, width: float = 100.0) -> Figure:
@@ -105,7 +115,7 @@ def nyquist(columns: Columns, width: float = 100.0) -> Figure:
     far = 2.5  # integrators go to infinity
     axes.set(xlim=(-far, far), ylim=(-far, far), aspect="equal", xlabel="real part", ylabel="imaginary part")
     axes.grid(color="#e4e4e4", lw=0.5)
-    axes.legend(frameon=False)
+    _legend(axes)
     return figure
 
 
@@ -167,8 +177,7 @@ def root_locus(columns: Columns, dt: Optional[float], key: str, unit: str = "", 
     for end, shape in ((value[0], "x"), (value[-1], "o")):
         at = value == end
         axes.plot(columns["real"][at], columns["imag"][at], shape, color="black", ms=5, mfc="none", mew=0.8)
-    figure.colorbar(points, ax=axes, shrink=0.8)
-    figure.suptitle(f"{key} ({unit})" if unit else key, fontsize="medium")
+    figure.colorbar(points, ax=axes, shrink=0.8, label=f"{key} ({unit})" if unit else key)
     return figure
 
 
@@ -185,5 +194,5 @@ def step(columns: Columns, width: float = 135.0) -> Figure:
     axes.set(xlabel="t (s)", ylabel="response to a unit step")
     axes.grid(color="#e4e4e4", lw=0.5)
     axes.margins(x=0)
-    axes.legend(frameon=False)
+    _legend(axes)
     return figure

@@ -16,6 +16,7 @@ import numpy as np
 from . import _bbsim
 from ._errors import InputError
 from ._plot_accuracy import draw_accuracy
+from ._plot_loops import KINDS, draw_loop
 from ._plot_runs import draw_runs
 from ._plot_sheet import FONT, Figure, require_font, style
 from ._plot_sweeps import draw_sweep
@@ -28,6 +29,7 @@ Texts = Union[str, Sequence[str]]
 
 _FORMATS = ("svg", "png", "pdf")
 _MARK = "drawn by bbsim plot"  # identifies pictures of bbsim
+_OF_SCENARIO = ("accuracy", *KINDS)
 
 
 def _listed(texts: Optional[Texts]) -> List[str]:
@@ -80,15 +82,21 @@ class _Options:
     def __init__(self, **options: Any) -> None:
         self.columns, self.over = _parts(options["columns"], ";"), _parts(options["over"], ",")
         self.width, self.font = _millimeters(options["width"]), options["font"] or FONT
-        self.accuracy, self.csv = bool(options["accuracy"]), options["csv"]
+        asked = [name for name in _OF_SCENARIO if options[name]]
+        if len(asked) > 1:
+            both = " and --".join(asked).replace("_", "-")
+            raise InputError([("", f"found --{both}; allowed: one picture of a scenario at a time")])
+        self.kind = asked[0] if asked else ""  # of the picture, if a scenario is drawn
+        self.locus, self.csv = options["root_locus"] or "", options["csv"]
         self.scenario, self.summary = (os.fspath(options[name] or "") for name in ("scenario", "summary"))
         self.set = _settings(options["set"])
         header = _parts(options["header"], ",")
         self.log = (_listed(options["map"]), header, options["period"] or "", options["time_offset"] or "")
         require_font(self.font)
-        if self.csv and not self.accuracy:
-            raise InputError([("", "csv: allowed with --accuracy, whose numbers it takes")])
-        if self.set and not self.scenario and not self.accuracy:
+        if self.csv and not self.kind:
+            allowed = ", ".join(f"--{name.replace('_', '-')}" for name in _OF_SCENARIO)
+            raise InputError([("", f"csv: allowed with the pictures of a scenario, {allowed}")])
+        if self.set and not self.scenario and not self.kind:
             raise InputError([("", "set: allowed with --scenario, in which it sets a key")])
 
     def read(self, files: Sequence[Any], notes: List[str]) -> List[_bbsim.Stored]:
@@ -119,15 +127,21 @@ class _Options:
                 rows, what = results[0].rows, "cases"
         return figure, f"{rows} {what}, {panels} panel{'s' if panels != 1 else ''}"
 
-    def draw_accuracy(self, scenario: Any) -> Tuple[Figure, str]:
-        title, text = _bbsim.accuracy(given(scenario, self.set), "1e-3:1e-13")
+    def draw_scenario(self, scenario: Any) -> Tuple[Figure, str]:
+        with style(self.font):
+            if self.kind != "accuracy":
+                text, figure, content = draw_loop(self.kind, scenario, self.set, self.locus, self.width)
+            else:
+                title, text = _bbsim.accuracy(given(scenario, self.set), "1e-3:1e-13")
+                figure, content = None, ""
+                if "done" in text:
+                    figure, points = draw_accuracy(text, title, self.width)
+                    content = f"{points} points"
         if self.csv:
             _bbsim.write_file(os.fspath(self.csv), text.encode())
-        if "done" not in text:
+        if figure is None:
             raise InputError([("", "no method reached the end of the scene; `bbsim run` says why")])
-        with style(self.font):
-            figure, points = draw_accuracy(text, title, self.width)
-        return figure, f"{points} points"
+        return figure, content
 
 
 def plot(
@@ -143,6 +157,11 @@ def plot(
     period: Optional[str] = None,
     time_offset: Optional[str] = None,
     accuracy: bool = False,
+    bode: bool = False,
+    nyquist: bool = False,
+    poles: bool = False,
+    step: bool = False,
+    root_locus: Optional[str] = None,
     csv: Optional[File] = None,
     width: Union[float, str, None] = None,
     font: Optional[str] = None,
@@ -152,7 +171,8 @@ def plot(
     """Draws runs, a sweep or a log; returns a matplotlib figure. The keywords are the options of ``bbsim plot``.
 
     files    CSV or HDF5 files, results of ``bbsim.run``, or an array of ``bbsim.sweep``; several runs
-             are compared in one figure. With ``accuracy``, a scenario
+             are compared in one figure. With ``accuracy``, ``bode``, ``nyquist``, ``poles``, ``step`` or
+             ``root_locus="KEY=FROM:TO"``: a scenario
     columns  the panels: ``["path", "x,x_reference", "phi"]``; for a sweep, measures
     over     for a sweep, the keys to draw over
     width    the width of the figure: 0.088 (m) or "88 mm"
@@ -163,11 +183,12 @@ def plot(
     """
     options = _Options(
         columns=columns, over=over, summary=summary, scenario=scenario, set=set, map=map, header=header, period=period,
-        time_offset=time_offset, accuracy=accuracy, csv=csv, width=width, font=font,
+        time_offset=time_offset, accuracy=accuracy, bode=bode, nyquist=nyquist, poles=poles, step=step,
+        root_locus=root_locus, csv=csv, width=width, font=font,
     )  # fmt: skip
     chosen = _format(None if output is None else os.fspath(output), format)
-    if accuracy:
-        figure, _ = options.draw_accuracy(files)
+    if options.kind:
+        figure, _ = options.draw_scenario(files)
     else:
         all_files = files if isinstance(files, (list, tuple)) else [files]
         if not all_files:
@@ -197,11 +218,12 @@ def _save(figure: Figure, output: str, format: str) -> None:
     _bbsim.write_file(output, drawn.getvalue() + end.encode())
 
 
-def _tasks(files: List[str], options: Dict[str, Any], ending: str) -> List[Tuple[List[str], str]]:
+def _tasks(files: List[str], kind: str, options: Dict[str, Any], ending: str) -> List[Tuple[List[str], str]]:
     """The files of each picture, and its name."""
     output = options["output"]
-    if len(files) > 1 and options["accuracy"]:
-        raise InputError([("", "accuracy: found several files; allowed: one scenario")])
+    kind = kind.replace("_", "-")
+    if len(files) > 1 and kind:
+        raise InputError([("", f"{kind}: found several files; allowed: one scenario")])
     if len(files) > 1 and not options["overlay"] and output:
         allowed = "allowed: with --overlay, which draws them in one picture"
         raise InputError([("", f"output: found {output} for several files; {allowed}")])
@@ -211,10 +233,10 @@ def _tasks(files: List[str], options: Dict[str, Any], ending: str) -> List[Tuple
             return str(output)
         if file == "-":
             raise InputError([("", "output: missing; standard input (-) gives the picture no name")])
-        return f"{Path(Path(file).name if options['accuracy'] else file).with_suffix('')}{more}.{ending}"
+        return f"{Path(Path(file).name if kind else file).with_suffix('')}{more}.{ending}"
 
-    if options["accuracy"]:
-        return [(files, named(files[0], "-accuracy"))]
+    if kind:
+        return [(files, named(files[0], f"-{kind}"))]
     if options["overlay"] and len(files) > 1:
         return [(files, named(files[0], "-overlay"))]
     return [([file], named(file, "")) for file in files]
@@ -262,7 +284,7 @@ def command(options: Dict[str, Any], say: Any) -> None:
     files = options["files"]
     format = _format(options["output"], options["format"])
     shared = _Options(**options)
-    tasks = _tasks(files, options, format)
+    tasks = _tasks(files, shared.kind, options, format)
     if len(files) > 1 and options["summary"]:
         raise InputError([("", "summary: found several files; allowed: one run, to which the summary belongs")])
     _declare(_bbsim.Outputs(), tasks, options)
@@ -270,10 +292,10 @@ def command(options: Dict[str, Any], say: Any) -> None:
     problems: List[Tuple[str, str]] = []
     for its, output in tasks:
         try:
-            results = [] if options["accuracy"] else _read(shared, its, output, options, say)
+            results = [] if shared.kind else _read(shared, its, output, options, say)
             if not options["output"] and not options["force"]:
                 _bbsim.require_mark(output, "a picture of bbsim's", _MARK)
-            figure, content = shared.draw(results) if results else shared.draw_accuracy(its[0])
+            figure, content = shared.draw(results) if results else shared.draw_scenario(its[0])
             _save(figure, output, format)
             if output != "-":
                 say(f"{output}: {content}")

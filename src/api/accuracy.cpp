@@ -22,26 +22,14 @@ std::optional<double> tolerance(const std::string& text) {
   return value;
 }
 
-// Lists what makes a hybrid() model switch.
-std::string what_switches(const Scenario& scenario, const model::Model& model) {
-  std::string list;
-  const auto add = [&list](bool there, const char* what) {
-    if (there) list += (list.empty() ? "" : ", ") + std::string(what);
-  };
-  add(model.events.has_value(), "events");
-  if (model.rig) {
-    const bool by_angles =
-        scenario.controller && scenario.controller->law == Law::gravity_compensation;
-    add(model.rig->sampled.has_value(), "controller.sampling");
-    add(model.rig->limits_commands(),
-        by_angles ? "the command limit, which gravity_compensation always has"
-                  : "controller.limit");
-    add(std::ranges::any_of(model.rig->servo, &model::RigServo::switches),
-        "a limit or the backlash of gimbal.servo");
-    add(model.rig->between.has_pieces(), "a measured curve of gimbal.linkage");
-  }
-  add(model.dry.has_value(), "dry friction, sliding, or a motor's limit");
-  return list;
+// Rounded commands and readings jump with the last bit of the state, which sets a floor under the
+// error of every method.
+Scenario without_resolutions(const Scenario& scenario) {
+  Scenario fine = scenario;
+  if (!fine.controller) return fine;
+  if (fine.controller->sampling) fine.controller->sampling->resolution = 0;
+  if (fine.controller->sensor) fine.controller->sensor->resolution = 0;
+  return fine;
 }
 
 }  // namespace
@@ -65,12 +53,12 @@ std::vector<double> tolerance_ladder(const std::string& text) {
 
 AccuracyStudy accuracy(const Scenario& scenario, const std::vector<Method>& methods,
                        const std::vector<double>& rtols, Watch& watch) {
-  const model::Model model = assemble(scenario, scenario::columns_named(scenario.output.columns));
-  if (model.hybrid()) {
-    throw InputError(
-        scenario.source.file + ": accuracy compares smooth runs; found a switch or an event: " +
-        what_switches(scenario, model) +
-        "; allowed: a scene without one (`bbsim run --error` estimates the error of this one)");
+  const model::Model model =
+      assemble(without_resolutions(scenario), scenario::columns_named(scenario.output.columns));
+  if (model.rig && model.rig->sampled && model.rig->sampled->law.kind == model::LawKind::held) {
+    throw InputError(scenario.source.file +
+                     ": controller: found one of your own, which accuracy does not run; allowed: a "
+                     "law of bbsim (`bbsim run --error` estimates the error of this scene)");
   }
   AccuracyStudy study =
       study::measure_accuracy(model, solve::OutputGrid(scenario.time), methods, rtols,

@@ -18,7 +18,8 @@ namespace bbsim::api {
 
 using study::AccuracyStudy;
 
-// Throws InputError for a scene with a switch or an event.
+// Leaves out the resolutions of commands and sensors. Throws InputError for a scene with a
+// controller of the user's.
 [[nodiscard]] AccuracyStudy accuracy(const Scenario& scenario, const std::vector<Method>& methods,
                                      const std::vector<double>& rtols, Watch& watch);
 

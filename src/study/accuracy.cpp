@@ -86,11 +86,13 @@ AccuracyStudy measure_accuracy(const model::Model& model, const solve::OutputGri
   const auto progress = [&](double fraction) {
     if (watch.progress) watch.progress(fraction);
   };
-  const ReferenceSolution reference = solve_reference(
-      model, grid, reference_tolerance,
-      {watch.stop, [&](double time) { progress(reference_share * time / grid.end()); }});
-
+  const solve::Watch on{watch.stop,
+                        [&](double time) { progress(reference_share * time / grid.end()); }};
   AccuracyStudy study;
+  study.reference_by_cvode = model.hybrid();
+  const ReferenceSolution reference = study.reference_by_cvode
+                                          ? solve_by_cvode(model, grid, on)
+                                          : solve_reference(model, grid, reference_tolerance, on);
   study.reference_error = reference.error_estimate;
   study.reference_complete = reference.complete;
   study.reference_reached = reference.reached;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Measures the cost of accuracy: methods and tolerances against the quad-precision reference.
+// Measures the cost of accuracy: methods and tolerances against a reference (reference.hpp).
 #pragma once
 
 #include <atomic>
@@ -30,6 +30,7 @@ struct AccuracyPoint {
 struct AccuracyStudy {
   std::vector<AccuracyPoint> points;  // method by method, rtol by rtol, as requested
   double reference_error = 0;         // the reference's estimate of its own error, m
+  bool reference_by_cvode = false;    // otherwise in quad precision
   bool reference_complete = false;    // if not, errors are those up to its end
   double reference_reached = 0;       // s
   std::string reference_reason;

@@ -17,6 +17,7 @@
 #include "base/quad.hpp"
 #include "model/spectrum.hpp"
 #include "model/systems/any_jacobian.hpp"
+#include "solve/integrate.hpp"
 #include "study/quad_step.hpp"
 
 namespace bbsim::study {
@@ -211,6 +212,37 @@ ReferenceSolution solve_reference(const model::Model& model, const solve::Output
   done = grid.end() / 2;
   ReferenceSolution solution =
       Run(*equation, rule, finest, model, grid).solve(watch.stop, progress);
+  solution.error_estimate = difference(solution, other, coordinates(model));
+  return solution;
+}
+
+ReferenceSolution solve_by_cvode(const model::Model& model, const solve::OutputGrid& grid,
+                                 const solve::Watch& watch) {
+  const auto solved = [&](double rtol, double before) {
+    solve::Trajectory rows(model.row_size());
+    const solve::Watch half{watch.stop, [&](double time) {
+                              if (watch.progress) watch.progress(before + time / 2);
+                            }};
+    const solve::Outcome outcome =
+        solve::integrate(model, Method::adams, {rtol, rtol / 100}, grid, rows, half);
+    ReferenceSolution solution;
+    solution.row_size = model.row_size();
+    for (std::size_t i = 0; i < rows.rows(); ++i) {
+      const double* const row = rows.row(i);
+      solution.values.insert(solution.values.end(), row, row + solution.row_size);
+    }
+    solution.complete = outcome.ending == solve::Ending::done;
+    solution.reached = outcome.reached;
+    solution.steps = outcome.statistics.steps;
+    if (outcome.ending == solve::Ending::stopped) {
+      solution.reason = "an event stopped the run";
+    } else if (outcome.ending == solve::Ending::failed) {
+      solution.reason = outcome.reason;
+    }
+    return solution;
+  };
+  const ReferenceSolution other = solved(1e-12, 0);
+  ReferenceSolution solution = solved(1e-13, grid.end() / 2);
   solution.error_estimate = difference(solution, other, coordinates(model));
   return solution;
 }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The solution of a model in quad precision, the reference for the integrators' errors.
+// The solution of a model, the reference for the integrators' errors: in quad precision or, for
+// models that switch, by CVODE.
 #pragma once
 
 #include <cstddef>
@@ -51,5 +52,13 @@ struct ReferenceSolution {
                                                 const solve::OutputGrid& grid,
                                                 double tolerance = 1e-22,
                                                 const solve::Watch& watch = {});
+
+// Solves a model with switches or events by CVODE's Adams method at rtol 1e-13, from switch to
+// switch, with the servos as states. Shares the driver and the events with the integrators, but
+// neither collocation nor the servos' closed forms. The error estimate is the difference from rtol
+// 1e-12.
+[[nodiscard]] ReferenceSolution solve_by_cvode(const model::Model& model,
+                                               const solve::OutputGrid& grid,
+                                               const solve::Watch& watch = {});
 
 }  // namespace bbsim::study

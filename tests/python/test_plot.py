@@ -148,6 +148,25 @@ class Layout(Case):
         self.assertEqual({line.get_color() for line in figure.axes[0].lines}, {"#0072b2", "#d55e00", "#009e73"})
         self.assertTrue((self.folder / "points.csv").read_text().startswith("method,rtol,atol,error_m,time_us"))
 
+    def test_loops(self):
+        for scene, keys in (("rig.yaml", "controller.gravity_compensation.kp"), ("fig2b.yaml", "controller.pd.kv.0.0")):
+            for asked in ({"bode": True}, {"nyquist": True}, {"poles": True}, {"step": True}, {"root_locus": f"{keys}=0.3:2"}):
+                with self.subTest(scene=scene, **asked):
+                    figure = bbsim.plot(CONFIGS / scene, csv=self.folder / "loop.csv", **asked)
+                    self.require_clear(figure)
+                    self.require_clear(bbsim.plot(CONFIGS / scene, width="88 mm", **asked))
+                    numbers = np.genfromtxt(self.folder / "loop.csv", delimiter=",", names=True)
+                    self.assertGreater(len(numbers), 3)
+                    self.assertTrue(all(np.isfinite(numbers[name]).all() for name in numbers.dtype.names))
+        columns = (self.folder / "loop.csv").read_text().splitlines()[0]
+        self.assertEqual(columns, "value,real,imag")
+
+    def test_the_margins_of_a_bode_plot_are_those_of_check(self):
+        words = words_of(bbsim.plot(CONFIGS / "rig.yaml", bode=True))
+        for its in bbsim.linearize(CONFIGS / "rig.yaml").margins.values():
+            self.assertIn(f"{20 * np.log10(its['gain']):+.3g} dB", words)
+            self.assertIn(f"{np.degrees(its['phase']):.3g}°", words)
+
     def test_values_close_together_and_of_every_size(self):
         for low, high in ((0.1, 0.1 + 1e-9), (1e-12, 3e-12), (-2e7, 1e9), (1e-300, 1e-299), (-1e300, 1e300), (5.0, 5.0)):
             (self.folder / "log.csv").write_text(f"t,level\n0,{low!r}\n1,{high!r}\n2,{low!r}\n")
@@ -300,7 +319,16 @@ class Command(Case):
         self.bbsim("plot", CONFIGS / "beam.yaml", "--accuracy", "--set", "time.end=0.5", "--csv", "points.csv")
         self.assertTrue((self.folder / "beam-accuracy.svg").exists())
         self.assertIn("\nradau,", (self.folder / "points.csv").read_text())
-        self.refused(CONFIGS / "rig.yaml", "--accuracy", message="accuracy compares smooth runs")
+
+    def test_loops(self):
+        self.bbsim("plot", CONFIGS / "rig.yaml", "--bode", "--csv", "bode.csv")
+        self.assertTrue((self.folder / "rig-bode.svg").exists())
+        self.assertTrue((self.folder / "bode.csv").read_text().startswith("frequency,phi_gain,phi_phase,theta_gain,theta_phase"))
+        self.bbsim("plot", CONFIGS / "fig2b.yaml", "--root-locus", "controller.pd.kv.0.0=0.2:2", "-o", "locus.pdf")
+        self.refused(CONFIGS / "rig.yaml", "--bode", "--poles", message="found --bode and --poles; allowed: one picture")
+        self.refused(CONFIGS / "rig.yaml", "--root-locus", "gravity", message="--root-locus: found gravity; allowed: KEY=FROM:TO")
+        self.refused(CONFIGS / "rig.yaml", "--root-locus", "title=1:2", message="title")
+        self.refused(CONFIGS / "fig2a.yaml", "--bode", message="the scene has no controller")
 
     def test_what_cannot_be_drawn(self):
         files = {
@@ -325,7 +353,7 @@ class Command(Case):
         self.refused("run.csv", "--set", "gravity=9", message="--scenario")
         self.refused("run.csv", "--width", "3 m", message="--width: found 3 m; allowed: a length from 50 mm")
         self.refused("run.csv", "--font", "No Such Font", message="--font: found No Such Font")
-        self.refused("run.csv", "--csv", "x.csv", message="--csv: allowed with --accuracy")
+        self.refused("run.csv", "--csv", "x.csv", message="--csv: allowed with the pictures of a scenario")
         self.refused("run.csv", "--time-offset", "auto", message="--time-offset")
         # No picture overwrites an input, what describes it, or another picture.
         self.run_to("held.csv", "hold.yaml", "--summary", self.folder / "held.json")
