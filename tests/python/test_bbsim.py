@@ -1004,6 +1004,18 @@ class Simulations(unittest.TestCase):
         again = pickle.loads(pickle.dumps(made))
         np.testing.assert_array_equal(again["x"], made["x"])
 
+    def test_columns_in_lanes_are_those_of_runs(self):
+        gains = np.linspace(4, 8, 9)
+        for scene, more in (("rig", []), ("pushrod", []), ("three-servos", ["servo_third"])):
+            columns = ["x", "vy", "phi", "theta_rate", "tilt", "servo_phi", "phi_command", "x_measured", *more]
+            key = "controller.gravity_compensation.kp"
+            made = bbsim.simulate(CONFIGS / f"{scene}.yaml", {key: gains}, columns, set={"time.end": 2})
+            settings = {key: gains[8], "time.end": 2, "output.columns": ["t", *columns]}
+            run = bbsim.run(CONFIGS / f"{scene}.yaml", settings)
+            for name in columns:
+                with self.subTest(scene=scene, column=name):
+                    np.testing.assert_allclose(made[name][8], run[name], rtol=0, atol=1e-10)
+
     def test_lists_texts_and_default_rows(self):
         cases = [{"ball.radius": "1 cm"}, {"ball.radius": 0.02, "ball.position": [0.05, 0.01]}, {}]
         made = bbsim.simulate(CONFIGS / "fig2b.yaml", cases, "y", set={"time.end": 1})

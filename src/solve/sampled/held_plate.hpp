@@ -4,7 +4,6 @@
 // The servos of one rig over a piece under a held command, and the plate that they move.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 
 #include "model/model.hpp"
@@ -23,8 +22,6 @@ class HeldPlate {
   explicit HeldPlate(const model::Model& model);
 
   [[nodiscard]] std::size_t servos() const { return servos_; }
-  // Whether a mechanism is between servos and plate.
-  [[nodiscard]] bool has_mechanism() const { return linkages_ != nullptr || three_ != nullptr; }
   [[nodiscard]] const model::RigMode& mode() const { return *mode_; }
   [[nodiscard]] const model::ServoResponses& response() const { return response_; }
 
