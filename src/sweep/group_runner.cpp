@@ -44,7 +44,7 @@ class GroupRunner : public CaseRunner {
     const std::size_t axes = task_.plan.axes().size(), numbers = 1 + task_.measures.size();
     cases_.clear();
     for (std::size_t i = place; i < place + count; ++i) {
-      double* const values = &into.values[i * axes];
+      double* const values = into.values.data() + i * axes;
       task_.plan.values(into.first + i, values);
       cases_.push_back({into.first + i, values, &into.numbers[i * numbers] + 1, &into.series,
                         i * task_.series_rows});

@@ -36,7 +36,7 @@ class LoopRunner : public CaseRunner {
     if (motion_) into.series = std::move(moved_.series);
     for (std::size_t i = 0; i < done; ++i) {
       if (stop.load(std::memory_order_relaxed)) return i;
-      double* const values = &into.values[i * task_.plan.axes().size()];
+      double* const values = into.values.data() + i * task_.plan.axes().size();
       task_.plan.values(first + i, values);
       double* const numbers = &into.numbers[i * (1 + task_.measures.size())];
       if (motion_) {

@@ -62,7 +62,7 @@ class SingleRunner : public CaseRunner {
     into.first = first;
     into.resize(count, task_);
     for (std::size_t i = 0; i < count; ++i) {
-      task_.plan.values(first + i, &into.values[i * task_.plan.axes().size()]);
+      task_.plan.values(first + i, into.values.data() + i * task_.plan.axes().size());
       if (!run_case(first + i, i, into, stop)) return i;
     }
     return count;
@@ -75,7 +75,7 @@ class SingleRunner : public CaseRunner {
     CaseStatus& status = into.status[place];
     try {
       const Scenario& scenario =
-          scenario_.at(number, &into.values[place * task_.plan.axes().size()]);
+          scenario_.at(number, into.values.data() + place * task_.plan.axes().size());
       for (const scenario::Column* const column : task_.series) {
         const scenario::Missing lacks = scenario::missing(*column, scenario);
         if (lacks) throw InputError(std::string(column->name) + ": " + lacks.why);
