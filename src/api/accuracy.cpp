@@ -3,7 +3,6 @@
 
 #include "api/accuracy.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <optional>

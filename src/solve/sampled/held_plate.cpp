@@ -4,7 +4,6 @@
 #include "solve/sampled/held_plate.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "solve/sampled/monitor_ranges.hpp"
@@ -131,13 +130,14 @@ void HeldPlate::pass(const PlateMotion& motion) {
 bool HeldPlate::stays_off_dead_points(const PlateMotion& motion, const model::HeldMotions& motions,
                                       double length) const {
   if (three_ != nullptr) {
-    return std::ranges::all_of(std::array{0, 1, 2, 3}, [&](int k) {
+    for (int k = 0; k < model::ThreeServos::edge_count; ++k) {
       double edge[nodes];  // the start replaces the first node, as for all ranges
       std::copy_n(motion.edges[k], nodes, edge);
       edge[0] = motion.edges_start[k];
       const auto [least, most] = std::minmax_element(edge, edge + nodes);
-      return widened({*least, *most}).least > 0;
-    });
+      if (!(widened({*least, *most}).least > 0)) return false;
+    }
+    return true;
   }
   for (std::size_t i = 0; i < servos_ && linkages_ != nullptr; ++i) {
     const PieceAxis& axis = motion.axis[i];

@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 
-#include "model/model.hpp"
 #include "simd/instruction_set.hpp"
 #include "solve/collocation/step_length.hpp"
 #include "solve/sampled/monitor_ranges.hpp"
@@ -75,7 +74,6 @@ void LaneEngine::make_room(const model::Model& model) {
   scene_.papers = true;
   if (has_room(model)) return;
   const bool direct = std::holds_alternative<model::RigLoop<false>>(model.system);
-  if (!direct && !plates_) plates_ = std::make_unique<std::array<PlateMotion, group>>();
   pieces_->plates = direct ? nullptr : plates_->data();
   pieces_->servos = model.rig->servos;
   if (direct) std::fill_n(pieces_->gain, group, 1.0);

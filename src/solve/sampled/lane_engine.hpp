@@ -131,7 +131,8 @@ class LaneEngine {
   void load_plates();
 
   std::array<std::optional<LaneMotion>, group> motions_;
-  std::unique_ptr<std::array<PlateMotion, group>> plates_;  // aligned
+  using Plates = std::array<PlateMotion, group>;
+  std::unique_ptr<Plates> plates_ = std::make_unique<Plates>();  // aligned
   std::array<std::array<Loaded, group>, 2> loaded_{};
   std::array<Loaded, 2> shared_{};
   std::array<MotionTable, 2> shared_tables_{};

@@ -4,7 +4,6 @@
 #include "solve/sampled/lane_step.hpp"
 
 #include <algorithm>
-#include <type_traits>
 
 #include "solve/sampled/held_plate.hpp"
 

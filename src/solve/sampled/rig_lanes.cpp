@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "model/model.hpp"
-
 namespace bbsim::solve::sampled {
 
 bool carries(const model::Model& model) {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <type_traits>
-#include <variant>
 
 #include "base/instant.hpp"
 #include "simd/instruction_set.hpp"

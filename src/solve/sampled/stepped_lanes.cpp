@@ -4,9 +4,6 @@
 #include "solve/sampled/stepped_lanes.hpp"
 
 #include <algorithm>
-#include <cmath>
-
-#include "model/model.hpp"
 
 namespace bbsim::solve::sampled {
 
