@@ -237,8 +237,8 @@ struct Cases {
   std::vector<std::string> reason;  // why a case is not done, or a measure is not finite
 };
 
-// Runs a scenario `count` times, in SIMD lanes where these carry it. Throws like run(), but a case
-// with bad values of its own is only refused, unless no case is sound.
+// Runs a scenario `count` times, in SIMD lanes where these carry it. Throws like run().
+// If only some cases have bad values, those are refused, and it does not throw.
 [[nodiscard]] BBSIM_API Cases simulate(const Scenario& scenario, std::size_t count,
                                        const std::vector<CaseKey>& keys,
                                        const SimulateOptions& options = {});

@@ -134,7 +134,7 @@ class _Options:
             else:
                 title, text = _bbsim.accuracy(given(scenario, self.set), "1e-3:1e-13")
                 figure, content = None, ""
-                if "done" in text:
+                if ",done\n" in text or ",stopped\n" in text:
                     figure, points = draw_accuracy(text, title, self.width)
                     content = f"{points} points"
         if self.csv:

@@ -15,7 +15,7 @@ def draw_accuracy(text: str, title: str, wide: Optional[float]) -> Tuple[Any, in
     """The figure of a table of `bbsim accuracy --csv`, without runs that ended early; and its number of points."""
     points: Dict[str, List[Tuple[float, float]]] = {}
     for row in csv.DictReader(text.splitlines()):
-        if row["status"] == "done":
+        if row["status"] != "failed":
             # A logarithm has no zero. An error below all rounding can be zero.
             points.setdefault(row["method"], []).append((max(float(row["error_m"]), 1e-20), float(row["time_us"])))
     shapes = ("o", "^", "s", "D")

@@ -34,10 +34,10 @@ struct CasesResult {
   std::vector<sweep::CaseStatus> status;  // for each case: done, stopped, failed or refused
 };
 
-// Runs cases in lanes if these carry the scenario and no case has a window or times of its own,
-// otherwise one by one. At output times, and without windows, columns and measures are those of a
-// sweep. A case with bad values is refused; only if no case is sound, InputError has the faults of
-// the first. Throws InputError, and ControllerFault if the scene's own controller does not begin.
+// Runs cases in lanes if lanes carry the scenario, and no case has a window or its own times.
+// Otherwise runs them one by one. At output times, and without windows, columns and measures are
+// those of a sweep. Cases with bad values are refused; if all are, InputError has the faults of the
+// first. Throws InputError, and ControllerFault if the scene's own controller does not begin.
 [[nodiscard]] CasesResult run_cases(const CasesRequest& request, Watch& watch);
 
 }  // namespace bbsim::api

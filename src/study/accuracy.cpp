@@ -119,7 +119,8 @@ AccuracyStudy measure_accuracy(const model::Model& model, const solve::OutputGri
 std::vector<BestChoice> best_by_decade(const AccuracyStudy& study) {
   std::vector<const AccuracyPoint*> done;
   for (const AccuracyPoint& point : study.points) {
-    if (point.ending == solve::Ending::done && std::isfinite(point.error)) done.push_back(&point);
+    const bool ends = point.ending == solve::Ending::done || point.ending == solve::Ending::stopped;
+    if (ends && std::isfinite(point.error)) done.push_back(&point);
   }
   if (done.empty()) return {};
   const auto by_error = [](const AccuracyPoint* a, const AccuracyPoint* b) {

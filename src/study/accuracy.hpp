@@ -61,7 +61,7 @@ struct BestChoice {
 };
 
 // The best choice for each decade, from the coarsest that distinguishes points to the finest that a
-// point reached. Only runs that reached their end count. The results point into `study`, which must
+// point reached. Only runs count that reached their end, or an event that stops them. The results point into `study`, which must
 // outlive them.
 [[nodiscard]] std::vector<BestChoice> best_by_decade(const AccuracyStudy& study);
 

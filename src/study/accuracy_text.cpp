@@ -35,7 +35,9 @@ std::string name(const AccuracyPoint& point) {
 }
 
 const char* status(const AccuracyPoint& point) {
-  return point.ending == solve::Ending::done ? "done" : "failed";
+  return point.ending == solve::Ending::done      ? "done"
+         : point.ending == solve::Ending::stopped ? "stopped"
+                                                  : "failed";
 }
 
 }  // namespace

@@ -161,6 +161,14 @@ TEST_CASE("accuracy measures sampled rigs against CVODE") {
   CHECK(contains(row, ",done\n"));
 }
 
+TEST_CASE("accuracy compares runs that an event stops up to the event") {
+  const Result result = bbsim({"accuracy", config("falls.yaml"), "--methods", "radau", "--rtol",
+                               "1e-8:1e-8", "--csv", "-"});
+  CHECK(result.exit_code == 0);
+  CHECK(contains(result.err, "an event stopped the run"));
+  CHECK(contains(result.out, ",stopped\n"));
+}
+
 TEST_CASE("accuracy does not run your own controllers") {
   const Result result =
       bbsim({"accuracy", config("rig.yaml"), "--set",

@@ -109,8 +109,8 @@ Linearization plant_about(const Scenario& scene, const Model& model, const Linea
         return servo.time_constant.has_value();
       })) {
     throw InputError(
-        "linearize: found --plant and a servo of first order (gimbal.servo.time_constant), whose "
-        "rate jumps with its command; allowed: --sampled or --loop");
+        "linearize: the plant has a servo of first order (gimbal.servo.time_constant), whose rate "
+        "jumps with its command; allowed: sampled or loop");
   }
   const std::vector<int> axes = moving_axes(model);
   const PlantDerivatives plant = plant_derivatives(model, at, heave_of(scene, at));
@@ -345,8 +345,8 @@ Linearization sampled_plant_about(const Scenario& scene, const Model& model,
                                   const LinearPoint& at) {
   if (!scene.controller || !scene.controller->sampling) {
     throw InputError(
-        "linearize: found --sampled, but the scene has no controller.sampling, which gives the "
-        "period and the delays; allowed: --plant or --loop");
+        "linearize: the scene has no controller.sampling, which gives the period and the delays of "
+        "the sampled plant; allowed: plant or loop");
   }
   const auto [plant, cycle, signals] = sampled_about(scene, model, at);
   const int n = cycle.size(), first = cycle.controller_at();
@@ -435,17 +435,15 @@ Linearization linearize_as(const Scenario& scene, const Model& model, LinearKind
     case LinearKind::loop:
       if (!scene.controller) {
         throw InputError(
-            "linearize: found --loop, but the scene has no controller; allowed: --plant");
+            "linearize: the scene has no controller, which the loop needs; allowed: plant");
       }
       if (commands_of(scene) != nullptr) {
-        throw InputError(
-            "linearize: found --loop with controller.commands, which close no loop; allowed: "
-            "--plant, --sampled");
+        throw InputError("linearize: controller.commands close no loop; allowed: plant, sampled");
       }
       if (scene.controller->own) {
         throw InputError(
-            "linearize: found --loop with your own controller, whose law bbsim does not know; "
-            "allowed: --plant, --sampled");
+            "linearize: found your own controller, whose law bbsim does not know; allowed: plant, "
+            "sampled");
       }
       return scene.controller->sampling ? sampled_loop_about(scene, model, at, parts)
                                         : continuous_loop_about(scene, model, at, parts);
