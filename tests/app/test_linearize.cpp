@@ -270,7 +270,7 @@ TEST_CASE("linearize refuses what it does not support, and says what it does") {
   const std::string own = BBSIM_SOURCE_DIR "/examples/controllers/python.yaml";
   const Result law = bbsim({"linearize", own, "--loop"});
   CHECK(law.exit_code == 2);
-  CHECK(contains(law.err, "--sampled"));
+  CHECK(contains(law.err, "allowed: plant, sampled"));
   CHECK(bbsim({"linearize", own}).exit_code == 0);
   CHECK_FALSE(contains(bbsim({"check", config("sags.yaml")}).out, "margins"));
 }
