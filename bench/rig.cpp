@@ -126,8 +126,8 @@ class Swept {
  private:
   static Sweep sweep_of(std::size_t cases) {
     Sweep made;
-    made.vary = {{"controller.gravity_compensation.kp", "uniform:8:12"},
-                 {"controller.gravity_compensation.kv", "uniform:7:9"},
+    made.vary = {{"controller.gravity_compensation.kp", "uniform:5:8"},
+                 {"controller.gravity_compensation.kv", "uniform:4:5"},
                  {"controller.sensor.seed", "linear:1:10:10"}};
     made.samples = static_cast<double>(cases) / 10;
     return made;
@@ -277,7 +277,11 @@ void compare_mechanisms(double budget) {
       {"with jitter", rig, {jitter}, 2, 2},
       {"with jitter behind push rods", rig, {jitter, rods}, 4, 4},
       {"pushrod.yaml: backlash, jitter, camera", configs + "pushrod.yaml", {}, 6, 8},
-      {"three-servos.yaml", configs + "three-servos.yaml", {}, 2, 2},
+      {"three-servos.yaml with noise",
+       configs + "three-servos.yaml",
+       {"controller.sensor={noise: 0.2 mm}"},
+       2,
+       2},
   };
   std::printf("%-40s %9s %6s %9s %6s\n", "a sample of", "us", "ratio", "swept us", "ratio");
   double first = 0, first_swept = 0;

@@ -20,7 +20,7 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr double r = 0.02, g = 9.81;
 constexpr double omega_n = 5 * 2 * std::numbers::pi, zeta = 0.8;
 constexpr double angle_limit = 25 * degree, rate_limit = 300 * degree, dead_band = 0.1 * degree;
-constexpr double kp = 10, kv = 8, command_limit = 12 * degree, command_step = 0.1 * degree;
+constexpr double kp = 8, kv = 4, command_limit = 12 * degree, command_step = 0.1 * degree;
 constexpr double period = 0.02, filter = 0.03;
 constexpr double sensor_step = 0.32e-3, sensor_noise = 0.2e-3;
 constexpr double half_width = 0.16, half_depth = 0.12;
