@@ -61,8 +61,8 @@ struct BestChoice {
 };
 
 // The best choice for each decade, from the coarsest that distinguishes points to the finest that a
-// point reached. Only runs count that reached their end, or an event that stops them. The results point into `study`, which must
-// outlive them.
+// point reached. Only runs count that reached their end, or an event that stops them. The results
+// point into `study`, which must outlive them.
 [[nodiscard]] std::vector<BestChoice> best_by_decade(const AccuracyStudy& study);
 
 }  // namespace bbsim::study
