@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis.hpp"
 #include "api/accuracy.hpp"
 #include "api/cases.hpp"
 #include "api/check.hpp"
@@ -38,21 +39,6 @@
 
 namespace bbsim::python {
 namespace {
-
-// A scenario as the package names it: a file, or a text with a name for messages.
-struct Given {
-  std::string name;
-  std::optional<std::string> text;  // if empty: the file `name`
-  std::vector<std::string> overrides;
-  py::object callable;  // or None
-  // Read once for all calls of simulate(), which a fit calls often. Needs the interpreter's lock.
-  mutable std::shared_ptr<const ScenarioFamily> family{};
-};
-
-ScenarioFamily family_of(const Given& given) {
-  if (!given.text) return ScenarioFamily(given.name, given.overrides);
-  return ScenarioFamily(Source{given.name, *given.text, given.overrides});
-}
 
 Scenario first_of(const ScenarioFamily& family) {
   Scenario scenario = family.read({});
@@ -207,7 +193,9 @@ struct CasesAsked {
 
 api::CasesResult simulate(const Given& given, const CasesAsked& asked, double threads) {
   Work work(given);
-  std::shared_ptr<const ScenarioFamily> family = given.family;
+  // The controller of a callable belongs to this call.
+  std::shared_ptr<const ScenarioFamily> family;
+  if (!work.has_callable()) family = given.family;
   api::CasesResult made = work.beside([&] {
     if (!family) family = std::make_shared<const ScenarioFamily>(work.family());
     api::CasesRequest request{*family,        asked.count, asked.keys,   asked.columns,
@@ -215,7 +203,6 @@ api::CasesResult simulate(const Given& given, const CasesAsked& asked, double th
     request.threads = work.has_callable() ? 1 : threads;
     return api::run_cases(request, work.watch());
   });
-  // The controller of a callable belongs to this call.
   if (!work.has_callable()) given.family = std::move(family);
   return made;
 }
@@ -546,6 +533,7 @@ PYBIND11_MODULE(_bbsim, module) {
   define_linearize(module);
   define_environments(module);
   define_results(module);
+  define_analysis(module);
   module.def("check", &check, py::arg("given"));
   module.def("number_at", &number_at, py::arg("given"), py::arg("key"), py::arg("value"));
   module.def("accuracy", &accuracy, py::arg("given"), py::arg("rtols"));

@@ -14,6 +14,7 @@
 #include "base/text.hpp"
 #include "design/player.hpp"
 #include "scenario/columns.hpp"
+#include "scenario/edit_text.hpp"
 #include "scenario/value_in.hpp"
 
 namespace bbsim::api {
@@ -261,7 +262,7 @@ DesignResult design(const DesignRequest& request, DesignParts parts, Watch& watc
       size_if_given("--margin", request.margin, "m", "a length greater than 0, such as \"3 cm\"");
   task.limits = design::limits_of(scenario, choice);
   const auto played = [&](const Pair& start) {
-    return text_with(request.family.source(), settings(start));
+    return edited_scenario(request.family.source(), "", settings(start));
   };
   if (parts.scenario) static_cast<void>(played({0, 0}));  // fails now if the text cannot be written
   task.threads = request.threads;

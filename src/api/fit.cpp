@@ -18,6 +18,7 @@
 #include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "results/read_result.hpp"
+#include "scenario/edit_text.hpp"
 #include "scenario/unit_doubts.hpp"
 #include "scenario/value_in.hpp"
 
@@ -188,7 +189,7 @@ FitResult fit(const FitRequest& request, bool with_scenario, Watch& watch) {
   if (with_scenario) {  // fails before the work if the text cannot be written
     std::vector<ScenarioFamily::Setting> settings;
     for (const fit::FreeKey& key : task.keys) settings.push_back(key.setting(key.start));
-    static_cast<void>(text_with(request.family.source(), settings));
+    static_cast<void>(edited_scenario(request.family.source(), "", settings));
   }
   // If a table of the scenario is one of the logs, each log replaces it in turn.
   std::vector<std::string> of_log;

@@ -208,25 +208,6 @@ std::string json_of(const fit::Fitted& fitted) {
   return json_text(json, 2) + '\n';
 }
 
-std::string text_with(const Source& source, std::vector<ScenarioFamily::Setting> settings) {
-  std::vector<ScenarioFamily::Setting> all;
-  for (const std::string& assignment : source.overrides) {
-    const std::size_t equals = assignment.find('=');
-    all.push_back({assignment.substr(0, equals), assignment.substr(equals + 1)});
-  }
-  all.insert(all.end(), std::make_move_iterator(settings.begin()),
-             std::make_move_iterator(settings.end()));
-  return edited_text(source.text, all);
-}
-
-std::string scenario_with(const Source& source, const std::string& comments,
-                          std::vector<ScenarioFamily::Setting> settings) {
-  const std::string text = comments + text_with(source, std::move(settings));
-  const ScenarioFamily made(Source{source.file, text, {}});
-  static_cast<void>(made.read({}));
-  return text;
-}
-
 std::string fitted_scenario(const FitRequest& request, const fit::Fitted& fitted) {
   const Source& source = request.family.source();
   std::string text = "# Fitted by bbsim " + std::string(version()) + " to\n";
@@ -247,7 +228,7 @@ std::string fitted_scenario(const FitRequest& request, const fit::Fitted& fitted
     const std::string unit = one.unit.empty() ? "" : " " + one.unit;
     settings.push_back({one.key, number_text(one.estimate) + unit});
   }
-  return scenario_with(source, text, std::move(settings));
+  return edited_scenario(source, text, std::move(settings));
 }
 
 }  // namespace bbsim::api

@@ -21,16 +21,7 @@ namespace bbsim::api {
 
 [[nodiscard]] std::string json_of(const fit::Fitted& fitted);
 
-// Scenario's text with its overrides, then these settings. Throws InputError if a key has no place
-// in it.
-[[nodiscard]] std::string text_with(const Source& source,
-                                    std::vector<ScenarioFamily::Setting> settings);
-
-// Such a text below comments. Checks that bbsim can read it.
-[[nodiscard]] std::string scenario_with(const Source& source, const std::string& comments,
-                                        std::vector<ScenarioFamily::Setting> settings);
-
-// Throws as text_with() does.
+// Throws as edited_scenario() does.
 [[nodiscard]] std::string fitted_scenario(const FitRequest& request, const fit::Fitted& fitted);
 
 }  // namespace bbsim::api

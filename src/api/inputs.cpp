@@ -11,8 +11,8 @@ namespace {
 
 // Declares the files that a scenario names.
 void reads_parts(file::Outputs& outputs, const Scenario& scenario) {
-  for (const std::string& table : table_files(scenario)) {
-    outputs.reads(table, "a table of the scenario");
+  for (const TableFile& table : table_files(scenario)) {
+    outputs.reads(table.path, "a table of the scenario");
   }
   for (const std::string& file : controller::files_of(scenario)) {
     outputs.reads(file, "the scenario's controller");

@@ -19,6 +19,7 @@
 #include "base/short_number.hpp"
 #include "base/text.hpp"
 #include "fit/free_key.hpp"
+#include "scenario/edit_text.hpp"
 #include "scenario/measures.hpp"
 #include "scenario/variation.hpp"
 #include "sweep/sweep.hpp"
@@ -391,7 +392,7 @@ TuneResult tune(const TuneRequest& request, bool with_scenario, Watch& watch) {
         settings.push_back({key.name, number_text(key.factor * number.start)});
       }
     }
-    static_cast<void>(text_with(family.source(), std::move(settings)));
+    static_cast<void>(edited_scenario(family.source(), "", settings));
   }
 
   Rigs rigs(request, free, goals, scenario.time.end, watch);

@@ -99,7 +99,7 @@ std::string tuned_scenario(const TuneRequest& request, const Tuned& tuned) {
     settings.push_back(
         {one.key, number_text(one.value) + (one.unit.empty() ? "" : " " + one.unit)});
   }
-  return scenario_with(request.family.source(), text, std::move(settings));
+  return edited_scenario(request.family.source(), text, std::move(settings));
 }
 
 }  // namespace bbsim::api

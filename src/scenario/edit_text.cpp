@@ -181,4 +181,15 @@ std::string edited_text(const std::string& text,
   return edited;
 }
 
+std::string edited_scenario(const Source& source, const std::string& comments,
+                            const std::vector<ScenarioFamily::Setting>& settings) {
+  std::vector<ScenarioFamily::Setting> all;
+  for (const std::string& assignment : source.overrides) {
+    const std::size_t equals = assignment.find('=');
+    all.push_back({assignment.substr(0, equals), assignment.substr(equals + 1)});
+  }
+  all.insert(all.end(), settings.begin(), settings.end());
+  return comments + edited_text(source.text, all);
+}
+
 }  // namespace bbsim

@@ -17,4 +17,9 @@ namespace bbsim {
 [[nodiscard]] std::string edited_text(const std::string& text,
                                       const std::vector<ScenarioFamily::Setting>& settings);
 
+// The text of a source with its overrides, then these settings, below comments. Throws as
+// edited_text() does.
+[[nodiscard]] std::string edited_scenario(const Source& source, const std::string& comments,
+                                          const std::vector<ScenarioFamily::Setting>& settings);
+
 }  // namespace bbsim

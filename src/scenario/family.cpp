@@ -3,6 +3,7 @@
 
 #include "scenario/family.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <utility>
@@ -104,6 +105,21 @@ std::string_view ScenarioFamily::unit_of(const std::string& key,
   [[maybe_unused]] const Scenario scenario = state_->read(settings, &numbers);
   const auto found = numbers.find(american(key));
   return found == numbers.end() ? "" : si_unit(found->second.dimension);
+}
+
+bool ScenarioFamily::has(const std::string& key) const {
+  const Node* node = state_->root;
+  const std::string path = american(key);
+  for (std::size_t start = 0; start <= path.size();) {
+    const std::size_t dot = std::min(path.find('.', start), path.size());
+    const std::string name = path.substr(start, dot - start);
+    const auto found = std::ranges::find_if(
+        node->entries, [&](const Entry& entry) { return american(entry.key) == name; });
+    if (found == node->entries.end()) return false;
+    node = found->value;
+    start = dot + 1;
+  }
+  return node->kind != Node::Kind::null;
 }
 
 Sweep ScenarioFamily::read_sweep() const {

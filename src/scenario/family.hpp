@@ -60,6 +60,9 @@ class ScenarioFamily {
   [[nodiscard]] std::optional<double> number_at(const std::string& key,
                                                 const std::vector<Setting>& settings) const;
 
+  // Whether the text, with its overrides, has a value at the key, such as gimbal.motion.
+  [[nodiscard]] bool has(const std::string& key) const;
+
   // The file's `sweep` section. Throws InputError if it is invalid.
   [[nodiscard]] Sweep read_sweep() const;
 

@@ -86,38 +86,43 @@ Scenario parse_scenario(const std::string& text, const std::string& name,
   return scenario;
 }
 
-std::vector<std::string> table_files(const Scenario& scenario) {
+std::vector<TableFile> table_files(const Scenario& scenario) {
   const auto folder = std::filesystem::path(scenario.source.file).parent_path();
-  std::vector<std::string> files;
-  const auto add = [&](const Profile& profile) {
-    for (const ProfileTerm& term : profile) {
-      if (const Table* table = std::get_if<Table>(&term)) files.push_back(folder / table->file);
+  std::vector<TableFile> files;
+  const auto add_profile = [&](const std::string& key, const Profile& profile) {
+    for (std::size_t i = 0; i < profile.size(); ++i) {
+      const auto* const table = std::get_if<Table>(&profile[i]);
+      if (table == nullptr) continue;
+      const std::string term = profile.size() == 1 ? "" : "." + std::to_string(i);
+      files.push_back({key + term + ".table.file", folder / table->file});
     }
   };
-  for (const auto& given : {&scenario.gimbal.motion, &scenario.gimbal.torque}) {
-    if (!*given) continue;
-    add((*given)->phi);
-    add((*given)->theta);
-  }
+  const auto add = [&](const std::string& key, const auto& given) {
+    if (!given) return;
+    add_profile(key + ".phi", given->phi);
+    add_profile(key + ".theta", given->theta);
+  };
+  add("gimbal.motion", scenario.gimbal.motion);
+  add("gimbal.torque", scenario.gimbal.torque);
+  add("controller.commands", commands_of(scenario));
   if (const auto& push = scenario.ball.push) {
-    add(push->x);
-    add(push->y);
-  }
-  if (const auto* const commands = commands_of(scenario)) {
-    add(commands->phi);
-    add(commands->theta);
+    add_profile("ball.push.x", push->x);
+    add_profile("ball.push.y", push->y);
   }
   for (const auto& linkage : scenario.gimbal.linkage) {
-    const auto* curve = linkage ? std::get_if<CurveLinkage>(&*linkage) : nullptr;
-    if (curve != nullptr) files.push_back(folder / curve->file);
+    const auto* const curve = linkage ? std::get_if<CurveLinkage>(&*linkage) : nullptr;
+    if (curve == nullptr) continue;
+    files.push_back({"gimbal.linkage", folder / curve->file});
   }
   if (scenario.controller) {
     const auto& sampling = scenario.controller->sampling;
     if (sampling && !sampling->periods_file.empty()) {
-      files.push_back(folder / sampling->periods_file);
+      files.push_back({"controller.sampling.jitter.file", folder / sampling->periods_file});
     }
     const auto* table = std::get_if<TableReference>(&scenario.controller->reference);
-    if (table != nullptr) files.push_back(folder / table->file);
+    if (table != nullptr) {
+      files.push_back({"controller.reference.table.file", folder / table->file});
+    }
   }
   return files;
 }

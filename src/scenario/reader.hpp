@@ -30,8 +30,11 @@ namespace bbsim {
                                       const std::vector<std::string>& overrides = {},
                                       std::vector<file::InputTable>* inputs = nullptr);
 
-// The paths of the table files that a scenario names.
-[[nodiscard]] std::vector<std::string> table_files(const Scenario& scenario);
+// The table files that a scenario names: the keys that name them, and their paths.
+struct TableFile {
+  std::string key, path;
+};
+[[nodiscard]] std::vector<TableFile> table_files(const Scenario& scenario);
 
 // Reads the valid parts; the rest keeps its defaults. For commands that describe a past run without
 // running it: its tables may be gone, and another version may have known other keys.
