@@ -11,9 +11,11 @@ _Pair = Tuple[float, float]
 __version__: str
 
 class Given:
+    name: str
     def __init__(
         self, name: str, text: Optional[str], overrides: Sequence[str], callable: Optional[Callable[..., Any]]
     ) -> None: ...
+    def changed(self, settings: Sequence[Tuple[str, str]]) -> Given: ...
 
 class Sample:
     """What a callable controller receives, in SI units and radians."""
