@@ -427,8 +427,8 @@ TEST_CASE("measures of the loop give the same bytes in any parts, alone and with
       GENERATE("stable,spectral_radius,phi_delay_margin", "max_tilt,phi_delay_margin,stable");
   CAPTURE(names);
   const std::vector<std::string> maps{
-      "--vary",    "controller.gravity_compensation.kp=linear:1:40:13",
-      "--vary",    "controller.gravity_compensation.kv=linear:1:14:13",
+      "--vary",    "controller.gravity_compensation.kp=linear:1:40:7",
+      "--vary",    "controller.gravity_compensation.kv=linear:1:14:7",
       "--set",     "time.end=2",
       "--measure", names};
   const auto make = [&](std::vector<std::string> more) {
@@ -458,8 +458,8 @@ TEST_CASE("measures of the loop give the same bytes in any parts, alone and with
 TEST_CASE("an interrupted stability map resumes to the same bytes") {
   const Folder folder;
   const std::vector<std::string> map{
-      "--vary",    "controller.gravity_compensation.kp=linear:1:40:40",
-      "--vary",    "controller.gravity_compensation.kv=linear:1:9:40",
+      "--vary",    "controller.gravity_compensation.kp=linear:1:40:20",
+      "--vary",    "controller.gravity_compensation.kv=linear:1:9:20",
       "--measure", "phi_delay_margin,stable"};
   const auto arguments = with({"sweep", config("rig.yaml")}, with(map, {"-j", "1", "-o", "s.csv"}));
   const Result cut = cut_off(arguments, folder, 9);
