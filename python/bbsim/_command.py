@@ -88,7 +88,7 @@ def main(name: str, words: Optional[List[str]] = None) -> int:
     table = _table(name)
     try:
         options = _parsed(name, table, sys.argv[1:] if words is None else words)
-        quiet = options.pop("quiet")
+        quiet = options["quiet"]
         command = importlib.import_module(f"bbsim._{name}").command
         return command(options, (lambda text: None) if quiet else _say) or _DONE
     except InputError as error:

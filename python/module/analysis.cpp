@@ -71,6 +71,9 @@ void define_keys(py::module_& module) {
       [](const Given& given, const std::string& key) { return shared_family(given).has(key); },
       py::arg("given"), py::arg("key"));
   module.def(
+      "remarks", [](const Given& given) { return shared_family(given).read({}).remarks; },
+      py::arg("given"));
+  module.def(
       "begins_anywhere",
       [](const Given& given) { return sweep::begins_anywhere(shared_family(given).read({})); },
       py::arg("given"));
