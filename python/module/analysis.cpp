@@ -6,6 +6,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -70,6 +71,21 @@ void define_keys(py::module_& module) {
       "has",
       [](const Given& given, const std::string& key) { return shared_family(given).has(key); },
       py::arg("given"), py::arg("key"));
+  module.def(
+      "rig_limits",
+      [](const Given& given) {
+        const Scenario scenario = shared_family(given).read({});
+        using Limit = std::optional<double>;
+        std::vector<std::array<Limit, 3>> limits(2);
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+          if (scenario.controller) limits[axis][0] = scenario.controller->limit_of(axis);
+          if (!scenario.gimbal.servo) continue;
+          limits[axis][1] = scenario.gimbal.servo_of(axis).angle_limit;
+          limits[axis][2] = scenario.gimbal.servo_of(axis).rate_limit;
+        }
+        return limits;
+      },
+      py::arg("given"));
   module.def(
       "remarks", [](const Given& given) { return shared_family(given).read({}).remarks; },
       py::arg("given"));
