@@ -25,8 +25,8 @@ TEST_CASE("hard rigs keep the errors that the documents state") {
   CAPTURE(name);
   const Scenario scene = hard_case(name);
   const auto model = model::assemble(scene, false);
-  const study::AccuracyStudy study = study::measure_accuracy(
-      model, solve::OutputGrid(scene.time), {Method::radau}, {scene.solver.rtol});
+  const study::AccuracyStudy study = study::measure_accuracy(model, solve::OutputGrid(scene.time),
+                                                             {Method::radau}, {scene.solver.rtol});
   const study::AccuracyPoint& point = study.points.front();
   CHECK(study.reference_by_cvode);
   CHECK(study.reference_error < error);
@@ -44,8 +44,8 @@ TEST_CASE("after a million samples, a rig follows its circle as in the first min
   for (std::size_t i = 1; i < run.samples.size(); ++i) {
     const model::Sample& sample = run.samples[i];
     double& half = i <= 50 ? early : late;
-    half = std::max(half, std::hypot(sample.ball.x - sample.reference[0],
-                                     sample.ball.y - sample.reference[1]));
+    half = std::max(
+        half, std::hypot(sample.ball.x - sample.reference[0], sample.ball.y - sample.reference[1]));
   }
   // Fifty places of the circle miss the worst one by some 4 degrees, and its distance by 0.2 %.
   CHECK(late == Approx(early).epsilon(0.001));

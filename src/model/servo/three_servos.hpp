@@ -312,10 +312,11 @@ struct ThreeServos {
 
   // The pose in these directions of the horns near a pose. Newton's iteration goes on until its
   // steps are small, which takes many only near the edge of the workspace. This needs no
-  // derivatives. The last steps square the error, and provide them.
+  // derivatives. The last steps square the error, and provide them. `determinant_near` becomes that
+  // of the leg equations before the last step.
   template <class Real, class Value>
-  [[nodiscard]] Pose<Real> pose_near(Pose<Value> at, const Real (&sine)[3],
-                                     const Real (&cosine)[3]) const {
+  [[nodiscard]] Pose<Real> pose_near(Pose<Value> at, const Real (&sine)[3], const Real (&cosine)[3],
+                                     Real* determinant_near = nullptr) const {
     constexpr int most_steps = 40, last_steps = std::is_same_v<Real, Value> ? 1 : 2;
     constexpr double small = 1e-12;  // the square of a step
     Pose<Value> next;
@@ -339,7 +340,25 @@ struct ThreeServos {
       newton_step(sine, cosine, pose, better, determinant_there);
       pose = better;
     }
+    if (determinant_near != nullptr) *determinant_near = determinant_there;
     return pose;
+  }
+
+  // The pose at the angles `servo`, followed from the pose `known` at the angles `from`. At the
+  // edge of the workspace two poses meet, whose determinants differ in sign. Near it Newton's
+  // iteration may get to the other pose; the way is then cut into more parts.
+  [[nodiscard]] Pose<double> pose_from(const Pose<double>& known, const double (&from)[3],
+                                       const double (&servo)[3], const double (&sine)[3],
+                                       const double (&cosine)[3]) const {
+    double moved = 0;
+    for (int i = 0; i < 3; ++i) moved = std::fmax(moved, std::abs(servo[i] - from[i]));
+    constexpr int most_parts = 1000;
+    for (int parts = parts_for(moved);; parts *= 8) {
+      double determinant_near;
+      const Pose<double> at =
+          pose_near(follow(known, from, servo, parts), sine, cosine, &determinant_near);
+      if (determinant_near * determinant > 0 || parts > most_parts) return at;
+    }
   }
 
   // The pose at home, and the servos' angles there, rad.
@@ -357,7 +376,11 @@ struct ThreeServos {
     const Value to[3] = {value_of(servo[0]), value_of(servo[1]), value_of(servo[2])};
     double from[3];
     const Pose<double> known = home(from);
-    return pose_near(follow(known, from, to, parts), sine, cosine);
+    if constexpr (std::is_same_v<Real, double>) {
+      return pose_from(known, from, servo, sine, cosine);
+    } else {
+      return pose_near(follow(known, from, to, parts), sine, cosine);
+    }
   }
 
   // The derivatives of p, q and z by the servos' angles.

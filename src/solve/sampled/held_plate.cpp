@@ -90,10 +90,7 @@ void HeldPlate::start_plate(const Link& link, PlateMotion& motion) {
   if constexpr (Link::servos == 3) {
     double sine[3], cosine[3];
     link.directions(horn, sine, cosine);
-    double moved = 0;
-    for (int i = 0; i < 3; ++i) moved = std::max(moved, std::abs(horn[i] - horns_[i]));
-    const auto near = link.follow(pose_, horns_, horn, Link::parts_for(moved));
-    motion.pose_start = pose_ = link.pose_near(near, sine, cosine);
+    motion.pose_start = pose_ = link.pose_from(pose_, horns_, horn, sine, cosine);
     std::copy_n(horn, 3, horns_);
     link.pose_slopes(pose_, sine, cosine, motion.pose_slopes);
     const double whole = link.planes_in(pose_, sine, cosine, rate, acting, motion.plane_start);
