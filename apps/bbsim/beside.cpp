@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/json.hpp"
+#include "base/whole.hpp"
 #include "commands.hpp"
 #include "embedded.hpp"
 #include "file/share_folders.hpp"
@@ -88,6 +89,7 @@ void add_beside(Command& command, const Options& options) {
     Option added = command.option(names, given.values, help);
     if (option.contains("takes")) added.takes(option.at("takes"));
     if (option.value("required", false)) added.required();
+    if (option.contains("whole")) added.takes_whole(option.at("whole"), largest_whole);
     if (option.contains("choices")) added.takes_one_of(option.at("choices"));
     if (!given.name.empty()) {
       option.value("repeatable", false) ? added.may_be_repeated() : added.takes_one();

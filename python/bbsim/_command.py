@@ -8,11 +8,12 @@ import argparse
 import importlib
 import json
 import logging
+import math
 import re
 import signal
 import sys
 from pathlib import Path
-from typing import Any, Dict, List, NoReturn, Optional, Sequence
+from typing import Any, Callable, Dict, List, NoReturn, Optional, Sequence
 
 from . import _bbsim
 from ._errors import ControllerError, InputError, OutputError
@@ -34,6 +35,22 @@ def _table(name: str) -> Dict[str, Any]:
     return json.loads((Path(__file__).parent / "commands.json").read_text("utf-8"))[name]  # type: ignore[no-any-return]
 
 
+def _number(name: str, least: Optional[int]) -> Callable[[str], float]:
+    """Reads an option's number; a whole one from `least` on, unless that is None."""
+
+    def read(text: str) -> float:
+        try:
+            number = float(text) if least is None else int(text)
+        except ValueError:
+            number = math.nan
+        if not math.isfinite(number) or (least is not None and number < least):
+            allowed = "a number" if least is None else f"a whole number from {least} up"
+            raise InputError([("", f"{name}: found {text}; allowed: {allowed}")])
+        return number
+
+    return read
+
+
 def _parsed(name: str, table: Dict[str, Any], words: Sequence[str]) -> Dict[str, Any]:
     parser = _Parser(
         prog=f"bbsim {name}", description=table["description"], epilog=table["footer"], allow_abbrev=False,
@@ -53,8 +70,11 @@ def _parsed(name: str, table: Dict[str, Any], words: Sequence[str]) -> Dict[str,
             names = [_name_of(option)]
         else:
             how.update(metavar=option["takes"], dest=_name_of(option), choices=option.get("choices"))
+            how.update(required=option.get("required", False))
             if option.get("repeatable"):
                 how.update(action="append", default=[])
+            elif "whole" in option or option.get("number"):
+                how.update(type=_number(names[-1], option.get("whole")))
         parser.add_argument(*names, **how)
     parsed, rest = parser.parse_known_intermixed_args(words)
     for word in rest:

@@ -6,6 +6,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -68,8 +69,14 @@ void define_keys(py::module_& module) {
       py::arg("given"), py::arg("option"), py::arg("key"));
   module.def("value_in", &scenario::value_in, py::arg("text"), py::arg("unit"));
   module.def(
+      "text_at",
+      [](const Given& given, const std::string& key) { return shared_family(given).text_at(key); },
+      py::arg("given"), py::arg("key"));
+  module.def(
       "has",
-      [](const Given& given, const std::string& key) { return shared_family(given).has(key); },
+      [](const Given& given, const std::string& key) {
+        return !shared_family(given).text_at(key).empty();
+      },
       py::arg("given"), py::arg("key"));
   module.def(
       "rig_limits",
@@ -170,6 +177,7 @@ Drawn drawn(const Given& given, const std::vector<std::string>& vary, std::optio
   sweep.samples = samples;
   sweep.seed = seed;
   const sweep::SweepPlan plan(family, sweep);
+  static_cast<void>(plan.check(family, 0, plan.cases(), [](double) { return true; }));
   all.count = plan.cases();
   std::vector<std::vector<double>> numbers(plan.axes().size());
   std::vector<double> row(plan.axes().size());
@@ -193,6 +201,24 @@ Drawn drawn(const Given& given, const std::vector<std::string>& vary, std::optio
   return all;
 }
 
+// The scenario without slips that are only noted, unless a key or a measure refers to them: they
+// change no measure, but take a rig out of the lanes of a sweep.
+Given without_notes(const Given& given, const std::vector<std::string>& keys,
+                    const std::vector<std::string>& measures) {
+  const std::string section = "events.slip";
+  const auto slip = shared_family(given).read({}).events.slip;
+  const bool is_noted = slip && slip->action == OnEvent::note && !slip->sliding;
+  const auto refers = [&](const std::string& key) { return key.starts_with(section); };
+  if (!is_noted || std::ranges::any_of(keys, refers)) return given;
+  Given without = changed(given, {{section, "null"}});
+  const Scenario scenario = shared_family(without).read({});
+  for (const std::string& name : measures) {
+    const auto measure = scenario::find_measure(name);
+    if (!measure || scenario::missing(*measure, scenario)) return given;
+  }
+  return without;
+}
+
 void define_drawn(py::module_& module) {
   py::class_<Drawn>(module, "Drawn")
       .def_readonly("count", &Drawn::count)
@@ -210,6 +236,8 @@ void define_drawn(py::module_& module) {
                                         all.keys.at(place).numbers.data());
            })
       .def("texts", [](const Drawn& all, std::size_t place) { return all.keys.at(place).texts; });
+  module.def("without_notes", &without_notes, py::arg("given"), py::arg("keys"),
+             py::arg("measures"));
   module.def("drawn", &drawn, py::arg("given"), py::arg("vary"), py::arg("samples"),
              py::arg("seed"));
 }

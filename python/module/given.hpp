@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scenario/family.hpp"
@@ -36,6 +37,15 @@ inline ScenarioFamily family_of(const Given& given) {
 inline const ScenarioFamily& shared_family(const Given& given) {
   if (!given.family) given.family = std::make_shared<const ScenarioFamily>(family_of(given));
   return *given.family;
+}
+
+// The scenario with more settings. Standard input is not read again.
+Given changed(const Given& given,
+              const std::vector<std::pair<std::string, std::string>>& settings) {
+  const Source& source = shared_family(given).source();
+  Given more{given.name, source.text, source.overrides, given.callable, {}};
+  for (const auto& [key, value] : settings) more.overrides.push_back(key + '=' + value);
+  return more;
 }
 
 }  // namespace bbsim::python

@@ -108,15 +108,6 @@ std::size_t place_of_column(const api::RunResult& made, const std::string& name)
   return static_cast<std::size_t>(found - made.columns.begin());
 }
 
-// The scenario with more settings. Standard input is not read again.
-Given changed(const Given& given,
-              const std::vector<std::pair<std::string, std::string>>& settings) {
-  const Source& source = shared_family(given).source();
-  Given more{given.name, source.text, source.overrides, given.callable, {}};
-  for (const auto& [key, value] : settings) more.overrides.push_back(key + '=' + value);
-  return more;
-}
-
 std::vector<std::string> measures_of(const std::optional<std::vector<std::string>>& asked,
                                      const Scenario& scenario) {
   if (asked) return *asked;

@@ -63,9 +63,10 @@ void check_windows(const CasesRequest& request, double end) {
   for (std::size_t i = 0; i < windows.begin.size(); ++i) {
     const double begin = windows.begin[i];
     const double to = windows.end.empty() ? end : windows.end[i];
-    if (begin >= 0 && (begin < to || !windows.end.empty())) continue;
+    if (windows.end.empty() ? begin >= 0 && begin < to : std::isfinite(begin)) continue;
     refuse(place("begin", i), number_text(begin),
-           "times from 0 s" + (windows.end.empty() ? " to below " + number_text(end) + " s" : ""));
+           windows.end.empty() ? "times from 0 s to below " + number_text(end) + " s"
+                               : "finite times");
   }
   for (std::size_t i = 0; i < windows.end.size(); ++i) {
     const double begin = windows.begin_of(i);

@@ -107,7 +107,7 @@ std::string_view ScenarioFamily::unit_of(const std::string& key,
   return found == numbers.end() ? "" : si_unit(found->second.dimension);
 }
 
-bool ScenarioFamily::has(const std::string& key) const {
+std::string ScenarioFamily::text_at(const std::string& key) const {
   const Node* node = state_->root;
   const std::string path = american(key);
   for (std::size_t start = 0; start <= path.size();) {
@@ -115,11 +115,11 @@ bool ScenarioFamily::has(const std::string& key) const {
     const std::string name = path.substr(start, dot - start);
     const auto found = std::ranges::find_if(
         node->entries, [&](const Entry& entry) { return american(entry.key) == name; });
-    if (found == node->entries.end()) return false;
+    if (found == node->entries.end()) return "";
     node = found->value;
     start = dot + 1;
   }
-  return node->kind != Node::Kind::null;
+  return node->kind == Node::Kind::null ? "" : flow_text(*node);
 }
 
 Sweep ScenarioFamily::read_sweep() const {

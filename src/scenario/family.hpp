@@ -60,8 +60,9 @@ class ScenarioFamily {
   [[nodiscard]] std::optional<double> number_at(const std::string& key,
                                                 const std::vector<Setting>& settings) const;
 
-  // Whether the text, with its overrides, has a value at the key, such as gimbal.motion.
-  [[nodiscard]] bool has(const std::string& key) const;
+  // The value at the key, such as gimbal.motion, in the text with its overrides: YAML in one line,
+  // without comments. Empty if there is none.
+  [[nodiscard]] std::string text_at(const std::string& key) const;
 
   // The file's `sweep` section. Throws InputError if it is invalid.
   [[nodiscard]] Sweep read_sweep() const;

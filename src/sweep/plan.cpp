@@ -377,7 +377,6 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, std::vector<ListedKey> keys, 
   std::vector<Setting> seen;
   for (ListedKey& one : keys) {
     check_apart(one.key, seen);
-    check_overrides(one.key, family.source());
     PlanAxis& axis = axes_.emplace_back();
     axis.key = std::move(one.key);
     axis.lead = axes_.size() - 1;

@@ -63,9 +63,9 @@ class SweepPlan {
     std::vector<double> numbers{};
     std::vector<std::string> texts{};
   };
-  // Lists cases. They may have errors, which appear when they are run. Throws InputError for keys
-  // that overlap each other or an override, and if no case can be read; beyond 64 cases, if none of
-  // 64 from all over the list can.
+  // Lists cases. They may have errors, which appear when they are run. They replace
+  // overrides. Throws InputError for keys that overlap each other, and if no case can be read;
+  // beyond 64 cases, if none of 64 from all over the list can.
   SweepPlan(const ScenarioFamily& family, std::vector<ListedKey> keys, std::size_t cases);
 
   [[nodiscard]] std::size_t cases() const { return cases_; }

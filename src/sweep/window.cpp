@@ -66,7 +66,7 @@ Scenario window_of(const Scenario& whole, double begin, double end) {
   Scenario window = from_time(whole, begin, end);
   window.time.step = std::min(whole.time.step, end - begin);
   if (commands_of(whole) == nullptr) return window;
-  const double before = std::min(begin, lead);
+  const double before = std::clamp(begin, 0.0, lead);
   Scenario run_up = from_time(whole, begin - before, begin);
   GimbalStart& start = run_up.gimbal.start;
   // A run-up from 0 starts like the scenario.

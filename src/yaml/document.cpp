@@ -85,4 +85,31 @@ const Node* parse_yaml(std::string_view text, int source, Nodes& nodes) {
   return builder.root();
 }
 
+std::string flow_text(const Node& node) {
+  std::string text;
+  const auto separate = [&text] { text += text.empty() ? "" : ", "; };
+  switch (node.kind) {
+    case Node::Kind::null:
+      return "null";
+    case Node::Kind::scalar: {
+      if (!node.quoted) return node.text;
+      for (const char c : node.text) text += c == '\'' ? std::string("''") : std::string(1, c);
+      return '\'' + text + '\'';
+    }
+    case Node::Kind::sequence:
+      for (const Node* const item : node.items) {
+        separate();
+        text += flow_text(*item);
+      }
+      return '[' + text + ']';
+    case Node::Kind::mapping:
+      for (const Entry& entry : node.entries) {
+        separate();
+        text += entry.key + ": " + flow_text(*entry.value);
+      }
+      return '{' + text + '}';
+  }
+  return text;
+}
+
 }  // namespace bbsim::yaml

@@ -38,6 +38,9 @@ struct Node {
   std::vector<Entry> entries;      // of a mapping, in the order of the text; a key may occur twice
 };
 
+// The node as YAML in one line, in flow style.
+[[nodiscard]] std::string flow_text(const Node& node);
+
 // Owns the nodes of a scenario and its overrides. Aliases share one node.
 using Nodes = std::deque<Node>;
 
