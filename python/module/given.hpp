@@ -40,8 +40,8 @@ inline const ScenarioFamily& shared_family(const Given& given) {
 }
 
 // The scenario with more settings. Standard input is not read again.
-Given changed(const Given& given,
-              const std::vector<std::pair<std::string, std::string>>& settings) {
+inline Given changed(const Given& given,
+                     const std::vector<std::pair<std::string, std::string>>& settings) {
   const Source& source = shared_family(given).source();
   Given more{given.name, source.text, source.overrides, given.callable, {}};
   for (const auto& [key, value] : settings) more.overrides.push_back(key + '=' + value);
