@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <string>
 
+#include "scenario/columns.hpp"
 #include "solve/hard_cases.hpp"
 #include "study/accuracy.hpp"
 
@@ -24,7 +25,8 @@ TEST_CASE("hard rigs keep the errors that the documents state") {
                Case{"backlash", 1e-11}, Case{"fast-servo", 1e-12});
   CAPTURE(name);
   const Scenario scene = hard_case(name);
-  const auto model = model::assemble(scene, false);
+  const auto model = model::assemble(
+      scene, scenario::integrals_for(scenario::columns_named(scene.output.columns)));
   const study::AccuracyStudy study = study::measure_accuracy(model, solve::OutputGrid(scene.time),
                                                              {Method::radau}, {scene.solver.rtol});
   const study::AccuracyPoint& point = study.points.front();
