@@ -19,7 +19,7 @@ RUN cmake --preset release -DBBSIM_TESTS=OFF && cmake --build --preset release &
 FROM debian:12-slim
 RUN --mount=type=bind,from=build,source=/bbsim/build/release/packages,target=/packages \
     apt-get update \
-    && apt-get install -y --no-install-recommends python3-matplotlib /packages/bbsim_*.deb /packages/python3-bbsim_*.deb \
+    && apt-get install -y --no-install-recommends python3-matplotlib python3-scipy /packages/bbsim_*.deb /packages/python3-bbsim_*.deb \
     && rm -rf /var/lib/apt/lists/*
 WORKDIR /work
 ENTRYPOINT ["bbsim"]

@@ -40,8 +40,6 @@ ball-and-plate rig of control courses, with the effects of real rigs: sampling,
 delay, noise, limits of servos, backlash and friction. It runs single scenarios
 and large sweeps, and takes controllers in any language.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME bbsim)
-# Loaded only on demand, by bbsim tune and design.
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS libnlopt0)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-bbsim, g++, python3, octave, bbsim-doc")
 set(CPACK_COMPONENT_DOCS_DESCRIPTION "The tutorials, how-to guides, references and explanations of bbsim, a simulator
 of the ball-and-plate rig of control courses, as Markdown.")
@@ -70,15 +68,16 @@ set(CPACK_COMPONENTS_ALL program docs library development)
 if(TARGET bbsim_python)
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python package of bbsim, a simulator of the ball-and-plate rig of control
 courses: runs, sweeps and linear models in the process, with numpy arrays,
-environments for learning, and pictures, also by `bbsim plot`.
+environments for learning, and the commands `bbsim plot`, `fit`, `tune` and
+`design`.
 It reads and writes HDF5 files if the package bbsim is installed.")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-bbsim)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
   execute_process(COMMAND ${PYTHON_EXECUTABLE} -c "import sys; v = sys.version_info; print(f'python3 (>= {v[0]}.{v[1]}~), python3 (<< {v[0]}.{v[1] + 1})', end='')"
                   OUTPUT_VARIABLE _python_version COMMAND_ERROR_IS_FATAL ANY)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${_python_version}, python3-numpy")
-  # matplotlib, for bbsim plot, is ten times as large as the rest.
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "bbsim ${_same}, python3-matplotlib")
+  # For bbsim plot; and for fit, tune and design. They are ten times as large as the rest.
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "bbsim ${_same}, python3-matplotlib, python3-scipy")
   # Files that Python compiles belong to the package.
   set(_scripts ${PROJECT_BINARY_DIR}/python/scripts)
   file(WRITE ${_scripts}/postinst "#!/bin/sh\nset -e\nif [ \"$1\" = configure ]; then py3compile -p python3-bbsim; fi\n")

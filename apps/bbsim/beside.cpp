@@ -64,7 +64,8 @@ ExitCode become(const std::string& command, std::vector<std::string> words) {
   throw InputError("bbsim " + command + " needs bbsim's Python package, which is not in " +
                    folders.front() +
                    "; install it (Debian: python3-bbsim) and apt install python3-numpy "
-                   "python3-matplotlib; bbsim replay draws without it");
+                   "python3-scipy python3-matplotlib" +
+                   (command == "plot" ? "; bbsim replay draws without it" : ""));
 }
 
 }  // namespace

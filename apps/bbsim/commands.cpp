@@ -102,41 +102,4 @@ void add_threads(Command& command, std::size_t& threads) {
       .takes_whole(1, api::most_threads);
 }
 
-void add_found_files(Command& command, FoundFiles& files, const std::string& values) {
-  command
-      .option("-o,--output", files.scenario,
-              "write the scenario with " + values + " in it to FILE.yaml, or - for standard output")
-      .takes("FILE");
-  command
-      .option("--json", files.json,
-              "write the results to FILE.json, or - for standard output, in place of the report")
-      .takes("FILE");
-}
-
-void FoundFiles::declare(file::Outputs& outputs) const {
-  if (!scenario.empty()) outputs.writes(scenario, "-o");
-  if (!json.empty()) outputs.writes(json, "--json");
-  if (!page.empty()) outputs.writes(page, "--report");
-  if (reports()) prints(outputs);
-}
-
-void FoundFiles::write(const ScenarioFamily& family, const std::string& scenario_text,
-                       const std::string& json_text, const std::string& report, bool quiet) const {
-  if (!scenario.empty()) {
-    file::write_file(scenario, scenario_text);
-    const auto folder_of = [](const std::string& file) {
-      return std::filesystem::absolute(file).lexically_normal().parent_path();
-    };
-    const bool moved = scenario != "-" && !family.inputs().empty() &&
-                       folder_of(scenario) != folder_of(family.source().file);
-    if (moved && !quiet) {
-      say("note: " + scenario +
-          " is not in the scenario's folder, from which its tables are read; move it there to run "
-          "it");
-    }
-  }
-  if (!json.empty()) file::write_file(json, json_text);
-  if (reports()) print(report);
-}
-
 }  // namespace bbsim::app

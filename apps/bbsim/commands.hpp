@@ -81,21 +81,6 @@ Option add_measures(Command& command, std::vector<std::string>& lists, const std
 
 void add_threads(Command& command, std::size_t& threads);
 
-// Outputs of commands that find values of keys: the scenario with these values, and JSON.
-struct FoundFiles {
-  std::string scenario, json, page{};  // -: standard output; empty: not written
-
-  // A report goes to standard output unless a file does.
-  [[nodiscard]] bool reports() const { return scenario != "-" && json != "-" && page != "-"; }
-  void declare(file::Outputs& outputs) const;
-  // Notes if the scenario goes to a folder other than its source's, because it names tables from
-  // the latter.
-  void write(const ScenarioFamily& family, const std::string& scenario_text,
-             const std::string& json_text, const std::string& report, bool quiet) const;
-};
-// Adds options -o and --json. `values` names what the scenario will contain, as in "the estimates".
-void add_found_files(Command& command, FoundFiles& files, const std::string& values);
-
 // Declares standard output as an output, so that it cannot overwrite an input.
 void prints(file::Outputs& outputs);
 
@@ -116,9 +101,6 @@ void add_sweep(Command& command, const Options& options);
 void add_merge(Command& command, const Options& options);
 void add_new(Command& command, const Options& options);
 void add_examples(Command& command, const Options& options);
-void add_fit(Command& command, const Options& options);
-void add_design(Command& command, const Options& options);
-void add_tune(Command& command, const Options& options);
 void add_sketch(Command& command, const Options& options);
 void add_replay(Command& command, const Options& options);
 

@@ -129,5 +129,17 @@ def main(name: str, words: Optional[List[str]] = None) -> int:
         return _INTERRUPTED
 
 
+def design() -> int:
+    return main("design")
+
+
+def fit() -> int:
+    return main("fit")
+
+
 def plot() -> int:
     return main("plot")
+
+
+def tune() -> int:
+    return main("tune")

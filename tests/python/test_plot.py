@@ -391,7 +391,7 @@ class Command(Case):
         made = subprocess.run([alone / "bbsim", "plot", "run.csv"], capture_output=True, text=True)
         self.assertEqual(made.returncode, 2)
         self.assertEqual(made.stderr.count("\n"), 1)
-        self.assertIn("apt install python3-numpy python3-matplotlib; bbsim replay draws without it", made.stderr)
+        self.assertIn("apt install python3-numpy python3-scipy python3-matplotlib; bbsim replay draws without it", made.stderr)
         (self.folder / "matplotlib.py").write_text("raise ImportError('No module named matplotlib')")
         (self.folder / "run.csv").write_text("t,x\n0,1\n1,2\n")
         made = self.bbsim("plot", "run.csv", code=2, env={**os.environ, "PYTHONPATH": str(self.folder)})
