@@ -215,19 +215,19 @@ void Sensitivity::add_headers(std::vector<file::ColumnHeader>& headers) const {
 
 Sensitivity::Runs Sensitivity::run_neighbors(Watch& watch) const {
   std::vector<std::string> names;
-  sweep::SweepPlan::Listed here;
+  std::vector<double> here;
   for (const SensitivityKey& key : keys_) {
     names.push_back(key.name);
-    here.numbers.push_back(key.value);
+    here.push_back(key.value);
   }
-  std::vector<sweep::SweepPlan::Listed> cases = {here};
+  std::vector<std::vector<double>> cases = {here};
   for (std::size_t k = 0; k < keys_.size(); ++k) {
     for (const int offset : offsets) {
       cases.push_back(here);
-      cases.back().numbers[k] += offset * keys_[k].step;
+      cases.back()[k] += offset * keys_[k].step;
     }
   }
-  const sweep::SweepPlan plan(*family_, nullptr, names, cases, solver_);
+  const sweep::SweepPlan plan(*family_, names, cases, solver_);
   sweep::SweepTask task{*family_, plan, measures_, columns_, grid_.size()};
   task.report = [&watch](std::string_view line) { watch.controller_says(line); };
 

@@ -15,10 +15,6 @@ std::string rounded(double value) {
   return {text, static_cast<std::size_t>(size)};
 }
 
-std::string unit_or_one(const std::string& unit) {
-  return unit.empty() ? "1" : unit;
-}
-
 std::string aligned(const std::vector<std::vector<std::string>>& lines) {
   std::vector<std::size_t> widths(lines[0].size());
   for (const auto& line : lines) {

@@ -12,9 +12,6 @@ namespace bbsim::record {
 // Rounds to three digits, which suffice to judge an error.
 [[nodiscard]] std::string rounded(double value);
 
-// Unit for a table's column; 1 for a number without a unit.
-[[nodiscard]] std::string unit_or_one(const std::string& unit);
-
 // Aligns lines of equal length: the first field to the left, the others to the right.
 [[nodiscard]] std::string aligned(const std::vector<std::vector<std::string>>& lines);
 

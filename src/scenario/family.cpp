@@ -75,13 +75,6 @@ void ScenarioFamily::give_controller(ControllerFactory factory) {
   state_->controller = std::move(factory);
 }
 
-void ScenarioFamily::give_table(const std::string& file, file::TableData table) {
-  const auto path = std::filesystem::path(state_->source.file).parent_path() / file;
-  state_->tables->by_file.insert_or_assign(
-      path.string(),
-      file::InputTable{file, std::make_shared<const file::TableData>(std::move(table))});
-}
-
 Scenario ScenarioFamily::read(const std::vector<Setting>& settings) const {
   return state_->read(settings, nullptr);
 }

@@ -34,10 +34,6 @@ class ScenarioFamily {
   // on. Must not run while another thread reads.
   void give_controller(ControllerFactory factory);
 
-  // Replaces the table file that scenarios name `file` with this table, for scenarios read from now
-  // on. Must not run while another thread reads.
-  void give_table(const std::string& file, file::TableData table);
-
   // A value for the key at a path, in YAML as after --set.
   struct Setting {
     std::string key, value;

@@ -339,35 +339,15 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, const Sweep& sweep) : combine
   relate(family);
 }
 
-SweepPlan::SweepPlan(const ScenarioFamily& family, const SweepPlan* of,
-                     const std::vector<std::string>& keys, const std::vector<Listed>& cases,
-                     std::vector<Setting> always)
+SweepPlan::SweepPlan(const ScenarioFamily& family, const std::vector<std::string>& keys,
+                     const std::vector<std::vector<double>>& cases, std::vector<Setting> always)
     : always_(std::move(always)), combine_(Combine::zip), cases_(cases.size()) {
-  if (of != nullptr) {
-    axes_ = of->axes_;
-    std::vector<double> values(axes_.size());
-    for (PlanAxis& axis : axes_) axis.kind = Way::list, axis.numbers.clear(), axis.texts.clear();
-    for (const Listed& one : cases) {
-      of->values(one.of, values.data());
-      for (std::size_t a = 0; a < axes_.size(); ++a) {
-        const PlanAxis& known = of->axes_[a];
-        if (known.numeric) {
-          axes_[a].numbers.push_back(values[a]);
-        } else {
-          axes_[a].texts.push_back(value_text(known, values[a]));
-        }
-      }
-    }
-  }
   for (std::size_t k = 0; k < keys.size(); ++k) {
     PlanAxis& axis = axes_.emplace_back();
     axis.key = keys[k];
-    for (const Listed& one : cases) axis.numbers.push_back(one.numbers[k]);
-  }
-  for (std::size_t a = 0; a < axes_.size(); ++a) {
-    axes_[a].lead = a;
-    axes_[a].factor = 1;
-    axes_[a].count = cases_;
+    axis.lead = k;
+    axis.count = cases_;
+    for (const std::vector<double>& numbers : cases) axis.numbers.push_back(numbers[k]);
   }
   relate(family);
 }

@@ -46,15 +46,11 @@ class SweepPlan {
   // which a value is refused, as check() does.
   SweepPlan(const ScenarioFamily& family, const Sweep& sweep);
 
-  // A case of another plan, and numbers (SI) of further keys.
-  struct Listed {
-    std::size_t of = 0;
-    std::vector<double> numbers;
-  };
-  // Lists cases of `of`, or of the scenario itself if it is null. All have the settings `always`.
-  // Reads only the first case: errors in others appear when they are run. Throws InputError.
-  SweepPlan(const ScenarioFamily& family, const SweepPlan* of, const std::vector<std::string>& keys,
-            const std::vector<Listed>& cases, std::vector<ScenarioFamily::Setting> always = {});
+  // Lists cases, each with a number (SI) for each key. All have the settings `always`. Reads only
+  // the first case: errors in others appear when they are run. Throws InputError.
+  SweepPlan(const ScenarioFamily& family, const std::vector<std::string>& keys,
+            const std::vector<std::vector<double>>& cases,
+            std::vector<ScenarioFamily::Setting> always);
 
   // A key with a value for each case: numbers (SI), or texts in YAML. An empty text leaves the
   // scenario's own value.

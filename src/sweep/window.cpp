@@ -29,13 +29,6 @@ void require_tables(const Scenario& whole, double begin, double end) {
 
 }  // namespace
 
-Start start_of(const Scenario& scenario) {
-  const Ball& ball = scenario.ball;
-  const GimbalStart& gimbal = scenario.gimbal.start;
-  return {ball.position[0], ball.position[1], ball.velocity[0],  ball.velocity[1], gimbal.phi,
-          gimbal.theta,     gimbal.phi_rate,  gimbal.theta_rate, ball.spin};
-}
-
 void set_start(Scenario& scenario, const Start& start) {
   scenario.ball.position = {start[0], start[1]};
   scenario.ball.velocity = {start[2], start[3]};

@@ -19,7 +19,6 @@ using Start = std::array<double, 9>;
 inline constexpr std::array<std::string_view, 9> start_names = {
     "x", "y", "vx", "vy", "phi", "theta", "phi_rate", "theta_rate", "spin"};
 
-[[nodiscard]] Start start_of(const Scenario& scenario);
 void set_start(Scenario& scenario, const Start& start);
 
 // Whether the gimbal's state at a window's start is free: no given motion or commands set it.

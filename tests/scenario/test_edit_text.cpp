@@ -113,22 +113,6 @@ TEST_CASE("an offset in its table's unit is a number of the scenario") {
   CHECK(*offset == Approx(0.034906585));
 }
 
-TEST_CASE("a family finds a table that it got") {
-  ScenarioFamily family(Source{"nowhere/scene.yaml",
-                               "ball: {radius: 1 cm}\n"
-                               "gimbal: {motion: {theta: 0, phi: {table: {file: it.csv, time: t, "
-                               "value: v}}}}\n"
-                               "time: {end: 3, step: 1}\n",
-                               {}});
-  CHECK_THROWS_AS(family.read({}), InputError);
-  for (const double last : {4.0, 5.0}) {
-    family.give_table("it.csv", {{"t", "v"}, {{0, 1, 2, 3}, {1, 2, 3, last}}});
-    const Scenario scenario = family.read({});
-    CHECK(std::get<Table>(scenario.gimbal.motion->phi.front()).values.back() == last);
-  }
-  CHECK(family.inputs().size() == 1);
-}
-
 TEST_CASE("the unit, range and default of a number") {
   using scenario::number_key;
   const auto factor = number_key("ball.inertia_factor");
