@@ -44,6 +44,9 @@ class Build(build_ext):
                  build / "lib/bbsim/libbbsim_hdf5.so"]
         copies = [shutil.copy2(file, into) for file in built]
         subprocess.run(["strip", "--strip-unneeded", *copies], check=True)
+        (into / "examples").mkdir(exist_ok=True)
+        for file in [*(ROOT / "configs").glob("*.yaml"), *(ROOT / "configs").glob("*.csv")]:
+            shutil.copy2(file, into / "examples")
         # The module looks for the HDF5 module beside itself.
         subprocess.run([ROOT / "scripts/bundle", into / "libraries", *copies], check=True)
 

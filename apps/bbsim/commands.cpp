@@ -9,7 +9,6 @@
 #include "api/run.hpp"
 #include "api/sweep.hpp"
 #include "file/atomic_file.hpp"
-#include "file/format.hpp"
 #include "scenario/reader.hpp"
 #include "terminal.hpp"
 
@@ -79,11 +78,6 @@ Scenario read(const ScenarioArguments& arguments, const Options& options, file::
 
 void prints(file::Outputs& outputs) {
   outputs.writes("-", "what is printed");
-}
-
-bool is_scenario(const std::string& file) {
-  const std::string ending = file::lower_ending(file);
-  return ending == ".yaml" || ending == ".yml";
 }
 
 void tell(const api::RunResult& made, bool quiet) {

@@ -76,9 +76,6 @@ Option add_measures(Command& command, std::vector<std::string>& lists, const std
                             file::Outputs& outputs,
                             std::vector<file::InputTable>* inputs = nullptr);
 
-// Whether the file's ending is that of a scenario.
-[[nodiscard]] bool is_scenario(const std::string& file);
-
 void add_threads(Command& command, std::size_t& threads);
 
 // Declares standard output as an output, so that it cannot overwrite an input.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "api/measure.hpp"
+#include "api/replay.hpp"
 #include "commands.hpp"
 #include "progress.hpp"
 #include "terminal.hpp"
@@ -24,7 +25,7 @@ ExitCode compare(const CompareArguments& arguments, const Options& all) {
   file::Outputs outputs;
   outputs.reads(request.a, "A");
   say_if_waiting(request.a, "a CSV", all.quiet);
-  if (is_scenario(request.b)) {
+  if (api::is_scenario(request.b)) {
     request.run = read({request.b, arguments.overrides}, all, outputs);
   } else if (!arguments.overrides.empty()) {
     throw InputError("--set: allowed with a scenario as B, in which it sets a key");

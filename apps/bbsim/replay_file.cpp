@@ -3,20 +3,12 @@
 
 #include "replay_file.hpp"
 
-#include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <optional>
-#include <utility>
 
-#include "api/picture.hpp"
-#include "api/version.hpp"
 #include "base/error.hpp"
 #include "file/format.hpp"
 #include "removed.hpp"
 #include "replay/page.hpp"
-#include "replay/sources.hpp"
-#include "scenario/reader.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -64,29 +56,6 @@ void ReplayFile::write(const replay::Scene& scene, bool quiet) {
   file_.commit();
   if (quiet || target_ == "-") return;
   say(target_ + ": " + content_text(scene) + ", " + size_text(content.size()));
-}
-
-replay::Run run_of(results::Result result, const std::string& name) {
-  const std::optional<Scenario> scenario = result.scenario;
-  const std::string title = result.title;
-  replay::Run run = replay::run_of_result(std::move(result), name);
-  if (!scenario) return run;
-  const Source& source = scenario->source;
-  try {
-    api::describe(run, parse_scenario(source.text, source.file, source.overrides));
-  } catch (const InputError&) {  // its tables are gone, for example, or another version wrote it
-    replay::describe_sight(run, *scenario);
-  }
-  if (!title.empty()) run.title = title;
-  return run;
-}
-
-replay::Scene scene_of(replay::Run run) {
-  replay::Scene scene;
-  scene.version = api::version();
-  scene.title = run.title.empty() ? run.name : run.title;
-  scene.runs.push_back(std::move(run));
-  return scene;
 }
 
 }  // namespace bbsim::app

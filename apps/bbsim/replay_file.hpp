@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Replay files, and the conversion of runs to them, for `replay` and `run --replay`.
+// Replay files, for `replay` and `run --replay`.
 #pragma once
 
 #include <string>
@@ -9,7 +9,6 @@
 #include "file/atomic_file.hpp"
 #include "file/outputs.hpp"
 #include "replay/scene.hpp"
-#include "results/result.hpp"
 
 namespace bbsim::app {
 
@@ -33,12 +32,5 @@ class ReplayFile {
   std::string template_;
   file::AtomicFile file_;
 };
-
-// Run of a result, described by its scenario: fully if the scenario and its tables can still be
-// read, else by the parts that can.
-[[nodiscard]] replay::Run run_of(results::Result result, const std::string& name);
-
-// Scene of one run, titled after the run or its name.
-[[nodiscard]] replay::Scene scene_of(replay::Run run);
 
 }  // namespace bbsim::app

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/replay.hpp"
 #include "base/error.hpp"
 #include "base/short_number.hpp"
 #include "commands.hpp"
@@ -82,7 +83,7 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
     say(written_text(made));
   }
   if (replay && made.summary.rows > 0) {
-    replay->write(scene_of(std::move(*made.pictured)), options.quiet);
+    replay->write(api::scene_of(std::move(*made.pictured)), options.quiet);
   }
   return made.code;
 }

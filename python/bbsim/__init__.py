@@ -21,13 +21,15 @@ from . import _bbsim
 from ._bbsim import Sample, __version__
 from ._environments import Env, VectorEnv
 from ._errors import ControllerError, Error, InputError, OutputError, Problem
+from ._pages import Compared, Page, compare, examples, replay
 from ._result import Linearization, OpenLoop, Result
 from ._scenario import Scenario, Settings, given, specification
 from ._simulate import Simulated, simulate
 
 __all__ = [
-    "ControllerError", "Env", "Error", "InputError", "Linearization", "OpenLoop", "OutputError", "Problem",
-    "Result", "Sample", "Simulated", "VectorEnv", "__version__", "check", "linearize", "plot", "run", "simulate", "sweep",
+    "Compared", "ControllerError", "Env", "Error", "InputError", "Linearization", "OpenLoop", "OutputError", "Page",
+    "Problem", "Result", "Sample", "Simulated", "VectorEnv", "__version__", "check", "compare", "examples", "linearize",
+    "plot", "replay", "run", "simulate", "sweep",
 ]  # fmt: skip
 
 if TYPE_CHECKING:

@@ -259,3 +259,27 @@ def measure_name(given: Given, option: str, name: str) -> Tuple[str, str]: ...
 def filled_page(template: str, title: str, json: str) -> str: ...
 def short_number(value: float) -> str: ...
 def rounded(value: float, digits: int) -> str: ...
+
+class LogOptions:
+    def __init__(self, maps: Sequence[str], header: Sequence[str], period: str, time_offset: str) -> None: ...
+
+class Page:
+    html: str
+    reason: str
+    notes: List[str]
+
+def replay(
+    shown: Sequence[Any], logs: Sequence[str], log: LogOptions, summary: str, scenario: str,
+    overrides: Sequence[str], title: str,
+) -> Page: ...  # fmt: skip
+
+class Compared:
+    alike: bool
+    reason: str
+    text: str
+    warnings: List[str]
+
+def compare(
+    a: str, b: str, overrides: Sequence[str], rtol: Optional[float], atol: Optional[float],
+    columns: Sequence[str], log: LogOptions,
+) -> Compared: ...  # fmt: skip

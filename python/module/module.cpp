@@ -32,6 +32,7 @@
 #include "base/error.hpp"
 #include "callable.hpp"
 #include "file/outputs.hpp"
+#include "pages.hpp"
 #include "results.hpp"
 #include "scenario/family.hpp"
 #include "scenario/measures.hpp"
@@ -537,6 +538,7 @@ PYBIND11_MODULE(_bbsim, module) {
   define_environments(module);
   define_results(module);
   define_analysis(module);
+  define_pages(module);
   module.def("check", &check, py::arg("given"));
   module.def("number_at", &number_at, py::arg("given"), py::arg("key"), py::arg("value"));
   module.def("accuracy", &accuracy, py::arg("given"), py::arg("rtols"));

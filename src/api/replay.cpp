@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "api/replay.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "api/inputs.hpp"
+#include "api/picture.hpp"
+#include "api/place_log.hpp"
+#include "api/version.hpp"
+#include "base/error.hpp"
+#include "file/format.hpp"
+#include "replay/log.hpp"
+#include "replay/sources.hpp"
+#include "scenario/reader.hpp"
+
+namespace bbsim::api {
+namespace {
+
+// One of the files after reading; a scenario is run later.
+struct Source {
+  std::string name;
+  std::optional<Scenario> scenario{};
+  std::optional<results::Result> result{};
+  std::optional<replay::Run> log{};
+
+  [[nodiscard]] bool is_sweep() const { return result && result->is_sweep(); }
+};
+
+// Distinguishes files of the same name by their folders, and repeated files by a number.
+std::vector<std::string> names_of(const std::vector<std::string>& files) {
+  std::vector<std::string> names;
+  for (const std::string& file : files) {
+    const auto alike = [&](const std::string& other) {
+      return other != file && short_name(other) == short_name(file);
+    };
+    std::string name = std::ranges::any_of(files, alike) ? file : short_name(file);
+    const std::string plain = name;
+    for (int number = 2; std::ranges::find(names, name) != names.end(); ++number) {
+      name = plain + " (" + std::to_string(number) + ")";
+    }
+    names.push_back(name);
+  }
+  return names;
+}
+
+void check_request(const ReplayRequest& request) {
+  if (request.shown.empty() && request.logs.empty()) {
+    throw InputError("FILES: missing; allowed: results, scenarios, or --data LOG.csv");
+  }
+  const auto scenarios =
+      std::ranges::count_if(request.shown, is_scenario, &ReplayRequest::Shown::file);
+  const auto results = static_cast<std::ptrdiff_t>(request.shown.size()) - scenarios;
+  if (!request.beside.summary.empty() && results != 1) {
+    throw InputError("--summary: found " + std::to_string(results) +
+                     " results; allowed: one run, to which the summary belongs");
+  }
+  if (!request.beside.scenario.empty() && results == 0) {
+    throw InputError("--scenario: allowed with a result, whose scenario it gives");
+  }
+  if (!request.beside.overrides.empty() && scenarios == 0 && request.beside.scenario.empty()) {
+    throw InputError("--set: allowed with a scenario, in which it sets a key");
+  }
+  const std::size_t maps = request.log.maps.size(), logs = request.logs.size();
+  if (maps > 1 && logs > 1 && maps != logs) {
+    throw InputError("--map: found " + std::to_string(maps) + " for " + std::to_string(logs) +
+                     " of --data; allowed: one for all, or one for each in their order");
+  }
+  if (maps > 0 && logs == 0) throw InputError("--map: allowed with --data, whose columns it names");
+  if (request.log.given() && logs == 0) {
+    throw InputError("--header, --period, --time-offset: allowed with --data, a log");
+  }
+  if (request.log.aligns() && request.shown.empty()) {
+    throw InputError("--time-offset: found auto, without a run to align the log with");
+  }
+}
+
+void note_all(const std::vector<std::string>& notes, Watch& watch) {
+  for (const std::string& note : notes) watch.note(note);
+}
+
+Source read_log(const ReplayRequest& request, std::size_t log, const std::string& name,
+                Watch& watch) {
+  results::LogChoice choice = request.log;
+  if (request.logs.size() > 1 && choice.maps.size() > 1) choice.maps = {choice.maps[log]};
+  std::vector<std::string> notes;
+  results::Result read = results::read_csv_columns(request.logs[log], choice.header, notes);
+  Source source{name};
+  source.log = replay::run_of_log(std::move(read), choice, name, notes);
+  note_all(notes, watch);
+  return source;
+}
+
+Source read_shown(const ReplayRequest& request, const ReplayRequest::Shown& shown,
+                  const std::string& name, file::Outputs& outputs, Watch& watch) {
+  Source source{name};
+  if (shown.result) {
+    source.result = shown.result;
+  } else if (is_scenario(shown.file)) {
+    source.scenario = read_scenario(shown.file, request.beside.overrides);
+    reads_scenario(outputs, shown.file, *source.scenario);
+  } else {
+    outputs.reads(shown.file, "what is shown");
+    std::vector<std::string> notes;
+    source.result = results::read_result(shown.file, request.beside, {}, &notes);
+    note_all(notes, watch);
+    reads_with_result(outputs, *source.result);
+  }
+  return source;
+}
+
+// Reads all files, and reports all their faults together.
+std::vector<Source> read_all(const ReplayRequest& request, file::Outputs& outputs, Watch& watch) {
+  std::vector<std::string> files;
+  for (const ReplayRequest::Shown& shown : request.shown) files.push_back(shown.file);
+  files.insert(files.end(), request.logs.begin(), request.logs.end());
+  const std::vector<std::string> names = names_of(files);
+  std::vector<Source> sources;
+  std::vector<Problem> problems;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::size_t count = request.shown.size();
+    if (request.before_reading) request.before_reading(files[i]);
+    try {
+      if (i < count) {
+        sources.push_back(read_shown(request, request.shown[i], names[i], outputs, watch));
+      } else {
+        outputs.reads(files[i], "--data");
+        sources.push_back(read_log(request, i - count, names[i], watch));
+      }
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) throw InputError(problems);
+  return sources;
+}
+
+std::string title_of(const replay::Scene& scene) {
+  for (const replay::Run& run : scene.runs) {
+    if (!run.title.empty()) return run.title;
+  }
+  for (const replay::Sweep& sweep : scene.sweeps) {
+    if (!sweep.title.empty()) return sweep.title;
+  }
+  return scene.runs.empty() ? scene.sweeps.front().name : scene.runs.front().name;
+}
+
+}  // namespace
+
+bool is_scenario(const std::string& file) {
+  const std::string ending = file::lower_ending(file);
+  return ending == ".yaml" || ending == ".yml";
+}
+
+ReplayMade replay(const ReplayRequest& request, file::Outputs& outputs, Watch& watch) {
+  check_request(request);
+  std::vector<Source> sources = read_all(request, outputs, watch);
+  const auto sweeps = static_cast<std::size_t>(std::ranges::count_if(sources, &Source::is_sweep));
+  if (sweeps > 0 && sweeps < sources.size()) {
+    throw InputError(std::ranges::find_if(sources, &Source::is_sweep)->name +
+                     ": is a sweep, among runs; allowed: a page of runs, or one of sweeps");
+  }
+  for (const Source& source : sources) {
+    if (source.result && !source.result->left_out.empty()) watch.note(source.result->left_out);
+  }
+  if (request.before_running) request.before_running();
+  ReplayMade made;
+  made.scene.version = version();
+  for (Source& source : sources) {
+    if (source.scenario) {
+      RunRequest run;
+      run.scenario = std::move(*source.scenario);
+      run.pictured = true;
+      made.runs.push_back(api::run(run, watch));
+      RunResult& result = made.runs.back();
+      if (made.code == ExitCode::done || result.code == ExitCode::interrupted) {
+        made.code = result.code;
+      }
+      result.pictured->name = source.name;
+      made.scene.runs.push_back(std::move(*result.pictured));
+      if (made.code == ExitCode::interrupted) break;
+    } else if (source.log) {
+      made.scene.runs.push_back(std::move(*source.log));
+      if (!request.shown.empty()) {
+        note_all(place_log(made.scene, request.log.aligns()), watch);
+      }
+    } else if (source.is_sweep()) {
+      made.scene.sweeps.push_back(replay::sweep_of_result(std::move(*source.result), source.name));
+    } else {
+      made.scene.runs.push_back(run_of(std::move(*source.result), source.name));
+    }
+  }
+  made.scene.title = request.title.empty() ? title_of(made.scene) : request.title;
+  return made;
+}
+
+replay::Run run_of(results::Result result, const std::string& name) {
+  const std::optional<Scenario> scenario = result.scenario;
+  const std::string title = result.title;
+  replay::Run run = replay::run_of_result(std::move(result), name);
+  if (!scenario) return run;
+  const bbsim::Source& source = scenario->source;
+  try {
+    describe(run, parse_scenario(source.text, source.file, source.overrides));
+  } catch (const InputError&) {  // its tables are gone, for example, or another version wrote it
+    replay::describe_sight(run, *scenario);
+  }
+  if (!title.empty()) run.title = title;
+  return run;
+}
+
+replay::Scene scene_of(replay::Run run) {
+  replay::Scene scene;
+  scene.version = version();
+  scene.title = run.title.empty() ? run.name : run.title;
+  scene.runs.push_back(std::move(run));
+  return scene;
+}
+
+}  // namespace bbsim::api
