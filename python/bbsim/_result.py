@@ -21,6 +21,22 @@ if TYPE_CHECKING:
 Array = "np.ndarray[Any, np.dtype[np.float64]]"
 
 
+class _Pickled:
+    """What a result asks of ``_bbsim.Run``, after pickling."""
+
+    def __init__(self, run: _bbsim.Run) -> None:
+        names = ("columns", "units", "unmet", "measures", "warnings", "title", "status", "reason")
+        self.__dict__.update((name, getattr(run, name)) for name in names)
+        self._arrays = {name: np.array(run.column(name)) for name in run.columns}
+        self._summary = run.summary()
+
+    def column(self, name: str) -> Array:
+        return self._arrays[name]
+
+    def summary(self) -> str:
+        return self._summary
+
+
 class Result:
     """The rows of a run, by column, and how the run ended.
 
@@ -86,6 +102,9 @@ class Result:
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.columns)
+
+    def __reduce__(self) -> "tuple[type, tuple[Any]]":
+        return Result, (self._run if isinstance(self._run, _Pickled) else _Pickled(self._run),)
 
     def __len__(self) -> int:
         """The number of rows."""

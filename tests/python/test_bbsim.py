@@ -9,6 +9,7 @@ import io
 import json
 import math
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -224,6 +225,51 @@ class Runs(unittest.TestCase):
         for thread in threads:
             thread.join()
         self.assertEqual(found, [True] * 8)
+
+
+class Pages(unittest.TestCase):
+    def test_a_result_can_be_pickled(self):
+        made = bbsim.run(CONFIGS / "fig2a.yaml", measures="max_tilt")
+        again = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(made))))
+        for name in made.columns:
+            np.testing.assert_array_equal(again[name], made[name])
+        for name in ("units", "summary", "measures", "status", "reason", "warnings", "unmet"):
+            self.assertEqual(getattr(again, name), getattr(made, name))
+
+    def test_comparisons_are_those_of_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            a, b = (Path(folder) / name for name in ("a.csv", "b.csv"))
+            bbsim.run(CONFIGS / "fig2a.yaml", output=a)
+            bbsim.run(CONFIGS / "fig2a.yaml", set={"ball.radius": "2 cm"}, output=b)
+            self.assertTrue(bbsim.compare(a, a))
+            made = bbsim.compare(a, b, columns=["x", "phi"])
+            self.assertFalse(made.alike)
+            told = subprocess.run([PROGRAM, "compare", a, b, "--columns", "x,phi"], capture_output=True, text=True)
+            self.assertEqual(made.text, told.stdout)
+            log = bbsim.compare(a, CONFIGS / "fig2a.yaml", atol=1e-9, set={"time.end": 21})
+            self.assertTrue(log.alike, log.text)
+            with self.assertRaises(bbsim.InputError):
+                bbsim.compare(a, b, set={"ball.radius": 1})
+
+    def test_a_page_is_that_of_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file, mine = Path(folder) / "program.html", Path(folder) / "mine.html"
+            program("replay", CONFIGS / "fig2a.yaml", "-q", "-o", file)
+            page = bbsim.replay(CONFIGS / "fig2a.yaml", output=mine)
+            self.assertEqual(page.html, mine.read_text())
+            # The rows and the scenario are the same; only the time that the run took differs.
+            self.assertEqual(len(page.html), len(file.read_text()))
+            self.assertIn("<iframe", page._repr_html_())
+            result = bbsim.run(CONFIGS / "fig2a.yaml")
+            self.assertIn("Fig. 2(a)", bbsim.replay(result, title="Fig. 2(a) again").html)
+            with self.assertRaises(bbsim.InputError) as caught:
+                bbsim.replay(CONFIGS / "none.yaml", CONFIGS / "neither.yaml")
+            self.assertEqual(len(caught.exception.problems), 2)
+
+    def test_examples_run(self):
+        files = bbsim.examples()
+        self.assertIn("rig", files)
+        self.assertEqual(bbsim.run(files["recorded"]).status, "done")
 
 
 class Callables(unittest.TestCase):
@@ -999,8 +1045,6 @@ class Simulations(unittest.TestCase):
                 np.testing.assert_allclose(made[name][i], run[name][[0, 15, 15, 97, 100]], atol=1e-6)
         with self.assertRaises(KeyError):
             made["y"]
-        import pickle
-
         again = pickle.loads(pickle.dumps(made))
         np.testing.assert_array_equal(again["x"], made["x"])
 
@@ -1141,8 +1185,6 @@ class Faults(unittest.TestCase):
             bbsim.run({**LOOP, "ball": object()})
 
     def test_it_can_be_pickled(self):
-        import pickle
-
         try:
             bbsim.run(LOOP, {"ball.radius": -1})
         except bbsim.InputError as error:
