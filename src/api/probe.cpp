@@ -33,7 +33,7 @@ namespace bbsim::api {
 namespace {
 
 // Most controllers answer at the first sample; a sketch that filters or waits takes longer.
-constexpr std::size_t few_samples = 25, most_samples = 20000;
+constexpr std::size_t few_samples = 25, most_probed = 20000;
 using Commands = std::vector<Pair>;
 
 constexpr std::array<const char*, 2> coordinates{"x", "y"}, angles{"phi", "theta"};
@@ -226,7 +226,7 @@ std::size_t samples_to_act(const Scenario& scenario, const Bench& bench,
   if (controller.sensor) time += controller.sensor->delay + controller.sensor->period.value_or(0);
   return static_cast<std::size_t>(std::clamp(std::ceil(time / bench.period()),
                                              static_cast<double>(few_samples),
-                                             static_cast<double>(most_samples)));
+                                             static_cast<double>(most_probed)));
 }
 
 // Whether the scene has the ball move along an axis, by its start or its reference.

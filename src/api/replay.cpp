@@ -203,7 +203,7 @@ replay::Run run_of(results::Result result, const std::string& name) {
   if (!scenario) return run;
   const bbsim::Source& source = scenario->source;
   try {
-    describe(run, parse_scenario(source.text, source.file, source.overrides));
+    api::describe(run, parse_scenario(source.text, source.file, source.overrides));
   } catch (const InputError&) {  // its tables are gone, for example, or another version wrote it
     replay::describe_sight(run, *scenario);
   }
