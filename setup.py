@@ -47,7 +47,10 @@ class Build(build_ext):
         (into / "examples").mkdir(exist_ok=True)
         for file in [*(ROOT / "configs").glob("*.yaml"), *(ROOT / "configs").glob("*.csv")]:
             shutil.copy2(file, into / "examples")
-        # The module looks for the HDF5 module beside itself.
+        # The module looks for the HDF5 module beside itself, and for templates of pages in share/bbsim.
+        (into / "share/bbsim").mkdir(parents=True, exist_ok=True)
+        for file in (build / "share/bbsim").glob("*.html"):
+            shutil.copy2(file, into / "share/bbsim")
         subprocess.run([ROOT / "scripts/bundle", into / "libraries", *copies], check=True)
 
 

@@ -13,6 +13,8 @@
 #include <system_error>
 #include <vector>
 
+#include "file/share_folders.hpp"
+
 namespace bbsim::file {
 namespace {
 
@@ -21,17 +23,6 @@ constexpr const char* way_out = "; write or read .csv instead, ";
 
 ForkMutex opening, turns;  // a forked process must not wait for a thread that it does not have
 const Hdf5Module* the_module = nullptr;
-
-// The path of the shared library that contains this code; empty if the program contains it.
-std::filesystem::path own_library() {
-  Dl_info found{};
-  if (dladdr(&module_name, &found) == 0 || found.dli_fname == nullptr) return {};
-  const std::filesystem::path file(found.dli_fname);  // for a program: the name it was called by
-  if (file.filename().string().find(".so") == std::string::npos) return {};
-  std::error_code error;
-  std::filesystem::path whole = std::filesystem::canonical(file, error);
-  return error ? std::filesystem::path() : whole;
-}
 
 // Covers a library in PREFIX/lib and a Python module in PREFIX/lib/python3/dist-packages/bbsim.
 std::vector<std::string> folders_above(const std::filesystem::path& library) {

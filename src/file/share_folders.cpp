@@ -3,6 +3,8 @@
 
 #include "file/share_folders.hpp"
 
+#include <dlfcn.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
@@ -24,11 +26,29 @@ std::vector<std::string> folders_of_prefix(const char* name, const char* install
 
 }  // namespace
 
+std::filesystem::path own_library() {
+  static constexpr char here = 0;
+  Dl_info found{};
+  if (dladdr(&here, &found) == 0 || found.dli_fname == nullptr) return {};
+  const std::filesystem::path file(found.dli_fname);  // for a program: the name it was called by
+  if (file.filename().string().find(".so") == std::string::npos) return {};
+  std::error_code error;
+  std::filesystem::path whole = std::filesystem::canonical(file, error);
+  return error ? std::filesystem::path() : whole;
+}
+
 std::vector<std::string> share_folders() {
   if (const char* folder = std::getenv("BBSIM_SHARE_PATH"); folder != nullptr && *folder != '\0') {
     return {folder};
   }
-  return folders_of_prefix("share", BBSIM_INSTALL_DATADIR);
+  std::vector<std::string> folders = folders_of_prefix("share", BBSIM_INSTALL_DATADIR);
+  // A Python module in PREFIX/lib/python3/dist-packages/bbsim, or in a wheel, which has its own.
+  std::filesystem::path folder = own_library().parent_path();
+  for (int up = 0; up < 6 && folder != folder.root_path(); ++up) {
+    folders.push_back(folder / "share" / "bbsim");
+    folder = folder.parent_path();
+  }
+  return folders;
 }
 
 std::vector<std::string> libexec_folders() {

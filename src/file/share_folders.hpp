@@ -4,10 +4,14 @@
 // Finds the files that are installed with the program.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace bbsim::file {
+
+// The path of the shared library that contains this code; empty if the program contains it.
+[[nodiscard]] std::filesystem::path own_library();
 
 // The candidates for share/bbsim, in order; BBSIM_SHARE_PATH alone, if it is set.
 [[nodiscard]] std::vector<std::string> share_folders();
