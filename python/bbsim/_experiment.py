@@ -1,0 +1,161 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the log of a motion tells about keys of a scenario, and how much of the rig's limits the motion uses."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+from typing import Any, Dict, List, NamedTuple, Tuple
+
+import numpy as np
+
+from . import _bbsim
+from ._free_keys import FreeKey
+from ._progress import Progress
+from ._simulate import Array, simulate
+
+_STEP = 1e-3  # of keys' numbers u and of starts (SI), for differences
+_ROUGH = ("sampling.resolution", "sampling.jitter", "sensor.resolution", "sensor.noise", "sensor.dropout", "sensor.seed")
+_CHANGES = {"scale": 1.0, "offset": 0.0, "delay": 0.0}  # of a table
+
+
+class Motions(NamedTuple):
+    """Motions, and their runs: each array has an entry for each motion."""
+
+    values: Array  # of each axis, at even times; or its amplitudes of cosines, then of sines
+    waves: Array  # the frequencies of these (rad/s): (motion, axis, 4), or (motion, 0)
+    start: Array  # of the ball: x, y, vx, vy
+    shares: Array = np.empty(0)  # of the limits: (motion, limit, time)
+    states: Array = np.empty(0)  # at the begins of windows: (motion, window, state)
+
+    def take(self, which: Any) -> "Motions":
+        return Motions(*(one[which] if len(one) else one for one in self))
+
+    def at(self, times: Array) -> Array:
+        angles = self.waves[..., None] * times
+        return np.einsum("nac,nact->nat", self.values, np.concatenate([np.cos(angles), np.sin(angles)], 2))
+
+
+class Experiment:
+    """A log of a scenario that plays tables of tilts as `section`, or of a reference. `limits`: columns and factors,
+    whose products are at most 1."""
+
+    def __init__(self, plain: _bbsim.Given, section: str, axes: List[int], keys: List[FreeKey], noise: Dict[str, float],
+                 window: float, length: float, rate: float, limits: List[Tuple[str, float]], threads: int,
+                 progress: Progress) -> None:  # fmt: skip
+        self.axes, self.keys, self.length, self._noise, self._limits = axes, keys, length, noise, limits
+        self._threads, self._progress, self.played = threads, progress, 0
+        self.tilts = section != "controller.reference"
+        self.names = ("phi", "theta") if self.tilts else ("x", "y")
+        self._profiles = [f"{section}.{self.names[i]}" for i in axes] if self.tilts else [section]
+        own = {key.name: key.start for key in keys}
+        changes = {f"{its}.table.{name}": usual for its in self._profiles[: 2 * self.tilts] for name, usual in _CHANGES.items()}
+        self._changes = {key: own.get(key, _bbsim.key_facts(plain, "", key).value or usual) for key, usual in changes.items()}
+        # Rounding has no derivative, and random effects are not the log's own noise.
+        smooth = [(f"controller.{key}", "null") for key in _ROUGH if _bbsim.has(plain, f"controller.{key}")]
+        if not any(key.name.endswith("dead_band") for key in keys) and _bbsim.has(plain, "controller.sampling"):
+            servos = [f"gimbal.servo{axis}" for axis in ("", ".phi", ".theta") if _bbsim.has(plain, f"gimbal.servo{axis}")]
+            smooth += [(f"{servo}.{end}", text) for servo in servos for end, text in (("scale", "null"), ("dead_band", "0"))]
+        for key, most in (("solver.rtol", 1e-10), ("solver.atol", 1e-12)):
+            smooth.append((key, repr(min(most, _bbsim.key_facts(plain, "", key).value or most))))
+        self._of_tables = plain.changed([*smooth, ("solver.error", "null")])
+        terms = "{sinusoid: {amplitude: 0, frequency: 1}}, " * 4
+        self._of_waves = self._of_tables.changed([(its, f"[{terms}0]") for its in self._profiles[: 2 * self.tilts]])
+        parts = int(np.ceil(50 / rate * (1 - 1e-9)))  # the fastest wave has 16 in a period
+        self._times = np.linspace(0, length, round(length * rate) * parts + 1)
+        self.times = self._times[::parts]
+        # The highest multiple of 1/length: faster tilts move a ball by less than its sensor resolves.
+        self.highest = max(4, int(min(3, rate / 8) * length))
+        # Windows as in a fit. Columns of one axis tell nothing about the start of the other.
+        ends = np.arange(1, max(1, round(length / window))) * window * (1 - 1e-9)
+        windows = [one for one in np.split(np.arange(len(self.times)), np.searchsorted(self.times, ends)) if len(one) > 1]
+        sizes = np.array(list(map(len, windows)))
+        self.windows, self.numbers = len(windows), int(sizes.sum()) * len(noise)
+        self._rows = np.array([np.pad(one, (0, sizes.max() - len(one)), "edge") for one in windows])
+        self._real = np.arange(sizes.max()) < sizes[:, None]
+        self._begins = self._rows[:, 0] * parts
+        of_axis = [{name, f"v{name}", f"{name}_measured"} for name in ("x", "y")]
+        self._free = [i for i in range(4) if set(noise) - of_axis[1 - i % 2]]
+        self._free += [4, 5, 6, 7] if _bbsim.begins_anywhere(plain) and len(windows) > 1 else []
+        self._home = np.array(_bbsim.start_of(plain))[4:]
+
+    def commands(self, values: Array) -> Array:
+        """What the tables have, so that the rig moves by these values."""
+        made = np.zeros_like(values)
+        made[..., self.axes, :] = values[..., self.axes, :]
+        for i, its in zip(self.axes, self._profiles[: 2 * self.tilts]):
+            made[..., i, :] = (made[..., i, :] - self._changes[f"{its}.table.offset"]) / self._changes[f"{its}.table.scale"]
+        return np.round(made, 8) + 0.0  # no -0
+
+    def _simulate(self, motions: Motions, per: int, keys: Dict[str, Array], columns: List[str], **windows: Any) -> Any:
+        """`per` cases of each motion."""
+        self._progress(1 - 0.998**self.played, f"{self.played} motions")
+        how = {"events": False, "threads": self._threads, **windows}
+        if self.tilts and motions.waves.size:
+            w, amplitudes = np.repeat(motions.waves, per, 0), np.repeat(motions.values, per, 0)
+            phases, amplitudes = (of(amplitudes[..., :4], amplitudes[..., 4:]) for of in (np.arctan2, np.hypot))
+            cases = {key: its for key, its in keys.items() if key not in self._changes}
+            for i, its in zip(self.axes, self._profiles):
+                nominal = [self._changes[f"{its}.table.{name}"] for name in _CHANGES]
+                scale, offset, delay = (keys.get(f"{its}.table.{name}", np.full(len(w), one)) for name, one in zip(_CHANGES, nominal))
+                ratio = scale / nominal[0]
+                for k in range(4):
+                    of_wave = (ratio * amplitudes[:, i, k], w[:, i, k], phases[:, i, k] - w[:, i, k] * delay)
+                    cases.update((f"{its}.{k}.sinusoid.{name}", one) for name, one in zip(("amplitude", "frequency", "phase"), of_wave))
+                cases[f"{its}.4"] = offset - ratio * nominal[1]
+            return simulate(self._of_waves, cases, columns, **how)
+        times = np.linspace(0, self.length, 8 * self.highest + 1 if motions.waves.size else motions.values.shape[-1])
+        text = "".join([f"t,{','.join(self.names)}\n", *(f"{t!r},%.8f,%.8f\n" for t in times.tolist())])
+        with tempfile.TemporaryDirectory(prefix="bbsim-") as folder:
+            files = [f"{folder}/{i}.csv" for i in range(len(motions.values))]
+            for file, rows in zip(files, self.commands(motions.at(times) if motions.waves.size else motions.values)):
+                Path(file).write_text(text % tuple(rows.T.ravel().tolist()))
+            tables = dict.fromkeys((f"{its}.table.file" for its in self._profiles), np.repeat(files, per).tolist())
+            return simulate(self._of_tables, {**tables, **keys}, columns, **how)
+
+    def play(self, motions: Motions) -> Tuple[Motions, Array]:
+        """The motions with their runs, and the middle of the ball's path in each."""
+        self.played += len(motions.start)
+        begin = np.column_stack([motions.start, np.tile(self._home, (len(motions.start), 1))])
+        columns = list(dict.fromkeys([*_bbsim.START, *(column for column, _ in self._limits)]))
+        run = self._simulate(motions, 1, {}, columns, times=self._times, start=begin)
+        shares = np.nan_to_num(np.stack([run[column] * factor for column, factor in self._limits], 1), nan=np.inf)
+        states = np.stack([run[name][:, self._begins] for name in _bbsim.START], -1)
+        states[:, 0] = begin
+        path = np.stack([run["x"], run["y"]], 1)
+        return Motions(*motions[:3], shares, np.nan_to_num(states)), np.nan_to_num(path.min(2) + path.max(2)) / 2
+
+    def slopes(self, motions: Motions, central: bool = False) -> Tuple[Array, Array]:
+        """Derivatives of the log by the keys' numbers u, in units of noise, less what other starts of the windows
+        explain: (motion, number, key). And the norms of the derivatives with known starts: (motion, key)."""
+        count, free, windows = len(motions.start), len(self._free), self.windows
+        if count > 8:  # for progress, and less memory
+            some = [self.slopes(motions.take(slice(i, i + 8)), central) for i in range(0, count, 8)]
+            return np.concatenate([one for one, _ in some]), np.concatenate([one for _, one in some])
+        one = _STEP * np.eye(free + len(self.keys))
+        steps = np.vstack([0 * one[:1], one, -one] if central else [0 * one[:1], one])
+        values = np.column_stack([key.value(steps[:, free + k]) for k, key in enumerate(self.keys)])
+        starts = np.zeros((len(steps), 1, len(_bbsim.START)))
+        starts[:, 0, self._free] = steps[:, :free]
+        at = np.tile(self.times[self._rows], (count * len(steps), 1))
+        keys = {key.name: np.tile(np.repeat(its, windows), count) for key, its in zip(self.keys, values.T)
+                if key.name[len("controller.") :] not in _ROUGH}  # fmt: skip
+        run = self._simulate(motions, len(steps) * windows, keys, list(self._noise), times=at, begin=at[:, 0],
+                             end=at[:, -1], start=(motions.states[:, None] + starts).reshape(-1, len(_bbsim.START)))  # fmt: skip
+        shape = (count, len(steps), windows)
+        log = np.stack([run[name].reshape(*shape, -1) / its for name, its in self._noise.items()], -1)
+        log = np.where(self._real[..., None], log, 0).reshape(*shape, -1)
+        # A value at its bound has a neighbor on one side only.
+        moves = (values != values[0]).any(1) | starts.any((1, 2)) | (np.arange(len(steps)) == 0)
+        done = (run.status == "done").reshape(shape) & np.isfinite(log).all(-1) & moves[:, None]
+        log = np.where(done[..., None], log, np.where(done[:, :1, :, None], log[:, :1], 0))
+        up, down = log[:, 1 : 1 + len(one)], log[:, 1 + len(one) :] if central else log[:, :1]
+        width = _STEP * (done[:, 1:] & done[:, :1]).reshape(count, -1, len(one), windows).sum(1)
+        width[:, free:] *= (width[:, :free] > 0).all(1)[:, None]
+        slopes = np.divide(up - down, width[..., None], out=np.zeros_like(up), where=width[..., None] > 0)
+        by_start, by_key = np.moveaxis(slopes[:, :free], 1, -1), np.moveaxis(slopes[:, free:], 1, -1)
+        u, sizes, _ = np.linalg.svd(by_start, full_matrices=False)
+        u *= (sizes > 1e-9 * sizes[..., :1])[..., None, :]  # others have no effect
+        projected = by_key - u @ (np.swapaxes(u, -1, -2) @ by_key)
+        return projected.reshape(count, -1, len(self.keys)), np.sqrt((by_key**2).sum((1, 2)))
