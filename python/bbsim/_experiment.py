@@ -23,9 +23,8 @@ _CHANGES = {"scale": 1.0, "offset": 0.0, "delay": 0.0}  # of a table
 class Motions(NamedTuple):
     """Motions, and their runs: each array has an entry for each motion."""
 
-    values: Array  # of each axis, at even times; or its amplitudes of cosines, then of sines
-    waves: Array  # the frequencies of these (rad/s): (motion, axis, 4), or (motion, 0)
-    start: Array  # of the ball: x, y, vx, vy
+    numbers: Array  # of each axis amplitudes of cosines and sines, or values at even times; then the ball's x, y, vx, vy
+    waves: Array  # the frequencies of these cosines and sines (rad/s): (motion, axis, 4), or (motion, 0)
     shares: Array = np.empty(0)  # of the limits: (motion, limit, time)
     states: Array = np.empty(0)  # at the begins of windows: (motion, window, state)
 
@@ -33,8 +32,13 @@ class Motions(NamedTuple):
         return Motions(*(one[which] if len(one) else one for one in self))
 
     def at(self, times: Array) -> Array:
-        angles = self.waves[..., None] * times
-        return np.einsum("nac,nact->nat", self.values, np.concatenate([np.cos(angles), np.sin(angles)], 2))
+        """The values of both axes."""
+        axes, angles = self.numbers[:, :-4].reshape(len(self.numbers), 2, -1), self.waves[..., None] * times
+        return np.einsum("nac,nact->nat", axes, np.concatenate([np.cos(angles), np.sin(angles)], 2)) if angles.size else axes
+
+    def table(self, times: Array) -> "Motions":
+        rows = self.at(times).reshape(len(self.numbers), -1)
+        return Motions(np.hstack([rows, self.numbers[:, -4:]]), np.empty((len(rows), 0)))
 
 
 class Experiment:
@@ -49,6 +53,7 @@ class Experiment:
         self.tilts = section != "controller.reference"
         self.names = ("phi", "theta") if self.tilts else ("x", "y")
         self._profiles = [f"{section}.{self.names[i]}" for i in axes] if self.tilts else [section]
+        self.moved = [self.names[i] for i in axes]
         own = {key.name: key.start for key in keys}
         changes = {f"{its}.table.{name}": usual for its in self._profiles[: 2 * self.tilts] for name, usual in _CHANGES.items()}
         self._changes = {key: own.get(key, _bbsim.key_facts(plain, "", key).value or usual) for key, usual in changes.items()}
@@ -80,56 +85,59 @@ class Experiment:
         self._free += [4, 5, 6, 7] if _bbsim.begins_anywhere(plain) and len(windows) > 1 else []
         self._home = np.array(_bbsim.start_of(plain))[4:]
 
-    def commands(self, values: Array) -> Array:
-        """What the tables have, so that the rig moves by these values."""
-        made = np.zeros_like(values)
-        made[..., self.axes, :] = values[..., self.axes, :]
+    def commands(self, motions: Motions) -> Array:
+        """What tables at even times have, so that the rig moves like this: (motion, axis, time)."""
+        values = motions.at(np.empty(0)) * np.isin([0, 1], self.axes)[:, None]
         for i, its in zip(self.axes, self._profiles[: 2 * self.tilts]):
-            made[..., i, :] = (made[..., i, :] - self._changes[f"{its}.table.offset"]) / self._changes[f"{its}.table.scale"]
-        return np.round(made, 8) + 0.0  # no -0
+            values[:, i] = (values[:, i] - self._changes[f"{its}.table.offset"]) / self._changes[f"{its}.table.scale"]
+        return np.round(values, 8) + 0.0  # no -0
 
     def _simulate(self, motions: Motions, per: int, keys: Dict[str, Array], columns: List[str], **windows: Any) -> Any:
         """`per` cases of each motion."""
         self._progress(1 - 0.998**self.played, f"{self.played} motions")
         how = {"events": False, "threads": self._threads, **windows}
-        if self.tilts and motions.waves.size:
-            w, amplitudes = np.repeat(motions.waves, per, 0), np.repeat(motions.values, per, 0)
-            phases, amplitudes = (of(amplitudes[..., :4], amplitudes[..., 4:]) for of in (np.arctan2, np.hypot))
+        if motions.waves.size and not self.tilts:
+            motions = motions.table(np.linspace(0, self.length, 8 * self.highest + 1))
+        if motions.waves.size:
+            w, axes = np.repeat(motions.waves, per, 0), np.repeat(motions.numbers[:, :16].reshape(-1, 2, 2, 4), per, 0)
             cases = {key: its for key, its in keys.items() if key not in self._changes}
             for i, its in zip(self.axes, self._profiles):
-                nominal = [self._changes[f"{its}.table.{name}"] for name in _CHANGES]
-                scale, offset, delay = (keys.get(f"{its}.table.{name}", np.full(len(w), one)) for name, one in zip(_CHANGES, nominal))
-                ratio = scale / nominal[0]
+                names = [f"{its}.table.{name}" for name in _CHANGES]
+                scale, offset, delay = (keys.get(name, np.full(len(w), self._changes[name])) for name in names)
+                ratio = scale / self._changes[names[0]]
+                cases[f"{its}.4"] = offset - ratio * self._changes[names[1]]
                 for k in range(4):
-                    of_wave = (ratio * amplitudes[:, i, k], w[:, i, k], phases[:, i, k] - w[:, i, k] * delay)
-                    cases.update((f"{its}.{k}.sinusoid.{name}", one) for name, one in zip(("amplitude", "frequency", "phase"), of_wave))
-                cases[f"{its}.4"] = offset - ratio * nominal[1]
+                    cosine, sine = axes[:, i, :, k].T
+                    cases[f"{its}.{k}.sinusoid.amplitude"] = ratio * np.hypot(cosine, sine)
+                    cases[f"{its}.{k}.sinusoid.frequency"] = w[:, i, k]
+                    cases[f"{its}.{k}.sinusoid.phase"] = np.arctan2(cosine, sine) - w[:, i, k] * delay
             return simulate(self._of_waves, cases, columns, **how)
-        times = np.linspace(0, self.length, 8 * self.highest + 1 if motions.waves.size else motions.values.shape[-1])
-        text = "".join([f"t,{','.join(self.names)}\n", *(f"{t!r},%.8f,%.8f\n" for t in times.tolist())])
+        values = self.commands(motions)
+        times = np.linspace(0, self.length, values.shape[-1]).tolist()
+        text = "".join([f"t,{','.join(self.names)}\n", *(f"{t!r},%.8f,%.8f\n" for t in times)])
         with tempfile.TemporaryDirectory(prefix="bbsim-") as folder:
-            files = [f"{folder}/{i}.csv" for i in range(len(motions.values))]
-            for file, rows in zip(files, self.commands(motions.at(times) if motions.waves.size else motions.values)):
+            files = [f"{folder}/{i}.csv" for i in range(len(values))]
+            for file, rows in zip(files, values):
                 Path(file).write_text(text % tuple(rows.T.ravel().tolist()))
             tables = dict.fromkeys((f"{its}.table.file" for its in self._profiles), np.repeat(files, per).tolist())
             return simulate(self._of_tables, {**tables, **keys}, columns, **how)
 
     def play(self, motions: Motions) -> Tuple[Motions, Array]:
         """The motions with their runs, and the middle of the ball's path in each."""
-        self.played += len(motions.start)
-        begin = np.column_stack([motions.start, np.tile(self._home, (len(motions.start), 1))])
+        self.played += len(motions.numbers)
+        begin = np.hstack([motions.numbers[:, -4:], np.tile(self._home, (len(motions.numbers), 1))])
         columns = list(dict.fromkeys([*_bbsim.START, *(column for column, _ in self._limits)]))
         run = self._simulate(motions, 1, {}, columns, times=self._times, start=begin)
         shares = np.nan_to_num(np.stack([run[column] * factor for column, factor in self._limits], 1), nan=np.inf)
-        states = np.stack([run[name][:, self._begins] for name in _bbsim.START], -1)
+        states = np.nan_to_num(np.stack([run[name][:, self._begins] for name in _bbsim.START], -1))
         states[:, 0] = begin
-        path = np.stack([run["x"], run["y"]], 1)
-        return Motions(*motions[:3], shares, np.nan_to_num(states)), np.nan_to_num(path.min(2) + path.max(2)) / 2
+        path = np.nan_to_num(np.stack([run["x"], run["y"]], 1))
+        return Motions(motions.numbers, motions.waves, shares, states), (path.min(2) + path.max(2)) / 2
 
     def slopes(self, motions: Motions, central: bool = False) -> Tuple[Array, Array]:
         """Derivatives of the log by the keys' numbers u, in units of noise, less what other starts of the windows
         explain: (motion, number, key). And the norms of the derivatives with known starts: (motion, key)."""
-        count, free, windows = len(motions.start), len(self._free), self.windows
+        count, free, windows = len(motions.numbers), len(self._free), self.windows
         if count > 8:  # for progress, and less memory
             some = [self.slopes(motions.take(slice(i, i + 8)), central) for i in range(0, count, 8)]
             return np.concatenate([one for one, _ in some]), np.concatenate([one for _, one in some])
