@@ -12,6 +12,7 @@ A scenario is the path of a YAML file, YAML text, or a dict. All numbers are in 
 
 from __future__ import annotations
 
+import importlib
 import os
 from typing import TYPE_CHECKING, Any, List, Mapping, Optional, Sequence, Union
 
@@ -28,20 +29,22 @@ from ._simulate import Simulated, simulate
 
 __all__ = [
     "Compared", "ControllerError", "Env", "Error", "InputError", "Linearization", "OpenLoop", "OutputError", "Page",
-    "Problem", "Result", "Sample", "Simulated", "VectorEnv", "__version__", "check", "compare", "examples", "linearize",
-    "plot", "replay", "run", "simulate", "sweep",
+    "Problem", "Result", "Sample", "Simulated", "VectorEnv", "__version__", "check", "compare", "design", "examples",
+    "linearize", "plot", "replay", "run", "simulate", "sweep",
 ]  # fmt: skip
 
 if TYPE_CHECKING:
+    from ._design import design
     from ._plot import plot
+
+# Read on first use, because matplotlib and SciPy take longer to import than most runs take.
+_LATE = ("design", "plot")
 
 
 def __getattr__(name: str) -> Any:
-    if name != "plot":
+    if name not in _LATE:
         raise AttributeError(f"module 'bbsim' has no attribute {name!r}")
-    from ._plot import plot  # here, because matplotlib takes longer to import than most runs take
-
-    return plot
+    return getattr(importlib.import_module(f"bbsim._{name}"), name)
 
 
 def __dir__() -> List[str]:

@@ -47,10 +47,10 @@ def merits(slopes: Array) -> Array:
 def deviations(slopes: Array) -> Array:
     """The standard deviation of each number u; infinite if the log does not determine it."""
     sizes = np.maximum(np.linalg.norm(slopes, axis=0), 1e-150)
-    _, values, vectors = np.linalg.svd(slopes / sizes, full_matrices=False)
-    known = values**2 > 1e-8 * max(values[0] ** 2, 1e-150)  # the error of differences
-    variances = ((vectors[known] / values[known, None]) ** 2).sum(0)
-    return np.where((np.abs(vectors[~known]) > 0.02).any(0), np.inf, np.sqrt(variances) / sizes)
+    values, vectors = np.linalg.eigh((slopes / sizes).T @ (slopes / sizes))
+    known = values > 1e-8 * max(values[-1], 1e-150)  # the error of differences
+    variances = (vectors[:, known] ** 2 / values[known]).sum(1)
+    return np.where((np.abs(vectors[:, ~known]) > 0.02).any(1), np.inf, np.sqrt(variances) / sizes)
 
 
 def within(experiment: Experiment, motions: Motions, centered: bool = False) -> Dict[int, Motions]:
@@ -101,14 +101,16 @@ class Candidate:
             turns.append(np.pad(its, ((0, 0), (8 * axis, 12 - 8 * axis))))
         self.turns = np.concatenate(turns)
         numbers = random.normal(size=(1, len(self.turns))) @ self.turns
-        self.motion = Motions(0.01 * numbers / np.abs(numbers).sum(), waves)
+        self.motion = Motions(np.round(0.01 * numbers / np.abs(numbers).sum(), 10), waves)
         self.turns /= np.linalg.norm(self.turns, axis=1)[:, None]
         if experiment.tilts:
             self.turns = np.concatenate([self.turns, np.eye(20)[[16 + axis for axis in experiment.axes]]])
 
     def changed(self, changes: Array) -> Motions:
         size = np.where(np.arange(20) < 16, np.linalg.norm(self.motion.numbers[:, :16]), 0.05)  # rad or m
-        return Motions(self.motion.numbers + changes @ (self.turns * size), np.repeat(self.motion.waves, len(changes), 0))
+        # Rounded, because rounding errors of matrix products depend on addresses.
+        numbers = np.round(self.motion.numbers + np.round(changes, 4) @ (self.turns * size), 10)
+        return Motions(numbers, np.repeat(self.motion.waves, len(changes), 0))
 
     def best(self, near: Motions, slopes: Array) -> Motions:
         """Motions on the way to the best one within the limits, if slopes and shares are linear between this motion
@@ -303,7 +305,7 @@ def design(
     ):  # fmt: skip
         sizes[option] = None if value is None else _bbsim.value_in(str(value), unit)
         if value is not None and not (sizes[option] or 0) > 0:
-            raise refuse(option, text_of(value) if isinstance(value, float) else f'"{value}"', allowed)
+            raise refuse(option, str(value) if option == "rate" else f'"{value}"', allowed)
     period = facts(rig, "controller.sensor.period") or facts(rig, "controller.sampling.period")
     # Boards and sensors exchange values more often than a log has rows.
     hertz = sizes["rate"] or (min(1 / period, 200.0) if period else 50.0)
@@ -311,9 +313,15 @@ def design(
     rows = round(asked * hertz)
     if not 16 <= rows <= 100_000:
         raise refuse("length", f"{asked:.12g} s at {hertz:.12g} Hz", "a log of 16 to 100000 rows")
-    seconds, groove = rows / hertz, _bbsim.groove_axis(rig)
-    axes = [0, 1] if groove is None else [groove]
-    units = {column[0]: column[2] for column in _bbsim.known_columns("")}
+    seconds, groove = rows / hertz, _bbsim.has(rig, "ball.rolling_radius")
+    axes = [0, 1]
+    if groove:  # the reader refuses a start across it
+        try:
+            _bbsim.number_at(rig, "ball.position.0", "1e-9")
+            axes = [0]
+        except InputError:
+            axes = [1]
+    units = {column[0]: column[2] for column in _bbsim.known_columns("rad")}
     deviations_of_log = noise_of(rig, axes, [noise] if isinstance(noise, str) else noise, units)
     limits = limits_of(rig, sizes["max-tilt"], sizes["max-tilt-rate"], sizes["margin"])
 
@@ -339,10 +347,12 @@ def design(
         still.write_text(f"t,{'phi,theta' if tilts else 'x,y'}\n" + "".join(f"{seconds * i / 3!r},0,0\n" for i in range(4)))
         plain = rig.changed(settings(str(still)))
         keys = read_free_keys([free] if isinstance(free, str) else free, plain)
+        if not keys:
+            raise refuse("free", "no key of the scenario", "keys that a fit may free, but not those of a log")
         parts = [part for limit in limits for part in limit[-1]]
         experiment = Experiment(plain, section, axes, keys, deviations_of_log, sizes["window"] or (2 if tilts else 2 * seconds),
                                 seconds, hertz, parts, int(threads or 0), progress)  # fmt: skip
-        turned = (facts(rig, "ball.rolling_radius") or 1) / ((facts(rig, "ball.radius") or 1) if groove is not None else 1)
+        turned = (facts(rig, "ball.rolling_radius") or 1) / ((facts(rig, "ball.radius") or 1) if groove else 1)
         pull = (facts(rig, "gravity") or 0) / (1 + (facts(rig, "ball.inertia_factor") or 0) / turned**2)
         circle, frequency = None, 3.0  # rad/s
         found = within(experiment, circles(experiment, pull))
@@ -368,7 +378,7 @@ def design(
         allowed = "keys that the log's columns depend on"
         raise InputError([("", f"free: {idle[0]}: has no effect on {', '.join(deviations_of_log)}; allowed: {allowed}")])
     of_u = iter(deviations(one) * [abs(key.slope(0)) for key in keys] for one in slopes)
-    sds = [next(of_u).tolist() if one else [np.inf] * len(keys) for one in all_motions]
+    sds = [[float(f"{sd:.8g}") for sd in next(of_u)] if one else [np.inf] * len(keys) for one in all_motions]
     used = dict.fromkeys((limit[0] for limit in limits), 0.0)
     for (kind, *_), share in zip((limit for limit in limits for _ in limit[-1]), ran.shares[0].max(1)):
         used[kind] = max(used[kind], float(share))
@@ -382,7 +392,7 @@ def design(
         "identifiable": bool(np.isfinite(sds[0]).all()),
     }  # fmt: skip
     begin = f"begin with the ball at rest at x = {short(100 * place[0])} cm, y = {short(100 * place[1])} cm"
-    shown = [[_bbsim.rounded(sd, 3) if np.isfinite(sd) else "-" for sd in its] for its in zip(*sds)]
+    shown = [[f"{sd:.3g}" if np.isfinite(sd) else "-" for sd in its] for its in zip(*sds)]
     comments = f"# Designed by bbsim {_bbsim.__version__}: plays {played}, {short(seconds)} s; {begin}\n"
     comments += "# Standard deviations to expect from a fit:\n" + "".join(
         f"#   {key.name}: {f'{its[0]} {key.unit}'.strip() if its[0] != '-' else '-'}\n" for key, its in zip(keys, shown))  # fmt: skip
@@ -395,7 +405,7 @@ def design(
             write(file, texts[name])
     by_key = [[key.name, short(key.value(0)), *its, key.unit or "1"] for key, its in zip(keys, shown)]
     by_limit = [[name, size, f"{_bbsim.rounded(100 * used[kind], 3)} %", source] for kind, name, size, source, _ in limits]
-    log = ", ".join(f"{name} {_bbsim.rounded(size, 3)} {units[name]}".strip() for name, size in deviations_of_log.items())
+    log = ", ".join(f"{name} {size:.3g} {units[name]}".strip() for name, size in deviations_of_log.items())
     unknown = [f"not identifiable: {key.name}, which a log of this length cannot separate from the other keys and the windows' "
                "starts\n" for key, its in zip(keys, shown) if its[0] == "-"]  # fmt: skip
     made = loads(texts["json"], object_hook=lambda its: SimpleNamespace(**its))
@@ -403,7 +413,7 @@ def design(
         aligned([["standard deviation", "value", "designed", "circle", "step", "unit"], *by_key]) + "\n"
         + aligned([["limit", "of", "used", "from"], *by_limit]) + f"\n{short(seconds)} s at {short(hertz)} Hz: {experiment.numbers} "
         f"numbers in {experiment.windows} window{'s' * (experiment.windows != 1)}; noise {log}\nbest of {tried} motions"
-        + (f"; the best circle has {_bbsim.rounded(frequency / _TURN, 3)} Hz" if circle else "") + f"\n{begin}\n" + "".join(unknown)
+        + (f"; the best circle has {frequency / _TURN:.3g} Hz" if circle else "") + f"\n{begin}\n" + "".join(unknown)
     )  # fmt: skip
     return made
 

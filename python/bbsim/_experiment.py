@@ -83,7 +83,8 @@ class Experiment:
         of_axis = [{name, f"v{name}", f"{name}_measured"} for name in ("x", "y")]
         self._free = [i for i in range(4) if set(noise) - of_axis[1 - i % 2]]
         self._free += [4, 5, 6, 7] if _bbsim.begins_anywhere(plain) and len(windows) > 1 else []
-        self._home = np.array(_bbsim.start_of(plain))[4:]
+        home = [_bbsim.key_facts(plain, "", f"gimbal.start.{name}").value for name in _bbsim.START[4:8]]
+        self._home = np.array([*home, _bbsim.key_facts(plain, "", "ball.spin").value], float)
 
     def commands(self, motions: Motions) -> Array:
         """What tables at even times have, so that the rig moves like this: (motion, axis, time)."""
