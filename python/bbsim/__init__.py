@@ -30,15 +30,17 @@ from ._simulate import Simulated, simulate
 __all__ = [
     "Compared", "ControllerError", "Env", "Error", "InputError", "Linearization", "OpenLoop", "OutputError", "Page",
     "Problem", "Result", "Sample", "Simulated", "VectorEnv", "__version__", "check", "compare", "design", "examples",
-    "linearize", "plot", "replay", "run", "simulate", "sweep",
+    "fit", "linearize", "plot", "replay", "run", "simulate", "sweep", "tune",
 ]  # fmt: skip
 
 if TYPE_CHECKING:
     from ._design import design
+    from ._fit import fit
     from ._plot import plot
+    from ._tune import tune
 
 # Read on first use, because matplotlib and SciPy take longer to import than most runs take.
-_LATE = ("design", "plot")
+_LATE = ("design", "fit", "plot", "tune")
 
 
 def __getattr__(name: str) -> Any:

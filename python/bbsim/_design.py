@@ -118,7 +118,7 @@ class Candidate:
         count, keys = len(slopes), slopes.shape[-1]
         runs = np.isfinite(near.shares).all((1, 2))
         shares = np.concatenate([self.motion.shares, np.where(runs[:, None, None], near.shares, 0)])
-        shares = shares[:, :, :: max(1, shares.shape[-1] // 100)].reshape(1 + count, -1)
+        shares = shares[:, :, :: max(1, shares.shape[-1] // 60)].reshape(1 + count, -1)
         by = (shares[1:] - shares[0]) / _NEAR
         flat = np.moveaxis(np.concatenate([self.slopes[None], slopes]), 0, 1).reshape(slopes.shape[1], -1)
         products = (flat.T @ flat).reshape(1 + count, keys, 1 + count, keys)
