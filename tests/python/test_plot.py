@@ -396,7 +396,7 @@ class Command(Case):
         (self.folder / "run.csv").write_text("t,x\n0,1\n1,2\n")
         made = self.bbsim("plot", "run.csv", code=2, env={**os.environ, "PYTHONPATH": str(self.folder)})
         self.assertEqual(made.stderr.count("\n"), 1)
-        self.assertIn("apt install python3-numpy python3-matplotlib", made.stderr)
+        self.assertIn("apt install python3-numpy python3-scipy python3-matplotlib", made.stderr)
 
     def test_a_moved_prefix(self):
         for component in ("program", "python"):
