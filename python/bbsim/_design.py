@@ -118,7 +118,7 @@ class Candidate:
         count, keys = len(slopes), slopes.shape[-1]
         runs = np.isfinite(near.shares).all((1, 2))
         shares = np.concatenate([self.motion.shares, np.where(runs[:, None, None], near.shares, 0)])
-        shares = shares[:, :, :: max(1, shares.shape[-1] // 60)].reshape(1 + count, -1)
+        shares = shares[:, :, :: max(1, shares.shape[-1] // 100)].reshape(1 + count, -1)
         by = (shares[1:] - shares[0]) / _NEAR
         flat = np.moveaxis(np.concatenate([self.slopes[None], slopes]), 0, 1).reshape(slopes.shape[1], -1)
         products = (flat.T @ flat).reshape(1 + count, keys, 1 + count, keys)
@@ -141,7 +141,7 @@ def best_sines(experiment: Experiment, middle: float) -> Candidate:
     random = np.random.default_rng(1)
     active = owners = pool = [Candidate(experiment, random, middle) for _ in range(_DRAWS)]
     motions = join(one.motion[:2] for one in pool)
-    first = 5 if experiment.tilts else 12
+    first = 6 if experiment.tilts else 12
     for count in (first, first // 2, 3, 3, 2, 2, 2, 2, 0):
         before = [one.merit for one in active]
         found = within(experiment, motions, experiment.tilts)
@@ -177,7 +177,8 @@ def circles(experiment: Experiment, pull: float) -> Motions:
 
 def step(experiment: Experiment) -> Motions:
     """A step of both axes at a tenth of the time, that takes 0.1 s: the quintic of least jerk."""
-    s = np.clip((experiment.times - experiment.length / 10) / 0.1, 0, 1)
+    times = np.linspace(0, experiment.length, int(np.ceil(experiment.length / 0.02)) + 1)
+    s = np.clip((times - experiment.length / 10) / 0.1, 0, 1)
     rows = np.outer(np.isin([0, 1], experiment.axes), 0.01 * s**3 * (10 + s * (6 * s - 15)))
     return Motions(np.append(rows, [0] * 4)[None], np.empty((1, 0)))
 
@@ -339,9 +340,9 @@ def design(
                 ("ball.position", f"[{text_of(place[0])}, {text_of(place[1])}]"), *([("ball.velocity", "[0, 0]")] if moves else []),
                 ("time.end", text_of(seconds)), ("time.step", text_of(1 / hertz))]  # fmt: skip
 
-    played = os.path.relpath(table, os.path.dirname(os.path.abspath(output))) if output and table else ""
+    name_of_table = os.path.relpath(table, os.path.dirname(os.path.abspath(output))) if output and table else ""
     if output:
-        _bbsim.edited(rig, settings(played), "", False)  # fails now if the text cannot be written
+        _bbsim.edited(rig, settings(name_of_table), "", False)  # fails now if the text cannot be written
     with tempfile.TemporaryDirectory(prefix="bbsim-") as folder:
         still = Path(folder) / "still.csv"
         still.write_text(f"t,{'phi,theta' if tilts else 'x,y'}\n" + "".join(f"{seconds * i / 3!r},0,0\n" for i in range(4)))
@@ -370,17 +371,16 @@ def design(
         tried, final = experiment.played, chosen.motion.table(experiment.times)
         place = final.numbers[0, -4:-2] = np.round(final.numbers[0, -4:-2], 3) + 0.0  # placed by hand
         rise = within(experiment, step(experiment)).get(0)
-        all_motions = [one and one.table(experiment.times) for one in (final, circle, rise)]
-        ran = experiment.play(join(one[:2] for one in all_motions if one))[0]
-        slopes, effects = experiment.slopes(ran, True)
-    idle = [key.name for key, effect in zip(keys, effects[0]) if effect <= 1e-6]  # in units of noise
+        played = [one and experiment.play(one)[0] for one in (final, circle, rise)]
+        slopes, effects = zip(*(experiment.slopes(one, True) if one else (None, None) for one in played))
+    idle = [key.name for key, effect in zip(keys, effects[0][0]) if effect <= 1e-6]  # in units of noise
     if idle:
         allowed = "keys that the log's columns depend on"
         raise InputError([("", f"free: {idle[0]}: has no effect on {', '.join(deviations_of_log)}; allowed: {allowed}")])
-    of_u = iter(deviations(one) * [abs(key.slope(0)) for key in keys] for one in slopes)
-    sds = [[float(f"{sd:.8g}") for sd in next(of_u)] if one else [np.inf] * len(keys) for one in all_motions]
+    of_u = [np.full(len(keys), np.inf) if one is None else deviations(one[0]) for one in slopes]
+    sds = [[float(f"{sd * abs(key.slope(0)):.8g}") for sd, key in zip(one, keys)] for one in of_u]
     used = dict.fromkeys((limit[0] for limit in limits), 0.0)
-    for (kind, *_), share in zip((limit for limit in limits for _ in limit[-1]), ran.shares[0].max(1)):
+    for (kind, *_), share in zip((limit for limit in limits for _ in limit[-1]), played[0].shares[0].max(1)):
         used[kind] = max(used[kind], float(share))
     waves = zip(experiment.names, chosen.motion.waves[0], chosen.motion.numbers[0, :16].reshape(2, 2, 4))
     result = {
@@ -393,13 +393,13 @@ def design(
     }  # fmt: skip
     begin = f"begin with the ball at rest at x = {short(100 * place[0])} cm, y = {short(100 * place[1])} cm"
     shown = [[f"{sd:.3g}" if np.isfinite(sd) else "-" for sd in its] for its in zip(*sds)]
-    comments = f"# Designed by bbsim {_bbsim.__version__}: plays {played}, {short(seconds)} s; {begin}\n"
+    comments = f"# Designed by bbsim {_bbsim.__version__}: plays {name_of_table}, {short(seconds)} s; {begin}\n"
     comments += "# Standard deviations to expect from a fit:\n" + "".join(
         f"#   {key.name}: {f'{its[0]} {key.unit}'.strip() if its[0] != '-' else '-'}\n" for key, its in zip(keys, shown))  # fmt: skip
     commands = experiment.commands(final)[0]
     csv = f"t,{','.join(experiment.names)}\n" + "".join(",".join(map(text_of, row)) + "\n" for row in zip(experiment.times, *commands))
     texts = {"table": csv, "json": as_json(result), "sketch": player_sketch(hertz, commands, place) if sketch else "",
-             "output": _bbsim.edited(rig, settings(played, place), comments, False) if output else ""}  # fmt: skip
+             "output": _bbsim.edited(rig, settings(name_of_table, place), comments, False) if output else ""}  # fmt: skip
     for name, file in files.items():
         if file:
             write(file, texts[name])

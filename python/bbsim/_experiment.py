@@ -98,7 +98,7 @@ class Experiment:
         self._progress(1 - 0.998**self.played, f"{self.played} motions")
         how = {"events": False, "threads": self._threads, **windows}
         if motions.waves.size and not self.tilts:
-            motions = motions.table(np.linspace(0, self.length, 8 * self.highest + 1))
+            motions = motions.table(np.linspace(0, self.length, 16 * self.highest + 1))
         if motions.waves.size:
             w, axes = np.repeat(motions.waves, per, 0), np.repeat(motions.numbers[:, :16].reshape(-1, 2, 2, 4), per, 0)
             cases = {key: its for key, its in keys.items() if key not in self._changes}

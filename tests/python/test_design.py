@@ -358,9 +358,9 @@ class Parts(Case):
                 np.testing.assert_allclose(velocity.mean(1), 0, atol=1e-3 * np.abs(velocity).max())
 
     def test_step_rises_smoothly(self):
-        rig = mock.Mock(axes=[0], length=10.0, times=np.linspace(0, 10, 1001))
+        rig = mock.Mock(axes=[0], length=10.0)
         phi, theta = _design.step(rig).at(np.empty(0))[0]
-        np.testing.assert_allclose(phi[[100, 105, 110, 1000]], [0, 0.005, 0.01, 0.01], atol=1e-12)
+        np.testing.assert_allclose(phi[[50, 55, 500]], [0, 0.01, 0.01], atol=1e-12)
         self.assertFalse(theta.any())
 
 
