@@ -29,6 +29,14 @@ Size = Union[float, str, None]
 _TURN = 2 * np.pi
 _FLOOR = 1e-8  # of information: a number u of size 1 with a standard deviation of 1e4 is unknown
 _DRAWS = 60
+_SIZES = {  # of options: unit, and what is allowed
+    "rate": ("", "rows per second, such as 50"),
+    "length": ("s", 'a time greater than 0, such as "10 s"'),
+    "window": ("s", 'a time greater than 0, such as 2 or "500 ms"'),
+    "max-tilt": ("rad", 'an angle greater than 0, such as "8 deg"'),
+    "max-tilt-rate": ("rad/s", 'a rate greater than 0, such as "60 deg/s"'),
+    "margin": ("m", 'a length greater than 0, such as "3 cm"'),
+}
 _NEAR = 0.1  # of a motion's size, for differences
 _PARTS = (1, 0.3, 0.1)  # of the way to the best motion nearby
 
@@ -183,6 +191,46 @@ def step(experiment: Experiment) -> Motions:
     return Motions(np.append(rows, [0] * 4)[None], np.empty((1, 0)))
 
 
+def section_of(rig: _bbsim.Given, sketch: Optional[str]) -> str:
+    """What plays the motion."""
+    tilts = [key for key in ("controller.commands", "gimbal.motion") if _bbsim.has(rig, key)]
+    if tilts:
+        return tilts[0]
+    fault = ""
+    if not _bbsim.has(rig, "controller"):
+        fault = ("gimbal.torque: found, which a design cannot choose; allowed: gimbal.motion, or a controller with a "
+                 "reference")  # fmt: skip
+    elif any(_bbsim.has(rig, f"controller.{key}") for key in ("program", "library")):
+        fault = ("controller: found a program or library of your own; allowed in a design: a law of bbsim, "
+                 "controller.commands, or gimbal.motion")  # fmt: skip
+    elif sketch:
+        fault = ("sketch: the scenario has a controller with a reference; allowed: with gimbal.motion or "
+                 "controller.commands, whose tilts a sketch can play; "
+                 "--table writes the reference for your own firmware")  # fmt: skip
+    if fault:
+        raise InputError([("", fault)])
+    return "controller.reference"
+
+
+def size_of(option: str, value: Size) -> Optional[float]:
+    unit, allowed = _SIZES[option]
+    size = None if value is None else _bbsim.value_in(str(value), unit)
+    if value is not None and not (size or 0) > 0:
+        raise refuse(option, str(value) if option == "rate" else f'"{value}"', allowed)
+    return size
+
+
+def axes_of(rig: _bbsim.Given) -> List[int]:
+    """The axes that move the ball; one if it is in a groove, across which the reader refuses a start."""
+    if _bbsim.has(rig, "ball.rolling_radius"):
+        try:
+            _bbsim.number_at(rig, "ball.position.0", "1e-9")
+        except InputError:
+            return [1]
+        return [0]
+    return [0, 1]
+
+
 def limits_of(rig: _bbsim.Given, tilt: Optional[float], rate: Optional[float], margin: Optional[float]) -> List[Any]:
     """Limits on a motion: kind, name, size, source; and columns with factors, whose products are at most 1."""
     sides = [side for side in (facts(rig, f"plate.{key}") for key in ("size.0", "size.1", "diameter")) if side]
@@ -195,14 +243,14 @@ def limits_of(rig: _bbsim.Given, tilt: Optional[float], rate: Optional[float], m
         raise refuse("margin", f"{short(margin)} m", f"a length from 0 to below half the plate, {short(half)} m")
     edges = [side / 2 - margin for side in sides]
     # Only of servos that turn the plate directly. At its limits, a servo no longer follows.
-    has_link, of_angle = ([_bbsim.has(rig, f"gimbal.{key}") for key in keys]
-                          for keys in (("linkage", "three_servos"), ("servo", "motor.position_loop")))  # fmt: skip
-    of_servos = any(of_angle) and not any(has_link)
+    links = _bbsim.has(rig, "gimbal.linkage") or _bbsim.has(rig, "gimbal.three_servos")
+    of_servos = not links and (_bbsim.has(rig, "gimbal.servo") or _bbsim.has(rig, "gimbal.motor.position_loop"))
     command, angle, speed = 0.95 * np.array(_bbsim.rig_limits(rig) if of_servos else [[np.inf] * 3] * 2, float).T
     total, friction = None if tilt else facts(rig, "events.tilt.limit"), facts(rig, "events.slip.friction")
     tilts = np.full(2, tilt) if tilt else np.fmin(np.fmin(command, angle), np.inf)
-    tilts_from = ("--max-tilt" if tilt else "gimbal.servo.angle_limit" if (angle < np.fmin(command, np.inf)).any() else
-                  "controller.limit" if np.isfinite(tilts).any() else "events.tilt" if total else "usual; --max-tilt sets it")  # fmt: skip
+    by_servo = (angle < np.fmin(command, np.inf)).any()
+    tilts_from = ("--max-tilt" if tilt else "gimbal.servo.angle_limit" if by_servo else "controller.limit"
+                  if np.isfinite(tilts).any() else "events.tilt" if total else "usual; --max-tilt sets it")  # fmt: skip
     tilts[np.isinf(tilts)] = total or np.radians(10)  # of a hobby servo with a horn and a rod
     rates = np.full(2, rate) if rate else np.where(np.isfinite(speed), speed, np.radians(60))
     rates_from = ("--max-tilt-rate" if rate else "gimbal.servo.rate_limit" if np.isfinite(speed).any() else
@@ -214,15 +262,17 @@ def limits_of(rig: _bbsim.Given, tilt: Optional[float], rate: Optional[float], m
     def degrees(most: Array) -> str:
         return " and ".join(dict.fromkeys(rounded(np.degrees(one), 3) for one in most)) + " deg"
 
-    return [
-        ("edge", "ball from the center", " and ".join(rounded(100 * one, 4) for one in edges) + " cm", "plate and margin",
-         parts(("x", "y") if len(edges) > 1 else ("distance",), edges)),
+    limits = [
+        ("edge", "ball from the center", " and ".join(rounded(100 * one, 4) for one in edges) + " cm",
+         "plate and margin", parts(("x", "y") if len(edges) > 1 else ("distance",), edges)),
         ("tilt", "tilt", degrees(tilts) + (f", in all {degrees([total])}" if total else ""), tilts_from,
          parts(("phi", "theta"), tilts) + (parts(("tilt",), [total]) if total else [])),
         ("tilt_rate", "tilt rate", f"{degrees(rates)}/s", rates_from, parts(("phi_rate", "theta_rate"), rates)),
-        *([("friction", "friction that rolling needs", short(friction), "events.slip", parts(("friction_demand",), [friction]))]
-          if friction else []),
     ]  # fmt: skip
+    if friction:
+        needed = parts(("friction_demand",), [friction])
+        limits.append(("friction", "friction that rolling needs", short(friction), "events.slip", needed))
+    return limits
 
 
 def noise_of(rig: _bbsim.Given, axes: List[int], texts: Sequence[str], units: Dict[str, str]) -> Dict[str, float]:
@@ -233,8 +283,8 @@ def noise_of(rig: _bbsim.Given, axes: List[int], texts: Sequence[str], units: Di
         name, _, deviation = (part.strip() for part in text.partition("="))
         size = _bbsim.value_in(deviation, units[name]) if name in units and name != "t" else None
         if not size or size < 0:
-            allowed = "COLUMN=SIZE, a column of `bbsim columns` and a standard deviation greater than 0, such as x=0.5mm"
-            raise refuse("noise", f'"{text}"', allowed)
+            allowed = "COLUMN=SIZE, a column of `bbsim columns` and a standard deviation greater than 0"
+            raise refuse("noise", f'"{text}"', f"{allowed}, such as x=0.5mm")
         why, _ = _bbsim.lacks(rig, name)
         if why:
             raise refuse("noise", f"{name}, {why}", "columns that the scenario has")
@@ -251,8 +301,8 @@ def player_sketch(hertz: float, tilts: Array, place: Array) -> str:
     unit = 0.001 if np.abs(np.degrees(tilts)).max() < 32 else 0.01
     pairs = [f"{{{phi}, {theta}}}," for phi, theta in np.rint(np.degrees(tilts.T) / unit).astype(int)]
     table = "\n".join("  " + " ".join(pairs[i : i + 6]) for i in range(0, rows, 6))
-    parts = {"X": _bbsim.short_number(100 * place[0]), "Y": _bbsim.short_number(100 * place[1]), "ROWS": rows, "UNIT": unit,
-             "PERIOD": round(1e6 / hertz), "TABLE": table}  # fmt: skip
+    x, y = (_bbsim.short_number(100 * one) for one in place)
+    parts = {"X": x, "Y": y, "ROWS": rows, "UNIT": unit, "PERIOD": round(1e6 / hertz), "TABLE": table}
     text = (Path(__file__).parent / "player.ino").read_text("utf-8")
     return re.sub("@([A-Z]+)@", lambda found: str(parts[found[1]]), text)
 
@@ -262,12 +312,13 @@ def text_of(value: float) -> str:
 
 
 def design(
-    scenario: Union[Scenario, _bbsim.Given], free: Union[str, Sequence[str]], *, set: Settings = None, length: Size = None,
-    rate: Size = None, noise: Union[str, Sequence[str]] = (), window: Size = None, max_tilt: Size = None,
-    max_tilt_rate: Size = None, margin: Size = None, output: Optional[str] = None, table: Optional[str] = None,
-    json: Optional[str] = None, sketch: Optional[str] = None, threads: Optional[int] = None, progress: Progress = silent,
+    scenario: Union[Scenario, _bbsim.Given], free: Union[str, Sequence[str]], *, set: Settings = None,
+    length: Size = None, rate: Size = None, noise: Union[str, Sequence[str]] = (), window: Size = None,
+    max_tilt: Size = None, max_tilt_rate: Size = None, margin: Size = None, output: Optional[str] = None,
+    table: Optional[str] = None, json: Optional[str] = None, sketch: Optional[str] = None,
+    threads: Optional[int] = None, progress: Progress = silent,
 ) -> SimpleNamespace:  # fmt: skip
-    """Chooses the motion whose log determines keys of a scenario best. The keywords are the options of ``bbsim design``.
+    """Chooses the motion whose log determines keys of a scenario best. Keywords are options of ``bbsim design``.
 
     free      the keys: "KEY" or "KEY=FROM:TO"
     length    and other sizes: a number in SI units, or a text with its unit
@@ -284,44 +335,18 @@ def design(
     table = table or (os.path.splitext(output)[0] + "-motion.csv" if output else None)  # a run writes FILE.csv
     files = {"table": table, "output": output, "sketch": sketch, "json": json}  # the scenario refers to the table
     declare(files, {rig.name: "the scenario"}, "table", "sketch")
-    section = next((key for key in ("controller.commands", "gimbal.motion") if _bbsim.has(rig, key)), "controller.reference")
-    tilts, fault = section != "controller.reference", ""
-    if not tilts and not _bbsim.has(rig, "controller"):
-        fault = "gimbal.torque: found, which a design cannot choose; allowed: gimbal.motion, or a controller with a reference"
-    elif not tilts and any(_bbsim.has(rig, f"controller.{key}") for key in ("program", "library")):
-        fault = ("controller: found a program or library of your own; allowed in a design: a law of bbsim, "
-                 "controller.commands, or gimbal.motion")  # fmt: skip
-    elif not tilts and sketch:
-        fault = ("sketch: the scenario has a controller with a reference; allowed: with gimbal.motion or controller.commands, "
-                 "whose tilts a sketch can play; --table writes the reference for your own firmware")  # fmt: skip
-    if fault:
-        raise InputError([("", fault)])
-    sizes: Dict[str, Optional[float]] = {}
-    for option, value, unit, allowed in (
-        ("rate", rate, "", "rows per second, such as 50"), ("length", length, "s", 'a time greater than 0, such as "10 s"'),
-        ("window", window, "s", 'a time greater than 0, such as 2 or "500 ms"'),
-        ("max-tilt", max_tilt, "rad", 'an angle greater than 0, such as "8 deg"'),
-        ("max-tilt-rate", max_tilt_rate, "rad/s", 'a rate greater than 0, such as "60 deg/s"'),
-        ("margin", margin, "m", 'a length greater than 0, such as "3 cm"'),
-    ):  # fmt: skip
-        sizes[option] = None if value is None else _bbsim.value_in(str(value), unit)
-        if value is not None and not (sizes[option] or 0) > 0:
-            raise refuse(option, str(value) if option == "rate" else f'"{value}"', allowed)
+    section = section_of(rig, sketch)
+    tilts = section != "controller.reference"
+    asked = zip(_SIZES, (rate, length, window, max_tilt, max_tilt_rate, margin))
+    sizes = {option: size_of(option, value) for option, value in asked}
     period = facts(rig, "controller.sensor.period") or facts(rig, "controller.sampling.period")
     # Boards and sensors exchange values more often than a log has rows.
     hertz = sizes["rate"] or (min(1 / period, 200.0) if period else 50.0)
-    asked = sizes["length"] or facts(rig, "time.end") or 0.0
-    rows = round(asked * hertz)
+    end = sizes["length"] or facts(rig, "time.end") or 0.0
+    rows = round(end * hertz)
     if not 16 <= rows <= 100_000:
-        raise refuse("length", f"{asked:.12g} s at {hertz:.12g} Hz", "a log of 16 to 100000 rows")
-    seconds, groove = rows / hertz, _bbsim.has(rig, "ball.rolling_radius")
-    axes = [0, 1]
-    if groove:  # the reader refuses a start across it
-        try:
-            _bbsim.number_at(rig, "ball.position.0", "1e-9")
-            axes = [0]
-        except InputError:
-            axes = [1]
+        raise refuse("length", f"{end:.12g} s at {hertz:.12g} Hz", "a log of 16 to 100000 rows")
+    seconds, axes = rows / hertz, axes_of(rig)
     units = {column[0]: column[2] for column in _bbsim.known_columns("rad")}
     deviations_of_log = noise_of(rig, axes, [noise] if isinstance(noise, str) else noise, units)
     limits = limits_of(rig, sizes["max-tilt"], sizes["max-tilt-rate"], sizes["margin"])
@@ -337,23 +362,24 @@ def design(
         reference = f"table: {{file: {file}, time: t, x: x, y: y, unit: m}}"
         moves = facts(rig, "ball.velocity.0") or facts(rig, "ball.velocity.1")
         return [(section, f"{{{', '.join(profiles) if tilts else reference}}}"),
-                ("ball.position", f"[{text_of(place[0])}, {text_of(place[1])}]"), *([("ball.velocity", "[0, 0]")] if moves else []),
+                ("ball.position", f"[{text_of(place[0])}, {text_of(place[1])}]"),
+                *([("ball.velocity", "[0, 0]")] if moves else []),
                 ("time.end", text_of(seconds)), ("time.step", text_of(1 / hertz))]  # fmt: skip
 
     name_of_table = os.path.relpath(table, os.path.dirname(os.path.abspath(output))) if output and table else ""
     if output:
         _bbsim.edited(rig, settings(name_of_table), "", False)  # fails now if the text cannot be written
     with tempfile.TemporaryDirectory(prefix="bbsim-") as folder:
-        still = Path(folder) / "still.csv"
-        still.write_text(f"t,{'phi,theta' if tilts else 'x,y'}\n" + "".join(f"{seconds * i / 3!r},0,0\n" for i in range(4)))
+        still, names = Path(folder) / "still.csv", "phi,theta" if tilts else "x,y"
+        still.write_text(f"t,{names}\n" + "".join(f"{seconds * i / 3!r},0,0\n" for i in range(4)))
         plain = rig.changed(settings(str(still)))
         keys = read_free_keys([free] if isinstance(free, str) else free, plain)
         if not keys:
             raise refuse("free", "no key of the scenario", "keys that a fit may free, but not those of a log")
-        parts = [part for limit in limits for part in limit[-1]]
-        experiment = Experiment(plain, section, axes, keys, deviations_of_log, sizes["window"] or (2 if tilts else 2 * seconds),
-                                seconds, hertz, parts, int(threads or 0), progress)  # fmt: skip
-        turned = (facts(rig, "ball.rolling_radius") or 1) / ((facts(rig, "ball.radius") or 1) if groove else 1)
+        parts, cut = [part for limit in limits for part in limit[-1]], sizes["window"] or (2 if tilts else 2 * seconds)
+        experiment = Experiment(plain, section, axes, keys, deviations_of_log, cut, seconds, hertz, parts,
+                                int(threads or 0), progress)  # fmt: skip
+        turned = (facts(rig, "ball.rolling_radius") or 1) / ((facts(rig, "ball.radius") or 1) if len(axes) < 2 else 1)
         pull = (facts(rig, "gravity") or 0) / (1 + (facts(rig, "ball.inertia_factor") or 0) / turned**2)
         circle, frequency = None, 3.0  # rad/s
         found = within(experiment, circles(experiment, pull))
@@ -364,8 +390,9 @@ def design(
         chosen = best_sines(experiment, frequency * seconds / _TURN)
         if not np.isfinite(chosen.merit):
             share = experiment.play(Motions(np.zeros((1, 2 * rows + 6)), np.empty((1, 0))))[0].shares.max()
-            fault = ("the scenario does not run to its end without a motion" if np.isinf(share) else "found no motion within the limits"
-                     if share <= 1 else "without a motion, the ball or the plate goes beyond its limits")  # fmt: skip
+            fault = ("the scenario does not run to its end without a motion" if np.isinf(share) else
+                     "without a motion, the ball or the plate goes beyond its limits" if share > 1 else
+                     "found no motion within the limits")  # fmt: skip
             allowed = f"a rig that keeps the ball on the plate for {short(seconds)} s, or a shorter --length"
             raise InputError([("", f"{fault}; allowed: {allowed}")])
         tried, final = experiment.played, chosen.motion.table(experiment.times)
@@ -375,46 +402,56 @@ def design(
         slopes, effects = zip(*(experiment.slopes(one, True) if one else (None, None) for one in played))
     idle = [key.name for key, effect in zip(keys, effects[0][0]) if effect <= 1e-6]  # in units of noise
     if idle:
-        allowed = "keys that the log's columns depend on"
-        raise InputError([("", f"free: {idle[0]}: has no effect on {', '.join(deviations_of_log)}; allowed: {allowed}")])
+        what = f"free: {idle[0]}: has no effect on {', '.join(deviations_of_log)}"
+        raise InputError([("", f"{what}; allowed: keys that the log's columns depend on")])
     of_u = [np.full(len(keys), np.inf) if one is None else deviations(one[0]) for one in slopes]
     sds = [[float(f"{sd * abs(key.slope(0)):.8g}") for sd, key in zip(one, keys)] for one in of_u]
     used = dict.fromkeys((limit[0] for limit in limits), 0.0)
     for (kind, *_), share in zip((limit for limit in limits for _ in limit[-1]), played[0].shares[0].max(1)):
         used[kind] = max(used[kind], float(share))
-    waves = zip(experiment.names, chosen.motion.waves[0], chosen.motion.numbers[0, :16].reshape(2, 2, 4))
+    sines: Dict[str, List[Dict[str, float]]] = {name: [] for name in experiment.names}
+    for i in axes:
+        cosine, sine = chosen.motion.numbers[0, 8 * i : 8 * i + 8].reshape(2, 4)
+        of_sine = np.hypot(cosine, sine), chosen.motion.waves[0, i], np.arctan2(cosine, sine)
+        for one in zip(*of_sine):
+            sines[experiment.names[i]].append(dict(zip(("amplitude", "frequency", "phase"), map(float, one))))
     result = {
         "parameters": [dict(zip(("key", "value", "sd", "circle_sd", "step_sd"), (key.name, float(key.value(0)), *its)))
                        for key, *its in zip(keys, *sds)],
         "length": seconds, "rate": hertz, "noise": deviations_of_log, "used": used, "position": place.tolist(),
-        "sines": {name: [dict(zip(("amplitude", "frequency", "phase"), map(float, (np.hypot(c, s), w, np.arctan2(c, s)))))
-                         for w, c, s in zip(its, *both)] if name in experiment.moved else [] for name, its, both in waves},
-        "identifiable": bool(np.isfinite(sds[0]).all()),
+        "sines": sines, "identifiable": bool(np.isfinite(sds[0]).all()),
     }  # fmt: skip
     begin = f"begin with the ball at rest at x = {short(100 * place[0])} cm, y = {short(100 * place[1])} cm"
     shown = [[f"{sd:.3g}" if np.isfinite(sd) else "-" for sd in its] for its in zip(*sds)]
     comments = f"# Designed by bbsim {_bbsim.__version__}: plays {name_of_table}, {short(seconds)} s; {begin}\n"
-    comments += "# Standard deviations to expect from a fit:\n" + "".join(
-        f"#   {key.name}: {f'{its[0]} {key.unit}'.strip() if its[0] != '-' else '-'}\n" for key, its in zip(keys, shown))  # fmt: skip
+    comments += "# Standard deviations to expect from a fit:\n"
+    for key, its in zip(keys, shown):
+        comments += f"#   {key.name}: {its[0]}" + f" {key.unit}" * (its[0] != "-" and key.unit != "") + "\n"
     commands = experiment.commands(final)[0]
-    csv = f"t,{','.join(experiment.names)}\n" + "".join(",".join(map(text_of, row)) + "\n" for row in zip(experiment.times, *commands))
-    texts = {"table": csv, "json": as_json(result), "sketch": player_sketch(hertz, commands, place) if sketch else "",
-             "output": _bbsim.edited(rig, settings(name_of_table, place), comments, False) if output else ""}  # fmt: skip
+    lines = [",".join(map(text_of, row)) for row in zip(experiment.times, *commands)]
+    texts = {
+        "table": "\n".join([f"t,{names}", *lines, ""]), "json": as_json(result),
+        "sketch": player_sketch(hertz, commands, place) if sketch else "",
+        "output": _bbsim.edited(rig, settings(name_of_table, place), comments, False) if output else "",
+    }  # fmt: skip
     for name, file in files.items():
         if file:
             write(file, texts[name])
-    by_key = [[key.name, short(key.value(0)), *its, key.unit or "1"] for key, its in zip(keys, shown)]
-    by_limit = [[name, size, f"{_bbsim.rounded(100 * used[kind], 3)} %", source] for kind, name, size, source, _ in limits]
-    log = ", ".join(f"{name} {size:.3g} {units[name]}".strip() for name, size in deviations_of_log.items())
-    unknown = [f"not identifiable: {key.name}, which a log of this length cannot separate from the other keys and the windows' "
-               "starts\n" for key, its in zip(keys, shown) if its[0] == "-"]  # fmt: skip
     made = loads(texts["json"], object_hook=lambda its: SimpleNamespace(**its))
-    made.report = (
-        aligned([["standard deviation", "value", "designed", "circle", "step", "unit"], *by_key]) + "\n"
-        + aligned([["limit", "of", "used", "from"], *by_limit]) + f"\n{short(seconds)} s at {short(hertz)} Hz: {experiment.numbers} "
-        f"numbers in {experiment.windows} window{'s' * (experiment.windows != 1)}; noise {log}\nbest of {tried} motions"
-        + (f"; the best circle has {frequency / _TURN:.3g} Hz" if circle else "") + f"\n{begin}\n" + "".join(unknown)
-    )  # fmt: skip
+    circling = f"; the best circle has {frequency / _TURN:.3g} Hz" if circle else ""
+    logged = ", ".join(f"{name} {size:.3g} {units[name]}".strip() for name, size in deviations_of_log.items())
+    windows = f"{experiment.windows} window{'s' * (experiment.windows != 1)}"
+    by_key = [[key.name, short(key.value(0)), *its, key.unit or "1"] for key, its in zip(keys, shown)]
+    percent = {kind: f"{_bbsim.rounded(100 * share, 3)} %" for kind, share in used.items()}
+    by_limit = [[name, size, percent[kind], source] for kind, name, size, source, _ in limits]
+    made.report = "\n".join([
+        aligned([["standard deviation", "value", "designed", "circle", "step", "unit"], *by_key]),
+        aligned([["limit", "of", "used", "from"], *by_limit]),
+        f"{short(seconds)} s at {short(hertz)} Hz: {experiment.numbers} numbers in {windows}; noise {logged}",
+        f"best of {tried} motions{circling}", begin,
+        *(f"not identifiable: {key.name}, which a log of this length cannot separate from the other keys and the "
+          "windows' starts" for key, its in zip(keys, shown) if its[0] == "-"), "",
+    ])  # fmt: skip
     return made
 
 

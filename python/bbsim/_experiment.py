@@ -16,14 +16,15 @@ from ._progress import Progress
 from ._simulate import Array, simulate
 
 _STEP = 1e-3  # of keys' numbers u and of starts (SI), for differences
-_ROUGH = ("sampling.resolution", "sampling.jitter", "sensor.resolution", "sensor.noise", "sensor.dropout", "sensor.seed")
-_CHANGES = {"scale": 1.0, "offset": 0.0, "delay": 0.0}  # of a table
+_ROUGH = ("sampling.resolution", "sampling.jitter", "sensor.resolution", "sensor.noise", "sensor.dropout",
+          "sensor.seed")  # fmt: skip
+_CHANGES = ("scale", "offset", "delay")  # of a table
 
 
 class Motions(NamedTuple):
     """Motions, and their runs: each array has an entry for each motion."""
 
-    numbers: Array  # of each axis amplitudes of cosines and sines, or values at even times; then the ball's x, y, vx, vy
+    numbers: Array  # of each axis amplitudes of cosines and sines, or values at even times; the ball's x, y, vx, vy
     waves: Array  # the frequencies of these cosines and sines (rad/s): (motion, axis, 4), or (motion, 0)
     shares: Array = np.empty(0)  # of the limits: (motion, limit, time)
     states: Array = np.empty(0)  # at the begins of windows: (motion, window, state)
@@ -34,7 +35,8 @@ class Motions(NamedTuple):
     def at(self, times: Array) -> Array:
         """The values of both axes."""
         axes, angles = self.numbers[:, :-4].reshape(len(self.numbers), 2, -1), self.waves[..., None] * times
-        return np.einsum("nac,nact->nat", axes, np.concatenate([np.cos(angles), np.sin(angles)], 2)) if angles.size else axes
+        both = np.concatenate([np.cos(angles), np.sin(angles)], 2)
+        return np.einsum("nac,nact->nat", axes, both) if both.size else axes
 
     def table(self, times: Array) -> "Motions":
         rows = self.at(times).reshape(len(self.numbers), -1)
@@ -53,15 +55,16 @@ class Experiment:
         self.tilts = section != "controller.reference"
         self.names = ("phi", "theta") if self.tilts else ("x", "y")
         self._profiles = [f"{section}.{self.names[i]}" for i in axes] if self.tilts else [section]
-        self.moved = [self.names[i] for i in axes]
         own = {key.name: key.start for key in keys}
-        changes = {f"{its}.table.{name}": usual for its in self._profiles[: 2 * self.tilts] for name, usual in _CHANGES.items()}
-        self._changes = {key: own.get(key, _bbsim.key_facts(plain, "", key).value or usual) for key, usual in changes.items()}
+        self._changes: Dict[str, float] = {}
+        for key in (f"{its}.table.{name}" for its in self._profiles[: 2 * self.tilts] for name in _CHANGES):
+            self._changes[key] = own[key] if key in own else _bbsim.key_facts(plain, "", key).value or 0.0
         # Rounding has no derivative, and random effects are not the log's own noise.
         smooth = [(f"controller.{key}", "null") for key in _ROUGH if _bbsim.has(plain, f"controller.{key}")]
         if not any(key.name.endswith("dead_band") for key in keys) and _bbsim.has(plain, "controller.sampling"):
-            servos = [f"gimbal.servo{axis}" for axis in ("", ".phi", ".theta") if _bbsim.has(plain, f"gimbal.servo{axis}")]
-            smooth += [(f"{servo}.{end}", text) for servo in servos for end, text in (("scale", "null"), ("dead_band", "0"))]
+            servos = [f"gimbal.servo{axis}" for axis in ("", ".phi", ".theta")]
+            servos = [key for key in servos if _bbsim.has(plain, key)]
+            smooth += [(f"{key}.{end}", to) for key in servos for end, to in (("scale", "null"), ("dead_band", "0"))]
         for key, most in (("solver.rtol", 1e-10), ("solver.atol", 1e-12)):
             smooth.append((key, repr(min(most, _bbsim.key_facts(plain, "", key).value or most))))
         self._of_tables = plain.changed([*smooth, ("solver.error", "null")])
@@ -74,7 +77,8 @@ class Experiment:
         self.highest = max(4, int(min(3, rate / 8) * length))
         # Windows as in a fit. Columns of one axis tell nothing about the start of the other.
         ends = np.arange(1, max(1, round(length / window))) * window * (1 - 1e-9)
-        windows = [one for one in np.split(np.arange(len(self.times)), np.searchsorted(self.times, ends)) if len(one) > 1]
+        windows = np.split(np.arange(len(self.times)), np.searchsorted(self.times, ends))
+        windows = [one for one in windows if len(one) > 1]
         sizes = np.array(list(map(len, windows)))
         self.windows, self.numbers = len(windows), int(sizes.sum()) * len(noise)
         self._rows = np.array([np.pad(one, (0, sizes.max() - len(one)), "edge") for one in windows])
@@ -150,8 +154,9 @@ class Experiment:
         at = np.tile(self.times[self._rows], (count * len(steps), 1))
         keys = {key.name: np.tile(np.repeat(its, windows), count) for key, its in zip(self.keys, values.T)
                 if key.name[len("controller.") :] not in _ROUGH}  # fmt: skip
+        begins = (motions.states[:, None] + starts).reshape(-1, len(_bbsim.START))
         run = self._simulate(motions, len(steps) * windows, keys, list(self._noise), times=at, begin=at[:, 0],
-                             end=at[:, -1], start=(motions.states[:, None] + starts).reshape(-1, len(_bbsim.START)))  # fmt: skip
+                             end=at[:, -1], start=begins)  # fmt: skip
         shape = (count, len(steps), windows)
         log = np.stack([run[name].reshape(*shape, -1) / its for name, its in self._noise.items()], -1)
         log = np.where(self._real[..., None], log, 0).reshape(*shape, -1)

@@ -160,9 +160,12 @@ class Written(Case):
             table=self.table, json=self.files["json"], sketch=self.files["ino"], threads=threads,
         )  # fmt: skip
 
+    def texts(self):
+        return {name: Path(file).read_text() for name, file in (*self.files.items(), ("csv", self.table))}
+
     def test_what_is_written_and_its_fit(self):
         made = self.made(2)
-        texts = {name: Path(file).read_text() for name, file in (*self.files.items(), ("csv", self.table))}
+        texts = self.texts()
         # The scenario keeps its comments, and free keys keep their values.
         for part in ("# Mine.", "# as recorded", "velocity: [0, 0]", "scale: 1.1, offset: 0.004", "time: {end: 6,"):
             self.assertIn(part, texts["yaml"])
@@ -194,7 +197,7 @@ class Written(Case):
             self.assertLess(abs(one["estimate"] - expected.value), 3.9 * one["sd"], one["key"])
         # The same with any number of threads.
         self.made(1)
-        self.assertEqual(texts, {name: Path(file).read_text() for name, file in (*self.files.items(), ("csv", self.table))})
+        self.assertEqual(texts, self.texts())
 
     def test_inseparable_keys(self):
         keys = ["gimbal.motion.phi.table.offset", "gimbal.mounting.phi_offset", INERTIA]  # two offsets of one angle
@@ -207,13 +210,15 @@ class Written(Case):
 
     def test_groove(self):
         keys = ["gimbal.motion.theta.table.scale", "gimbal.motion.theta.table.offset"]
-        made = bbsim.design(LEVEL, keys, set={"ball.rolling_radius": "8 mm", "gimbal.motion": "{phi: 0, theta: 1 deg}"}, length=2)
+        settings = {"ball.rolling_radius": "8 mm", "gimbal.motion": "{phi: 0, theta: 1 deg}"}
+        made = bbsim.design(LEVEL, keys, set=settings, length=2)
         self.assertEqual((vars(made.noise), made.sines.phi, made.position[0]), ({"y": 1e-3}, [], 0))
         self.assertTrue(made.identifiable)
 
     def test_log_of_the_angle_in_windows(self):
         keys = ["gimbal.servo.natural_frequency", "gimbal.servo.damping"]
-        whole, cut = (bbsim.design(CONFIGS / "rig.yaml", keys, length=2, noise=["phi=0.1deg"], window=window) for window in (None, 1))
+        rig, options = CONFIGS / "rig.yaml", {"length": 2, "noise": ["phi=0.1deg"]}
+        whole, cut = (bbsim.design(rig, keys, **options, window=window) for window in (None, 1))
         self.assertIn("303 numbers in 1 window;", whole.report)
         self.assertIn("303 numbers in 2 windows;", cut.report)
         self.assertTrue(cut.identifiable)
@@ -234,7 +239,8 @@ class Refused(Case):
         leaning = {"gimbal.mounting.phi_offset": "5 deg"}
         self.refuses("without a motion, the ball or the plate goes beyond its limits", set=leaning)
         self.refuses("sketch: the scenario has a controller", CONFIGS / "rig.yaml", sketch="a.ino")
-        self.refuses("sketch: found 10001 rows; allowed: at most 8191", length=20, rate=500, sketch=str(self.folder / "a.ino"))
+        sketch = {"length": 20, "rate": 500, "sketch": str(self.folder / "a.ino")}
+        self.refuses("sketch: found 10001 rows; allowed: at most 8191", **sketch)
         self.assertEqual(os.listdir(self.folder), [])
 
     def test_keys(self):
