@@ -146,7 +146,9 @@ class Experiment:
         if count > 8:  # for progress, and less memory
             some = [self.slopes(motions.take(slice(i, i + 8)), central) for i in range(0, count, 8)]
             return np.concatenate([one for one, _ in some]), np.concatenate([one for _, one in some])
-        one = _STEP * np.eye(free + len(self.keys))
+        # A value at its bound has a neighbor on one side only.
+        signs = np.array([1] * free + [-1 if key.value(_STEP) == key.value(0) else 1 for key in self.keys])
+        one = _STEP * np.diag(signs)
         steps = np.vstack([0 * one[:1], one, -one] if central else [0 * one[:1], one])
         values = np.column_stack([key.value(steps[:, free + k]) for k, key in enumerate(self.keys)])
         starts = np.zeros((len(steps), 1, len(_bbsim.START)))
@@ -160,14 +162,13 @@ class Experiment:
         shape = (count, len(steps), windows)
         log = np.stack([run[name].reshape(*shape, -1) / its for name, its in self._noise.items()], -1)
         log = np.where(self._real[..., None], log, 0).reshape(*shape, -1)
-        # A value at its bound has a neighbor on one side only.
         moves = (values != values[0]).any(1) | starts.any((1, 2)) | (np.arange(len(steps)) == 0)
         done = (run.status == "done").reshape(shape) & np.isfinite(log).all(-1) & moves[:, None]
         log = np.where(done[..., None], log, np.where(done[:, :1, :, None], log[:, :1], 0))
         up, down = log[:, 1 : 1 + len(one)], log[:, 1 + len(one) :] if central else log[:, :1]
-        width = _STEP * (done[:, 1:] & done[:, :1]).reshape(count, -1, len(one), windows).sum(1)
+        width = (done[:, 1:] & done[:, :1]).reshape(count, -1, len(one), windows).sum(1)[..., None]
         width[:, free:] *= (width[:, :free] > 0).all(1)[:, None]
-        slopes = np.divide(up - down, width[..., None], out=np.zeros_like(up), where=width[..., None] > 0)
+        slopes = np.divide(up - down, _STEP * signs[:, None, None] * width, out=np.zeros_like(up), where=width > 0)
         by_start, by_key = np.moveaxis(slopes[:, :free], 1, -1), np.moveaxis(slopes[:, free:], 1, -1)
         u, sizes, _ = np.linalg.svd(by_start, full_matrices=False)
         u *= (sizes > 1e-9 * sizes[..., :1])[..., None, :]  # others have no effect

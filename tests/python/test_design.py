@@ -208,6 +208,10 @@ class Written(Case):
         self.assertFalse(made.identifiable)
         self.assertEqual(vars(made.noise), {"x": 2e-3, "y": 1e-3})
 
+    def test_value_at_its_bound(self):
+        made = bbsim.design(LEVEL, INERTIA, set={INERTIA: 0.67}, length=2)
+        self.assertLess(made.parameters[0].sd, 0.00232)  # that of the C++ design
+
     def test_groove(self):
         keys = ["gimbal.motion.theta.table.scale", "gimbal.motion.theta.table.offset"]
         settings = {"ball.rolling_radius": "8 mm", "gimbal.motion": "{phi: 0, theta: 1 deg}"}
