@@ -13,7 +13,7 @@ import re
 import signal
 import sys
 from pathlib import Path
-from typing import Any, Callable, Dict, List, NoReturn, Optional, Sequence
+from typing import Any, Dict, List, NoReturn, Optional, Sequence
 
 from . import _bbsim
 from ._errors import ControllerError, InputError, OutputError
@@ -35,20 +35,17 @@ def _table(name: str) -> Dict[str, Any]:
     return json.loads((Path(__file__).parent / "commands.json").read_text("utf-8"))[name]  # type: ignore[no-any-return]
 
 
-def _number(name: str, least: Optional[int]) -> Callable[[str], float]:
-    """Reads an option's number; a whole one from `least` on, unless that is None."""
-
-    def read(text: str) -> float:
-        try:
-            number = float(text) if least is None else int(text)
-        except ValueError:
-            number = math.nan
-        if not math.isfinite(number) or (least is not None and number < least):
-            allowed = "a number" if least is None else f"a whole number from {least} up"
-            raise InputError([("", f"{name}: found {text}; allowed: {allowed}")])
+def _number(option: Dict[str, Any], text: str) -> float:
+    """An option's number: a whole one from option["whole"] on, if the option has that."""
+    least = option.get("whole")
+    try:
+        number = float(text) if least is None else int(text)
+    except ValueError:
+        number = math.nan
+    if math.isfinite(number) and (least is None or number >= least):
         return number
-
-    return read
+    name, allowed = option["names"].split(",")[-1], "a number" if least is None else f"a whole number from {least} up"
+    raise InputError([("", f"{name}: found {text}; allowed: {allowed}")])
 
 
 def _parsed(name: str, table: Dict[str, Any], words: Sequence[str]) -> Dict[str, Any]:
@@ -73,8 +70,6 @@ def _parsed(name: str, table: Dict[str, Any], words: Sequence[str]) -> Dict[str,
             how.update(required=option.get("required", False))
             if option.get("repeatable"):
                 how.update(action="append", default=[])
-            elif "whole" in option or option.get("number"):
-                how.update(type=_number(names[-1], option.get("whole")))
         parser.add_argument(*names, **how)
     parsed, rest = parser.parse_known_intermixed_args(words)
     for word in rest:
@@ -84,7 +79,11 @@ def _parsed(name: str, table: Dict[str, Any], words: Sequence[str]) -> Dict[str,
     for key, value in vars(parsed).items():
         if "" in (value if isinstance(value, list) else [value]):
             parser.error(f"--{key}: found nothing; allowed: a value, or leave the option out")
-    return vars(parsed)
+    values = vars(parsed)
+    for option in table["options"]:
+        if ("whole" in option or option.get("number")) and values[_name_of(option)] is not None:
+            values[_name_of(option)] = _number(option, values[_name_of(option)])
+    return values
 
 
 def _say(text: str) -> None:
