@@ -1,0 +1,268 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Values of keys, such as gains, that are best on the worst of many rigs: bbsim.tune and `bbsim tune`."""
+
+from __future__ import annotations
+
+import re
+import sys
+from types import SimpleNamespace
+from typing import Any, Dict, List, Tuple
+
+import numpy as np
+
+from . import _bbsim
+from ._errors import InputError
+from ._found_files import aligned, as_json, declare, write, write_found
+from ._free_keys import read_free_key, refuse
+from ._progress import Bar, silent
+from ._scenario import Scenario, Settings, given
+from ._simulate import Array, simulate
+from ._worst_case import Search, merit_of, worst_of
+
+_SEARCHES, _TIGHTER = 4, 1.5  # a requirement is tightened by this times what it lacked on rigs held out
+_LACKS_DRAW = "found, but no value is drawn; allowed: with --vary KEY=normal:MEAN:SD or uniform:FROM:TO"
+
+
+class _Tuning:
+    """Reads what is asked, runs rigs, and sums up."""
+
+    reason = ""  # why a rig was lost or has no value
+
+    def __init__(self, base: _bbsim.Given, options: Dict[str, Any]) -> None:
+        self.base, self.share, self.vary, self.threads = base, options["quantile"], options["vary"], options["threads"] or 0
+        if not 0 < self.share <= 1:
+            raise _fault(f"--quantile: found {self.share:g}; allowed: a share above 0 and up to 1, such as 0.95")
+        self.keys: List[Tuple[str, str, float, int]] = []  # name, unit, factor, place of its number
+        free = np.array([self._read(text, place) for place, text in enumerate(options["free"])]).T
+        self.bounds, self.start, names = free[:2], free[2], [key[0] for key in self.keys]
+        for i, name in enumerate(names):
+            if name in names[:i]:
+                refuse(f"{name} is given twice")
+        self.logarithmic = (free[0] > 0) & (free[1] > 10 * free[0])  # positive numbers over more than a decade
+        _bbsim.remarks(base.changed(self.settings(self.start)))  # reads these values together
+        self.goals = [_bbsim.expectation(base, "--require", text) for text in options["require"]]
+        measure, self.unit = _bbsim.measure_name(base, "--minimize", options["minimize"])
+        self.measures = [options["minimize"], *(re.split("[<>]", goal.text)[0].strip() for goal in self.goals)]
+        moves = not all(goal.of_loop for goal in [_bbsim.expectation(base, "", f"{self.measures[0]} < 0"), *self.goals])
+        self.asked = [*dict.fromkeys(self.measures), *["end_t"] * moves]
+        self.hold_out, draws = options["hold_out"], any(re.search("= *(normal|uniform):", text) for text in self.vary)
+        for option, number in (("--samples", options["samples"]), ("--hold-out", self.hold_out)):
+            if number and not draws:
+                raise _fault(f"{option}: {_LACKS_DRAW}")
+        self.rigs = self.draw(options["samples"], 1)
+        for name in self.rigs:
+            if name in names:
+                raise _fault(f"--vary: {name}: found among the free keys, too; allowed: one of the two")
+        self.quick = _bbsim.without_notes(base, [*names, *self.rigs], [measure, *(goal.measure for goal in self.goals)])
+        self.end = _bbsim.key_facts(base, "", "time.end").value or 1.0
+        if options["output"]:
+            self.scenario("", self.start)  # fails before the work if the text cannot be written
+
+    def _read(self, text: str, place: int) -> Tuple[float, float, float]:
+        names, equals, bounds = (part.strip() for part in text.partition("="))
+        if not equals:
+            refuse(f"{names}: found no range; allowed: KEY=FROM:TO, such as controller.gravity_compensation.kp=1:20")
+        for part in names.split(","):
+            number, star, name = (word.strip() for word in part.rpartition("*"))
+            negative = not star and name.startswith("-")
+            factor = _bbsim.value_in(number, "") if star else -1.0 if negative else 1.0
+            name = name[1:].strip() if negative else name
+            if not factor or not name:
+                refuse(f"{names}: found '{part}'; allowed: KEY, -KEY or NUMBER*KEY with a number that is not 0")
+            if len(self.keys) == 0 or self.keys[-1][3] != place:
+                if factor != 1:
+                    refuse(f"{names}: found a factor before the first key; allowed: KEY,FACTOR*KEY=FROM:TO")
+                first = read_free_key(f"{name}={bounds}", self.base)
+            self.keys.append((name, _bbsim.key_facts(self.base, "--free", name).unit, factor, place))
+        return first.lower, first.upper, first.start
+
+    def draw(self, samples: Any, seed: int) -> Any:
+        drawn = _bbsim.drawn(self.base, self.vary, samples, seed)
+        return {name: np.array(drawn.texts(i) or drawn.numbers(i)) for i, name in enumerate(drawn.names)}
+
+    def scaled(self, numbers: Array) -> Array:
+        return np.where(self.logarithmic, np.log(np.where(self.logarithmic, numbers, 1)), numbers)
+
+    def numbers(self, points: Array) -> Array:
+        """The numbers at points between 0 and 1."""
+        low, high = self.scaled(self.bounds)
+        scaled = low + points * (high - low)
+        return np.clip(np.where(self.logarithmic, np.exp(np.where(self.logarithmic, scaled, 0)), scaled), *self.bounds)
+
+    def settings(self, numbers: Array) -> List[Tuple[str, str]]:
+        return [(name, f"{float(factor * numbers[at])!r} {unit}".strip()) for name, unit, factor, at in self.keys]
+
+    def scenario(self, comments: str, numbers: Array) -> str:
+        return _bbsim.edited(self.base, self.settings(numbers), comments, False)
+
+    def measured(self, points: Array, rigs: Any) -> Tuple[Array, Array]:
+        """The measures of all rigs at all points, NaN where a run does not reach its end; the part that it missed."""
+        numbers, shape = self.numbers(points), (len(points), _count(rigs))
+        cases = {name: np.tile(values, len(points)) for name, values in rigs.items()}
+        cases.update((name, np.repeat(factor * numbers[:, at], shape[1])) for name, _, factor, at in self.keys)
+        try:
+            made = simulate(self.quick, cases, [], measures=self.asked, threads=self.threads)
+        except InputError as error:  # no rig has such a scenario
+            self.reason = str(error)
+            return np.full((*shape, len(self.measures)), np.nan), np.ones(shape)
+        reasons = [why if status == "done" else f"{status}: {why}" for status, why in zip(made.status, made.reason) if why]
+        self.reason = reasons[-1] if reasons else self.reason
+        missed = np.where(made.status == "done", 0, 1 - np.nan_to_num(made.measures.get("end_t", 0.0)) / self.end)
+        values = np.stack([np.where(made.status == "done", made.measures[name], np.nan) for name in self.measures], 1)
+        return values.reshape(*shape, -1), np.clip(missed, 0, 1).reshape(shape)
+
+    def scores(self, values: Array) -> Array:
+        """The objective, and what each requirement lacks relative to its bound; infinite without a value."""
+        scores = np.where(np.isfinite(values), values, np.inf)
+        for i, goal in enumerate(self.goals, 1):
+            lacks = (1 if goal.upper else -1) * (scores[..., i] - goal.value) / (abs(goal.value) or 1)
+            lacks = np.where(lacks == 0, 0 if goal.holds(goal.value) else 1e-300, np.where(np.isfinite(lacks), lacks, np.inf))
+            endless = goal.of_loop and not goal.upper  # no change of gain or delay uses up such a margin: it has no bound
+            scores[..., i] = np.where(endless & (values[..., i] == np.inf), -1, lacks)
+        return scores
+
+    def find(self, progress: Any) -> Any:
+        """Searches; if a requirement fails on rigs held out, tightens it, goes on, and tries others."""
+        seen: Dict[bytes, Array] = {}
+        tighter, tries, low, high = np.zeros(len(self.goals)), [], *self.scaled(self.bounds)  # type: Any
+        start = np.clip((self.scaled(self.start) - low) / (high - low), 0, 1)
+
+        def score(points: Array, cases: Array) -> Tuple[Array, Array]:
+            done = search.tried / (60 * (1 + len(start)))
+            progress(done / (0.2 + done), f"{self.measures[0]} {search.merit[-1]:.3g}")
+            values, missed = self.measured(points, {name: one[cases] for name, one in self.rigs.items()})
+            if len(cases) == len(search.all):
+                seen.update((point.tobytes(), its) for point, its in zip(points, values))
+            return self.scores(values) + [0, *tighter], missed
+
+        found, search = SimpleNamespace(interrupted=False), Search(score, _count(self.rigs), self.share)
+        try:
+            for turn in range(_SEARCHES if self.hold_out else 1):
+                search.run(search.best if turn else start, again=turn > 0)
+                if not self.hold_out:
+                    break
+                progress(0.99, "rigs held out")
+                values, missed = (one[0] for one in self.measured(search.best[None], self.draw(self.hold_out, 2 + turn)))
+                scores, drawn = self.scores(values), self.scores(seen[search.best.tobytes()])
+                kept, held = merit_of(drawn, np.zeros(len(drawn)), self.share), merit_of(scores, missed, self.share)
+                passes = np.isfinite(scores[:, 0]) & (scores[:, 1:] <= 0).all(1)
+                tries.append((kept[:2], held[:2], kept[2], turn, search.best, passes, tighter))
+                if kept[:2] > (0, 0) or held[1] == 0:
+                    break
+                tighter = tighter + _TIGHTER * np.maximum(worst_of(scores, self.share)[1:], 0)
+        except KeyboardInterrupt:
+            found.interrupted = True
+        *_, found.point, found.passes, found.tighter = min(tries) if tries else (search.best, [], tighter)
+        if found.point is None:
+            raise KeyboardInterrupt
+        found.before, found.after, found.tried = seen[start.tobytes()], seen[found.point.tobytes()], search.tried
+        return found
+
+    def worst(self, values: Array, i: int) -> Tuple[float, bool, int]:
+        """A measure of the worst rig that counts, whether that is good enough, and how many rigs have no value."""
+        scores, sign = self.scores(values)[:, i], 1 if i == 0 or self.goals[i - 1].upper else -1
+        value = sign * worst_of(np.where(np.isfinite(scores), sign * values[:, i], np.inf), self.share)
+        good = np.isfinite(value) if i == 0 else worst_of(scores, self.share) <= 0
+        return float(value), bool(good), int((~np.isfinite(scores)).sum())
+
+    def result(self, found: Any) -> Any:
+        short, numbers, reasons, count = _bbsim.short_number, self.numbers(found.point), [], len(found.after)
+        made = SimpleNamespace(parameters=[], objective=0.0, requirements=[], interrupted=found.interrupted)
+        keys = [["key", "before", "tuned", "from", "to", "unit"]]
+        for name, unit, factor, at in self.keys:
+            made.parameters.append(SimpleNamespace(key=name, value=float(factor * numbers[at])))
+            keys.append([name, *map(short, factor * np.array([self.start[at], numbers[at], *self.bounds[:, at]])), unit or "1"])
+        rigs = f"the worst of {count} rigs" if self.share == 1 else f"the {short(self.share)} quantile of {count} rigs"
+        rigs = "one rig" if count == 1 else rigs
+        measures, comments = [["measure", "before", "tuned", "unit", "holds"]], f"# Tuned by bbsim {_bbsim.__version__} on {rigs}\n"
+        for i, name in enumerate([self.measures[0], *(goal.text for goal in self.goals)]):
+            unit, (value, good, lacking) = self.goals[i - 1].unit if i else self.unit, self.worst(found.after, i)
+            holds = ("yes" if i else "-") if good else "no"
+            holds += f": no value on {lacking} rig{'s' * (lacking > 1)}" if lacking else ""
+            measures.append([name, f"{self.worst(found.before, i)[0]:.3g}", f"{value:.3g}", unit or "1", holds])
+            comments += f"#   {name}{' (does not hold)' if i and not good else ''}: {short(value)} {unit}".rstrip() + "\n"
+            if i:
+                made.requirements.append(SimpleNamespace(text=name, value=value, holds=good))
+                reasons += [] if good else [f"{name}; the best has {short(value)} {unit}".rstrip()]
+            else:
+                made.objective = value
+        if not reasons and not np.isfinite(made.objective):
+            reasons.append(f"a finite {self.measures[0]}")
+        lines = [f"tune: found no values with {reason}" for reason in reasons]
+        lines += [f"  a rig: {self.reason}"] if reasons and self.reason else []
+        if found.interrupted:
+            lines.insert(0, f"tune: interrupted after {found.tried} tries; the result is the best of them")
+        made.met, made.reason = not reasons, "\n".join(lines)
+        made.report = f"{aligned(keys)}\n{aligned(measures)}\non {rigs}; {found.tried} tries\n"
+        share = float(np.mean(found.passes)) if len(found.passes) else None
+        made.hold_out = SimpleNamespace(cases=len(found.passes), share_that_holds=share)
+        if share is not None:
+            text = f"ll requirements hold on {_bbsim.rounded(100 * share, 4)} % of {len(found.passes)} rigs held out"
+            made.report, comments = f"{made.report}a{text}\n", f"{comments}# A{text}.\n"
+        for goal, part in zip(self.goals, found.tighter):
+            if part:
+                made.report += f"searched for {goal.text} with {_bbsim.rounded(100 * part, 2)} % to spare, for rigs held out\n"
+        made.scenario = self.scenario(comments, numbers)
+        return made
+
+
+def _fault(text: str) -> InputError:
+    return InputError([("", text)])
+
+
+def _count(rigs: Any) -> int:
+    return len(next(iter(rigs.values()), [0]))
+
+
+def _json(made: Any) -> str:
+    names = "parameters", "objective", "requirements", "hold_out"
+    plain = lambda one: [vars(its) for its in one] if isinstance(one, list) else getattr(one, "__dict__", one)
+    return as_json({name: plain(getattr(made, name)) for name in names})
+
+
+def tune(
+    scenario: Scenario, free: Any, minimize: str, require: Any = (), vary: Any = (), samples: Any = None,
+    hold_out: Any = None, quantile: float = 1, *, set: Settings = None, output: Any = None, json: Any = None, threads: int = 0,
+) -> Any:  # fmt: skip
+    """Finds the values of keys at which a measure is smallest on the worst of many rigs.
+
+    free      the keys to choose and their bounds: "KEY=FROM:TO", or tied keys: "KEY,-KEY,2*KEY=FROM:TO"
+    minimize  the measure
+    require   conditions that must hold on all rigs: "MEASURE < VALUE"
+    vary      what differs from rig to rig: "KEY=SPEC", as in a sweep
+    samples, hold_out   numbers of rigs to draw: for the search, and to test its result
+    quantile  the share of rigs that counts
+    output, json        files to write: the scenario with the values, and the results
+
+    The result has the names of the JSON: parameters (key, value), objective, requirements (text, value, holds), hold_out
+    (cases, share_that_holds). `met` says whether all requirements hold and the measure is finite, `reason` why not;
+    `report` is the printed text, `scenario` that of the tuned scenario. An interrupted search gives the best so far.
+    """
+    options = dict(locals())
+    options.update((name, [options[name]]) for name in ("free", "require", "vary") if isinstance(options[name], str))
+    tuning = _Tuning(given(scenario, set), options)
+    made = tuning.result(tuning.find(silent))
+    for file, text in ((output, made.scenario), (json, _json(made))):
+        if file:
+            write(str(file), text)
+    return made
+
+
+def command(options: Dict[str, Any], say: Any) -> int:
+    """`bbsim tune`; `say` prints a message unless -q is given."""
+    base = _bbsim.Given(options["scenario"], None, options["set"], None)
+    declare(options, {options["scenario"]: "the scenario"})
+    options["quantile"] = 1 if options["quantile"] is None else options["quantile"]
+    tuning = _Tuning(base, options)
+    for remark in _bbsim.remarks(base):
+        say(remark)
+    try:
+        with Bar(base.name, options["quiet"]) as progress:
+            made = tuning.result(tuning.find(progress))
+    except KeyboardInterrupt:
+        sys.stderr.write("tune: interrupted before the first result; nothing is written\n")
+        return 130
+    write_found(base, options["scenario"], options, made.scenario, _json(made), made.report, say)
+    sys.stderr.write(made.reason + "\n" * (made.reason != ""))
+    return 130 if made.interrupted else 0 if made.met else 1
