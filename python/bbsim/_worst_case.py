@@ -14,7 +14,7 @@ from ._simulate import Array
 _CASES, _MORE, _ROUNDS = 16, 8, 9  # cases of the first search, those that a round adds, rounds
 _SCANNED, _STEPS, _RUNS = 8, 10, 8  # points of the scan for each number and one; steps from a point; least runs of a step
 _FIRST, _LATER, _LAST = 0.2, 0.08, 0.003  # radii of steps
-_MARGIN, _LITTLE, _RIDGE = 1e-3, 1e-3, 0.1  # of requirements; a gain that ends the search; of the models' curvature
+_MARGIN, _LITTLE, _RIDGE = 1e-3, 3e-4, 0.1  # of requirements; a gain that ends the search; of the models' curvature
 
 
 def worst_of(scores: Array, share: float) -> Array:
