@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any, Callable, Tuple
 
 import numpy as np
@@ -94,8 +95,10 @@ class Search:
         start, found = [*[0.0] * size, level[is_value].max(), max(0, level[~is_value].max())], []
         for part in (1, 0.5, 0.25):
             box = np.clip([-self.points[at] / radius, (1 - self.points[at]) / radius], -part, part).T
-            z = minimize(lambda z: z[-2] + 100 * z[-1], start, bounds=[*box, (None, None), (0, None)], method="SLSQP",
-                         constraints={"type": "ineq", "fun": slack}, options={"maxiter": 50}).x  # fmt: skip
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # SLSQP's, on differences beyond the bounds
+                z = minimize(lambda z: z[-2] + 100 * z[-1], start, bounds=[*box, (None, None), (0, None)], method="SLSQP",
+                             constraints={"type": "ineq", "fun": slack}, options={"maxiter": 50}).x  # fmt: skip
             found.append(np.clip(self.points[at] + radius * z[:-2], 0, 1))
         return np.array(found)
 
