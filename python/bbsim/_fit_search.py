@@ -1,0 +1,334 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The values of keys at which a model is closest to logs, and how well the logs determine them."""
+
+from __future__ import annotations
+
+import math
+from typing import List, NamedTuple, Optional, Sequence, Tuple
+
+import numpy as np
+from scipy.optimize import least_squares, lsq_linear
+from scipy.special import stdtrit
+
+from . import _bbsim
+from ._fit_windows import FAR, LogKey, WindowsFit
+from ._free_keys import FreeKey, refuse
+from ._progress import Progress, silent
+from ._simulate import Array
+
+_HUBER = 1.345  # standard deviations; costs 5 % of the efficiency for Gaussian noise
+_UNTOLD = 1e-4  # of the largest singular value; smaller ones are errors of differences
+
+
+class _Done(Exception):
+    """The sum of squares has no more to give."""
+
+
+class Sizes(NamedTuple):
+    """Of each column's residuals, in SI units."""
+
+    rms: Array
+    usual: Array  # robust: 1.4826 times the median size
+    counts: Array
+
+
+class Search:
+    """`u`: the best numbers of the keys so far."""
+
+    def __init__(self, windows: WindowsFit, robust: bool, progress: Progress, noise: Optional[Array] = None) -> None:
+        self.windows, self.keys, self.robust, self.progress = windows, windows.keys, robust, progress
+        self.u = np.zeros(len(windows.keys))
+        self.iterations = 0
+        values = [windows.measured[windows.there & (windows.column_of == c)] for c in range(len(windows.columns))]
+        # Differences below 1e-9 of a column's spread are rounding.
+        self.spreads = np.array([max(float(np.std(its)), 1e-9) if its.size else 1.0 for its in values])
+        self.doubts: List[str] = []
+        windows.reweigh(self.spreads if noise is None else noise)
+
+    def in_si(self, residuals: Array) -> Array:
+        return residuals / self.windows.over_noise()[self.windows.there]
+
+    def sizes(self, residuals: Array) -> Sizes:
+        found = np.abs(self.in_si(residuals))
+        places = np.broadcast_to(self.windows.column_of, self.windows.there.shape)[self.windows.there]
+        its = [found[places == c] for c in range(len(self.windows.columns))]
+        rms = [float(np.sqrt(np.mean(one**2))) if one.size else 0.0 for one in its]
+        usual = [1.4826 * float(np.sort(one)[one.size // 2]) if one.size else 0.0 for one in its]
+        return Sizes(np.array(rms), np.array(usual), np.array([one.size for one in its]))
+
+    def degrees_of_freedom(self) -> float:
+        return max(1.0, float(self.windows.size - self.windows.starts_rank() - len(self.keys)))
+
+    def bounds(self) -> Tuple[Array, Array]:
+        low = [-np.inf if key.logarithmic and key.lower <= 0 else key.number(key.lower) for key in self.keys]
+        return np.array(low), np.array([key.number(key.upper) for key in self.keys])
+
+    def scale_keys(self) -> Array:
+        """Reduces the scale of each key that changes the logs by more than ten times the noise: such differences would
+        be those of another rig. Returns the change of the logs for each scale, over the noise."""
+        for rounds in range(8):
+            changes = self.windows.derivatives(self.u, near=not rounds)[1] / math.sqrt(self.windows.size)
+            large = [k for k, key in enumerate(self.keys) if not key.logarithmic and self.u[k] == 0 and changes[k] > 10]
+            if not large:
+                break
+            for k in large:
+                self.keys[k].scale /= changes[k]
+        return changes
+
+    def minimize(self, exact: bool) -> None:
+        """Moves u to the nearby least sum of squares. Directions that the logs do not determine stay."""
+        if not len(self.u):
+            return
+        first, windows = self.u.copy(), self.windows
+        low, high = self.bounds()
+        jacobian, norms = windows.derivatives(first)
+        sizes = np.maximum(norms, 1e-300)
+        _, values, directions = np.linalg.svd(jacobian / sizes, full_matrices=False)
+        # Rows that hold those directions: as strong as the best known one.
+        weak = np.where(values[:, None] > _UNTOLD * values[0], 0.0, values[0] * directions * sizes)
+
+        def residuals(x: Array) -> Array:
+            made = windows.residuals(first + x - 1)
+            return np.concatenate([made, weak @ (x - 1)])
+
+        def derivatives(x: Array) -> Array:
+            u = first + x - 1
+            self._advance(u)
+            made, slopes = residuals(x), np.concatenate([windows.derivatives(u)[0], weak])
+            gain = _gain(slopes, made, u <= low, u >= high)
+            variance = np.mean(made**2)
+            if exact and gain < variance and self._is_away(slopes[: -len(u)]):
+                slopes[: -len(u)] = windows.derivatives(u, near=False)[0]
+                gain = _gain(slopes, made, u <= low, u >= high)
+            if gain <= (1e-7 if exact else 0.1) * variance:
+                raise _Done  # SciPy would look for a decrease among rounding errors
+            return slopes
+
+        # x begins at 1: the trust region is then as large as a key's number at the start.
+        try:
+            found = least_squares(residuals, np.ones(len(first)), derivatives, (low - first + 1, high - first + 1),
+                                  "dogbox", ftol=1e-13, xtol=1e-9, gtol=None, max_nfev=100)  # fmt: skip
+            self._advance(first + found.x - 1)
+        except _Done:
+            pass
+
+    def _advance(self, u: Array) -> None:
+        self.u = u
+        self.iterations += 1
+        rms = math.sqrt(float(np.mean(self.windows.residuals(u) ** 2)))
+        count = self.iterations
+        self.progress(count / (count + 5), f"iteration {count}, rms residual {_bbsim.rounded(rms, 4)} noise")
+
+
+    def begin(self, starts: Optional[int]) -> None:
+        """Chooses where to start."""
+        for key, change in zip(self.keys, self.scale_keys()):
+            if not change > 1e-7:
+                columns = ", ".join(self.windows.columns)
+                refuse(f"{key.name}: has no effect on {columns}; allowed: keys that the compared columns depend on")
+        self._mirror()
+        self._try_starts(starts or 1)
+
+    def _mirror(self) -> None:
+        """Mirrors the scale of a sensor if that fits better: between 1 and -1 it would pass 0, where the log determines
+        no other key."""
+        for k, key in enumerate(self.keys):
+            if isinstance(key, LogKey) and key.of == "scale" and not key.logarithmic and -key.start >= key.lower:
+                cost, mirrored = np.sum(self.windows.residuals(self.u) ** 2), self.u.copy()
+                mirrored[k] = key.number(-key.start)
+                self.windows.restart()  # the slopes by the starts are mirrored, too
+                if np.sum(self.windows.residuals(mirrored) ** 2) < cost:
+                    self.u = mirrored
+                self.windows.restart()
+
+    def _try_starts(self, count: int) -> None:
+        """Continues from the best of several starts; the first is the scenario's."""
+        if count == 1:
+            return
+        low, high = self.bounds()
+        # Without bounds: a factor of two, or the key's scale.
+        reach = np.array([math.log(2) if key.logarithmic else 1.0 for key in self.keys])
+        bounded = np.isfinite(high - low)
+        low, high = np.where(bounded, low, self.u - reach), np.where(bounded, high, self.u + reach)
+        random, first, ends = np.random.default_rng(1), self.u, []
+        for start in range(count):
+            self.u = low + (high - low) * random.uniform(size=len(first)) if start else first
+            self.windows.restart()
+            self.minimize(False)
+            ends.append((float(np.sum(self.windows.residuals(self.u) ** 2)), self.u))
+        self.u = min(ends, key=lambda end: end[0])[1]
+        self.windows.restart()
+
+    def settle(self) -> None:
+        """Finds the keys with weights that follow the residuals."""
+        change = 1.0
+        for _ in range(40 if self.robust else 12):
+            self.minimize(change < 0.01)
+            last, change = change, self._reweigh()
+            if last < 0.01 and change < (1e-4 if self.robust else 1e-5):
+                break
+
+    def _is_away(self, slopes: Array) -> bool:
+        """Whether the derivatives are those of a point more than a third of a standard deviation away."""
+        return float(np.linalg.norm(slopes @ (self.u - self.windows.base.u)) ** 2) > 0.1 * self.scatter()
+
+    def _reweigh(self) -> float:
+        """Estimates each column's noise from its residuals. Returns how much weights change."""
+        windows = self.windows
+        residuals = windows.residuals(self.u)
+        sizes = self.sizes(residuals)
+        share = self.degrees_of_freedom() / windows.size
+        noise = np.maximum((sizes.usual if self.robust else sizes.rms) / math.sqrt(share), 1e-9 * self.spreads)
+        changes, weights, most = noise / windows.noise, None, 0.0
+        if self.robust:
+            weights = np.ones(windows.weights.shape)
+            size = np.abs(residuals) / windows.weights[windows.there]
+            weights[windows.there] = np.sqrt(np.minimum(1, _HUBER / np.maximum(size, 1e-300)))
+            most = float(np.abs(weights - windows.weights).max())
+        windows.reweigh(noise, weights)
+        return max(most, float(changes.max() / changes.min() - 1))
+
+    def scatter(self) -> float:
+        """The variance of a residual over the noise; with Huber's loss, that of its influence (Huber, Robust
+        Statistics, 1981, section 7.6)."""
+        residuals = self.windows.residuals(self.u)
+        weights = self.windows.weights[self.windows.there]
+        made = float(((residuals * (weights if self.robust else 1)) ** 2).sum()) / self.degrees_of_freedom()
+        return made / max(float(np.mean(weights >= 1)), 0.1)
+
+    def suggestion(self, candidates: Sequence[FreeKey]) -> Optional[Tuple[str, float]]:
+        """The candidate that, free together with the keys, would reduce the residuals most, and by which share; None if
+        each removes less than 5 %. A linear model ranks the candidates, and fits decide among the best."""
+        if not candidates:
+            return None
+        its, count = self.windows, len(self.u)
+        wide = WindowsFit(its.logs, its.columns, its.windows, [*self.keys, *candidates], its.free, its.threads)
+        search = Search(wide, False, silent, its.noise)
+        wide.weights, search.u = its.weights, np.concatenate([self.u, np.zeros(len(candidates))])
+        its.residuals(self.u)
+        wide.linearize(search.u, its.point.starts)
+        search.scale_keys()
+        slopes, norms = wide.derivatives(search.u)
+        # The keys get the credit for what they can do themselves.
+        base = np.linalg.qr(slopes[:, :count])[0]
+        slopes = slopes[:, count:] - base @ (base.T @ slopes[:, count:])
+        left = wide.residuals(search.u)
+        left = left - base @ (base.T @ left)
+        sizes = np.linalg.norm(slopes, axis=0)
+        useful = sizes > 1e-3 * norms[count:]  # others do what keys or starts do
+        shares = np.where(useful, (left @ slopes / np.maximum(sizes, 1e-300)) ** 2, 0.0) / (left @ left)
+        best: Tuple[str, float] = ("", 0.05)
+        for place in np.argsort(-shares, kind="stable")[:3]:
+            if shares[place] < 0.01:
+                break
+            key = candidates[place]
+            trial = WindowsFit(its.logs, its.columns, its.windows, [*self.keys, key], its.free, its.threads)
+            fitted = Search(trial, False, silent, its.noise)
+            trial.weights, fitted.u = its.weights, np.append(self.u, 0.0)
+            trial.linearize(fitted.u, its.point.starts)
+            fitted.minimize(False)
+            share = 1 - math.sqrt(float(np.sum(trial.residuals(fitted.u) ** 2)) / float(left @ left))
+            if share > best[1] + 0.01 * bool(best[0]):
+                best = (key.name, share)
+        return best if best[0] else None
+
+    def linear(self) -> "Linear":
+        """How well the logs determine the keys, by the linear model at u."""
+        slopes, norms = self.windows.derivatives(self.u, near=False)
+        sizes = np.maximum(norms, 1e-300)
+        _, values, directions = np.linalg.svd(slopes / sizes, full_matrices=False)
+        known = values > max(_UNTOLD * values[0], 1e-6)
+        covariance = (directions[known].T / values[known] ** 2) @ directions[known] / np.outer(sizes, sizes)
+        told = ~(np.abs(directions[~known]) > 0.02).any(0)
+        untold = [self._words(one / sizes, np.abs(one) > 0.02) for one in directions[~known]]
+        deviations = np.where(told, np.sqrt(np.diag(covariance)), np.nan)
+        correlations = covariance / np.outer(deviations, np.where(deviations > 0, deviations, np.nan))
+        return Linear(slopes, covariance, told, untold, correlations)
+
+    def _words(self, change: Array, members: Array) -> str:
+        keys = [(key, by) for key, by, is_in in zip(self.keys, change, members) if is_in]
+        names = [key.name for key, _ in keys]
+        if len(keys) == 1:
+            return f"{names[0]} is not determined by the log: other starts of the windows have the same effect"
+        # The first key's change is 1 %, or a hundredth of its scale.
+        changes = []
+        for key, by in keys:
+            by *= 0.01 / keys[0][1]
+            size = f"{_bbsim.rounded(100 * abs(by), 3)} %"
+            if not key.logarithmic:
+                size = f"{_bbsim.rounded(abs(by) * key.scale, 3)} {key.unit}".rstrip()
+            changes.append(f"{key.name} {'-' if by < 0 else '+'}{size}")
+        together = f"{', '.join(names[:-1])} and {names[-1]} cannot be told apart"
+        return f"{together}: the log stays the same with {', '.join(changes)}"
+
+    def interval(self, k: int, linear: "Linear", profiled: bool = True) -> Tuple[float, float]:
+        """By profile likelihood, 95 %: how far a key can move, with the others at their best, before the sum of squares
+        grows by what that level allows."""
+        growth = stdtrit(self.degrees_of_freedom(), 0.975) ** 2 * self.scatter()
+        along = linear.covariance[:, k] / math.sqrt(max(linear.covariance[k, k], 1e-300)) * math.sqrt(growth)
+        exact = not profiled or growth <= 1e-15 * self.windows.size
+        ends = [self.u[k] + sign * (along[k] if exact else self._distance(k, sign, along, growth)) for sign in (-1, 1)]
+        low, high = self.keys[k].value(np.array(ends))
+        return float(low), float(high)
+
+    def _distance(self, k: int, sign: float, along: Array, growth: float) -> float:
+        """Of an end from u. It solves the problem of the end itself (Venzon and Moolgavkar, Applied Statistics 37,
+        1988): each step is exact for residuals that are linear in the keys."""
+        windows, (low, high) = self.windows, self.bounds()
+        least = float(np.sum(windows.residuals(self.u) ** 2))
+        inside, outside = 0.0, math.inf
+        to = np.clip(self.u + sign * along, low, high)
+        for count in range(20):
+            residuals = windows.residuals(to)
+            rest = self._others(k, to, residuals, 0.0)
+            size = float(np.sum(residuals**2))
+            slack = size - float(np.sum((residuals + windows.derivatives(to)[0] @ rest) ** 2))
+            gone = abs(to[k] - self.u[k])
+            if gone == 0:
+                return 0.0
+            ratio = math.sqrt(max(size - slack - least, 1e-6 * growth) / growth)
+            at_bound = to[k] in (low[k], high[k]) and ratio <= 1
+            if slack < 0.06 * growth and (at_bound or abs(ratio - 1) < (0.03 if count else 0.1)):
+                return gone if at_bound else gone / ratio
+            if gone > 30 * along[k]:
+                return math.inf
+            inside, outside = (max(inside, gone), outside) if ratio < 1 else (inside, min(outside, gone))
+            goal = min(max(gone / ratio, 0.3 * gone), 2.5 * gone)
+            if not inside + 0.1 * (outside - inside) <= goal <= outside - 0.1 * (outside - inside) and outside < math.inf:
+                goal = (inside + outside) / 2
+            if outside - inside < 0.02 * along[k]:
+                return goal
+            goal = min(max(self.u[k] + sign * goal, low[k]), high[k]) - to[k]
+            to = np.clip(to + self._others(k, to, residuals, goal), low, high)
+        return gone
+
+    def _others(self, k: int, u: Array, residuals: Array, by: float) -> Array:
+        """The step in which key k moves `by`, and the others go to their best."""
+        slopes, _ = self.windows.derivatives(u)
+        step, (low, high) = np.zeros(len(u)), self.bounds()
+        step[k] = by
+        rest = np.flatnonzero((np.arange(len(u)) != k) & (low < high))
+        if rest.size:
+            # Directions that are hardly determined stay.
+            stay = np.diag(_UNTOLD * np.linalg.norm(slopes[:, rest], axis=0))
+            small = np.linalg.qr(np.column_stack([slopes[:, rest], residuals + slopes[:, k] * by]), "r")
+            matrix, goal = np.concatenate([small[:, :-1], stay]), np.concatenate([small[:, -1], np.zeros(rest.size)])
+            room = (np.minimum(low - u, 0)[rest], np.maximum(high - u, 0)[rest])
+            step[rest] = lsq_linear(matrix, -goal, room, method="bvls").x
+        return step
+
+
+class Linear(NamedTuple):
+    slopes: Array
+    covariance: Array  # over the scatter
+    told: Array
+    untold: List[str]
+    correlations: Array
+
+
+def _gain(slopes: Array, residuals: Array, lowest: Array, highest: Array) -> float:
+    """How much smaller the sum of squares would be at the least of the linear model. Keys at a bound may leave it."""
+    pushes = slopes.T @ residuals
+    free = slopes[:, ~(lowest & (pushes > 0) | highest & (pushes < 0))]
+    return float(np.sum((free @ np.linalg.lstsq(free, residuals, 1e-12)[0]) ** 2))

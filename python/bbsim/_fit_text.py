@@ -1,0 +1,155 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a fit tells: a report, JSON, the fitted scenario and a page."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import math
+from pathlib import Path
+from typing import Any, Dict, List, Optional, Sequence
+
+import numpy as np
+
+from . import _bbsim
+from ._found_files import aligned, as_json
+from ._simulate import Array
+
+_MOST_ROWS = 40000  # of a page
+
+
+def number(value: float, sd: float = 0.0) -> str:
+    """With as many digits as the standard deviation justifies."""
+    if not math.isfinite(sd) or sd <= 0 or value == 0:
+        return _bbsim.short_number(value)
+    digits = math.ceil(math.log10(abs(value) / sd)) + 2
+    return _bbsim.rounded(value, min(max(digits, 2), 12))
+
+
+def _parameters(fitted: Any) -> List[List[str]]:
+    lines = [["key", "before", "estimate", "sd", "95 % from", "to", "unit"]]
+    for one in fitted.parameters:
+        known = [f"{one.sd:.3g}", *(number(end, one.sd) for end in one.interval)] if one.told else ["-"] * 3
+        lines.append([one.key, number(one.before), number(one.estimate, one.sd), *known, one.unit or "1"])
+    return lines
+
+
+def _residuals(fitted: Any) -> List[List[str]]:
+    """A column for each model, of the fit's windows and of those held out."""
+    held, ideal = fitted.held > 0, bool(fitted.ideal_rms or fitted.hold_out_ideal_rms)
+    tables: List[Dict[str, float]] = [fitted.ideal_rms] * ideal + [fitted.before_rms, fitted.residual_rms]
+    head = ["ideal rig"] * ideal + ["before", "fitted"]
+    if held:
+        tables += [fitted.hold_out_ideal_rms] * ideal + [fitted.hold_out_before_rms, fitted.hold_out_rms]
+        head += ["held out: ideal rig", "before", "fitted"] if ideal else ["held out: before", "fitted"]
+    lines = [["rms residual", *head, "unit"]]
+    for name, unit in fitted.units.items():
+        lines.append([name, *(f"{table[name]:.3g}" if name in table else "-" for table in tables), unit or "1"])
+    return lines
+
+
+def remarks(fitted: Any) -> str:
+    def counted(count: int, what: str) -> str:
+        return f"{count} {what}" + ("" if count == 1 else "s")
+
+    text = f"{fitted.numbers} numbers in {counted(fitted.windows, 'window')}"
+    text += f" of {number(fitted.window)} s" if math.isfinite(fitted.window) else ""
+    text += f", {fitted.held} more held out" if fitted.held else ""
+    lines = [f"{text}; {counted(len(fitted.logs), 'log')}"]
+    for note in fitted.notes[fitted.warnings :]:
+        lines.append(note if note.startswith("not identifiable: ") else f"note: {note}")
+    return "".join(line + "\n" for line in lines)
+
+
+def report(fitted: Any) -> str:
+    return aligned(_parameters(fitted)) + "\n" + aligned(_residuals(fitted)) + "\n" + remarks(fitted)
+
+
+def as_document(fitted: Any) -> str:
+    """The JSON."""
+    keys = ("key", "estimate", "sd", "interval", "at_bound")
+    made: Dict[str, Any] = {"parameters": [{key: getattr(one, key) for key in keys} for one in fitted.parameters]}
+    for name in ("residual_rms", "hold_out_rms", "ideal_rms", "hold_out_ideal_rms"):
+        if getattr(fitted, name) or name in ("residual_rms", "hold_out_rms"):
+            made[name] = getattr(fitted, name)
+    made.update(identifiable=fitted.identifiable, correlations=fitted.correlations.tolist(), white=fitted.white)
+    if fitted.suggestion:
+        made["suggestion"] = fitted.suggestion
+    made.update(outliers=fitted.outliers, notes=fitted.notes)
+    if fitted.interrupted:
+        made["interrupted"] = True
+    return as_json(made)
+
+
+def scenario(fitted: Any, given: _bbsim.Given) -> str:
+    """The scenario's text with the estimates."""
+    text = f"# Fitted by bbsim {_bbsim.__version__} to\n"
+    for log in fitted.logs:
+        text += f"#   {log} (SHA-256 {hashlib.sha256(Path(log).read_bytes()).hexdigest()[:16]})\n"
+    settings = []
+    for one in fitted.parameters:
+        unit = f" {one.unit}" if one.unit else ""
+        ends = [number(end, one.sd) for end in one.interval]
+        known = f", 95 % from {ends[0]} to {ends[1]}{unit}; was {number(one.before)}{unit}"
+        text += f"# {one.key}: {number(one.estimate, one.sd)}{unit}"
+        text += (known if one.told else ", which the logs do not determine") + "\n"
+        if not one.key.startswith("log."):  # no scenario has those
+            settings.append((one.key, f"{one.estimate!r}{unit}"))
+    return _bbsim.edited(given, settings, text, False)
+
+
+def _encoded(values: Any, kind: str) -> str:
+    return base64.b64encode(np.asarray(values, kind).tobytes()).decode()
+
+
+def _run(fitted: Any, log: str, windows: Sequence[Any], step: int) -> Dict[str, Any]:
+    """The series of a log. Rows without numbers separate the lines of two windows."""
+    times: List[Array] = []
+    rows: List[Array] = []  # 3 x columns x rows: log, model and difference
+    parts, first = [], 0
+    for window in windows:
+        count = len(window.times)
+        kept = np.flatnonzero((np.arange(count) % step == 0) | (np.arange(count) == count - 1))
+        if times:
+            times.append((times[-1][-1:] + window.times[:1]) / 2)
+            rows.append(np.full((3, len(fitted.units), 1), np.nan))
+            first += 1
+        times.append(window.times[kept])
+        both = np.stack([window.measured, window.modelled, window.modelled - window.measured])
+        rows.append(both[:, :, kept])
+        parts.append({"first": first, "last": first + len(kept) - 1, "held": window.held})
+        first += len(kept)
+    data = np.concatenate(rows, 2)
+    kinds = (("", "as logged"), ("_modelled", "of the model"), ("_residual", "model minus log"))
+    columns = [{"name": name + ending, "unit": unit, "meaning": meaning, "data": _encoded(data[kind, c], "<f4")}
+               for c, (name, unit) in enumerate(fitted.units.items())
+               for kind, (ending, meaning) in enumerate(kinds)]  # fmt: skip
+    return {"name": log, "rows": sum(len(one.times) for one in windows), "every": step, "windows": parts,
+            "time": _encoded(np.concatenate(times), "<f8"), "columns": columns, "orientation": "", "reference": "",
+            "reached": None, "unitsKnown": True, "events": []}  # fmt: skip
+
+
+def page(fitted: Any, given: _bbsim.Given, title: str) -> str:
+    names = list(fitted.units)
+    pairs = [pair for pair in (["x", "y"], ["x_measured", "y_measured"]) if set(pair) <= set(names)]
+    symbols = {column[0]: column[1] for column in _bbsim.known_columns("rad")}
+    radius = {one.key: one.estimate for one in fitted.parameters}.get("ball.radius")
+    if radius is None:
+        radius = _bbsim.key_facts(given, "--free", "ball.radius").value
+    rows = sum(len(one.times) for one in fitted.series)
+    step = max(1, -(-rows // _MOST_ROWS))
+    runs = []
+    for number, log in enumerate(fitted.logs):
+        windows = sorted((one for one in fitted.series if one.log == number), key=lambda one: one.times[0])
+        if windows:
+            runs.append(_run(fitted, log, windows, step))
+    tables = {name: {"head": lines[0], "rows": lines[1:]}
+              for name, lines in (("parameters", _parameters(fitted)), ("residuals", _residuals(fitted)))}  # fmt: skip
+    columns = [{"name": name, "symbol": symbols.get(name, name), "meaning": "", "unit": unit}
+               for name, unit in fitted.units.items()]  # fmt: skip
+    data = {"format": 1, "version": _bbsim.__version__, "title": f"Fit of {title}", "scenario": given.name,
+            "logs": fitted.logs, **tables, "remarks": remarks(fitted).splitlines(),
+            "place": pairs[0] if pairs else None, "radius": radius, "columns": columns, "runs": runs}  # fmt: skip
+    return _bbsim.filled_page("fit.html", str(data["title"]), json.dumps(data, ensure_ascii=False))

@@ -1,0 +1,313 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Windows of logs: the difference of model and log at any values of the free keys, with the best start of each window."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any, List, Optional, Sequence, Tuple
+
+import numpy as np
+
+from . import _bbsim
+from ._errors import InputError
+from ._free_keys import FreeKey
+from ._simulate import Array, simulate
+
+FAR = 1e6  # the residual of a window that does not run, in standard deviations
+# Central differences: the error of a run over the step and the square of the step are both small.
+_KEY_STEP = 1e-3
+_START_STEPS = np.array([1e-3] * 8 + [0.1])  # m, m/s, rad, rad/s; the spin has little effect
+_LEAST_EFFECT = 1e-9  # directions of a start with less effect than this part stay fixed
+_LONGEST_PAUSE = 60.0  # s; within a window that has no length
+_SPIN = _bbsim.START.index("spin")
+
+
+@dataclass
+class LogKey(FreeKey):
+    """A key of a sensor, whose log shows offset + scale column(t - delay)."""
+
+    of: str = "delay"
+    column: int = 0  # of a scale or an offset
+
+
+@dataclass
+class Log:
+    name: str
+    times: Array  # s, by the scenario's clock; increasing
+    values: Array  # for each compared column; NaN where a row has no number
+    given: _bbsim.Given  # the scenario for this log
+
+
+@dataclass
+class Windows:
+    """Arrays with a row for each window; shorter windows repeat their last time, without numbers."""
+
+    log: "np.ndarray[Any, np.dtype[np.int64]]"
+    begin: Array  # s
+    end: Array
+    rows: "np.ndarray[Any, np.dtype[np.int64]]"  # the number of times
+    times: Array  # windows x rows
+    values: Array  # windows x columns x rows
+
+    def __len__(self) -> int:
+        return len(self.log)
+
+
+def cut(logs: Sequence[Log], length: float, share: float, fewest: int, delay: float) -> Tuple[Windows, Windows]:
+    """Cuts logs into windows; returns those to fit and those held out: each window i with floor((i + 1) share) >
+    floor(i share). A rest of less than half the length joins the window before. A window needs more than `fewest`
+    numbers. A delayed sensor shows times before the window in its first rows, which no run covers: they go."""
+    parts: List[Tuple[int, Array, Array]] = []
+    for number, log in enumerate(logs):
+        times = log.times
+        if math.isinf(length):
+            places = np.cumsum(np.diff(times, prepend=times[0]) > _LONGEST_PAUSE)
+        else:
+            last = max(1.0, np.floor((times[-1] - times[0]) / length + 0.5)) - 1
+            places = np.minimum(np.floor((times - times[0]) / (length * (1 - 1e-9))), last)
+        for rows in np.split(np.arange(len(times)), np.flatnonzero(np.diff(places)) + 1):
+            if len(rows) > 1 and np.isfinite(log.values[:, rows]).sum() > fewest:
+                parts.append((number, times[rows], log.values[:, rows]))
+    order = np.arange(len(parts))
+    held = np.floor((order + 1) * share) > np.floor(order * share)
+    return _windows([parts[i] for i in order[~held]], delay), _windows([parts[i] for i in order[held]], delay)
+
+
+def _windows(parts: Sequence[Tuple[int, Array, Array]], delay: float) -> Windows:
+    kept = [(log, t[0], t[t - t[0] >= delay], values[:, t - t[0] >= delay]) for log, t, values in parts]
+    kept = [part for part in kept if len(part[2]) > 1]
+    most = max((len(part[2]) for part in kept), default=0)
+    columns = len(kept[0][3]) if kept else 0
+    times = np.array([np.pad(t, (0, most - len(t)), "edge") for _, _, t, _ in kept]).reshape(len(kept), most)
+    values = np.full((len(kept), columns, most), np.nan)
+    for into, (_, _, t, its) in zip(values, kept):
+        into[:, : len(t)] = its
+    logs, begin, rows = ([f(part) for part in kept] for f in (lambda p: p[0], lambda p: p[1], lambda p: len(p[2])))
+    return Windows(np.array(logs, int), np.array(begin), times[:, -1:].ravel(), np.array(rows, int), times, values)
+
+
+def start_coordinates(columns: Sequence[str], given: _bbsim.Given, from_within: bool) -> List[int]:
+    """The coordinates of a start that the columns determine. Columns of the position or the velocity concern one axis.
+    A log that is one window begins with the scenario's spin and gimbal."""
+    x, y = ([name in ("v" + axis, axis, axis + "_measured") for name in columns] for axis in "xy")
+    other = not all(a or b for a, b in zip(x, y))
+    axes = [axis for axis, along in enumerate((any(x), any(y))) if along or other]
+    made = [*axes, *(2 + axis for axis in axes)]
+    if from_within and _bbsim.begins_anywhere(given):
+        made += [4, 5, 6, 7]
+    return made + ([_SPIN] if from_within and len(axes) == 2 else [])
+
+
+@dataclass
+class _Point:
+    """The windows at values u, with their starts. Differences are in SI units, windows x numbers."""
+
+    u: Array
+    starts: Array
+    differences: Array
+    runs: "np.ndarray[Any, np.dtype[np.bool_]]"
+    why: List[str]
+    by_key: Array = field(default_factory=lambda: np.empty(0))  # windows x numbers x keys
+    by_start: Array = field(default_factory=lambda: np.empty(0))
+
+
+class WindowsFit:
+    """The residuals of windows and their derivatives. `free`: the coordinates of starts that are fitted."""
+
+    def __init__(self, logs: Sequence[Log], columns: Sequence[str], windows: Windows, keys: Sequence[FreeKey],
+                 free: Sequence[int], threads: int) -> None:  # fmt: skip
+        self.logs, self.columns, self.windows, self.keys = logs, columns, windows, keys
+        self.free, self.threads = list(free), threads
+        count, width = len(windows), windows.values[0].size if len(windows) else 0
+        self.measured = windows.values.reshape(count, width)
+        self.there = np.isfinite(self.measured)
+        self.column_of = np.repeat(np.arange(len(columns)), width // max(len(columns), 1))
+        self.size = int(self.there.sum())
+        self.noise = np.ones(len(columns))
+        self.weights = np.ones((count, width))
+        self.base: Optional[_Point] = None  # with derivatives
+        self.point: Optional[_Point] = None  # the last one
+        self._solvers: Optional[Tuple[Array, Array]] = None
+
+    def over_noise(self) -> Array:
+        """The factor of each difference; 0 where the log has no number."""
+        return np.where(self.there, self.weights / self.noise[self.column_of], 0.0)
+
+    def reweigh(self, noise: Array, weights: Optional[Array] = None) -> None:
+        self.noise, self.point, self._solvers = noise, None, None
+        if weights is not None:
+            self.weights = weights
+
+    def restart(self) -> None:
+        self.base = self.point = self._solvers = None
+
+    def _guess(self) -> Array:
+        """Starts: the first measurement, at rest; and what the scenario says."""
+        facts = [f"ball.{name}.{axis}" for name in ("position", "velocity") for axis in (0, 1)]
+        facts += [f"gimbal.start.{name}" for name in _bbsim.START[4:8]] + ["ball.spin"]
+        given = self.logs[0].given
+        start = [_bbsim.key_facts(given, "--free", name).value or 0.0 for name in facts]
+        starts = np.tile(start, (len(self.windows), 1))
+        for place in self.free:
+            if place in (2, 3):
+                starts[:, place] = 0.0
+            elif _bbsim.START[place] in self.columns and place < 6:
+                values = self.windows.values[:, self.columns.index(_bbsim.START[place])]
+                has = np.isfinite(values)
+                first = values[np.arange(len(values)), has.argmax(1)]
+                starts[:, place] = np.where(has.any(1), first, starts[:, place])
+        return starts
+
+    def _run(self, which: Array, u: Array, starts: Array, zero: bool = False) -> Tuple[Array, Array, List[str]]:
+        """Model minus log of n windows, or the model alone; whether they run, and why not."""
+        windows, count = self.windows, len(which)
+        values = [np.broadcast_to(key.value(u[:, k]), count) for k, key in enumerate(self.keys)]
+        scales, offsets, delay = np.ones((count, len(self.columns), 1)), np.zeros((count, len(self.columns), 1)), 0.0
+        for key, value in zip(self.keys, values):
+            if isinstance(key, LogKey):
+                if key.of == "delay":
+                    delay = value[:, None]
+                else:
+                    (scales if key.of == "scale" else offsets)[:, key.column, 0] = value
+        times = np.maximum(windows.times[which] - delay, windows.begin[which, None])
+        shown, runs, why = np.full((count, *windows.values.shape[1:]), np.nan), np.zeros(count, bool), [""] * count
+        for log in np.unique(windows.log[which]):
+            rows = np.flatnonzero(windows.log[which] == log)
+            its = which[rows]
+            cases = {key.name: v[rows] for key, v in zip(self.keys, values) if not isinstance(key, LogKey)}
+            try:
+                made = simulate(self.logs[log].given, cases, self.columns, times[rows], begin=windows.begin[its],
+                                end=windows.end[its], start=starts[rows], events=False, threads=self.threads)  # fmt: skip
+            except InputError as error:  # of all cases
+                for row in rows:
+                    why[row] = str(error)
+                continue
+            shown[rows] = np.stack([made[name] for name in self.columns], 1)
+            runs[rows] = (made.status == "done") & np.isfinite(shown[rows]).all((1, 2))
+            for row, reason in zip(rows, made.reason):
+                why[row] = reason or "the run does not reach the window's end"
+        shown = (offsets + scales * shown).reshape(count, -1)
+        if not zero:
+            shown = np.where(self.there[which], shown - self.measured[which], 0.0)
+        return np.where(runs[:, None], shown, np.nan), runs, why
+
+    def linearize(self, u: Array, starts: Array) -> None:
+        """Makes the base at u with these starts, by one call for all differences."""
+        keys, count = len(u), len(self.windows)
+        steps = np.zeros((keys + len(self.free), keys + starts.shape[1]))
+        steps[:keys, :keys] = _KEY_STEP * np.eye(keys)
+        steps[np.arange(keys, len(steps)), [keys + place for place in self.free]] = _START_STEPS[self.free]
+        moves = np.concatenate([np.zeros((1, steps.shape[1])), steps, -steps])
+        all_u = np.repeat(u + moves[:, :keys], count, axis=0)
+        all_starts = (starts + moves[:, None, keys:]).reshape(-1, starts.shape[1])
+        made, runs, why = self._run(np.tile(np.arange(count), len(moves)), all_u, all_starts)
+        made, runs = made.reshape(len(moves), count, -1), runs.reshape(len(moves), count)
+        # A value at its bound has a neighbor on one side only.
+        alike = [[key.value(a) == key.value(b) for key, a, b in zip(self.keys, u + s * _KEY_STEP, u)] for s in (1, -1)]
+        middle, sides = made[0], np.stack(np.split(made[1:], 2))
+        moved = np.stack(np.split(runs[1:], 2)) & runs[0]
+        moved[:, :keys] &= ~np.array(alike, bool).reshape(2, keys, 1)
+        up, down = np.where(moved[..., None], sides, middle)
+        widths = moved.sum(0) * np.concatenate([np.full(keys, _KEY_STEP), _START_STEPS[self.free]])[:, None]
+        slopes = np.moveaxis((up - down) / np.where(widths == 0, np.inf, widths)[..., None], 0, -1)
+        slopes = np.nan_to_num(slopes)
+        self.base = _Point(u, starts, middle, runs[0], why[:count], slopes[..., :keys], slopes[..., keys:])
+        self._solvers = None
+
+    def _solve(self) -> Tuple[Array, Array]:
+        """For each window, the derivatives by its start over the noise, and their pseudoinverse."""
+        if self._solvers is None:
+            assert self.base is not None
+            slopes = self.base.by_start * self.over_noise()[..., None]
+            self._solvers = slopes, np.linalg.pinv(slopes, rcond=_LEAST_EFFECT)
+        return self._solvers
+
+    def starts_rank(self) -> int:
+        """The number of start coordinates that the windows determine."""
+        slopes, _ = self._solve()
+        return int(np.linalg.matrix_rank(slopes, tol=_LEAST_EFFECT * np.linalg.norm(slopes, axis=(1, 2))).sum())
+
+    def residuals(self, u: Array) -> Array:
+        """Over the noise, times the weights, at the best starts."""
+        if self.point is None or not np.array_equal(self.point.u, u):
+            if self.base is None:
+                starts = self._guess()
+                for _ in range(4):  # the first start is a guess
+                    self.linearize(u, starts)
+                    if self._settle(u, starts):
+                        break
+                    starts = self.point.starts
+            else:
+                base, (_, inverse) = self.base, self._solve()
+                change = np.nan_to_num(base.differences) + base.by_key @ (u - base.u)
+                starts = base.starts.copy()
+                starts[:, self.free] -= _times(inverse, change * self.over_noise())
+                self._settle(u, starts)
+        return np.where(self.point.runs[:, None], np.nan_to_num(self.point.differences) * self.over_noise(),
+                        FAR * self.there)[self.there]  # fmt: skip
+
+    def _settle(self, u: Array, starts: Array) -> bool:
+        """Newton's method for the best starts with known slopes: the motion depends on its start almost linearly.
+        Returns whether a few rounds suffice."""
+        slopes, inverse = self._solve()
+        factors = self.over_noise()
+        every = np.arange(len(self.windows))
+        differences, runs, why = self._run(every, np.tile(u, (len(every), 1)), starts)
+        lost = np.flatnonzero(~runs)
+        if len(lost) and not np.array_equal(starts, self.base.starts):
+            starts = starts.copy()
+            starts[lost] = self.base.starts[lost]
+            differences[lost], runs[lost], again = self._run(lost, np.tile(u, (len(lost), 1)), starts[lost])
+            for place, text in zip(lost, again):
+                why[place] = text
+        starts = starts.copy()
+        busy = np.flatnonzero(runs)
+        for rounds in range(12):
+            rest = differences[busy] * factors[busy]
+            step = _times(inverse[busy], rest)
+            gain, size = ((_times(slopes[busy], step)) ** 2).sum(1), (rest**2).sum(1)
+            go = gain > 1e-8 * size
+            if rounds == 11 or not go.any():  # what is left is linear
+                starts[np.ix_(busy, self.free)] -= step
+                differences[busy] -= _times(self.base.by_start[busy], step)
+                break
+            rest_of = busy[~go]
+            starts[np.ix_(rest_of, self.free)] -= step[~go]
+            differences[rest_of] -= _times(self.base.by_start[rest_of], step[~go])
+            busy, step, size = busy[go], step[go], size[go]
+            moved = starts[busy].copy()
+            moved[:, self.free] -= step
+            its, ran, _ = self._run(busy, np.tile(u, (len(busy), 1)), moved)
+            after = ((its * factors[busy]) ** 2).sum(1)
+            better = ran & (after <= size * (1 + 1e-12))
+            busy = busy[better]
+            starts[busy], differences[busy] = moved[better], its[better]
+        self.point = _Point(u.copy(), starts, differences, runs, why)
+        return rounds < 4
+
+    def derivatives(self, u: Array, near: bool = True) -> Tuple[Array, Array]:
+        """Of residuals by u: what the starts cannot undo, and the norms of the columns with fixed starts. `near`: those
+        of a point before will do if they predict the residuals here, since they cost as much as twenty residuals."""
+        now, factors = self.residuals(u), self.over_noise()
+        slopes, inverse = self._solve()
+        before = np.nan_to_num(self.base.differences) * factors
+        change = (self.base.by_key * factors[..., None]) @ (u - self.base.u)
+        then = before + change - _times(slopes, _times(inverse, before + change))
+        error, size = np.linalg.norm(now - then[self.there]), np.linalg.norm(now - before[self.there])
+        if not near or error > 0.1 * size + 0.02 * math.sqrt(np.mean(now**2)):
+            self.linearize(u, self.point.starts)
+            slopes, inverse = self._solve()
+        by_key = self.base.by_key * factors[..., None]
+        return (by_key - slopes @ (inverse @ by_key))[self.there], np.sqrt((by_key**2).sum((0, 1)))
+
+    def modelled(self, u: Array) -> Array:
+        """What the model shows at the best starts: windows x columns x rows."""
+        self.residuals(u)
+        every = np.arange(len(self.windows))
+        return self._run(every, np.tile(u, (len(every), 1)), self.point.starts, True)[0].reshape(self.windows.values.shape)
+
+
+def _times(matrices: Array, vectors: Array) -> Array:
+    return (matrices @ vectors[..., None])[..., 0]
