@@ -81,10 +81,7 @@ def _log(given: _bbsim.Given, stored: _bbsim.Stored, columns: Sequence[str], not
         doubt = _bbsim.unit_doubt(name, largest)
         if doubt:
             notes.append(f"warning: {stored.shown_file}: {name} goes up to {largest!r}, read in SI: it looks like {doubt}")
-    early = int(np.sum(times < 0))
-    if early:
-        notes.append(f"note: {stored.shown_file}: {early} rows before t = 0 are left out; --time-offset moves the log")
-    return Log(stored.shown_file, times[early:], values[:, early:], given)
+    return Log(stored.shown_file, times, values, given)
 
 
 def _log_key(text: str, columns: Sequence[str], units: Sequence[str]) -> LogKey:
@@ -200,9 +197,7 @@ class _Task:
         if not free or not self.files:
             raise refuse_option("free" if self.files else "logs", "nothing", "at least one")
         self.keys: List[FreeKey] = read_free_keys(free, given)
-        # Cases replace what is in the text, but not what is set beside it.
-        run = _bbsim.Given(given.name, _bbsim.edited(given, [], "", False), [], None)
-        run = run.changed([("solver.error", "null"), ("solver.rtol", "1e-10"), ("solver.atol", "1e-12")])
+        run = given.changed([("solver.error", "null"), ("solver.rtol", "1e-10"), ("solver.atol", "1e-12")])
         maps, header = _listed(map), [name for text in _listed(header) for name in text.split(",")]
         tables = self._tables_of_logs()
         self.logs: List[Log] = []
@@ -281,6 +276,8 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
     ideal = _ideal(task.logs[0].given)
     if ideal is not None and not any(_bbsim.lacks(ideal, name)[0] for name in task.columns):
         made.ideal_rms = _rms_of(search, windows, [], np.empty(0), _ideal)
+    if sum(math.log(made.residual_rms[name] / one) for name, one in made.ideal_rms.items() if one > 0) > 1e-3:
+        search.doubts.append("the fit is worse than an ideal rig: try other starting values, bounds or keys")
     if len(held):
         made.hold_out_before_rms = _rms_of(search, held, task.keys, np.zeros(len(task.keys)))
         made.hold_out_rms = _rms_of(search, held, task.keys, search.u)

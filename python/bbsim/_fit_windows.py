@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any, List, Optional, Sequence, Tuple
 
 import numpy as np
+from scipy.sparse import block_diag, csr_matrix, hstack
 
 from . import _bbsim
 from ._errors import InputError
@@ -18,6 +19,7 @@ from ._simulate import Array, simulate
 FAR = 1e6  # the residual of a window that does not run, in standard deviations
 # Central differences: the error of a run over the step and the square of the step are both small.
 _KEY_STEP = 1e-3
+_WIDE = 20.0  # times these steps: to find kinks, and over them
 _START_STEPS = np.array([1e-3] * 8 + [0.1])  # m, m/s, rad, rad/s; the spin has little effect
 _LEAST_EFFECT = 1e-9  # directions of a start with less effect than this part stay fixed
 _LONGEST_PAUSE = 60.0  # s; within a window that has no length
@@ -130,6 +132,11 @@ class WindowsFit:
         self.base: Optional[_Point] = None  # with derivatives
         self.point: Optional[_Point] = None  # the last one
         self._solvers: Optional[Tuple[Array, Array]] = None
+        self.kinked = False
+        self.key_steps, self.start_steps = np.full(len(keys), _KEY_STEP), _START_STEPS.copy()
+        # Numbers of cases are in the unit of a key's table.
+        self.own = [1e3 * (_bbsim.number_at(logs[0].given, key.name, "1e-3") or 1e-3)
+                    if key.name.endswith(".table.offset") else 1.0 for key in keys]  # fmt: skip
 
     def over_noise(self) -> Array:
         """The factor of each difference; 0 where the log has no number."""
@@ -176,7 +183,7 @@ class WindowsFit:
         for log in np.unique(windows.log[which]):
             rows = np.flatnonzero(windows.log[which] == log)
             its = which[rows]
-            cases = {key.name: v[rows] for key, v in zip(self.keys, values) if not isinstance(key, LogKey)}
+            cases = {key.name: v[rows] / own for key, v, own in zip(self.keys, values, self.own) if not isinstance(key, LogKey)}
             try:
                 made = simulate(self.logs[log].given, cases, self.columns, times[rows], begin=windows.begin[its],
                                 end=windows.end[its], start=starts[rows], events=False, threads=self.threads)  # fmt: skip
@@ -197,20 +204,20 @@ class WindowsFit:
         """Makes the base at u with these starts, by one call for all differences."""
         keys, count = len(u), len(self.windows)
         steps = np.zeros((keys + len(self.free), keys + starts.shape[1]))
-        steps[:keys, :keys] = _KEY_STEP * np.eye(keys)
-        steps[np.arange(keys, len(steps)), [keys + place for place in self.free]] = _START_STEPS[self.free]
+        steps[:keys, :keys] = np.diag(self.key_steps)
+        steps[np.arange(keys, len(steps)), [keys + place for place in self.free]] = self.start_steps[self.free]
         moves = np.concatenate([np.zeros((1, steps.shape[1])), steps, -steps])
         all_u = np.repeat(u + moves[:, :keys], count, axis=0)
         all_starts = (starts + moves[:, None, keys:]).reshape(-1, starts.shape[1])
         made, runs, why = self._run(np.tile(np.arange(count), len(moves)), all_u, all_starts)
         made, runs = made.reshape(len(moves), count, -1), runs.reshape(len(moves), count)
         # A value at its bound has a neighbor on one side only.
-        alike = [[key.value(a) == key.value(b) for key, a, b in zip(self.keys, u + s * _KEY_STEP, u)] for s in (1, -1)]
+        alike = [[key.value(a) == key.value(b) for key, a, b in zip(self.keys, u + s * self.key_steps, u)] for s in (1, -1)]
         middle, sides = made[0], np.stack(np.split(made[1:], 2))
         moved = np.stack(np.split(runs[1:], 2)) & runs[0]
         moved[:, :keys] &= ~np.array(alike, bool).reshape(2, keys, 1)
         up, down = np.where(moved[..., None], sides, middle)
-        widths = moved.sum(0) * np.concatenate([np.full(keys, _KEY_STEP), _START_STEPS[self.free]])[:, None]
+        widths = moved.sum(0) * np.concatenate([self.key_steps, self.start_steps[self.free]])[:, None]
         slopes = np.moveaxis((up - down) / np.where(widths == 0, np.inf, widths)[..., None], 0, -1)
         slopes = np.nan_to_num(slopes)
         self.base = _Point(u, starts, middle, runs[0], why[:count], slopes[..., :keys], slopes[..., keys:])
@@ -231,6 +238,8 @@ class WindowsFit:
 
     def residuals(self, u: Array) -> Array:
         """Over the noise, times the weights, at the best starts."""
+        if self.kinked and self.point is None and self.base is not None and np.array_equal(self.base.u, u):
+            self.point = self.base  # its starts are the best
         if self.point is None or not np.array_equal(self.point.u, u):
             if self.base is None:
                 starts = self._guess()
@@ -287,6 +296,45 @@ class WindowsFit:
         self.point = _Point(u.copy(), starts, differences, runs, why)
         return rounds < 4
 
+    def at(self, u: Array, starts: Array, derivatives: bool = False) -> Array:
+        """The residuals at these starts."""
+        if derivatives:
+            self.linearize(u, starts)
+            self.point = self.base
+        else:
+            self.point = _Point(u.copy(), starts, *self._run(np.arange(len(starts)), np.tile(u, (len(starts), 1)), starts))
+        return self.residuals(u)
+
+    def side_by_side(self) -> Any:
+        """The derivatives of the residuals by the keys and all starts."""
+        factors = self.over_noise()
+        blocks = [csr_matrix((self.base.by_start[w] * factors[w][:, None])[self.there[w]]) for w in range(len(factors))]
+        made = hstack([csr_matrix((self.base.by_key * factors[..., None])[self.there]), block_diag(blocks)], "csr")
+        return made if made.shape[1] > 300 else made.toarray()
+
+    def find_kinks(self, u: Array) -> None:
+        """Finds whether the residuals near u have kinks or flat stretches, as with dry friction: slopes over larger steps then
+        differ, and become those of these numbers."""
+        self.residuals(u)
+        assert self.point is not None
+        smooth, factors = [self.base], self.over_noise()[..., None]
+        before = self.key_steps, self.start_steps
+        self.key_steps, self.start_steps = (_WIDE * steps for steps in before)
+        self.linearize(u, self.base.starts)
+        small, large = (np.concatenate([point.by_key, point.by_start], -1) * factors for point in (smooth[0], self.base))
+        change, size = (np.sqrt((one**2).sum(1)) for one in (small - large, large))  # windows x numbers
+        widths = np.concatenate([self.key_steps, self.start_steps[self.free]])
+        seen = size * widths > 1e-3
+        kinked = np.mean((change > 0.2 * size) & seen, 0) > np.maximum(0.3 * np.mean(seen, 0), 1e-9)
+        self.key_steps = np.where(kinked[: len(u)], self.key_steps, before[0])
+        self.start_steps = before[1].copy()
+        self.start_steps[self.free] *= np.where(kinked[len(u) :], _WIDE, 1)
+        if kinked.any():
+            self.linearize(u, self.base.starts)
+        else:
+            self.base, self._solvers = smooth[0], None
+        self.kinked = bool(kinked.any())
+
     def derivatives(self, u: Array, near: bool = True) -> Tuple[Array, Array]:
         """Of residuals by u: what the starts cannot undo, and the norms of the columns with fixed starts. `near`: those
         of a point before will do if they predict the residuals here, since they cost as much as twenty residuals."""
@@ -301,6 +349,24 @@ class WindowsFit:
             slopes, inverse = self._solve()
         by_key = self.base.by_key * factors[..., None]
         return (by_key - slopes @ (inverse @ by_key))[self.there], np.sqrt((by_key**2).sum((0, 1)))
+
+    def guess_velocities(self, u: Array) -> Array:
+        """Starts: in each window, that which fits best of some with velocities over the first rows, and at rest."""
+        best = self._guess()
+        every, all_u = np.arange(len(best)), np.tile(u, (len(best), 1))
+        least = np.full(len(best), np.inf)
+        starts = best
+        for rows in (0, 2, 4, 8):
+            tried = starts.copy()
+            for axis, name in ((0, "x"), (1, "y")):
+                if rows and 2 + axis in self.free and name in self.columns:
+                    its = self.windows.values[:, self.columns.index(name), :rows]
+                    times = np.where(np.isfinite(its), self.windows.times[:, :rows], np.nan)
+                    times, its = (one - np.nanmean(one, 1, keepdims=True) for one in (times, its))
+                    tried[:, 2 + axis] = np.nansum(times * its, 1) / np.maximum(np.nansum(times**2, 1), 1e-12)
+            cost = np.nan_to_num(((self._run(every, all_u, tried)[0] * self.over_noise()) ** 2).sum(1), nan=np.inf)
+            best, least = np.where((cost < least)[:, None], tried, best), np.minimum(cost, least)
+        return best
 
     def modelled(self, u: Array) -> Array:
         """What the model shows at the best starts: windows x columns x rows."""
