@@ -391,24 +391,41 @@ def fit(
     interrupted fit gives the best values so far.
     """
     options = dict(locals())
-    given = given_of(options.pop("scenario"), options.pop("set"))
-    return _carry_out(given, options, silent)
+    return _carry_out(given_of(options.pop("scenario"), options.pop("set")), options, silent, None)
 
 
-def _carry_out(given: _bbsim.Given, options: Dict[str, Any], progress: Progress) -> Any:
-    output, json, page = (options.pop(name) for name in ("output", "json", "report"))
+def _carry_out(given: _bbsim.Given, options: Dict[str, Any], progress: Progress, say: Any) -> Any:
+    """Fits, and writes what the options ask for; with `say`, also the report. None if it is interrupted before there is
+    a result."""
+    files = {name: str(options.pop(name) or "") for name in ("output", "json", "report")}
     task = _Task(given, **options)
-    if output:  # fails before the work if the text cannot be written
+    reads = {given.name: "the scenario"} if os.path.exists(given.name) else {}
+    template = {_bbsim.template_file("fit.html"): "the template of pages"} if files["report"] else {}
+    declare(files, {**reads, **{file: "the log" for file in task.files}, **template}, "report")
+    if files["output"]:  # fails before the work if the text cannot be written
         _bbsim.edited(given, [(key.name, key.text(key.start)) for key in task.keys if not isinstance(key, LogKey)], "", False)
-    if page:
+    if files["report"]:
         _bbsim.filled_page("fit.html", "", "{}")
-    made = _fit(task, progress, bool(page))
+    for text in task.warnings if say else ():
+        say(text)
+    made = _fit(task, progress, bool(files["report"]))
     if made is None:
-        raise KeyboardInterrupt
+        return None
     made.report = _fit_text.report(made)
+    made.scenario = _fit_text.scenario(made, given) if files["output"] else ""
+    if files["report"]:
+        write(files["report"], _fit_text.page(made, given))
+    text = made.report if say else ""
+    write_found(given, given.name, files, made.scenario, _fit_text.as_document(made), text, say or str, "report")
     return made
 
 
 def command(options: Dict[str, Any], say: Any) -> int:
     """`bbsim fit`; `say` prints a message unless -q is given."""
-    return 0
+    given = _bbsim.Given(options.pop("scenario"), None, options.pop("set"), None)
+    options["logs"] = options.pop("log")
+    with Bar(given.name, options.pop("quiet")) as progress:
+        made = _carry_out(given, options, progress, say)
+    if made is None:
+        sys.stderr.write("fit: interrupted before the first iteration; nothing is written\n")
+    return 130 if made is None or made.interrupted else 0

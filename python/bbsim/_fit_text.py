@@ -131,7 +131,9 @@ def _run(fitted: Any, log: str, windows: Sequence[Any], step: int) -> Dict[str, 
             "reached": None, "unitsKnown": True, "events": []}  # fmt: skip
 
 
-def page(fitted: Any, given: _bbsim.Given, title: str) -> str:
+def page(fitted: Any, given: _bbsim.Given) -> str:
+    title = _bbsim.text_at(given, "title")
+    title = "Fit of " + (json.loads(title) if title.startswith('"') else title or given.name)
     names = list(fitted.units)
     pairs = [pair for pair in (["x", "y"], ["x_measured", "y_measured"]) if set(pair) <= set(names)]
     symbols = {column[0]: column[1] for column in _bbsim.known_columns("rad")}
@@ -149,7 +151,7 @@ def page(fitted: Any, given: _bbsim.Given, title: str) -> str:
               for name, lines in (("parameters", _parameters(fitted)), ("residuals", _residuals(fitted)))}  # fmt: skip
     columns = [{"name": name, "symbol": symbols.get(name, name), "meaning": "", "unit": unit}
                for name, unit in fitted.units.items()]  # fmt: skip
-    data = {"format": 1, "version": _bbsim.__version__, "title": f"Fit of {title}", "scenario": given.name,
+    data = {"format": 1, "version": _bbsim.__version__, "title": title, "scenario": given.name,
             "logs": fitted.logs, **tables, "remarks": remarks(fitted).splitlines(),
             "place": pairs[0] if pairs else None, "radius": radius, "columns": columns, "runs": runs}  # fmt: skip
-    return _bbsim.filled_page("fit.html", str(data["title"]), json.dumps(data, ensure_ascii=False))
+    return _bbsim.filled_page("fit.html", title, json.dumps(data, ensure_ascii=False))
