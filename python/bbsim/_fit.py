@@ -182,9 +182,10 @@ class _Task:
     """What is asked for, checked, and the logs, read."""
 
     def __init__(self, given: _bbsim.Given, logs: Any, free: Any, map: Any, header: Any, period: Any, time_offset: Any,
-                 window: Any, hold_out: Any, loss: str, starts: Any, threads: Any) -> None:  # fmt: skip
+                 window: Any, hold_out: Any, loss: Optional[str], starts: Any, threads: Any) -> None:  # fmt: skip
         self.given, self.files, self.warnings = given, [os.fspath(file) for file in _listed(logs)], []  # type: ignore
         self.share, self.length = _share(hold_out), _time("window", window)
+        loss = loss or "squares"
         if loss not in ("squares", "huber"):
             raise refuse_option("loss", f"'{loss}'", "squares or huber")
         self.robust, self.threads = loss == "huber", _whole("threads", threads or 0, 0)
@@ -276,7 +277,8 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
     ideal = _ideal(task.logs[0].given)
     if ideal is not None and not any(_bbsim.lacks(ideal, name)[0] for name in task.columns):
         made.ideal_rms = _rms_of(search, windows, [], np.empty(0), _ideal)
-    if sum(math.log(made.residual_rms[name] / one) for name, one in made.ideal_rms.items() if one > 0) > 1e-3:
+    pairs = [(made.residual_rms[name], one) for name, one in made.ideal_rms.items()]
+    if not made.exact and sum(math.log(its / one) for its, one in pairs if one > 0) > 1e-3:
         search.doubts.append("the fit is worse than an ideal rig: try other starting values, bounds or keys")
     if len(held):
         made.hold_out_before_rms = _rms_of(search, held, task.keys, np.zeros(len(task.keys)))
@@ -309,6 +311,7 @@ def _describe(made: Any, search: Search, residuals: Array, before: Dict[str, flo
     errors = errors.reshape(fit.windows.values.shape)
     products = (errors[..., 1:] * errors[..., :-1]).sum((0, 2)) / np.maximum((errors**2).sum((0, 2)), 1e-300)
     exact = sizes.rms <= 1e-6 * search.spreads
+    made.exact = bool(exact.all())
     # Fitting the starts reduces correlation, so white residuals rarely reach this.
     made.white = bool(np.all(exact | (products < 3 / np.sqrt(np.maximum(sizes.counts, 1)))))
     made.correlated = ", ".join(f"{name}: {_bbsim.rounded(one, 2)}" for name, one in zip(fit.columns, products))
@@ -400,7 +403,7 @@ def _carry_out(given: _bbsim.Given, options: Dict[str, Any], progress: Progress,
     files = {name: str(options.pop(name) or "") for name in ("output", "json", "report")}
     task = _Task(given, **options)
     reads = {given.name: "the scenario"} if os.path.exists(given.name) else {}
-    template = {_bbsim.template_file("fit.html"): "the template of pages"} if files["report"] else {}
+    template: Dict[str, str] = {}
     declare(files, {**reads, **{file: "the log" for file in task.files}, **template}, "report")
     if files["output"]:  # fails before the work if the text cannot be written
         _bbsim.edited(given, [(key.name, key.text(key.start)) for key in task.keys if not isinstance(key, LogKey)], "", False)
