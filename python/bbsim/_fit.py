@@ -131,7 +131,7 @@ def _ideal(given: _bbsim.Given) -> Optional[_bbsim.Given]:
         changes += [("gimbal.motion", f"{{phi: {phi}, theta: {theta}}}")]
     elif not _bbsim.has(given, "gimbal.motion"):
         return None
-    parts = ["gimbal.servo", "gimbal.linkage", "gimbal.three_servos", "gimbal.mounting", "ball.losses", "events"]
+    parts = ["output", "gimbal.servo", "gimbal.linkage", "gimbal.three_servos", "gimbal.mounting", "ball.losses", "events"]
     parts += [] if _bbsim.has(given, "ball.groove") else ["ball.inertia_factor"]
     return given.changed(changes + [(part, "null") for part in parts if _bbsim.has(given, part)])
 

@@ -98,19 +98,20 @@ class Search:
             u = first + x - 1
             self._advance(u)
             made, slopes = residuals(x), np.concatenate([windows.derivatives(u)[0], weak])
-            gain = _gain(slopes, made, u <= low, u >= high)
+            step, gain = _best_step(slopes, made, u <= low, u >= high)
             variance = np.mean(made**2)
             if exact and gain < variance and self._is_away(slopes[: -len(u)]):
                 slopes[: -len(u)] = windows.derivatives(u, near=False)[0]
-                gain = _gain(slopes, made, u <= low, u >= high)
-            if gain <= (1e-7 if exact else 0.1) * variance:
-                raise _Done  # SciPy would look for a decrease among rounding errors
+                step, gain = _best_step(slopes, made, u <= low, u >= high)
+            if gain <= (1e-5 if exact else 0.1) * variance:  # SciPy would look for a decrease among rounding errors
+                self.u = np.clip(u + step, low, high)
+                raise _Done
             return slopes
 
         # x begins at 1: the trust region is then as large as a key's number at the start.
         try:
-            found = least_squares(residuals, np.ones(len(first)), derivatives, (low - first + 1, high - first + 1),
-                                  "dogbox", ftol=1e-13, xtol=1e-9, gtol=None, max_nfev=100)  # fmt: skip
+            ends = (np.minimum(low - first, 0) + 1, np.maximum(high - first, 0) + 1)
+            found = least_squares(residuals, np.ones(len(first)), derivatives, ends, "dogbox", ftol=1e-13, xtol=1e-9, gtol=None, max_nfev=100)  # fmt: skip
             self._advance(first + found.x - 1)
         except _Done:
             pass
@@ -231,8 +232,8 @@ class Search:
                 break
 
     def _is_away(self, slopes: Array) -> bool:
-        """Whether the derivatives are those of a point more than a third of a standard deviation away."""
-        return float(np.linalg.norm(slopes @ (self.u - self.windows.base.u)) ** 2) > 0.1 * self.scatter()
+        """Whether the derivatives are those of a point more than 3 % of a standard deviation away."""
+        return float(np.linalg.norm(slopes @ (self.u - self.windows.base.u)) ** 2) > 1e-3 * self.scatter()
 
     def _reweigh(self) -> float:
         """Estimates each column's noise from its residuals. Returns how much weights change."""
@@ -280,7 +281,7 @@ class Search:
         useful = sizes > 1e-3 * norms[count:]  # others do what keys or starts do
         shares = np.where(useful, (left @ slopes / np.maximum(sizes, 1e-300)) ** 2, 0.0) / (left @ left)
         best: Tuple[str, float] = ("", 0.05)
-        order = [int(place) for place in np.argsort(-shares, kind="stable")[:3] if shares[place] > 0.01]
+        order = [int(place) for place in np.argsort(-np.round(shares, 3), kind="stable")[:3] if shares[place] > 0.01]
         # The linear model at no friction does not know what sticks.
         order += [i for i, key in enumerate(candidates) if key.name == "ball.losses.rolling" and i not in order]
         for place in order:
@@ -390,8 +391,9 @@ class Linear(NamedTuple):
     correlations: Array
 
 
-def _gain(slopes: Array, residuals: Array, lowest: Array, highest: Array) -> float:
-    """How much smaller the sum of squares would be at the least of the linear model. Keys at a bound may leave it."""
-    pushes = slopes.T @ residuals
-    free = slopes[:, ~(lowest & (pushes > 0) | highest & (pushes < 0))]
-    return float(np.sum((free @ np.linalg.lstsq(free, residuals, 1e-12)[0]) ** 2))
+def _best_step(slopes: Array, residuals: Array, lowest: Array, highest: Array) -> Tuple[Array, float]:
+    """To the least sum of squares of the linear model, and how much smaller it is. Keys at a bound may leave it."""
+    pushes, step = slopes.T @ residuals, np.zeros(slopes.shape[1])
+    free = ~(lowest & (pushes > 0) | highest & (pushes < 0))
+    step[free] = -np.linalg.lstsq(slopes[:, free], residuals, 1e-12)[0]
+    return step, float(np.sum((slopes @ step) ** 2))
