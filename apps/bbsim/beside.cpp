@@ -92,8 +92,10 @@ void add_beside(Command& command, const Options& options) {
     if (option.value("required", false)) added.required();
     if (option.contains("whole")) added.takes_whole(option.at("whole"), largest_whole);
     if (option.contains("choices")) added.takes_one_of(option.at("choices"));
-    if (!given.name.empty()) {
-      option.value("repeatable", false) ? added.may_be_repeated() : added.takes_one();
+    if (!option.value("repeatable", false)) {
+      added.takes_one();
+    } else if (!given.name.empty()) {
+      added.may_be_repeated();
     }
   }
   command.does([name = command.name(), all, &options] {
