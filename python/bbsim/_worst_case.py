@@ -15,7 +15,7 @@ from ._simulate import Array
 _CASES, _MORE, _ROUNDS = 16, 8, 9  # cases of the first search, those that a round adds, rounds
 _SCANNED, _STEPS, _RUNS = 8, 10, 8  # points of the scan for each number and one; steps from a point; least runs of a step
 _FIRST, _LATER, _LAST = 0.2, 0.08, 0.003  # radii of steps
-_MARGIN, _LITTLE, _RIDGE = 1e-3, 3e-4, 0.1  # of requirements; a gain that ends the search; of the models' curvature
+_MARGIN, _LITTLE, _RIDGE = 1e-3, 3e-4, 0.05  # of requirements; a gain that ends the search; of the models' curvature
 
 
 def worst_of(scores: Array, share: float) -> Array:
@@ -132,8 +132,7 @@ class Search:
             before, best = self.merit, self.merits.index(min(self.merits))
             merit, worst = self._in_all(self.points[best])
             stalled = 0 if _gains(before, self.merit) else stalled + 1
-            is_worse = any(new > old + 1e-6 * abs(old) for new, old in zip(merit, self.merits[best]))  # than rounding
-            if stalled == 2 or (turn and stalled and not is_worse):
+            if stalled == 2:
                 return
-            if is_worse:
+            if any(new > old + 1e-6 * abs(old) for new, old in zip(merit, self.merits[best])):  # beyond rounding
                 self.cases = np.union1d(self.cases, worst)
