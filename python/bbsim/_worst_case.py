@@ -123,8 +123,9 @@ class Search:
         for turn in range(_ROUNDS):
             if turn == 0 and not again:
                 scan = self._around(np.full(size, 0.5), 0.5, _SCANNED * (1 + size))
-                at = self._take(np.concatenate([start[None], scan]), anew=True)
-                for one in dict.fromkeys([at, 0]):
+                self._take(np.concatenate([start[None], scan]), anew=True)
+                order = sorted(range(len(scan) + 1), key=self.merits.__getitem__)
+                for one in dict.fromkeys([*order[: max(1, size // 2)], 0]):
                     self._descend(one, _FIRST)
             else:
                 near = self._around(self.best, _LATER, 2 * size)
