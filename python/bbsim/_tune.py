@@ -30,7 +30,8 @@ class _Tuning:
     reason = ""  # why a rig was lost or has no value
 
     def __init__(self, base: _bbsim.Given, options: Dict[str, Any]) -> None:
-        self.base, self.share, self.vary, self.threads = base, options["quantile"], options["vary"], options["threads"] or 0
+        self.base, self.share, self.vary = base, options["quantile"], options["vary"]
+        self.threads = options["threads"] or 0
         if not 0 < self.share <= 1:
             raise _fault(f"--quantile: found {self.share:g}; allowed: a share above 0 and up to 1, such as 0.95")
         self.keys: List[Tuple[str, str, float, int]] = []  # name, unit, factor, place of its number
@@ -50,7 +51,7 @@ class _Tuning:
         for option, number in (("--samples", options["samples"]), ("--hold-out", self.hold_out)):
             if number and not draws:
                 raise _fault(f"{option}: {_LACKS_DRAW}")
-        self.rigs = self.draw(options["samples"], 1)
+        self.rigs, self.others = self.draw(options["samples"], 1), self.draw(self.hold_out or options["samples"], 2)
         for name in self.rigs:
             if name in names:
                 raise _fault(f"--vary: {name}: found among the free keys, too; allowed: one of the two")
@@ -106,10 +107,11 @@ class _Tuning:
         except InputError as error:  # no rig has such a scenario
             self.reason = str(error)
             return np.full((*shape, len(self.measures)), np.nan), np.ones(shape)
-        reasons = [why if status == "done" else f"{status}: {why}" for status, why in zip(made.status, made.reason) if why]
-        self.reason = reasons[-1] if reasons else self.reason
-        missed = np.where(made.status == "done", 0, 1 - np.nan_to_num(made.measures.get("end_t", 0.0)) / self.end)
-        values = np.stack([np.where(made.status == "done", made.measures[name], np.nan) for name in self.measures], 1)
+        done = made.status == "done"
+        for i in [i for i, why in enumerate(made.reason) if why][-1:]:
+            self.reason = made.reason[i] if done[i] else f"{made.status[i]}: {made.reason[i]}"
+        missed = np.where(done, 0, 1 - np.nan_to_num(made.measures.get("end_t", 0.0)) / self.end)
+        values = np.stack([np.where(done, made.measures[name], np.nan) for name in self.measures], 1)
         return values.reshape(*shape, -1), np.clip(missed, 0, 1).reshape(shape)
 
     def scores(self, values: Array) -> Array:
@@ -117,8 +119,9 @@ class _Tuning:
         scores = np.where(np.isfinite(values), values, np.inf)
         for i, goal in enumerate(self.goals, 1):
             lacks = (1 if goal.upper else -1) * (scores[..., i] - goal.value) / (abs(goal.value) or 1)
-            lacks = np.where(lacks == 0, 0 if goal.holds(goal.value) else 1e-300, np.where(np.isfinite(lacks), lacks, np.inf))
-            endless = goal.of_loop and not goal.upper  # no change of gain or delay uses up such a margin: it has no bound
+            lacks = np.where(lacks == 0, 0 if goal.holds(goal.value) else 1e-300, lacks)
+            lacks = np.where(np.isfinite(values[..., i]), lacks, np.inf)
+            endless = goal.of_loop and not goal.upper  # a margin that no change of gain or delay uses up
             scores[..., i] = np.where(endless & (values[..., i] == np.inf), -1, lacks)
         return scores
 
@@ -143,7 +146,8 @@ class _Tuning:
                 if not self.hold_out:
                     break
                 progress(0.99, "rigs held out")
-                values, missed = (one[0] for one in self.measured(search.best[None], self.draw(self.hold_out, 2 + turn)))
+                others = self.draw(self.hold_out, 2 + turn) if turn else self.others
+                values, missed = (one[0] for one in self.measured(search.best[None], others))
                 scores, drawn = self.scores(values), self.scores(seen[search.best.tobytes()])
                 kept, held = merit_of(drawn, np.zeros(len(drawn)), self.share), merit_of(scores, missed, self.share)
                 passes = np.isfinite(scores[:, 0]) & (scores[:, 1:] <= 0).all(1)
@@ -153,6 +157,8 @@ class _Tuning:
                 tighter = tighter + _TIGHTER * np.maximum(worst_of(scores, self.share)[1:], 0)
         except KeyboardInterrupt:
             found.interrupted = True
+        except InputError:  # the rigs of another draw are refused; those of the first were not
+            pass
         *_, found.point, found.passes, found.tighter = min(tries) if tries else (search.best, [], tighter)
         if found.point is None:
             raise KeyboardInterrupt
@@ -172,16 +178,19 @@ class _Tuning:
         keys = [["key", "before", "tuned", "from", "to", "unit"]]
         for name, unit, factor, at in self.keys:
             made.parameters.append(SimpleNamespace(key=name, value=float(factor * numbers[at])))
-            keys.append([name, *map(short, factor * np.array([self.start[at], numbers[at], *self.bounds[:, at]])), unit or "1"])
+            its = factor * np.array([self.start[at], numbers[at], *self.bounds[:, at]])
+            keys.append([name, *map(short, its), unit or "1"])
         rigs = f"the worst of {count} rigs" if self.share == 1 else f"the {short(self.share)} quantile of {count} rigs"
         rigs = "one rig" if count == 1 else rigs
-        measures, comments = [["measure", "before", "tuned", "unit", "holds"]], f"# Tuned by bbsim {_bbsim.__version__} on {rigs}\n"
+        comments = f"# Tuned by bbsim {_bbsim.__version__} on {rigs}\n"
+        measures = [["measure", "before", "tuned", "unit", "holds"]]
         for i, name in enumerate([self.measures[0], *(goal.text for goal in self.goals)]):
             unit, (value, good, lacking) = self.goals[i - 1].unit if i else self.unit, self.worst(found.after, i)
             holds = ("yes" if i else "-") if good else "no"
             holds += f": no value on {lacking} rig{'s' * (lacking > 1)}" if lacking else ""
             measures.append([name, f"{self.worst(found.before, i)[0]:.3g}", f"{value:.3g}", unit or "1", holds])
-            comments += f"#   {name}{' (does not hold)' if i and not good else ''}: {short(value)} {unit}".rstrip() + "\n"
+            fails = " (does not hold)" if i and not good else ""
+            comments += f"#   {name}{fails}: {short(value)} {unit}".rstrip() + "\n"
             if i:
                 made.requirements.append(SimpleNamespace(text=name, value=value, holds=good))
                 reasons += [] if good else [f"{name}; the best has {short(value)} {unit}".rstrip()]
@@ -202,7 +211,8 @@ class _Tuning:
             made.report, comments = f"{made.report}a{text}\n", f"{comments}# A{text}.\n"
         for goal, part in zip(self.goals, found.tighter):
             if part:
-                made.report += f"searched for {goal.text} with {_bbsim.rounded(100 * part, 2)} % to spare, for rigs held out\n"
+                spare = _bbsim.rounded(100 * part, 2)
+                made.report += f"searched for {goal.text} with {spare} % to spare, for rigs held out\n"
         made.scenario = self.scenario(comments, numbers)
         return made
 
@@ -223,7 +233,8 @@ def _json(made: Any) -> str:
 
 def tune(
     scenario: Scenario, free: Any, minimize: str, require: Any = (), vary: Any = (), samples: Any = None,
-    hold_out: Any = None, quantile: float = 1, *, set: Settings = None, output: Any = None, json: Any = None, threads: int = 0,
+    hold_out: Any = None, quantile: float = 1, *, set: Settings = None, output: Any = None, json: Any = None,
+    threads: int = 0,
 ) -> Any:  # fmt: skip
     """Finds the values of keys at which a measure is smallest on the worst of many rigs.
 
@@ -235,9 +246,9 @@ def tune(
     quantile  the share of rigs that counts
     output, json        files to write: the scenario with the values, and the results
 
-    The result has the names of the JSON: parameters (key, value), objective, requirements (text, value, holds), hold_out
-    (cases, share_that_holds). `met` says whether all requirements hold and the measure is finite, `reason` why not;
-    `report` is the printed text, `scenario` that of the tuned scenario. An interrupted search gives the best so far.
+    The result has the names of the JSON: parameters (key, value), objective, requirements (text, value, holds),
+    hold_out (cases, share_that_holds). `met` says whether all requirements hold and the measure is finite, `reason`
+    why not; `report` is the printed text, `scenario` that of the tuned scenario. An interrupted search gives the best.
     """
     options = dict(locals())
     options.update((name, [options[name]]) for name in ("free", "require", "vary") if isinstance(options[name], str))
@@ -251,14 +262,14 @@ def tune(
 
 def command(options: Dict[str, Any], say: Any) -> int:
     """`bbsim tune`; `say` prints a message unless -q is given."""
-    base = _bbsim.Given(options["scenario"], None, options["set"], None)
+    base = _bbsim.Given(options["scenario"], None, options["set"], None).changed([])  # reads standard input once
     declare(options, {options["scenario"]: "the scenario"})
     options["quantile"] = 1 if options["quantile"] is None else options["quantile"]
-    tuning = _Tuning(base, options)
-    for remark in _bbsim.remarks(base):
-        say(remark)
     try:
         with Bar(base.name, options["quiet"]) as progress:
+            tuning = _Tuning(base, options)
+            for remark in _bbsim.remarks(base):
+                say(remark)
             made = tuning.result(tuning.find(progress))
     except KeyboardInterrupt:
         sys.stderr.write("tune: interrupted before the first result; nothing is written\n")

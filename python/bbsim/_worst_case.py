@@ -13,7 +13,7 @@ from scipy.optimize import minimize
 from ._simulate import Array
 
 _CASES, _MORE, _ROUNDS = 16, 8, 9  # cases of the first search, those that a round adds, rounds
-_SCANNED, _STEPS, _RUNS = 8, 10, 8  # points of the scan for each number and one; steps from a point; least runs of a step
+_SCANNED, _STEPS, _RUNS = 8, 10, 8  # points of the scan, for each number and 1; steps from a point; least runs of one
 _FIRST, _LATER, _LAST = 0.2, 0.08, 0.003  # radii of steps
 _MARGIN, _LITTLE, _RIDGE = 1e-3, 3e-4, 0.05  # of requirements; a gain that ends the search; of the models' curvature
 
@@ -97,8 +97,8 @@ class Search:
             box = np.clip([-self.points[at] / radius, (1 - self.points[at]) / radius], -part, part).T
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # SLSQP's, on differences beyond the bounds
-                z = minimize(lambda z: z[-2] + 100 * z[-1], start, bounds=[*box, (None, None), (0, None)], method="SLSQP",
-                             constraints={"type": "ineq", "fun": slack}, options={"maxiter": 50}).x  # fmt: skip
+                z = minimize(lambda z: z[-2] + 100 * z[-1], start, bounds=[*box, (None, None), (0, None)],
+                             constraints={"type": "ineq", "fun": slack}, method="SLSQP", options={"maxiter": 50}).x
             found.append(np.clip(self.points[at] + radius * z[:-2], 0, 1))
         return np.array(found)
 

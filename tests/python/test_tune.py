@@ -8,6 +8,7 @@ import json
 import os
 import pickle
 import subprocess
+import sys
 import tempfile
 import unittest
 import warnings
@@ -31,8 +32,8 @@ DELAY = "controller.sampling.delay=uniform:5 ms:15 ms"
 
 def tune(**options):
     """Two gains on eight rigs of 6 s."""
-    its = {"free": GAINS, "minimize": "rms_tracking_error", "require": "max_tilt < 1.2 deg", "vary": SERVO, "samples": 8}
-    return bbsim.tune(RIG, **{**its, "set": {"time.end": 6}, **options})
+    its = {"free": GAINS, "minimize": "rms_tracking_error", "require": "max_tilt < 1.2 deg", "set": {"time.end": 6}}
+    return bbsim.tune(RIG, **{**its, "vary": SERVO, "samples": 8, **options})
 
 
 def one_rig(**options):
@@ -215,11 +216,12 @@ class Rigs(unittest.TestCase):
         self.assertEqual(made.objective, np.inf)
         self.assertIn("no: no value on 8 rigs\n", made.report)
         # The second ball begins beside the plate.
-        near = {"vary": "ball.position.0=list:5 cm,9 cm", "samples": None, "free": f"{KV}=4:8", "require": "max_tilt < 12 deg"}
-        made = tune(**near, set={"time.end": 3, "plate.size": ["17 cm", "17 cm"]})
+        near = {"vary": "ball.position.0=list:5 cm,9 cm", "samples": None, "free": f"{KV}=4:8"}
+        near.update(require="max_tilt < 12 deg", set={"time.end": 3, "plate.size": ["17 cm", "17 cm"]})
+        made = tune(**near)
         self.assertEqual(made.report.count("no: no value on 1 rig\n"), 2)
         self.assertEqual((made.objective, made.requirements[0].holds), (np.inf, False))
-        made = tune(**near, quantile=0.5, set={"time.end": 3, "plate.size": ["17 cm", "17 cm"]})
+        made = tune(**near, quantile=0.5)
         self.assertTrue(made.met, made.reason)
         self.assertIn("yes: no value on 1 rig\n", made.report)
 
@@ -255,6 +257,8 @@ class Rigs(unittest.TestCase):
         refused("--hold-out: found, but no value is drawn", vary="ball.radius=list:0.02,0.03", samples=None, hold_out=5)
         refused("found among the free keys, too", vary=[SERVO, f"{KP}=uniform:1:2"])
         refused("gimbal.servo.damping=-", vary="gimbal.servo.damping=normal:0.1:0.3")
+        # Only some of the rigs held out cannot exist.
+        refused("gimbal.servo.damping=-", vary="gimbal.servo.damping=normal:0.8:0.25", hold_out=3000)
         refused("--quantile: found 1.5", quantile=1.5)
         refused("--quantile: found 0", quantile=0)
 
@@ -348,6 +352,13 @@ class Command(unittest.TestCase):
             out, said = self.tune(*words, code=2)
             self.assertEqual(out, "")
             self.assertIn(message, said)
+
+    def test_a_scenario_on_standard_input(self):
+        words = ["-c", "import sys; from bbsim._command import main; sys.exit(main('tune'))", "-", *self.SHORT[1:], "-q"]
+        with open(RIG) as rig:
+            made = subprocess.run([sys.executable, *words], stdin=rig, capture_output=True, text=True)
+        self.assertEqual((made.returncode, made.stderr), (0, ""))
+        self.assertIn("on one rig; ", made.stdout)
 
     def test_a_full_disk(self):
         _, said = self.tune(*self.SHORT, "-o", "/dev/full", code=3)
