@@ -18,7 +18,7 @@ from ._progress import Progress, silent
 from ._simulate import Array
 
 _HUBER = 1.345  # standard deviations; costs 5 % of the efficiency for Gaussian noise
-_KINKED_STARTS = 4
+_KINKED_STARTS = 3
 _UNTOLD = 1e-4  # of the largest singular value; smaller ones are errors of differences
 
 
@@ -116,7 +116,7 @@ class Search:
         except _Done:
             pass
 
-    def minimize_together(self) -> None:
+    def minimize_together(self, most: int = 40) -> None:
         """Keys and starts side by side, where residuals have kinks, and starts that follow the keys would be lost."""
         windows, count = self.windows, len(self.u)
         windows.residuals(self.u)
@@ -137,7 +137,7 @@ class Search:
         low, high = self.bounds()
         ends = [np.concatenate([end, np.full(len(x) - count, sign * np.inf)]) for end, sign in ((low, -1), (high, 1))]
         found = least_squares(lambda x: move(x, False), x, slopes, ends, "trf", ftol=1e-5, xtol=1e-8, gtol=None,
-                              x_scale="jac", max_nfev=50)  # fmt: skip
+                              x_scale="jac", max_nfev=most)  # fmt: skip
         self.u = found.x[:count]
         move(found.x, True)
 
@@ -194,11 +194,11 @@ class Search:
         self.windows.at(self.u, its, True)
         self._compare(ends)
 
-    def descend(self) -> None:
+    def descend(self, most: int = 40) -> None:
         """To the nearby least sum of squares, roughly."""
         if self.windows.kinked:
             self.windows.at(self.u, self.windows.guess_velocities(self.u), True)
-            self.minimize_together()
+            self.minimize_together(most)
         else:
             self.minimize(False)
 
@@ -291,7 +291,7 @@ class Search:
             trial.weights, fitted.u = its.weights, np.append(self.u, 0.0)
             trial.linearize(fitted.u, its.point.starts)
             trial.find_kinks(fitted.u)
-            fitted.descend()
+            fitted.descend(8)
             share = 1 - math.sqrt(float(np.sum(trial.residuals(fitted.u) ** 2)) / float(now @ now))
             if share > best[1] + 0.01 * bool(best[0]):
                 best = (key.name, share)
@@ -342,7 +342,8 @@ class Search:
         windows, (low, high) = self.windows, self.bounds()
         least = float(np.sum(windows.residuals(self.u) ** 2))
         inside, outside = 0.0, math.inf
-        to = np.clip(self.u + sign * along, low, high)
+        goal = np.clip(self.u[k] + sign * along[k], low[k], high[k]) - self.u[k]
+        to = np.clip(self.u + self._others(k, self.u, windows.residuals(self.u), goal), low, high)
         for count in range(20):
             residuals = windows.residuals(to)
             rest = self._others(k, to, residuals, 0.0)
@@ -355,6 +356,9 @@ class Search:
             at_bound = to[k] in (low[k], high[k]) and ratio <= 1
             if slack < 0.06 * growth and (at_bound or abs(ratio - 1) < (0.03 if count else 0.1)):
                 return gone if at_bound else gone / ratio
+            if slack > growth:
+                to = np.clip(to + rest, low, high)
+                continue
             if gone > 30 * along[k]:
                 return math.inf
             inside, outside = (max(inside, gone), outside) if ratio < 1 else (inside, min(outside, gone))

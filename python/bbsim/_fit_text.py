@@ -22,7 +22,7 @@ _MOST_ROWS = 40000  # of a page
 
 def number(value: float, sd: float = 0.0) -> str:
     """With as many digits as the standard deviation justifies."""
-    if not math.isfinite(sd) or sd <= 0 or value == 0:
+    if not math.isfinite(sd) or sd <= 0 or value == 0 or not math.isfinite(value):
         return _bbsim.short_number(value)
     digits = math.ceil(math.log10(abs(value) / sd)) + 2
     return _bbsim.rounded(value, min(max(digits, 2), 12))
