@@ -139,7 +139,7 @@ api::RunResult run(const Given& given, const std::optional<std::vector<std::stri
 // The number (SI) that a text such as "2 cm" gives the key; empty if the key has no single number.
 std::optional<double> number_at(const Given& given, const std::string& key,
                                 const std::string& value) {
-  return family_of(given).number_at(key, {{key, value}});
+  return shared_family(given).number_at(key, {{key, value}});
 }
 
 std::string check(const Given& given) {
