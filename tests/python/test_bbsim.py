@@ -1335,6 +1335,25 @@ class Documents(unittest.TestCase):
         worse, better = (bbsim.run(names[one], measures="rms_tracking_error") for one in ("loop", "designed"))
         self.assertLess(3 * better.measures["rms_tracking_error"], worse.measures["rms_tracking_error"])
 
+    def test_the_figures_for_a_paper(self):
+        text = (CONFIGS.parent / "docs/tutorials/paper-figure.md").read_text()
+        names, before = {}, os.getcwd()
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()):
+            os.chdir(folder)
+            try:
+                for block in text.split("```python\n")[1:]:
+                    exec(block.split("```")[0], names)
+                files = sorted(os.listdir())
+            finally:
+                os.chdir(before)
+        self.assertEqual(files, ["bode.pdf", "margin.pdf", "run.pdf", "settling.pdf"])
+        # What the page says of the loop, the run and the rigs.
+        margins, settling = names["margins"], names["rigs"]["x.SettlingTime"]
+        self.assertEqual((round(math.degrees(margins["phase"])), round(20 * math.log10(margins["gain"]), 1)), (53, 16.8))
+        self.assertLess(names["result"].measures["x.SettlingTime"], 1.1)
+        np.testing.assert_allclose(np.quantile(settling, [0.05, 0.95]), [1.09, 1.15], atol=0.005)
+        self.assertGreater(names["rigs"]["phi_delay_margin"].min(), 0.15)
+
 
 if __name__ == "__main__":
     unittest.main()
