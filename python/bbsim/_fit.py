@@ -8,7 +8,7 @@ import math
 import os
 import sys
 from types import SimpleNamespace
-from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -32,94 +32,90 @@ _CANDIDATES = ("ball.inertia_factor", "ball.losses.rolling", "ball.losses.viscou
                "controller.sampling.delay")  # fmt: skip
 
 
+def _fault(text: str) -> InputError:
+    return InputError([("", text)])
+
+
 def _listed(texts: Any) -> List[str]:
-    return [] if texts is None else [texts] if isinstance(texts, (str, os.PathLike)) else list(texts)
+    return [] if texts is None else [os.fspath(texts)] if isinstance(texts, (str, os.PathLike)) else list(texts)
 
 
 def _compared(given: _bbsim.Given, maps: Sequence[str], log: _bbsim.Stored, notes: List[str]) -> List[str]:
     """The columns that the user maps, else those that the log has."""
+    moved = _GIMBAL if _bbsim.has(given, "gimbal.motion") else ()
     names = [one.partition("=")[0].replace(" ", "") for text in maps for one in text.split(",")]
     names = [name for name in dict.fromkeys(names) if name != "t"]
-    moved = _bbsim.has(given, "gimbal.motion")
-    if not names:
-        names = [name for name in _BALL + _GIMBAL if name in log.names and not (moved and name in _GIMBAL)]
-    kept = []
+    names = names or [name for name in _BALL + _GIMBAL if name in log.names and name not in moved]
+    notes += [f"note: {name} is given by gimbal.motion, and not compared with the log" for name in names if name in moved]
+    names = [name for name in names if name not in moved]
     for name in names:
-        if moved and name in _GIMBAL:
-            notes.append(f"note: {name} is given by gimbal.motion, and not compared with the log")
-            continue
-        why, _ = _bbsim.lacks(given, name)
-        if why:
-            raise InputError([("", f"--map: found {name}, {why}; allowed: columns that the scenario has")])
-        kept.append(name)
-    if not kept:
+        if _bbsim.lacks(given, name)[0]:
+            why = _bbsim.lacks(given, name)[0]
+            raise _fault(f"--map: found {name}, {why}; allowed: columns that the scenario has")
+    if not names:
         allowed = "x, y, vx or vy by name, or --map x=NAME:UNIT"
-        raise InputError([("", f"{log.shown_file}: has no column to compare; allowed: {allowed}")])
-    return kept
-
-
-def _numbers(log: _bbsim.Stored, name: str, hint: str) -> Array:
-    if name not in log.names:
-        raise InputError([("", f"{log.shown_file}: has no column {name}; it has {', '.join(log.names)}{hint}")])
-    if log.is_text(name):
-        raise InputError([("", f"{log.shown_file}: column {name}: found texts; allowed: numbers, or an empty field")])
-    return np.array(log.numbers(name), dtype=float)
+        raise _fault(f"{log.shown_file}: has no column to compare; allowed: {allowed}")
+    return names
 
 
 def _log(given: _bbsim.Given, stored: _bbsim.Stored, columns: Sequence[str], notes: List[str]) -> Log:
-    times = _numbers(stored, "t", ". --map t=NAME:UNIT names the time")
-    values = np.array([_numbers(stored, name, "") for name in columns])
+    file, values = stored.shown_file, []
+    for name, hint in (("t", ". --map t=NAME:UNIT names the time"), *((name, "") for name in columns)):
+        if name not in stored.names:
+            raise _fault(f"{file}: has no column {name}; it has {', '.join(stored.names)}{hint}")
+        if stored.is_text(name):
+            raise _fault(f"{file}: column {name}: found texts; allowed: numbers, or an empty field")
+        values.append(np.array(stored.numbers(name), dtype=float))
+        doubt = name != "t" and _bbsim.unit_doubt(name, float(np.nanmax(np.abs(values[-1]), initial=0)))
+        if doubt:
+            largest = float(np.nanmax(np.abs(values[-1])))
+            notes.append(f"warning: {file}: {name} goes up to {largest!r}, read in SI: it looks like {doubt}")
+    times = values[0]
     wrong = np.flatnonzero(~np.isfinite(times) | (np.diff(times, prepend=-np.inf) <= 0))
     if wrong.size:
-        row, allowed = int(wrong[0]), "finite times that increase"
-        place = f"{stored.shown_file}: column t, row {row + 1}"
-        raise InputError([("", f"{place}: found {times[row]:.17g}; allowed: {allowed}")])
+        found = f"column t, row {wrong[0] + 1}: found {times[wrong[0]]:.17g}; allowed: finite times that increase"
+        raise _fault(f"{file}: {found}")
     if not times.size:
-        raise InputError([("", f"{stored.shown_file}: has no rows")])
-    for name, its in zip(columns, values):
-        largest = float(np.nanmax(np.abs(its), initial=0))
-        doubt = _bbsim.unit_doubt(name, largest)
-        if doubt:
-            notes.append(f"warning: {stored.shown_file}: {name} goes up to {largest!r}, read in SI: it looks like {doubt}")
-    return Log(stored.shown_file, times, values, given)
+        raise _fault(f"{file}: has no rows")
+    return Log(file, times, np.array(values[1:]), given)
 
 
 def _log_key(text: str, columns: Sequence[str], units: Sequence[str]) -> LogKey:
     """log.COLUMN.scale, log.COLUMN.offset or log.delay, with or without bounds."""
     name, equals, bounds = (part.strip() for part in text.partition("="))
-    _, _, rest = name.partition(".")
-    column, _, of = rest.rpartition(".")
-    if rest == "delay":
+    column, _, of = name.removeprefix("log.").rpartition(".")
+    if name == "log.delay":
         key = LogKey(name, "s", lower=0.0, upper=math.inf if equals else _USUAL_DELAY)
     elif column in columns and of in ("scale", "offset"):
         place = columns.index(column)
         key = LogKey(name, units[place] if of == "offset" else "", of=of, column=place)
     else:
-        allowed = [f"log.{one}.scale, log.{one}.offset" for one in columns]
-        refuse(f"{name}: allowed for a log: log.delay, {', '.join(allowed)}")
+        allowed = ", ".join(f"log.{one}.scale, log.{one}.offset" for one in columns)
+        refuse(f"{name}: allowed for a log: log.delay, {allowed}")
     if equals:
         read_bounds(bounds, key)
-    key.logarithmic = key.of == "scale" and key.lower > 0
-    key.start = 1.0 if key.of == "scale" else 0.0
-    if key.of == "delay" or not key.lower <= key.start <= key.upper:
+    key.logarithmic = of == "scale" and key.lower > 0
+    key.start = 1.0 if of == "scale" else 0.0
+    if of == "delay" or not key.lower <= key.start <= key.upper:
         key.start = (key.lower + key.upper) / 2
-    bounded = math.isfinite(key.upper - key.lower)
-    key.scale = (key.upper - key.lower) / 10 if bounded else usual_scale(key.start, "" if key.of == "scale" else "m")
+    width = key.upper - key.lower
+    key.scale = width / 10 if math.isfinite(width) else usual_scale(key.start, "" if of == "scale" else "m")
     return key
 
 
-def _candidates(given: _bbsim.Given, keys: Sequence[FreeKey], columns: Sequence[str], units: Sequence[str]) -> List[FreeKey]:
+def _candidates(task: "_Task") -> List[FreeKey]:
     """Keys of this scene that are not free."""
-    tables = [file[: -len(".file")] for file, _ in _bbsim.tables(given)]
+    given = task.logs[0].given
+    tables = [file.removesuffix(".file") for file, _ in _bbsim.tables(given)]
     tables = [one for one in tables if one.startswith(("gimbal.motion", "controller.commands"))]
-    names = [f"{table}.{of}" for table in tables for of in ("offset", "delay", "scale")] + list(_CANDIDATES)
-    found: List[FreeKey] = [_log_key(f"log.{name}.scale", columns, units) for name in columns]
-    for name in names:
+    found: List[FreeKey] = []
+    for name in [f"{table}.{of}" for table in tables for of in ("offset", "delay", "scale")] + list(_CANDIDATES):
         try:
-            found.insert(len(found) - len(columns), read_free_key(name, given))
+            found.append(read_free_key(name, given))
         except InputError:
             pass
-    return [key for key in found if key.name not in {one.name for one in keys}]
+    found += [_log_key(f"log.{name}.scale", task.columns, task.units) for name in task.columns]
+    return [key for key in found if key.name not in {one.name for one in task.keys}]
 
 
 def _ideal(given: _bbsim.Given) -> Optional[_bbsim.Given]:
@@ -136,84 +132,41 @@ def _ideal(given: _bbsim.Given) -> Optional[_bbsim.Given]:
     return given.changed(changes + [(part, "null") for part in parts if _bbsim.has(given, part)])
 
 
-def _rms(search: Search, residuals: Array) -> Dict[str, float]:
-    return dict(zip(search.windows.columns, map(float, search.sizes(residuals).rms)))
-
-
-def _rms_of(fit: Search, windows: Windows, keys: Sequence[FreeKey], u: Array, given: Any = None) -> Dict[str, float]:
-    """Of other windows, or of another rig, at u; nothing if one does not run."""
-    its = fit.windows
-    logs = its.logs if given is None else [Log(log.name, log.times, log.values, given(log.given)) for log in its.logs]
-    other = WindowsFit(logs, its.columns, windows, keys, its.free, its.threads)
-    search = Search(other, False, silent, its.noise)
-    try:
-        residuals = other.residuals(u)
-    except InputError:
-        return {}
-    return _rms(search, residuals) if other.point.runs.all() else {}
-
-
-def _time(option: str, value: Any) -> Optional[float]:
-    if value is None:
-        return None
-    time = _bbsim.value_in(str(value), "s")
-    if time is None or not time > 0:
-        raise refuse_option(option, repr(value), 'a time greater than 0, such as 2 or "500 ms"')
-    return time
-
-
-def _share(value: Any) -> float:
-    try:
-        share = float(value or 0)
-    except ValueError:
-        share = math.nan
-    if not 0 <= share < 1:
-        raise refuse_option("hold-out", str(value), "a share from 0 to below 1, such as 0.3")
-    return share
-
-
-def _whole(option: str, value: Any, least: int) -> int:
-    if not str(value).isdecimal() or int(value) < least:
-        raise refuse_option(option, str(value), f"a whole number, {least} or more")
-    return int(value)
-
-
 class _Task:
     """What is asked for, checked, and the logs, read."""
 
     def __init__(self, given: _bbsim.Given, logs: Any, free: Any, map: Any, header: Any, period: Any, time_offset: Any,
                  window: Any, hold_out: Any, loss: Optional[str], starts: Any, threads: Any) -> None:  # fmt: skip
-        self.given, self.files, self.warnings = given, [os.fspath(file) for file in _listed(logs)], []  # type: ignore
-        self.share, self.length = _share(hold_out), _time("window", window)
-        loss = loss or "squares"
-        if loss not in ("squares", "huber"):
-            raise refuse_option("loss", f"'{loss}'", "squares or huber")
-        self.robust, self.threads = loss == "huber", _whole("threads", threads or 0, 0)
-        self.starts = None if starts is None else _whole("starts", starts, 1)
-        for own in ("program", "library"):
-            if _bbsim.has(given, f"controller.{own}"):
-                allowed = "a law of bbsim, or gimbal.motion from the log's table"
-                raise InputError([("", f"controller: found a {own} of your own; allowed in a fit: {allowed}")])
+        self.given, self.files, self.warnings = given, _listed(logs), []  # type: ignore[var-annotated]
+        self.share, self.starts, self.threads, self.robust = hold_out or 0, starts, threads or 0, loss == "huber"
+        self.length = None if window is None else _bbsim.value_in(str(window), "s")
         free = _listed(free)
-        if not free or not self.files:
-            raise refuse_option("free" if self.files else "logs", "nothing", "at least one")
+        for option, wrong, found, allowed in (
+            ("hold-out", not 0 <= self.share < 1, hold_out, "a share from 0 to below 1, such as 0.3"),
+            ("loss", loss not in (None, "squares", "huber"), f"'{loss}'", "squares or huber"),
+            ("starts", starts is not None and (starts != int(starts) or starts < 1), starts, "1 or more"),
+            ("window", window is not None and not (self.length or 0) > 0, f"'{window}'",
+             'a time greater than 0, such as 2 or "500 ms"'),
+            ("free", not free, "nothing", "at least one key"), ("logs", not self.files, "nothing", "at least one"),
+        ):  # fmt: skip
+            if wrong:
+                raise refuse_option(option, str(found), allowed)
+        if _bbsim.has(given, "controller.program") or _bbsim.has(given, "controller.library"):
+            allowed = "a law of bbsim, or gimbal.motion from the log's table"
+            raise _fault(f"controller: found a program or library of your own; allowed in a fit: {allowed}")
         self.keys: List[FreeKey] = read_free_keys(free, given)
         run = given.changed([("solver.error", "null"), ("solver.rtol", "1e-10"), ("solver.atol", "1e-12")])
         maps, header = _listed(map), [name for text in _listed(header) for name in text.split(",")]
-        tables = self._tables_of_logs()
-        self.logs: List[Log] = []
+        tables, self.logs = self._tables_of_logs(), []  # type: ignore[var-annotated]
         for file in self.files:
             stored, notes = _bbsim.read_log(file, maps, header, str(period or ""), str(time_offset or ""))
             self.warnings += notes
-            if not self.logs:
-                self.columns = _compared(given, maps, stored, self.warnings)
+            self.columns = self.columns if self.logs else _compared(given, maps, stored, self.warnings)
             its = [(key, f"'{os.path.abspath(file)}'") for key in tables if len(self.files) > 1]
             self.logs.append(_log(run.changed(its), stored, self.columns, self.warnings))
         known = {column[0]: column[2] for column in _bbsim.known_columns("rad")}
         self.units = [known[name] for name in self.columns]
-        for text in free:
-            if text.strip().startswith("log."):
-                self.keys.append(_log_key(text, self.columns, self.units))
+        self.keys += [_log_key(text, self.columns, self.units) for text in free if text.strip().startswith("log.")]
         names = [key.name for key in self.keys]
         if len(set(names)) < len(names):
             refuse(f"{max(names, key=names.count)} is given twice")
@@ -221,13 +174,10 @@ class _Task:
     def _tables_of_logs(self) -> List[str]:
         """If a table of the scenario is one of the logs, each log replaces it in turn."""
         folder = os.path.dirname(self.given.name) if os.path.exists(self.given.name) else ""
-        for file in self.files:
-            found = [key for key, path in _bbsim.tables(self.given) if not key.startswith("ball.")
-                     and os.path.exists(os.path.join(folder, path)) and os.path.exists(file)
-                     and os.path.samefile(os.path.join(folder, path), file)]  # fmt: skip
-            if found:
-                return found
-        return []
+        tables = [(key, os.path.join(folder, path)) for key, path in _bbsim.tables(self.given) if key[:5] != "ball."]
+        tables = [(key, path) for key, path in tables if os.path.exists(path)]
+        same = [[key for key, path in tables if os.path.exists(file) and os.path.samefile(path, file)] for file in self.files]
+        return next((keys for keys in same if keys), [])
 
     def cut(self) -> Tuple[Windows, Windows, List[int], float]:
         """The windows to fit and those held out, the coordinates of their starts, and their length."""
@@ -236,105 +186,120 @@ class _Task:
         # Feedback keeps errors small over whole logs and carries on states that no log shows.
         whole = loop and self.length is None and not self.share
         length = math.inf if whole else self.length or _USUAL_WINDOW
-        delay = max((key.upper for key in self.keys if isinstance(key, LogKey) and key.of == "delay"), default=0.0)
+        delay = max((key.upper for key in self.keys if key.name == "log.delay"), default=0.0)
         fewest = len(start_coordinates(self.columns, given, not whole))
         windows, held = cut(self.logs, length, self.share, fewest, delay)
-        within = len(windows) + len(held) > len(set(windows.log.tolist() + held.log.tolist()))
+        within = len(windows) + len(held) > len({*windows.log, *held.log})
         free = start_coordinates(self.columns, given, within)
         numbers, unknowns = int(np.isfinite(windows.values).sum()), len(windows) * len(free) + len(self.keys)
         if numbers <= unknowns:
-            raise InputError([("", f"the logs have {numbers} numbers in {len(windows)} windows; allowed: more than the "
-                              f"{unknowns} that are sought, starts included; use a longer --window or fewer --free "
-                              "keys")])  # fmt: skip
+            raise _fault(f"the logs have {numbers} numbers in {len(windows)} windows; allowed: more than the {unknowns} that "
+                         "are sought, starts included; use a longer --window or fewer --free keys")  # fmt: skip
         return windows, held, free, length
+
+
+def _other(search: Search, windows: Windows, u: Array, ideal: bool = False) -> Optional[WindowsFit]:
+    """Other windows at u, or those of an ideal rig; None if one does not run."""
+    its, logs = search.windows, search.windows.logs
+    if ideal:
+        logs = [Log(log.name, log.times, log.values, _ideal(log.given)) for log in logs]  # type: ignore[arg-type]
+    other = WindowsFit(logs, its.columns, windows, [] if ideal else its.keys, its.free, its.threads)
+    other.reweigh(its.noise)
+    other.residuals(np.empty(0) if ideal else u)
+    assert other.point is not None
+    return other if other.point.runs.all() else None
+
+
+def _rms(fit: Optional[WindowsFit]) -> Dict[str, float]:
+    return {} if fit is None else dict(zip(fit.columns, map(float, fit.sizes().rms)))
+
+
+def _series(fit: WindowsFit, held: bool) -> List[Any]:
+    """Log and model of each window."""
+    shown, its = fit.modelled(), fit.windows
+    return [SimpleNamespace(log=int(its.log[w]), held=held, times=its.times[w, :rows], measured=its.values[w, :, :rows],
+                            modelled=shown[w, :, :rows]) for w, rows in enumerate(its.rows)]  # fmt: skip
 
 
 def _fit(task: _Task, progress: Progress, series: bool) -> Any:
     """A result without a text; None if it is interrupted before there is one."""
     windows, held, free, length = task.cut()
     fit = WindowsFit(task.logs, task.columns, windows, task.keys, free, task.threads)
-    search = Search(fit, task.robust, progress)
-    interrupted, before = False, None
+    search, before = Search(fit, task.robust, progress), None
+    made = SimpleNamespace(interrupted=False, logs=task.files, windows=len(windows), held=len(held), numbers=fit.size,
+                           window=length, units=dict(zip(task.columns, task.units)), suggestion=None,
+                           hold_out_before_rms={}, hold_out_rms={}, ideal_rms={}, hold_out_ideal_rms={})  # fmt: skip
     try:
-        residuals = fit.residuals(search.u)
-        if not fit.point.runs.all():
-            w = int(np.argmin(fit.point.runs))
-            raise InputError([("", f"{task.logs[windows.log[w]].name}: from t = {windows.begin[w]:.6g} s on, the scenario "
-                              f"does not run to the window's end: {fit.point.why[w]}")])  # fmt: skip
-        before = _rms(search, residuals)
+        fit.residuals(search.u)
+        w = int(np.argmin(fit.point.runs))
+        if not fit.point.runs[w]:
+            raise _fault(f"{task.logs[windows.log[w]].name}: from t = {windows.begin[w]:.6g} s on, the scenario does not run "
+                         f"to the window's end: {fit.point.why[w]}")  # fmt: skip
+        before = _rms(fit)
         search.begin(task.starts)
         search.settle()
     except KeyboardInterrupt:
         if before is None:
             return None
-        interrupted = True
-    made = SimpleNamespace(interrupted=interrupted, logs=task.files, windows=len(windows), held=len(held),
-                           numbers=fit.size, window=length, units=dict(zip(task.columns, task.units)))  # fmt: skip
-    made.notes, made.warnings = [text.partition(": ")[2] for text in task.warnings], len(task.warnings)
-    residuals = fit.residuals(search.u)
-    _describe(made, search, residuals, before)
-    made.ideal_rms = made.hold_out_ideal_rms = made.hold_out_before_rms = made.hold_out_rms = {}
+        made.interrupted = True
+    fit.residuals(search.u)
+    made.before_rms, made.residual_rms = before, _rms(fit)
+    notes = _describe(made, search)
+    made.series = _series(fit, False) if series else []
     ideal = _ideal(task.logs[0].given)
     if ideal is not None and not any(_bbsim.lacks(ideal, name)[0] for name in task.columns):
-        made.ideal_rms = _rms_of(search, windows, [], np.empty(0), _ideal)
+        made.ideal_rms = _rms(_other(search, windows, search.u, True))
     pairs = [(made.residual_rms[name], one) for name, one in made.ideal_rms.items()]
     if not made.exact and sum(math.log(its / one) for its, one in pairs if one > 0) > 1e-3:
         search.doubts.append("the fit is worse than an ideal rig: try other starting values, bounds or keys")
     if len(held):
-        made.hold_out_before_rms = _rms_of(search, held, task.keys, np.zeros(len(task.keys)))
-        made.hold_out_rms = _rms_of(search, held, task.keys, search.u)
-        if made.ideal_rms:
-            made.hold_out_ideal_rms = _rms_of(search, held, [], np.empty(0), _ideal)
-    made.series = []
-    if series:
-        made.series = _series(fit, search.u, False)
-        if len(held):
-            made.series += _series(WindowsFit(task.logs, task.columns, held, task.keys, free, task.threads), search.u, True)
-    _judge(made, search, task, interrupted)
+        made.hold_out_before_rms = _rms(_other(search, held, np.zeros(len(task.keys))))
+        its = _other(search, held, search.u)
+        made.hold_out_rms, made.series = _rms(its), made.series + (_series(its, True) if series and its else [])
+        made.hold_out_ideal_rms = _rms(_other(search, held, search.u, True)) if made.ideal_rms else {}
+    notes = _estimate(made, search) + notes
+    if made.interrupted:
+        count = search.iterations
+        notes.append(f"interrupted after {count} iteration{'s' * (count != 1)}: these are the best values so far")
+    if not made.white:
+        notes.append(f"neighboring residuals are correlated ({made.correlated}); the model is incomplete and the intervals "
+                     "are too short")  # fmt: skip
+        its = None if made.interrupted else search.suggestion(_candidates(task))
+        if its is not None:
+            made.suggestion = {"key": its[0], "residuals_smaller_by": its[1]}
+            notes.append(f"--free {its[0]} could make the residuals about {_bbsim.rounded(100 * its[1], 2)} % smaller")
+    made.warnings = [text.partition(": ")[2] for text in task.warnings]
+    made.notes = [*made.warnings, *search.doubts, *notes]
     return made
 
 
-def _series(fit: WindowsFit, u: Array, held: bool) -> List[Any]:
-    """Log and model of each window."""
-    shown, its = fit.modelled(u), fit.windows
-    return [SimpleNamespace(log=int(its.log[w]), held=held, times=its.times[w, : its.rows[w]],
-                            measured=its.values[w, :, : its.rows[w]], modelled=shown[w, :, : its.rows[w]])
-            for w in range(len(its))]  # fmt: skip
-
-
-def _describe(made: Any, search: Search, residuals: Array, before: Dict[str, float]) -> None:
-    """What the residuals tell."""
-    fit, sizes = search.windows, search.sizes(residuals)
-    made.before_rms, made.residual_rms = before, _rms(search, residuals)
-    errors = np.zeros(fit.there.shape)
-    errors[fit.there] = residuals
-    errors = errors.reshape(fit.windows.values.shape)
-    products = (errors[..., 1:] * errors[..., :-1]).sum((0, 2)) / np.maximum((errors**2).sum((0, 2)), 1e-300)
+def _describe(made: Any, search: Search) -> List[str]:
+    """What the residuals tell: whether they are white; notes on outliers."""
+    fit, sizes = search.windows, search.windows.sizes()
+    errors = np.nan_to_num(fit.point.differences).reshape(fit.windows.values.shape)
+    weighted = errors * fit.weights.reshape(errors.shape)
+    products = (weighted[..., 1:] * weighted[..., :-1]).sum((0, 2)) / np.maximum((weighted**2).sum((0, 2)), 1e-300)
     exact = sizes.rms <= 1e-6 * search.spreads
-    made.exact = bool(exact.all())
     # Fitting the starts reduces correlation, so white residuals rarely reach this.
     made.white = bool(np.all(exact | (products < 3 / np.sqrt(np.maximum(sizes.counts, 1)))))
+    made.exact = bool(exact.all())
     made.correlated = ", ".join(f"{name}: {_bbsim.rounded(one, 2)}" for name, one in zip(fit.columns, products))
-    raw = np.zeros(fit.there.shape)
-    raw[fit.there] = search.in_si(residuals)
-    far = (np.abs(raw.reshape(errors.shape)) > 5 * sizes.usual[:, None]) & ~exact[:, None]
-    made.outliers, made.outlier_notes = dict(zip(fit.columns, map(int, far.sum((0, 2))))), []
-    for c, name in enumerate(fit.columns):
-        if far[:, c].any():
-            window, row = (int(one[0]) for one in np.nonzero(far[:, c]))
-            count = made.outliers[name]
-            made.outlier_notes.append(
-                f"{count} number{' of' if count == 1 else 's of'} {name} {'is' if count == 1 else 'are'} beyond 5 standard "
-                f"deviations, the first at t = {fit.windows.times[window, row]:.6g} s of "
-                f"{made.logs[fit.windows.log[window]]}"
-                + ("" if search.robust else "; --loss huber gives such numbers less weight"))  # fmt: skip
+    far, notes = (np.abs(errors) > 5 * sizes.usual[:, None]) & ~exact[:, None], []
+    made.outliers = dict(zip(fit.columns, map(int, far.sum((0, 2)))))
+    for c, (name, count) in enumerate(made.outliers.items()):
+        if count:
+            w, row = (int(one[0]) for one in np.nonzero(far[:, c]))
+            words = f"{count} number of {name} is" if count == 1 else f"{count} numbers of {name} are"
+            place = f"t = {fit.windows.times[w, row]:.6g} s of {made.logs[fit.windows.log[w]]}"
+            notes.append(f"{words} beyond 5 standard deviations, the first at {place}"
+                         + ("" if search.robust else "; --loss huber gives such numbers less weight"))  # fmt: skip
+    return notes
 
 
-def _judge(made: Any, search: Search, task: _Task, interrupted: bool) -> None:
-    """Estimates, intervals and notes."""
-    linear = search.linear()
-    scatter, u = search.scatter(), search.u
-    made.parameters, profiled = [], not interrupted
+def _estimate(made: Any, search: Search) -> List[str]:
+    """The parameters, and notes on them."""
+    linear, scatter, u = search.linear(), search.scatter(), search.u
+    made.parameters, made.correlations = [], linear.correlations
     for k, key in enumerate(search.keys):
         one = SimpleNamespace(key=key.name, unit=key.unit, before=key.start, estimate=float(key.value(u[k])), sd=math.inf,
                               told=bool(linear.told[k]), interval=[-math.inf, math.inf])  # fmt: skip
@@ -342,35 +307,20 @@ def _judge(made: Any, search: Search, task: _Task, interrupted: bool) -> None:
         if one.told:
             one.sd = math.sqrt(linear.covariance[k, k] * scatter) * abs(key.slope(u[k]))
             try:
-                one.interval = list(search.interval(k, linear, profiled))
+                one.interval = search.interval(k, linear, not made.interrupted)
             except KeyboardInterrupt:
-                made.interrupted, profiled = True, False
-                one.interval = list(search.interval(k, linear, profiled))
+                made.interrupted = True
+                one.interval = search.interval(k, linear, False)
         made.parameters.append(one)
-    search.windows.residuals(u)
-    made.correlations = linear.correlations
+    made.identifiable = not linear.untold and not search.doubts
     notes = [f"not identifiable: {words}" for words in linear.untold]
     notes += [f"{one.key} is at a bound of its range" for one in made.parameters if one.at_bound]
-    most = np.nanmax(np.abs(np.nan_to_num(linear.correlations) - np.diag(linear.told.astype(float))), axis=0, initial=0)
+    most = np.abs(np.nan_to_num(linear.correlations) * (1 - np.eye(len(u)))).max(0)
     names = [key.name for key, one in zip(search.keys, most) if one > 0.95]
     if names:
         notes.append(f"{', '.join(names[:-1])} and {names[-1]} are correlated, up to {_bbsim.rounded(most.max(), 4)}: the "
                      "logs determine a combination of them better than each")  # fmt: skip
-    notes += made.outlier_notes
-    if made.interrupted:
-        count = search.iterations
-        notes.append(f"interrupted after {count} iteration{'' if count == 1 else 's'}: these are the best values so far")
-    made.suggestion = None
-    if not made.white:
-        notes.append(f"neighboring residuals are correlated ({made.correlated}); the model is incomplete and the intervals "
-                     "are too short")  # fmt: skip
-        if not made.interrupted:
-            its = search.suggestion(_candidates(task.logs[0].given, search.keys, task.columns, task.units))
-            if its is not None:
-                made.suggestion = {"key": its[0], "residuals_smaller_by": its[1]}
-                notes.append(f"--free {its[0]} could make the residuals about {_bbsim.rounded(100 * its[1], 2)} % smaller")
-    made.identifiable = not linear.untold and not search.doubts
-    made.notes += [*search.doubts, *notes]
+    return notes
 
 
 def fit(
@@ -382,19 +332,17 @@ def fit(
 
     logs      files, as `bbsim fit` reads them
     free      the keys to fit, "KEY" or "KEY=FROM:TO"; also log.x.scale, log.x.offset and log.delay
-    map, header, period, time_offset   how to read the logs
-    window    the length of a window: 2, "500 ms"
-    hold_out  the share of windows to keep out of the fit
-    loss      "squares" or "huber"
-    starts    the number of sets of starting values
-    output, json, report   files to write: the scenario with the estimates, the results, a page
+    others    the options of `bbsim fit`; output, json and report are files to write
 
     The result has the names of the JSON: parameters (key, estimate, sd, interval, at_bound), residual_rms,
     hold_out_rms, identifiable, correlations, white, suggestion, outliers, notes; `report` is the printed text. An
-    interrupted fit gives the best values so far.
+    interrupted fit gives the best values so far, or raises KeyboardInterrupt if there are none.
     """
     options = dict(locals())
-    return _carry_out(given_of(options.pop("scenario"), options.pop("set")), options, silent, None)
+    made = _carry_out(given_of(options.pop("scenario"), options.pop("set")), options, silent, None)
+    if made is None:
+        raise KeyboardInterrupt
+    return made
 
 
 def _carry_out(given: _bbsim.Given, options: Dict[str, Any], progress: Progress, say: Any) -> Any:
@@ -403,8 +351,7 @@ def _carry_out(given: _bbsim.Given, options: Dict[str, Any], progress: Progress,
     files = {name: str(options.pop(name) or "") for name in ("output", "json", "report")}
     task = _Task(given, **options)
     reads = {given.name: "the scenario"} if os.path.exists(given.name) else {}
-    template: Dict[str, str] = {}
-    declare(files, {**reads, **{file: "the log" for file in task.files}, **template}, "report")
+    declare(files, {**reads, **{file: "the log" for file in task.files}}, "report")
     if files["output"]:  # fails before the work if the text cannot be written
         _bbsim.edited(given, [(key.name, key.text(key.start)) for key in task.keys if not isinstance(key, LogKey)], "", False)
     if files["report"]:
@@ -415,11 +362,10 @@ def _carry_out(given: _bbsim.Given, options: Dict[str, Any], progress: Progress,
     if made is None:
         return None
     made.report = _fit_text.report(made)
-    made.scenario = _fit_text.scenario(made, given) if files["output"] else ""
     if files["report"]:
         write(files["report"], _fit_text.page(made, given))
-    text = made.report if say else ""
-    write_found(given, given.name, files, made.scenario, _fit_text.as_document(made), text, say or str, "report")
+    text = _fit_text.scenario(made, given) if files["output"] else ""
+    write_found(given, given.name, files, text, _fit_text.as_document(made), made.report if say else "", say or str, "report")
     return made
 
 

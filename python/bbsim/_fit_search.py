@@ -12,7 +12,7 @@ from scipy.optimize import least_squares, lsq_linear
 from scipy.special import stdtrit
 
 from . import _bbsim
-from ._fit_windows import FAR, LogKey, WindowsFit
+from ._fit_windows import LogKey, WindowsFit
 from ._free_keys import FreeKey, refuse
 from ._progress import Progress, silent
 from ._simulate import Array
@@ -26,38 +26,18 @@ class _Done(Exception):
     """The sum of squares has no more to give."""
 
 
-class Sizes(NamedTuple):
-    """Of each column's residuals, in SI units."""
-
-    rms: Array
-    usual: Array  # robust: 1.4826 times the median size
-    counts: Array
-
-
 class Search:
     """`u`: the best numbers of the keys so far."""
 
-    def __init__(self, windows: WindowsFit, robust: bool, progress: Progress, noise: Optional[Array] = None) -> None:
+    def __init__(self, windows: WindowsFit, robust: bool, progress: Progress) -> None:
         self.windows, self.keys, self.robust, self.progress = windows, windows.keys, robust, progress
-        self.u = np.zeros(len(windows.keys))
-        self.iterations = 0
+        self.u, self.iterations = np.zeros(len(windows.keys)), 0
         values = [windows.measured[windows.there & (windows.column_of == c)] for c in range(len(windows.columns))]
         # Differences below 1e-9 of a column's spread are rounding.
         self.spreads = np.array([max(float(np.std(its)), 1e-9) if its.size else 1.0 for its in values])
         self.doubts: List[str] = []  # why the estimates may be wrong
         self.rivals = np.empty((0, len(self.u)))
-        windows.reweigh(self.spreads if noise is None else noise)
-
-    def in_si(self, residuals: Array) -> Array:
-        return residuals / self.windows.over_noise()[self.windows.there]
-
-    def sizes(self, residuals: Array) -> Sizes:
-        found = np.abs(self.in_si(residuals))
-        places = np.broadcast_to(self.windows.column_of, self.windows.there.shape)[self.windows.there]
-        its = [found[places == c] for c in range(len(self.windows.columns))]
-        rms = [float(np.sqrt(np.mean(one**2))) if one.size else 0.0 for one in its]
-        usual = [1.4826 * float(np.sort(one)[one.size // 2]) if one.size else 0.0 for one in its]
-        return Sizes(np.array(rms), np.array(usual), np.array([one.size for one in its]))
+        windows.reweigh(self.spreads)
 
     def degrees_of_freedom(self) -> float:
         return max(1.0, float(self.windows.size - self.windows.starts_rank() - len(self.keys)))
@@ -80,8 +60,6 @@ class Search:
 
     def minimize(self, exact: bool) -> None:
         """Moves u to the nearby least sum of squares. Directions that the logs do not determine stay."""
-        if not len(self.u):
-            return
         first, windows = self.u.copy(), self.windows
         low, high = self.bounds()
         jacobian, norms = windows.derivatives(first)
@@ -111,7 +89,8 @@ class Search:
         # x begins at 1: the trust region is then as large as a key's number at the start.
         try:
             ends = (np.minimum(low - first, 0) + 1, np.maximum(high - first, 0) + 1)
-            found = least_squares(residuals, np.ones(len(first)), derivatives, ends, "dogbox", ftol=1e-13, xtol=1e-9, gtol=None, max_nfev=100)  # fmt: skip
+            found = least_squares(residuals, np.ones(len(first)), derivatives, ends, "dogbox", ftol=1e-13, xtol=1e-9,
+                                  gtol=None, max_nfev=100)  # fmt: skip
             self._advance(first + found.x - 1)
         except _Done:
             pass
@@ -148,7 +127,6 @@ class Search:
         count = self.iterations
         self.progress(count / (count + 5), f"iteration {count}, rms residual {_bbsim.rounded(rms, 4)} noise")
 
-
     def begin(self, starts: Optional[int]) -> None:
         """Chooses where to start."""
         changes = self.scale_keys()
@@ -159,25 +137,21 @@ class Search:
             if not change > 1e-7:
                 columns = ", ".join(self.windows.columns)
                 refuse(f"{key.name}: has no effect on {columns}; allowed: keys that the compared columns depend on")
-        self._mirror()
-        self._try_starts(starts or (_KINKED_STARTS if self.windows.kinked else 1))
-
-    def _mirror(self) -> None:
-        """Mirrors the scale of a sensor if that fits better: between 1 and -1 it would pass 0, where the log determines
-        no other key."""
+        # Mirrors the scale of a sensor if that fits better: between 1 and -1 it would pass 0, where the log determines
+        # no other key.
         for k, key in enumerate(self.keys):
             if isinstance(key, LogKey) and key.of == "scale" and not key.logarithmic and -key.start >= key.lower:
-                cost, mirrored = np.sum(self.windows.residuals(self.u) ** 2), self.u.copy()
-                mirrored[k] = key.number(-key.start)
+                cost, before, self.u = self.cost(), self.u, self.u.copy()
+                self.u[k] = key.number(-key.start)
                 self.windows.restart()  # the slopes by the starts are mirrored, too
-                if np.sum(self.windows.residuals(mirrored) ** 2) < cost:
-                    self.u = mirrored
+                self.u = self.u if self.cost() < cost else before
                 self.windows.restart()
+        count = starts or (_KINKED_STARTS if self.windows.kinked else 1)
+        if count > 1:
+            self._try_starts(count)
 
     def _try_starts(self, count: int) -> None:
         """Continues from the best of several starts; the first is the scenario's."""
-        if count == 1:
-            return
         low, high = self.bounds()
         # Without bounds: a factor of two, or the key's scale.
         reach = np.array([math.log(2) if key.logarithmic else 1.0 for key in self.keys])
@@ -188,11 +162,12 @@ class Search:
             self.u = low + (high - low) * random.uniform(size=len(first)) if start else first
             self.windows.restart()
             self.descend()
-            ends.append((float(np.sum(self.windows.residuals(self.u) ** 2)), self.u, self.windows.point.starts))
+            ends.append((self.cost(), self.u, self.windows.point.starts))
         ends.sort(key=lambda end: end[0])
         _, self.u, its = ends[0]
         self.windows.at(self.u, its, True)
-        self._compare(ends)
+        if self.windows.kinked:
+            self._compare(ends)
 
     def descend(self, most: int = 40) -> None:
         """To the nearby least sum of squares, roughly."""
@@ -204,10 +179,7 @@ class Search:
 
     def _compare(self, ends: Sequence[Tuple[float, Array, Array]]) -> None:
         """Says if starts end at different values."""
-        if not self.windows.kinked:
-            return
-        least = ends[0][0]
-        near = [u for cost, u, _ in ends if cost <= least * (1 + 4 / self.degrees_of_freedom())]
+        near = [u for cost, u, _ in ends if cost <= ends[0][0] * (1 + 4 / self.degrees_of_freedom())]
         self.rivals = np.array(near)
         for k, key in enumerate(self.keys):
             values = key.value(self.rivals[:, k])
@@ -238,8 +210,7 @@ class Search:
     def _reweigh(self) -> float:
         """Estimates each column's noise from its residuals. Returns how much weights change."""
         windows = self.windows
-        residuals = windows.residuals(self.u)
-        sizes = self.sizes(residuals)
+        residuals, sizes = windows.residuals(self.u), windows.sizes()
         share = self.degrees_of_freedom() / windows.size
         noise = np.maximum((sizes.usual if self.robust else sizes.rms) / math.sqrt(share), 1e-9 * self.spreads)
         changes, weights, most = noise / windows.noise, None, 0.0
@@ -262,21 +233,14 @@ class Search:
     def suggestion(self, candidates: Sequence[FreeKey]) -> Optional[Tuple[str, float]]:
         """The candidate that, free together with the keys, would reduce the residuals most, and by which share; None if
         each removes less than 5 %. A linear model ranks the candidates, and fits decide among the best."""
-        if not candidates:
-            return None
-        its, count = self.windows, len(self.u)
-        wide = WindowsFit(its.logs, its.columns, its.windows, [*self.keys, *candidates], its.free, its.threads)
-        search = Search(wide, False, silent, its.noise)
-        wide.weights, search.u = its.weights, np.concatenate([self.u, np.zeros(len(candidates))])
-        its.residuals(self.u)
-        wide.linearize(search.u, its.point.starts)
+        now, count = self.windows.residuals(self.u), len(self.u)
+        search = self._with(candidates)
         search.scale_keys()
-        slopes, norms = wide.derivatives(search.u)
+        slopes, norms = search.windows.derivatives(search.u)
         # The keys get the credit for what they can do themselves.
         base = np.linalg.qr(slopes[:, :count])[0]
         slopes = slopes[:, count:] - base @ (base.T @ slopes[:, count:])
-        left = now = its.residuals(self.u)
-        left = left - base @ (base.T @ left)
+        left = now - base @ (base.T @ now)
         sizes = np.linalg.norm(slopes, axis=0)
         useful = sizes > 1e-3 * norms[count:]  # others do what keys or starts do
         shares = np.where(useful, (left @ slopes / np.maximum(sizes, 1e-300)) ** 2, 0.0) / (left @ left)
@@ -285,17 +249,27 @@ class Search:
         # The linear model at no friction does not know what sticks.
         order += [i for i, key in enumerate(candidates) if key.name == "ball.losses.rolling" and i not in order]
         for place in order:
-            key = candidates[place]
-            trial = WindowsFit(its.logs, its.columns, its.windows, [*self.keys, key], its.free, its.threads)
-            fitted = Search(trial, False, silent, its.noise)
-            trial.weights, fitted.u = its.weights, np.append(self.u, 0.0)
-            trial.linearize(fitted.u, its.point.starts)
-            trial.find_kinks(fitted.u)
+            fitted = self._with([candidates[place]])
+            fitted.windows.find_kinks(fitted.u)
             fitted.descend(8)
-            share = 1 - math.sqrt(float(np.sum(trial.residuals(fitted.u) ** 2)) / float(now @ now))
+            share = 1 - math.sqrt(fitted.cost() / float(now @ now))
             if share > best[1] + 0.01 * bool(best[0]):
-                best = (key.name, share)
+                best = (candidates[place].name, share)
         return best if best[0] else None
+
+    def _with(self, keys: Sequence[FreeKey]) -> "Search":
+        """A search from here with more keys."""
+        its = self.windows
+        wide = WindowsFit(its.logs, its.columns, its.windows, [*self.keys, *keys], its.free, its.threads)
+        search = Search(wide, False, silent)
+        wide.reweigh(its.noise, its.weights)
+        search.u = np.append(self.u, np.zeros(len(keys)))
+        wide.linearize(search.u, its.point.starts)
+        return search
+
+    def cost(self) -> float:
+        """The sum of squares."""
+        return float(np.sum(self.windows.residuals(self.u) ** 2))
 
     def linear(self) -> "Linear":
         """How well the logs determine the keys, by the linear model at u."""
@@ -326,22 +300,21 @@ class Search:
         together = f"{', '.join(names[:-1])} and {names[-1]} cannot be told apart"
         return f"{together}: the log stays the same with {', '.join(changes)}"
 
-    def interval(self, k: int, linear: "Linear", profiled: bool = True) -> Tuple[float, float]:
+    def interval(self, k: int, linear: "Linear", profiled: bool) -> List[float]:
         """By profile likelihood, 95 %: how far a key can move, with the others at their best, before the sum of squares
         grows by what that level allows."""
         growth = stdtrit(self.degrees_of_freedom(), 0.975) ** 2 * self.scatter()
         along = linear.covariance[:, k] / math.sqrt(max(linear.covariance[k, k], 1e-300)) * math.sqrt(growth)
         exact = not profiled or self.windows.kinked or growth <= 1e-15 * self.windows.size
         ends = [self.u[k] + sign * (along[k] if exact else self._distance(k, sign, along, growth)) for sign in (-1, 1)]
-        low, high = self.keys[k].value(np.array([min([ends[0], *self.rivals[:, k]]), max([ends[1], *self.rivals[:, k]])]))
-        return float(low), float(high)
+        ends = [min([ends[0], *self.rivals[:, k]]), max([ends[1], *self.rivals[:, k]])]
+        return [float(self.keys[k].value(end)) for end in ends]
 
     def _distance(self, k: int, sign: float, along: Array, growth: float) -> float:
         """Of an end from u. It solves the problem of the end itself (Venzon and Moolgavkar, Applied Statistics 37,
         1988): each step is exact for residuals that are linear in the keys."""
         windows, (low, high) = self.windows, self.bounds()
-        least = float(np.sum(windows.residuals(self.u) ** 2))
-        inside, outside = 0.0, math.inf
+        least, inside, outside = self.cost(), 0.0, math.inf
         goal = np.clip(self.u[k] + sign * along[k], low[k], high[k]) - self.u[k]
         to = np.clip(self.u + self._others(k, self.u, windows.residuals(self.u), goal), low, high)
         for count in range(20):

@@ -58,7 +58,7 @@ def remarks(fitted: Any) -> str:
     text += f" of {number(fitted.window)} s" if math.isfinite(fitted.window) else ""
     text += f", {fitted.held} more held out" if fitted.held else ""
     lines = [f"{text}; {counted(len(fitted.logs), 'log')}"]
-    for note in fitted.notes[fitted.warnings :]:
+    for note in fitted.notes[len(fitted.warnings) :]:
         lines.append(note if note.startswith("not identifiable: ") else f"note: {note}")
     return "".join(line + "\n" for line in lines)
 

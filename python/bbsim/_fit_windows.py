@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import Any, List, Optional, Sequence, Tuple
+from typing import Any, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 from scipy.sparse import block_diag, csr_matrix, hstack
@@ -100,6 +100,14 @@ def start_coordinates(columns: Sequence[str], given: _bbsim.Given, from_within: 
     if from_within and _bbsim.begins_anywhere(given):
         made += [4, 5, 6, 7]
     return made + ([_SPIN] if from_within and len(axes) == 2 else [])
+
+
+class Sizes(NamedTuple):
+    """Of each column's differences, in SI units."""
+
+    rms: Array
+    usual: Array  # robust: 1.4826 times the median size
+    counts: Array
 
 
 @dataclass
@@ -264,28 +272,19 @@ class WindowsFit:
         factors = self.over_noise()
         every = np.arange(len(self.windows))
         differences, runs, why = self._run(every, np.tile(u, (len(every), 1)), starts)
-        lost = np.flatnonzero(~runs)
-        if len(lost) and not np.array_equal(starts, self.base.starts):
-            starts = starts.copy()
-            starts[lost] = self.base.starts[lost]
-            differences[lost], runs[lost], again = self._run(lost, np.tile(u, (len(lost), 1)), starts[lost])
-            for place, text in zip(lost, again):
-                why[place] = text
         starts = starts.copy()
         busy = np.flatnonzero(runs)
         for rounds in range(12):
             rest = differences[busy] * factors[busy]
             step = _times(inverse[busy], rest)
             gain, size = ((_times(slopes[busy], step)) ** 2).sum(1), (rest**2).sum(1)
-            go = gain > 1e-8 * size
-            if rounds == 11 or not go.any():  # what is left is linear
-                starts[np.ix_(busy, self.free)] -= step
-                differences[busy] -= _times(self.base.by_start[busy], step)
-                break
-            rest_of = busy[~go]
-            starts[np.ix_(rest_of, self.free)] -= step[~go]
-            differences[rest_of] -= _times(self.base.by_start[rest_of], step[~go])
+            go = (gain > 1e-8 * size) & (rounds < 11)
+            done = busy[~go]  # what is left is linear
+            starts[np.ix_(done, self.free)] -= step[~go]
+            differences[done] -= _times(self.base.by_start[done], step[~go])
             busy, step, size = busy[go], step[go], size[go]
+            if not busy.size:
+                break
             moved = starts[busy].copy()
             moved[:, self.free] -= step
             its, ran, _ = self._run(busy, np.tile(u, (len(busy), 1)), moved)
@@ -313,8 +312,8 @@ class WindowsFit:
         return made if made.shape[1] > 300 else made.toarray()
 
     def find_kinks(self, u: Array) -> None:
-        """Finds whether the residuals near u have kinks or flat stretches, as with dry friction: slopes over larger steps then
-        differ, and become those of these numbers."""
+        """Whether the residuals near u have kinks or flat stretches, as with dry friction: slopes over larger steps then
+        differ, and replace those over small ones."""
         self.residuals(u)
         assert self.point is not None
         smooth, factors = [self.base], self.over_noise()[..., None]
@@ -371,11 +370,18 @@ class WindowsFit:
             best, least = np.where((cost < least)[:, None], tried, best), np.minimum(cost, least)
         return best
 
-    def modelled(self, u: Array) -> Array:
-        """What the model shows at the best starts: windows x columns x rows."""
-        self.residuals(u)
-        every = np.arange(len(self.windows))
-        return self._run(every, np.tile(u, (len(every), 1)), self.point.starts, True)[0].reshape(self.windows.values.shape)
+    def modelled(self) -> Array:
+        """What the model shows at the last point: windows x columns x rows."""
+        every, point = np.arange(len(self.windows)), self.point
+        return self._run(every, np.tile(point.u, (len(every), 1)), point.starts, True)[0].reshape(self.windows.values.shape)
+
+    def sizes(self) -> Sizes:
+        """Of the differences at the last point."""
+        places = np.broadcast_to(self.column_of, self.there.shape)
+        its = [np.abs(self.point.differences[self.there & (places == c)]) for c in range(len(self.columns))]
+        rms = [math.sqrt(np.mean(one**2)) if one.size else 0.0 for one in its]
+        usual = [1.4826 * float(np.sort(one)[one.size // 2]) if one.size else 0.0 for one in its]
+        return Sizes(np.array(rms), np.array(usual), np.array([one.size for one in its]))
 
 
 def _times(matrices: Array, vectors: Array) -> Array:
