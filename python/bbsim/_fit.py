@@ -46,11 +46,12 @@ def _compared(given: _bbsim.Given, maps: Sequence[str], log: _bbsim.Stored, note
     names = [one.partition("=")[0].replace(" ", "") for text in maps for one in text.split(",")]
     names = [name for name in dict.fromkeys(names) if name != "t"]
     names = names or [name for name in _BALL + _GIMBAL if name in log.names and name not in moved]
-    notes += [f"note: {name} is given by gimbal.motion, and not compared with the log" for name in names if name in moved]
+    why = "is given by gimbal.motion, and not compared with the log"
+    notes += [f"note: {name} {why}" for name in names if name in moved]
     names = [name for name in names if name not in moved]
     for name in names:
-        if _bbsim.lacks(given, name)[0]:
-            why = _bbsim.lacks(given, name)[0]
+        why = _bbsim.lacks(given, name)[0]
+        if why:
             raise _fault(f"--map: found {name}, {why}; allowed: columns that the scenario has")
     if not names:
         allowed = "x, y, vx or vy by name, or --map x=NAME:UNIT"
@@ -127,7 +128,8 @@ def _ideal(given: _bbsim.Given) -> Optional[_bbsim.Given]:
         changes += [("gimbal.motion", f"{{phi: {phi}, theta: {theta}}}")]
     elif not _bbsim.has(given, "gimbal.motion"):
         return None
-    parts = ["output", "gimbal.servo", "gimbal.linkage", "gimbal.three_servos", "gimbal.mounting", "ball.losses", "events"]
+    parts = [f"gimbal.{name}" for name in ("servo", "linkage", "three_servos", "mounting")]
+    parts += ["ball.losses", "events", "output"]
     parts += [] if _bbsim.has(given, "ball.groove") else ["ball.inertia_factor"]
     return given.changed(changes + [(part, "null") for part in parts if _bbsim.has(given, part)])
 
@@ -176,7 +178,8 @@ class _Task:
         folder = os.path.dirname(self.given.name) if os.path.exists(self.given.name) else ""
         tables = [(key, os.path.join(folder, path)) for key, path in _bbsim.tables(self.given) if key[:5] != "ball."]
         tables = [(key, path) for key, path in tables if os.path.exists(path)]
-        same = [[key for key, path in tables if os.path.exists(file) and os.path.samefile(path, file)] for file in self.files]
+        files = [file for file in self.files if os.path.exists(file)]
+        same = [[key for key, path in tables if os.path.samefile(path, file)] for file in files]
         return next((keys for keys in same if keys), [])
 
     def cut(self) -> Tuple[Windows, Windows, List[int], float]:
@@ -193,8 +196,8 @@ class _Task:
         free = start_coordinates(self.columns, given, within)
         numbers, unknowns = int(np.isfinite(windows.values).sum()), len(windows) * len(free) + len(self.keys)
         if numbers <= unknowns:
-            raise _fault(f"the logs have {numbers} numbers in {len(windows)} windows; allowed: more than the {unknowns} that "
-                         "are sought, starts included; use a longer --window or fewer --free keys")  # fmt: skip
+            allowed = f"more than the {unknowns} that are sought, starts included; use a longer --window or fewer --free"
+            raise _fault(f"the logs have {numbers} numbers in {len(windows)} windows; allowed: {allowed} keys")
         return windows, held, free, length
 
 
@@ -233,8 +236,8 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
         fit.residuals(search.u)
         w = int(np.argmin(fit.point.runs))
         if not fit.point.runs[w]:
-            raise _fault(f"{task.logs[windows.log[w]].name}: from t = {windows.begin[w]:.6g} s on, the scenario does not run "
-                         f"to the window's end: {fit.point.why[w]}")  # fmt: skip
+            place = f"{task.logs[windows.log[w]].name}: from t = {windows.begin[w]:.6g} s on"
+            raise _fault(f"{place}, the scenario does not run to the window's end: {fit.point.why[w]}")
         before = _rms(fit)
         search.begin(task.starts)
         search.settle()
@@ -262,8 +265,8 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
         count = search.iterations
         notes.append(f"interrupted after {count} iteration{'s' * (count != 1)}: these are the best values so far")
     if not made.white:
-        notes.append(f"neighboring residuals are correlated ({made.correlated}); the model is incomplete and the intervals "
-                     "are too short")  # fmt: skip
+        notes.append(f"neighboring residuals are correlated ({made.correlated}); the model is incomplete and the "
+                     "intervals are too short")  # fmt: skip
         its = None if made.interrupted else search.suggestion(_candidates(task))
         if its is not None:
             made.suggestion = {"key": its[0], "residuals_smaller_by": its[1]}
@@ -301,8 +304,8 @@ def _estimate(made: Any, search: Search) -> List[str]:
     linear, scatter, u = search.linear(), search.scatter(), search.u
     made.parameters, made.correlations = [], linear.correlations
     for k, key in enumerate(search.keys):
-        one = SimpleNamespace(key=key.name, unit=key.unit, before=key.start, estimate=float(key.value(u[k])), sd=math.inf,
-                              told=bool(linear.told[k]), interval=[-math.inf, math.inf])  # fmt: skip
+        one = SimpleNamespace(key=key.name, unit=key.unit, before=key.start, estimate=float(key.value(u[k])),
+                              sd=math.inf, told=bool(linear.told[k]), interval=[-math.inf, math.inf])  # fmt: skip
         one.at_bound = one.estimate in (key.lower, key.upper)
         if one.told:
             one.sd = math.sqrt(linear.covariance[k, k] * scatter) * abs(key.slope(u[k]))
@@ -318,8 +321,9 @@ def _estimate(made: Any, search: Search) -> List[str]:
     most = np.abs(np.nan_to_num(linear.correlations) * (1 - np.eye(len(u)))).max(0)
     names = [key.name for key, one in zip(search.keys, most) if one > 0.95]
     if names:
-        notes.append(f"{', '.join(names[:-1])} and {names[-1]} are correlated, up to {_bbsim.rounded(most.max(), 4)}: the "
-                     "logs determine a combination of them better than each")  # fmt: skip
+        size = _bbsim.rounded(most.max(), 4)
+        notes.append(f"{', '.join(names[:-1])} and {names[-1]} are correlated, up to {size}: the logs determine a "
+                     "combination of them better than each")  # fmt: skip
     return notes
 
 
@@ -353,7 +357,8 @@ def _carry_out(given: _bbsim.Given, options: Dict[str, Any], progress: Progress,
     reads = {given.name: "the scenario"} if os.path.exists(given.name) else {}
     declare(files, {**reads, **{file: "the log" for file in task.files}}, "report")
     if files["output"]:  # fails before the work if the text cannot be written
-        _bbsim.edited(given, [(key.name, key.text(key.start)) for key in task.keys if not isinstance(key, LogKey)], "", False)
+        keys = [key for key in task.keys if not isinstance(key, LogKey)]
+        _bbsim.edited(given, [(key.name, key.text(key.start)) for key in keys], "", False)
     if files["report"]:
         _bbsim.filled_page("fit.html", "", "{}")
     for text in task.warnings if say else ():
@@ -365,7 +370,8 @@ def _carry_out(given: _bbsim.Given, options: Dict[str, Any], progress: Progress,
     if files["report"]:
         write(files["report"], _fit_text.page(made, given))
     text = _fit_text.scenario(made, given) if files["output"] else ""
-    write_found(given, given.name, files, text, _fit_text.as_document(made), made.report if say else "", say or str, "report")
+    shown = made.report if say else ""
+    write_found(given, given.name, files, text, _fit_text.as_document(made), shown, say or str, "report")
     return made
 
 

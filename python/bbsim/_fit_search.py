@@ -186,8 +186,8 @@ class Search:
             low, high = (_bbsim.short_number(float(end)) for end in (values.min(), values.max()))
             if len(near) == 1:
                 others = ", ".join(_bbsim.short_number(float(key.value(u[k]))) for _, u, _ in ends[1:])
-                self.doubts.append(f"{key.name}: other starts end at {others}, with larger residuals; the residuals have "
-                                   "kinks, and a better fit may exist")  # fmt: skip
+                self.doubts.append(f"{key.name}: other starts end at {others}, with larger residuals; the residuals "
+                                   "have kinks, and a better fit may exist")  # fmt: skip
             elif np.ptp(values) > 0.02 * max(abs(values.max()), abs(key.scale)):
                 self.doubts.append(f"{key.name}: starts end at values from {low} to {high} that fit equally well")
 
@@ -336,7 +336,7 @@ class Search:
                 return math.inf
             inside, outside = (max(inside, gone), outside) if ratio < 1 else (inside, min(outside, gone))
             goal = min(max(gone / ratio, 0.3 * gone), 2.5 * gone)
-            if not inside + 0.1 * (outside - inside) <= goal <= outside - 0.1 * (outside - inside) and outside < math.inf:
+            if outside < math.inf and not 0.1 <= (goal - inside) / (outside - inside) <= 0.9:
                 goal = (inside + outside) / 2
             if outside - inside < 0.02 * along[k]:
                 return goal

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Windows of logs: the difference of model and log at any values of the free keys, with the best start of each window."""
+"""Windows of logs: model minus log at any values of the free keys, with the best start of each window."""
 
 from __future__ import annotations
 
@@ -142,9 +142,10 @@ class WindowsFit:
         self._solvers: Optional[Tuple[Array, Array]] = None
         self.kinked = False
         self.key_steps, self.start_steps = np.full(len(keys), _KEY_STEP), _START_STEPS.copy()
-        # Numbers of cases are in the unit of a key's table.
+        # Numbers of cases are in the unit of a key's table; 0 for keys that no scenario has.
         self.own = [1e3 * (_bbsim.number_at(logs[0].given, key.name, "1e-3") or 1e-3)
-                    if key.name.endswith(".table.offset") else 1.0 for key in keys]  # fmt: skip
+                    if key.name.endswith(".table.offset") else 1.0 - isinstance(key, LogKey)
+                    for key in keys]  # fmt: skip
 
     def over_noise(self) -> Array:
         """The factor of each difference; 0 where the log has no number."""
@@ -191,10 +192,12 @@ class WindowsFit:
         for log in np.unique(windows.log[which]):
             rows = np.flatnonzero(windows.log[which] == log)
             its = which[rows]
-            cases = {key.name: v[rows] / own for key, v, own in zip(self.keys, values, self.own) if not isinstance(key, LogKey)}
+            cases = {key.name: value[rows] / own for key, value, own in zip(self.keys, values, self.own) if own}
             try:
-                made = simulate(self.logs[log].given, cases, self.columns, times[rows], begin=windows.begin[its],
-                                end=windows.end[its], start=starts[rows], events=False, threads=self.threads)  # fmt: skip
+                made = simulate(
+                    self.logs[log].given, cases, self.columns, times[rows], begin=windows.begin[its],
+                    end=windows.end[its], start=starts[rows], events=False, threads=self.threads,
+                )  # fmt: skip
             except InputError as error:  # of all cases
                 for row in rows:
                     why[row] = str(error)
@@ -208,6 +211,9 @@ class WindowsFit:
             shown = np.where(self.there[which], shown - self.measured[which], 0.0)
         return np.where(runs[:, None], shown, np.nan), runs, why
 
+    def _run_all(self, u: Array, starts: Array, zero: bool = False) -> Tuple[Array, Array, List[str]]:
+        return self._run(np.arange(len(starts)), np.tile(u, (len(starts), 1)), starts, zero)
+
     def linearize(self, u: Array, starts: Array) -> None:
         """Makes the base at u with these starts, by one call for all differences."""
         keys, count = len(u), len(self.windows)
@@ -220,7 +226,8 @@ class WindowsFit:
         made, runs, why = self._run(np.tile(np.arange(count), len(moves)), all_u, all_starts)
         made, runs = made.reshape(len(moves), count, -1), runs.reshape(len(moves), count)
         # A value at its bound has a neighbor on one side only.
-        alike = [[key.value(a) == key.value(b) for key, a, b in zip(self.keys, u + s * self.key_steps, u)] for s in (1, -1)]
+        ends = (u + self.key_steps, u - self.key_steps)
+        alike = [[key.value(a) == key.value(b) for key, a, b in zip(self.keys, end, u)] for end in ends]
         middle, sides = made[0], np.stack(np.split(made[1:], 2))
         moved = np.stack(np.split(runs[1:], 2)) & runs[0]
         moved[:, :keys] &= ~np.array(alike, bool).reshape(2, keys, 1)
@@ -270,8 +277,7 @@ class WindowsFit:
         Returns whether a few rounds suffice."""
         slopes, inverse = self._solve()
         factors = self.over_noise()
-        every = np.arange(len(self.windows))
-        differences, runs, why = self._run(every, np.tile(u, (len(every), 1)), starts)
+        differences, runs, why = self._run_all(u, starts)
         starts = starts.copy()
         busy = np.flatnonzero(runs)
         for rounds in range(12):
@@ -301,7 +307,7 @@ class WindowsFit:
             self.linearize(u, starts)
             self.point = self.base
         else:
-            self.point = _Point(u.copy(), starts, *self._run(np.arange(len(starts)), np.tile(u, (len(starts), 1)), starts))
+            self.point = _Point(u.copy(), starts, *self._run_all(u, starts))
         return self.residuals(u)
 
     def side_by_side(self) -> Any:
@@ -312,15 +318,15 @@ class WindowsFit:
         return made if made.shape[1] > 300 else made.toarray()
 
     def find_kinks(self, u: Array) -> None:
-        """Whether the residuals near u have kinks or flat stretches, as with dry friction: slopes over larger steps then
-        differ, and replace those over small ones."""
+        """Whether the residuals near u have kinks or flat stretches, as with dry friction: slopes over larger steps
+        then differ, and replace those over small ones."""
         self.residuals(u)
         assert self.point is not None
-        smooth, factors = [self.base], self.over_noise()[..., None]
+        smooth, factors = self.base, self.over_noise()[..., None]
         before = self.key_steps, self.start_steps
         self.key_steps, self.start_steps = (_WIDE * steps for steps in before)
         self.linearize(u, self.base.starts)
-        small, large = (np.concatenate([point.by_key, point.by_start], -1) * factors for point in (smooth[0], self.base))
+        small, large = (np.concatenate([one.by_key, one.by_start], -1) * factors for one in (smooth, self.base))
         change, size = (np.sqrt((one**2).sum(1)) for one in (small - large, large))  # windows x numbers
         widths = np.concatenate([self.key_steps, self.start_steps[self.free]])
         seen = size * widths > 1e-3
@@ -334,7 +340,7 @@ class WindowsFit:
             self.logs = [replace(log, given=log.given.changed(loose)) for log in self.logs]
             self.linearize(u, self.base.starts)
         else:
-            self.base, self._solvers = smooth[0], None
+            self.base, self._solvers = smooth, None
         self.kinked = bool(kinked.any())
 
     def derivatives(self, u: Array, near: bool = True) -> Tuple[Array, Array]:
@@ -355,7 +361,6 @@ class WindowsFit:
     def guess_velocities(self, u: Array) -> Array:
         """Starts: in each window, that which fits best of some with velocities over the first rows, and at rest."""
         best = self._guess()
-        every, all_u = np.arange(len(best)), np.tile(u, (len(best), 1))
         least = np.full(len(best), np.inf)
         starts = best
         for rows in (0, 2, 4, 8):
@@ -366,14 +371,13 @@ class WindowsFit:
                     times = np.where(np.isfinite(its), self.windows.times[:, :rows], np.nan)
                     times, its = (one - np.nanmean(one, 1, keepdims=True) for one in (times, its))
                     tried[:, 2 + axis] = np.nansum(times * its, 1) / np.maximum(np.nansum(times**2, 1), 1e-12)
-            cost = np.nan_to_num(((self._run(every, all_u, tried)[0] * self.over_noise()) ** 2).sum(1), nan=np.inf)
+            cost = np.nan_to_num(((self._run_all(u, tried)[0] * self.over_noise()) ** 2).sum(1), nan=np.inf)
             best, least = np.where((cost < least)[:, None], tried, best), np.minimum(cost, least)
         return best
 
     def modelled(self) -> Array:
         """What the model shows at the last point: windows x columns x rows."""
-        every, point = np.arange(len(self.windows)), self.point
-        return self._run(every, np.tile(point.u, (len(every), 1)), point.starts, True)[0].reshape(self.windows.values.shape)
+        return self._run_all(self.point.u, self.point.starts, True)[0].reshape(self.windows.values.shape)
 
     def sizes(self) -> Sizes:
         """Of the differences at the last point."""

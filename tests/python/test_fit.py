@@ -124,7 +124,8 @@ class Estimates(Case):
         # The log is bbsim's own, without noise: every estimate is right only if the spin at each start is found.
         self.put(rows_of(), ASSUMED_RIG.replace("radius: 1 cm", "radius: 1 cm, inertia_factor: 0.43"))
         sines = TRUE_RIG.split("gimbal:")[1].split("time:")[0]
-        Path("rig.yaml").write_text("ball: {radius: 1 cm, inertia_factor: 0.4}\ngimbal:" + sines + "time: {end: 20, step: 50 ms}\n")
+        ball, time = "ball: {radius: 1 cm, inertia_factor: 0.4}\n", "time: {end: 20, step: 50 ms}\n"
+        Path("rig.yaml").write_text(ball + "gimbal:" + sines + time)
         made = self.fit(["ball.inertia_factor", "gimbal.mounting.height", "gimbal.mounting.theta_offset"])
         self.assertEqual(made.windows, 10)
         for one, value in zip(made.parameters, (0.43, 0, 0)):
@@ -166,15 +167,18 @@ class Estimates(Case):
 
     def test_units_of_a_table_are_its_own(self):
         rows = rows_of(sd=5e-4, offset=0.01)
-        rows = {"t": rows["t"], "x": rows["x"], "y": rows["y"], "phi_deg": np.degrees(rows["phi"]), "theta": rows["theta"]}
-        self.put(rows, ASSUMED_RIG.replace("value: phi}", "value: phi_deg}").replace("1 cm", "1 cm, inertia_factor: 0.43"))
+        rows["phi_deg"] = np.degrees(rows.pop("phi"))
+        scene = ASSUMED_RIG.replace("value: phi}", "value: phi_deg}")
+        self.put(rows, scene.replace("1 cm", "1 cm, inertia_factor: 0.43"))
         made = self.fit(PHI + "offset")
         self.assertEqual(made.parameters[0].unit, "rad")
         self.assert_near(made.parameters[0], 0.01)
 
     def test_servos_from_their_commands(self):
-        sines = "[{{sinusoid: {{amplitude: 3 deg, frequency: {}, phase: 1.5708 rad}}}}, {{sinusoid: {{amplitude: 1 deg, frequency: {}}}}}]"
-        scene = ("ball: {{radius: 2 cm, position: [5 cm, 0]}}\ngimbal: {{servo: {{natural_frequency: {} Hz, damping: {}}}}}\n"
+        sines = ("[{{sinusoid: {{amplitude: 3 deg, frequency: {}, phase: 1.5708 rad}}}}, "
+                 "{{sinusoid: {{amplitude: 1 deg, frequency: {}}}}}]")  # fmt: skip
+        scene = ("ball: {{radius: 2 cm, position: [5 cm, 0]}}\n"
+                 "gimbal: {{servo: {{natural_frequency: {} Hz, damping: {}}}}}\n"
                  "controller: {{drives: angle, commands: {{phi: {}, theta: {}}}}}\ntime: {{end: 20, step: 20 ms}}\n"
                  "output: {{columns: [t, x, y, phi, theta, phi_command, theta_command]}}\n")  # fmt: skip
         run = bbsim.run(scene.format(4, 0.7, sines.format("5.3", "17"), sines.format("4.1", "13")))
@@ -192,8 +196,9 @@ class Estimates(Case):
 
     def test_a_loop_is_one_window(self):
         loop = TRUE_RIG.split("gimbal:")[0] + (
-            "gimbal: {servo: {natural_frequency: 5 Hz, damping: 0.8}}\ncontroller: {gravity_compensation: {kp: 10, kv: 8}, "
-            "drives: angle, reference: {lissajous: {amplitude: [5 cm, 4 cm], rate: [2.1, 3.3]}}}\n"
+            "gimbal: {servo: {natural_frequency: 5 Hz, damping: 0.8}}\n"
+            "controller: {gravity_compensation: {kp: 10, kv: 8}, drives: angle, "
+            "reference: {lissajous: {amplitude: [5 cm, 4 cm], rate: [2.1, 3.3]}}}\n"
             "time: {end: 10, step: 50 ms}\noutput: {columns: [t, x, y, phi, theta]}\n")  # fmt: skip
         rows = rows_of(loop, 3e-4)
         random = np.random.default_rng(2)
@@ -243,7 +248,8 @@ class Intervals(Case):
 
     def test_keys_that_only_act_together_stay_near_their_start(self):
         self.put(rows_of(sd=5e-4, offset=0.01))
-        made = self.fit([PHI + "offset", "gimbal.mounting.phi_offset", "ball.inertia_factor", "log.delay=0:0.1"], json="f.json")
+        free = [PHI + "offset", "gimbal.mounting.phi_offset", "ball.inertia_factor", "log.delay=0:0.1"]
+        made = self.fit(free, json="f.json")
         offset, mounting = (one for one in made.parameters if "offset" in one.key)
         # Right: 0.01 rad in all.
         self.assertAlmostEqual(offset.estimate + mounting.estimate, 0.01, delta=2e-3)
@@ -307,8 +313,9 @@ class Residuals(Case):
         # Made with ball.losses.rolling 0.012 and 0.3 mm of noise, and fitted without losses.
         for file in ("fit-hint.csv", "fit-hint-tilt.csv"):
             shutil.copy(DATA / file, ".")
-        scene = ("ball: {radius: 2 cm, mass: 2.7 g, inertia_factor: 0.667, position: [-5 mm, 0]}\ngimbal: {motion: {phi: "
-                 "{table: {file: fit-hint-tilt.csv, time: t_s, value: tilt_deg}}}}\ntime: {end: 4.8, step: 100 ms}\n")  # fmt: skip
+        scene = ("ball: {radius: 2 cm, mass: 2.7 g, inertia_factor: 0.667, position: [-5 mm, 0]}\n"
+                 "gimbal: {motion: {phi: {table: {file: fit-hint-tilt.csv, time: t_s, value: tilt_deg}}}}\n"
+                 "time: {end: 4.8, step: 100 ms}\n")  # fmt: skip
         Path("rig.yaml").write_text(scene)
         made = self.fit(PHI + "offset", logs="fit-hint.csv")
         self.assertEqual(made.suggestion["key"], "ball.losses.rolling")
@@ -321,9 +328,11 @@ class Residuals(Case):
         # where it starts has 20 to 45 mm.
         shutil.copy(DATA / "fit-stuck.csv", ".")
         Path("rig.yaml").write_text(
-            "ball: {radius: 2 cm, mass: 2.7 g, inertia_factor: 0.667, position: [-6 mm, -52 mm], losses: {rolling: 0.01}}\n"
+            "ball: {radius: 2 cm, mass: 2.7 g, inertia_factor: 0.667, position: [-6 mm, -52 mm], "
+            "losses: {rolling: 0.01}}\n"
             "gimbal:\n  motion:\n    phi: {table: {file: fit-stuck.csv, time: t_s, value: tilt_x_deg}}\n"
-            "    theta: {table: {file: fit-stuck.csv, time: t_s, value: tilt_y_deg}}\ntime: {end: 4.6, step: 20 ms}\n")  # fmt: skip
+            "    theta: {table: {file: fit-stuck.csv, time: t_s, value: tilt_y_deg}}\n"
+            "time: {end: 4.6, step: 20 ms}\n")  # fmt: skip
         made = self.fit("ball.losses.rolling=0:0.05", logs="fit-stuck.csv", starts=2)
         one = made.parameters[0]
         self.assertLess(max(made.residual_rms.values()), 2.5e-3)
@@ -377,8 +386,8 @@ class Command(Case):
     FREE = ("--free", "ball.inertia_factor")
 
     def recorded(self):
-        run = bbsim.run(str(CONFIGS / "recorded.yaml"),
-                        set={"ball.inertia_factor": 0.6, "time.step": 0.02, "output.columns": ["t", "x", "y"]})  # fmt: skip
+        settings = {"ball.inertia_factor": 0.6, "time.step": 0.02, "output.columns": ["t", "x", "y"]}
+        run = bbsim.run(str(CONFIGS / "recorded.yaml"), set=settings)
         self.put({name: np.array(run[name]) for name in ("t", "x", "y")})
         return str(CONFIGS / "recorded.yaml")
 
@@ -447,7 +456,8 @@ class Command(Case):
         rig = self.recorded()
         start = f"from bbsim._command import main; main('fit', {[rig, 'log.csv', *self.FREE]!r} + "
         for words, beginning in ((["--json", "-"], '{\n  "parameters"'), (["--report", "-"], "<!doctype html>")):
-            made = subprocess.run([sys.executable, "-c", f"{start}{words!r})"], capture_output=True, text=True, check=True)
+            program = [sys.executable, "-c", f"{start}{words!r})"]
+            made = subprocess.run(program, capture_output=True, text=True, check=True)
             self.assertTrue(made.stdout.lower().startswith(beginning), made.stdout[:100])
 
     def test_what_a_fit_refuses(self):
