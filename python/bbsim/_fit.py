@@ -196,8 +196,9 @@ class _Task:
         free = start_coordinates(self.columns, given, within)
         numbers, unknowns = int(np.isfinite(windows.values).sum()), len(windows) * len(free) + len(self.keys)
         if numbers <= unknowns:
-            allowed = f"more than the {unknowns} that are sought, starts included; use a longer --window or fewer --free"
-            raise _fault(f"the logs have {numbers} numbers in {len(windows)} windows; allowed: {allowed} keys")
+            allowed = f"more than the {unknowns} that are sought, starts included"
+            raise _fault(f"the logs have {numbers} numbers in {len(windows)} windows; allowed: {allowed}; use a longer "
+                         "--window or fewer --free keys")  # fmt: skip
         return windows, held, free, length
 
 
