@@ -142,10 +142,6 @@ class WindowsFit:
         self._solvers: Optional[Tuple[Array, Array]] = None
         self.kinked = False
         self.key_steps, self.start_steps = np.full(len(keys), _KEY_STEP), _START_STEPS.copy()
-        # Numbers of cases are in the unit of a key's table; 0 for keys that no scenario has.
-        self.own = [1e3 * (_bbsim.number_at(logs[0].given, key.name, "1e-3") or 1e-3)
-                    if key.name.endswith(".table.offset") else 1.0 - isinstance(key, LogKey)
-                    for key in keys]  # fmt: skip
 
     def over_noise(self) -> Array:
         """The factor of each difference; 0 where the log has no number."""
@@ -192,7 +188,7 @@ class WindowsFit:
         for log in np.unique(windows.log[which]):
             rows = np.flatnonzero(windows.log[which] == log)
             its = which[rows]
-            cases = {key.name: value[rows] / own for key, value, own in zip(self.keys, values, self.own) if own}
+            cases = {key.name: value[rows] for key, value in zip(self.keys, values) if not isinstance(key, LogKey)}
             try:
                 made = simulate(
                     self.logs[log].given, cases, self.columns, times[rows], begin=windows.begin[its],

@@ -76,7 +76,8 @@ double not_zero(const PlanAxis& axis) {
 }
 
 std::string value_text(const PlanAxis& axis, double value) {
-  return axis.numeric ? number_text(value) : axis.texts[static_cast<std::size_t>(value)];
+  return axis.numeric ? number_text(value) + axis.unit
+                      : axis.texts[static_cast<std::size_t>(value)];
 }
 
 // Whether `path` is a key below `other`.
@@ -408,6 +409,10 @@ bool SweepPlan::can_read_extremes(const ScenarioFamily& family) const {
 }
 
 void SweepPlan::relate(const ScenarioFamily& family) {
+  for (PlanAxis& axis : axes_) {  // a table's offset without a unit is in the unit of the table
+    if (!axis.numeric || axis.key.find(".table.offset") == std::string::npos) continue;
+    axis.unit = " " + std::string(family.unit_of(axis.key, first_settings()));
+  }
   Scenario first = family.read(first_settings());
   // Holds for all axes or for none: a key of another kind may change the meaning of the others.
   const bool independent = std::all_of(axes_.begin(), axes_.end(), [&](const PlanAxis& axis) {

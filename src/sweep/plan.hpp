@@ -24,6 +24,7 @@ struct PlanAxis {
   double factor = 1;     // multiplies these values
   scenario::VariationSpec::Kind kind = scenario::VariationSpec::Kind::list;
   bool numeric = true;               // single numbers in SI units; otherwise texts in YAML
+  std::string unit{};                // of these numbers, if the key would read others in another
   std::size_t count = 1;             // number of values; 1 if they are drawn
   double from = 0, to = 0;           // bounds; mean and standard deviation of normal
   std::vector<double> numbers{};     // of a list

@@ -162,6 +162,21 @@ TEST_CASE("cases are listed with a number for each key, and settings that all ha
   CHECK(settings[1].value == "9.8");
 }
 
+TEST_CASE("numbers of a table's offset are in SI units, whatever the unit of the table") {
+  const ScenarioFamily family(
+      Source{std::string(BBSIM_SOURCE_DIR) + "/configs/scene.yaml",
+             "ball: {radius: 1 cm}\n"
+             "gimbal: {motion: {theta: 0, phi: {table: {file: recorded-angles.csv, time: t, value: "
+             "phi, unit: deg, offset: 2}}}}\n"
+             "time: {end: 1, step: 0.1}\n",
+             {}});
+  const std::string key = "gimbal.motion.phi.table.offset";
+  const SweepPlan listed(family, {{key, {0, 0.01}}}, 2);
+  CHECK(family.number_at(key, listed.settings(1)) == 0.01);
+  const SweepPlan swept(family, vary({{key, "list:0,1 deg"}}));
+  CHECK(*family.number_at(key, swept.settings(1)) == Approx(0.017453292519943295));
+}
+
 TEST_CASE("text values are listed as texts") {
   const SweepPlan plan = plan_of(
       vary({{"solver.method", "list:radau,bdf"}, {"controller.pd.kp", "list:0,[[2, 0], [0, -3]]"}}),
