@@ -195,7 +195,7 @@ class Recording(unittest.TestCase):
             assert done.returncode == 0, done.stderr
 
         cls.run_bbsim = staticmethod(run)
-        run("design", "rig.yaml", "--free", "ball.inertia_factor", "-o", "designed.yaml", "-q")
+        run("design", "rig.yaml", "--max-tilt", "6 deg", "--free", "ball.inertia_factor", "-o", "designed.yaml", "-q")
         run("run", "designed.yaml", "--set", f"ball.inertia_factor={TRUTH}", "--set", "time.step=10 ms",
             "--set", "output.columns=[t, x, y, phi, theta]", "-o", "truth.csv", "-q")
         with open(folder / "truth.csv") as file:

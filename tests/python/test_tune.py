@@ -159,13 +159,17 @@ class Rigs(unittest.TestCase):
         options = {"require": "max_tilt < 1 deg", "vary": [SERVO, DELAY], "hold_out": 300}
         made = tune(**options)
         self.assertEqual((made.hold_out.cases, made.hold_out.share_that_holds), (300, 1))
-        self.assertRegex(made.report, r"searched for max_tilt < 1 deg with [0-9.]+ % to spare, for rigs held out\n")
+        with mock.patch.object(_tune, "_SEARCHES", 1):
+            once = tune(**options)
+        # Whether the first search suffices depends on the last digits, and so on the instruction set.
+        if once.hold_out.share_that_holds < 1:
+            self.assertRegex(made.report, r"searched for max_tilt < 1 deg with [0-9.]+ % to spare, for rigs held out\n")
+        else:
+            self.assertEqual(made.report, once.report)
         drawn = _bbsim.drawn(bbsim.given(RIG), options["vary"], 1000, 77)
         rigs = {name: drawn.numbers(i) for i, name in enumerate(drawn.names)}
         tilts = bbsim.simulate(made.scenario, rigs, [], measures=["max_tilt"]).measures["max_tilt"]
         self.assertGreater((tilts < np.radians(1)).mean(), 0.99)
-        with mock.patch.object(_tune, "_SEARCHES", 1):
-            self.assertLess(tune(**options).hold_out.share_that_holds, 1)
 
     def test_a_margin_beside_measures(self):
         made = tune(require=["max_tilt < 1.5 deg", "phi_delay_margin > 150 ms"])
