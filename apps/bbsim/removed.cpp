@@ -19,7 +19,7 @@ constexpr std::string_view runs_whole =
 constexpr Removed options[] = {
     {"--save-state", runs_whole},
     {"--from-state", runs_whole},
-    {"--continuity", "each window of a fit has a start of its own; --window sets their length"},
+    {"--continuity", "a fit no longer joins windows; --window sets their length"},
     {"--plot", "`bbsim plot SCENARIO --accuracy` draws what accuracy measures"},
     {"--until", "runs are no longer split; to end a run earlier, use --set time.end=TIME"},
 };

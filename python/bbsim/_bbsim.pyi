@@ -270,7 +270,7 @@ class Page:
 
 def replay(
     shown: Sequence[Any], logs: Sequence[str], log: LogOptions, summary: str, scenario: str,
-    overrides: Sequence[str], title: str,
+    overrides: Sequence[str], title: str, output: str,
 ) -> Page: ...  # fmt: skip
 
 class Compared:

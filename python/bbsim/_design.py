@@ -18,7 +18,7 @@ from scipy.optimize import minimize
 from . import _bbsim
 from ._errors import InputError
 from ._experiment import Experiment, Motions
-from ._found_files import aligned, as_json, declare, reports, write
+from ._found_files import aligned, as_json, declare, print_report, write
 from ._free_keys import read_free_keys
 from ._progress import Bar, Progress, silent
 from ._scenario import Scenario, Settings, given
@@ -466,6 +466,5 @@ def command(options: Dict[str, Any], say: Any) -> int:
     except KeyboardInterrupt:
         say("design: interrupted; nothing is written")
         return 130
-    if reports(options, "table", "sketch"):
-        print(made.report, end="", flush=True)
+    print_report(made.report, options, "table", "sketch")
     return 0

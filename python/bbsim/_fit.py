@@ -16,7 +16,7 @@ from . import _bbsim, _fit_text
 from ._errors import InputError
 from ._fit_search import Search
 from ._fit_windows import Log, LogKey, Windows, WindowsFit, cut, start_coordinates
-from ._found_files import declare, write, write_found
+from ._found_files import declare, print_report, write, write_found
 from ._free_keys import FreeKey, read_bounds, read_free_key, read_free_keys, refuse, usual_scale
 from ._progress import Bar, Progress, silent
 from ._scenario import Scenario, Settings, given as given_of
@@ -344,15 +344,14 @@ def fit(
     interrupted fit gives the best values so far, or raises KeyboardInterrupt if there are none.
     """
     options = dict(locals())
-    made = _carry_out(given_of(options.pop("scenario"), options.pop("set")), options, silent, None)
+    made = _carry_out(given_of(options.pop("scenario"), options.pop("set")), options, silent, lambda text: None)
     if made is None:
         raise KeyboardInterrupt
     return made
 
 
 def _carry_out(given: _bbsim.Given, options: Dict[str, Any], progress: Progress, say: Any) -> Any:
-    """Fits, and writes what the options ask for; with `say`, also the report. None if it is interrupted before there is
-    a result."""
+    """Fits, and writes the files that the options ask for. None if it is interrupted before there is a result."""
     files = {name: str(options.pop(name) or "") for name in ("output", "json", "report")}
     task = _Task(given, **options)
     reads = {given.name: "the scenario"} if os.path.exists(given.name) else {}
@@ -362,7 +361,7 @@ def _carry_out(given: _bbsim.Given, options: Dict[str, Any], progress: Progress,
         _bbsim.edited(given, [(key.name, key.text(key.start)) for key in keys], "", False)
     if files["report"]:
         _bbsim.filled_page("fit.html", "", "{}")
-    for text in task.warnings if say else ():
+    for text in task.warnings:
         say(text)
     made = _fit(task, progress, bool(files["report"]))
     if made is None:
@@ -371,8 +370,7 @@ def _carry_out(given: _bbsim.Given, options: Dict[str, Any], progress: Progress,
     if files["report"]:
         write(files["report"], _fit_text.page(made, given))
     text = _fit_text.scenario(made, given) if files["output"] else ""
-    shown = made.report if say else ""
-    write_found(given, given.name, files, text, _fit_text.as_document(made), shown, say or str, "report")
+    write_found(given, files, text, _fit_text.as_document(made), say)
     return made
 
 
@@ -380,8 +378,11 @@ def command(options: Dict[str, Any], say: Any) -> int:
     """`bbsim fit`; `say` prints a message unless -q is given."""
     given = _bbsim.Given(options.pop("scenario"), None, options.pop("set"), None)
     options["logs"] = options.pop("log")
+    files = {name: options[name] for name in ("output", "json", "report")}
     with Bar(given.name, options.pop("quiet")) as progress:
         made = _carry_out(given, options, progress, say)
     if made is None:
         sys.stderr.write("fit: interrupted before the first iteration; nothing is written\n")
+    else:
+        print_report(made.report, files, "report")
     return 130 if made is None or made.interrupted else 0

@@ -87,7 +87,9 @@ def scenario(fitted: Any, given: _bbsim.Given) -> str:
     """The scenario's text with the estimates."""
     text = f"# Fitted by bbsim {_bbsim.__version__} to\n"
     for log in fitted.logs:
-        text += f"#   {log} (SHA-256 {hashlib.sha256(Path(log).read_bytes()).hexdigest()[:16]})\n"
+        # Standard input has been read.
+        content = Path(log).read_bytes() if Path(log).is_file() else None
+        text += f"#   {log}" + (f" (SHA-256 {hashlib.sha256(content).hexdigest()[:16]})" if content else "") + "\n"
     settings = []
     for one in fitted.parameters:
         unit = f" {one.unit}" if one.unit else ""
@@ -133,7 +135,7 @@ def _run(fitted: Any, log: str, windows: Sequence[Any], step: int) -> Dict[str, 
 
 def page(fitted: Any, given: _bbsim.Given) -> str:
     title = _bbsim.text_at(given, "title")
-    title = "Fit of " + (json.loads(title) if title.startswith('"') else title or given.name)
+    title = "Fit of " + (title[1:-1].replace("''", "'") if title.startswith("'") else title or given.name)
     names = list(fitted.units)
     pairs = [pair for pair in (["x", "y"], ["x_measured", "y_measured"]) if set(pair) <= set(names)]
     symbols = {column[0]: column[1] for column in _bbsim.known_columns("rad")}

@@ -56,18 +56,21 @@ def write(target: str, text: str) -> None:
     _bbsim.write_file(target, text.encode())
 
 
-def write_found(given: _bbsim.Given, name: str, options: Dict[str, Any], scenario: str, json_text: str, report: str,
-                say: Any, *others: str) -> None:  # fmt: skip
-    """Writes what the options ask for. `name`: of the scenario's file."""
+def write_found(given: _bbsim.Given, options: Dict[str, Any], scenario: str, json_text: str, say: Any) -> None:
+    """Writes the files that the options ask for."""
     output = options["output"]
     if output:
         write(output, scenario)
-        folders: List[str] = [os.path.dirname(os.path.abspath(file)) for file in (output, name)]
+        folders: List[str] = [os.path.dirname(os.path.abspath(file)) for file in (output, given.name)]
         if output != "-" and folders[0] != folders[1] and _bbsim.tables(given):
             say(f"note: {output} is not in the scenario's folder, from which its tables are read; move it there to "
                 "run it")  # fmt: skip
     if options["json"]:
         write(options["json"], json_text)
+
+
+def print_report(report: str, options: Dict[str, Any], *others: str) -> None:
+    """Unless a file goes to standard output."""
     if reports(options, *others):
         sys.stdout.write(report)
         sys.stdout.flush()

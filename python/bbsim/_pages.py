@@ -13,6 +13,7 @@ from typing import Any, Dict, List, Optional, Sequence, Union
 from . import _bbsim
 from ._result import Result
 from ._scenario import Settings, as_yaml
+from ._simulate import refuse
 
 File = Union[str, "os.PathLike[str]"]
 Texts = Union[str, Sequence[str]]
@@ -72,9 +73,12 @@ def replay(
             shown.append(os.fspath(file))
     log = _bbsim.LogOptions(_listed(map), _listed(header), period, time_offset)
     beside = (os.fspath(summary), os.fspath(scenario), _overrides(set))
-    made = _bbsim.replay(shown, _listed(data), log, *beside, title)
-    if output is not None:
-        _bbsim.write_file(os.fspath(output), made.html.encode())
+    target = "" if output is None else os.fspath(output)
+    if target and not target.lower().endswith(".html"):
+        raise refuse("output", target, "a name that ends in .html")
+    made = _bbsim.replay(shown, _listed(data), log, *beside, title, target)
+    if target:
+        _bbsim.write_file(target, made.html.encode())
     return Page(made.html, made.reason, made.notes)
 
 

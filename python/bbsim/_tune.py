@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import sys
 from types import SimpleNamespace
@@ -13,7 +14,7 @@ import numpy as np
 
 from . import _bbsim
 from ._errors import InputError
-from ._found_files import aligned, as_json, declare, write, write_found
+from ._found_files import aligned, as_json, declare, print_report, write_found
 from ._free_keys import read_free_key, refuse
 from ._progress import Bar, silent
 from ._scenario import Scenario, Settings, given
@@ -252,11 +253,11 @@ def tune(
     """
     options = dict(locals())
     options.update((name, [options[name]]) for name in ("free", "require", "vary") if isinstance(options[name], str))
-    tuning = _Tuning(given(scenario, set), options)
+    files, base = {"output": str(output or ""), "json": str(json or "")}, given(scenario, set)
+    declare(files, {base.name: "the scenario"} if os.path.exists(base.name) else {})
+    tuning = _Tuning(base, options)
     made = tuning.result(tuning.find(silent))
-    for file, text in ((output, made.scenario), (json, _json(made))):
-        if file:
-            write(str(file), text)
+    write_found(base, files, made.scenario, _json(made), lambda text: None)
     return made
 
 
@@ -274,6 +275,7 @@ def command(options: Dict[str, Any], say: Any) -> int:
     except KeyboardInterrupt:
         sys.stderr.write("tune: interrupted before the first result; nothing is written\n")
         return 130
-    write_found(base, options["scenario"], options, made.scenario, _json(made), made.report, say)
+    write_found(base, options, made.scenario, _json(made), say)
+    print_report(made.report, options)
     sys.stderr.write(made.reason + "\n" * (made.reason != ""))
     return 130 if made.interrupted else 0 if made.met else 1

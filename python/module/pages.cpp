@@ -41,8 +41,10 @@ struct Page {
 
 using Shown = std::variant<std::string, results::Result>;
 
+// `output` is the file that the caller will write, or empty.
 Page replay(const std::vector<Shown>& shown, const std::vector<std::string>& logs,
-            const LogOptions& log, results::Beside beside, const std::string& title) {
+            const LogOptions& log, results::Beside beside, const std::string& title,
+            const std::string& output) {
   api::ReplayRequest request;
   for (const Shown& one : shown) {
     if (const auto* const file = std::get_if<std::string>(&one)) {
@@ -60,6 +62,9 @@ Page replay(const std::vector<Shown>& shown, const std::vector<std::string>& log
   Page page = watch.beside([&] {
     const std::string page_template = replay::page_template();
     file::Outputs outputs;
+    request.before_running = [&] {
+      if (!output.empty()) outputs.writes(output, "output");
+    };
     const api::ReplayMade made = api::replay(request, outputs, watch);
     Page its{replay::page(made.scene, page_template), "", {}};
     for (const api::RunResult& run : made.runs) {
@@ -109,12 +114,13 @@ void define_pages(py::module_& module) {
       "replay",
       [](const std::vector<Shown>& shown, const std::vector<std::string>& logs,
          const LogOptions& log, std::string summary, std::string scenario,
-         std::vector<std::string> overrides, const std::string& title) {
+         std::vector<std::string> overrides, const std::string& title, const std::string& output) {
         return replay(shown, logs, log,
-                      {std::move(summary), std::move(scenario), std::move(overrides)}, title);
+                      {std::move(summary), std::move(scenario), std::move(overrides)}, title,
+                      output);
       },
       py::arg("shown"), py::arg("logs"), py::arg("log"), py::arg("summary"), py::arg("scenario"),
-      py::arg("overrides"), py::arg("title"));
+      py::arg("overrides"), py::arg("title"), py::arg("output"));
   py::class_<api::Compared>(module, "Compared")
       .def_readonly("alike", &api::Compared::alike)
       .def_readonly("reason", &api::Compared::reason)

@@ -48,21 +48,6 @@ VectorXd Elimination::solve(const VectorXd& b) const {
   return factors_->solve(b);
 }
 
-LeastSquares::LeastSquares(const MatrixXd& a, std::optional<double> threshold) {
-  const auto made = std::make_shared<Eigen::CompleteOrthogonalDecomposition<MatrixXd>>();
-  if (threshold) made->setThreshold(*threshold);
-  made->compute(a);
-  factors_ = made;
-}
-
-VectorXd LeastSquares::solve(const VectorXd& b) const {
-  return factors_->solve(b);
-}
-
-MatrixXd LeastSquares::solve(const MatrixXd& b) const {
-  return factors_->solve(b);
-}
-
 SingularValues singular_values(const MatrixXd& a, unsigned wanted) {
   const Eigen::JacobiSVD<MatrixXd> svd(a, wanted);
   SingularValues made{svd.singularValues(), {}, {}};

@@ -43,20 +43,6 @@ class Elimination {
   std::shared_ptr<const Eigen::PartialPivLU<Eigen::MatrixXd>> factors_;
 };
 
-// Finds the x for which |a x - b| is least, and of many the shortest, by a complete orthogonal
-// decomposition. `threshold`: pivots below this part of the largest count as zero; by default those
-// below rounding.
-class LeastSquares {
- public:
-  LeastSquares() = default;
-  explicit LeastSquares(const Eigen::MatrixXd& a, std::optional<double> threshold = {});
-  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
-  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
-
- private:
-  std::shared_ptr<const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>> factors_;
-};
-
 // a = u diag(values) v^T, with the values in descending order. `wanted`: Eigen's flags, such as
 // Eigen::ComputeFullV; a matrix that is not wanted is empty.
 struct SingularValues {

@@ -92,7 +92,8 @@ std::string flow_text(const Node& node) {
     case Node::Kind::null:
       return "null";
     case Node::Kind::scalar: {
-      if (!node.quoted) return node.text;
+      // A plain text may hold what ends it in flow style.
+      if (!node.quoted && node.text.find_first_of(",[]{}") == std::string::npos) return node.text;
       for (const char c : node.text) text += c == '\'' ? std::string("''") : std::string(1, c);
       return '\'' + text + '\'';
     }

@@ -262,6 +262,13 @@ class Pages(unittest.TestCase):
             self.assertIn("<iframe", page._repr_html_())
             result = bbsim.run(CONFIGS / "fig2a.yaml")
             self.assertIn("Fig. 2(a)", bbsim.replay(result, title="Fig. 2(a) again").html)
+            with self.assertRaisesRegex(bbsim.InputError, "ends in .html"):
+                bbsim.replay(CONFIGS / "fig2a.yaml", output=Path(folder) / "fig2a.yaml")
+            csv, named = Path(folder) / "run.csv", Path(folder) / "run.html"
+            bbsim.run(CONFIGS / "fig2a.yaml", output=csv)
+            csv.rename(named)
+            with self.assertRaisesRegex(bbsim.InputError, "output"):
+                bbsim.replay(named, output=named)
             with self.assertRaises(bbsim.InputError) as caught:
                 bbsim.replay(CONFIGS / "none.yaml", CONFIGS / "neither.yaml")
             self.assertEqual(len(caught.exception.problems), 2)

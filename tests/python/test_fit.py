@@ -460,6 +460,17 @@ class Command(Case):
             made = subprocess.run(program, capture_output=True, text=True, check=True)
             self.assertTrue(made.stdout.lower().startswith(beginning), made.stdout[:100])
 
+    def test_a_log_on_standard_input(self):
+        rig = self.recorded()
+        words = ["fit", rig, "-", *self.FREE, "--set", "title='It''s a {plate}'", "-o", "fitted.yaml"]
+        made = subprocess.run(
+            [os.environ["BBSIM"], *words, "--report", "fit.html", "-q"],
+            input=Path("log.csv").read_text(), capture_output=True, text=True,
+        )  # fmt: skip
+        self.assertEqual((made.returncode, made.stderr), (0, ""))
+        self.assertIn("to\n#   -\n# ball.inertia_factor: 0.6", Path("fitted.yaml").read_text())
+        self.assertIn("<title>Fit of It's a {plate}</title>", Path("fit.html").read_text().replace("&#39;", "'"))
+
     def test_what_a_fit_refuses(self):
         self.put(rows_of(sd=5e-4))
         radius = "ball.radius"

@@ -113,6 +113,23 @@ TEST_CASE("an offset in its table's unit is a number of the scenario") {
   CHECK(*offset == Approx(0.034906585));
 }
 
+TEST_CASE("a value of a scenario as YAML in one line") {
+  const ScenarioFamily family(Source{"scene.yaml",
+                                     "title: \"It's flat\"\n"
+                                     "ball:  # solid\n"
+                                     "  radius: 1 cm\n"
+                                     "gimbal: {motion: {phi: 0, theta: {table: {file: a}}}}\n"
+                                     "controller:\n"
+                                     "  library:\n"
+                                     "    file: a, {b}.so\n",
+                                     {"ball.position=[1, 2 cm]"}});
+  CHECK(family.text_at("title") == "'It''s flat'");
+  CHECK(family.text_at("ball") == "{radius: 1 cm, position: [1, 2 cm]}");
+  CHECK(family.text_at("gimbal.motion.theta") == "{table: {file: a}}");
+  CHECK(family.text_at("controller") == "{library: {file: 'a, {b}.so'}}");
+  CHECK(family.text_at("ball.mass").empty());
+}
+
 TEST_CASE("the unit, range and default of a number") {
   using scenario::number_key;
   const auto factor = number_key("ball.inertia_factor");

@@ -305,9 +305,10 @@ struct ThreeServos {
     return at;
   }
   // The number of parts for servos that move this far, rad.
+  static constexpr int most_parts = 64;
   [[nodiscard]] static int parts_for(double motion) {
-    constexpr double far = 0.25, most = 64;
-    return motion < far ? 1 : motion < most * far ? 1 + static_cast<int>(motion / far) : 64;
+    constexpr double far = 0.25;
+    return motion < most_parts * far ? 1 + static_cast<int>(motion / far) : most_parts;
   }
 
   // The pose in these directions of the horns near a pose. Newton's iteration goes on until its
@@ -352,12 +353,11 @@ struct ThreeServos {
                                        const double (&cosine)[3]) const {
     double moved = 0;
     for (int i = 0; i < 3; ++i) moved = std::fmax(moved, std::abs(servo[i] - from[i]));
-    constexpr int most_parts = 1000;
     for (int parts = parts_for(moved);; parts *= 8) {
       double determinant_near;
       const Pose<double> at =
           pose_near(follow(known, from, servo, parts), sine, cosine, &determinant_near);
-      if (determinant_near * determinant > 0 || parts > most_parts) return at;
+      if (determinant_near * determinant > 0 || parts >= most_parts) return at;
     }
   }
 
