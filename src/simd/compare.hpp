@@ -18,10 +18,16 @@ template <class P>
 BBSIM_INLINE P choose(typename P::Mask mask, P yes, P no) {
   return P::of(mask ? yes.v : no.v);
 }
+BBSIM_INLINE double choose(bool condition, double yes, double no) {
+  return condition ? yes : no;
+}
 
 template <class P>
 BBSIM_INLINE typename P::Mask exceeds(P a, P b) {
   return a.v > b.v;
+}
+BBSIM_INLINE bool exceeds(double a, double b) {
+  return a > b;
 }
 
 template <class P>
@@ -69,6 +75,9 @@ template <class P>
 BBSIM_INLINE P root_of(P a) {
   for (int l = 0; l < P::size; ++l) a.v[l] = __builtin_sqrt(a.v[l]);
   return a;
+}
+BBSIM_INLINE double root_of(double a) {
+  return __builtin_sqrt(a);
 }
 
 // The largest lane.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Written by make_tables.py, which says how. Do not edit.
+// Written by make_sine_table.py, which says how. Do not edit.
 #pragma once
 
 namespace bbsim::simd {

@@ -20,9 +20,9 @@ struct TestLanes {};
 
 template <int s>
 void check_tables() {
-  using T = RadauTable<s>;
+  constexpr const auto& table = radau_table<Shared, s>;
   CAPTURE(s);
-  CHECK(T::c[s - 1] == 1);
+  CHECK(table.c[s - 1] == 1);
   // Order conditions of a collocation: powers up to s - 1 are integrated exactly. The bound is s
   // rounding errors of numbers below 1, and one for each multiplication of a power.
   const double rounding = 4 * s * 2.3e-16;
@@ -30,17 +30,17 @@ void check_tables() {
     for (int q = 1; q <= s; ++q) {
       double sum = 0, twice = 0;
       for (int j = 0; j < s; ++j) {
-        sum += T::a[j][i] * std::pow(T::c[j], q - 1);
-        twice += T::a_squared[j][i] * std::pow(T::c[j], q - 1);
+        sum += table.a[j][i] * std::pow(table.c[j], q - 1);
+        twice += table.a_squared[j][i] * std::pow(table.c[j], q - 1);
       }
-      CHECK(std::abs(sum - std::pow(T::c[i], q) / q) < rounding);
-      if (q < s) CHECK(std::abs(twice - std::pow(T::c[i], q + 1) / (q * (q + 1))) < rounding);
+      CHECK(std::abs(sum - std::pow(table.c[i], q) / q) < rounding);
+      if (q < s) CHECK(std::abs(twice - std::pow(table.c[i], q + 1) / (q * (q + 1))) < rounding);
     }
   }
   // The last row is Radau's quadrature: exact up to degree 2 s - 2.
   for (int q = s; q < 2 * s; ++q) {
     double sum = 0;
-    for (int j = 0; j < s; ++j) sum += T::a[j][s - 1] * std::pow(T::c[j], q - 1);
+    for (int j = 0; j < s; ++j) sum += table.a[j][s - 1] * std::pow(table.c[j], q - 1);
     CHECK(std::abs(sum - 1.0 / q) < rounding);
   }
   // back * lambda * forward = a. The eigenvectors are nearly parallel, so rounding is magnified by
@@ -49,25 +49,25 @@ void check_tables() {
   for (int j = 0; j < s; ++j) {
     for (int k = 0; k < s / 2; ++k) {
       magnified =
-          std::max({magnified, std::abs(T::forward_re[j][k]), std::abs(T::forward_im[j][k])});
+          std::max({magnified, std::abs(table.forward_re[j][k]), std::abs(table.forward_im[j][k])});
     }
   }
   for (int i = 0; i < s; ++i) {
     for (int j = 0; j < s; ++j) {
       double sum = 0;
       for (int k = 0; k < s / 2; ++k) {
-        const std::complex<double> lambda(T::lambda_re[k], T::lambda_im[k]);
+        const std::complex<double> lambda(table.lambda_re[k], table.lambda_im[k]);
         const std::complex<double> y =
-            lambda * std::complex<double>(T::forward_re[j][k], T::forward_im[j][k]);
-        sum += T::back_re[k][i] * y.real() + T::back_im[k][i] * y.imag();
+            lambda * std::complex<double>(table.forward_re[j][k], table.forward_im[j][k]);
+        sum += table.back_re[k][i] * y.real() + table.back_im[k][i] * y.imag();
       }
-      CHECK(std::abs(sum - T::a[j][i]) < rounding * magnified);
+      CHECK(std::abs(sum - table.a[j][i]) < rounding * magnified);
     }
   }
   // Legendre coefficients of the shifted P_1 = 2 c - 1.
   for (int i = 0; i < s; ++i) {
     double sum = 0;
-    for (int j = 0; j < s; ++j) sum += T::legendre[j][i] * (2 * T::c[j] - 1);
+    for (int j = 0; j < s; ++j) sum += table.legendre[j][i] * (2 * table.c[j] - 1);
     CHECK(std::abs(sum - (i == 1 ? 1 : 0)) < 4 * rounding);
   }
 }

@@ -15,13 +15,13 @@ struct alignas(64) NodeRows {
   double c[s]{}, a[s][s]{}, a_squared[s][s]{};
   double legendre[s][s]{};  // [j][m]: contribution of node j to coefficient m
   consteval NodeRows() {
-    using Rule = radau::RadauTable<s>;
+    constexpr const auto& rule = radau::radau_table<Isa, s>;
     for (int i = 0; i < s; ++i) {
-      c[i] = Rule::c[i];
+      c[i] = rule.c[i];
       for (int j = 0; j < s; ++j) {
-        legendre[i][j] = Rule::legendre[i][j];
-        a[i][j] = Rule::a[j][i];
-        a_squared[i][j] = Rule::a_squared[j][i];
+        legendre[i][j] = rule.legendre[i][j];
+        a[i][j] = rule.a[j][i];
+        a_squared[i][j] = rule.a_squared[j][i];
       }
     }
   }

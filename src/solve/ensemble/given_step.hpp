@@ -67,8 +67,10 @@ struct GivenStep : Base {
     for (int j = 0; j < s; ++j) {
       const SinCos<P> first = Base::template direction<small>(of.q_at[j][phi]);
       const SinCos<P> second = Base::template direction<small>(of.q_at[j][theta]);
-      of.method.at[j].take(scene, {first.sin, first.cos, of.v_at[j][phi], of.k[j][phi]},
-                           {second.sin, second.cos, of.v_at[j][theta], of.k[j][theta]});
+      of.method.at[j].template take<true>(
+          {first.sin, first.cos, of.v_at[j][phi], of.k[j][phi]},
+          {second.sin, second.cos, of.v_at[j][theta], of.k[j][theta]}, nullptr, scene.radius,
+          scene.gravity, P(1.0));
     }
   }
 
@@ -88,7 +90,8 @@ struct GivenStep : Base {
       for (int n = 0; n < together; ++n) {
         const int j = first + n;
         P k[unknowns];
-        of.method.at[j].at(q[n], v[n], k);
+#pragma GCC unroll 3
+        for (int i = 0; i < unknowns; ++i) k[i] = of.method.at[j].at(i, q[n], v[n]);
 #pragma GCC unroll 3
         for (int i = 0; i < unknowns; ++i) {
           const int to = unknown[i];
@@ -133,9 +136,7 @@ struct GivenStep : Base {
       const P time = P(rows.c[j]) * h;
       const P q[2] = {of.q[0] + time * of.v[0], of.q[1] + time * of.v[1]};
       const P v[3] = {of.v[unknown[0]], of.v[unknown[1]], of.v[unknown[2]]};
-      P k[3];
-      of.method.at[j].at(q, v, k);
-      for (int i = 0; i < unknowns; ++i) of.k[j][unknown[i]] = k[i];
+      for (int i = 0; i < unknowns; ++i) of.k[j][unknown[i]] = of.method.at[j].at(i, q, v);
     }
     constexpr double slow = 0.5;
     const StopTest stop(1e-2, w.shared.rtol);

@@ -23,7 +23,7 @@ struct Newton : Equations<Isa, actuation> {
   // The velocities whose accelerations are unknown, and how many of them have a position.
   static constexpr int unknown[] = {x, y, phi, theta, spin};
   static constexpr int with_position = 4;
-  using Rule = radau::RadauTable<s>;
+  static constexpr const auto& rule = radau::radau_table<Isa, s>;
   static constexpr int pairs = s / 2;
 
   struct alignas(64) Rows : NodeRows<Isa, s> {
@@ -32,13 +32,13 @@ struct Newton : Equations<Isa, actuation> {
     double back_re[s][pairs]{}, back_im[s][pairs]{};
     consteval Rows() {
       for (int k = 0; k < pairs; ++k) {
-        lambda_re[k] = Rule::lambda_re[k];
-        lambda_im[k] = Rule::lambda_im[k];
+        lambda_re[k] = rule.lambda_re[k];
+        lambda_im[k] = rule.lambda_im[k];
         for (int i = 0; i < s; ++i) {
-          forward_re[i][k] = Rule::forward_re[i][k];
-          forward_im[i][k] = Rule::forward_im[i][k];
-          back_re[i][k] = Rule::back_re[k][i];
-          back_im[i][k] = Rule::back_im[k][i];
+          forward_re[i][k] = rule.forward_re[i][k];
+          forward_im[i][k] = rule.forward_im[i][k];
+          back_re[i][k] = rule.back_re[k][i];
+          back_im[i][k] = rule.back_im[k][i];
         }
       }
     }

@@ -50,26 +50,26 @@ struct alignas(64) PackedTable {
   alignas(64) double back_re[s / 2][stages]{}, back_im[s / 2][stages]{};
 
   consteval PackedTable() {
-    using T = RadauTable<s>;
+    constexpr const auto& of = radau_table<Isa, s>;
     for (int i = 0; i < stages; ++i) {
       const int from = i < s ? i : s - 1;
-      c[i] = T::c[from];
+      c[i] = of.c[from];
       for (int j = 0; j < s; ++j) {
-        a[j][i] = T::a[j][from];
-        a_squared[j][i] = T::a_squared[j][from];
-        legendre[j][i] = T::legendre[j][from];
+        a[j][i] = of.a[j][from];
+        a_squared[j][i] = of.a_squared[j][from];
+        legendre[j][i] = of.legendre[j][from];
       }
       for (int k = 0; k < s / 2; ++k) {
-        back_re[k][i] = T::back_re[k][from];
-        back_im[k][i] = T::back_im[k][from];
+        back_re[k][i] = of.back_re[k][from];
+        back_im[k][i] = of.back_im[k][from];
       }
     }
     for (int k = 0; k < s / 2; ++k) {
-      lambda_re[k] = T::lambda_re[k];
-      lambda_im[k] = T::lambda_im[k];
+      lambda_re[k] = of.lambda_re[k];
+      lambda_im[k] = of.lambda_im[k];
       for (int j = 0; j < s; ++j) {
-        forward_re[j][k] = T::forward_re[j][k];
-        forward_im[j][k] = T::forward_im[j][k];
+        forward_re[j][k] = of.forward_re[j][k];
+        forward_im[j][k] = of.forward_im[j][k];
       }
     }
   }

@@ -328,14 +328,11 @@ void LaneEngine::judge() {
     step_.has_[l] = lane.moved && pieces_->length[l] > 0;
     if (!step_.has_[l]) continue;
     constexpr double most_growth = 8;
-    double error = pieces_->error[l];
+    const double error = pieces_->error[l];
     const bool solved = error < hopeless;
     const bool arrives = lane.until >= lane.limit;
     // A step that its limit cut short says little about the length of the next.
     const bool tells = !arrives || lane.rejections > 0 || lane.next_step < most_growth * lane.step;
-    if (solved && (error > 1 || tells)) {
-      error = kernels_.closer_error(*pieces_, scene_, static_cast<int>(l));
-    }
     if (!solved || !(error <= 1)) {
       lane.next_step = lane.step * (solved ? std::min(0.9, step_growth(error, nodes)) : 0.2);
       lane.moved = step_.has_[l] = false;

@@ -53,8 +53,8 @@ struct alignas(64) LanePieces {
   double series[3][nodes][group];
   double position_end[2][group], velocity_end[3][group];
   double contraction[group];  // of its iterations
-  // Upper bounds of the error estimates relative to the tolerance; a lane passes at 1 or below.
-  // closer_error() gives the estimate itself. `hopeless` if substitution failed.
+  // The estimated local errors relative to the tolerance; a lane passes at 1 or below. `hopeless`
+  // if substitution failed.
   double error[group];
   int iterations;  // of the last attempt, in all packs
   int servos;
@@ -136,7 +136,6 @@ struct LaneKernels {
   void (*start)(LanePieces& pieces, LaneServos& servos);
   // Solves for the balls over the pieces, from their starts, lengths and axes.
   void (*attempt)(LanePieces& pieces, const LaneScene& scene);
-  double (*closer_error)(const LanePieces& pieces, const LaneScene& scene, int lane);
   void (*evaluate_quantities)(const LanePieces& pieces, const LaneScene& scene,
                               const LaneReference& reference, LaneQuantities& quantities);
   // The range of a lane's size over Chebyshev points (close_overshoot).

@@ -1,12 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sampled rigs between two instants, with one rig in each lane, for one instruction set. The method
-// is that of piece.hpp, which has the nodes in the lanes. With rigs in the lanes, every lane has
-// work and sums over nodes need no shuffles.
+// Sampled rigs between two instants, with one rig in each lane, for one instruction set.
 #pragma once
 
-#include "solve/collocation/convergence.hpp"
 #include "solve/sampled/lane_control.hpp"
 #include "solve/sampled/lane_kernel.hpp"
 #include "solve/sampled/piece.hpp"
@@ -17,45 +14,15 @@ namespace bbsim::solve::sampled {
 template <class Isa>
 struct LaneKernel {
   using One = Kernel<Isa>;
-  using P = typename One::P;
-  using Ball = typename One::Ball;
+  using Layout = RigsInLanes<Isa>;
+  using Method = Substitution<Isa, Layout>;
+  using P = typename Layout::P;
   using Vector = typename P::Vector;
-  static constexpr int lanes = Isa::lanes;
-  static constexpr auto& table = One::table;
-
-  // Which of x, y, x', y', u the accelerations x'', y'' and u' depend on, in (27) and in (M18) to
-  // (M20).
-  static constexpr bool depends[3][5] = {{true, true, false, true, true},
-                                         {true, true, true, false, true},
-                                         {false, false, true, true, false}};
-
-  using Rolling = model::GeneralRollingOf<P>;
-  BBSIM_INLINE static Rolling rolling_of(const LaneScene& scene, int first) {
-    const auto number = [&](int i) __attribute__((always_inline)) {
-      return P::load(scene.rolling[i] + first);
-    };
-    return {number(0), number(1), number(2), number(3), number(4), number(5), number(6), number(7)};
-  }
-
-  // The accelerations at a node as affine functions of the state.
-  struct Rates {
-    P value[3], by[3][5];
-
-    BBSIM_INLINE P at(int i, const P* z) const {
-      P sum = value[i];
-#pragma GCC unroll 5
-      for (int s = 0; s < 5; ++s) {
-        if (depends[i][s]) sum += by[i][s] * z[s];
-      }
-      return sum;
-    }
-  };
-
   using Mask = typename P::Mask;
+  static constexpr int lanes = Isa::lanes;
+  static constexpr const auto& table = Method::table;
 
-  BBSIM_INLINE static bool is_direct(const LanePieces& pieces) {
-    return pieces.plates == nullptr;
-  }
+  BBSIM_INLINE static bool is_direct(const LanePieces& pieces) { return pieces.plates == nullptr; }
 
   BBSIM_INLINE static bool all_small(const LanePieces& pieces, int first) {
     bool small = true;
@@ -68,8 +35,8 @@ struct LaneKernel {
                       P::load(axis.most_by_acceleration + first) * size(axis.acceleration);
       const P start = size_of(P::load(axis.ratio + first) * P::load(axis.angle + first) +
                               P::load(axis.offset + first));
-      small =
-          small && One::reduced(start + size(axis.ratio) * moves, typename One::Larger{}) < 0.785;
+      small = small && One::Layout::reduced(start + size(axis.ratio) * moves,
+                                            typename One::Larger{}) < 0.785;
     }
     return small;
   }
@@ -122,7 +89,7 @@ struct LaneKernel {
         slope[terms] = P(terms + 1.0) * last;
         integral[terms] = P(model::term_parts<P>.of[terms + 2]) * last;
         const bool small =
-            One::reduced(size_of(last) + size_of(before), typename One::Larger{}) < 1e-18;
+            One::Layout::reduced(size_of(last) + size_of(before), typename One::Larger{}) < 1e-18;
         if (small || terms == most_terms) break;
         const P next = model::next_term(d, k, last, before, terms + 1);
         before = last;
@@ -233,194 +200,19 @@ struct LaneKernel {
     const P r = P::load(scene.radius + first), g = P::load(scene.gravity + first);
     const bool direct = is_direct(pieces);
     const bool small = direct && all_small(pieces, first);
-    Rates rates[nodes];
-#pragma GCC unroll 1
-    for (int n = 0; n < nodes; ++n) {
+    typename Method::Rates rates[nodes];
+    Layout::each([&](int n) __attribute__((always_inline)) {
       const auto plane = [&](int i) __attribute__((always_inline)) {
         return direct ? move_axis(pieces.axis[i], pieces.plane[i], n, first, small)
                       : plane_at(pieces.plane[i], n, first);
       };
       const model::GimbalAngle<P> phi = plane(0), theta = plane(1);
-      const model::RollingState<Ball, Ball, Ball> ball{Ball::variable(0), Ball::variable(1),
-                                                       Ball::variable(2), Ball::variable(3),
-                                                       Ball::variable(4)};
-      Ball of[3];
-      if constexpr (papers) {
-        of[0] = model::x_acceleration<Ball>(phi, theta, ball, r, g);
-        of[1] = model::y_acceleration<Ball>(phi, theta, ball, r, g);
-        of[2] = model::u_acceleration<Ball>(phi, theta, ball, r);
-      } else {
-        const auto all = rolling_of(scene, first).template rates<Ball>(phi, theta, ball, r, g);
-        of[0] = all.x;
-        of[1] = all.y;
-        of[2] = all.u;
-      }
-#pragma GCC unroll 3
-      for (int i = 0; i < 3; ++i) {
-        // Includes the length, so that k at a node is the acceleration times h.
-        rates[n].value[i] = h * of[i].value;
-#pragma GCC unroll 5
-        for (int s = 0; s < 5; ++s) {
-          if (depends[i][s]) rates[n].by[i][s] = h * of[i].by[s];
-        }
-      }
-    }
-
-    P velocity[3], position[2], weight[3];
-    for (int i = 0; i < 3; ++i) {
-      velocity[i] = P::load(pieces.velocity[i] + first);
-      if (i < 2) position[i] = P::load(pieces.position[i] + first);
-      weight[i] = larger_of(P(1.0), h) / (P(scene.rtol) * size_of(velocity[i]) + P(scene.atol));
-    }
-    // Accelerations times h at the nodes. First guess: the accelerations at the end of the last
-    // piece stay constant.
-    P k[nodes][3];
-#pragma GCC unroll 1
-    for (int n = 0; n < nodes; ++n) {
-      const P time = h * P(table.c[n]);
-      P z[5];
-      for (int i = 0; i < 3; ++i) {
-        const P guess = P::load(pieces.guess[i] + first);
-        z[2 + i] = velocity[i] + time * guess;
-        if (i < 2) z[i] = position[i] + time * (velocity[i] + P(0.5) * time * guess);
-      }
-      for (int i = 0; i < 3; ++i) k[n][i] = rates[n].at(i, z);
-    }
-
-    constexpr int most_iterations = 25;
-    const StopTest stop(1e-3, scene.rtol);
-    // Goes from node to node and uses new values immediately: an integral mostly depends on earlier
-    // nodes. Each lane has its own contraction, and is done once its error is small enough or will
-    // not get there. A lane that diverges does not affect the others.
-    P contraction = P::load(pieces.contraction + first), last(0.0);
-    Mask solved{};
-    int iterations = 0;
-    for (;;) {
-      P weighted(0.0);
-#pragma GCC unroll 1
-      for (int n = 0; n < nodes; ++n) {
-        P v[3] = {P(0.0), P(0.0), P(0.0)}, q[2] = {P(0.0), P(0.0)};
-#pragma GCC unroll 8
-        for (int j = 0; j < nodes; ++j) {
-          const P once(table.a[j][n]), twice(table.a_squared[j][n]);
-#pragma GCC unroll 3
-          for (int i = 0; i < 3; ++i) {
-            v[i] += once * k[j][i];
-            if (i < 2) q[i] += twice * k[j][i];
-          }
-        }
-        const P time = h * P(table.c[n]);
-        P z[5];
-#pragma GCC unroll 3
-        for (int i = 0; i < 3; ++i) {
-          z[2 + i] = velocity[i] + v[i];
-          z[2 + i].store(pieces.velocity_at[i][n] + first);
-          if (i == 2) continue;
-          z[i] = position[i] + (time * velocity[i] + h * q[i]);
-          z[i].store(pieces.position_at[i][n] + first);
-        }
-#pragma GCC unroll 3
-        for (int i = 0; i < 3; ++i) {
-          const P next = rates[n].at(i, z);
-          weighted = larger_of(weighted, size_of(next - k[n][i]) * weight[i]);
-          k[n][i] = next;
-        }
-      }
-      ++iterations;
-      if (iterations > 1) contraction = P::of(weighted.v / (last.v > 0.0 ? last.v : P(1.0).v));
-      solved = stop.passes(weighted, contraction);
-      Mask settled = solved | ~is_finite(weighted);
-      if (iterations > 2) settled |= contraction.v > 0.3;
-      if (simd::all_of<P>(settled) || iterations >= most_iterations) break;
-      last = weighted;
-    }
+      rates[n].template take<papers>(phi, theta, Layout::rolling(scene, first), r, g, h);
+    });
+    const auto [solved, iterations] = Method::solve(pieces, rates, scene.rtol, scene.atol, first);
     pieces.iterations += iterations;
-    const P before = P::load(pieces.contraction + first);
-    const P known = iterations > 1 ? larger_of(P(0.3) * before, contraction) : contraction;
-    const P kept =
-        larger_of(P::of(is_finite(known) ? known.v : P(1.0).v), P(One::least_contraction));
-    smaller_of(kept, P(0.1)).store(pieces.contraction + first);
-
-    const Vector no_length = Vector{};
-    const P inverse = P(1.0) / P::of(h.v > no_length ? h.v : P(1.0).v);
-    P tail[3] = {P(0.0), P(0.0), P(0.0)};
-#pragma GCC unroll 1
-    for (int m = 0; m < nodes; ++m) {
-      P sum[3] = {P(0.0), P(0.0), P(0.0)};
-#pragma GCC unroll 8
-      for (int j = 0; j < nodes; ++j) {
-        const P share(table.legendre[j][m]);
-#pragma GCC unroll 3
-        for (int i = 0; i < 3; ++i) sum[i] += share * k[j][i];
-      }
-#pragma GCC unroll 3
-      for (int i = 0; i < 3; ++i) {
-        sum[i].store(pieces.series[i][m] + first);
-        (k[m][i] * inverse).store(pieces.acceleration_at[i][m] + first);
-        tail[i] = m == nodes - 1 ? larger_of(tail[i], size_of(sum[i])) : size_of(sum[i]);
-      }
-    }
-    P all_ends(0.0);
-#pragma GCC unroll 3
-    for (int i = 0; i < 3; ++i) {
-      const P mean = P::load(pieces.series[i][0] + first);
-      const P end = velocity[i] + mean;
-      end.store(pieces.velocity_end[i] + first);
-      all_ends += end;
-      if (i == 2) continue;
-      const P slope = P::load(pieces.series[i][1] + first);
-      const P reached = position[i] + h * (velocity[i] + P(0.5) * (mean - slope * P(1.0 / 3)));
-      reached.store(pieces.position_end[i] + first);
-      all_ends += reached;
-    }
-    const P error = estimate(pieces, scene, first, tail);
-    const Mask good = solved & is_finite(all_ends) & is_finite(error);
-    P::of(good ? error.v : P(hopeless).v).store(pieces.error + first);
-  }
-
-  // An upper bound of Kernel::estimate().
-  BBSIM_INLINE static P estimate(const LanePieces& pieces, const LaneScene& scene, int first,
-                                 const P (&tail)[3]) {
-    constexpr double once = 1.0 / (2 * nodes + 1);
-    const P h = P::load(pieces.length + first);
-    P most = tail[2];
-    const P of_position = larger_of(P(1.0), P(once) * h);
-#pragma GCC unroll 2
-    for (int i = 0; i < 2; ++i) most = larger_of(most, tail[i] * of_position);
-    P acceleration(0.0), lost(0.0), tilt(0.0), distance(0.0);
-    for (int i = 0; i < pieces.servos; ++i) {
-      const LaneAxis& axis = pieces.axis[i];
-      const auto of = [&](const double* values) __attribute__((always_inline)) {
-        return P::load(values + first);
-      };
-      acceleration +=
-          size_of(of(axis.ratio) * (of(axis.missed_by_rate) * of(axis.rate) +
-                                    of(axis.missed_by_acceleration) * of(axis.acceleration)));
-      if (axis.lost) {
-        const P rate = of(axis.lost_rate_by_rate) * of(axis.rate) +
-                       of(axis.lost_rate_by_acceleration) * of(axis.acceleration);
-        const P angle = of(axis.lost_angle_by_rate) * of(axis.rate) +
-                        of(axis.lost_angle_by_acceleration) * of(axis.acceleration);
-        lost += size_of(of(axis.ratio)) * (size_of(rate) + size_of(angle));
-      }
-    }
-#pragma GCC unroll 2
-    for (int i = 0; i < 2; ++i) {
-      const LaneAxis& axis = pieces.axis[i];
-      const P start = is_direct(pieces)
-                          ? P::load(axis.ratio + first) * P::load(axis.angle + first) +
-                                P::load(axis.offset + first)
-                          : P::load(pieces.plane[i].sin_start + first);
-      tilt += larger_of(size_of(P::load(pieces.plane[i].sin[nodes - 1] + first)),
-                        smaller_of(size_of(start), P(1.0)));
-      distance += size_of(P::load(pieces.position[i] + first));
-    }
-    const Rolling rolling = rolling_of(scene, first);
-    tilt += size_of(rolling.sin_skew) + size_of(rolling.sin_base);
-    const P unseen = (P(One::Rule::c[0] / 2) * h * acceleration + lost) *
-                     P::load(pieces.gain + first) *
-                     (P::load(scene.radius + first) + size_of(rolling.height) + tilt * distance);
-    return larger_of(P(once) * most, unseen) * P(1 / scene.atol);
+    const P error = Method::estimate(pieces, scene, pieces.servos, direct, false, first).greatest();
+    simd::choose(solved & is_finite(error), error, P(hopeless)).store(pieces.error + first);
   }
 
   static void attempt(LanePieces& pieces, const LaneScene& scene) {
@@ -430,54 +222,6 @@ struct LaneKernel {
       scene.papers ? attempt_some<true>(pieces, scene, first)
                    : attempt_some<false>(pieces, scene, first);
     }
-  }
-
-  static double closer_error(const LanePieces& pieces, const LaneScene& scene, int lane) {
-    Piece piece{};
-    MotionTable tables[2]{};
-    Scene of{};
-    of.radius = scene.radius[lane];
-    of.rolling.height = scene.rolling[1][lane];
-    of.rolling.sin_skew = scene.rolling[3][lane];
-    of.rolling.sin_base = scene.rolling[7][lane];
-    of.rtol = scene.rtol;
-    of.atol = scene.atol;
-    piece.length = pieces.length[lane];
-    for (int i = 0; i < 3; ++i) {
-      for (int n = 0; n < nodes; ++n) piece.series[i][n] = pieces.series[i][n][lane];
-      piece.velocity[i] = pieces.velocity[i][lane];
-      piece.velocity_end[i] = pieces.velocity_end[i][lane];
-      if (i == 2) continue;
-      piece.position[i] = pieces.position[i][lane];
-      piece.position_end[i] = pieces.position_end[i][lane];
-    }
-    Attempt result{true, 0, 0, 0};
-    if (!is_direct(pieces)) {
-      piece.plate = pieces.plates[lane];
-      if (piece.plate.three != nullptr) {
-        One::template estimate<model::ThreeServos>(piece, of, result);
-      } else {
-        One::template estimate<model::Linkages>(piece, of, result);
-      }
-      return result.error;
-    }
-    piece.plate.gain = 1;
-    for (int i = 0; i < 2; ++i) {
-      const LaneAxis& axis = pieces.axis[i];
-      tables[i].missed_by_rate = axis.missed_by_rate[lane];
-      tables[i].missed_by_acceleration = axis.missed_by_acceleration[lane];
-      tables[i].lost = axis.lost;
-      tables[i].lost_rate_by_rate = axis.lost_rate_by_rate[lane];
-      tables[i].lost_rate_by_acceleration = axis.lost_rate_by_acceleration[lane];
-      tables[i].lost_angle_by_rate = axis.lost_angle_by_rate[lane];
-      tables[i].lost_angle_by_acceleration = axis.lost_angle_by_acceleration[lane];
-      piece.plate.axis[i] = {&tables[i],       axis.angle[lane],
-                             axis.rate[lane],  axis.acceleration[lane],
-                             axis.ratio[lane], axis.offset[lane]};
-      piece.plate.plane[i].sin[nodes - 1] = pieces.plane[i].sin[nodes - 1][lane];
-    }
-    One::template estimate<model::Direct>(piece, of, result);
-    return result.error;
   }
 
   template <bool papers>
@@ -495,7 +239,7 @@ struct LaneKernel {
       if constexpr (papers) {
         return model::GeneralRolling{};
       } else {
-        return rolling_of(scene, first);
+        return Layout::rolling(scene, first);
       }
     }
     ();
@@ -607,18 +351,7 @@ struct LaneKernel {
 
   static Range narrow(const LaneQuantities& quantities, Size size, int lane) {
     const auto& at = quantities.size[static_cast<int>(size)];
-    P least, most;
-    for (int k = 0; k < close_points; k += lanes) {
-      P value(0.0);
-#pragma GCC unroll 8
-      for (int j = 0; j < nodes; ++j) {
-        value += P::load(One::close_table.share[j] + k) * P(at[j][lane]);
-      }
-      least = k == 0 ? value : smaller_of(least, value);
-      most = k == 0 ? value : larger_of(most, value);
-    }
-    return {One::reduced(least, typename One::Smaller{}),
-            One::reduced(most, typename One::Larger{})};
+    return One::close_range([&](int j) __attribute__((always_inline)) { return at[j][lane]; });
   }
 
   static void reference(const model::SignalView& of, double from, double length,
@@ -679,9 +412,8 @@ struct LaneKernel {
     }
   }
 
-  static constexpr LaneKernels kernels{
-      &tables, &start,     &attempt,          &closer_error, &evaluate_quantities,
-      &narrow, &reference, &control_lanes<P>, &evaluate};
+  static constexpr LaneKernels kernels{&tables, &start,     &attempt,          &evaluate_quantities,
+                                       &narrow, &reference, &control_lanes<P>, &evaluate};
 };
 
 }  // namespace bbsim::solve::sampled

@@ -12,6 +12,8 @@
 namespace bbsim::solve::sampled {
 namespace {
 
+constexpr const auto& rule = radau::radau_table<radau::Shared, nodes>;
+
 void answer_at_nodes(const Kernels& kernels, const model::HeldLaw& law, double length,
                      NodeAnswers& answers) {
   if (model::suits_series(law, length)) {
@@ -19,7 +21,7 @@ void answer_at_nodes(const Kernels& kernels, const model::HeldLaw& law, double l
     return;
   }
   for (int i = 0; i < nodes; ++i) {
-    const model::ImpulseAnswer at = model::answer(law, radau::RadauTable<nodes>::c[i] * length);
+    const model::ImpulseAnswer at = model::answer(law, rule.c[i] * length);
     answers.integral[i] = at.integral;
     answers.value[i] = at.value;
     answers.slope[i] = at.slope;
@@ -38,14 +40,13 @@ double lost_of(double whole, double sum, double motion) {
 // Compares the integrals of the nodal accelerations with the closed form. This is not needed if a
 // power series gives the motion: eight nodes are then exact to rounding.
 void find_lost(MotionTable& table, double h) {
-  using Rule = radau::RadauTable<nodes>;
   constexpr int end = nodes - 1;
   const auto integrals = [&](const double(&rows)[MotionTable::rows][nodes], double& once,
                              double& twice) {
     once = twice = 0;
     for (int j = 0; j < nodes; ++j) {
-      once += h * Rule::a[j][end] * rows[MotionTable::acceleration][j];
-      twice += h * h * Rule::a_squared[j][end] * rows[MotionTable::acceleration][j];
+      once += h * rule.a[j][end] * rows[MotionTable::acceleration][j];
+      twice += h * h * rule.a_squared[j][end] * rows[MotionTable::acceleration][j];
     }
   };
   double once = 0, twice = 0;

@@ -1,76 +1,29 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A piece of a rig between two instants, for one instruction set.
+// A piece of one rig between two instants, with its nodes in the lanes, for one instruction set.
 //
-// Under a held command the servos move in closed form (model/servo/held_motion.hpp). The gimbal's
-// motion is then given, and the ball's equation is linear in its five states. At the nodes of Radau
-// IIA, which lie in the lanes, it is
-//
-//     k = f + A (x, y, x', y', u)
-//
-// The coefficients are computed once, for all nodes together. Substitution solves the remaining
-// equations:
-//
-//     v = v(0) + h A1 k,    q = q(0) + c h v(0) + h^2 A2 k
-//
-// Pieces are so short that each iteration contracts the error by factors of hundreds or thousands.
-// The decay of the Legendre coefficients of k gives the error estimate, as in radau/step.hpp. This
-// is the special case without a Jacobian, a linear system or servo states.
+// Under a held command the servos move in closed form (model/servo/held_motion.hpp), so the plate's
+// motion is given. substitution.hpp has the method for the ball.
 #pragma once
 
 #include "model/servo/impulse_series.hpp"
-#include "model/systems/system.hpp"
-#include "simd/affine.hpp"
-#include "simd/compare.hpp"
-#include "solve/collocation/convergence.hpp"
-#include "solve/collocation/radau_table.hpp"
-#include "solve/sampled/kernel.hpp"
+#include "solve/sampled/substitution.hpp"
 
 namespace bbsim::solve::sampled {
-
-using simd::is_finite, simd::larger_of, simd::size_of, simd::smaller_of;
-
-// A number known at compile time.
-template <int i>
-struct Index {
-  // NOLINTNEXTLINE(google-explicit-constructor): it is that number
-  [[gnu::always_inline]] constexpr operator int() const { return i; }
-};
-
-// Calls f(0), f(1), ... with compile-time numbers.
-template <int count, int from = 0, class F>
-BBSIM_INLINE void for_each(F f) {
-  if constexpr (from < count) {
-    f(Index<from>{});
-    for_each<count, from + 1>(f);
-  }
-}
 
 template <class Isa>
 struct Kernel {
   static constexpr int lanes = Isa::lanes;
   static constexpr int packs = nodes / lanes;
-  using P = simd::Pack<Isa, lanes>;
+  using Layout = NodesInLanes<Isa>;
+  using Method = Substitution<Isa, Layout>;
+  using P = typename Layout::P;
   using Vector = typename P::Vector;
   using Mask = typename P::Mask;
-  using Ball = simd::Affine<P, 5>;  // x, y, x', y', u
-  using Rule = radau::RadauTable<nodes>;
-
-  struct alignas(64) Tables {
-    double c[nodes]{}, a[nodes][nodes]{}, a_squared[nodes][nodes]{}, legendre[nodes][nodes]{};
-    consteval Tables() {
-      for (int i = 0; i < nodes; ++i) {
-        c[i] = Rule::c[i];
-        for (int j = 0; j < nodes; ++j) {
-          a[j][i] = Rule::a[j][i];
-          a_squared[j][i] = Rule::a_squared[j][i];
-          legendre[j][i] = Rule::legendre[j][i];
-        }
-      }
-    }
-  };
-  static constexpr Tables table{};
+  using Larger = typename Layout::Larger;
+  using Smaller = typename Layout::Smaller;
+  static constexpr const auto& table = Method::table;
 
   // Interpolates from the start and all nodes but the first to the Chebyshev points.
   struct alignas(64) CloseTable {
@@ -93,45 +46,9 @@ struct Kernel {
         }
       }
     }
-    static consteval double point(int i) { return i == 0 ? 0.0 : Rule::c[i]; }
+    static consteval double point(int i) { return i == 0 ? 0.0 : table.c[i]; }
   };
   static constexpr CloseTable close_table{};
-
-  // Reduces the lanes to one number by halves, with `choose` for each pair.
-  template <class Choose>
-  BBSIM_INLINE static double reduced(P a, Choose choose) {
-    if constexpr (lanes == 8) {
-      using Half = simd::Pack<Isa, 4>;
-      const Half low = Half::of(__builtin_shufflevector(a.v, a.v, 0, 1, 2, 3));
-      const Half high = Half::of(__builtin_shufflevector(a.v, a.v, 4, 5, 6, 7));
-      return reduced_four(choose(low, high), choose);
-    } else if constexpr (lanes == 4) {
-      return reduced_four(a, choose);
-    } else {
-      const double first = a.v[0], second = a.v[1];
-      return choose(first, second);
-    }
-  }
-  template <class Four, class Choose>
-  BBSIM_INLINE static double reduced_four(Four a, Choose choose) {
-    using Half = simd::Pack<Isa, 2>;
-    const Half two = choose(Half::of(__builtin_shufflevector(a.v, a.v, 0, 1)),
-                            Half::of(__builtin_shufflevector(a.v, a.v, 2, 3)));
-    const double first = two.v[0], second = two.v[1];
-    return choose(first, second);
-  }
-  struct Larger {
-    template <class N>
-    BBSIM_INLINE N operator()(N a, N b) const {
-      return larger_of(a, b);
-    }
-  };
-  struct Smaller {
-    template <class N>
-    BBSIM_INLINE N operator()(N a, N b) const {
-      return smaller_of(a, b);
-    }
-  };
 
   BBSIM_INLINE static Mask first_lane() {
     Mask mask{};
@@ -165,38 +82,6 @@ struct Kernel {
     return size_of(axis.ratio) * (axis.table->most_by_rate * size_of(axis.rate) +
                                   axis.table->most_by_acceleration * size_of(axis.acceleration));
   }
-
-  struct Rates {
-    Ball of[3];  // x'', y'', u'
-  };
-
-  // The equation's coefficients at the nodes of a pack.
-  template <bool papers>
-  BBSIM_INLINE static Rates coefficients(const model::GimbalAngle<P>& phi,
-                                         const model::GimbalAngle<P>& theta, const Scene& scene) {
-    const model::RollingState<Ball, Ball, Ball> ball{Ball::variable(0), Ball::variable(1),
-                                                     Ball::variable(2), Ball::variable(3),
-                                                     Ball::variable(4)};
-    Rates rates;
-    if constexpr (papers) {
-      const P r(scene.radius), g(scene.gravity);
-      rates.of[0] = model::x_acceleration<Ball>(phi, theta, ball, r, g);
-      rates.of[1] = model::y_acceleration<Ball>(phi, theta, ball, r, g);
-      rates.of[2] = model::u_acceleration<Ball>(phi, theta, ball, r);
-    } else {
-      const auto all =
-          scene.rolling.template rates<Ball>(phi, theta, ball, scene.radius, scene.gravity);
-      rates.of[0] = all.x;
-      rates.of[1] = all.y;
-      rates.of[2] = all.u;
-    }
-    return rates;
-  }
-
-  static constexpr int most_iterations = 25;
-  // A plate that stood still within backlash gives a contraction of zero, but this says nothing
-  // about the next piece.
-  static constexpr double least_contraction = 1e-2;
 
   // A pose near that for these angles of the horns, which move by less than 0.25 rad in a part.
   BBSIM_INLINE static model::ThreeServos::Pose<P> pose_towards(const PlateMotion& plate,
@@ -268,7 +153,6 @@ struct Kernel {
   // With everything inlined the compiler sees which coefficients are zero.
   template <bool papers, class Link>
   [[gnu::flatten]] static void attempt(Piece& piece, const Scene& scene, Attempt& result) {
-    const double h = piece.length;
     bool small = false;
     if constexpr (Link::direct) {
       small = is_small(piece.plate.axis[0]) && is_small(piece.plate.axis[1]);
@@ -277,7 +161,7 @@ struct Kernel {
     } else {
       move_plate(piece.plate, *piece.plate.linkages);
     }
-    Rates rates[packs];
+    typename Method::Rates rates[packs];
     for_each<packs>([&](auto p) __attribute__((always_inline)) {
       model::GimbalAngle<P> axis[2];
 #pragma GCC unroll 2
@@ -291,198 +175,16 @@ struct Kernel {
                      P::load(at.rate + p * lanes), P::load(at.acceleration + p * lanes)};
         }
       }
-      rates[p] = coefficients<papers>(axis[0], axis[1], scene);
+      rates[p].template take<papers>(axis[0], axis[1], scene.rolling, scene.radius, scene.gravity,
+                                     P(piece.length));
     });
-
-    double weight[3];
-    for (int i = 0; i < 3; ++i) {
-      weight[i] = larger_of(1, h) / (scene.rtol * size_of(piece.velocity[i]) + scene.atol);
-    }
-    // Accelerations times h at the nodes. First guess: the accelerations at the end of the last
-    // piece stay constant.
-    alignas(64) double k[3][nodes];
-    P now[packs][3];
-    for_each<packs>([&](auto p) __attribute__((always_inline)) {
-      const P time = P(h) * P::load(table.c + p * lanes);
-      const P half_square = P(0.5) * time * time;
-      P z[5];
-#pragma GCC unroll 3
-      for (int i = 0; i < 3; ++i) {
-        z[2 + i] = P(piece.velocity[i]) + time * P(piece.guess[i]);
-        if (i < 2) {
-          z[i] =
-              P(piece.position[i]) + time * P(piece.velocity[i]) + half_square * P(piece.guess[i]);
-        }
-      }
-#pragma GCC unroll 3
-      for (int i = 0; i < 3; ++i) {
-        now[p][i] = P(h) * rates[p].of[i].at(z);
-        now[p][i].store(k[i] + p * lanes);
-      }
-    });
-    result = {false, 0, 0, 0};
-    const StopTest stop(1e-3, scene.rtol);
-    double last = 0, contraction = piece.contraction;
-    for (;;) {
-      double change = 0;
-      P changes[3] = {P(0.0), P(0.0), P(0.0)};
-      P next[packs][3];
-      for_each<packs>([&](auto p) __attribute__((always_inline)) {
-        // Two half sums make shorter chains of dependent additions.
-        P v[3], q[2], half_v[2][3], half_q[2][2];
-#pragma GCC unroll 8
-        for (int j = 0; j < nodes; ++j) {
-          const P once = P::load(table.a[j] + p * lanes);
-          const P twice = P::load(table.a_squared[j] + p * lanes);
-#pragma GCC unroll 3
-          for (int i = 0; i < 3; ++i) {
-            P& sum = half_v[j % 2][i];
-            sum = j < 2 ? once * P(k[i][j]) : sum + once * P(k[i][j]);
-            if (i == 2) continue;
-            P& twice_sum = half_q[j % 2][i];
-            twice_sum = j < 2 ? twice * P(k[i][j]) : twice_sum + twice * P(k[i][j]);
-          }
-        }
-#pragma GCC unroll 3
-        for (int i = 0; i < 3; ++i) {
-          v[i] = half_v[0][i] + half_v[1][i];
-          if (i < 2) q[i] = half_q[0][i] + half_q[1][i];
-        }
-        const P time = P(h) * P::load(table.c + p * lanes);
-        P z[5];
-#pragma GCC unroll 3
-        for (int i = 0; i < 3; ++i) {
-          z[2 + i] = P(piece.velocity[i]) + v[i];
-          z[2 + i].store(piece.velocity_at[i] + p * lanes);
-          if (i == 2) continue;
-          z[i] = P(piece.position[i]) + (time * P(piece.velocity[i]) + P(h) * q[i]);
-          z[i].store(piece.position_at[i] + p * lanes);
-        }
-#pragma GCC unroll 3
-        for (int i = 0; i < 3; ++i) {
-          next[p][i] = P(h) * rates[p].of[i].at(z);
-          changes[i] = larger_of(changes[i], size_of(next[p][i] - now[p][i]));
-        }
-      });
-      for_each<packs>([&](auto p) __attribute__((always_inline)) {
-#pragma GCC unroll 3
-        for (int i = 0; i < 3; ++i) {
-          now[p][i] = next[p][i];
-          now[p][i].store(k[i] + p * lanes);
-        }
-      });
-      const P weighted = larger_of(larger_of(changes[0] * P(weight[0]), changes[1] * P(weight[1])),
-                                   changes[2] * P(weight[2]));
-      change = reduced(weighted, Larger{});
-      ++result.iterations;
-      if (!is_finite(change)) return;
-      if (result.iterations > 1) contraction = change / last;
-      if (stop.passes(change, contraction)) break;
-      if (result.iterations >= most_iterations || (result.iterations > 2 && contraction > 0.3)) {
-        piece.contraction = 1;
-        return;
-      }
-      last = change;
-    }
-    result.converged = true;
-    piece.contraction = larger_of(
-        result.iterations > 1 ? larger_of(0.3 * piece.contraction, contraction) : contraction,
-        least_contraction);
-
-    for_each<packs>([&](auto p) __attribute__((always_inline)) {
-      P sum[3] = {P(0.0), P(0.0), P(0.0)};
-#pragma GCC unroll 8
-      for (int j = 0; j < nodes; ++j) {
-        const P row = P::load(table.legendre[j] + p * lanes);
-#pragma GCC unroll 3
-        for (int i = 0; i < 3; ++i) sum[i] += row * P(k[i][j]);
-      }
-#pragma GCC unroll 3
-      for (int i = 0; i < 3; ++i) {
-        sum[i].store(piece.series[i] + p * lanes);
-        (now[p][i] * P(1 / h)).store(piece.acceleration_at[i] + p * lanes);
-      }
-    });
-#pragma GCC unroll 3
-    for (int i = 0; i < 3; ++i) {
-      const double* const series = piece.series[i];
-      piece.velocity_end[i] = piece.velocity[i] + series[0];
-      piece.position_end[i] =
-          piece.position[i] + h * (piece.velocity[i] + (series[0] - series[1] / 3) / 2);
-    }
-    estimate<Link>(piece, scene, result);
-  }
-
-  // An upper bound of the ball's error from servo motions that are too fast for the nodes. A gimbal
-  // acceleration acts on the ball at its height above the axes, and at its distance times the sine
-  // of the tilt. A jump that is over by the first node has on average half of its initial value.
-  template <class Link>
-  BBSIM_INLINE static double unseen(const Piece& piece, const Scene& scene) {
-    double acceleration = 0, lost = 0, tilt = 0;
-    for (int i = 0; i < Link::servos; ++i) {
-      const PieceAxis& axis = piece.plate.axis[i];
-      const MotionTable& motion = *axis.table;
-      const double ratio = axis.ratio * piece.plate.gain;
-      acceleration += size_of(ratio * (motion.missed_by_rate * axis.rate +
-                                       motion.missed_by_acceleration * axis.acceleration));
-      // The larger tilt of start and end: a motion that is over by the first node may start far
-      // away.
-      if (i < 2) {
-        const double start = Link::direct ? size_of(axis.ratio * axis.angle + axis.offset)
-                                          : size_of(piece.plate.plane_start[i].sin);
-        tilt += larger_of(size_of(piece.plate.plane[i].sin[nodes - 1]), smaller_of(start, 1.0));
-      }
-      if (!motion.lost) continue;
-      lost += size_of(ratio) * (size_of(motion.lost_rate_by_rate * axis.rate +
-                                        motion.lost_rate_by_acceleration * axis.acceleration) +
-                                size_of(motion.lost_angle_by_rate * axis.rate +
-                                        motion.lost_angle_by_acceleration * axis.acceleration));
-    }
-    tilt += size_of(scene.rolling.sin_skew) + size_of(scene.rolling.sin_base);
-    return (Rule::c[0] / 2 * piece.length * acceleration + lost) *
-           (scene.radius + size_of(scene.rolling.height) +
-            tilt * (size_of(piece.position[0]) + size_of(piece.position[1])));
-  }
-
-  // The error from the decay of the last Legendre coefficients, as in radau/step.hpp: the first
-  // coefficient left out, integrated once for a velocity and twice for a position.
-  template <class Link>
-  BBSIM_INLINE static void estimate(const Piece& piece, const Scene& scene, Attempt& result) {
-    constexpr double once = 1.0 / (2 * nodes + 1);
-    result.error =
-        unseen<Link>(piece, scene) /
-        (scene.rtol * smaller_of(size_of(piece.velocity[0]), size_of(piece.velocity[1])) +
-         scene.atol);
-    result.worst_state = 2;
-    for (int i = 0; i < 3; ++i) {
-      const double* const k = piece.series[i];
-      const double tail = larger_of(size_of(k[nodes - 1]), size_of(k[nodes - 2]));
-      const bool moves = i < 2 || scene.gamma;
-      // Usually this bound is far below the tolerance and decides alone.
-      const double most = once * tail * (moves ? larger_of(1, once * piece.length) : 1.0);
-      if (most <= 1e-3 * scene.atol) {
-        result.error = larger_of(result.error, most / scene.atol);
-        continue;
-      }
-      const double before = larger_of(size_of(k[nodes - 3]), size_of(k[nodes - 4]));
-      const double left_out = tail < before ? tail * __builtin_sqrt(tail / before) : tail;
-      const double v_scale =
-          scene.rtol * larger_of(size_of(piece.velocity[i]), size_of(piece.velocity_end[i])) +
-          scene.atol;
-      const double v_error = once * left_out / v_scale;
-      if (!(v_error <= result.error)) {
-        result.error = v_error;
-        result.worst_state = 2 + i;
-      }
-      if (!moves) continue;
-      const double reached = i < 2 ? piece.position_end[i] : 0.0;
-      const double start = i < 2 ? piece.position[i] : 0.0;
-      const double q_scale = scene.rtol * larger_of(size_of(start), size_of(reached)) + scene.atol;
-      const double q_error = once * once * piece.length * left_out / q_scale;
-      if (q_error > result.error) {
-        result.error = q_error;
-        result.worst_state = i < 2 ? i : 4;
-      }
+    const auto [solved, iterations] = Method::solve(piece, rates, scene.rtol, scene.atol, 0);
+    const auto errors = Method::estimate(piece, scene, Link::servos, Link::direct, scene.gamma, 0);
+    result = {solved, 0, 0, iterations};
+    for (int i = 0; i < 6; ++i) {
+      if (errors.of[i] <= result.error) continue;
+      result.error = errors.of[i];
+      result.worst_state = i < 5 ? i : 4;
     }
     if (!is_finite(result.error)) result.converged = false;
   }
@@ -577,23 +279,27 @@ struct Kernel {
 #pragma GCC unroll 16
     for (int i = 0; i < quantity_count; ++i) {
       if (i >= asked) break;
-      ranges[i] = {reduced(least[i], Smaller{}), reduced(most[i], Larger{})};
+      ranges[i] = {Layout::reduced(least[i], Smaller{}), Layout::reduced(most[i], Larger{})};
     }
+  }
+
+  // The range over the Chebyshev points of a quantity with the values at(j).
+  template <class At>
+  BBSIM_INLINE static Range close_range(At at) {
+    P least, most;
+    for (int k = 0; k < close_points; k += lanes) {
+      P value(0.0);
+#pragma GCC unroll 8
+      for (int j = 0; j < nodes; ++j) value += P::load(close_table.share[j] + k) * P(at(j));
+      least = k == 0 ? value : smaller_of(least, value);
+      most = k == 0 ? value : larger_of(most, value);
+    }
+    return {Layout::reduced(least, Smaller{}), Layout::reduced(most, Larger{})};
   }
 
   static void narrow(const Loads& loads, Range* ranges) {
     for (int i = 0; i < 3; ++i) {
-      P least, most;
-      for (int k = 0; k < close_points; k += lanes) {
-        P value(0.0);
-#pragma GCC unroll 8
-        for (int j = 0; j < nodes; ++j) {
-          value += P::load(close_table.share[j] + k) * P(loads.at[i][j]);
-        }
-        least = k == 0 ? value : smaller_of(least, value);
-        most = k == 0 ? value : larger_of(most, value);
-      }
-      ranges[i] = {reduced(least, Smaller{}), reduced(most, Larger{})};
+      ranges[i] = close_range([&](int j) __attribute__((always_inline)) { return loads.at[i][j]; });
     }
   }
 

@@ -13,7 +13,7 @@ struct StartWeights {
   double of[nodes]{};
 
   consteval StartWeights() {
-    const auto& c = radau::RadauTable<nodes>::c;
+    const auto& c = radau::radau_table<radau::Shared, nodes>.c;
     for (int j = 0; j < nodes; ++j) {
       of[j] = 1;
       for (int k = 0; k < nodes; ++k) {
