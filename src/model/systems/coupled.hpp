@@ -37,6 +37,7 @@ struct MotorLaw {
 template <class Real>
 struct Balance {
   Real acceleration[most_servos];  // of the axes or servos, rad/s^2
+  GimbalAngle<Real> axis[2];       // of the plane
   Answer<Real> answer;
   Real p[2], slip[2];           // velocities, m/s
   Real asked[2], given[2];      // motor torques, N m; for prescribed motion, those that it takes
@@ -214,13 +215,13 @@ class CoupledGiven {
     using Time = std::decay_t<decltype(in[0].value)>;
     const CoupledBall& of = parts.ball;
     const auto ball = Layout::unpack(z);
-    GimbalAngle<Real> axis[2];
+    Balance<Real> now;
+    auto& axis = now.axis;
     for (std::size_t i = 0; i < 2; ++i) {
       const SinCos<Time> wave = sin_cos(in[i].value);
       axis[i] = {Real(wave.sin), Real(wave.cos), Real(in[i].rate), Real(in[i].acceleration)};
     }
     const PlaneMotion<Real> plane = of.plane(axis[0], axis[1]);
-    Balance<Real> now;
     Directions<Real> along;
     look_at_contact(parts.contact, ball, z + Layout::slip, now.p, now.slip, along);
     Cause<Real> cause = of.cause(plane, ball, now.p);
@@ -399,11 +400,10 @@ class CoupledLoop {
   }
 
   [[nodiscard]] CoupledExtras extras(double t, const double* z) const {
-    double command[2], acceleration[servos];
+    double command[2];
     const Balance<double> now = balance(all_inputs(t), z, command);
     CoupledExtras extras{};
-    std::copy_n(now.acceleration, servos, acceleration);
-    loop.fill(z, acceleration, extras.rig);
+    loop.put(z, now.axis, extras.rig);
     for (int i = 0; i < 2; ++i) {
       extras.rig.command[i] = by == GimbalBy::given_torques ? 0 : command[i];
     }
@@ -491,7 +491,7 @@ class CoupledLoop {
       for (Real& one : demand) one = Real(0.0);
     }
 
-    GimbalAngle<Real> axes[2];
+    auto& axes = now.axis;
     loop.planes(z, demand, axes);
     const PlaneMotion<Real> plane = of.plane(axes[0], axes[1]);
     Cause<Real> cause = of.cause(plane, ball, now.p);
@@ -532,14 +532,14 @@ class CoupledLoop {
       for (int i = 0; i < servos; ++i) now.acceleration[i] = demand[i];
       for (int i = 0; i < 2; ++i) now.asked[i] = now.needed[i] = Real(0.0);
     }
-    Real turned[2];
-    for (int i = 0; i < 2; ++i) {
-      turned[i] = Link::direct || driven ? Real(loop.mode.axis[i].ratio * now.acceleration[i])
-                                         : axes[i].acceleration;
+    if (Link::direct || driven) {
+      for (int i = 0; i < 2; ++i) {
+        axes[i].acceleration = loop.mode.axis[i].ratio * now.acceleration[i];
+      }
     }
     for (int i = 0; i < 3; ++i) {
-      cause.omega_dot[i] =
-          cause.omega_dot[i] + plane.phi_axis[i] * turned[0] + plane.theta_axis[i] * turned[1];
+      cause.omega_dot[i] = cause.omega_dot[i] + plane.phi_axis[i] * axes[0].acceleration +
+                           plane.theta_axis[i] * axes[1].acceleration;
     }
     now.answer = of.answer(parts.contact, along, ball, cause);
     now.lost_power = of.lost_power(parts.contact, now.answer, ball, now.p, now.slip);

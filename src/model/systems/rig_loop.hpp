@@ -284,17 +284,26 @@ class RigLoop {
     } else {
       GimbalAngle<double> axis[2];
       planes(z, acceleration, axis);
-      if constexpr (servos == 3) {  // less than half a turn
-        for (int i = 0; i < 2; ++i) extras.angle[i] = std::atan2(axis[i].sin, axis[i].cos);
+      put(z, axis, extras);
+    }
+  }
+
+  // Writes the plane's motion. `axis` must be that of planes().
+  void put(const double* z, const GimbalAngle<double> (&axis)[2], RigExtras& extras) const {
+    if constexpr (servos == 3) {  // less than half a turn
+      for (int i = 0; i < 2; ++i) extras.angle[i] = std::atan2(axis[i].sin, axis[i].cos);
+    } else {
+      double horn[servos];
+      horns(z, horn);
+      if constexpr (Link::direct) {
+        std::copy_n(horn, 2, extras.angle);
       } else {
-        double horn[servos];
-        horns(z, horn);
         link.angles(horn, extras.angle);
       }
-      for (int i = 0; i < 2; ++i) {
-        extras.rate[i] = axis[i].rate;
-        extras.acceleration[i] = axis[i].acceleration;
-      }
+    }
+    for (int i = 0; i < 2; ++i) {
+      extras.rate[i] = axis[i].rate;
+      extras.acceleration[i] = axis[i].acceleration;
     }
   }
 
