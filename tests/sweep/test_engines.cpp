@@ -20,6 +20,7 @@
 #include "solve/integrate.hpp"
 #include "support/largest.hpp"
 #include "support/run_in_memory.hpp"
+#include "support/sweep_setup.hpp"
 #include "sweep/single.hpp"
 #include "sweep/sweep.hpp"
 #include "sweep/sweep_measures.hpp"
@@ -30,45 +31,6 @@ using namespace bbsim;
 using namespace bbsim::sweep;
 
 namespace {
-
-const std::atomic<bool> goes_on{false};
-
-std::vector<scenario::Measure> measures(const std::vector<std::string>& names) {
-  std::vector<scenario::Measure> found;
-  for (const std::string& name : names) {
-    const auto measure = scenario::find_measure(name);
-    CAPTURE(name);
-    REQUIRE(measure);
-    found.push_back(*measure);
-  }
-  return found;
-}
-
-// A sweep with everything it refers to.
-struct Setup {
-  Setup(const std::string& scene, std::vector<Variation> vary, const std::vector<std::string>& set,
-        const std::vector<std::string>& names, double samples = 0)
-      : family(BBSIM_SOURCE_DIR "/" + scene, set),
-        plan(family, sweep(std::move(vary), samples)),
-        task{family, plan, measures(names)} {}
-
-  static Sweep sweep(std::vector<Variation> vary, double samples) {
-    Sweep made;
-    made.vary = std::move(vary);
-    if (samples > 0) made.samples = samples;
-    return made;
-  }
-
-  ScenarioFamily family;
-  SweepPlan plan;
-  SweepTask task;
-};
-
-CaseResults run_all(CaseRunner& runner, std::size_t cases) {
-  CaseResults results;
-  REQUIRE(runner.run(0, cases, results, goes_on));
-  return results;
-}
 
 const std::vector<std::string> open_measures{"end_x", "end_y", "max_distance", "max_tilt",
                                              "max_tilt_rate"};
@@ -119,7 +81,7 @@ TEST_CASE("a case of a sweep has the measures of a run, to the bit") {
       {{"configs/fig2a.yaml", "ball.position.0"}, {"configs/fig2b.yaml", "ball.position.0"}}));
   const Setup setup(scene, {{key, "uniform:-0.1:0.1"}}, {"solver.rtol=1e-9"},
                     scene == "configs/fig2a.yaml" ? open_measures : loop_measures, 5);
-  const CaseResults results = run_all(*single_runner(setup.task), 5);
+  const CaseResults results = run_all(*single_runner(setup.task), setup.task);
   CHECK(results.numbers == one_by_one(setup.task, {true}).numbers);
 }
 
@@ -131,13 +93,13 @@ TEST_CASE("measures over many rows together equal those row by row") {
                       {"time.step=0.07"}, open_measures, 40);
     const auto runner = single_runner(setup.task);
     // The same sums and products in another order; also angles beyond 90 degrees.
-    CHECK(largest_difference(run_all(*runner, 40), one_by_one(setup.task)) < 1e-12);
+    CHECK(largest_difference(run_all(*runner, setup.task), one_by_one(setup.task)) < 1e-12);
   }
   SECTION("under one motion, which is evaluated only once") {
     const Setup setup("configs/fig2a.yaml", {{"ball.spin", "uniform:-5:5"}}, {"time.step=0.3"},
                       open_measures, 10);
     const auto runner = single_runner(setup.task);
-    CHECK(largest_difference(run_all(*runner, 10), one_by_one(setup.task)) < 1e-12);
+    CHECK(largest_difference(run_all(*runner, setup.task), one_by_one(setup.task)) < 1e-12);
   }
   SECTION("in a loop") {
     const Setup setup("configs/fig2b.yaml",
@@ -145,13 +107,13 @@ TEST_CASE("measures over many rows together equal those row by row") {
                        {"controller.reference.circle.radius", "uniform:0.01:0.08"}},
                       {"time.step=0.13"}, loop_measures, 20);
     const auto runner = single_runner(setup.task);
-    CHECK(largest_difference(run_all(*runner, 20), one_by_one(setup.task)) < 1e-12);
+    CHECK(largest_difference(run_all(*runner, setup.task), one_by_one(setup.task)) < 1e-12);
   }
   SECTION("runs that end early") {
     const Setup setup("configs/fig2b-literal.yaml", {{"controller.pd.kv", "linear:60:100:5"}}, {},
                       loop_measures);
     const auto runner = single_runner(setup.task);
-    const CaseResults results = run_all(*runner, 5), expected = one_by_one(setup.task);
+    const CaseResults results = run_all(*runner, setup.task), expected = one_by_one(setup.task);
     const std::size_t numbers = 1 + setup.task.measures.size();
     for (std::size_t i = 0; i < results.numbers.size(); ++i) {
       // The plane turns over and over in the last steps, too fast for any number of points.
@@ -171,7 +133,7 @@ TEST_CASE("a key of the motion's or reference's group changes it from case to ca
         "0.01}}}}"}},
       {}, open_measures);
   const auto runner = single_runner(setup.task);
-  CHECK(largest_difference(run_all(*runner, 2), one_by_one(setup.task)) < 1e-12);
+  CHECK(largest_difference(run_all(*runner, setup.task), one_by_one(setup.task)) < 1e-12);
 }
 
 TEST_CASE("distances neither overflow nor underflow in between") {
@@ -182,7 +144,7 @@ TEST_CASE("distances neither overflow nor underflow in between") {
                     {"ball.position.1=0", "gravity=0", "ball.radius=1e-200"}, {"max_distance"});
   const auto runner = choose_engine(setup.task).runner();
   const auto single = single_runner(setup.task);
-  const CaseResults lanes = run_all(*runner, 40), runs = run_all(*single, 40);
+  const CaseResults lanes = run_all(*runner, setup.task), runs = run_all(*single, setup.task);
   for (std::size_t i = 0; i < 40; ++i) {
     CHECK(lanes.numbers[2 * i + 1] >= size);
     CHECK(lanes.numbers[2 * i + 1] == Approx(runs.numbers[2 * i + 1]).epsilon(1e-6));
@@ -195,7 +157,7 @@ TEST_CASE("trajectories are the rows of each case, with NaN beyond its end") {
   const solve::OutputGrid grid(setup.family.read(setup.plan.settings(0)).time);
   setup.task.series = {scenario::find_column("x"), scenario::find_column("normal_force")};
   setup.task.series_rows = grid.size();
-  const CaseResults results = run_all(*single_runner(setup.task), 2);
+  const CaseResults results = run_all(*single_runner(setup.task), setup.task);
   REQUIRE(results.series[0].size() == 2 * grid.size());
   for (std::size_t i = 0; i < 2; ++i) {
     const Scenario scenario = setup.family.read(setup.plan.settings(i));
@@ -281,9 +243,8 @@ namespace {
 void check_lanes(const Setup& setup) {
   const Engine engine = choose_engine(setup.task);
   REQUIRE(engine.name == "lanes");
-  const std::size_t cases = setup.plan.cases();
-  const CaseResults lanes = run_all(*engine.runner(), cases);
-  CHECK(largest_difference(lanes, run_all(*single_runner(setup.task), cases)) < 1e-4);
+  const CaseResults lanes = run_all(*engine.runner(), setup.task);
+  CHECK(largest_difference(lanes, run_all(*single_runner(setup.task), setup.task)) < 1e-4);
   for (const CaseStatus& status : lanes.status) {
     CHECK(status.word == "done");
     CHECK(status.reason.empty());
@@ -307,8 +268,8 @@ TEST_CASE("loops that diverge in lanes end as single runs do, without affecting 
                     loop_measures, 60);
   const Engine engine = choose_engine(setup.task);
   REQUIRE(engine.name == "lanes");
-  const CaseResults lanes = run_all(*engine.runner(), 60);
-  const CaseResults alone = run_all(*single_runner(setup.task), 60);
+  const CaseResults lanes = run_all(*engine.runner(), setup.task);
+  const CaseResults alone = run_all(*single_runner(setup.task), setup.task);
   const std::size_t width = 1 + setup.task.measures.size();
   int exploded = 0;
   for (std::size_t i = 0; i < 60; ++i) {
@@ -344,8 +305,8 @@ TEST_CASE("loops that diverge in lanes end as single runs do, without affecting 
   }
   const Setup states("configs/fig2b.yaml", {{"controller.pd.kv.0.0", "uniform:-0.4:0.8"}}, {},
                      {"end_x", "end_vx", "end_phi"}, 60);
-  const CaseResults ends = run_all(*choose_engine(states.task).runner(), 60);
-  const CaseResults expected = run_all(*single_runner(states.task), 60);
+  const CaseResults ends = run_all(*choose_engine(states.task).runner(), setup.task);
+  const CaseResults expected = run_all(*single_runner(states.task), states.task);
   for (std::size_t i = 0; i < ends.numbers.size(); ++i) {
     CHECK(ends.numbers[i] == Approx(expected.numbers[i]).epsilon(1e-6).margin(1e-7));
   }
@@ -381,12 +342,12 @@ TEST_CASE("every engine computes tied keys") {
       const Setup tied("configs/fig2b.yaml",
                        {{"controller.pd.kv.0.0,-controller.pd.kv.1.1", "list:0.8,1.2"}}, {set},
                        loop_measures);
-      const CaseResults results = run_all(*single_runner(tied.task), 2);
+      const CaseResults results = run_all(*single_runner(tied.task), tied.task);
       for (std::size_t i = 0; i < 2; ++i) {
         const std::string kv = i == 0 ? "0.8" : "1.2";
         const Setup one("configs/fig2b.yaml", {{"controller.pd.kv.1.1", "list:-" + kv}},
                         {set, "controller.pd.kv.0.0=" + kv}, loop_measures);
-        const CaseResults alone = run_all(*single_runner(one.task), 1);
+        const CaseResults alone = run_all(*single_runner(one.task), one.task);
         for (std::size_t n = 0; n < alone.numbers.size(); ++n) {
           CHECK(results.numbers[i * alone.numbers.size() + n] == alone.numbers[n]);
         }
@@ -400,7 +361,7 @@ TEST_CASE("a case that lacks what a measure needs has no number for it, and a re
   const Setup setup("configs/fig2a.yaml",
                     {{"plate", "list:{inertia: [1e-4, 1e-4, 2e-4]}," + second}}, {},
                     {"end_motor_torque_phi", "end_x"});
-  const CaseResults results = run_all(*single_runner(setup.task), 2);
+  const CaseResults results = run_all(*single_runner(setup.task), setup.task);
   CHECK(results.status[0].word == "done");
   CHECK(results.status[0].reason.empty());
   CHECK(std::isfinite(results.numbers[1]));
@@ -443,7 +404,7 @@ TEST_CASE("windows of time within the whole run work with every engine") {
   const Engine engine = choose_engine(whole.task);
   REQUIRE(engine.name == one.engine);
   const std::size_t count = whole.plan.cases();
-  const CaseResults of_whole = run_all(*engine.runner(), count);
+  const CaseResults of_whole = run_all(*engine.runner(), whole.task);
 
   // The greatest value of a run is that of its first or its second part.
   std::vector<std::string> windows;
@@ -454,7 +415,7 @@ TEST_CASE("windows of time within the whole run work with every engine") {
   const Setup parts(one.scene, one.vary, one.set, windows);
   const Engine other = choose_engine(parts.task);
   CHECK(other.name == "single runs");
-  const CaseResults of_parts = run_all(*other.runner(), count);
+  const CaseResults of_parts = run_all(*other.runner(), parts.task);
   std::size_t different = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const double* const all = &of_whole.numbers[i * (1 + one.names.size())];
@@ -478,7 +439,7 @@ TEST_CASE("a measure unknown to the first case may exist in another") {
   const auto found = sweep_measures(names, setup.family, setup.plan);
   REQUIRE(found.size() == 2);
   SweepTask task{setup.family, setup.plan, found};
-  const CaseResults results = run_all(*single_runner(task), 2);
+  const CaseResults results = run_all(*single_runner(task), task);
   CHECK(results.status[0].reason ==
         "end_motor_torque_phi is not a number: plate.inertia is not known");
   CHECK(std::isnan(results.numbers[1]));
@@ -498,7 +459,7 @@ TEST_CASE("a measure unknown to the first case may exist in another") {
       {"time.end=0.5", "output.columns=[t, x]"}, {"end_x", "end_motor_torque_phi"});
   const Engine engine = choose_engine(rigs.task);
   REQUIRE(engine.name == "rig lanes");
-  const CaseResults of_rigs = run_all(*engine.runner(), 16);
+  const CaseResults of_rigs = run_all(*engine.runner(), rigs.task);
   for (std::size_t i = 0; i < 16; ++i) {
     CHECK(std::isfinite(of_rigs.numbers[3 * i + 2]) == (i >= 8));
   }
@@ -508,7 +469,7 @@ TEST_CASE("a measure that overflows has its reason, with every engine") {
   SECTION("single runs, row by row and many rows together") {
     for (const char* measure : {"max_normal_force", "end_normal_force"}) {
       const Setup setup("configs/fig2a.yaml", {{"ball.mass", "list:1,1e308"}}, {}, {measure});
-      const CaseResults results = run_all(*single_runner(setup.task), 2);
+      const CaseResults results = run_all(*single_runner(setup.task), setup.task);
       CHECK(results.status[0].word == "done");
       CHECK(results.status[0].reason.empty());
       CHECK(results.status[1].reason == measure + std::string(" is infinite"));
@@ -519,7 +480,7 @@ TEST_CASE("a measure that overflows has its reason, with every engine") {
                       {"end_normal_force"});
     const Engine engine = choose_engine(setup.task);
     REQUIRE(engine.name == "lanes");
-    const CaseResults results = run_all(*engine.runner(), 2);
+    const CaseResults results = run_all(*engine.runner(), setup.task);
     CHECK(results.status[0].word == "done");
     CHECK(results.status[0].reason.empty());
     CHECK(results.status[1].reason == "end_normal_force is infinite");
@@ -538,8 +499,8 @@ void check_rig_lanes(const Setup& setup, double bound = 1e-10) {
   const Engine engine = choose_engine(setup.task);
   REQUIRE(engine.name == "rig lanes");
   const std::size_t cases = setup.plan.cases();
-  const CaseResults lanes = run_all(*engine.runner(), cases);
-  const CaseResults alone = run_all(*single_runner(setup.task), cases);
+  const CaseResults lanes = run_all(*engine.runner(), setup.task);
+  const CaseResults alone = run_all(*single_runner(setup.task), setup.task);
   CHECK(largest_difference(lanes, alone) < bound);
   for (std::size_t i = 0; i < cases; ++i) {
     CHECK(lanes.status[i].word == alone.status[i].word);
@@ -607,8 +568,8 @@ TEST_CASE("rigs in lanes are those of single runs") {
                       {"max_tilt"});
     const Engine engine = choose_engine(setup.task);
     REQUIRE(engine.name == "rig lanes");
-    const CaseResults lanes = run_all(*engine.runner(), 8);
-    const CaseResults alone = run_all(*single_runner(setup.task), 8);
+    const CaseResults lanes = run_all(*engine.runner(), setup.task);
+    const CaseResults alone = run_all(*single_runner(setup.task), setup.task);
     for (std::size_t i = 0; i < 8; ++i) {
       CHECK(lanes.status[i].word == alone.status[i].word);
       CHECK(lanes.status[i].reason == alone.status[i].reason);
@@ -689,7 +650,7 @@ TEST_CASE("a rig that does not fit the others of its group runs singly") {
     const Setup setup("configs/rig.yaml", {{"ball.velocity.0", "list:0,0,0.01,2,0,0,0,-3,0,0.02"}},
                       {"time.end=3"}, loop_measures);
     check_rig_lanes(setup);
-    const CaseResults lanes = run_all(*choose_engine(setup.task).runner(), 10);
+    const CaseResults lanes = run_all(*choose_engine(setup.task).runner(), setup.task);
     CHECK(lanes.status[3].reason == "edge");
     CHECK(lanes.status[7].reason == "edge");
   }
@@ -724,7 +685,7 @@ TEST_CASE("rigs in lanes have no number for measures that their scene lacks") {
       {"time.end=0.5", "output.columns=[t, x]"}, {"end_x", "end_motor_torque_phi"});
   const Engine engine = choose_engine(setup.task);
   REQUIRE(engine.name == "rig lanes");
-  const CaseResults results = run_all(*engine.runner(), 16);
+  const CaseResults results = run_all(*engine.runner(), setup.task);
   for (std::size_t i = 0; i < 16; ++i) {
     CHECK(std::isfinite(results.numbers[3 * i + 1]));
     CHECK(std::isfinite(results.numbers[3 * i + 2]) == (i < 8));
@@ -745,7 +706,7 @@ TEST_CASE("a command that arrives at the end, up to rounding, is in the last row
                     {"end_phi_command", "end_x_measured", "end_phi_acceleration"});
   const Engine engine = choose_engine(setup.task);
   REQUIRE(engine.name == "rig lanes");
-  const CaseResults lanes = run_all(*engine.runner(), 8);
+  const CaseResults lanes = run_all(*engine.runner(), setup.task);
   CHECK(largest_difference(lanes, one_by_one(setup.task)) < 1e-9);
   // It equals the row of a longer run.
   std::vector<std::string> longer = set;
@@ -768,7 +729,7 @@ TEST_CASE("rigs in lanes do not depend on the distribution of their groups") {
   const Engine engine = choose_engine(setup.task);
   REQUIRE(engine.name == "rig lanes");
   const std::size_t cases = setup.plan.cases(), width = 1 + setup.task.measures.size();
-  const CaseResults all = run_all(*engine.runner(), cases);
+  const CaseResults all = run_all(*engine.runner(), setup.task);
   // The groups in reverse, by one runner that keeps its memory.
   const auto runner = engine.runner();
   for (std::size_t first = cases / engine.group * engine.group;; first -= engine.group) {
@@ -802,7 +763,7 @@ TEST_CASE("a sweep to the limits of doubles has no finished case without a finit
   const Setup setup("configs/fig2a.yaml", {{"ball.position.0", "linear:-1e308:1e308:38"}}, {},
                     {"max_distance", "end_x"});
   const auto runner = choose_engine(setup.task).runner();
-  const CaseResults results = run_all(*runner, setup.plan.cases());
+  const CaseResults results = run_all(*runner, setup.task);
   const std::size_t numbers = 1 + setup.task.measures.size();
   for (std::size_t i = 0; i < setup.plan.cases(); ++i) {
     const double distance = results.numbers[i * numbers + 1];

@@ -15,6 +15,7 @@
 #include "solve/integrate.hpp"
 #include "study/reference.hpp"
 #include "support/greatest_of.hpp"
+#include "support/sweep_setup.hpp"
 #include "sweep/lanes.hpp"
 #include "sweep/single.hpp"
 #include "sweep/sweep.hpp"
@@ -27,41 +28,9 @@ using bbsim_test::greatest_of;
 
 namespace {
 
-const std::atomic<bool> goes_on{false};
-
 const std::vector<std::string> extremes{"max_distance", "max_tilt", "max_tilt_rate"};
 const std::vector<std::string> loop_extremes{"max_distance", "max_tilt", "max_tilt_rate",
                                              "max_tracking_error"};
-
-struct Setup {
-  Setup(const std::string& scene, std::vector<Variation> vary, const std::vector<std::string>& set,
-        const std::vector<std::string>& names, double samples)
-      : family(BBSIM_SOURCE_DIR "/" + scene, set),
-        plan(family, sweep(std::move(vary), samples)),
-        task{family, plan, measures(names)} {}
-
-  static Sweep sweep(std::vector<Variation> vary, double samples) {
-    Sweep made;
-    made.vary = std::move(vary);
-    made.samples = samples;
-    return made;
-  }
-  static std::vector<scenario::Measure> measures(const std::vector<std::string>& names) {
-    std::vector<scenario::Measure> found;
-    for (const std::string& name : names) found.push_back(*scenario::find_measure(name));
-    return found;
-  }
-
-  ScenarioFamily family;
-  SweepPlan plan;
-  SweepTask task;
-};
-
-CaseResults run_all(CaseRunner& runner, const SweepTask& task) {
-  CaseResults results;
-  REQUIRE(runner.run(0, task.plan.cases(), results, goes_on) == task.plan.cases());
-  return results;
-}
 
 // The measures of case `number`, from many rows at the finest tolerance.
 std::vector<double> from_many_rows(const SweepTask& task, std::size_t number) {

@@ -9,6 +9,7 @@
 
 #include "catch.hpp"
 #include "support/largest.hpp"
+#include "support/sweep_setup.hpp"
 #include "sweep/single.hpp"
 #include "sweep/sweep.hpp"
 
@@ -19,45 +20,20 @@ using namespace bbsim::sweep;
 
 namespace {
 
-const std::atomic<bool> goes_on{false};
 const std::vector<std::string> usual{"end_x", "end_y", "max_distance", "max_tilt", "max_tilt_rate"};
 const std::vector<std::string> fine{"solver.rtol=1e-12", "solver.atol=1e-14"};
 const Variation amplitude{"gimbal.motion.phi.sinusoid.amplitude", "uniform:0.005:0.015"};
 const Variation phase{"gimbal.motion.theta.sinusoid.phase", "uniform:0:3"};
 
-struct Setup {
+struct Setup : bbsim_test::Setup {
   Setup(const std::string& scene, std::vector<Variation> vary, const std::vector<std::string>& set,
         const std::vector<std::string>& names = usual, double samples = 43)
-      : family(BBSIM_SOURCE_DIR "/" + scene, set),
-        plan(family, sweep(std::move(vary), samples)),
-        task{family, plan, measures(names)} {}
-
-  static Sweep sweep(std::vector<Variation> vary, double samples) {
-    Sweep made;
-    made.vary = std::move(vary);
-    made.samples = samples;
-    return made;
-  }
-  static std::vector<scenario::Measure> measures(const std::vector<std::string>& names) {
-    std::vector<scenario::Measure> found;
-    for (const std::string& name : names) found.push_back(*scenario::find_measure(name));
-    return found;
-  }
-
-  ScenarioFamily family;
-  SweepPlan plan;
-  SweepTask task;
+      : bbsim_test::Setup(scene, std::move(vary), set, names, samples) {}
 };
 
 std::vector<std::string> with(std::vector<std::string> set, const std::string& more) {
   set.push_back(more);
   return set;
-}
-
-CaseResults run_all(CaseRunner& runner, const SweepTask& task) {
-  CaseResults results;
-  REQUIRE(runner.run(0, task.plan.cases(), results, goes_on) == task.plan.cases());
-  return results;
 }
 
 // Largest difference from single runs, relative for numbers above 1.
