@@ -90,10 +90,17 @@ void HeldPlate::start_plate(const Link& link, PlateMotion& motion) {
   if constexpr (Link::servos == 3) {
     double sine[3], cosine[3];
     link.directions(horn, sine, cosine);
-    motion.pose_start = pose_ = link.pose_from(pose_, horns_, horn, sine, cosine);
-    std::copy_n(horn, 3, horns_);
-    link.pose_slopes(pose_, sine, cosine, motion.pose_slopes);
-    const double whole = link.planes_in(pose_, sine, cosine, rate, acting, motion.plane_start);
+    // Usually the piece starts where the last one ended.
+    if (!std::equal(horn, horn + 3, horns_)) {
+      pose_ = link.pose_from(pose_, horns_, horn, sine, cosine);
+      std::copy_n(horn, 3, horns_);
+    }
+    motion.pose_start = pose_;
+    model::ThreeServos::Slopes<double> slopes[3];
+    link.slopes(pose_, sine, cosine, slopes);
+    link.pose_slopes(slopes, motion.pose_slopes);
+    const double whole =
+        link.planes_in(pose_, slopes, sine, cosine, rate, acting, motion.plane_start);
     link.edges(pose_, sine, cosine, whole, motion.edges_start);
   } else {
     motion.gain = 0;
