@@ -88,13 +88,14 @@ def check(scenario: Scenario, set: Settings = None) -> str:
 
 
 def linearize(
-    scenario: Scenario, set: Settings = None, *, kind: Optional[str] = None, at: str = "home"
+    scenario: Scenario, set: Settings = None, *, kind: Optional[str] = None, at: Union[str, float] = "home"
 ) -> Linearization:
     """The scenario as a linear system.
 
     kind  "plant", "loop" or "sampled"; by default that of ``bbsim linearize``
-    at    "home", "equilibrium", or a time of the run such as "2 s"
+    at    "home", "equilibrium", or a time of the run: a number of seconds, or a text such as "2 s"
     """
+    at = at if isinstance(at, str) else f"{float(at)!r} s"
     return Linearization(_bbsim.linearize(given(scenario, set), kind, at))
 
 

@@ -21,7 +21,7 @@ from ._experiment import Experiment, Motions
 from ._found_files import aligned, as_json, declare, print_report, write
 from ._free_keys import read_free_keys
 from ._progress import Bar, Progress, silent
-from ._scenario import Scenario, Settings, given
+from ._scenario import Scenario, Settings, given, listed
 from ._simulate import Array, refuse
 
 Size = Union[float, str, None]
@@ -320,7 +320,7 @@ def design(
 ) -> SimpleNamespace:  # fmt: skip
     """Chooses the motion whose log determines keys of a scenario best. Keywords are options of ``bbsim design``.
 
-    free      the keys: "KEY" or "KEY=FROM:TO"
+    free      the keys: "KEY" or "KEY=FROM:TO", or a dict {KEY: (FROM, TO)}
     length    and other sizes: a number in SI units, or a text with its unit
     noise     standard deviations of columns: "x=0.5mm"
     output    also writes the scenario that plays the motion to this file; likewise ``table``, ``json`` and ``sketch``
@@ -328,6 +328,7 @@ def design(
     The result has the names of the JSON as attributes, and ``report``. Raises InputError and OutputError.
     """
     rig, short = given(scenario, set), _bbsim.short_number
+    output, table, json, sketch = (one and os.fspath(one) for one in (output, table, json, sketch))
     if table and table != "-" and not table.lower().endswith(".csv"):
         raise refuse("table", table, "FILE.csv, or - for standard output")
     if output and (table == "-" or (not table and output == "-")):
@@ -348,7 +349,7 @@ def design(
         raise refuse("length", f"{end:.12g} s at {hertz:.12g} Hz", "a log of 16 to 100000 rows")
     seconds, axes = rows / hertz, axes_of(rig)
     units = {column[0]: column[2] for column in _bbsim.known_columns("rad")}
-    deviations_of_log = noise_of(rig, axes, [noise] if isinstance(noise, str) else noise, units)
+    deviations_of_log = noise_of(rig, axes, listed(noise), units)
     limits = limits_of(rig, sizes["max-tilt"], sizes["max-tilt-rate"], sizes["margin"])
 
     def settings(file: str, place: Sequence[float] = (0, 0)) -> List[Tuple[str, str]]:
@@ -373,7 +374,7 @@ def design(
         still, names = Path(folder) / "still.csv", "phi,theta" if tilts else "x,y"
         still.write_text(f"t,{names}\n" + "".join(f"{seconds * i / 3!r},0,0\n" for i in range(4)))
         plain = rig.changed(settings(str(still)))
-        keys = read_free_keys([free] if isinstance(free, str) else free, plain)
+        keys = read_free_keys(listed(free), plain)
         if not keys:
             raise refuse("free", "no key of the scenario", "keys that a fit may free, but not those of a log")
         parts, cut = [part for limit in limits for part in limit[-1]], sizes["window"] or (2 if tilts else 2 * seconds)
@@ -438,6 +439,7 @@ def design(
         if file:
             write(file, texts[name])
     made = loads(texts["json"], object_hook=lambda its: SimpleNamespace(**its))
+    better = circle and merits(slopes[0])[0] < merits(slopes[1])[0]
     circling = f"; the best circle has {frequency / _TURN:.3g} Hz" if circle else ""
     logged = ", ".join(f"{name} {size:.3g} {units[name]}".strip() for name, size in deviations_of_log.items())
     windows = f"{experiment.windows} window{'s' * (experiment.windows != 1)}"
@@ -449,6 +451,7 @@ def design(
         aligned([["limit", "of", "used", "from"], *by_limit]),
         f"{short(seconds)} s at {short(hertz)} Hz: {experiment.numbers} numbers in {windows}; noise {logged}",
         f"best of {tried} motions{circling}", begin,
+        *["the circle determines the keys better, but its ball is launched"] * bool(better and tilts),
         *(f"not identifiable: {key.name}, which a log of this length cannot separate from the other keys and the "
           "windows' starts" for key, its in zip(keys, shown) if its[0] == "-"), "",
     ])  # fmt: skip

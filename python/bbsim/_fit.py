@@ -19,7 +19,7 @@ from ._fit_windows import Log, LogKey, Windows, WindowsFit, cut, start_coordinat
 from ._found_files import declare, print_report, write, write_found
 from ._free_keys import FreeKey, read_bounds, read_free_key, read_free_keys, refuse, usual_scale
 from ._progress import Bar, Progress, silent
-from ._scenario import Scenario, Settings, given as given_of
+from ._scenario import Scenario, Settings, given as given_of, listed
 from ._simulate import Array, refuse as refuse_option
 
 _USUAL_WINDOW = 2.0  # s; short, because a plate makes the ball a double integrator
@@ -34,10 +34,6 @@ _CANDIDATES = ("ball.inertia_factor", "ball.losses.rolling", "ball.losses.viscou
 
 def _fault(text: str) -> InputError:
     return InputError([("", text)])
-
-
-def _listed(texts: Any) -> List[str]:
-    return [] if texts is None else [os.fspath(texts)] if isinstance(texts, (str, os.PathLike)) else list(texts)
 
 
 def _compared(given: _bbsim.Given, maps: Sequence[str], log: _bbsim.Stored, notes: List[str]) -> List[str]:
@@ -139,16 +135,17 @@ class _Task:
 
     def __init__(self, given: _bbsim.Given, logs: Any, free: Any, map: Any, header: Any, period: Any, time_offset: Any,
                  window: Any, hold_out: Any, loss: Optional[str], starts: Any, threads: Any) -> None:  # fmt: skip
-        self.given, self.files, self.warnings = given, _listed(logs), []  # type: ignore[var-annotated]
+        self.given, self.files, self.warnings = given, listed(logs), []  # type: ignore[var-annotated]
         self.share, self.starts, self.threads, self.robust = hold_out or 0, starts, threads or 0, loss == "huber"
         self.length = None if window is None else _bbsim.value_in(str(window), "s")
-        free = _listed(free)
+        free = listed(free)
         for option, wrong, found, allowed in (
             ("hold-out", not 0 <= self.share < 1, hold_out, "a share from 0 to below 1, such as 0.3"),
             ("loss", loss not in (None, "squares", "huber"), f"'{loss}'", "squares or huber"),
             ("starts", starts is not None and (starts != int(starts) or starts < 1), starts, "1 or more"),
             ("window", window is not None and not (self.length or 0) > 0, f"'{window}'",
              'a time greater than 0, such as 2 or "500 ms"'),
+            ("threads", self.threads < 0, threads, "0, for one per processor, or more"),
             ("free", not free, "nothing", "at least one key"), ("logs", not self.files, "nothing", "at least one"),
         ):  # fmt: skip
             if wrong:
@@ -158,7 +155,7 @@ class _Task:
             raise _fault(f"controller: found a program or library of your own; allowed in a fit: {allowed}")
         self.keys: List[FreeKey] = read_free_keys(free, given)
         run = given.changed([("solver.error", "null"), ("solver.rtol", "1e-10"), ("solver.atol", "1e-12")])
-        maps, header = _listed(map), [name for text in _listed(header) for name in text.split(",")]
+        maps, header = listed(map), [name for text in listed(header) for name in text.split(",")]
         tables, self.logs = self._tables_of_logs(), []  # type: ignore[var-annotated]
         for file in self.files:
             stored, notes = _bbsim.read_log(file, maps, header, str(period or ""), str(time_offset or ""))
@@ -336,7 +333,8 @@ def fit(
     """Finds the values of a scenario's keys at which its runs are closest to logs of a rig.
 
     logs      files, as `bbsim fit` reads them
-    free      the keys to fit, "KEY" or "KEY=FROM:TO"; also log.x.scale, log.x.offset and log.delay
+    free      the keys to fit, "KEY" or "KEY=FROM:TO", or a dict {KEY: (FROM, TO)}; also log.x.scale, log.x.offset
+              and log.delay
     others    the options of `bbsim fit`; output, json and report are files to write
 
     The result has the names of the JSON: parameters (key, estimate, sd, interval, at_bound), residual_rms,

@@ -12,19 +12,11 @@ from typing import Any, Dict, List, Optional, Sequence, Union
 
 from . import _bbsim
 from ._result import Result
-from ._scenario import Settings, as_yaml
+from ._scenario import Settings, listed, overrides
 from ._simulate import refuse
 
 File = Union[str, "os.PathLike[str]"]
 Texts = Union[str, Sequence[str]]
-
-
-def _listed(texts: Texts) -> List[str]:
-    return [texts] if isinstance(texts, str) else list(texts)
-
-
-def _overrides(settings: Settings) -> List[str]:
-    return [f"{key}={as_yaml(value)}" for key, value in (settings or {}).items()]
 
 
 @dataclass
@@ -71,12 +63,12 @@ def replay(
             shown.append(_bbsim.Stored(columns, file._run.summary()))
         else:
             shown.append(os.fspath(file))
-    log = _bbsim.LogOptions(_listed(map), _listed(header), period, time_offset)
-    beside = (os.fspath(summary), os.fspath(scenario), _overrides(set))
+    log = _bbsim.LogOptions(listed(map), listed(header), period, time_offset)
+    beside = (os.fspath(summary), os.fspath(scenario), overrides(set))
     target = "" if output is None else os.fspath(output)
     if target and not target.lower().endswith(".html"):
         raise refuse("output", target, "a name that ends in .html")
-    made = _bbsim.replay(shown, _listed(data), log, *beside, title, target)
+    made = _bbsim.replay(shown, listed(data), log, *beside, title, target)
     if target:
         _bbsim.write_file(target, made.html.encode())
     return Page(made.html, made.reason, made.notes)
@@ -87,8 +79,8 @@ def compare(
     map: Texts = (), header: Texts = (), period: str = "", time_offset: str = "", set: Settings = None,
 ) -> Compared:  # fmt: skip
     """Compares two files of results, or a log with a run or a scenario. The keywords are the options of ``bbsim compare``."""
-    log = _bbsim.LogOptions(_listed(map), _listed(header), period, time_offset)
-    made = _bbsim.compare(os.fspath(a), os.fspath(b), _overrides(set), rtol, atol, _listed(columns), log)
+    log = _bbsim.LogOptions(listed(map), listed(header), period, time_offset)
+    made = _bbsim.compare(os.fspath(a), os.fspath(b), overrides(set), rtol, atol, listed(columns), log)
     return Compared(made.alike, made.text, made.reason, made.warnings)
 
 

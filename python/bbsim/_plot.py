@@ -21,7 +21,7 @@ from ._plot_runs import draw_runs
 from ._plot_sheet import FONT, Figure, require_font, style
 from ._plot_sweeps import draw_sweep
 from ._result import Result
-from ._scenario import as_yaml, given
+from ._scenario import as_yaml, given, listed
 
 File = Union[str, "os.PathLike[str]"]
 Drawn = Union[File, Result, "np.ndarray[Any, np.dtype[np.void]]"]
@@ -32,14 +32,10 @@ _MARK = "drawn by bbsim plot"  # identifies pictures of bbsim
 _OF_SCENARIO = ("accuracy", *KINDS)
 
 
-def _listed(texts: Optional[Texts]) -> List[str]:
-    return [] if texts is None else [texts] if isinstance(texts, str) else list(texts)
-
-
 def _settings(settings: Union[Mapping[str, Any], Texts, None]) -> Mapping[str, Any]:
     if isinstance(settings, Mapping):
         return settings
-    return dict(one.split("=", 1) for one in _listed(settings) if "=" in one or _refuse_setting(one))
+    return dict(one.split("=", 1) for one in listed(settings) if "=" in one or _refuse_setting(one))
 
 
 def _refuse_setting(text: str) -> NoReturn:
@@ -47,7 +43,7 @@ def _refuse_setting(text: str) -> NoReturn:
 
 
 def _parts(texts: Optional[Texts], separator: str) -> List[str]:
-    return [part.strip() for text in _listed(texts) for part in text.split(separator)]
+    return [part.strip() for text in listed(texts) for part in text.split(separator)]
 
 
 def _millimeters(width: Union[float, str, None]) -> Optional[float]:
@@ -91,7 +87,7 @@ class _Options:
         self.scenario, self.summary = (os.fspath(options[name] or "") for name in ("scenario", "summary"))
         self.set = _settings(options["set"])
         header = _parts(options["header"], ",")
-        self.log = (_listed(options["map"]), header, options["period"] or "", options["time_offset"] or "")
+        self.log = (listed(options["map"]), header, options["period"] or "", options["time_offset"] or "")
         require_font(self.font)
         if self.csv and not self.kind:
             allowed = ", ".join(f"--{name.replace('_', '-')}" for name in _OF_SCENARIO)

@@ -259,6 +259,20 @@ class Linearization(_StateSpace):
     def _json(self) -> Dict[str, Any]:
         return json.loads(self._made.json())  # type: ignore[no-any-return]
 
+    @cached_property
+    def _report(self) -> str:
+        return self._made.report().rstrip("\n")
+
+    @cached_property
+    def _loops(self) -> Dict[str, Optional[OpenLoop]]:
+        found = {axis: self._made.open_loop(f"{axis}_command") for axis in ("phi", "theta")}
+        return {axis: loop and OpenLoop(loop) for axis, loop in found.items()}
+
+    def __getstate__(self) -> Dict[str, Any]:
+        """All that ``_made`` would be asked for."""
+        return {"_json": self._json, "_report": self._report, "_loops": self._loops,
+                **{name: value for name, value in self.__dict__.items() if name != "_made"}}  # fmt: skip
+
     @property
     def poles(self) -> "np.ndarray[Any, np.dtype[np.complex128]]":
         return np.array([complex(*pole) for pole in self._json["poles"]])
@@ -276,11 +290,11 @@ class Linearization(_StateSpace):
         """
         if axis not in ("phi", "theta"):
             raise InputError([("", f"axis: found {axis!r}; allowed: phi, theta")])
-        found = self._made.open_loop(f"{axis}_command")
+        found = self._loops[axis]
         if found is None:
             why = "its command closes no loop" if self.kind == "loop" else f"this is the {self.kind}, without a loop"
             raise InputError([("", f"axis: found {axis}, but {why}; allowed: axes of a closed loop")])
-        return OpenLoop(found)
+        return found
 
     def __repr__(self) -> str:
-        return self._made.report().rstrip("\n")
+        return self._report

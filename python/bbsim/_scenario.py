@@ -90,22 +90,47 @@ def _without_callable(scenario: Mapping[str, Any]) -> Tuple[Mapping[str, Any], O
     return {**scenario, "controller": {"library": {"file": f"Python: {name}"}, **rest}}, function
 
 
+def overrides(settings: Settings) -> List[str]:
+    """KEY=VALUE, as ``--set`` takes them."""
+    if settings is not None and not isinstance(settings, Mapping):
+        raise TypeError(f"set: found {settings!r}; allowed: a dict such as {{'ball.radius': '2 cm'}}")
+    return [f"{key}={as_yaml(value)}" for key, value in (settings or {}).items()]
+
+
+def listed(texts: Any) -> List[str]:
+    """Texts of an option: one text or path, or several. A dict has what follows KEY=: a text, a tuple of two bounds,
+    other values, or None for the key alone."""
+    if texts is None:
+        return []
+    if isinstance(texts, (str, os.PathLike)):
+        return [os.fspath(texts)]
+    if not isinstance(texts, Mapping):
+        return list(texts)
+    return [f"{key}={_value(one)}" if one is not None else str(key) for key, one in texts.items()]
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, tuple) and len(value) == 2:
+        return ":".join(map(as_yaml, value))
+    return as_yaml(value) if np.isscalar(value) else specification(value)
+
+
 def given(scenario: Union[Scenario, _bbsim.Given], settings: Settings = None, error: Any = None) -> _bbsim.Given:
     """The scenario with settings. One that is already given stays as it is, and simulate() reads it only once."""
     if isinstance(scenario, _bbsim.Given):
         return scenario
-    overrides: List[str] = [f"{key}={as_yaml(value)}" for key, value in (settings or {}).items()]
+    texts = overrides(settings)
     if error is not None:
-        overrides.append(f"solver.error={as_yaml(error)}")
+        texts.append(f"solver.error={as_yaml(error)}")
     if isinstance(scenario, Mapping):
         plain, function = _without_callable(scenario)
-        return _bbsim.Given("<dict>", _text(_plain(plain)), overrides, function)
+        return _bbsim.Given("<dict>", _text(_plain(plain)), texts, function)
     name = os.fspath(scenario)
     if not isinstance(name, str):
         raise TypeError(f"found a scenario of type {type(scenario).__name__}; allowed: a path, YAML text or a dict")
     if isinstance(scenario, str) and ("\n" in name or name.lstrip().startswith("{")):
-        return _bbsim.Given("<text>", _whole(name), overrides, None)
-    return _bbsim.Given(name, None, overrides, None)
+        return _bbsim.Given("<text>", _whole(name), texts, None)
+    return _bbsim.Given(name, None, texts, None)
 
 
 def specification(values: Union[str, Sequence[Any]]) -> str:

@@ -17,7 +17,7 @@ from ._errors import InputError
 from ._found_files import aligned, as_json, declare, print_report, write_found
 from ._free_keys import read_free_key, refuse
 from ._progress import Bar, silent
-from ._scenario import Scenario, Settings, given
+from ._scenario import Scenario, Settings, given, listed
 from ._simulate import Array, simulate
 from ._worst_case import Search, merit_of, worst_of
 
@@ -33,8 +33,14 @@ class _Tuning:
     def __init__(self, base: _bbsim.Given, options: Dict[str, Any]) -> None:
         self.base, self.share, self.vary = base, options["quantile"], options["vary"]
         self.threads = options["threads"] or 0
+        if self.threads < 0:
+            raise _fault(f"--threads: found {self.threads}; allowed: 0, for one per processor, or more")
         if not 0 < self.share <= 1:
             raise _fault(f"--quantile: found {self.share:g}; allowed: a share above 0 and up to 1, such as 0.95")
+        if not options["free"]:
+            refuse("found nothing; allowed: at least one KEY=FROM:TO")
+        if not isinstance(options["minimize"], str):
+            raise TypeError(f"minimize: found {options['minimize']!r}; allowed: a measure")
         self.keys: List[Tuple[str, str, float, int]] = []  # name, unit, factor, place of its number
         free = np.array([self._read(text, place) for place, text in enumerate(options["free"])]).T
         self.bounds, self.start, names = free[:2], free[2], [key[0] for key in self.keys]
@@ -242,7 +248,7 @@ def tune(
     free      the keys to choose and their bounds: "KEY=FROM:TO", or tied keys: "KEY,-KEY,2*KEY=FROM:TO"
     minimize  the measure
     require   conditions that must hold on all rigs: "MEASURE < VALUE"
-    vary      what differs from rig to rig: "KEY=SPEC", as in a sweep
+    vary      what differs from rig to rig: "KEY=SPEC", as in a sweep; it and free may be dicts
     samples, hold_out   numbers of rigs to draw: for the search, and to test its result
     quantile  the share of rigs that counts
     output, json        files to write: the scenario with the values, and the results
@@ -252,7 +258,7 @@ def tune(
     why not; `report` is the printed text, `scenario` that of the tuned scenario. An interrupted search gives the best.
     """
     options = dict(locals())
-    options.update((name, [options[name]]) for name in ("free", "require", "vary") if isinstance(options[name], str))
+    options.update((name, listed(options[name])) for name in ("free", "require", "vary"))
     files, base = {"output": str(output or ""), "json": str(json or "")}, given(scenario, set)
     declare(files, {base.name: "the scenario"} if os.path.exists(base.name) else {})
     tuning = _Tuning(base, options)

@@ -228,6 +228,20 @@ class Runs(unittest.TestCase):
 
 
 class Pages(unittest.TestCase):
+    def test_a_linearization_can_be_pickled(self):
+        made = bbsim.linearize(CONFIGS / "rig.yaml", at=0.5)
+        self.assertEqual(made.at, bbsim.linearize(CONFIGS / "rig.yaml", at="0.5 s").at)
+        again = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(made))))
+        self.assertEqual((repr(again), again.margins, again.kind), (repr(made), made.margins, made.kind))
+        np.testing.assert_array_equal(again.A, made.A)
+        for axis in ("phi", "theta"):
+            np.testing.assert_array_equal(again.open_loop(axis).A, made.open_loop(axis).A)
+
+    def test_settings_are_a_dict(self):
+        for call in (bbsim.run, bbsim.check, bbsim.linearize):
+            with self.assertRaisesRegex(TypeError, "set: found 'ball.radius=0.02'; allowed: a dict"):
+                call(CONFIGS / "rig.yaml", "ball.radius=0.02")
+
     def test_a_result_can_be_pickled(self):
         made = bbsim.run(CONFIGS / "fig2a.yaml", measures="max_tilt")
         again = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(made))))

@@ -264,6 +264,10 @@ class Rigs(unittest.TestCase):
         # Only some of the rigs held out cannot exist.
         refused("gimbal.servo.damping=-", vary="gimbal.servo.damping=normal:0.8:0.25", hold_out=3000)
         refused("--quantile: found 1.5", quantile=1.5)
+        refused("found nothing; allowed: at least one KEY=FROM:TO", free=[])
+        refused("--threads: found -1", threads=-1)
+        refused("gimbal.servo.damping=-", vary={"gimbal.servo.damping": "normal:0.1:0.3"})
+        refused("is given twice", free={KP: (4, 30), f"{KV},{KP}": (3, 20)})
         refused("--quantile: found 0", quantile=0)
 
 
