@@ -23,7 +23,7 @@ namespace {
 
 struct SweepArguments {
   ScenarioArguments scenario;
-  std::vector<std::string> vary, measure;
+  std::vector<std::string> vary, measure, expect;
   std::string combine, output, summary, shard, error;
   std::optional<double> samples, seed;
   std::size_t threads = 0;
@@ -87,13 +87,15 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   request.threads = static_cast<double>(arguments.threads);
   request.resumes = arguments.resume;
   request.keeps_rows = arguments.keep_trajectories;
+  request.expect = arguments.expect;
   Progress progress(family.source().file, options.quiet, true);
   const api::SweepResult made = api::sweep(request, progress);
-  if (made.code != ExitCode::done) {
+  if (!made.reason.empty()) {
     say(made.reason);
   } else if (!options.quiet) {
     say(written_text(made));
   }
+  for (const std::string& one : made.unmet) say(one);
   return made.code;
 }
 
@@ -110,7 +112,9 @@ void add_sweep(Command& command, const Options& options) {
       "  bbsim sweep configs/fig2b.yaml --vary \"ball.position.0=normal:5 cm:2 mm\" \\\n"
       "      --samples 1000 --measure max_tilt,end_x -o spread.h5\n"
       "  bbsim sweep configs/fig2b.yaml --vary controller.pd.kv.0.0=log:0.1:10:1000 \\\n"
-      "      --shard 2/8 --resume -o part-2of8.csv");
+      "      --shard 2/8 --resume -o part-2of8.csv\n"
+      "  bbsim sweep configs/rig.yaml --vary \"gimbal.servo.damping=normal:0.8:0.05\" \\\n"
+      "      --samples 100 --expect \"max_distance < 9 cm\"");
   const auto arguments = std::make_shared<SweepArguments>();
   add_scenario(command, arguments->scenario);
   command
@@ -137,6 +141,12 @@ void add_sweep(Command& command, const Options& options) {
               "column of `bbsim columns` (but not ball_q...); x.RiseTime, y.Overshoot, ...; \"when "
               "x=0.05\"; \"rms_x from 5 s\" (docs/reference/measures.md); repeatable")
       .takes("NAME,...")
+      .may_be_repeated();
+  command
+      .option("--expect", arguments->expect,
+              "add a column of 1 where it holds and 0 where not, and exit with 1 if it does not "
+              "hold in every case; also <=, > and >=; repeatable")
+      .takes("\"MEASURE < VALUE\"")
       .may_be_repeated();
   command
       .option(

@@ -110,6 +110,7 @@ def sweep(
     samples: Optional[int] = None,
     seed: Optional[int] = None,
     threads: int = 0,
+    expect: Union[str, Sequence[str]] = (),
 ) -> "np.ndarray[Any, np.dtype[np.void]]":
     """Runs a scenario at many values of its keys; returns a structured array, one row per case.
 
@@ -119,12 +120,14 @@ def sweep(
     samples   the number of cases to draw for "uniform" and "normal"
     seed      the seed of drawn values
     threads   by default the number of processors; always 1 for a scenario with a callable
+    expect    conditions such as "max_tilt < 5 deg"; each adds a field "expect: max_tilt < 5 deg" of 1 and 0
 
-    The fields are those of ``bbsim sweep``: case, the keys, status, reason, end_time, the measures.
+    The fields are those of ``bbsim sweep``: case, the keys, status, reason, end_time, the measures, and those of
+    ``expect``.
     """
     pairs = [(key, specification(values)) for key, values in (vary or {}).items()]
     choice = _bbsim.SweepChoice(pairs, combine, samples, seed, _names(measures))
-    made = _bbsim.sweep(given(scenario, set, error), choice, threads)
+    made = _bbsim.sweep(given(scenario, set, error), choice, _names(expect), threads)
     fields = {
         column.name: np.array(column.texts, dtype=np.str_) if column.is_text else column.numbers
         for column in made.columns

@@ -166,7 +166,8 @@ api::Linearized linearize(const Given& given, const std::optional<std::string>& 
   return made;
 }
 
-api::SweepResult sweep(const Given& given, const api::SweepChoice& choice, double threads) {
+api::SweepResult sweep(const Given& given, const api::SweepChoice& choice,
+                       const std::vector<std::string>& expect, double threads) {
   Work work(given);
   return work.beside([&] {
     const ScenarioFamily family = work.family();
@@ -174,6 +175,7 @@ api::SweepResult sweep(const Given& given, const api::SweepChoice& choice, doubl
         given.name, family, api::with_choice(family.read_sweep(), choice), {}, {}};
     // A callable may keep a state, so its cases run one after another.
     request.threads = work.has_callable() ? 1 : threads;
+    request.expect = expect;
     return api::sweep(request, work.watch());
   });
 }
@@ -338,7 +340,8 @@ void define_sweep(py::module_& module) {
             return made.table.columns;
           },
           py::return_value_policy::reference_internal);
-  module.def("sweep", &sweep, py::arg("given"), py::arg("choice"), py::arg("threads"));
+  module.def("sweep", &sweep, py::arg("given"), py::arg("choice"), py::arg("expect"),
+             py::arg("threads"));
 }
 
 std::vector<std::pair<std::string, std::string>> names_of(

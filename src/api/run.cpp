@@ -25,25 +25,12 @@ namespace {
 
 using Columns = std::vector<const scenario::Column*>;
 
-// The requested measures, followed by others that have expectations.
-std::vector<scenario::Measure> with_expected(
-    std::vector<scenario::Measure> measures,
-    const std::vector<scenario::Expectation>& expectations) {
-  for (const scenario::Expectation& one : expectations) {
-    if (std::ranges::find(measures, one.measure.name, &scenario::Measure::name) == measures.end()) {
-      measures.push_back(one.measure);
-    }
-  }
-  return measures;
-}
-
-// Records in `result` which expectations hold.
+// Records in `result` which expectations hold; `places` has the place of each one's measure.
 void judge(const std::vector<scenario::Expectation>& expectations,
-           const std::vector<scenario::Measure>& measures, const Simulation& made,
-           RunResult& result) {
-  for (const scenario::Expectation& one : expectations) {
-    const auto at = static_cast<std::size_t>(
-        std::ranges::find(measures, one.measure.name, &scenario::Measure::name) - measures.begin());
+           const std::vector<std::size_t>& places, const Simulation& made, RunResult& result) {
+  for (std::size_t i = 0; i < expectations.size(); ++i) {
+    const scenario::Expectation& one = expectations[i];
+    const std::size_t at = places[i];
     const double value = made.measures[at];
     const bool holds = one.holds(value);
     result.summary.expectations.push_back({one.text, value, holds});
@@ -117,7 +104,8 @@ RunResult run(const RunRequest& request, Watch& watch) {
   for (const std::string& text : request.expect) {
     expectations.push_back(scenario::read_expectation("--expect", text, scenario));
   }
-  const auto measures = with_expected(printed, expectations);
+  auto measures = printed;
+  const std::vector<std::size_t> expected = scenario::add_expected(measures, expectations);
   const Sensitivity sensitivity(request, asked, printed);
 
   // Check names before a controller starts, and long before the file is opened.
@@ -179,7 +167,7 @@ RunResult run(const RunRequest& request, Watch& watch) {
     result.columns.emplace_back(header.name);
     result.units.emplace_back(header.unit);
   }
-  judge(expectations, measures, made, result);
+  judge(expectations, expected, made, result);
   result.rows_asked = grid.size();
   if (writer && summary.error_estimate) {
     writer->add_column(header_of(scenario::position_error), made.row_estimates);

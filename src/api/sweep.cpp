@@ -41,6 +41,29 @@ std::vector<scenario::Measure> measures_of(const Sweep& sweep, const ScenarioFam
       sweep.measure.empty() ? scenario::default_measures(loop) : sweep.measure, family, plan);
 }
 
+// Adds the expectations of `request`, and the measures that they need.
+void expect(sweep::SweepTask& task, const SweepRequest& request, const Scenario& first) {
+  for (const std::string& text : request.expect) {
+    scenario::Expectation one = scenario::read_expectation("--expect", text, first);
+    if (std::ranges::count(task.expectations, one.text, &scenario::Expectation::text) > 0) {
+      throw InputError("--expect: found " + quoted(one.text) + " twice; allowed: once");
+    }
+    task.expectations.push_back(std::move(one));
+  }
+  task.expected = scenario::add_expected(task.measures, task.expectations);
+}
+
+// Says which expectations do not hold in all cases.
+void judge(const sweep::SweepTask& task, SweepResult& result) {
+  for (std::size_t i = 0; i < result.statuses.unmet.size(); ++i) {
+    const std::size_t count = result.statuses.unmet[i];
+    if (count == 0) continue;
+    result.unmet.push_back("not as expected: " + task.expectations[i].text + ": does not hold in " +
+                           std::to_string(count) + " of " + std::to_string(result.rows) + " cases");
+    if (result.code == ExitCode::done) result.code = ExitCode::ended_early;
+  }
+}
+
 // Sets the columns of output rows to keep for each case.
 void keep_rows(sweep::SweepTask& task, const Scenario& scenario) {
   for (const sweep::PlanAxis& axis : task.plan.axes()) {
@@ -97,8 +120,8 @@ CaseSink into_table(const sweep::SweepTask& task, SweepTable& table) {
 }
 
 // Runs the missing cases, and reports the rate to `watch`.
-bool run_cases(const sweep::Engine& engine, sweep::CaseRange missing, std::size_t threads,
-               const CaseSink& sink, SweepResult& result, Watch& watch) {
+bool run_cases(const sweep::SweepTask& task, const sweep::Engine& engine, sweep::CaseRange missing,
+               std::size_t threads, const CaseSink& sink, SweepResult& result, Watch& watch) {
   const auto started = std::chrono::steady_clock::now();
   const auto seconds = [&started] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -112,8 +135,11 @@ bool run_cases(const sweep::Engine& engine, sweep::CaseRange missing, std::size_
       [&](const sweep::CaseResults& results) {
         sink.take(results);
         result.rows += results.count;
-        for (const sweep::CaseStatus& status : results.status) {
-          result.statuses.add(status.word, status.reason);
+        for (std::size_t i = 0; i < results.count; ++i) {
+          result.statuses.add(results.status[i].word, results.status[i].reason);
+          for (std::size_t e = 0; e < task.expectations.size(); ++e) {
+            result.statuses.add_expected(e, holds(task, results, i, e));
+          }
         }
         const double rate = static_cast<double>(result.rows - result.kept) / seconds();
         watch.update(share(), rounded(rate, 3) + " cases/s");
@@ -156,6 +182,7 @@ SweepResult sweep(const SweepRequest& request, Watch& watch) {
   const sweep::SweepPlan plan(family, request.sweep);
   const Scenario first = family.read(plan.settings(0));
   sweep::SweepTask task{family, plan, measures_of(request.sweep, family, plan, first)};
+  expect(task, request, first);
   task.report = [&watch](std::string_view line) { watch.controller_says(line); };
   if (request.keeps_rows) keep_rows(task, first);
   const sweep::Engine engine = sweep::choose_engine(task);
@@ -193,7 +220,8 @@ SweepResult sweep(const SweepRequest& request, Watch& watch) {
   if (request.output.empty()) {
     try_controller(family, first, watch);
     const CaseSink sink = into_table(task, result.table);
-    if (!run_cases(engine, range, threads, sink, result, watch)) interrupted();
+    if (!run_cases(task, engine, range, threads, sink, result, watch)) interrupted();
+    judge(task, result);
     return result;
   }
   declare_files(request, first);
@@ -211,8 +239,8 @@ SweepResult sweep(const SweepRequest& request, Watch& watch) {
   result.rows = result.kept = file->kept().rows;
   result.statuses = file->kept().statuses;
 
-  if (run_cases(engine, {range.first + result.kept, range.last}, threads, into_file(task, *file),
-                result, watch)) {
+  if (run_cases(task, engine, {range.first + result.kept, range.last}, threads,
+                into_file(task, *file), result, watch)) {
     file->finish(attributes_of(facts, engine));
   } else {
     file->interrupt();
@@ -222,6 +250,7 @@ SweepResult sweep(const SweepRequest& request, Watch& watch) {
           "\n  " + file->part() + " keeps them; the same command with --resume continues.";
     }
   }
+  judge(task, result);
   if (summary) {
     summary->write(summary_text(facts, result));
     summary->commit();

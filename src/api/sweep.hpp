@@ -41,10 +41,11 @@ struct SweepRequest {
   // The user did not name the output: messages say so, and unless `replaces_anything`, only a table
   // with the same columns is replaced.
   bool by_default = false, replaces_anything = false;
-  std::string summary{};    // a JSON file; empty: none
-  double threads = 0;       // at most most_threads; 0: as many as processors
-  bool resumes = false;     // continue a part that an earlier run left
-  bool keeps_rows = false;  // also keep the rows of output.columns of each case
+  std::string summary{};              // a JSON file; empty: none
+  double threads = 0;                 // at most most_threads; 0: as many as processors
+  bool resumes = false;               // continue a part that an earlier run left
+  bool keeps_rows = false;            // also keep the rows of output.columns of each case
+  std::vector<std::string> expect{};  // "max_tilt < 5 deg", of every case
 };
 
 // Rows of a sweep, by columns.
@@ -59,8 +60,10 @@ struct SweepTable {
 };
 
 struct SweepResult {
-  ExitCode code = ExitCode::done;  // or interrupted
+  // done; interrupted; ended_early if an expectation fails in a case.
+  ExitCode code = ExitCode::done;
   std::string reason;              // why the sweep did not finish
+  std::vector<std::string> unmet;  // expectations that fail, and in how many of the rows
   std::size_t cases = 0;           // in this shard
   std::size_t rows = 0, kept = 0;  // rows now there, and those kept from an earlier run
   sweep::StatusCounts statuses;    // of the rows

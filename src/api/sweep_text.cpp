@@ -71,6 +71,7 @@ Json plan_of(const SweepFacts& facts) {
   }
   for (const scenario::Measure& measure : task.measures) measures.push_back(measure.name);
   plan["measure"] = std::move(measures);
+  for (const scenario::Expectation& one : task.expectations) plan["expect"].push_back(one.text);
   plan["trajectories"] = !task.series.empty();
   plan["cases"] = task.plan.cases();
   if (shard.of > 1) plan["shard"] = std::to_string(shard.number) + '/' + std::to_string(shard.of);
@@ -102,6 +103,10 @@ sweep::CaseFileLayout layout_of(const SweepFacts& facts, const sweep::Engine& en
   layout.columns.push_back({"end_time", "s", "time reached"});
   for (const scenario::Measure& measure : task.measures) {
     layout.columns.push_back({measure.name, measure.unit(), measure.meaning()});
+  }
+  layout.expectations = task.expectations.size();
+  for (const scenario::Expectation& one : task.expectations) {
+    layout.columns.push_back({"expect: " + one.text, "1", "1 if it holds, 0 if not"});
   }
   if (task.series.empty()) return layout;
   const solve::OutputGrid grid(facts.first.time);
@@ -148,7 +153,7 @@ file::Attributes attributes_of(const SweepFacts& facts, const sweep::Engine& eng
 
 std::string summary_text(const SweepFacts& facts, const SweepResult& result) {
   Json summary = Json::object();
-  summary["status"] = result.code == ExitCode::done ? "done" : "interrupted";
+  summary["status"] = result.code == ExitCode::interrupted ? "interrupted" : "done";
   summary["scenario"] = facts.family.source().file;
   summary["output"] = result.output;
   summary["engine"] = result.engine;
@@ -156,9 +161,21 @@ std::string summary_text(const SweepFacts& facts, const SweepResult& result) {
   summary["rows"] = result.rows;
   Json& statuses = summary["statuses"] = Json::object();
   for (const auto& [word, count] : result.statuses.words) statuses[word] = count;
+  for (std::size_t i = 0; i < facts.task.expectations.size(); ++i) {
+    const auto& unmet = result.statuses.unmet;
+    summary["expectations"].push_back({{"text", facts.task.expectations[i].text},
+                                       {"cases_unmet", i < unmet.size() ? unmet[i] : 0}});
+  }
   const Json plan = plan_of(facts);
   for (const auto& [name, value] : plan.items()) summary[name] = value;
   return text_of(summary);
+}
+
+bool holds(const sweep::SweepTask& task, const sweep::CaseResults& results, std::size_t i,
+           std::size_t expectation) {
+  const std::size_t numbers = 1 + task.measures.size();
+  return task.expectations[expectation].holds(
+      results.numbers[i * numbers + 1 + task.expected[expectation]]);
 }
 
 void write_text(const sweep::SweepTask& task, sweep::CaseResults& results) {
@@ -185,6 +202,9 @@ void write_text(const sweep::SweepTask& task, sweep::CaseResults& results) {
       text += ',';
       file::append_number(text, results.numbers[i * numbers + n]);
     }
+    for (std::size_t e = 0; e < task.expectations.size(); ++e) {
+      text += holds(task, results, i, e) ? ",1" : ",0";
+    }
     text += '\n';
   }
 }
@@ -207,6 +227,9 @@ void append(const sweep::SweepTask& task, const sweep::CaseResults& results, Swe
     column++->texts.push_back(results.status[i].reason);
     for (std::size_t n = 0; n < numbers; ++n) {
       column++->numbers.push_back(results.numbers[i * numbers + n]);
+    }
+    for (std::size_t e = 0; e < task.expectations.size(); ++e) {
+      column++->numbers.push_back(holds(task, results, i, e) ? 1 : 0);
     }
   }
 }

@@ -33,6 +33,10 @@ struct SweepFacts {
 // The plan and the outcome of the sweep, as JSON.
 [[nodiscard]] std::string summary_text(const SweepFacts& facts, const SweepResult& result);
 
+// Whether an expectation holds in case `i` of the results. It does not if the case has no value.
+[[nodiscard]] bool holds(const sweep::SweepTask& task, const sweep::CaseResults& results,
+                         std::size_t i, std::size_t expectation);
+
 // Writes rows as CSV into the results' text, on the thread that computed them.
 void write_text(const sweep::SweepTask& task, sweep::CaseResults& results);
 

@@ -3,6 +3,8 @@
 
 #include "scenario/expectation.hpp"
 
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "base/quoted.hpp"
 #include "base/text.hpp"
@@ -52,6 +54,17 @@ Expectation read_expectation(std::string_view where, std::string_view text,
   }
   expectation.value = *value;
   return expectation;
+}
+
+std::vector<std::size_t> add_expected(std::vector<Measure>& measures,
+                                      const std::vector<Expectation>& expectations) {
+  std::vector<std::size_t> places;
+  for (const Expectation& one : expectations) {
+    const auto found = std::ranges::find(measures, one.measure.name, &Measure::name);
+    places.push_back(static_cast<std::size_t>(found - measures.begin()));
+    if (found == measures.end()) measures.push_back(one.measure);
+  }
+  return places;
 }
 
 }  // namespace bbsim::scenario

@@ -4,8 +4,10 @@
 // An expected bound on a measure: "max_tilt < 5 deg".
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scenario/measures.hpp"
 
@@ -25,5 +27,9 @@ struct Expectation {
 // starting with `where`, if the text is invalid or the scene lacks the measure.
 [[nodiscard]] Expectation read_expectation(std::string_view where, std::string_view text,
                                            const Scenario& scenario);
+
+// Appends the measures of expectations that `measures` lack. Returns the place of each one's.
+std::vector<std::size_t> add_expected(std::vector<Measure>& measures,
+                                      const std::vector<Expectation>& expectations);
 
 }  // namespace bbsim::scenario

@@ -22,6 +22,8 @@ struct CaseFileLayout {
   file::Hdf5Column axis{};                // describes axis_values
   std::vector<double> axis_values{};
   std::vector<file::InputTable> inputs{};  // tables that the scenario read, kept in HDF5 only
+  // Columns of 1 and 0, in the order of the sweep's expectations; the last ones but the series.
+  std::size_t expectations = 0;
   // The cases are first_case ... first_case + cases - 1. They are computed in groups; the last
   // group may be smaller.
   std::size_t first_case = 0, cases = 0, group = 1;

@@ -53,6 +53,10 @@ std::string CasePart::fault_of(std::string_view line, bool whole, std::size_t ro
 
 void CasePart::take_up(std::size_t most) {
   const std::size_t status = status_field(layout_.columns);
+  const auto series =
+      std::ranges::count(layout_.columns, file::Hdf5Kind::series, &file::Hdf5Column::kind);
+  const std::size_t expected =
+      layout_.columns.size() - static_cast<std::size_t>(series) - layout_.expectations;
   PartLines lines(file_.descriptor(), file_.name(), Blame::output);
   RowReader reader(layout_.columns);
   std::string_view line;
@@ -69,6 +73,9 @@ void CasePart::take_up(std::size_t most) {
       fault.clear();
     if (!fault.empty() || !lines.whole()) break;
     if (status < layout_.columns.size()) of_group.add(reader.text(status), reader.text(status + 1));
+    for (std::size_t i = 0; i < layout_.expectations; ++i) {
+      of_group.add_expected(i, reader.number(expected + i) != 0);
+    }
     if (++in_group < layout_.group && kept_.rows + in_group < layout_.cases) continue;
     kept_.statuses.add(of_group);
     kept_.rows += std::exchange(in_group, 0);

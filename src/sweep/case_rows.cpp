@@ -166,9 +166,16 @@ void StatusCounts::add(const std::string& status, std::string_view reason) {
   not_finite += status == "done" && !reason.empty() ? 1 : 0;
 }
 
+void StatusCounts::add_expected(std::size_t which, bool holds) {
+  if (unmet.size() <= which) unmet.resize(which + 1);
+  unmet[which] += holds ? 0 : 1;
+}
+
 void StatusCounts::add(const StatusCounts& others) {
   for (const auto& [word, count] : others.words) words[word] += count;
   not_finite += others.not_finite;
+  unmet.resize(std::max(unmet.size(), others.unmet.size()));
+  for (std::size_t i = 0; i < others.unmet.size(); ++i) unmet[i] += others.unmet[i];
 }
 
 std::size_t StatusCounts::early() const {

@@ -77,12 +77,14 @@ class RowReader {
   std::size_t case_number_ = 0;
 };
 
-// How many cases ended with each status.
+// How many cases ended with each status, and how many miss each expectation.
 struct StatusCounts {
   std::map<std::string, std::size_t, std::less<>> words;  // by status
-  std::size_t not_finite = 0;  // status done with a reason: a measure is not finite
+  std::size_t not_finite = 0;      // status done with a reason: a measure is not finite
+  std::vector<std::size_t> unmet;  // by expectation
 
   void add(const std::string& status, std::string_view reason);
+  void add_expected(std::size_t which, bool holds);
   void add(const StatusCounts& others);
   [[nodiscard]] std::size_t early() const;  // cases that ended before their end time
 };

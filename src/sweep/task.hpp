@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "controller/child.hpp"
+#include "scenario/expectation.hpp"
 #include "scenario/family.hpp"
 #include "scenario/measures.hpp"
 #include "sweep/case_times.hpp"
@@ -32,7 +33,9 @@ struct SweepTask {
   bool series_in_lanes = false;
   // Times of the series, instead of those of the output rows; the task then has no measures.
   const CaseTimes* times = nullptr;
-  const Windows* windows = nullptr;  // null: each case is a whole run of its scenario
+  std::vector<scenario::Expectation> expectations{};
+  std::vector<std::size_t> expected{};  // the place of each one's measure
+  const Windows* windows = nullptr;     // null: each case is a whole run of its scenario
   // Receives the standard error of controller programs, from all threads.
   controller::Report report = [](std::string_view) {};
 };

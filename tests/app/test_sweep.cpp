@@ -202,6 +202,57 @@ TEST_CASE("a slow sweep keeps each finished case when interrupted") {
   CHECK(rows(folder.read("s.csv.part")).size() > 2);
 }
 
+TEST_CASE("expectations are columns of 1 and 0, and decide the exit code") {
+  const Folder folder;
+  const auto expecting = [&](const std::string& bound, std::vector<std::string> more) {
+    return sweep(config("fig2a.yaml"), with({"--vary", "ball.position.0=list:0,0.1,0.2",
+                                             "--measure", "end_x", "--expect", "max_x < " + bound},
+                                            std::move(more)));
+  };
+  const Result some = bbsim(expecting("30 cm", {"-o", "-", "--summary", "s.json"}), folder.path());
+  CHECK(some.exit_code == 1);
+  CHECK(some.err == "not as expected: max_x < 30 cm: does not hold in 1 of 3 cases\n");
+  const auto table = rows(some.out);
+  REQUIRE(table.size() == 4);
+  CHECK(table[0] == std::vector<std::string>{"case", "ball.position.0", "status", "reason",
+                                             "end_time", "end_x", "max_x",
+                                             "expect: max_x < 30 cm"});
+  for (std::size_t i = 1; i < table.size(); ++i) {
+    CHECK(table[i][7] == (std::stod(table[i][6]) < 0.3 ? "1" : "0"));
+  }
+  CHECK(contains(folder.read("s.json"), "\"cases_unmet\": 1"));
+  CHECK(bbsim(expecting("1 m", {"-o", "-"}), folder.path()).exit_code == 0);
+
+  // A case that has no value does not meet it.
+  const Result none = bbsim(
+      expecting("1 m", {"--expect", "find x when x=0.15 < 1 m", "-o", "x.h5"}), folder.path());
+  CHECK(none.exit_code == 1);
+  CHECK(none.err == "not as expected: find x when x=0.15 < 1 m: does not hold in 2 of 3 cases\n");
+
+  const Result twice =
+      bbsim(expecting("1 m", {"--expect", "max_x < 1 m", "-o", "-"}), folder.path());
+  CHECK(twice.exit_code == 2);
+  CHECK(contains(twice.err, "--expect: found \"max_x < 1 m\" twice"));
+  const Result other = bbsim(expecting("1 deg", {"-o", "-"}), folder.path());
+  CHECK(other.exit_code == 2);
+  CHECK(contains(other.err, "but max_x is in m"));
+}
+
+TEST_CASE("a resumed sweep knows which cases of the first run missed an expectation") {
+  const Folder folder;
+  // Only early cases, of the first value of the first key, miss it.
+  const auto arguments =
+      with({"sweep", config("fig2a.yaml"), "--vary", "ball.position.1=list:0,-0.1"},
+           with(long_sweep, {"--expect", "max_y < 0.05", "-j", "1", "-o", "s.csv"}));
+  REQUIRE(cut_off(arguments, folder, 2).exit_code == 130);
+  const Result rest = bbsim(with(arguments, {"--resume"}), folder.path());
+  CHECK(rest.exit_code == 1);
+  std::size_t unmet = 0;
+  for (const auto& row : rows(folder.read("s.csv"))) unmet += row.back() == "0" ? 1 : 0;
+  CHECK(unmet > 0);
+  CHECK(contains(rest.err, "does not hold in " + std::to_string(unmet) + " of 400000 cases"));
+}
+
 TEST_CASE("a failed or stopped case is a row with its reason") {
   const Folder folder;
   // The loop of Fig. 2(b) as printed diverges; with small gains it does not within a second.

@@ -409,6 +409,11 @@ class Sweeps(unittest.TestCase):
                 np.testing.assert_allclose(made["end_time"], bbsim.sweep(CONFIGS / file,
                                            dict([spec.split("=")]))["end_time"])  # fmt: skip
 
+    def test_expectations(self):
+        made = bbsim.sweep(CONFIGS / "fig2a.yaml", {"ball.position.0": [0, 0.2]}, "end_x", expect="max_x < 15 cm")
+        self.assertEqual(made.dtype.names[-2:], ("max_x", "expect: max_x < 15 cm"))
+        self.assertEqual(made["expect: max_x < 15 cm"].tolist(), [1, 0])
+
     def test_numbers_that_the_program_refuses(self):
         fine = {"samples": 3, "seed": 5, "threads": 1}
         vary = {"ball.radius": "uniform:0.01:0.02"}
