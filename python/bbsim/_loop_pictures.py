@@ -9,13 +9,17 @@ from typing import Any, Dict, List, Mapping, Optional, Tuple
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.ticker import MultipleLocator, NullFormatter
+from matplotlib.collections import LineCollection
+from matplotlib.ticker import MaxNLocator, MultipleLocator, NullFormatter
+from scipy.optimize import linear_sum_assignment
 
-from ._plot_sheet import MM, Figure
+from ._plot_sheet import MM, TEXT, Figure, cut, number, width_of
 
 Array = "np.ndarray[Any, np.dtype[np.float64]]"
 Columns = Mapping[str, Array]
 Margins = Mapping[str, Mapping[str, Any]]
+Label = Tuple[str, float, float, bool, str]  # text, x, y, whether above y, color
+Labels = Dict[Axes, List[Label]]
 
 AXES = ("phi", "theta")
 NAMES = {"phi": "φ", "theta": "θ"}
@@ -53,14 +57,11 @@ def bode(columns: Columns, margins: Margins, width: float = 135.0) -> Figure:
     """Gain and phase of the open loops over the frequency, with the margins marked. ``width`` in mm."""
     figure = _figure(width, 0.85 * width)
     above, below = figure.subplots(2, 1, sharex=True)
-    at = columns["frequency"]
-    for axis, label, gain in _curves(columns, "gain"):
+    at, curves = columns["frequency"], _curves(columns, "gain")
+    phases = {axis: np.degrees(columns[f"{axis}_phase"]) for axis, _, _ in curves}
+    for axis, label, gain in curves:
         above.semilogx(at, _decibels(gain), color=COLORS[axis], ls=DASHES[axis], label=label)
-        phase = np.degrees(columns[f"{axis}_phase"])
-        below.semilogx(at, phase, color=COLORS[axis], ls=DASHES[axis])
-        its = margins.get(axis, {})
-        _mark_gains(above, its, COLORS[axis])
-        _mark_phase(below, its, at, phase, COLORS[axis])
+        below.semilogx(at, phases[axis], color=COLORS[axis], ls=DASHES[axis])
     above.axhline(0, **QUIET)
     above.set_ylabel("gain (dB)")
     _legend(above)
@@ -73,32 +74,56 @@ def bode(columns: Columns, margins: Margins, width: float = 135.0) -> Figure:
     for axes in (above, below):
         axes.grid(color="#e4e4e4", lw=0.5)
         axes.margins(x=0)
+    labels: Labels = {above: [], below: []}
+    for axis, _, _ in curves:
+        its = margins.get(axis, {})
+        _mark_gains(above, its, COLORS[axis], labels[above])
+        _mark_phase(below, its, at, phases[axis], COLORS[axis], labels[below])
+    for axes, texts in labels.items():
+        _write(axes, texts)
     return figure
 
 
-def _mark_gains(axes: Axes, its: Mapping[str, Any], color: str) -> None:
+def _mark_gains(axes: Axes, its: Mapping[str, Any], color: str, labels: List[Label]) -> None:
     for name in ("gain", "gain_reduction"):
         factor, where = its.get(name), its.get(f"{name}_frequency")
         if factor is None or not where:
             continue
         level = -_decibels(factor)
         axes.vlines(where, *sorted((level, 0)), color=color, lw=1.6)
-        _label(axes, f"{_decibels(factor):+.3g} dB", where, 0, 3 if level < 0 else -9, color)
+        labels.append((f"{_decibels(factor):+.3g} dB", where, 0.0, level < 0, color))
 
 
-def _mark_phase(axes: Axes, its: Mapping[str, Any], at: Array, phase: Array, color: str) -> None:
+def _mark_phase(
+    axes: Axes, its: Mapping[str, Any], at: Array, phase: Array, color: str, labels: List[Label]
+) -> None:
     margin, where = its.get("phase"), its.get("phase_frequency")
     if margin is None or not where:
         return
     level = float(np.interp(where, at, phase))
     critical = level - math.degrees(margin)  # an odd multiple of 180 degrees
     axes.vlines(where, *sorted((critical, level)), color=color, lw=1.6)
-    _label(axes, f"{math.degrees(margin):.3g}°", where, critical, -9, color)
+    labels.append((f"{math.degrees(margin):.3g}°", where, critical, level < critical, color))
 
 
-def _label(axes: Axes, text: str, x: float, y: float, above: float, color: str) -> None:
-    """Beside the line that a margin ends at, on the side without the curve."""
-    axes.annotate(text, (x, y), (3, above), textcoords="offset points", color=color)
+def _write(axes: Axes, labels: List[Label]) -> None:
+    """Writes each label at the end of its margin's line: within the panel, apart from curves and other labels."""
+    to_panel = axes.transData + axes.transAxes.inverted()
+    taken = np.concatenate([to_panel.transform(line.get_xydata()) for line in axes.lines if len(line.get_xdata()) > 2])
+    width, height = axes.figure.get_size_inches() / MM - (18, 20)  # of a panel, mm; there are two
+    for text, x, y, above, color in labels:
+        size = np.array([(width_of(text, TEXT) + 2) / width, 4.0 / (height / 2)])
+        for right, up in ((True, above), (False, above), (True, not above), (False, not above)):
+            low = to_panel.transform((x, y)) - size * (0 if right else 1, 0 if up else 1)
+            hit = ((taken > low) & (taken < low + size)).all(axis=1).any()
+            if not hit and (low >= 0).all() and (low + size <= 1).all():
+                break
+        edges = np.linspace(0, 1, 9)
+        taken = np.concatenate([taken, low + size * np.stack(np.meshgrid(edges, edges), axis=2).reshape(-1, 2)])
+        axes.annotate(
+            text, (x, y), (3 if right else -3, 3 if up else -3), textcoords="offset points", color=color,
+            ha="left" if right else "right", va="bottom" if up else "top",
+        )  # fmt: skip
 
 
 def nyquist(columns: Columns, width: float = 100.0) -> Figure:
@@ -145,8 +170,8 @@ def _line(axes: Axes, points: Any) -> None:
         axes.plot(points.real, sign * points.imag, **GRID)
 
 
-def _plane(columns: Columns, dt: Optional[float], width: float) -> Tuple[Figure, Axes]:
-    figure = _figure(width, width)
+def _plane(columns: Columns, dt: Optional[float], width: float, height: float = 0) -> Tuple[Figure, Axes]:
+    figure = _figure(width, height or width)
     axes = figure.subplots()
     real, imag = columns["real"], columns["imag"]
     finite = np.isfinite(real) & np.isfinite(imag)
@@ -159,6 +184,8 @@ def _plane(columns: Columns, dt: Optional[float], width: float) -> Tuple[Figure,
     axes.set_aspect("equal")
     unit = "" if dt else " (1/s)"
     axes.set(xlabel=f"real part of {'z' if dt else 's'}{unit}", ylabel=f"imaginary part{unit}")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(MaxNLocator(max(2, int(width / 16)), steps=[1, 2, 5, 10]))
     return figure, axes
 
 
@@ -171,14 +198,35 @@ def poles(columns: Columns, dt: Optional[float], width: float = 100.0) -> Figure
 
 def root_locus(columns: Columns, dt: Optional[float], key: str, unit: str = "", width: float = 110.0) -> Figure:
     """The poles at each value of a key, colored by it; crosses at its first value, circles at its last."""
-    figure, axes = _plane(columns, dt, width)
+    figure, axes = _plane(columns, dt, width, 1.14 * width)
     value = columns["value"]
-    points = axes.scatter(columns["real"], columns["imag"], c=value, s=5, cmap="viridis", lw=0, zorder=2)
+    branches, its = _branches(columns)
+    points = axes.add_collection(LineCollection(branches, array=its, cmap="viridis", lw=1.6, zorder=2))
     for end, shape in ((value[0], "x"), (value[-1], "o")):
         at = value == end
-        axes.plot(columns["real"][at], columns["imag"][at], shape, color="black", ms=5, mfc="none", mew=0.8)
-    figure.colorbar(points, ax=axes, shrink=0.8, label=f"{key} ({unit})" if unit else key)
+        axes.plot(columns["real"][at], columns["imag"][at], shape, color="black", ms=5, mfc="none", mew=0.8,
+                  label=f"at {number(end)}")  # fmt: skip
+    _legend(axes)
+    label = cut(f"{key} ({unit})" if unit else key, 0.8 * width, TEXT)
+    figure.colorbar(points, ax=axes, location="bottom", aspect=40, fraction=0.05, label=label)
     return figure
+
+
+def _branches(columns: Columns) -> Tuple[List[Array], Array]:
+    """Lines from each pole to the pole that it moves to at the next value, and these values."""
+    lines: List[Array] = []
+    values: List[float] = []
+    before: Optional[Array] = None
+    for value in np.unique(columns["value"]):
+        at = columns["value"] == value
+        now = columns["real"][at] + 1j * columns["imag"][at]
+        if before is not None and len(before) == len(now):
+            one, other = linear_sum_assignment(np.abs(before[:, None] - now[None, :]))
+            ends = np.stack([before[one], now[other]], axis=1)
+            lines += list(np.stack([ends.real, ends.imag], axis=2))
+            values += [value] * len(now)
+        before = now
+    return lines, np.array(values)
 
 
 def step(columns: Columns, width: float = 135.0) -> Figure:
@@ -191,7 +239,7 @@ def step(columns: Columns, width: float = 135.0) -> Figure:
     for name, axis in looks.items():
         if np.isfinite(columns[name]).any() and not (same and name == "y"):
             axes.plot(columns["t"], columns[name], color=COLORS[axis], ls=DASHES[axis], label="x, y" if same else name)
-    axes.set(xlabel="t (s)", ylabel="response to a unit step")
+    axes.set(xlabel="t (s)", ylabel="step response")
     axes.grid(color="#e4e4e4", lw=0.5)
     axes.margins(x=0)
     _legend(axes)

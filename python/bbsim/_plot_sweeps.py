@@ -23,6 +23,7 @@ _MOST_GROUPS = 5  # more values make a map instead of a line for each
 _MOST_BANDS = 3  # more would hide each other
 _MOST_MARKERS = 60  # lines with more points have no markers
 _MANY_POINTS, _MOST_POINTS = 500, 20000  # of random cases: small ones above the first, only some above the second
+_NO_VALUE = mark("s", "#d9d9d9")  # of done cases, in maps
 _MOST_CELLS = 160  # of a map along one side; more values share cells
 
 
@@ -191,8 +192,17 @@ def _map(sweep: _Sweep, name: str, over: _bbsim.SweepKey, against: _bbsim.SweepK
     axes = place.sheet.panel(place.box, colors.heading)
     axes.grid(False)
     axes.spines[:].set_visible(True)
-    along.set(axes.xaxis, place.across, cells=True, numbered=place.lowest)
-    up.set(axes.yaxis, place.up, cells=True)
+    scattered = over.drawn or against.drawn  # each value is another case's
+    along.set(axes.xaxis, place.across, cells=not scattered, numbered=place.lowest)
+    up.set(axes.yaxis, place.up, cells=not scattered)
+    norm: Any = None
+    if colors.range is not None:
+        low, high = colors.range if is_wide(colors.range) else linear_limits(colors.range, 0)
+        norm = (LogNorm if colors.log else Normalize)(low, high)
+        _color_scale(place.sheet.axes((right - scale_room + 2.5, top, right - scale_room + 5, bottom)), colors, norm, place.up)
+    if scattered:
+        _points(sweep, axes, colors, norm, along, up)
+        return
     x_edges, columns = _shared(along)
     y_edges, rows = _shared(up)
     shape = len(y_edges) - 1, len(x_edges) - 1
@@ -210,25 +220,36 @@ def _map(sweep: _Sweep, name: str, over: _bbsim.SweepKey, against: _bbsim.SweepK
     many = medians.size > 2500  # as one image in SVG and PDF
     gray = Normalize(0, 1)
     axes.pcolormesh(x_edges, y_edges, np.ma.masked_invalid(present + 0.85), cmap="gray", norm=gray, rasterized=many)
-    if colors.range is not None:
-        low, high = colors.range if is_wide(colors.range) else linear_limits(colors.range, 0)
-        norm = (LogNorm if colors.log else Normalize)(low, high)
+    if norm is not None:
         drawn = np.ma.masked_invalid(medians)
         mesh = axes.pcolormesh(x_edges, y_edges, drawn, cmap="viridis", norm=norm, rasterized=many)
-        # The gradient is drawn by itself: colorbar() takes as long as the rest of a panel.
-        scale = place.sheet.axes((right - scale_room + 2.5, top, right - scale_room + 5, bottom))
-        scale.grid(False)
-        scale.spines[:].set_visible(True)
-        ends = np.geomspace(low, high, 129) if colors.log else np.linspace(low, high, 129)
-        middles = np.sqrt(ends[1:] * ends[:-1]) if colors.log else (ends[1:] + ends[:-1]) / 2
-        colors.set(scale.yaxis, place.up, 0.0)
-        scale.pcolormesh([0, 1], ends, middles[:, None], cmap="viridis", norm=norm, rasterized=True)
-        scale.set_xticks([])
-        scale.set_ylim(low, high)
-        scale.yaxis.tick_right()
         if place.across / shape[1] >= 7 and place.up / shape[0] >= 3.2:
             _write_values(axes, mesh, x_edges, y_edges, medians, colors, along, up)
     _mark_cells(sweep, axes, cells, there, x_edges, y_edges, along, up, min(place.across / shape[1], place.up / shape[0]))
+
+
+def _color_scale(axes: Any, colors: _Measure, norm: Any, up: float) -> None:
+    """The gradient is drawn by itself: colorbar() takes as long as the rest of a panel."""
+    axes.grid(False)
+    axes.spines[:].set_visible(True)
+    ends = np.geomspace(norm.vmin, norm.vmax, 129) if colors.log else np.linspace(norm.vmin, norm.vmax, 129)
+    colors.set(axes.yaxis, up, 0.0)
+    axes.pcolormesh([0, 1], ends, _middles(ends, colors.log)[:, None], cmap="viridis", norm=norm, rasterized=True)
+    axes.set_xticks([])
+    axes.set_ylim(norm.vmin, norm.vmax)
+    axes.yaxis.tick_right()
+
+
+def _points(sweep: _Sweep, axes: Any, colors: _Measure, norm: Any, along: _Key, up: _Key) -> None:
+    """A point for each case."""
+    x, y, status = along.place(along.key.values), up.place(up.key.values), np.array(sweep.table.status)
+    good = sweep.done & np.isfinite(colors.values)
+    many, size = len(x) > _MANY_POINTS, 3 if len(x) > _MANY_POINTS else 14
+    axes.scatter(x[good], y[good], size, colors.scale(colors.values[good]), cmap="viridis", norm=norm, lw=0, rasterized=many)
+    none = sweep.done & ~good
+    axes.scatter(x[none], y[none], size, _NO_VALUE["color"], lw=0, rasterized=many)
+    for other, _ in sweep.table.others:
+        axes.plot(x[status == other], y[status == other], **sweep.mark(other))
 
 
 def _middles(edges: Any, log: bool) -> Any:
@@ -395,6 +416,9 @@ def draw_sweep(stored: _bbsim.Stored, asked: Sequence[str], over: Sequence[str],
     title, subtitle = (stored.title, stored.shown_file) if stored.title else (stored.shown_file, "")
     cases = f"{stored.rows} cases{_taken_over(sweep.table, form)}"
     others = [(f"{word}: {n} case{'s' if n > 1 else ''}", sweep.mark(word)) for word, n in sweep.table.others]
+    none = sum(not np.isfinite(sweep.stored.numbers(name)[sweep.done]).all() for name in measures)
+    if is_map and none:
+        others.append(("no value", _NO_VALUE))
     legend = [*_group_legend(form.group), *others]
     subtitle = ", ".join(filter(None, [subtitle, cases]))
     sheet = Sheet(sheet_width, pitch * rows + (1 if histogram else 8.5), title, subtitle, legend)

@@ -129,6 +129,20 @@ class Layout(Case):
                 with self.subTest(vary=vary, width=width):
                     self.require_clear(bbsim.plot(self.sweep_to("sweep.h5", *vary), width=width))
 
+    def test_two_drawn_keys_are_points(self):
+        draws = ["ball.position.0=normal:5 cm:2 mm", "ball.radius=uniform:5 mm:15 mm"]
+        words = [word for one in draws for word in ("--vary", one)]
+        file = self.sweep_to("drawn.h5", *words, "--samples", "40", "--measure", "max_tilt")
+        figure = bbsim.plot(file, over="ball.radius,ball.position.0")
+        self.require_clear(figure)
+        panel = next(axes for axes in figure.axes if axes.get_xlabel())
+        self.assertEqual(len(panel.collections[0].get_offsets()), 40)
+
+    def test_cells_without_a_value_are_explained(self):
+        kv = ["--vary", "controller.pd.kv.0.0=linear:-1:1:9", "--vary", "controller.pd.kp.0.0=log:0.001:1:7"]
+        figure = bbsim.plot(self.sweep_to("none.h5", *kv, "--measure", "phi_gain_margin"))
+        self.assertIn("no value", words_of(figure))
+
     def test_comparisons_and_chosen_columns(self):
         files = []
         for k in ("0.5", "2"):
@@ -154,7 +168,8 @@ class Layout(Case):
                 with self.subTest(scene=scene, **asked):
                     figure = bbsim.plot(CONFIGS / scene, csv=self.folder / "loop.csv", **asked)
                     self.require_clear(figure)
-                    self.require_clear(bbsim.plot(CONFIGS / scene, width="88 mm", **asked))
+                    for width in ("88 mm", "60 mm"):
+                        self.require_clear(bbsim.plot(CONFIGS / scene, width=width, **asked))
                     numbers = np.genfromtxt(self.folder / "loop.csv", delimiter=",", names=True)
                     self.assertGreater(len(numbers), 3)
                     self.assertTrue(all(np.isfinite(numbers[name]).all() for name in numbers.dtype.names))
