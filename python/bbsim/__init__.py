@@ -24,7 +24,7 @@ from ._environments import Env, VectorEnv
 from ._errors import ControllerError, Error, InputError, OutputError, Problem
 from ._pages import Compared, Page, compare, examples, replay
 from ._result import Linearization, OpenLoop, Result
-from ._scenario import Scenario, Settings, given, specification
+from ._scenario import Scenario, Settings, given, listed, specification
 from ._simulate import Simulated, simulate
 
 __all__ = [
@@ -53,10 +53,6 @@ def __dir__() -> List[str]:
     return __all__
 
 
-def _names(names: Union[str, Sequence[str]]) -> Sequence[str]:
-    return [names] if isinstance(names, str) else list(names)
-
-
 def run(
     scenario: Scenario,
     set: Settings = None,
@@ -77,9 +73,9 @@ def run(
     If an event stops the run, the result has the rows until then (``Result.status``). Raises
     InputError, OutputError, and ControllerError if a callable raises or a controller does not start.
     """
-    asked = None if measures is None else _names(measures)
+    asked = None if measures is None else listed(measures)
     file = "" if output is None else os.fspath(output)
-    return Result(_bbsim.run(given(scenario, set, error), asked, _names(expect), file))
+    return Result(_bbsim.run(given(scenario, set, error), asked, listed(expect), file))
 
 
 def check(scenario: Scenario, set: Settings = None) -> str:
@@ -126,8 +122,8 @@ def sweep(
     ``expect``.
     """
     pairs = [(key, specification(values)) for key, values in (vary or {}).items()]
-    choice = _bbsim.SweepChoice(pairs, combine, samples, seed, _names(measures))
-    made = _bbsim.sweep(given(scenario, set, error), choice, _names(expect), threads)
+    choice = _bbsim.SweepChoice(pairs, combine, samples, seed, listed(measures))
+    made = _bbsim.sweep(given(scenario, set, error), choice, listed(expect), threads)
     fields = {
         column.name: np.array(column.texts, dtype=np.str_) if column.is_text else column.numbers
         for column in made.columns

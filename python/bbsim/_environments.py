@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import functools
+import math
 import operator
 import threading
 from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple, TypeVar, Union
@@ -95,9 +96,12 @@ def minus_squared_distance(observations: Array, actions: Array, terminated: Arra
 def _require_range(key: str, found: Any) -> None:
     try:
         low, high = (float(bound) for bound in found)
+        if -math.inf < low <= high < math.inf:
+            return
     except (TypeError, ValueError):
-        allowed = "allowed: (low, high), two numbers in SI units, or a function of a numpy Generator"
-        raise InputError([("", f"{key}: found {found!r} in randomize; {allowed}")]) from None
+        pass
+    allowed = "allowed: (low, high), two numbers in SI units with low <= high, or a function of a numpy Generator"
+    raise InputError([("", f"{key}: found {found!r} in randomize; {allowed}")])
 
 
 class VectorEnv(_VectorBase):
@@ -232,6 +236,8 @@ class VectorEnv(_VectorBase):
     @_one_at_a_time
     def result(self, which: int = 0) -> Optional[Result]:
         """The episode of a run that has just ended; None if it has not."""
+        if not 0 <= operator.index(which) < self.num_envs:
+            raise IndexError(f"which: found {which}; allowed: 0 to {self.num_envs - 1}")
         made = self._runs.result(which)
         return None if made is None else Result(made)
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 import html
 import os
 from dataclasses import dataclass
+from numbers import Real
 from pathlib import Path
 from typing import Any, Dict, List, Optional, Sequence, Union
 
@@ -80,6 +81,9 @@ def compare(
 ) -> Compared:  # fmt: skip
     """Compares two files of results, or a log with a run or a scenario. The keywords are the options of ``bbsim compare``."""
     log = _bbsim.LogOptions(listed(map), listed(header), period, time_offset)
+    for name, found in (("rtol", rtol), ("atol", atol)):
+        if not (found is None or isinstance(found, Real)):
+            raise refuse(name, repr(found), "a number, in SI units")
     made = _bbsim.compare(os.fspath(a), os.fspath(b), overrides(set), rtol, atol, listed(columns), log)
     return Compared(made.alike, made.text, made.reason, made.warnings)
 

@@ -43,7 +43,8 @@ def _refuse_setting(text: str) -> NoReturn:
 
 
 def _parts(texts: Optional[Texts], separator: str) -> List[str]:
-    return [part.strip() for text in listed(texts) for part in text.split(separator)]
+    texts = [text if isinstance(text, str) else ",".join(text) for text in listed(texts)]
+    return [part.strip() for text in texts for part in text.split(separator)]
 
 
 def _millimeters(width: Union[float, str, None]) -> Optional[float]:
@@ -83,7 +84,8 @@ class _Options:
             both = " and --".join(asked).replace("_", "-")
             raise InputError([("", f"found --{both}; allowed: one picture of a scenario at a time")])
         self.kind = asked[0] if asked else ""  # of the picture, if a scenario is drawn
-        self.locus, self.csv = options["root_locus"] or "", options["csv"]
+        locus, self.csv = options["root_locus"] or "", options["csv"]
+        self.locus = locus if isinstance(locus, str) else "{}={}:{}".format(*locus)
         self.scenario, self.summary = (os.fspath(options[name] or "") for name in ("scenario", "summary"))
         self.set = _settings(options["set"])
         header = _parts(options["header"], ",")
@@ -157,7 +159,7 @@ def plot(
     nyquist: bool = False,
     poles: bool = False,
     step: bool = False,
-    root_locus: Optional[str] = None,
+    root_locus: Union[str, Tuple[str, Any, Any], None] = None,
     csv: Optional[File] = None,
     width: Union[float, str, None] = None,
     font: Optional[str] = None,
@@ -168,8 +170,9 @@ def plot(
 
     files    CSV or HDF5 files, results of ``bbsim.run``, or an array of ``bbsim.sweep``; several runs
              are compared in one figure. With ``accuracy``, ``bode``, ``nyquist``, ``poles``, ``step`` or
-             ``root_locus="KEY=FROM:TO"``: a scenario
-    columns  the panels: ``["path", "x,x_reference", "phi"]``; for a sweep, measures
+             ``root_locus="KEY=FROM:TO"`` or ``(KEY, FROM, TO)``: a scenario
+    columns  the panels: ``["path", "x,x_reference", "phi"]`` or ``["path", ["x", "x_reference"]]``; of a sweep,
+             measures
     over     for a sweep, the keys to draw over
     width    the width of the figure: 0.088 (m) or "88 mm"
     font     the font of all texts, in place of DejaVu Sans

@@ -56,7 +56,7 @@ def style(font: str) -> Iterator[None]:
 
 @functools.lru_cache(maxsize=None)
 def _face(font: str) -> Any:
-    path = font_manager.findfont(font_manager.FontProperties(family=font), fallback_to_default=False)
+    path = font_manager.findfont(font_manager.FontProperties(family=[font]), fallback_to_default=False)
     return font_manager.get_font(path)
 
 

@@ -278,6 +278,11 @@ class Linearization(_StateSpace):
         return np.array([complex(*pole) for pole in self._json["poles"]])
 
     @property
+    def stable(self) -> bool:
+        """Whether all poles decay."""
+        return bool((self.poles.real < 0).all() if self.dt is None else (np.abs(self.poles) < 1).all())
+
+    @property
     def margins(self) -> Dict[str, Any]:
         """The margins of each command's loop, as ``bbsim linearize`` writes them; {} for a plant."""
         return self._json.get("margins") or {}

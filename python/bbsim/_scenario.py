@@ -137,4 +137,4 @@ def specification(values: Union[str, Sequence[Any]]) -> str:
     """A key's values over a sweep, as ``bbsim sweep --vary KEY=`` takes them."""
     if isinstance(values, str):
         return values
-    return "list:" + ",".join(map(as_yaml, values))
+    return "list:" + ",".join(map(as_yaml, [values] if np.isscalar(values) else values))

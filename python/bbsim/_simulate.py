@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _bbsim
 from ._errors import InputError
-from ._scenario import Scenario, Settings, as_yaml, given
+from ._scenario import Scenario, Settings, as_yaml, given, listed
 
 Array = "np.ndarray[Any, np.dtype[np.float64]]"
 Cases = Union[Mapping[str, Sequence[Any]], Sequence[Mapping[str, Any]]]
@@ -54,10 +54,6 @@ class Simulated:
 
 def refuse(what: str, found: str, allowed: str) -> InputError:
     return InputError([("", f"{what}: found {found}; allowed: {allowed}")])
-
-
-def _names(names: Names) -> List[str]:
-    return [names] if isinstance(names, str) else list(names)
 
 
 def _numbers(what: str, values: Any) -> Array:
@@ -136,6 +132,6 @@ def simulate(
             arrays[name] = np.full(count, array)
         elif array.ndim != 1:
             raise refuse(name, f"an array of shape {array.shape}", "(n,) for n cases")
-    names, asked = _names(columns), _names(measures)
+    names, asked = listed(columns), listed(measures)
     request = _bbsim.CasesAsked(count, keys, names, asked, at, arrays["begin"], arrays["end"], states, events)
     return Simulated(_bbsim.simulate(given(scenario, set), request, threads), names, asked)

@@ -231,11 +231,25 @@ class Pages(unittest.TestCase):
     def test_a_linearization_can_be_pickled(self):
         made = bbsim.linearize(CONFIGS / "rig.yaml", at=0.5)
         self.assertEqual(made.at, bbsim.linearize(CONFIGS / "rig.yaml", at="0.5 s").at)
+        self.assertTrue(made.stable)
+        self.assertFalse(bbsim.linearize(CONFIGS / "fig2b-literal.yaml").stable)
         again = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(made))))
         self.assertEqual((repr(again), again.margins, again.kind), (repr(made), made.margins, made.kind))
         np.testing.assert_array_equal(again.A, made.A)
         for axis in ("phi", "theta"):
             np.testing.assert_array_equal(again.open_loop(axis).A, made.open_loop(axis).A)
+
+    def test_odd_arguments(self):
+        rig = CONFIGS / "rig.yaml"
+        for bounds in ((0.03, 0.01), (float("nan"), 0.01)):
+            with self.assertRaisesRegex(bbsim.InputError, "ball.radius: found .* in randomize; allowed: .low, high."):
+                bbsim.VectorEnv(rig, 2, randomize={"ball.radius": bounds})
+        for which in (-1, 2):
+            with self.assertRaisesRegex(IndexError, f"which: found {which}; allowed: 0 to 1"):
+                bbsim.VectorEnv(rig, 2).result(which)
+        with self.assertRaisesRegex(bbsim.InputError, "atol: found '1 mm'; allowed: a number"):
+            bbsim.compare("a.csv", "b.csv", atol="1 mm")
+        self.assertEqual(bbsim.sweep(rig, {"ball.radius": 0.01}, "max_tilt")["ball.radius"].tolist(), [0.01])
 
     def test_settings_are_a_dict(self):
         for call in (bbsim.run, bbsim.check, bbsim.linearize):

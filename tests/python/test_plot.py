@@ -150,7 +150,7 @@ class Layout(Case):
         figure = bbsim.plot(files)
         self.require_clear(figure)
         self.assertIn("hold-0.5.csv hold-2.csv", words_of(figure))
-        one = bbsim.plot(files[0], columns=["path", "x,x_reference", "torque_phi"])
+        one = bbsim.plot(files[0], columns=["path", ["x", "x_reference"], "torque_phi"])
         self.require_clear(one)
         self.assertEqual(len(one.axes), 3)
         self.assertIn("torque φ (mN m)", words_of(one))
