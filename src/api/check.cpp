@@ -104,7 +104,10 @@ void report_sampled_loop(Report& report, const Scenario& scenario, const model::
                             (cycle.samples > 1 ? " in these periods" : " a period") +
                             ", with a time constant of " + short_number(-period / std::log(size)) +
                             " s"});
-  report.push_back({"", "without noise, dropouts, rounding, limits, dead band and backlash"});
+  const bool steppers = scenario.gimbal.servo && scenario.gimbal.servo->stepper;
+  report.push_back(
+      {"", std::string("without noise, dropouts, rounding, limits, dead band and backlash") +
+               (steppers ? "; steppers are at their targets at once" : "")});
   if (!model::why_not_linear(scenario).empty()) return;
   if (cycle.samples > 1) {
     report.push_back(

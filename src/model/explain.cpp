@@ -93,17 +93,24 @@ std::string gimbal_note(const Scenario& scene) {
                : "angles and rates are states: the controller drives their "
                  "accelerations, equation (31)";
   }
-  const bool first = scene.gimbal.servo->time_constant.has_value();
-  const bool mixed = first != scene.gimbal.servo_of(1).time_constant.has_value();
-  return std::string("angles and rates are states: ") +
-         (mixed   ? "a first-order and a second"
-          : first ? "first"
-                  : "second") +
-         "-order servo" + (mixed ? " follow" : "s follow") + " the controller's angles";
+  const auto kind = [&](std::size_t axis) -> std::string {
+    const Servo& servo = scene.gimbal.servo_of(axis);
+    return servo.stepper         ? "stepper"
+           : servo.time_constant ? "first-order servo"
+                                 : "second-order servo";
+  };
+  const std::string phi = kind(0), theta = kind(1);
+  return "angles and rates are states: " +
+         (phi == theta ? phi + 's' : "a " + phi + " and a " + theta) +
+         " follow the controller's angles";
 }
 
 std::string limits_of(const Servo& servo) {
   List list;
+  if (servo.stepper) {
+    const auto& [steps, microsteps, gear] = *servo.stepper;
+    list.add("microsteps of " + degrees(2 * std::numbers::pi / (steps * microsteps * gear)));
+  }
   if (servo.angle_limit) list.add("stops at " + degrees(*servo.angle_limit));
   if (servo.rate_limit) list.add("at most " + degrees(*servo.rate_limit) + "/s");
   if (servo.acceleration_limit)
@@ -114,6 +121,7 @@ std::string limits_of(const Servo& servo) {
 }
 
 std::string speed_of(const Servo& servo) {
+  if (servo.stepper) return "stepper";
   if (servo.time_constant) return "time constant " + milliseconds(*servo.time_constant);
   return "natural frequency " + short_number(servo.natural_frequency) + " rad/s, damping " +
          short_number(servo.damping);

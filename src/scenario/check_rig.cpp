@@ -252,6 +252,24 @@ class Checks {
           "rate_limit");
   }
 
+  // Null if there is none.
+  [[nodiscard]] const char* trouble_of_stepper(const Servo& servo) const {
+    if (!scene_.controller->sampling) {
+      return "without controller.sampling; allowed: only with it, since the driver plans a ramp to "
+             "each command";
+    }
+    if (!servo.rate_limit || !servo.acceleration_limit) {
+      return "without rate_limit and acceleration_limit; allowed: only with both, which are the "
+             "driver's ramp";
+    }
+    if (servo.time_constant || servo.natural_frequency > 0) {
+      return "beside natural_frequency, time_constant or model; allowed: one of them";
+    }
+    return servo.angle_limit
+               ? "beside angle_limit; allowed: controller.limit, which keeps commands within bounds"
+               : nullptr;
+  }
+
   void leg_servos() {
     const auto& three = scene_.gimbal.three_servos;
     for (std::size_t i = 0; three && three->legs && i < 3; ++i) {
@@ -261,6 +279,9 @@ class Checks {
         refuse({"gimbal", "three_servos", "legs"},
                "found a servo of leg " + std::to_string(i + 1) + " with " + why);
       };
+      if (const char* const why = servo->stepper ? trouble_of_stepper(*servo) : nullptr) {
+        refuse_leg(std::string("stepper ") + why);
+      }
       if (servo->time_constant && !scene_.controller->sampling) {
         refuse_leg("time_constant, but no controller.sampling; allowed: only with it");
       }
@@ -275,6 +296,11 @@ class Checks {
 
   void servo(std::size_t axis) {
     const Servo& servo = axis == 0 ? *scene_.gimbal.servo : scene_.gimbal.servo_of(axis);
+    if (servo.stepper) {
+      if (const char* const why = trouble_of_stepper(servo)) {
+        refuse_of_servo(axis, "stepper", std::string("found ") + why);
+      }
+    }
     if (servo.time_constant) {
       if (!scene_.controller->sampling) {
         refuse_of_servo(axis, "time_constant",

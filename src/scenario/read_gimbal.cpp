@@ -147,6 +147,13 @@ struct DeadBand {
   }
 };
 
+void read_stepper(yaml::Keys& keys, StepperMotor& stepper) {
+  const yaml::Whole count{1, "200"};
+  keys.optional("steps", count, stepper.steps);
+  keys.optional("microsteps", count, stepper.microsteps);
+  keys.optional("gear", yaml::Number{yaml::Dimension::number, {.above = 0}}, stepper.gear);
+}
+
 // Reads the keys into `servo`, over its existing values. Does not report missing keys.
 void read_servo_keys(yaml::Keys& keys, Servo& servo) {
   const yaml::NameOf<ServoModel> models{{{ServoModel::hobby_standard, "hobby-standard"},
@@ -159,7 +166,8 @@ void read_servo_keys(yaml::Keys& keys, Servo& servo) {
   const yaml::Number time{yaml::Dimension::time, {.above = 0}};
   const yaml::Number frequency{yaml::Dimension::angular_rate, {.above = 0}};
   const yaml::Number damping{yaml::Dimension::number, {.at_least = 0}};
-  keys.exclusive({{"time_constant"}, {"natural_frequency", "damping"}});
+  keys.exclusive({{"time_constant"}, {"natural_frequency", "damping"}, {"stepper"}});
+  keys.optional("stepper", yaml::MappingOf(read_stepper), servo.stepper);
   keys.optional("time_constant", time, servo.time_constant);
   if (keys.find("time_constant")) {
     servo.natural_frequency = servo.damping = 0;
@@ -207,7 +215,9 @@ void read_servo(yaml::Keys& keys, BothServos& both) {
     const auto allowed = key == "natural_frequency"
                              ? yaml::Number{yaml::Dimension::angular_rate, {.above = 0}}.allowed()
                              : yaml::Number{yaml::Dimension::number, {.at_least = 0}}.allowed();
-    if (!at.find("time_constant") && !at.find("model") && !given(key)) at.missing(key, allowed);
+    if (!at.find("time_constant") && !at.find("stepper") && !at.find("model") && !given(key)) {
+      at.missing(key, allowed);
+    }
   };
   Servo common;
   read_servo_keys(keys, common);
@@ -227,9 +237,9 @@ void read_servo(yaml::Keys& keys, BothServos& both) {
     }
     yaml::Keys own(*one);
     read_servo_keys(own, servo);
-    const bool first_order = servo.time_constant.has_value();
+    const bool other = servo.time_constant || servo.stepper;
     for (const char* key : {"natural_frequency", "damping"}) {
-      if (!first_order) {
+      if (!other) {
         require(own, key, [&](std::string_view of) {
           return own.find(of) || in_common(of) || in_common("model");
         });

@@ -56,11 +56,17 @@ constexpr KeyRelation table[] = {
 
     // Servos and linkages.
     {"gimbal.servo", needs,
-     "gimbal.servo.model or gimbal.servo.time_constant or gimbal.servo.natural_frequency and "
+     "gimbal.servo.model or gimbal.servo.time_constant or gimbal.servo.stepper or "
+     "gimbal.servo.natural_frequency and "
      "gimbal.servo.damping or "
      "gimbal.servo.phi and gimbal.servo.theta"},
     {"gimbal.servo.time_constant", needs, "controller.sampling"},
     {"gimbal.servo.time_constant", excludes, "gimbal.servo.acceleration_limit"},
+    {"gimbal.servo.stepper", needs, "controller.sampling"},
+    {"gimbal.servo.stepper", needs,
+     "gimbal.servo.acceleration_limit and gimbal.servo.rate_limit or "
+     "gimbal.servo.acceleration_limit and gimbal.servo.speed"},
+    {"gimbal.servo.stepper", excludes, "gimbal.servo.angle_limit or gimbal.servo.model"},
     {"gimbal.servo.dead_band>0", needs, "controller.sampling"},
     {"controller.assumes", needs, "gimbal.linkage or gimbal.three_servos",
      "found, but nothing links servos and plate; allowed: only with gimbal.linkage or "

@@ -122,6 +122,12 @@ struct GimbalStart {
 
 // Second order: phi'' = omega_n^2 (u_phi - phi) - 2 zeta omega_n phi', and the same for theta.
 // First order: phi' = (u_phi - phi) / time_constant.
+// A stepper motor and its driver.
+struct StepperMotor {
+  double steps = 200, microsteps = 16;  // in a turn of the motor, and in a step
+  double gear = 1;                      // turns of the motor in a turn of the shaft
+};
+
 struct Servo {
   double natural_frequency = 0;                // omega_n, rad/s, > 0
   double damping = 0;                          // zeta, >= 0
@@ -131,10 +137,13 @@ struct Servo {
   std::optional<double> acceleration_limit{};  // rad/s^2
   double dead_band = 0;  // ignores commands that differ from the last by less, rad
   double backlash = 0;   // free play between servo and plane, rad
+  // Replaces natural_frequency and damping: the shaft follows a ramp within the limits of rate and
+  // acceleration.
+  std::optional<StepperMotor> stepper{};
 
   [[nodiscard]] bool plain() const {
-    return !time_constant && !angle_limit && !rate_limit && !acceleration_limit && dead_band == 0 &&
-           backlash == 0;
+    return !stepper && !time_constant && !angle_limit && !rate_limit && !acceleration_limit &&
+           dead_band == 0 && backlash == 0;
   }
 };
 

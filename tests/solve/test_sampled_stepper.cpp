@@ -100,6 +100,10 @@ const Case cases[] = {
     {"backlash and a dead band",
      "{servo: {natural_frequency: 31.4, damping: 0.6, backlash: 0.01, dead_band: 0.002}}",
      "gravity_compensation: {kp: 8, kv: 6}, drives: angle, limit: 0.2"},
+    {"steppers with backlash",
+     "{servo: {stepper: {microsteps: 8, gear: 3}, rate_limit: 0.8, acceleration_limit: 12, "
+     "backlash: 0.004, phi: {backlash: 0}}}",
+     "gravity_compensation: {kp: 10, kv: 8}, drives: angle, limit: 0.2"},
     {"first order, all limits",
      "{servo: {time_constant: 0.03, angle_limit: 0.06, rate_limit: 1.5, backlash: 0.004}}",
      "gravity_compensation: {kp: 10, kv: 8}, drives: angle, limit: 0.2"},
@@ -210,7 +214,7 @@ TEST_CASE("integrate() solves sampled rigs by pieces, and no others") {
   continuous.controller->sensor.reset();
   CHECK_FALSE(solve::sampled::knows(model::assemble(continuous, false)));
   // With a linkage, unless the motors' work is asked for, or something else moves the ball.
-  Scenario linked = scene_of(text_of(cases[12], sampling, "t, x"));
+  Scenario linked = scene_of(text_of(cases[13], sampling, "t, x"));
   CHECK(solve::sampled::knows(model::assemble(linked, without_work(false))));
   CHECK_FALSE(solve::sampled::knows(model::assemble(linked, false)));
   linked.ball.losses.viscous = 1e-6;
@@ -220,7 +224,7 @@ TEST_CASE("integrate() solves sampled rigs by pieces, and no others") {
 TEST_CASE("pieces too long for their tolerance are split") {
   // Four commands in eight seconds, and a stiff servo that jumps at each.
   const Scenario scene = scene_of(text_of(
-      cases[7], "sampling: {period: 0.8, delay: 0.1, derivative_filter: 1}", "t, x, gamma"));
+      cases[8], "sampling: {period: 0.8, delay: 0.1, derivative_filter: 1}", "t, x, gamma"));
   const model::Model model = model::assemble(scene, true);
   const solve::OutputGrid grid(scene.time);
   const Both general = run_of(model, grid, generally(grid));

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Servos at their limits: when they switch, and the effect on the ball.
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "catch.hpp"
 #include "support/run_in_memory.hpp"
@@ -96,6 +99,53 @@ TEST_CASE("a servo at its rate limit keeps that rate, then leaves it") {
     if (t > t1 + 1e-6 && t < t2 - 1e-6) CHECK(sample.gimbal.phi_dot == fastest);
   }
   CHECK(t2 < 0.6);
+}
+
+// The angle and rate of a trapezoidal ramp from (q, v) to a target, after a time, by the durations
+// of its parts.
+std::pair<double, double> ramp(double q, double v, double target, double fastest, double most,
+                               double time) {
+  const double halt = q + v * std::abs(v) / (2 * most);
+  if ((target - halt) * v < 0) {
+    const double whole = std::abs(v) / most, a = v > 0 ? -most : most;
+    if (time < whole) return {q + v * time + a * time * time / 2, v + a * time};
+    return ramp(halt, 0, target, fastest, most, time - whole);
+  }
+  const double way = target < q ? -1 : 1, length = std::abs(target - q), speed = std::abs(v);
+  const double peak = std::min(fastest, std::sqrt(most * length + v * v / 2));
+  const double rise = (peak - speed) / most, fall = peak / most;
+  const double even = (length - (speed + peak) / 2 * rise - peak / 2 * fall) / peak;
+  const double left = rise + even + fall - time;
+  if (left <= 0) return {target, 0};
+  if (left < fall) return {target - way * most * left * left / 2, way * most * left};
+  if (time < rise) return {q + v * time + way * most * time * time / 2, v + way * most * time};
+  return {q + way * ((speed + peak) / 2 * rise + peak * (time - rise)), way * peak};
+}
+
+TEST_CASE("a stepper follows a trapezoidal ramp to its command, whatever its motion") {
+  const Method method = GENERATE(Method::radau, Method::bdf);
+  struct Move {
+    double angle, rate, command;
+  };
+  // A trapezoid, a triangle, one that turns first, one that cannot halt in time, one on its way.
+  const auto [angle, rate, command] = GENERATE(values<Move>(
+      {{0, 0, 0.6}, {0, 0, -0.01}, {0.1, -0.6, 0.4}, {0, 0.9, 0.02}, {-0.1, -0.5, -0.3}}));
+  constexpr double fastest = 0.9, most = 12;
+  Scenario scene = step_scene(command);
+  scene.gimbal.start = {angle, 0, rate, 0};
+  scene.gimbal.servo = Servo{};
+  scene.gimbal.servo->stepper = StepperMotor{400, 32, 2};
+  scene.gimbal.servo->rate_limit = fastest;
+  scene.gimbal.servo->acceleration_limit = most;
+  const double step = 2 * std::numbers::pi / (400 * 32 * 2);
+  const double target = step * std::round(command / step);
+  const double close = method == Method::radau ? 1e-12 : 1e-9;
+  for (const model::Sample& sample : run_of(scene, method).samples) {
+    const auto [q, v] = ramp(angle, rate, target, fastest, most, sample.t);
+    CHECK(std::abs(sample.gimbal.phi - q) < close);
+    CHECK(std::abs(sample.gimbal.phi_dot - v) < 10 * close);
+    CHECK(sample.gimbal.theta == 0);
+  }
 }
 
 TEST_CASE("a hard stop stops the servo and kicks the ball by r times its rate") {

@@ -525,7 +525,8 @@ TEST_CASE("rigs in lanes are those of single runs") {
         "{natural_frequency: 5 Hz, damping: 0.8, rate_limit: 20 deg/s, angle_limit: 4 deg}",
         "{natural_frequency: 5 Hz, damping: 0.3, acceleration_limit: 20}",
         "{natural_frequency: 5 Hz, damping: 0.8, backlash: 0.5 deg, dead_band: 0.2 deg}",
-        "{time_constant: 40 ms, rate_limit: 30 deg/s}");
+        "{time_constant: 40 ms, rate_limit: 30 deg/s}",
+        "{stepper: {gear: 2}, rate_limit: 60 deg/s, acceleration_limit: 15}");
     CAPTURE(servo);
     // Off its circle, so that limits are reached.
     check_rig_lanes(Setup("configs/rig.yaml",

@@ -100,6 +100,8 @@ double ServoAxis::drive(const AxisState& state) const {
   switch (motion_) {
     case Motion::free:
       return state.demand;
+    case Motion::on_ramp:
+      return ramp_.acceleration;
     case Motion::accelerating_up:
       return servo_.acceleration_limit;
     case Motion::accelerating_down:
@@ -110,12 +112,21 @@ double ServoAxis::drive(const AxisState& state) const {
 }
 
 void ServoAxis::settle(AxisState& state, AxisMode& mode) {
-  motion_ = choose(state);
+  if (servo_.step > 0) {
+    motion_ = Motion::on_ramp;
+    ramp_ =
+        next_part(state.angle, state.rate, target_, {servo_.rate_limit, servo_.acceleration_limit});
+  } else {
+    motion_ = choose(state);
+  }
   mode.demand_factor = 0;
   mode.set_acceleration = 0;
   switch (motion_) {
     case Motion::free:
       mode.demand_factor = 1;
+      break;
+    case Motion::on_ramp:
+      mode.set_acceleration = ramp_.acceleration;
       break;
     case Motion::accelerating_up:
       mode.set_acceleration = servo_.acceleration_limit;
@@ -149,6 +160,15 @@ void ServoAxis::for_each_margin(Use use) const {
   };
   const double most = servo_.acceleration_limit;
   switch (motion_) {
+    case Motion::on_ramp: {
+      if (ramp_.until == RampPart::Until::ever) break;
+      const double sign = ramp_.rising ? 1 : -1;
+      AxisMargin margin{sign * ramp_.level};
+      const bool by_angle = ramp_.until == RampPart::Until::angle;
+      (by_angle ? margin.by_angle : margin.by_rate) = -sign;
+      use(by_angle ? stop_up : rate_up, margin);
+      break;
+    }
     case Motion::free:
       if (!servo_.time_constant) below(acceleration_up, most, &AxisMargin::by_demand);
       break;
@@ -171,8 +191,10 @@ void ServoAxis::for_each_margin(Use use) const {
       use(stop_down, turned(push_at_stop()));
       break;
   }
-  const bool limited = motion_ == Motion::rate_up || motion_ == Motion::rate_down;
-  const bool halted = motion_ == Motion::stop_up || motion_ == Motion::stop_down;
+  const bool limited =
+      motion_ == Motion::rate_up || motion_ == Motion::rate_down || motion_ == Motion::on_ramp;
+  const bool halted =
+      motion_ == Motion::stop_up || motion_ == Motion::stop_down || motion_ == Motion::on_ramp;
   if (!limited && !halted) below(rate_up, servo_.rate_limit, &AxisMargin::by_rate);
   if (!halted) below(stop_up, servo_.angle_limit, &AxisMargin::by_angle);
   switch (play_) {

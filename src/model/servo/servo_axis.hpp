@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "model/servo/held_motion.hpp"
+#include "model/servo/stepper_ramp.hpp"
 #include "model/systems/rig.hpp"
 
 namespace bbsim::model {
@@ -51,8 +52,9 @@ class ServoAxis {
       : servo_(servo), response_(response), root_(std::sqrt(response.from_angle)) {}
 
   // Takes a new command and returns the command that the servo follows. The dead band keeps the old
-  // command if the new one is too close to it.
+  // command if the new one is too close to it. A stepper rounds commands to microsteps.
   [[nodiscard]] double follow(double command) {
+    if (servo_.step > 0) command = servo_.step * std::round(command / servo_.step);
     if (std::abs(command - target_) > servo_.dead_band) target_ = command;
     return target_;
   }
@@ -103,6 +105,7 @@ class ServoAxis {
  private:
   enum class Motion {
     free,
+    on_ramp,  // of a stepper
     accelerating_up,
     accelerating_down,
     rate_up,
@@ -141,6 +144,7 @@ class ServoAxis {
   ServoResponse response_;
   double root_;  // of the stiffness in free motion, rad/s
   Motion motion_ = Motion::free;
+  RampPart ramp_;
   Play play_ = Play::none;
   bool started_ = false;
   double plane_ = 0;  // angle in the gap, rad

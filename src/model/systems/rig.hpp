@@ -40,10 +40,11 @@ struct RigServo {
   double dead_band = 0, backlash = 0;     // rad
   std::optional<double> time_constant;    // of a first-order servo, s
   double offset = 0;                      // angle of the plane at the servo's zero, rad
+  double step = 0;                        // of a stepper: its microstep, rad; 0: not a stepper
 
   [[nodiscard]] bool switches() const {
-    return angle_limit < unlimited || rate_limit < unlimited || acceleration_limit < unlimited ||
-           backlash > 0;
+    return step > 0 || angle_limit < unlimited || rate_limit < unlimited ||
+           acceleration_limit < unlimited || backlash > 0;
   }
 };
 
