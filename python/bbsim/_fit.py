@@ -30,6 +30,8 @@ _CANDIDATES = ("ball.inertia_factor", "ball.losses.rolling", "ball.losses.viscou
                "gimbal.mounting.theta_offset", "gimbal.mounting.yaw", "gimbal.mounting.skew", "gimbal.mounting.height",
                "gimbal.servo.natural_frequency", "gimbal.servo.damping", "gimbal.servo.time_constant",
                "controller.sampling.delay")  # fmt: skip
+_CHANCE = ("controller.sensor.noise", "controller.sensor.dropout", "controller.sensor.seed", "controller.sensor.resolution",
+           "controller.sampling.jitter", "controller.sampling.resolution")  # fmt: skip
 
 
 def _fault(text: str) -> InputError:
@@ -130,12 +132,16 @@ def _ideal(given: _bbsim.Given) -> Optional[_bbsim.Given]:
     return given.changed(changes + [(part, "null") for part in parts if _bbsim.has(given, part)])
 
 
+def _closes_a_loop(given: _bbsim.Given) -> bool:
+    return _bbsim.has(given, "controller") and not _bbsim.has(given, "controller.commands")
+
+
 class _Task:
     """What is asked for, checked, and the logs, read."""
 
     def __init__(self, given: _bbsim.Given, logs: Any, free: Any, map: Any, header: Any, period: Any, time_offset: Any,
                  window: Any, hold_out: Any, loss: Optional[str], starts: Any, threads: Any) -> None:  # fmt: skip
-        self.given, self.files, self.warnings = given, listed(logs), []  # type: ignore[var-annotated]
+        self.given, self.files, self.notes = given, listed(logs), []  # type: ignore[var-annotated]
         self.share, self.starts, self.threads, self.robust = hold_out or 0, starts, threads or 0, loss == "huber"
         self.length = None if window is None else _bbsim.value_in(str(window), "s")
         free = listed(free)
@@ -155,6 +161,7 @@ class _Task:
             raise _fault(f"controller: found a program or library of your own; allowed in a fit: {allowed}")
         self.keys: List[FreeKey] = read_free_keys(free, given)
         run = given.changed([("solver.error", "null"), ("solver.rtol", "1e-10"), ("solver.atol", "1e-12")])
+        run, self.warnings = self._without_chance(run), list(_bbsim.remarks(given))
         maps, header = listed(map), [name for text in listed(header) for name in text.split(",")]
         tables, self.logs = self._tables_of_logs(), []  # type: ignore[var-annotated]
         for file in self.files:
@@ -170,6 +177,21 @@ class _Task:
         if len(set(names)) < len(names):
             refuse(f"{max(names, key=names.count)} is given twice")
 
+    def _without_chance(self, given: _bbsim.Given) -> _bbsim.Given:
+        """A loop without what hangs on chance: noise, which differs in the log, and steps that noise smooths."""
+        free = {key.name for key in self.keys}
+        parts = [(part, "null") for part in _CHANCE if _bbsim.has(given, part) and part not in free]
+        if not _closes_a_loop(given):
+            return given
+        for name in ("gimbal.servo.dead_band", "gimbal.servo.backlash"):
+            its = [f"gimbal.servo.{axis}.{name[13:]}" for axis in ("phi", "theta")]
+            if not free & {name, *its}:
+                parts += [(one, "0") for one in its if _bbsim.has(given, one)]
+                parts += [(name, "0")] if _bbsim.key_facts(given, "--free", name).value else []
+        if parts:
+            self.notes.append("the fit leaves out noise, rounding, dead band and backlash in the loop, unless they are free")
+        return given.changed(parts)
+
     def _tables_of_logs(self) -> List[str]:
         """If a table of the scenario is one of the logs, each log replaces it in turn."""
         folder = os.path.dirname(self.given.name) if os.path.exists(self.given.name) else ""
@@ -182,7 +204,7 @@ class _Task:
     def cut(self) -> Tuple[Windows, Windows, List[int], float]:
         """The windows to fit and those held out, the coordinates of their starts, and their length."""
         given = self.logs[0].given
-        loop = _bbsim.has(given, "controller") and not _bbsim.has(given, "controller.commands")
+        loop = _closes_a_loop(given)
         # Feedback keeps errors small over whole logs and carries on states that no log shows.
         whole = loop and self.length is None and not self.share
         length = math.inf if whole else self.length or _USUAL_WINDOW
@@ -270,7 +292,7 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
             made.suggestion = {"key": its[0], "residuals_smaller_by": its[1]}
             notes.append(f"--free {its[0]} could make the residuals about {_bbsim.rounded(100 * its[1], 2)} % smaller")
     made.warnings = [text.partition(": ")[2] for text in task.warnings]
-    made.notes = [*made.warnings, *search.doubts, *notes]
+    made.notes = [*made.warnings, *task.notes, *search.doubts, *notes]
     return made
 
 

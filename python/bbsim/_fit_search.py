@@ -271,6 +271,7 @@ class Search:
         """The sum of squares."""
         return float(np.sum(self.windows.residuals(self.u) ** 2))
 
+    @np.errstate(divide="ignore", invalid="ignore")
     def linear(self) -> "Linear":
         """How well the logs determine the keys, by the linear model at u."""
         slopes, norms = self.windows.derivatives(self.u, near=False)
@@ -310,6 +311,7 @@ class Search:
         ends = [min([ends[0], *self.rivals[:, k]]), max([ends[1], *self.rivals[:, k]])]
         return [float(self.keys[k].value(end)) for end in ends]
 
+    @np.errstate(divide="ignore", invalid="ignore")
     def _distance(self, k: int, sign: float, along: Array, growth: float) -> float:
         """Of an end from u. It solves the problem of the end itself (Venzon and Moolgavkar, Applied Statistics 37,
         1988): each step is exact for residuals that are linear in the keys."""

@@ -44,6 +44,24 @@ std::optional<NumberKey> find(const Declared& declared, std::string_view path,
   return find(declared.parts.front(), rest, "");
 }
 
+// A value that gimbal.servo.model stands for; empty for other keys and without a model.
+std::optional<double> of_servo_model(const std::string& name, const ScenarioFamily& family) {
+  constexpr std::string_view prefix = "gimbal.servo.";
+  if (!name.starts_with(prefix) || family.text_at("gimbal.servo.model").empty()) return {};
+  const Scenario scene = family.read({});
+  std::string_view key = std::string_view(name).substr(prefix.size());
+  const bool of_theta = key.starts_with("theta.");
+  if (of_theta || key.starts_with("phi.")) key.remove_prefix(key.find('.') + 1);
+  const Servo& servo = scene.gimbal.servo_of(of_theta ? 1 : 0);
+  if (key == "natural_frequency") return servo.natural_frequency;
+  if (key == "damping") return servo.damping;
+  if (key == "angle_limit") return servo.angle_limit;
+  if (key == "rate_limit") return servo.rate_limit;
+  if (key == "dead_band") return servo.dead_band;
+  if (key == "backlash") return servo.backlash;
+  return {};
+}
+
 }  // namespace
 
 std::optional<NumberKey> number_key(std::string_view path) {
@@ -66,6 +84,7 @@ NamedNumber number_named(const std::string& option, std::string name,
   }
   NamedNumber found{std::move(name), *known, std::string(yaml::si_unit(known->dimension))};
   found.value = family.number_at(found.name, {});
+  if (!found.value) found.value = of_servo_model(found.name, family);
   if (!found.value) found.value = known->standard;
   return found;
 }

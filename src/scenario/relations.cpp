@@ -22,7 +22,7 @@ constexpr KeyRelation table[] = {
      "controller"},
     {"gimbal.servo", excludes, "gimbal.motion",
      "found beside gimbal.motion, which no servo follows; allowed: only with a controller that "
-     "drives angle"},
+     "drives angle, such as controller.commands, which plays known commands"},
     {"gimbal.motor", excludes, "gimbal.motion",
      "found beside gimbal.motion, which no torque changes; allowed: only with gimbal.torque or a "
      "controller"},

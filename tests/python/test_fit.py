@@ -211,6 +211,21 @@ class Estimates(Case):
             self.assert_near(made.parameters[0], 10)
             self.assert_near(made.parameters[1], 8)
 
+    def test_a_loop_with_noise_and_rounding(self):
+        """Its noise is not the log's. The servo's dead band and backlash are those of its model."""
+        rig = (CONFIGS / "rig.yaml").read_text()
+        rig = rig[: rig.index("events:")] + "time: {end: 30, step: 50 ms}\noutput: {columns: [t, x, y, phi, theta]}\n"
+        servo = {"gimbal.servo": {"model": "smart-serial"}}
+        truth = {"gimbal.mounting.phi_offset": "0.6 deg", "controller.sensor.delay": "30 ms", "controller.sensor.seed": 8}
+        made = bbsim.run(rig, {**servo, **truth}, output="log.csv")
+        self.assertEqual(made.status, "done")
+        fitted = bbsim.fit(rig, "log.csv", list(truth)[:2] + ["gimbal.servo.damping=0.3:3"], set=servo)
+        offset, delay, damping = (its.estimate for its in fitted.parameters)
+        self.assertAlmostEqual(offset, np.radians(0.6), delta=1e-3)
+        self.assertAlmostEqual(delay, 0.03, delta=0.01)
+        self.assertEqual(fitted.parameters[2].before, 1)
+        self.assertIn("the fit leaves out noise, rounding, dead band and backlash in the loop", fitted.report)
+
     def test_several_starts_find_what_one_start_misses(self):
         # The minimum nearest to a delay of 0.9 s is another period of the motion.
         late = ASSUMED_RIG.replace("value: theta", "value: theta, delay: 0.9")
