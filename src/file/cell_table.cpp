@@ -27,6 +27,14 @@ void CellColumn::add_text(std::string text) {
   texts.push_back(std::move(text));
 }
 
+void CellColumn::shorten(std::size_t count) {
+  if (numbers.size() <= count) return;
+  numbers.resize(count);
+  if (is_text.empty()) return;
+  is_text.resize(count);
+  texts.resize(count);
+}
+
 CellTable read_hdf5_cells(const std::string& file) {
   constexpr std::size_t rows_at_a_time = 65536;
   Hdf5TableReader reader(file, rows_at_a_time);

@@ -41,6 +41,8 @@ struct CellColumn {
 
   void add_number(double number);
   void add_text(std::string text);
+  // Drops the rows from `count` on, of one number or text each.
+  void shorten(std::size_t count);
   [[nodiscard]] std::size_t size() const { return numbers.size(); }
   [[nodiscard]] bool has_text(std::size_t i) const { return !is_text.empty() && is_text[i]; }
 };

@@ -161,7 +161,7 @@ class Parser {
     const std::size_t most_rows = room_for_rows();
     while (next_row()) {
       require_room(cells_.rows, most_rows);
-      read_row();
+      if (!read_row()) leave_out_cut_row();
     }
     note_rows();
     return std::move(cells_);
@@ -371,7 +371,8 @@ class Parser {
     }
   }
 
-  void read_row() {
+  // Returns false, without a row, if the line has too few fields.
+  [[nodiscard]] bool read_row() {
     const auto read = [&](std::string_view field, std::size_t c) {
       if (c >= reads_.size()) {
         if (!field.empty()) beyond_ = true;
@@ -396,7 +397,7 @@ class Parser {
     };
     if (text_ == header_) {
       ++headers_again_;
-      return;
+      return true;
     }
     beyond_ = false;
     std::size_t found = 0;
@@ -408,10 +409,34 @@ class Parser {
       }
       for (const std::string& field : fields_) read(trimmed(field), found++);
     }
-    const std::size_t expected = cells_.names.size();
-    if (found < expected) fail(text_, count_text(found));
+    if (found < cells_.names.size()) return false;
     if (beyond_) take_beyond(found);
     ++cells_.rows;
+    return true;
+  }
+
+  // A logger that is switched on or off within a row cuts the first or the last one. Refuses other
+  // rows with too few fields.
+  void leave_out_cut_row() {
+    const std::size_t number = number_;
+    std::string found = count_text(fields_of(text_, delimiter_)->size());
+    for (CellColumn& column : cells_.columns) {
+      column.shorten(cells_.rows);
+      for (Place* const place : {&column.first_gap, &column.first_text}) {
+        if (place->line == number) *place = {};
+      }
+    }
+    const bool first = cells_.rows == 0 && !cut_first_;
+    cut_first_ = cut_first_ || first;
+    const bool more = next_row();
+    if (first ? !more : more || cells_.rows == 0) {
+      throw InputError({Problem{lines_.name() + ":" + std::to_string(number) + ":1",
+                                found + "; complete the row, or remove it"}});
+    }
+    cells_.notes.push_back("warning: " + lines_.name() + ':' + std::to_string(number) + ": " +
+                           found + "; the " + (first ? "first" : "last") +
+                           " row is cut, and left out");
+    if (first && !read_row()) leave_out_cut_row();
   }
 
   [[nodiscard]] std::string count_text(std::size_t found) const {
@@ -424,8 +449,9 @@ class Parser {
   }
 
   void take_beyond(std::size_t found) {
+    // With decimal points, commas do not mark decimals.
     if (cells_.rows == 0 && delimiter_ == ',' && cells_.names.size() > 1 &&
-        found == 2 * cells_.names.size()) {
+        found == 2 * cells_.names.size() && text_.find('.') == std::string_view::npos) {
       fail(text_, count_text(found) +
                       ": commas seem to separate columns and to mark decimals; separate the "
                       "columns by semicolons or tabs");
@@ -477,6 +503,7 @@ class Parser {
   CellTable cells_;
   std::vector<bool> reads_;          // per column: whether to read it
   std::vector<std::string> fields_;  // fields of a line with quotation marks
+  bool cut_first_ = false;           // the first row had too few fields
   bool beyond_ = false;              // the row has a field beyond the columns
   std::size_t rows_beyond_ = 0, headers_again_ = 0;
   std::string first_beyond_;

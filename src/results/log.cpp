@@ -176,9 +176,36 @@ class Notes {
   std::vector<std::string>& notes_;
 };
 
+// Seconds after the first row; empty if a text is no date or time of day. Times of day go on after
+// midnight.
+std::optional<std::vector<double>> times_of_stamps(const Column& column) {
+  constexpr double day = 86400;
+  std::vector<double> times;
+  double first = std::nan(""), before = 0, added = 0;
+  for (const std::string& text : column.texts) {
+    double time = std::nan("");
+    if (!text.empty()) {
+      const std::optional<double> stamp = scenario::seconds_of_stamp(trimmed(text));
+      if (!stamp) return {};
+      if (std::isnan(first)) first = before = *stamp;
+      if (*stamp < day && before - *stamp > day / 2) added += day;
+      before = *stamp;
+      time = *stamp + added - first;
+    }
+    times.push_back(time);
+  }
+  return std::isnan(first) ? std::nullopt : std::optional(std::move(times));
+}
+
 // Converts a column of the log to a column of bbsim.
 Column made_of(const Result& log, const Mapped& mapped, const Notes& note) {
   const Column& from = log.columns[mapped.from];
+  if (mapped.column->name == "t" && from.is_text()) {
+    if (auto times = times_of_stamps(from)) {
+      note("its times are dates or times of day; the first row is t = 0");
+      return {"t", std::move(*times), {}, "s"};
+    }
+  }
   require_numbers(log, from);
   Column made{std::string(mapped.column->name), from.numbers};
   made.unit = mapped.column->unit;
@@ -209,6 +236,33 @@ std::vector<Mapped> by_their_names(const Result& log, const std::vector<Mapped>&
     }
   }
   return more;
+}
+
+// A clock under one of its usual names, for a log without a column t; says so.
+std::optional<Mapped> usual_clock(const Result& log, std::vector<std::string>& notes) {
+  struct Usual {
+    std::string_view name, unit;  // of times without a unit in the name
+  };
+  constexpr Usual usual[] = {{"time", "s"},    {"timestamp", "s"}, {"millis", "ms"},
+                             {"micros", "us"}, {"seconds", "s"},   {"datetime", "s"}};
+  std::vector<std::string> names = log.names();
+  for (std::string& name : names) {
+    std::ranges::transform(name, name.begin(), [](char c) {
+      return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+  }
+  for (const auto& [name, unit] : usual) {
+    const auto found = scenario::find_log_column(names, name, yaml::Dimension::time);
+    if (!found) continue;
+    const bool is_text = log.columns[*found].is_text();
+    const auto in_name = scenario::unit_in_name(names[*found], yaml::Dimension::time);
+    const std::string read = is_text || in_name ? "" : ", in " + std::string(unit);
+    notes.push_back("note: " + shown(log.file, uncut) + ": t is the column " +
+                    shown(log.columns[*found].name) + read);
+    return Mapped{scenario::find_column("t"), *found, 1, 0,
+                  in_name ? in_name : scenario::log_unit(unit, yaml::Dimension::time)};
+  }
+  return {};
 }
 
 Column* find_column(Result& log, std::string_view name) {
@@ -259,6 +313,13 @@ void set_clock(Result& log, const LogChoice& choice, const Notes& note) {
                      " has no column t; --map t=NAME:UNIT names it, --period gives the rows one");
   }
   const scenario::Clock clock = scenario::clock_of(t->numbers);
+  if (clock.restart) {
+    const std::size_t row = *clock.restart;
+    throw InputError(log.file + ": its clock starts again in row " + std::to_string(row + 1) +
+                     ": t falls to " + number_text(t->numbers[row]) +
+                     " s; split the file there, or give its rows one clock: --period TIME without "
+                     "the column t");
+  }
   for (const std::string& done : clock.done) note(done);
   if (clock.changed) keep_rows(log, clock.rows);
   t = find_column(log, "t");
@@ -288,6 +349,10 @@ void make_log(Result& log, const LogChoice& choice, bool only_mapped,
     const bool is_time = one.column->name == "t";
     if (is_time && !choice.period.empty()) continue;  // add_clock() refuses t
     if (!only_mapped || !maps || is_time) mapped.push_back(one);
+  }
+  const auto is_clock = [](const Mapped& one) { return one.column->name == "t"; };
+  if (choice.period.empty() && std::ranges::none_of(mapped, is_clock)) {
+    if (auto clock = usual_clock(log, notes)) mapped.push_back(*clock);
   }
   std::vector<Column> made;
   for (const Mapped& one : mapped) made.push_back(made_of(log, one, note));

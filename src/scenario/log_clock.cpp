@@ -4,6 +4,7 @@
 #include "scenario/log_clock.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "base/number_text.hpp"
@@ -19,7 +20,89 @@ std::string rows_text(std::size_t count, const char* what, std::size_t first) {
          std::to_string(first + 1);
 }
 
+// The first row from which a clock starts again: it falls by most of the time that has passed, and
+// goes on from there. Single rows out of order do not count.
+std::optional<std::size_t> restart_of(const std::vector<double>& times,
+                                      const std::vector<std::size_t>& rows) {
+  constexpr std::size_t fewest = 4;  // rows on both sides
+  for (std::size_t k = fewest; k + fewest <= rows.size(); ++k) {
+    const double begin = times[rows.front()], before = times[rows[k - 1]], now = times[rows[k]];
+    if (!(before - now > (before - begin) / 2 && before > begin)) continue;
+    bool goes_on = true;
+    for (std::size_t i = k + 1; i < k + fewest; ++i) {
+      goes_on = goes_on && times[rows[i]] >= times[rows[i - 1]] && times[rows[i]] < before;
+    }
+    if (goes_on) return rows[k];
+  }
+  return {};
+}
+
+// Reads digits; moves `text` beyond them.
+std::optional<int> take_digits(std::string_view& text, std::size_t fewest, std::size_t most) {
+  std::size_t count = 0;
+  int value = 0;
+  while (count < most && count < text.size() && text[count] >= '0' && text[count] <= '9') {
+    value = 10 * value + (text[count++] - '0');
+  }
+  if (count < fewest) return {};
+  text.remove_prefix(count);
+  return value;
+}
+
+bool take(std::string_view& text, std::string_view any_of) {
+  if (text.empty() || any_of.find(text.front()) == std::string_view::npos) return false;
+  text.remove_prefix(1);
+  return true;
+}
+
+// Days since 1970 of a date; moves `text` beyond it and the character behind it.
+std::optional<double> take_date(std::string_view& text) {
+  const auto first = take_digits(text, 1, 4);
+  if (!first || !take(text, "-./")) return {};
+  const auto month = take_digits(text, 1, 2);
+  if (!month || !take(text, "-./")) return {};
+  const auto last = take_digits(text, 1, 4);
+  if (!last || !take(text, " T_")) return {};
+  const bool year_first = *first > 31;
+  const std::chrono::year_month_day date{
+      std::chrono::year(year_first ? *first : *last),
+      std::chrono::month(static_cast<unsigned>(*month)),
+      std::chrono::day(static_cast<unsigned>(year_first ? *last : *first))};
+  if (!date.ok()) return {};
+  return static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count());
+}
+
 }  // namespace
+
+std::optional<double> seconds_of_stamp(std::string_view text) {
+  constexpr double day = 86400;
+  double whole = 0;
+  if (text.find_first_of(" T_") != std::string_view::npos) {
+    const auto days = take_date(text);
+    if (!days) return {};
+    whole = *days * day;
+  }
+  const auto hours = take_digits(text, 1, 2);
+  if (!hours || *hours > 24 || !take(text, ":")) return {};
+  const auto minutes = take_digits(text, 2, 2);
+  if (!minutes || *minutes > 59) return {};
+  double seconds = 0;
+  if (take(text, ":")) {
+    const auto count = take_digits(text, 2, 2);
+    if (!count || *count > 60) return {};
+    seconds = *count;
+    if (take(text, ".,:")) {
+      const std::size_t digits = text.size();
+      const auto part = take_digits(text, 1, 9);
+      if (!part) return {};
+      seconds += *part / std::pow(10, static_cast<double>(digits - text.size()));
+    }
+  }
+  // A zone is the same in all rows.
+  if (!text.empty() && text.find_first_not_of("Z+-:0123456789") != std::string_view::npos)
+    return {};
+  return whole + 3600.0 * *hours + 60.0 * *minutes + seconds;
+}
 
 std::optional<std::string> unwrap(std::vector<double>& times) {
   const auto is_counter = [](double t) { return std::abs(t) <= two_to_32 && t == std::trunc(t); };
@@ -54,13 +137,18 @@ Clock clock_of(const std::vector<double>& times) {
     latest = std::max(latest, times[i]);
     clock.rows.push_back(i);
   }
+  clock.restart = restart_of(times, clock.rows);
+  if (clock.restart) {
+    clock.rows.clear();
+    return clock;
+  }
   if (without > 0) {
     clock.done.push_back(rows_text(without, " without a time", first_without) + "; left out");
   }
   if (unsorted > 0) {
     std::ranges::stable_sort(clock.rows, {}, [&](std::size_t row) { return times[row]; });
     clock.done.push_back(rows_text(unsorted, " earlier than the one before", first_unsorted) +
-                         "; sorted by time. If the clock started again there, split the file");
+                         "; sorted by time");
   }
   std::size_t doubled = 0, first_doubled = 0;
   const auto same = [&](std::size_t a, std::size_t b) {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace bbsim::scenario {
@@ -18,10 +19,15 @@ namespace bbsim::scenario {
 // The rows of a log sorted by time (s), without repeated times and rows that lack a time.
 struct Clock {
   std::vector<std::size_t> rows;
-  bool changed = false;           // rows were dropped or moved
-  std::vector<std::string> done;  // descriptions of the changes
+  std::optional<std::size_t> restart{};  // the row in which the clock starts again; `rows` is empty
+  bool changed = false;                  // rows were dropped or moved
+  std::vector<std::string> done;         // descriptions of the changes
 };
 [[nodiscard]] Clock clock_of(const std::vector<double>& times);
+
+// The seconds of a date with a time of day, since 1970, or of a time of day alone, since midnight:
+// "2026-03-01 12:00:01.25", "2026-03-01T12:00:01Z", "01.03.2026 12:00:01,25", "12:00:01".
+[[nodiscard]] std::optional<double> seconds_of_stamp(std::string_view text);
 
 // Whether times (s) count from an epoch, such as 1970.
 [[nodiscard]] bool counts_from_epoch(const std::vector<double>& times);

@@ -58,7 +58,8 @@ TEST_CASE("invalid CSV is refused with its place") {
   CHECK_THAT(refused(""), Contains("a.csv:1:1: found no header"));
   CHECK_THAT(refused("t,x\n"), Contains("has a header and no rows"));
   CHECK_THAT(refused("1,2\n3,4\n"), Contains("a.csv:1:1: found the number"));
-  CHECK_THAT(refused("t,x\n1,2\n3\n"), Contains("a.csv:3:1: found 1 number; the header names 2"));
+  CHECK_THAT(refused("t,x\n1,2\n3\n4,5\n"),
+             Contains("a.csv:3:1: found 1 number; the header names 2"));
   CHECK_THAT(refused("t,t\n1,2\n"), Contains("column \"t\" appears twice"));
   CHECK_THAT(refused("t,\n1,2\n"), Contains("a column's name is empty"));
   CHECK_THAT(refused("t,x\n1,\"2\n"), Contains("a.csv:2:1: found a quotation mark"));
