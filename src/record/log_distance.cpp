@@ -14,6 +14,7 @@
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
 #include "record/aligned.hpp"
+#include "scenario/unit_doubts.hpp"
 
 namespace bbsim::record {
 namespace {
@@ -176,8 +177,15 @@ LogDistance log_distance(const file::TableData& log, const std::string& log_name
       return line.empty() ? std::string("nothing")
                           : number_text(line.first()) + " to " + number_text(line.last()) + " s";
     };
+    const auto length = [](const Line& line) {
+      return line.empty() ? 0 : line.last() - line.first();
+    };
+    const auto doubt = scenario::doubt_of_span(length(log_clock), length(run_clock));
     throw InputError(log_name + " and " + run_name + " have no time in common: found " +
                      span(log_clock) + " and " + span(run_clock) +
+                     (doubt ? "; the log's t looks like " + std::string(doubt->looks_like) +
+                                  ": --map t=t:" + std::string(doubt->units)
+                            : std::string()) +
                      "; --time-offset start, a time, or auto moves the log");
   }
   for (const Pair& pair : pairs) {
