@@ -131,6 +131,9 @@ void add_new(Command& command, const Options& options) {
               "\"40 mm 2.7 g\"; hollow or solid may follow")
       .takes("BALL");
   command
+      .option("--actuator", rig.actuator, "for a rig: servo (default), or stepper: stepper motors")
+      .takes_one_of({"servo", "stepper"});
+  command
       .option("--servo", rig.servo,
               "for a rig: hobby-standard (default), hobby-micro or smart-serial")
       .takes_one_of(servo_classes());

@@ -135,7 +135,7 @@ struct Rig {
   Ball ball;
   std::string servo;
   double rate = 0;
-  bool touch = false, three_legs = false;
+  bool touch = false, three_legs = false, stepper = false;
 };
 
 std::string or_default(const std::string& text, const char* otherwise) {
@@ -146,6 +146,10 @@ Rig read_rig(const RigWords& words) {
   Rig rig;
   rig.plate = read_plate(or_default(words.plate, "300 mm x 200 mm"));
   rig.ball = read_ball(or_default(words.ball, "ping-pong"), rig.plate);
+  rig.stepper = words.actuator == "stepper";
+  if (rig.stepper && !words.servo.empty()) {
+    throw refused("--servo", words.servo, "only with --actuator servo");
+  }
   rig.servo = or_default(words.servo, "hobby-standard");
   rig.touch = !words.touch.empty();
   rig.rate = rig.touch ? read_rate("--touch", words.touch)
@@ -290,14 +294,19 @@ constexpr std::array questions = {
                (void)read_ball(answer, read_rig(words).plate);
                words.ball = answer;
              }},
-    Question{"Servos: hobby-standard, hobby-micro or smart-serial [hobby-standard]",
-             [](RigWords& words, const std::string& answer) {
-               const std::vector<std::string> known = servo_classes();
-               if (std::ranges::find(known, answer) == known.end()) {
-                 throw refused("--servo", answer, "hobby-standard, hobby-micro, smart-serial");
-               }
-               words.servo = answer;
-             }},
+    Question{
+        "Servos: hobby-standard, hobby-micro, smart-serial, or stepper motors [hobby-standard]",
+        [](RigWords& words, const std::string& answer) {
+          if (answer.starts_with("stepper")) {
+            words.actuator = "stepper";
+            return;
+          }
+          const std::vector<std::string> known = servo_classes();
+          if (std::ranges::find(known, answer) == known.end()) {
+            throw refused("--servo", answer, "hobby-standard, hobby-micro, smart-serial, stepper");
+          }
+          words.servo = answer;
+        }},
     Question{"Sensor, such as camera 30 Hz or touch 50 Hz [camera 30 Hz]",
              [](RigWords& words, const std::string& answer) {
                const std::size_t blank = std::min(answer.find(' '), answer.size());
@@ -323,12 +332,14 @@ std::vector<std::string> servo_classes() {
 }
 
 std::string RigWords::first_given() const {
-  const std::array<std::pair<const char*, const std::string*>, 6> options = {{{"--plate", &plate},
-                                                                              {"--ball", &ball},
-                                                                              {"--servo", &servo},
-                                                                              {"--camera", &camera},
-                                                                              {"--touch", &touch},
-                                                                              {"--legs", &legs}}};
+  const std::array<std::pair<const char*, const std::string*>, 7> options = {
+      {{"--plate", &plate},
+       {"--ball", &ball},
+       {"--actuator", &actuator},
+       {"--servo", &servo},
+       {"--camera", &camera},
+       {"--touch", &touch},
+       {"--legs", &legs}}};
   for (const auto& [name, text] : options) {
     if (!text->empty()) return name;
   }
@@ -353,9 +364,9 @@ void ask(RigWords& words) {
 std::string rig_scenario(const RigWords& words, const std::string& file) {
   const Rig rig = read_rig(words);
   const Values values = values_of(rig, file);
-  const std::array<std::string_view, 3> kept = {rig.touch ? "touch" : "camera",
-                                                rig.three_legs ? "3 legs" : "2 legs",
-                                                rig.plate.disc ? "disc" : "rectangle"};
+  const std::array<std::string_view, 4> kept = {
+      rig.touch ? "touch" : "camera", rig.stepper ? "stepper" : "servo",
+      rig.three_legs ? "3 legs" : "2 legs", rig.plate.disc ? "disc" : "rectangle"};
   constexpr std::string_view condition = "@if ", ends = "@ ";
   std::string text;
   for (const std::string& whole : lines_of(text_of(template_files(), "rig.yaml.in"))) {

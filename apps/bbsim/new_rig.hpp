@@ -15,7 +15,7 @@ namespace bbsim::app {
 
 // Values of the options as text. Empty: not given.
 struct RigWords {
-  std::string plate, ball, servo, camera, touch, legs;
+  std::string plate, ball, actuator, servo, camera, touch, legs;
 
   // Name of the first option that was given; empty if none was.
   [[nodiscard]] std::string first_given() const;

@@ -24,8 +24,11 @@ struct SketchArguments {
 
 // Remedy that the compiler's messages do not name.
 std::string hint(const std::string& messages) {
-  if (messages.find("No such file or directory") == std::string::npos) return "";
-  return "\nname the folder of a library with -I";
+  const std::size_t end = messages.find(": No such file or directory");
+  if (end == std::string::npos) return "";
+  const std::size_t begin = messages.rfind(' ', end) + 1;
+  return "\n" + messages.substr(begin, end - begin) +
+         " is of a library: name the library's folder with -I";
 }
 
 ExitCode make(const SketchArguments& arguments, const Options& options) {

@@ -16,7 +16,7 @@ extern "C" {
 #endif
 
 /* Increases when anything below changes. */
-#define BBSIM_WIRING_VERSION 4u
+#define BBSIM_WIRING_VERSION 5u
 
 /* Linear map through two points: position[i] gives counts[i]. It also extrapolates. */
 typedef struct bbsim_count_map {
@@ -60,6 +60,15 @@ typedef struct bbsim_wired_camera {
   const char* lost;  /* text while the ball is not seen; empty: none */
 } bbsim_wired_camera;
 
+/* An ultrasonic sensor that measures along an axis. */
+typedef struct bbsim_wired_distance {
+  int32_t trigger, echo; /* pins; -1: there is no sensor */
+  double offset;         /* the distance is this plus the ball's position, m */
+  double noise;          /* standard deviation of the distance, m */
+  double blind;          /* nearer balls read as this distance, m */
+  double range;          /* balls beyond give no echo, m */
+} bbsim_wired_distance;
+
 /* A constant input: counts of an analog pin, or 0 or 1 of a digital pin. */
 typedef struct bbsim_wired_input {
   int32_t pin;
@@ -87,6 +96,7 @@ typedef struct bbsim_wiring {
   uint32_t ignored_channels;   /* bit n: channel n of the PCA9685 has a servo outside the scene */
   bbsim_wired_screen screen;
   bbsim_wired_camera camera;
+  bbsim_wired_distance distances[2]; /* x, y */
   size_t input_count;
   const bbsim_wired_input* inputs;
   size_t ignored_count;

@@ -48,6 +48,7 @@ bbsim_wiring by_default() {
   c.oscillator = 25e6;
   c.screen = {bbsim_no_screen, {-1, -1, -1, -1, -1}, {}, {}, 0, {300, 300}, 300, 0.01};
   c.camera.port = -1;
+  std::ranges::fill(c.distances, bbsim_wired_distance{-1, -1, 0, 0, 0.02, 4});
   c.costs = {2e-6, 4e-6, 112e-6, 5e-6, 5e-6, 20e-6, 5e-6, 3.3e-3, 1e-6};
   return c;
 }
@@ -169,6 +170,21 @@ void read_camera(Keys& keys, Read& read) {
   keys.optional("lost", text, read.lost);
 }
 
+void read_distance(Keys& keys, bbsim_wired_distance& sensor) {
+  const Number length{Dimension::length, {.at_least = 0}, "\"2 cm\""};
+  keys.required("trigger", Pin{}, sensor.trigger);
+  keys.required("echo", Pin{}, sensor.echo);
+  keys.required("offset", Number{Dimension::length, {}, "\"20 cm\""}, sensor.offset);
+  keys.optional("noise", length, sensor.noise);
+  keys.optional("blind", length, sensor.blind);
+  keys.optional("range", Number{Dimension::length, {.above = 0}, "\"4 m\""}, sensor.range);
+}
+
+void read_distances(Keys& keys, bbsim_wiring& wiring) {
+  keys.optional("x", MappingOf(read_distance), wiring.distances[0]);
+  keys.optional("y", MappingOf(read_distance), wiring.distances[1]);
+}
+
 void read_eeprom(Keys& keys, Read& read) {
   read.has_size = keys.find("size").has_value();
   keys.optional("size", Whole{1, 65536}, read.eeprom_size);
@@ -203,6 +219,7 @@ void read_wiring(Keys& keys, Read& read) {
   keys.section("servos", read_servos, read);
   keys.optional("screen", MappingOf(read_screen), read.c.screen);
   keys.optional("camera", MappingOf(read_camera), read);
+  keys.optional("distances", MappingOf(read_distances), read.c);
   keys.optional("inputs", Inputs{}, read.inputs);
   keys.optional("eeprom", MappingOf(read_eeprom), read);
   enum class Setup { during, before };

@@ -63,6 +63,20 @@ TEST_CASE("rigs at the limits of the options balance their ball") {
   check_balances(folder, rate == "15 Hz" ? "10 mm" : "2 mm");
 }
 
+TEST_CASE("rigs with stepper motors balance their ball") {
+  const Folder folder;
+  const std::string legs = GENERATE("2", "3");
+  const std::string ball = GENERATE("ping-pong", "steel");
+  CAPTURE(legs, ball);
+  REQUIRE(new_rig(folder, {"--actuator", "stepper", "--legs", legs, "--ball", ball}).exit_code ==
+          0);
+  CHECK_THAT(folder.read("my-rig.yaml"), Contains("stepper:") && !Contains("model:"));
+  check_balances(folder, "2 mm");
+  const Result both = new_rig(folder, {"--actuator", "stepper", "--servo", "hobby-micro"});
+  CHECK(both.exit_code == 2);
+  CHECK_THAT(both.err, Contains("--servo: found hobby-micro; allowed: only with --actuator servo"));
+}
+
 TEST_CASE("rigs have margins of at least 6 dB and 30 degrees") {
   const Folder folder;
   const std::string servos[] = {"hobby-standard", "hobby-micro", "smart-serial"};

@@ -74,6 +74,101 @@ TEST_CASE("screens and a servo driver give their libraries' numbers") {
   CHECK(contains(chip.err, "controller: 1469 2425 64\n"));
 }
 
+TEST_CASE("displays and ports without a part print to nowhere, and core headers are there") {
+  const std::string text = R"(
+#include <Adafruit_SSD1306.h>
+#include <Adafruit_STMPE610.h>
+#include <LiquidCrystal_I2C.h>
+#include <Printable.h>
+#include <SoftwareSerial.h>
+#include <avr/interrupt.h>
+#include <avr/io.h>
+#include <pins_arduino.h>
+#include <util/delay.h>
+LiquidCrystal lcd(12, 11, 5, 4, 3, 2);
+LiquidCrystal_I2C second(0x27, 16, 2);
+Adafruit_SSD1306 pixels(128, 64, &Wire, -1);
+SoftwareSerial other(2, 3);
+Adafruit_STMPE610 panel;
+long before, waited;
+void setup() {
+  Serial.begin(115200);
+  lcd.begin(16, 2);
+  second.init();
+  second.backlight();
+  other.begin(9600);
+  if (!pixels.begin(SSD1306_SWITCHCAPVCC, 0x3C) || !panel.begin()) exit(1);
+  pixels.setTextColor(WHITE);
+}
+void loop() {
+  lcd.setCursor(0, 1);
+  lcd.print("x = ");
+  lcd.println(1.5, 1);
+  second.print(F("ready"));
+  pixels.clearDisplay();
+  pixels.drawCircle(64, 32, 10, SSD1306_WHITE);
+  pixels.print(millis());
+  pixels.display();
+  other.println(B101);
+  panel.writeRegister8(STMPE_INT_STA, 0xFF);
+  before = micros();
+  _delay_ms(1.5);
+  _delay_us(500);
+  waited = micros() - before;
+  Serial.print("waited:");
+  Serial.print(waited);
+  Serial.print(",bits:");
+  Serial.println(B101 + B00000011);
+  delay(20);
+}
+)";
+  const Sketch sketch(text, std::string(plain_wiring) +
+                                "screen:\n  chip: stmpe610\n"
+                                "  x: {counts: [300, 3700], position: [-0.16, 0.16]}\n"
+                                "  y: {counts: [300, 3700], position: [-0.12, 0.12]}\n");
+  CAPTURE(sketch.made.err);
+  REQUIRE(sketch.made.exit_code == 0);
+  const Result run = bbsim(sketch.words("run", {"--set", "output.columns=[t, waited, bits]",
+                                                "--set", "time.end=0.5", "-q", "-o", "-"}));
+  CAPTURE(run.err);
+  CHECK(run.exit_code == 0);
+  CHECK(contains(run.out, ",2002,8\n"));  // micros() itself takes 2 us
+}
+
+TEST_CASE("an ultrasonic sensor balances a ball along its axis") {
+  const std::string style = GENERATE("pulseIn", "polling", "NewPing");
+  const std::string read =
+      style == "pulseIn" ? "float us() { ping(); return pulseIn(7, HIGH, 30000); }\n"
+      : style == "polling"
+          ? "float us() { ping(); while (!digitalRead(7)) {} unsigned long t = micros();\n"
+            "  while (digitalRead(7)) {} return micros() - t; }\n"
+          : "#include <NewPing.h>\nNewPing sonar(8, 7, 100);\nfloat us() { return sonar.ping(); "
+            "}\n";
+  const Sketch sketch(
+      "#include <Servo.h>\nServo phi, theta;\nfloat before = 0.2, filtered = 0;\n"
+      "void ping() {\n  digitalWrite(8, LOW); delayMicroseconds(2);\n"
+      "  digitalWrite(8, HIGH); delayMicroseconds(10); digitalWrite(8, LOW);\n}\n" +
+          read +
+          "void setup() {\n  Serial.begin(115200);\n  pinMode(8, OUTPUT);\n  pinMode(7, INPUT);\n"
+          "  phi.attach(9);\n  theta.attach(10);\n  theta.write(90);\n  phi.write(90);\n}\n"
+          "void loop() {\n  float d = us() / 2e6 * 343;\n"
+          "  filtered += 0.5 * ((d - before) / 0.03 - filtered);\n  before = d;\n"
+          "  float angle = -(0.7 * (d - 0.2) + 0.5 * filtered);\n"
+          "  phi.writeMicroseconds(1472 + angle * 57.3 * 1856 / 180);\n"
+          "  Serial.print(\"distance:\");\n  Serial.println(d, 4);\n"
+          "  while (millis() % 30 != 0) delayMicroseconds(100);\n}\n",
+      std::string(plain_wiring) +
+          "distances: {x: {trigger: 8, echo: 7, offset: \"20 cm\", noise: \"0.5 mm\"}}\n");
+  CAPTURE(style, sketch.made.err);
+  REQUIRE(sketch.made.exit_code == 0);
+  const Result run = bbsim(sketch.words(
+      "run", {"--set", "ball.position=[-5 cm, 0]", "--set", "output.columns=[t, x, distance]",
+              "--expect", "max_x from 7 s < 1 cm", "--expect", "min_x from 7 s > -1 cm", "--expect",
+              "max_distance from 7 s < 0.21", "-q", "-o", "-"}));
+  CAPTURE(run.err);
+  CHECK(run.exit_code == 0);
+}
+
 TEST_CASE("a global variable that uses the board is refused, with the right place for it") {
   const std::string use = GENERATE("EEPROM.read(0)", "analogRead(A5)", "digitalRead(7)");
   const Sketch sketch(
@@ -128,7 +223,7 @@ TEST_CASE("a missing board feature is a compiler error with a hint") {
   const Sketch sketch(
       "#include <Wire.h>\n#include <SPI.h>\nvoid tick() {}\nvoid setup() {\n"
       "  attachInterrupt(2, tick, 1);\n  Wire.requestFrom(0x68, 6);\n  SPI.transfer(3);\n"
-      "  pulseIn(7, HIGH);\n  shiftOut(1, 2, MSBFIRST, 3);\n}\nISR(TIMER1_COMPA_vect) { tick(); }\n"
+      "  shiftOut(1, 2, MSBFIRST, 3);\n}\nISR(TIMER1_COMPA_vect) { tick(); }\n"
       "void loop() {}\n",
       plain_wiring);
   CAPTURE(sketch.made.err);
@@ -136,7 +231,7 @@ TEST_CASE("a missing board feature is a compiler error with a hint") {
   for (const char* hint :
        {"bbsim: attachInterrupt: no interrupts; call what it would do from loop()",
         "bbsim: Wire: no part of the wiring speaks I2C by bytes",
-        "bbsim: SPI: no part of the wiring speaks SPI by bytes", "bbsim: pulseIn: no sensor",
+        "bbsim: SPI: no part of the wiring speaks SPI by bytes",
         "bbsim: shiftOut: no part of the wiring", "bbsim: ISR: no interrupts",
         "own.ino does not compile"}) {
     CHECK(contains(sketch.made.err, hint));
@@ -154,7 +249,7 @@ TEST_CASE("compiler messages show the sketch's own lines, and warnings stay warn
   CHECK(warned.made.exit_code == 0);
   CHECK(contains(warned.made.err, "own.ino:3:7: warning: unused variable"));
   const Sketch missing("#include <FancySensor.h>\nvoid loop() {}\nvoid setup() {}\n", plain_wiring);
-  CHECK(contains(missing.made.err, "name the folder of a library with -I"));
+  CHECK(contains(missing.made.err, "is of a library: name the library's folder with -I"));
 }
 
 TEST_CASE("a sketch that uses something not in its wiring ends the run, with the remedy") {

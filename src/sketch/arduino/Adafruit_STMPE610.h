@@ -8,6 +8,12 @@
 #include "Wire.h"
 
 #define STMPE_ADDR 0x41
+#define STMPE_INT_CTRL 0x09
+#define STMPE_INT_EN 0x0A
+#define STMPE_INT_STA 0x0B
+#define STMPE_FIFO_TH 0x4A
+#define STMPE_FIFO_STA 0x4B
+#define STMPE_FIFO_STA_RESET 0x01
 
 class TS_Point {
  public:
@@ -35,7 +41,8 @@ class Adafruit_STMPE610 {
 
   BBSIM_LACKS(readRegister8, "Adafruit_STMPE610.readRegister8: the chip has no registers here")
   BBSIM_LACKS(readRegister16, "Adafruit_STMPE610.readRegister16: the chip has no registers here")
-  BBSIM_LACKS(writeRegister8, "Adafruit_STMPE610.writeRegister8: the chip has no registers here")
+  // Only the reset of the buffer has an effect; sketches clear interrupts, of which there are none.
+  void writeRegister8(uint8_t address, uint8_t value);
 
  private:
   void access(int registers) const;

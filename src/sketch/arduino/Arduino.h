@@ -127,6 +127,11 @@ void pinMode(int pin, int mode);
 void digitalWrite(int pin, int level);
 int digitalRead(int pin);
 int analogRead(int pin);
+// Of the echo of a distance sensor, us; 0 if it does not end within the timeout (us).
+unsigned long pulseIn(int pin, int level, unsigned long timeout = 1000000UL);
+inline unsigned long pulseInLong(int pin, int level, unsigned long timeout = 1000000UL) {
+  return pulseIn(pin, level, timeout);
+}
 void analogWrite(int pin, int value);
 void analogReadResolution(int bits);
 void analogWriteResolution(int bits);
@@ -143,8 +148,6 @@ inline void noTone(int) {}
 BBSIM_LACKS(attachInterrupt, "attachInterrupt: no interrupts; call what it would do from loop()")
 BBSIM_LACKS(detachInterrupt, "detachInterrupt: no interrupts; call what it would do from loop()")
 BBSIM_LACKS(digitalPinToInterrupt, "digitalPinToInterrupt: no interrupts; poll the pin in loop()")
-BBSIM_LACKS(pulseIn, "pulseIn: no sensor of the wiring answers in pulses; screens and cameras do")
-BBSIM_LACKS(pulseInLong, "pulseInLong: no sensor of the wiring answers in pulses")
 BBSIM_LACKS(shiftIn, "shiftIn: no part of the wiring is read bit by bit")
 BBSIM_LACKS(shiftOut, "shiftOut: no part of the wiring is written bit by bit")
 #define ISR(...) static_assert(false, "bbsim: ISR: no interrupts; call what it does from loop()");
@@ -210,6 +213,7 @@ inline bool isWhitespace(int c) {
 
 #include "HardwareSerial.h"
 #include "avr/pgmspace.h"
+#include "binary.h"
 
 void setup();
 void loop();

@@ -6,6 +6,7 @@
 #include "runtime/copies.cpp"
 #include "runtime/core.cpp"
 #include "runtime/coroutine.cpp"
+#include "runtime/distances.cpp"
 #include "runtime/pins.cpp"
 #include "runtime/screen.cpp"
 #include "runtime/serial.cpp"

@@ -85,6 +85,11 @@ bool screen_reads(int pin, double& level);
 bool is_of_screen(int pin);
 double counts_at(const bbsim_count_map& map, double position);
 
+// distances.cpp: the level of an echo pin, false for other pins; what a trigger pin does.
+bool distance_reads(int pin, double& level);
+void trigger_distance(int pin, bool high);
+bool is_trigger(int pin);
+
 // pins.cpp: how a pin drives its wire.
 enum class Drive { none, pull_up, low, high };
 Drive drive_of(int pin);

@@ -193,6 +193,12 @@ void Adafruit_STMPE610::readData(uint16_t* x, uint16_t* y, uint8_t* z) {
   *z = 64;
 }
 
+void Adafruit_STMPE610::writeRegister8(uint8_t address, uint8_t value) {
+  require_chip();
+  access(1);
+  if (address == STMPE_FIFO_STA && (value & STMPE_FIFO_STA_RESET) != 0) read_ = now();
+}
+
 TS_Point Adafruit_STMPE610::getPoint() {
   // Reads all waiting points and returns the last.
   do {
