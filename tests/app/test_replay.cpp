@@ -149,7 +149,7 @@ TEST_CASE("input that a replay cannot show is reported with its place, and nothi
        2,
        "--output: found a.png; allowed: a name that ends"},
       {{"none.csv", "-o", "a.html"}, 2, "none.csv"},
-      {{log, "-o", "a.html"}, 2, "log.csv: cannot be replayed: it has no column t"},
+      {{log, "-o", "a.html"}, 2, "log.csv: cannot be replayed: it has neither a column x nor y"},
       {{"--data", log, "--map", "t=Time:ms,x=Ballx:mm", "-o", "a.html"},
        2,
        "log.csv: column Ballx, row 2: found \"far\""},

@@ -112,9 +112,11 @@ TEST_CASE("the servo belongs to a controller that drives angle") {
   CHECK(errors(closed_loop, {pd, "controller.drives=angle"}) ==
         "scenario.yaml:1:1: gimbal.servo: missing, but controller.drives is angle; allowed: a "
         "mapping with natural_frequency, damping");
-  check_refused(open_loop, "gimbal.servo={natural_frequency: 10, damping: 1}",
-                "gimbal.servo: found beside gimbal.motion, which no servo follows; allowed: only "
-                "with a controller that drives angle");
+  check_refused(
+      open_loop, "gimbal.servo={natural_frequency: 10, damping: 1}",
+      "gimbal.servo: found beside gimbal.motion, which no servo follows; allowed: only "
+      "with a controller that drives angle, such as controller.commands, which plays known "
+      "commands");
   CHECK_THAT(errors(closed_loop + servo, {"gimbal.servo.natural_frequency=0"}),
              Contains("an angular rate greater than 0"));
   CHECK_THAT(errors(closed_loop + servo, {"gimbal.servo.damping=-1"}),
