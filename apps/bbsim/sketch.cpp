@@ -28,7 +28,7 @@ std::string hint(const std::string& messages) {
   if (end == std::string::npos) return "";
   const std::size_t begin = messages.rfind(' ', end) + 1;
   return "\n" + messages.substr(begin, end - begin) +
-         " is of a library: name the library's folder with -I";
+         " belongs to a library: name the library's folder with -I";
 }
 
 ExitCode make(const SketchArguments& arguments, const Options& options) {

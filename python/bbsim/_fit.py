@@ -30,7 +30,7 @@ _CANDIDATES = ("ball.inertia_factor", "ball.losses.rolling", "ball.losses.viscou
                "gimbal.mounting.theta_offset", "gimbal.mounting.yaw", "gimbal.mounting.skew", "gimbal.mounting.height",
                "gimbal.servo.natural_frequency", "gimbal.servo.damping", "gimbal.servo.time_constant",
                "controller.sampling.delay")  # fmt: skip
-_CHANCE = ("controller.sensor.noise", "controller.sensor.dropout", "controller.sensor.seed", "controller.sensor.resolution",
+_NOISE = ("controller.sensor.noise", "controller.sensor.dropout", "controller.sensor.seed", "controller.sensor.resolution",
            "controller.sampling.jitter", "controller.sampling.resolution")  # fmt: skip
 
 
@@ -161,7 +161,7 @@ class _Task:
             raise _fault(f"controller: found a program or library of your own; allowed in a fit: {allowed}")
         self.keys: List[FreeKey] = read_free_keys(free, given)
         run = given.changed([("solver.error", "null"), ("solver.rtol", "1e-10"), ("solver.atol", "1e-12")])
-        run, self.warnings = self._without_chance(run), list(_bbsim.remarks(given))
+        run, self.warnings = self._without_noise(run), list(_bbsim.remarks(given))
         maps, header = listed(map), [name for text in listed(header) for name in text.split(",")]
         tables, self.logs = self._tables_of_logs(), []  # type: ignore[var-annotated]
         for file in self.files:
@@ -177,10 +177,10 @@ class _Task:
         if len(set(names)) < len(names):
             refuse(f"{max(names, key=names.count)} is given twice")
 
-    def _without_chance(self, given: _bbsim.Given) -> _bbsim.Given:
-        """A loop without what hangs on chance: noise, which differs in the log, and steps that noise smooths."""
+    def _without_noise(self, given: _bbsim.Given) -> _bbsim.Given:
+        """Leaves out the noise in a loop, which differs in the log, and the steps that this noise smooths."""
         free = {key.name for key in self.keys}
-        parts = [(part, "null") for part in _CHANCE if _bbsim.has(given, part) and part not in free]
+        parts = [(part, "null") for part in _NOISE if _bbsim.has(given, part) and part not in free]
         if not _closes_a_loop(given):
             return given
         for name in ("gimbal.servo.dead_band", "gimbal.servo.backlash"):

@@ -104,7 +104,8 @@ void report_sampled_loop(Report& report, const Scenario& scenario, const model::
                             (cycle.samples > 1 ? " in these periods" : " a period") +
                             ", with a time constant of " + short_number(-period / std::log(size)) +
                             " s"});
-  const bool steppers = scenario.gimbal.servo && scenario.gimbal.servo->stepper;
+  const Gimbal& gimbal = scenario.gimbal;
+  const bool steppers = gimbal.servo && (gimbal.servo_of(0).stepper || gimbal.servo_of(1).stepper);
   report.push_back(
       {"", std::string("without noise, dropouts, rounding, limits, dead band and backlash") +
                (steppers ? "; steppers are at their targets at once" : "")});

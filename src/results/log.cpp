@@ -317,8 +317,7 @@ void set_clock(Result& log, const LogChoice& choice, const Notes& note) {
     const std::size_t row = *clock.restart;
     throw InputError(log.file + ": its clock starts again in row " + std::to_string(row + 1) +
                      ": t falls to " + number_text(t->numbers[row]) +
-                     " s; split the file there, or give its rows one clock: --period TIME without "
-                     "the column t");
+                     " s; split the file there, or remove the column t and use --period");
   }
   for (const std::string& done : clock.done) note(done);
   if (clock.changed) keep_rows(log, clock.rows);

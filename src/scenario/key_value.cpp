@@ -44,10 +44,11 @@ std::optional<NumberKey> find(const Declared& declared, std::string_view path,
   return find(declared.parts.front(), rest, "");
 }
 
-// A value that gimbal.servo.model stands for; empty for other keys and without a model.
-std::optional<double> of_servo_model(const std::string& name, const ScenarioFamily& family) {
+// What a servo has without its key: by its model, by its speed, or in common for both axes. Empty
+// for other keys.
+std::optional<double> of_servo(const std::string& name, const ScenarioFamily& family) {
   constexpr std::string_view prefix = "gimbal.servo.";
-  if (!name.starts_with(prefix) || family.text_at("gimbal.servo.model").empty()) return {};
+  if (!name.starts_with(prefix) || family.text_at("gimbal.servo").empty()) return {};
   const Scenario scene = family.read({});
   std::string_view key = std::string_view(name).substr(prefix.size());
   const bool of_theta = key.starts_with("theta.");
@@ -84,7 +85,7 @@ NamedNumber number_named(const std::string& option, std::string name,
   }
   NamedNumber found{std::move(name), *known, std::string(yaml::si_unit(known->dimension))};
   found.value = family.number_at(found.name, {});
-  if (!found.value) found.value = of_servo_model(found.name, family);
+  if (!found.value) found.value = of_servo(found.name, family);
   if (!found.value) found.value = known->standard;
   return found;
 }

@@ -27,7 +27,7 @@ struct NamedNumber {
   std::string name;
   NumberKey key;
   std::string unit{};             // SI; empty for a number
-  std::optional<double> value{};  // from the scenario or its servo's model, or the default, SI
+  std::optional<double> value{};  // from the scenario, or else the default, SI
 
   [[nodiscard]] ScenarioFamily::Setting setting(double to) const;
 };

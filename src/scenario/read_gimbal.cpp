@@ -151,7 +151,8 @@ void read_stepper(yaml::Keys& keys, StepperMotor& stepper) {
   const yaml::Whole count{1, "200"};
   keys.optional("steps", count, stepper.steps);
   keys.optional("microsteps", count, stepper.microsteps);
-  keys.optional("gear", yaml::Number{yaml::Dimension::number, {.above = 0}}, stepper.gear);
+  const yaml::Number ratio{yaml::Dimension::number, {.at_least = 0.001, .at_most = 1000}};
+  keys.optional("gear", ratio, stepper.gear);
 }
 
 // Reads the keys into `servo`, over its existing values. Does not report missing keys.

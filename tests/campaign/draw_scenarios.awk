@@ -7,7 +7,7 @@
 
 # Rows phi, theta: the gains that hold the ball, or whatever.
 function gain(size, k) {
-  if (chance(0.15)) return between(-size, size)  # refused under drives: angle
+  if (chance(0.15)) return mixed(between(-size, size), 1)
   k = by_factors(size / 20, size)
   return chance(0.8) ? both(k) : mixed(k, 1)
 }
@@ -38,6 +38,11 @@ function law(name, size, n, i, rows) {
   return "{kv: " by_factors(0.5, 10) ", kp: " by_factors(0.5, 20) "}"
 }
 
+function stepper_keys() {
+  return "stepper: {microsteps: " (chance(0.5) ? 16 : 1) ", gear: " by_factors(0.5, 20) "}, rate_limit: " \
+    by_factors(0.5, 20) ", acceleration_limit: " by_factors(5, 500) \
+    (chance(0.2) && !slides ? ", backlash: " radians(by_factors(1e-4, 0.01)) : "")
+}
 function servo_keys(words) {
   words = first_order ? "time_constant: " seconds(by_factors(0.01, 0.3)) \
                       : "natural_frequency: " by_factors(3, 200) ", damping: " between(0, 2)
@@ -216,8 +221,12 @@ function draw(  name, drives, plate, end, i, columns, gravity, start, mounting, 
     line("  start: {phi: " between(-0.05, 0.05) (first_order ? "" : ", theta_rate: " between(-0.1, 0.1)) "}")
   }
   if (by == "angle") {
-    line("  servo: {" servo_keys() \
-         (linked != "three" && chance(0.2) ? ", " pick("phi|theta") ": {" substr("x, x: 1" servo_limits(), 9) "}" : "") "}")
+    if (sampled && chance(0.2)) {
+      line("  servo: {" stepper_keys() "}")
+    } else {
+      line("  servo: {" servo_keys() \
+           (linked != "three" && chance(0.2) ? ", " pick("phi|theta") ": {" substr("x, x: 1" servo_limits(), 9) "}" : "") "}")
+    }
     link(linked)
   }
   if (mounting) {

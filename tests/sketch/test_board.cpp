@@ -249,7 +249,7 @@ TEST_CASE("compiler messages show the sketch's own lines, and warnings stay warn
   CHECK(warned.made.exit_code == 0);
   CHECK(contains(warned.made.err, "own.ino:3:7: warning: unused variable"));
   const Sketch missing("#include <FancySensor.h>\nvoid loop() {}\nvoid setup() {}\n", plain_wiring);
-  CHECK(contains(missing.made.err, "is of a library: name the library's folder with -I"));
+  CHECK(contains(missing.made.err, "belongs to a library: name the library's folder with -I"));
 }
 
 TEST_CASE("a sketch that uses something not in its wiring ends the run, with the remedy") {

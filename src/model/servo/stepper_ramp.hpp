@@ -25,7 +25,7 @@ struct RampLimits {
 
 // The part that begins with this motion. Sets the motion to the target where it arrives there.
 inline RampPart next_part(double& angle, double& rate, double target, const RampLimits& limits) {
-  // Angles closer than this are the same; it exceeds their rounding, and no microstep is so small.
+  // Angles closer than this are the same. It exceeds their rounding; moves so small take no time.
   constexpr double same_angle = 1e-9;  // rad
   const double most = limits.acceleration;
   const double left = target - (angle + rate * std::abs(rate) / (2 * most));  // after a halt

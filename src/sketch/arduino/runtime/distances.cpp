@@ -84,8 +84,12 @@ unsigned long pulseIn(int pin, int level, unsigned long timeout) {
         "pulseIn(%s): no distance sensor is wired to pin %s; add it to the wiring: distances: {x: "
         "{trigger: PIN, echo: %s, offset: LENGTH}}",
         pin_name(pin), pin_name(pin), pin_name(pin));
+    return 0;  // to a global variable's constructor
   }
-  if (level == LOW) fail("pulseIn(%s, LOW): allowed: HIGH, the echo", pin_name(pin));
+  if (level == LOW) {
+    fail("pulseIn(%s, LOW): allowed: HIGH, the echo", pin_name(pin));
+    return 0;
+  }
   const Echo& echo = echoes[axis];
   const Nanoseconds until = board.now + static_cast<Nanoseconds>(timeout) * 1000;
   if (board.now > echo.begins || echo.ends > until) {
