@@ -16,7 +16,7 @@ extern "C" {
 #endif
 
 /* Increases when anything below changes. */
-#define BBSIM_WIRING_VERSION 5u
+#define BBSIM_WIRING_VERSION 6u
 
 /* Linear map through two points: position[i] gives counts[i]. It also extrapolates. */
 typedef struct bbsim_count_map {
@@ -31,6 +31,18 @@ typedef struct bbsim_wired_servo {
   double level;    /* s */
   double scale;    /* rad per second of pulse; negative if the direction is -1 */
 } bbsim_wired_servo;
+
+/* A stepper motor behind a driver with inputs for step and direction. Its shaft is at
+ * start + angle * (pulses forward - pulses back). */
+typedef struct bbsim_wired_stepper {
+  int32_t step, dir;   /* pins; -1: there is no motor */
+  int32_t enable;      /* pin, or -1; the driver ignores pulses while it is HIGH */
+  int32_t home;        /* pin of a limit switch, or -1 */
+  double angle;        /* of a microstep, rad; negative if the direction is -1 */
+  double start;        /* as the board is switched on, rad; NaN: where setup() ends at t = 0 */
+  double home_angle;   /* from here on, seen from the start, the switch is closed, rad */
+  uint32_t home_level; /* of the pin while the switch is closed: 0 or 1 */
+} bbsim_wired_stepper;
 
 enum bbsim_screen_kind {
   bbsim_no_screen = 0,
@@ -60,9 +72,10 @@ typedef struct bbsim_wired_camera {
   const char* lost;  /* text while the ball is not seen; empty: none */
 } bbsim_wired_camera;
 
-/* An ultrasonic sensor that measures along an axis. */
+/* A distance sensor that measures along an axis. */
 typedef struct bbsim_wired_distance {
-  int32_t trigger, echo; /* pins; -1: there is no sensor */
+  int32_t trigger, echo; /* pins of an ultrasonic one, or -1 */
+  uint32_t chip;         /* 1: a VL53L0X on I2C */
   double offset;         /* the distance is this plus the ball's position, m */
   double noise;          /* standard deviation of the distance, m */
   double blind;          /* nearer balls read as this distance, m */
@@ -92,6 +105,7 @@ typedef struct bbsim_wiring {
   uint32_t version;            /* BBSIM_WIRING_VERSION */
   uint32_t setup_before;       /* 1: setup() has returned at t = 0; 0: the board starts at t = 0 */
   bbsim_wired_servo servos[3]; /* phi, theta and an unused one; or three legs */
+  bbsim_wired_stepper steppers[3]; /* likewise, in place of servos */
   double oscillator;           /* frequency of the PCA9685, Hz */
   uint32_t ignored_channels;   /* bit n: channel n of the PCA9685 has a servo outside the scene */
   bbsim_wired_screen screen;
@@ -100,7 +114,7 @@ typedef struct bbsim_wiring {
   size_t input_count;
   const bbsim_wired_input* inputs;
   size_t ignored_count;
-  const int32_t* ignored; /* pins of servos outside the scene */
+  const int32_t* ignored; /* pins of what is outside the scene */
   size_t eeprom_size;     /* bytes */
   const unsigned char* eeprom;
   bbsim_call_costs costs;

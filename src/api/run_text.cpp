@@ -34,6 +34,7 @@ std::string occurrence_text(const model::Occurrence& occurrence) {
       {"rest", "rolling resistance has brought the ball to rest"},
       {"stick_phi", "friction of its motor holds phi"},
       {"stick_theta", "friction of its motor holds theta"},
+      {"steps_lost", "the driver asks a stepper for more than its torque: it loses steps"},
       {"dead_point", "the linkage of a servo is at a dead point, or at the end of its curve"},
       {"singularity",
        "no accelerations of the gimbal give the ball the wanted acceleration any more"},
@@ -68,7 +69,8 @@ std::string stopping_text(const Scenario& scenario, const std::string& event) {
   if (event.starts_with("stick")) {
     return "The scene asks for this: events.stick is stop; note lets the run continue.";
   }
-  const bool plain = event == "edge" || event == "lift_off" || event == "rest";
+  const bool plain =
+      event == "edge" || event == "lift_off" || event == "rest" || event == "steps_lost";
   return "The scene asks for this: events." + event + (plain ? "" : ".action") +
          " is stop; note lets the run continue.";
 }

@@ -171,6 +171,23 @@ std::string Library::last_error() const {
   return text == nullptr || *text == '\0' ? "it does not say why" : shown(text, longest_saying);
 }
 
+// Gives the wiring's steppers the microsteps of the scenario's. Throws KeyError if one has a
+// stepper where the other has a servo.
+void Library::fit_steppers(bbsim_wiring& wired) const {
+  for (std::size_t i = 0; i < setup_.microstep.size(); ++i) {
+    const bool stepper = wired.steppers[i].step >= 0;
+    const bool servo = wired.servos[i].pin >= 0 || wired.servos[i].channel >= 0;
+    if ((stepper && setup_.microstep[i] == 0) || (servo && setup_.microstep[i] > 0)) {
+      throw KeyError("controller.library.wiring",
+                     "found " + shown(wiring_path_, uncut) + ", which wires a " +
+                         (stepper ? "stepper" : "servo") + " where the scenario has a " +
+                         (stepper ? "servo; allowed: with gimbal.servo.stepper"
+                                  : "stepper; allowed: a wiring with steppers"));
+    }
+    wired.steppers[i].angle *= setup_.microstep[i];
+  }
+}
+
 void Library::create() {
   destroy();
   fresh_ = true;
@@ -183,6 +200,7 @@ void Library::create() {
       static_cast<Library*>(reader)->printed_.emplace_back(line);
     };
     if (wiring_->print() == sketch::Wiring::Print::off) wired.print = nullptr;
+    fit_steppers(wired);
     controller_ = functions_->create_wired(setup.get(), &wired);
   } else {
     controller_ = functions_->create(setup.get());

@@ -46,6 +46,7 @@ class Library : public model::ExternalController {
   [[nodiscard]] std::string unheard() const;
 
  private:
+  void fit_steppers(bbsim_wiring& wired) const;
   // The paths of the library and of its wiring, if any, from the current folder.
   [[nodiscard]] static std::string path_of(const OwnController& own);
   [[nodiscard]] static std::string wiring_path_of(const OwnController& own);

@@ -25,6 +25,10 @@ Setup setup_of(const Scenario& scenario) {
   for (const std::size_t axis : {0U, 1U}) {
     setup.limit = std::min(setup.limit, controller.limit_of(axis).value_or(setup.limit));
   }
+  for (std::size_t i = 0; scenario.gimbal.servo && i < setup.commands(); ++i) {
+    const auto& stepper = scenario.gimbal.servo_of(i).stepper;
+    if (stepper) setup.microstep[i] = stepper->microstep();
+  }
   setup.end = scenario.time.end;
   setup.parameters = controller.own->parameters;
   setup.columns = scenario::own_columns(scenario);

@@ -4,6 +4,7 @@
 // The facts about a run that your own controller receives before its first sample.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -21,7 +22,8 @@ struct Setup {
   std::vector<Parameter> parameters;
   // The number of commands that it gives, and of servos whose state it receives.
   [[nodiscard]] std::size_t commands() const { return drives == Drives::legs ? 3 : 2; }
-  std::vector<std::string> columns;  // names of the numbers that bbsim wants from it
+  std::array<double, 3> microstep{};  // of each axis or leg, rad; 0: not a stepper
+  std::vector<std::string> columns;   // names of the numbers that bbsim wants from it
 };
 
 // Requires a scene with your own controller.

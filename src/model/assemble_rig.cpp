@@ -84,7 +84,7 @@ ControlLaw control_law(const Scenario& scene, const ServoResponses& servo,
   return law;
 }
 
-RigServo rig_servo(const Servo& servo) {
+RigServo rig_servo(const Servo& servo, const Controller& controller) {
   RigServo rig;
   rig.angle_limit = servo.angle_limit.value_or(unlimited);
   rig.rate_limit = servo.rate_limit.value_or(unlimited);
@@ -93,8 +93,12 @@ RigServo rig_servo(const Servo& servo) {
   rig.backlash = servo.backlash;
   rig.time_constant = servo.time_constant;
   if (servo.stepper) {
-    const auto& [steps, microsteps, gear] = *servo.stepper;
-    rig.step = 2 * std::numbers::pi / (steps * microsteps * gear);
+    const StepperMotor& motor = *servo.stepper;
+    rig.step = motor.microstep();
+    if (motor.torque) rig.torque_limit = *motor.torque / (*motor.inertia * motor.gear);
+    if (motor.corner_speed) rig.corner_rate = *motor.corner_speed / motor.gear;
+    rig.field_period = 4 * motor.microsteps * rig.step;
+    if (controller.is_sketch()) rig.pulse_time = controller.sampling->period;
   }
   return rig;
 }
@@ -104,10 +108,12 @@ Rig build_rig(const Scenario& scene, const ControlLaw& law) {
   Rig rig;
   rig.between = between_of(scene);
   if (rig.between.three) rig.servos = 3;
+  rig.steps_lost = scene.events.steps_lost.value_or(OnEvent::note);
   const Mounting& mounting = scene.gimbal.mounting;
   for (int i = 0; i < rig.servos; ++i) {
     RigServo& servo = rig.servo[i];
-    if (scene.gimbal.servo) servo = rig_servo(scene.gimbal.servo_of(static_cast<std::size_t>(i)));
+    if (scene.gimbal.servo)
+      servo = rig_servo(scene.gimbal.servo_of(static_cast<std::size_t>(i)), controller);
     // A linkage includes the plane's offset.
     if (rig.between.none()) servo.offset = i == 0 ? mounting.phi_offset : mounting.theta_offset;
   }
@@ -126,7 +132,9 @@ Rig build_rig(const Scenario& scene, const ControlLaw& law) {
                                     law,
                                     {limits[0], limits[1]},
                                     rig.between,
+                                    {},
                                     controller.drives == Drives::legs});
+    if (rig.sampled->sensor.contact_force > 0) rig.sampled->pressing = constants_of(scene);
     if (controller.own) rig.sampled->own_columns = scenario::own_columns(scene);
   } else {
     for (int i = 0; i < 2; ++i) {

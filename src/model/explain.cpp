@@ -107,10 +107,7 @@ std::string gimbal_note(const Scenario& scene) {
 
 std::string limits_of(const Servo& servo) {
   List list;
-  if (servo.stepper) {
-    const auto& [steps, microsteps, gear] = *servo.stepper;
-    list.add("microsteps of " + degrees(2 * std::numbers::pi / (steps * microsteps * gear)));
-  }
+  if (servo.stepper) list.add("microsteps of " + degrees(servo.stepper->microstep()));
   if (servo.angle_limit) list.add("stops at " + degrees(*servo.angle_limit));
   if (servo.rate_limit) list.add("at most " + degrees(*servo.rate_limit) + "/s");
   if (servo.acceleration_limit)
@@ -358,6 +355,12 @@ std::string sensor_note(const Sensor& sensor) {
     list.add("sees " + short_number((*sensor.area)[0]) + " m by " +
              short_number((*sensor.area)[1]) + " m");
   }
+  const std::size_t zones = sensor.dead_zones.size();
+  list.add_if(zones > 0, std::to_string(zones) + (zones == 1 ? " dead zone" : " dead zones"));
+  list.add_if(sensor.contact_force > 0,
+              "feels " + short_number(sensor.contact_force) + " N or more");
+  list.add_if(sensor.on_miss == OnMiss::last, "repeats its last reading if it misses the ball");
+  list.add_if(sensor.on_miss == OnMiss::edge, "reads the corner of its area if it misses the ball");
   return list.text().empty() ? "exact" : list.text();
 }
 

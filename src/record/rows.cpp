@@ -22,6 +22,8 @@ Detail detail_for(Needs needs) {
     case Needs::gimbal:
     case Needs::servos:
     case Needs::third_servo:
+    case Needs::believed:
+    case Needs::legs_believed:
       return Detail::gimbal;
     case Needs::accelerations:
     case Needs::dynamics:

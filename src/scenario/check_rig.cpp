@@ -258,12 +258,28 @@ class Checks {
       return "without controller.sampling; allowed: only with it, since the driver plans a ramp to "
              "each command";
     }
-    if (!servo.rate_limit || !servo.acceleration_limit) {
+    if (scene_.controller->is_sketch()) {
+      if (servo.rate_limit || servo.acceleration_limit) {
+        return "beside rate_limit or acceleration_limit; allowed: without them, since the sketch's "
+               "pulses make the ramp";
+      }
+    } else if (!servo.rate_limit || !servo.acceleration_limit) {
       return "without rate_limit and acceleration_limit; allowed: only with both, which are the "
              "driver's ramp";
     }
     if (servo.time_constant || servo.natural_frequency > 0) {
       return "beside natural_frequency, time_constant or model; allowed: one of them";
+    }
+    const StepperMotor& motor = *servo.stepper;
+    if (motor.torque.has_value() != motor.inertia.has_value()) {
+      return "with one of torque and inertia; allowed: both, whose ratio is the greatest "
+             "acceleration, or neither";
+    }
+    if (motor.corner_speed && !motor.torque) {
+      return "with corner_speed, but no torque; allowed: only with torque and inertia";
+    }
+    if (motor.torque && servo.backlash > 0) {
+      return "with torque, beside backlash; allowed: one of the two";
     }
     return servo.angle_limit
                ? "beside angle_limit; allowed: controller.limit, which keeps commands within bounds"

@@ -139,6 +139,17 @@ Missing missing(const Column& column, const Scenario& scenario) {
       if (scenario.gimbal.three_servos) return {};
       return {"there are no three servos",
               "servo_phi and servo_theta; or give gimbal.three_servos"};
+    case Needs::believed:
+    case Needs::legs_believed: {
+      if (!scenario.gimbal.servo || !scenario.gimbal.servo_of(0).stepper) {
+        return {"no stepper moves the gimbal",
+                "other columns, such as phi; or give gimbal.servo.stepper"};
+      }
+      const bool legs = column.needs == Needs::legs_believed;
+      if (legs == scenario.gimbal.three_servos.has_value()) return {};
+      return legs ? Missing{"there are no three legs", "phi_believed and theta_believed"}
+                  : Missing{"the steppers turn legs", "servo_1_believed to servo_3_believed"};
+    }
     case Needs::samples:
       if (scenario.controller && scenario.controller->sampling) return {};
       return {"the controller takes no samples", "other columns; or give controller.sampling"};

@@ -25,6 +25,8 @@ enum class Needs {
   accelerations,  // of the gimbal
   servos,         // angles of servos
   third_servo,    // angle of the third of three servos
+  believed,       // angles of two steppers
+  legs_believed,  // angles of the steppers of three legs
   controller,     // any controller that follows a path
   commands,       // commands of a controller
   samples,        // a discrete-time controller
@@ -177,6 +179,21 @@ inline constexpr std::array catalogue = {
            Needs::servos, Panel::servos, Role::main, "θ"},
     Column{"servo_third", "third servo", "rad", "angle of the third of three servos",
            Needs::third_servo, Panel::servos, Role::main, "third"},
+    Column{"phi_believed", "believed φ", "rad",
+           "angle of phi's stepper as its driver counts it; a lost step changes phi alone",
+           Needs::believed, Panel::servos, Role::main, "φ believed"},
+    Column{"theta_believed", "believed θ", "rad",
+           "angle of theta's stepper as its driver counts it; a lost step changes theta alone",
+           Needs::believed, Panel::servos, Role::main, "θ believed"},
+    Column{"servo_1_believed", "believed 1", "rad",
+           "angle of the first leg's stepper as its driver counts it", Needs::legs_believed,
+           Panel::servos, Role::main, "1 believed"},
+    Column{"servo_2_believed", "believed 2", "rad",
+           "angle of the second leg's stepper as its driver counts it", Needs::legs_believed,
+           Panel::servos, Role::main, "2 believed"},
+    Column{"servo_3_believed", "believed 3", "rad",
+           "angle of the third leg's stepper as its driver counts it", Needs::legs_believed,
+           Panel::servos, Role::main, "3 believed"},
     Column{"push_x", "push x", "N", "push on the ball's center along the plate's x axis",
            Needs::pushed, Panel::push, Role::main, "x"},
     Column{"push_y", "push y", "N", "push on the ball's center along the plate's y axis",

@@ -111,6 +111,19 @@ constexpr KeyText servos[] = {
                 "step; instead of the keys above",
      .standard = "200, 16"},
     {"servo.stepper.gear", "turns of the motor in a turn of its shaft behind the gear"},
+    {.keys = "servo.stepper.torque",
+     .meaning =
+         "greatest torque of the motor, beyond which it [loses steps](#stepper-motors); with "
+         "`inertia`; a plain number",
+     .unit = "N m",
+     .standard = "never loses any"},
+    {.keys = "servo.stepper.inertia",
+     .meaning =
+         "moment of inertia that the motor turns: its rotor's, and the plate's share divided "
+         "by gear²; a plain number",
+     .unit = "kg m²",
+     .standard = "required with `torque`"},
+    {"servo.stepper.corner_speed", "speed of the motor beyond which its torque falls as 1/speed"},
     {"servo.angle_limit", "hard stops at ± this angle"},
     {"servo.rate_limit", "largest rate"},
     {"servo.speed", "the same, as data sheets give it: `\"0.17 s/60deg\"`"},
@@ -338,6 +351,14 @@ constexpr KeyText sensor[] = {
     {.keys = "sensor.phase", .meaning = "time of the first frame", .range = "≥ 0, < `period`"},
     {"sensor.area",
      "[a, b], sides along x and y of the rectangle about the origin in which it sees the ball"},
+    {"sensor.dead_zones",
+     "rectangles in which it does not: a list of corners [x0, y0, x1, y1] with x0 < x1, y0 < y1"},
+    {.keys = "sensor.contact_force",
+     .meaning = "least normal force that a touch screen reads; a plain number; needs `ball.mass`",
+     .unit = "N"},
+    {"sensor.on_miss",
+     "what a sample that sees nothing reads: `none`; `last`: the last reading again; `edge`: the "
+     "corner of `area` at its least x and y, as screens that nobody touches"},
 };
 
 constexpr KeyText events[] = {
@@ -351,6 +372,7 @@ constexpr KeyText events[] = {
      .standard = "required with `slide`",
      .range = "0 to `friction`"},
     {"events.rest", "rolling resistance brings the ball to rest, or holds it at the start"},
+    {"events.steps_lost", "a stepper with `torque` loses steps; noted, unless this is `stop`"},
     {"events.stick",
      "dry friction of its motor holds an axis; recorded as `stick_phi` or `stick_theta`"},
     {"events.tilt.limit", "the angle between the plate's normal and the vertical exceeds it"},

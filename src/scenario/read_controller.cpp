@@ -271,6 +271,28 @@ struct Scale {
   }
 };
 
+// [x0, y0, x1, y1]: opposite corners of a rectangle.
+struct Zone {
+  [[nodiscard]] static std::string allowed() {
+    return "four lengths [x0, y0, x1, y1] with x0 < x1 and y0 < y1, such as [0.05, -0.1, 0.08, "
+           "0.1]";
+  }
+  [[nodiscard]] static yaml::Declared declared() {
+    return yaml::Declared::list(4, 4, yaml::Declared::number(yaml::Dimension::length));
+  }
+  static bool read(const yaml::Value& value, std::array<double, 4>& into) {
+    if (value.node->kind != yaml::Node::Kind::sequence || value.node->items.size() != into.size()) {
+      return value.refuse("", allowed());
+    }
+    bool fine = true;
+    for (std::size_t i = 0; i < into.size(); ++i) {
+      fine = yaml::Number{yaml::Dimension::length}.read(value.item(i), into[i]) && fine;
+    }
+    if (fine && !(into[0] < into[2] && into[1] < into[3])) return value.refuse("", allowed());
+    return fine;
+  }
+};
+
 void read_sensor(yaml::Keys& keys, Sensor& sensor) {
   const yaml::Number length{yaml::Dimension::length, {.at_least = 0}};
   const yaml::Usual fine{length, "mm", 0.05};
@@ -286,6 +308,15 @@ void read_sensor(yaml::Keys& keys, Sensor& sensor) {
                 yaml::Number{yaml::Dimension::number, {.at_least = 0, .at_most = 1}, "0.05"},
                 sensor.dropout);
   keys.optional("area", yaml::SidesOf{}, sensor.area);
+  keys.optional("dead_zones",
+                yaml::ListOf<Zone, std::array<double, 4>>{{}, 1, 100, "zones [x0, y0, x1, y1]"},
+                sensor.dead_zones);
+  keys.optional("contact_force", yaml::Number{yaml::Dimension::number, {.at_least = 0}, "0.3"},
+                sensor.contact_force);
+  keys.optional("on_miss",
+                yaml::NameOf<OnMiss>{
+                    {{OnMiss::none, "none"}, {OnMiss::last, "last"}, {OnMiss::edge, "edge"}}},
+                sensor.on_miss);
   keys.optional("rotation", yaml::Number{yaml::Dimension::angle}, sensor.rotation);
   keys.optional("offset", yaml::PairOf{yaml::Dimension::length}, sensor.offset);
   keys.optional("scale", Scale{}, sensor.scale);

@@ -63,6 +63,7 @@ void read_events(yaml::Keys& keys, Events& events) {
   keys.optional("singularity", yaml::MappingOf(read_singularity), events.singularity);
   keys.optional("rest", action(), events.rest);
   keys.optional("stick", action(), events.stick);
+  keys.optional("steps_lost", action(), events.steps_lost);
 }
 
 }  // namespace bbsim::scenario

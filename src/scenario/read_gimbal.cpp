@@ -153,6 +153,12 @@ void read_stepper(yaml::Keys& keys, StepperMotor& stepper) {
   keys.optional("microsteps", count, stepper.microsteps);
   const yaml::Number ratio{yaml::Dimension::number, {.at_least = 0.001, .at_most = 1000}};
   keys.optional("gear", ratio, stepper.gear);
+  keys.optional("torque", yaml::Number{yaml::Dimension::number, {.above = 0}, "0.4"},
+                stepper.torque);
+  keys.optional("inertia", yaml::Number{yaml::Dimension::number, {.above = 0}, "1e-5"},
+                stepper.inertia);
+  const yaml::Number speed{yaml::Dimension::angular_rate, {.above = 0}};
+  keys.optional("corner_speed", speed, stepper.corner_speed);
 }
 
 // Reads the keys into `servo`, over its existing values. Does not report missing keys.

@@ -65,7 +65,16 @@ constexpr KeyRelation table[] = {
     {"gimbal.servo.stepper", needs, "controller.sampling"},
     {"gimbal.servo.stepper", needs,
      "gimbal.servo.acceleration_limit and gimbal.servo.rate_limit or "
-     "gimbal.servo.acceleration_limit and gimbal.servo.speed"},
+     "gimbal.servo.acceleration_limit and gimbal.servo.speed or controller.library.wiring"},
+    {"gimbal.servo.stepper", excludes,
+     "controller.library.wiring and gimbal.servo.rate_limit or "
+     "controller.library.wiring and gimbal.servo.speed or "
+     "controller.library.wiring and gimbal.servo.acceleration_limit"},
+    {"gimbal.servo.stepper.torque", needs, "gimbal.servo.stepper.inertia"},
+    {"gimbal.servo.stepper.inertia", needs, "gimbal.servo.stepper.torque"},
+    {"gimbal.servo.stepper.corner_speed", needs, "gimbal.servo.stepper.torque"},
+    {"gimbal.servo.stepper.torque", excludes, "gimbal.servo.backlash>0"},
+    {"events.steps_lost", needs, "gimbal.servo.stepper.torque"},
     {"gimbal.servo.stepper", excludes, "gimbal.servo.angle_limit or gimbal.servo.model"},
     {"gimbal.servo.dead_band>0", needs, "controller.sampling"},
     {"controller.assumes", needs, "gimbal.linkage or gimbal.three_servos",
@@ -129,6 +138,10 @@ constexpr KeyRelation table[] = {
      "controller.sensor.noise or controller.sensor.dropout or controller.sampling.jitter",
      "found, but neither noise nor dropout nor sampling.jitter, and nothing else is random; "
      "allowed: only with one of them"},
+    {"controller.sensor.contact_force>0", needs, "ball.mass",
+     "found, but no ball.mass, and a lighter ball presses less; allowed: only with ball.mass"},
+    {"controller.sensor.on_miss=edge", needs, "controller.sensor.area",
+     "found without sensor.area; allowed: only with it, whose corner it reads"},
     {"controller.sensor.phase", needs, "controller.sensor.period",
      "found without sensor.period; allowed: only with it, since a sensor without frames measures "
      "at the controller's samples"},

@@ -7,6 +7,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -120,14 +121,22 @@ struct GimbalStart {
   double phi_rate = 0, theta_rate = 0;  // rad/s
 };
 
-// Second order: phi'' = omega_n^2 (u_phi - phi) - 2 zeta omega_n phi', and the same for theta.
-// First order: phi' = (u_phi - phi) / time_constant.
 // A stepper motor and its driver.
 struct StepperMotor {
   double steps = 200, microsteps = 16;  // in a turn of the motor, and in a step
   double gear = 1;                      // turns of the motor in a turn of the shaft
+  // Set together, for a motor that loses steps: its greatest torque, N m, and the moment of inertia
+  // that it turns, its own and that of the plate behind the gear, at the motor, kg m^2.
+  std::optional<double> torque{}, inertia{};
+  std::optional<double> corner_speed{};  // of the motor: beyond, torque falls as 1/speed, rad/s
+
+  [[nodiscard]] double microstep() const {  // of the shaft, rad
+    return 2 * std::numbers::pi / (steps * microsteps * gear);
+  }
 };
 
+// Second order: phi'' = omega_n^2 (u_phi - phi) - 2 zeta omega_n phi', and the same for theta.
+// First order: phi' = (u_phi - phi) / time_constant.
 struct Servo {
   double natural_frequency = 0;                // omega_n, rad/s, > 0
   double damping = 0;                          // zeta, >= 0
@@ -360,6 +369,10 @@ struct Sampling {
 };
 
 // The controller's measurement of the ball.
+// What a sensor that does not see the ball reads: nothing, its last reading, or its corner at
+// -area/2.
+enum class OnMiss { none, last, edge };
+
 struct Sensor {
   double resolution = 0;       // quantization, m; 0: none
   double noise = 0;            // standard deviation of each coordinate, m
@@ -367,7 +380,10 @@ struct Sensor {
   double delay = 0;            // from the measurement to the sample, s
   double dropout = 0;          // probability that a sample has no measurement
   std::optional<Pair> area{};  // sides of the field of view, a rectangle, m
-  std::optional<int> only{};   // in a groove, the measured coordinate; the other is 0
+  std::vector<std::array<double, 4>> dead_zones{};  // corners x0, y0, x1, y1 of blind rectangles, m
+  double contact_force = 0;                         // a touch screen misses a lesser force, N
+  OnMiss on_miss = OnMiss::none;
+  std::optional<int> only{};  // in a groove, the measured coordinate; the other is 0
   // Measurement of a ball at p, before noise: scale R(rotation) p + offset.
   double rotation = 0;  // rad
   Pair scale{1, 1};
@@ -440,6 +456,10 @@ struct Controller {
   [[nodiscard]] std::optional<double> limit_of(std::size_t axis) const {
     return axis_limits ? (*axis_limits)[axis] : limit;
   }
+  [[nodiscard]] bool is_sketch() const {
+    const auto* const library = own ? std::get_if<ControllerLibrary>(&own->by) : nullptr;
+    return library != nullptr && !library->wiring.empty();
+  }
 };
 
 enum class OnEvent { stop, note };
@@ -469,6 +489,7 @@ struct Events {
   std::optional<SingularityEvent> singularity{};  // of feedback linearization
   std::optional<OnEvent> rest{};                  // rolling resistance brings the ball to rest
   std::optional<OnEvent> stick{};                 // dry friction holds a gimbal axis
+  std::optional<OnEvent> steps_lost{};            // by a stepper; noted by default
 };
 
 // Output exactly at i * step, and at `end`.

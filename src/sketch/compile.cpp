@@ -103,7 +103,7 @@ class Compiler {
                                      "-ffp-contract=off",
                                      "-DARDUINO=10819",
                                      "-DF_CPU=16000000L",
-                                     "-isystem",
+                                     "-I",  // before the sketch's, which may have copies
                                      board};
     if (!clang_) options.emplace_back("-fpermissive");  // as the IDE does
     return options;
@@ -137,7 +137,11 @@ Sources read(const Job& job, const std::string& board) {
       throw InputError("-I " + folder + ": found no folder; allowed: a folder of libraries");
     }
   }
-  sources.libraries = find_libraries(included, sources.own, job.folders, board);
+  // The IDE compiles all of a sketch's folder, which has the sketch's name.
+  std::vector<std::string> whole;
+  const fs::path sketch = fs::absolute(job.files.front());
+  if (sketch.parent_path().filename() == sketch.stem()) whole.push_back(sources.own.front());
+  sources.libraries = find_libraries(included, sources.own, job.folders, board, whole);
   return sources;
 }
 

@@ -61,6 +61,16 @@ class Search {
       }
     }
   }
+  // Adds the sources of a sketch's folder and of src/ in it. Those of which the board has a header
+  // are copies of what it replaces.
+  void add_whole(const fs::path& folder) {
+    for (const fs::path& entry : entries(folder)) {
+      fs::path header = entry.filename();
+      header.replace_extension(".h");
+      if (is_source(entry) && !is_file(fs::path(ours_) / header)) add(entry);
+    }
+    add_sources(folder / "src", true);
+  }
   Libraries found;
 
  private:
@@ -109,8 +119,9 @@ class Search {
 
 Libraries find_libraries(const std::vector<std::string>& included,
                          const std::vector<std::string>& own, const std::vector<std::string>& given,
-                         const std::string& ours) {
+                         const std::string& ours, const std::vector<std::string>& whole) {
   Search search(own, given, ours);
+  for (const std::string& folder : whole) search.add_whole(folder);
   for (const std::string& header : included) search.follow(header);
   return std::move(search.found);
 }

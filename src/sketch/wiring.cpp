@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
 #include "base/error.hpp"
@@ -40,15 +41,19 @@ struct Read {
 // Servo.h's pulse for 90 degrees, in s, and its angle per duration of the pulse, in rad/s.
 constexpr bbsim_wired_servo usual_servo{-1, -1, 1472e-6, 180 * degree / 1856e-6};
 
+constexpr bbsim_wired_stepper no_stepper{
+    -1, -1, -1, -1, 1, std::numeric_limits<double>::quiet_NaN(), 0, 0};
+
 bbsim_wiring by_default() {
   bbsim_wiring c{};
   c.version = BBSIM_WIRING_VERSION;
   c.setup_before = 1;
   std::ranges::fill(c.servos, usual_servo);
+  std::ranges::fill(c.steppers, no_stepper);
   c.oscillator = 25e6;
   c.screen = {bbsim_no_screen, {-1, -1, -1, -1, -1}, {}, {}, 0, {300, 300}, 300, 0.01};
   c.camera.port = -1;
-  std::ranges::fill(c.distances, bbsim_wired_distance{-1, -1, 0, 0, 0.02, 4});
+  std::ranges::fill(c.distances, bbsim_wired_distance{-1, -1, 0, 0, 0, 0.02, 4});
   c.costs = {2e-6, 4e-6, 112e-6, 5e-6, 5e-6, 20e-6, 5e-6, 3.3e-3, 1e-6};
   return c;
 }
@@ -101,10 +106,64 @@ void read_servos(Keys& keys, Read& read) {
   keys.optional("oscillator", Number{Dimension::number, {.above = 0}, "25e6"}, read.c.oscillator);
 }
 
-// Reads the screen's pins by the names of its electrodes. Returns whether the key is given.
+void read_home(Keys& keys, bbsim_wired_stepper& stepper) {
+  keys.required("pin", Pin{}, stepper.home);
+  keys.required("angle", Number{Dimension::angle, {}, "\"-30 deg\""}, stepper.home_angle);
+  int level = 0;
+  keys.optional("closed", Whole{0, 1}, level);
+  stepper.home_level = static_cast<std::uint32_t>(level);
+}
+
+void read_stepper(Keys& keys, bbsim_wired_stepper& stepper) {
+  keys.required("step", Pin{}, stepper.step);
+  keys.required("dir", Pin{}, stepper.dir);
+  keys.optional("enable", Pin{}, stepper.enable);
+  int direction = 1;
+  keys.optional("direction", yaml::Sign{}, direction);
+  stepper.angle = direction;  // times the microstep's, which the scenario gives
+  keys.optional("start", Number{Dimension::angle, {}, "\"-30 deg\""}, stepper.start);
+  keys.optional("home", MappingOf(read_home), stepper);
+  const auto home = keys.find("home");
+  if (home && std::isnan(stepper.start)) {
+    home->report(
+        "found without start; allowed: beside start, the angle at which the board is switched on");
+  } else if (home && stepper.start == stepper.home_angle) {
+    home->report("found at start; allowed: a switch at another angle");
+  }
+}
+
+void read_steppers(Keys& keys, Read& read) {
+  constexpr const char* axes[] = {"phi", "theta"};
+  constexpr const char* legs[] = {"1", "2", "3"};
+  keys.exclusive({{axes[0], axes[1]}, {legs[0], legs[1], legs[2]}});
+  bool found_legs = false;
+  for (int i = 0; i < 2; ++i) {
+    keys.optional(axes[i], MappingOf(read_stepper), read.c.steppers[i]);
+  }
+  for (int i = 0; i < 3; ++i) {
+    found_legs = found_legs || keys.find(legs[i]);
+    keys.optional(legs[i], MappingOf(read_stepper), read.c.steppers[i]);
+  }
+  if (found_legs) {
+    for (const char* axis : axes) {
+      if (const auto given = keys.find(axis)) {
+        given->report("found beside legs; allowed: phi and theta, or 1, 2 and 3 of three legs");
+      }
+    }
+    for (const char* leg : legs) {
+      if (!keys.find(leg)) keys.missing(leg, MappingOf(read_stepper).allowed());
+    }
+  } else if (!keys.find("phi") && !keys.find("theta")) {
+    keys.missing("phi", MappingOf(read_stepper).allowed());
+  }
+  keys.optional("ignored", yaml::ListOf<Pin, int>{{}, 1, 70, "pins"}, read.ignored);
+}
+
+// Reads the screen's pins by the names of its electrodes, the first `needed` of which must be
+// given. Returns whether the key is given.
 template <std::size_t count>
 bool read_pins(Keys& keys, const char* key, const std::string_view (&names)[count],
-               bbsim_screen_kind kind, bbsim_wired_screen& screen) {
+               bbsim_screen_kind kind, bbsim_wired_screen& screen, std::size_t needed = count) {
   const auto value = keys.find(key);
   if (!value) return false;
   screen.kind = kind;
@@ -114,7 +173,12 @@ bool read_pins(Keys& keys, const char* key, const std::string_view (&names)[coun
     return true;
   }
   Keys pins(*value);
-  for (std::size_t i = 0; i < count; ++i) pins.required(names[i], Pin{}, screen.pins[i]);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i < needed)
+      pins.required(names[i], Pin{}, screen.pins[i]);
+    else
+      pins.optional(names[i], Pin{}, screen.pins[i]);
+  }
   pins.finish();
   return true;
 }
@@ -125,14 +189,16 @@ void read_screen(Keys& keys, bbsim_wired_screen& screen) {
             screen);
   read_pins(keys, "five_wire", {"upper_left", "upper_right", "lower_left", "lower_right", "sense"},
             bbsim_five_wires, screen);
-  read_pins(keys, "voltages", {"x", "y"}, bbsim_voltages, screen);
+  // A beam's has no y.
+  const bool beam =
+      read_pins(keys, "voltages", {"x", "y"}, bbsim_voltages, screen, 1) && screen.pins[1] < 0;
   if (const auto chip = keys.find("chip")) {
     bbsim_screen_kind kind = bbsim_stmpe610;
     yaml::NameOf<bbsim_screen_kind>{{{bbsim_stmpe610, "stmpe610"}}}.read(*chip, kind);
     screen.kind = kind;
   }
   keys.required("x", CountMap{}, screen.x);
-  keys.required("y", CountMap{}, screen.y);
+  if (!beam || keys.find("y")) keys.required("y", CountMap{}, screen.y);
   keys.optional("untouched", Number{Dimension::number, {.at_least = 0, .at_most = 65535}, "0"},
                 screen.untouched);
   const Number ohms{Dimension::number, {.above = 0}, "300"};
@@ -172,8 +238,22 @@ void read_camera(Keys& keys, Read& read) {
 
 void read_distance(Keys& keys, bbsim_wired_distance& sensor) {
   const Number length{Dimension::length, {.at_least = 0}, "\"2 cm\""};
-  keys.required("trigger", Pin{}, sensor.trigger);
-  keys.required("echo", Pin{}, sensor.echo);
+  keys.exclusive({{"trigger", "echo"}, {"chip"}});
+  if (const auto given = keys.find("chip")) {
+    enum class Chip { vl53l0x } chip{};
+    yaml::NameOf<Chip>{{{Chip::vl53l0x, "vl53l0x"}}}.read(*given, chip);
+    sensor.chip = 1;
+    sensor.range = 2;
+    for (const char* pin : {"trigger", "echo"}) {
+      if (const auto found = keys.find(pin)) {
+        found->report(
+            "found beside chip; allowed: trigger and echo of an ultrasonic sensor, or chip");
+      }
+    }
+  } else {
+    keys.required("trigger", Pin{}, sensor.trigger);
+    keys.required("echo", Pin{}, sensor.echo);
+  }
   keys.required("offset", Number{Dimension::length, {}, "\"20 cm\""}, sensor.offset);
   keys.optional("noise", length, sensor.noise);
   keys.optional("blind", length, sensor.blind);
@@ -183,6 +263,9 @@ void read_distance(Keys& keys, bbsim_wired_distance& sensor) {
 void read_distances(Keys& keys, bbsim_wiring& wiring) {
   keys.optional("x", MappingOf(read_distance), wiring.distances[0]);
   keys.optional("y", MappingOf(read_distance), wiring.distances[1]);
+  if (wiring.distances[0].chip != 0 && wiring.distances[1].chip != 0) {
+    keys.find("y")->report("found a second chip; allowed: one, since both answer at one address");
+  }
 }
 
 void read_eeprom(Keys& keys, Read& read) {
@@ -216,7 +299,15 @@ void read_choice(Keys& keys, const char* key, const yaml::NameOf<Enum>& names,
 
 void read_wiring(Keys& keys, Read& read) {
   read.c = by_default();
-  keys.section("servos", read_servos, read);
+  keys.exclusive({{"servos"}, {"steppers"}});
+  if (const auto steppers = keys.find("steppers")) {
+    keys.optional("steppers", MappingOf(read_steppers), read);
+    if (keys.find("servos")) {
+      steppers->report("found beside servos; allowed: one of the two");
+    }
+  } else {
+    keys.section("servos", read_servos, read);
+  }
   keys.optional("screen", MappingOf(read_screen), read.c.screen);
   keys.optional("camera", MappingOf(read_camera), read);
   keys.optional("distances", MappingOf(read_distances), read.c);

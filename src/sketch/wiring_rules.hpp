@@ -109,7 +109,7 @@ struct Inputs {
         fine = found->report("found no pin; allowed: " + Pin::allowed());
         continue;
       }
-      const int most = pin < 54 ? 1 : 1023;
+      const int most = pin < 54 ? 1 : 65535;
       int level = 0;
       fine = Whole{0, most}.read(*found, level) && fine;
       into.push_back({pin, static_cast<double>(level)});

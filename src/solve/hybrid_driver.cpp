@@ -201,7 +201,7 @@ class HybridIntegration {
     }
     rows_.write_at(at_, z_, integral_);
     const bool over = end_ - at_ <= slack(at_);
-    if (in_closed_form_ && !over) {
+    if (in_closed_form_ && !over && !run_.stops()) {
       if (!goes_on) switch_integral_ = integral_;
       if (!goes_on || predicted_to_ < run_.next_change()) predict_crossing(at_, !goes_on);
       return true;

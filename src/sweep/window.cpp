@@ -51,6 +51,7 @@ void remove_events(Scenario& scenario) {
   events.singularity.reset();
   events.rest.reset();
   events.stick.reset();
+  events.steps_lost.reset();
 }
 
 Scenario window_of(const Scenario& whole, double begin, double end) {

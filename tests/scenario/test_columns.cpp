@@ -41,6 +41,10 @@ InDocs in_docs(const Column& column) {
       return {"The gimbal", "`gimbal.servo`"};
     case Needs::third_servo:
       return {"The gimbal", "`gimbal.three_servos`"};
+    case Needs::believed:
+      return {"The gimbal", "`gimbal.servo.stepper`"};
+    case Needs::legs_believed:
+      return {"The gimbal", "steppers of `gimbal.three_servos`"};
     case Needs::controller:
     case Needs::commands:
       return {"The controller", "`controller`"};

@@ -136,14 +136,26 @@ void loop() {
 }
 
 TEST_CASE("an ultrasonic sensor balances a ball along its axis") {
-  const std::string style = GENERATE("pulseIn", "polling", "NewPing");
+  const std::string style =
+      GENERATE("pulseIn", "polling", "NewPing", "VL53L0X", "Adafruit_VL53L0X");
   const std::string read =
       style == "pulseIn" ? "float us() { ping(); return pulseIn(7, HIGH, 30000); }\n"
       : style == "polling"
           ? "float us() { ping(); while (!digitalRead(7)) {} unsigned long t = micros();\n"
             "  while (digitalRead(7)) {} return micros() - t; }\n"
-          : "#include <NewPing.h>\nNewPing sonar(8, 7, 100);\nfloat us() { return sonar.ping(); "
-            "}\n";
+      : style == "NewPing"
+          ? "#include <NewPing.h>\nNewPing sonar(8, 7, 100);\nfloat us() { return sonar.ping(); }\n"
+      : style == "VL53L0X"
+          ? "#include <VL53L0X.h>\nVL53L0X chip;\nbool on = false;\n"
+            "float us() {\n  if (!on) { chip.init(); "
+            "chip.setMeasurementTimingBudget(20000); chip.startContinuous(); }\n"
+            "  on = true;\n"
+            "  return chip.readRangeContinuousMillimeters() * 2e3 / 343;\n}\n"
+          : "#include <Adafruit_VL53L0X.h>\nAdafruit_VL53L0X lox;\nbool on = false;\n"
+            "float us() {\n  if (!on) on = lox.begin();\n"
+            "  VL53L0X_RangingMeasurementData_t m;\n  lox.rangingTest(&m, false);\n"
+            "  return m.RangeStatus == 4 ? 0 : m.RangeMilliMeter * 2e3 / 343;\n}\n";
+  const bool chip = contains(style, "VL53L0X");
   const Sketch sketch(
       "#include <Servo.h>\nServo phi, theta;\nfloat before = 0.2, filtered = 0;\n"
       "void ping() {\n  digitalWrite(8, LOW); delayMicroseconds(2);\n"
@@ -158,7 +170,9 @@ TEST_CASE("an ultrasonic sensor balances a ball along its axis") {
           "  Serial.print(\"distance:\");\n  Serial.println(d, 4);\n"
           "  while (millis() % 30 != 0) delayMicroseconds(100);\n}\n",
       std::string(plain_wiring) +
-          "distances: {x: {trigger: 8, echo: 7, offset: \"20 cm\", noise: \"0.5 mm\"}}\n");
+          (chip ? "inputs: {7: 0}\ndistances: {x: {chip: vl53l0x, offset: \"20 cm\", noise: \"0.5 "
+                  "mm\"}}\n"
+                : "distances: {x: {trigger: 8, echo: 7, offset: \"20 cm\", noise: \"0.5 mm\"}}\n"));
   CAPTURE(style, sketch.made.err);
   REQUIRE(sketch.made.exit_code == 0);
   const Result run = bbsim(sketch.words(

@@ -95,6 +95,12 @@ TEST_CASE("libraries are found as in the IDE") {
                                                   folder / "libs/Flat/Flat.cpp",
                                                   folder / "libs/Other_Name/src/part/more.c"});
   CHECK(find_libraries({"Flat.h"}, {}, {folder / "libs/Flat"}, "").sources.size() == 1);
+  // A whole folder, but not its copy of what the board has.
+  put("sketch/Servo.cpp", "");
+  put("sketch/src/deep/x.c", "");
+  CHECK(find_libraries({}, {folder / "sketch"}, {}, folder / "ours", {folder / "sketch"}).sources ==
+        std::vector<std::string>{folder / "sketch/other.cpp", folder / "sketch/own.cpp",
+                                 folder / "sketch/src/deep/x.c"});
 }
 
 TEST_CASE("a sketch of many functions is read once, not once for each") {

@@ -3,7 +3,10 @@
 
 // The sketches of sketches/, each in a style that people publish, run unchanged and balance the
 // ball.
+#include <cmath>
 #include <cstdlib>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -14,11 +17,38 @@ namespace bbsim_test::test_styles {
 
 namespace {
 
+// The rows of a CSV file of numbers, without comments and header.
+std::vector<std::vector<double>> numbers_of(const std::string& file) {
+  std::ifstream in(file);
+  std::vector<std::vector<double>> rows;
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty() || line[0] == '#' || line[0] == 't') continue;
+    std::vector<double>& row = rows.emplace_back();
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
+  }
+  return rows;
+}
+
 struct Style {
   std::string name;
   std::vector<std::string> more_files{};
   std::vector<std::string> settings{};
 };
+
+const std::vector<std::string> stepper_rig{"--set",
+                                           "gimbal.servo={stepper: {steps: 200, microsteps: 16}}",
+                                           "--set", "controller.sampling.period=\"1 ms\""};
+const std::vector<std::string> stepper_legs{
+    "--set",
+    "gimbal.servo={stepper: {steps: 200, microsteps: 16}}",
+    "--set",
+    "gimbal.three_servos={radius_base: \"10 cm\", radius_plate: \"10 cm\", horn: \"5 cm\", rod: "
+    "\"12 cm\", height: \"12 cm\"}",
+    "--set",
+    "controller.drives=legs",
+    "--set",
+    "controller.sampling.period=\"1 ms\""};
 
 // Inverse kinematics need a plate with rods; commands are then the servos' angles.
 const Style styles[] = {
@@ -32,6 +62,9 @@ const Style styles[] = {
     {"kalman"},
     {"calibration"},
     {"forward", {"helpers.ino"}},
+    {"steppers", {}, stepper_rig},
+    {"stepper_legs", {}, stepper_legs},
+    {"beam", {}, {"--set", "ball.position=[\"-5 cm\", 0]"}},
 };
 
 }  // namespace
@@ -53,6 +86,90 @@ TEST_CASE(
   CAPTURE(first.err);
   CHECK(first.exit_code == 0);
   for (int i = 0; i < 3; ++i) CHECK(bbsim(words).out == first.out);
+}
+
+TEST_CASE("pulses turn a stepper by microsteps, at a constant rate from sample to sample") {
+  // 100 steps forward at 1 kHz after 10 ms, then 20 back, one of them while the driver is off.
+  const Sketch sketch(
+      "int n = 0;\nvoid setup() { pinMode(2, OUTPUT); pinMode(3, OUTPUT); pinMode(8, OUTPUT); }\n"
+      "void loop() {\n  if (millis() < 10) return;\n  while (n < 120) {\n"
+      "    digitalWrite(3, n < 100 ? HIGH : LOW); digitalWrite(8, n == 119 ? HIGH : LOW);\n"
+      "    digitalWrite(2, HIGH); digitalWrite(2, LOW); n++; delayMicroseconds(984);\n  }\n}\n",
+      "steppers: {phi: {step: 2, dir: 3, enable: 8}}\n");
+  CAPTURE(sketch.made.err);
+  REQUIRE(sketch.made.exit_code == 0);
+  const Result run = bbsim(sketch.words(
+      "run", {"--set", "gimbal.servo={stepper: {steps: 200, microsteps: 8, gear: 2}}", "--set",
+              "controller.sampling.period=\"2 ms\"", "--set", "time={end: 0.2, step: 1 ms}",
+              "--set", "events={}", "--set", "output.columns=[t, phi, phi_rate, phi_believed]",
+              "--expect", "max_phi < 0.1964", "--expect", "max_phi > 0.1963", "-o",
+              sketch.folder() / "run.csv", "-q"}));
+  CAPTURE(run.err);
+  CHECK(run.exit_code == 0);
+  constexpr double step = 2 * 3.14159265358979324 / (200 * 8 * 2);
+  const std::vector<std::vector<double>> rows = numbers_of(sketch.folder() / "run.csv");
+  REQUIRE(rows.size() == 201);
+  for (const std::vector<double>& row : rows) CHECK(row[1] == row[3]);
+  // At the samples the shaft is where the pulses have brought it. The board's clock shows 2 ms at
+  // t = 0.
+  CHECK(std::abs(rows[60][1] - 52 * step) < 1.01 * step);
+  CHECK(std::abs(rows[60][2] - 1000 * step) < 1e-6);
+  CHECK(std::abs(rows[200][1] - 81 * step) < 1e-12);
+}
+
+TEST_CASE("a wiring and a scenario agree on what is a stepper") {
+  const std::string text = "void setup() {}\nvoid loop() {}\n";
+  const Sketch steppers(text, "steppers: {phi: {step: 2, dir: 3}}\n");
+  const Result servo = bbsim(steppers.words("run", {"-o", "-", "-q"}));
+  CHECK(servo.exit_code == 2);
+  CHECK(contains(servo.err, "wires a stepper where the scenario has a servo"));
+  const Sketch servos(text, "servos: {phi: {pin: 2}}\n");
+  std::vector<std::string> words = servos.words("run", stepper_rig);
+  words.insert(words.end(), {"-o", "-", "-q"});
+  const Result stepper = bbsim(words);
+  CHECK(stepper.exit_code == 2);
+  CHECK(contains(stepper.err, "wires a servo where the scenario has a stepper"));
+  words.insert(words.end(), {"--set", "gimbal.servo.rate_limit=1"});
+  const Result limited = bbsim(words);
+  CHECK(limited.exit_code == 2);
+  CHECK(contains(limited.err, "the sketch's pulses make the ramp"));
+}
+
+TEST_CASE("the public AccelStepper compiles unchanged, and ramps") {
+  const char* const folder = std::getenv("BBSIM_ACCELSTEPPER");  // not in the repository
+  if (folder == nullptr) return;
+  const Folder into;
+  const std::string ino =
+      into.write("ramp.ino",
+                 "#include <AccelStepper.h>\n#include <MultiStepper.h>\nAccelStepper "
+                 "phi(AccelStepper::DRIVER, "
+                 "2, 3), theta(AccelStepper::DRIVER, 4, 5);\nMultiStepper both;\nvoid setup() {\n"
+                 "  both.addStepper(phi); both.addStepper(theta);\n"
+                 "  phi.setMaxSpeed(1000); phi.setAcceleration(4000); phi.moveTo(120);\n"
+                 "  theta.setMaxSpeed(1000); theta.setSpeed(300);\n}\n"
+                 "void loop() { phi.run(); theta.runSpeed(); }\n");
+  const Result made = bbsim({"sketch", ino, "-I", folder, "-o", into / "sketch.so"});
+  CAPTURE(made.err);
+  REQUIRE(made.exit_code == 0);
+  const std::string wiring =
+      into.write("w.yaml", "steppers: {phi: {step: 2, dir: 3}, theta: {step: 4, dir: 5}}\n");
+  std::vector<std::string> words{"run",   std::string(BBSIM_SOURCE_DIR) + "/tests/sketch/rig.yaml",
+                                 "--set", "controller.library.file=" + (into / "sketch.so"),
+                                 "--set", "controller.library.wiring=" + wiring,
+                                 "--set", "time={end: 0.4, step: 10 ms}",
+                                 "--set", "output.columns=[t, phi, theta]",
+                                 "--set", "events={}"};
+  words.insert(words.end(), stepper_rig.begin(), stepper_rig.end());
+  words.insert(words.end(), {"-o", into / "run.csv", "-q"});
+  const Result run = bbsim(words);
+  CAPTURE(run.err);
+  REQUIRE(run.exit_code == 0);
+  // A triangle of 4000 steps/s^2 over 120 steps takes 0.346 s; halfway after 0.173 s.
+  constexpr double step = 2 * 3.14159265358979324 / 3200;
+  const std::vector<std::vector<double>> rows = numbers_of(into / "run.csv");
+  CHECK(std::abs(rows[17][1] / step - 58) < 6);
+  CHECK(std::abs(rows[40][1] / step - 120) < 1e-9);
+  CHECK(std::abs(rows[40][2] / step - 120) < 3);
 }
 
 TEST_CASE("a hundred runs of a sketch give the same bytes", "[slow]") {

@@ -95,6 +95,30 @@ costs: {analog: "20 us"}
   CHECK(c.costs.analog == 20e-6);
 }
 
+TEST_CASE("a wiring has steppers in place of servos") {
+  const bbsim_test::Folder folder;
+  const Wiring wiring(folder.write("w.yaml", R"(
+steppers:
+  phi: {step: 2, dir: 3, enable: 8, direction: -1, start: "-20 deg",
+        home: {pin: 9, angle: "-25 deg", closed: 1}}
+  ignored: [A0]
+screen: {voltages: {x: A1}, x: {counts: [448, 3648], position: [-0.16, 0.16]}}
+inputs: {A5: 4000}
+)"));
+  const bbsim_wired_stepper& phi = wiring.get()->steppers[0];
+  CHECK(phi.step == 2);
+  CHECK(phi.dir == 3);
+  CHECK(phi.enable == 8);
+  CHECK(phi.angle == -1);
+  CHECK(phi.start == Approx(-20 * 3.14159265358979 / 180).epsilon(1e-14));
+  CHECK(phi.home == 9);
+  CHECK(phi.home_level == 1);
+  CHECK(wiring.get()->steppers[1].step == -1);
+  CHECK(wiring.get()->servos[0].pin == -1);
+  CHECK(wiring.get()->ignored_count == 1);
+  CHECK(wiring.get()->screen.pins[1] == -1);
+}
+
 TEST_CASE("all faults of a wiring are reported together, each with its place") {
   const std::string fault = fault_of(
       "servos: {phi: {pin: 99}, theta: {pni: 3}, ignore: [4]}\n"
@@ -114,7 +138,16 @@ TEST_CASE("all faults of a wiring are reported together, each with its place") {
         "camra: unknown key; did you mean camera?"}) {
     CHECK(contains(fault, part));
   }
-  CHECK(contains(fault_of(""), "w.yaml:1:1: found an empty file; allowed: a mapping with servos"));
+  const std::string legs = "1: {step: 2, dir: 3}, 2: {step: 4, dir: 5}";
+  CHECK(contains(fault_of("steppers: {" + legs + "}"), "steppers.3: missing"));
+  CHECK(contains(fault_of("steppers: {" + legs + ", 3: {step: 6, dir: 7}, phi: {step: 8, dir: 9}}"),
+                 "steppers.phi: found beside legs"));
+  CHECK(contains(fault_of("steppers: {phi: {step: 2, dir: 3}}\nservos: {phi: {pin: 4}}"),
+                 "w.yaml:1:11: steppers: found beside servos"));
+  CHECK(contains(fault_of("steppers: {}"), "steppers.phi: missing"));
+  CHECK(contains(fault_of("steppers: {phi: {step: 2, dir: 3, home: {pin: 4, angle: -1}}}"),
+                 "steppers.phi.home: found without start"));
+  CHECK(contains(fault_of(""), "w.yaml:1:1: found an empty file; allowed: a mapping with "));
   CHECK(contains(fault_of("servos: {}"), "servos.phi: missing"));
   CHECK(contains(fault_of("servos: {phi: {pin: 1}}\neeprom: {file: nowhere}"), "nowhere"));
 }

@@ -148,6 +148,37 @@ TEST_CASE("a stepper follows a trapezoidal ramp to its command, whatever its mot
   }
 }
 
+TEST_CASE("a stepper beyond its torque stalls, and follows again whole periods behind") {
+  const double load = GENERATE(0.99, 1.01, 0.8);
+  Scenario scene = step_scene(0.6);
+  scene.gimbal.start = {};
+  scene.gimbal.servo = Servo{};
+  scene.gimbal.servo->stepper = StepperMotor{200, 16, 1};
+  scene.gimbal.servo->stepper->torque = 0.4;
+  scene.gimbal.servo->stepper->inertia = 0.4 / 60;  // at most 60 rad/s^2
+  if (load == 0.8) scene.gimbal.servo->stepper->corner_speed = 1.6;
+  scene.gimbal.servo->rate_limit = 4;
+  scene.gimbal.servo->acceleration_limit = 60 * load;
+  const Run run = run_of(scene, Method::radau);
+  const double period = 2 * std::numbers::pi / 50;
+  const double believed = run.samples.back().servo[0], phi = run.samples.back().gimbal.phi;
+  CHECK(std::abs(believed - 0.6) < std::numbers::pi / 3200);
+  if (load == 0.99) {
+    CHECK(run.outcome.occurrences.empty());
+    CHECK(std::abs(phi - believed) < 1e-12);
+    return;
+  }
+  REQUIRE(run.outcome.occurrences.size() == 1);
+  const model::Occurrence& lost = run.outcome.occurrences.front();
+  CHECK(lost.name == "steps_lost");
+  // At once; or at 1.6 / 0.8 = 2 rad/s, which takes 2 / 48 s, beyond the corner.
+  const double rate = load == 0.8 ? 2 : 0;
+  CHECK(std::abs(lost.t - rate / (60 * load)) < 1e-12);
+  const double stalled = rate * rate / (2 * 60 * load);
+  const double periods = std::floor((believed - stalled) / period);
+  CHECK(std::abs(believed - phi - periods * period) < 1e-9);
+}
+
 TEST_CASE("a hard stop stops the servo and kicks the ball by r times its rate") {
   const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
   Scenario scene = step_scene(0.2);

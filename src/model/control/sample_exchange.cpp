@@ -41,10 +41,10 @@ void SampleExchange::go_on_exposing() {
   expose_.next = frame_time();
 }
 
-void SampleExchange::expose(double x, double y) {
+void SampleExchange::expose(double x, double y, bool firm) {
   Seen& now = seen_.push();
   now.at = expose_.next;
-  now.sees = sensor_.read(x, y, now.position);
+  now.sees = sensor_.read(x, y, now.position, firm);
   go_on_exposing();
 }
 

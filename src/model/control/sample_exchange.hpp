@@ -37,7 +37,8 @@ class SampleExchange {
 
   // Whether an exposure, a sample or a command is due by `now`, and the actions then.
   [[nodiscard]] bool exposes_by(double now) const { return expose_.next <= now; }
-  void expose(double x, double y);  // the ball's position, m
+  // The ball's position, m, and whether its contact force is enough for a touch screen.
+  void expose(double x, double y, bool firm);
   [[nodiscard]] bool samples_by(double now) const { return sample_.next <= now; }
   [[nodiscard]] double sample_number() const { return sample_.number; }
   // Numbers of the next exposure, sample and command.

@@ -14,13 +14,32 @@ BallSensor::BallSensor(const Sensor& sensor) : sensor_(sensor), noise_(sensor.se
   if (sensor.dropout > 0) dropouts_.emplace(sensor.seed + other_sequence);
 }
 
-bool BallSensor::read(double x, double y, Pair& seen) {
-  std::array<double, 2> says{x, y};
-  if (!sensor_.is_aligned()) {
-    says = turned(sensor_, x, y);
-    for (std::size_t i = 0; i < 2; ++i) says[i] += sensor_.offset[i];
+Pair BallSensor::aligned(double x, double y) const {
+  if (sensor_.is_aligned()) return {x, y};
+  const std::array<double, 2> says = turned(sensor_, x, y);
+  return {says[0] + sensor_.offset[0], says[1] + sensor_.offset[1]};
+}
+
+// Reads nothing, the last reading, or the corner of the area.
+bool BallSensor::miss(Pair& seen) const {
+  if (sensor_.on_miss == OnMiss::last && last_) {
+    seen = *last_;
+    return true;
   }
-  bool missed = false;
+  if (sensor_.on_miss != OnMiss::edge) return false;
+  seen = rounded(aligned(-(*sensor_.area)[0] / 2, -(*sensor_.area)[1] / 2));
+  return true;
+}
+
+Pair BallSensor::rounded(const Pair& says) const {
+  Pair seen{in_steps(says[0], sensor_.resolution), in_steps(says[1], sensor_.resolution)};
+  if (sensor_.only) seen[*sensor_.only == 0 ? 1 : 0] = 0;
+  return seen;
+}
+
+bool BallSensor::read(double x, double y, Pair& seen, bool firm) {
+  Pair says = aligned(x, y);
+  bool missed = !firm;
   // Draw for every sample, whatever it sees, so that runs with one seed have the same noise.
   if (sensor_.noise > 0) {
     for (double& coordinate : says) coordinate += sensor_.noise * noise_.normal();
@@ -29,8 +48,12 @@ bool BallSensor::read(double x, double y, Pair& seen) {
   if (sensor_.area) {
     missed = missed || std::abs(x) > (*sensor_.area)[0] / 2 || std::abs(y) > (*sensor_.area)[1] / 2;
   }
-  for (std::size_t i = 0; i < 2; ++i) seen[i] = in_steps(says[i], sensor_.resolution);
-  if (sensor_.only) seen[*sensor_.only == 0 ? 1 : 0] = 0;
+  for (const auto& [x0, y0, x1, y1] : sensor_.dead_zones) {
+    missed = missed || (x >= x0 && x <= x1 && y >= y0 && y <= y1);
+  }
+  if (missed && sensor_.on_miss != OnMiss::none) return miss(seen);
+  seen = rounded(says);
+  if (!missed && sensor_.on_miss == OnMiss::last) last_ = seen;
   return !missed;
 }
 

@@ -26,13 +26,19 @@ class BallSensor {
  public:
   explicit BallSensor(const Sensor& sensor);
 
-  // Reads a ball at (x, y), m, and returns whether the sensor sees it. (Two numbers, because
-  // reading a pair right after its halves were written is slow.)
-  [[nodiscard]] bool read(double x, double y, Pair& seen);
+  // Reads a ball at (x, y), m, and returns whether the sensor gives a position. (Two numbers,
+  // because reading a pair right after its halves were written is slow.) `firm`: the contact force
+  // is enough for a touch screen.
+  [[nodiscard]] bool read(double x, double y, Pair& seen, bool firm = true);
 
  private:
+  [[nodiscard]] Pair aligned(double x, double y) const;
+  [[nodiscard]] Pair rounded(const Pair& says) const;
+  [[nodiscard]] bool miss(Pair& seen) const;
+
   Sensor sensor_;
   Noise noise_;
+  std::optional<Pair> last_;       // reading of the ball, for OnMiss::last
   std::optional<Noise> dropouts_;  // a separate sequence, so that the noise does not change
 };
 

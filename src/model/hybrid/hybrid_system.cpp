@@ -75,6 +75,9 @@ void HybridSystem::reset(double t, double* z) {
   }
   unsettled_ = unsettled_ || round == most_rounds;
   for_each(parts_, [&](auto& part) { part.reset_at_limits(t, z); });
+  if (servos() != nullptr && servos()->takes_loss()) {
+    stops_ = log_.note("steps_lost", model().rig->steps_lost, t, z) == Effect::stop || stops_;
+  }
 }
 
 void HybridSystem::evaluate_guards(double t, const double* z, double* values) const {
@@ -99,7 +102,7 @@ Effect HybridSystem::handle_state_event(std::size_t i, double t, double* z) {
   for_each(parts_, [&](auto& part) { part.leave_mode(t, z); });
   with_part_of(i, [](auto& part, std::size_t guard) { part.cross(guard); });
   reset(t, z);
-  return note_dry(t, z) == Effect::stop ? Effect::stop : Effect::restart;
+  return note_dry(t, z) == Effect::stop || stops_ ? Effect::stop : Effect::restart;
 }
 
 Effect HybridSystem::note_dry(double t, const double* z) {
@@ -108,7 +111,7 @@ Effect HybridSystem::note_dry(double t, const double* z) {
 }
 
 Effect HybridSystem::check_events(double t, const double* z) {
-  if (note_dry(t, z) == Effect::stop) return Effect::stop;
+  if (note_dry(t, z) == Effect::stop || stops_) return Effect::stop;
   Monitors* const monitors = part_of<Monitors>(parts_);
   return monitors != nullptr ? monitors->check(t, z) : Effect::none;
 }

@@ -89,6 +89,8 @@ class HybridSystem {
   // Whether a reset found no consistent mode of servos, their stops and command limits. The run
   // then cannot continue.
   [[nodiscard]] bool unsettled() const { return unsettled_; }
+  // Whether a stepper has lost steps, which stops the run.
+  [[nodiscard]] bool stops() const { return stops_; }
   // Whether the last act() changed only the commands that the servos follow. Call it right
   // afterwards.
   [[nodiscard]] bool only_commanded() const { return !touched_ || !servos()->chose(); }
@@ -158,7 +160,7 @@ class HybridSystem {
   EventLog log_;
   // Time events change the motion only through commands.
   bool only_commands_change_ = false;
-  bool touched_ = true, unsettled_ = false;
+  bool touched_ = true, unsettled_ = false, stops_ = false;
   // Index of each part's first guard; last, the number of guards.
   std::array<std::size_t, std::tuple_size_v<Parts> + 1> first_guard_{};
   std::vector<double> guard_scales_;

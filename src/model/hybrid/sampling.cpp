@@ -14,6 +14,7 @@ namespace bbsim::model {
 Sampling::Sampling(const SwitchedModel& model)
     : model_(model),
       is_direct_(model.rig().between.none()),
+      least_force_(model.rig().sampled->sensor.contact_force),
       exchange_(*model.rig().sampled),
       controller_(*model.rig().sampled),
       own_(model.get().own_columns().size(), std::numeric_limits<double>::quiet_NaN()) {
@@ -28,6 +29,11 @@ Sampling::Sampling(const SwitchedModel& model)
     const auto reference = model_.with_loop([t](const auto& one) { return one.reference().at(t); });
     end(controller_.command(Pair{0, 0}, {0, 0, 0, 0}, reference), measured_);
   }
+}
+
+double Sampling::normal_force(double t, const double* z) const {
+  const Sample now = model_.sample(t, z, Detail::motion);
+  return contact_force(now, *model_.rig().sampled->pressing).z();
 }
 
 const std::array<Jet<double>, 2>& Sampling::reference_at(double t) {

@@ -45,7 +45,7 @@ class Sampling : public Part {
   [[nodiscard]] double next_sample() const { return exchange_.next_sample(); }
   // Takes the exposures due by t.
   void observe(double t, const double* z) {
-    while (exchange_.exposes_by(t)) exchange_.expose(z[0], z[1]);
+    while (exchange_.exposes_by(t)) exchange_.expose(z[0], z[1], is_firm(t, z));
   }
 
   [[nodiscard]] double rounding(double t) const { return exchange_.rounding(t); }
@@ -73,10 +73,16 @@ class Sampling : public Part {
   [[nodiscard]] const SampledController& controller() const { return controller_; }
 
  private:
+  // Whether the ball presses hard enough on a touch screen.
+  [[nodiscard]] bool is_firm(double t, const double* z) const {
+    return !(least_force_ > 0) || normal_force(t, z) >= least_force_;
+  }
+  [[nodiscard]] double normal_force(double t, const double* z) const;  // N
   void ask_external(double t, double number, const std::optional<Pair>& seen, const double* z);
 
   const SwitchedModel& model_;
-  bool is_direct_;  // servos follow commands without a linkage
+  bool is_direct_;      // servos follow commands without a linkage
+  double least_force_;  // of sensor.contact_force, N
   Pair measured_{0, 0};
   SampleExchange exchange_;
   SampledController controller_;

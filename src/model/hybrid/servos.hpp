@@ -38,6 +38,12 @@ class Servos : public Part {
   [[nodiscard]] HeldMotions held_motions(const double* z) const;
   // The first crossing within (t, end], for servos with these motions from t.
   [[nodiscard]] Crossing next_crossing(double t, const HeldMotions& motions, double end);
+  // Whether a stepper has begun to lose steps since the last call.
+  [[nodiscard]] bool takes_loss() {
+    bool any = false;
+    for (ServoAxis& axis : axes_) any = axis.takes_loss() || any;
+    return any;
+  }
   [[nodiscard]] const ServoAxis& axis(std::size_t i) const { return axes_[i]; }
 
  private:

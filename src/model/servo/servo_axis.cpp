@@ -111,16 +111,65 @@ double ServoAxis::drive(const AxisState& state) const {
   }
 }
 
-void ServoAxis::settle(AxisState& state, AxisMode& mode) {
-  if (servo_.step > 0) {
-    motion_ = Motion::on_ramp;
+void ServoAxis::plan_ramp(AxisState& state) {
+  const double before = state.rate;
+  const bool is_new = std::exchange(has_new_target_, false);
+  if (follows_pulses()) {
+    if (is_new) state.rate = (target_ - state.angle) / servo_.pulse_time;
+    ramp_ = part_at_rate(state.angle, state.rate, target_);
+    pull_ = (state.rate - before) / servo_.pulse_time;
+  } else {
     ramp_ =
         next_part(state.angle, state.rate, target_, {servo_.rate_limit, servo_.acceleration_limit});
+    pull_ = ramp_.acceleration;
+  }
+}
+
+double ServoAxis::stall_rate() const {
+  const double pull = std::abs(pull_);
+  if (pull > servo_.torque_limit) return 0;
+  return pull > 0 ? servo_.corner_rate * servo_.torque_limit / pull : unlimited;
+}
+
+// A rotor that its field pulls beyond its torque stalls, because a field that runs past it pulls it
+// forward and back in turns. It follows the field again when that passes it for the last time
+// before it halts, one or more of the field's periods later. A shorter way loses nothing: the rotor
+// catches up.
+void ServoAxis::settle_stall(const AxisState& state, AxisMode& mode) {
+  const double period = servo_.field_period;
+  if (stalls_ && catches_ != 0 && std::abs(state.angle - caught_at_) <= 2 * same_angle) {
+    lost_ += caught_at_ - stalled_at_;
+    stalls_ = false;
+  }
+  may_stall_ = !stalls_ && std::abs(target_ - state.angle) >= period;
+  if (may_stall_ && std::abs(state.rate) >= stall_rate() * at_limit) {
+    stalls_ = loses_ = true;
+    may_stall_ = false;
+    stalled_at_ = state.angle;
+  }
+  if (stalls_) {
+    const double way = (target_ - stalled_at_) / period,
+                 done = (state.angle - stalled_at_) / period;
+    const double forward = target_ > state.angle ? 1 : -1;
+    const double last = forward * std::floor(forward * way);
+    catches_ = forward * (last - done) > 0 ? forward : 0;
+    caught_at_ = stalled_at_ + last * period;
+    mode.ratio = 0;
+    mode.offset += stalled_at_ - lost_;
+  } else {
+    mode.offset -= lost_;
+  }
+}
+
+void ServoAxis::settle(AxisState& state, AxisMode& mode) {
+  mode.demand_factor = 0;
+  mode.set_acceleration = 0;
+  if (servo_.step > 0) {
+    motion_ = Motion::on_ramp;
+    plan_ramp(state);
   } else {
     motion_ = choose(state);
   }
-  mode.demand_factor = 0;
-  mode.set_acceleration = 0;
   switch (motion_) {
     case Motion::free:
       mode.demand_factor = 1;
@@ -138,6 +187,7 @@ void ServoAxis::settle(AxisState& state, AxisMode& mode) {
       break;
   }
   settle_backlash(state, mode);
+  if (servo_.torque_limit < unlimited) settle_stall(state, mode);
   const bool calm = motion_ == Motion::free && play_ == Play::none && !servo_.time_constant;
   calm_angle_ = calm ? servo_.angle_limit * at_limit : 0;
   calm_rate_ = calm ? servo_.rate_limit * at_limit : 0;
@@ -161,6 +211,14 @@ void ServoAxis::for_each_margin(Use use) const {
   const double most = servo_.acceleration_limit;
   switch (motion_) {
     case Motion::on_ramp: {
+      if (stalls_ && catches_ != 0) {
+        use(stop_down, AxisMargin{catches_ * caught_at_, -catches_});
+      }
+      const double stall = may_stall_ ? stall_rate() : unlimited;
+      if (stall < unlimited) {
+        const double forward = pull_ > 0 ? 1 : -1;
+        use(rate_down, AxisMargin{stall, 0, -forward});
+      }
       if (ramp_.until == RampPart::Until::ever) break;
       const double sign = ramp_.rising ? 1 : -1;
       AxisMargin margin{sign * ramp_.level};

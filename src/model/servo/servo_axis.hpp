@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "model/servo/held_motion.hpp"
 #include "model/servo/stepper_ramp.hpp"
@@ -54,8 +55,13 @@ class ServoAxis {
   // Takes a new command and returns the command that the servo follows. The dead band keeps the old
   // command if the new one is too close to it. A stepper rounds commands to microsteps.
   [[nodiscard]] double follow(double command) {
-    if (servo_.step > 0) command = servo_.step * std::round(command / servo_.step);
-    if (std::abs(command - target_) > servo_.dead_band) target_ = command;
+    if (servo_.step > 0 && !follows_pulses()) {
+      command = servo_.step * std::round(command / servo_.step);
+    }
+    if (std::abs(command - target_) > servo_.dead_band) {
+      target_ = command;
+      has_new_target_ = true;
+    }
     return target_;
   }
 
@@ -72,6 +78,10 @@ class ServoAxis {
   // Chooses the mode from here on. May change the rate: a stop sets it to zero, and a first-order
   // servo takes it from its command.
   void settle(AxisState& state, AxisMode& mode);
+
+  // Whether settle() has found since the last call that a stepper's torque is too small: its shaft
+  // stalls while the driver's field runs on.
+  [[nodiscard]] bool takes_loss() { return std::exchange(loses_, false); }
 
   // Writes `guards` values; all are positive until a switch.
   void evaluate(const AxisState& state, double* values) const;
@@ -115,6 +125,11 @@ class ServoAxis {
   };
   enum class Play { none, up, down, gap };
 
+  void plan_ramp(AxisState& state);
+  void settle_stall(const AxisState& state, AxisMode& mode);
+  // The rate at which a stepper's torque no longer gives the ramp's acceleration, rad/s.
+  [[nodiscard]] double stall_rate() const;
+  [[nodiscard]] bool follows_pulses() const { return servo_.pulse_time > 0; }
   // Calls use(guard, margin) for each active guard.
   template <class Use>
   void for_each_margin(Use use) const;
@@ -139,12 +154,19 @@ class ServoAxis {
   static constexpr double at_limit = 1 - 1e-11;
 
   double target_ = 0;                      // the followed command
+  bool has_new_target_ = false;            // since settle()
   double calm_angle_ = 0, calm_rate_ = 0;  // limits for stays_free()
   RigServo servo_;
   ServoResponse response_;
   double root_;  // of the stiffness in free motion, rad/s
   Motion motion_ = Motion::free;
   RampPart ramp_;
+  double pull_ = 0;  // the acceleration that a stepper's torque has to give, rad/s^2
+  // Of a stepper that stalls: its driver's angle then, that at which the shaft follows again, and
+  // the direction in which the driver comes there; 0: not before the next target.
+  bool stalls_ = false, may_stall_ = false, loses_ = false;
+  double stalled_at_ = 0, caught_at_ = 0, catches_ = 0;
+  double lost_ = 0;  // the driver's angle less the shaft's while it follows, rad
   Play play_ = Play::none;
   bool started_ = false;
   double plane_ = 0;  // angle in the gap, rad

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The trapezoidal ramp of a stepper motor's driver: constant acceleration, constant rate, constant
-// deceleration. It is planned anew at each target, from the present motion, as AccelStepper does.
+// The motion of a stepper motor's shaft. Under bbsim's own laws it follows a trapezoidal ramp:
+// constant acceleration, constant rate, constant deceleration. The driver plans it anew at each
+// target, from the present motion, as AccelStepper does. Under a sketch's pulses the shaft moves at
+// a constant rate from sample to sample.
 #pragma once
 
 #include <cmath>
@@ -23,10 +25,28 @@ struct RampLimits {
   double rate = 0, acceleration = 0;  // rad/s, rad/s^2
 };
 
+// Angles closer than this are the same. It exceeds their rounding; moves so small take no time.
+constexpr double same_angle = 1e-9;  // rad
+
+// The part from here to the target at this rate. It ends just beyond the target, so that a command
+// that comes as the shaft arrives ends it first. Halts at the target.
+inline RampPart part_at_rate(double& angle, double& rate, double target) {
+  RampPart part;
+  if (std::abs(target - angle) <= 2 * same_angle) {
+    angle = target;
+    rate = 0;
+  } else if ((target - angle) * rate > 0) {
+    part.until = RampPart::Until::angle;
+    part.rising = rate > 0;
+    part.level = target + (part.rising ? same_angle : -same_angle);
+  } else {
+    rate = 0;
+  }
+  return part;
+}
+
 // The part that begins with this motion. Sets the motion to the target where it arrives there.
 inline RampPart next_part(double& angle, double& rate, double target, const RampLimits& limits) {
-  // Angles closer than this are the same. It exceeds their rounding; moves so small take no time.
-  constexpr double same_angle = 1e-9;  // rad
   const double most = limits.acceleration;
   const double left = target - (angle + rate * std::abs(rate) / (2 * most));  // after a halt
   if (std::abs(left) <= same_angle && rate * rate <= 2 * most * same_angle) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "model/ball/dynamics.hpp"
 #include "model/servo/linkages.hpp"
 #include "model/systems/rig_loop.hpp"
 #include "scenario/scenario.hpp"
@@ -25,7 +26,8 @@ struct SampledLoop {
   ControlLaw law;         // computed at each sample; `held` for an external controller
   CommandRange limit[2];  // phi, theta: limits of the law's commands
   Between between;        // converts commands for the servos
-  bool legs = false;      // commands are angles of three servos and need no conversion
+  std::optional<BallConstants> pressing{};  // what presses on a touch screen, if that matters
+  bool legs = false;  // commands are angles of three servos and need no conversion
   // For a held law: the external controller (control/external_controller.hpp), which the caller
   // must attach before a run, and the names of the columns that it returns.
   std::shared_ptr<ExternalController> external{};
@@ -41,6 +43,10 @@ struct RigServo {
   std::optional<double> time_constant;    // of a first-order servo, s
   double offset = 0;                      // angle of the plane at the servo's zero, rad
   double step = 0;                        // of a stepper: its microstep, rad; 0: not a stepper
+  double pulse_time = 0;  // of a stepper under a sketch's pulses: it takes this to a target, s
+  // The greatest acceleration that a stepper's torque gives its shaft, rad/s^2; the rate beyond
+  // which it falls as 1/rate, rad/s; and the period of its field, four full steps, rad.
+  double torque_limit = unlimited, corner_rate = unlimited, field_period = 0;
 
   [[nodiscard]] bool switches() const {
     return step > 0 || angle_limit < unlimited || rate_limit < unlimited ||
@@ -56,6 +62,7 @@ struct Rig {
   CommandRange command_limit[2];
   Between between;
   std::optional<SampledLoop> sampled;
+  OnEvent steps_lost = OnEvent::note;
 
   [[nodiscard]] bool limits_commands() const {
     return command_limit[0].binds() || command_limit[1].binds();

@@ -16,7 +16,7 @@ class TwoWire {
 
 #define BBSIM_NOBODY                                                                         \
   "Wire: no part of the wiring speaks I2C by bytes; the parts that are there have headers: " \
-  "Adafruit_STMPE610.h, Adafruit_PWMServoDriver.h"
+  "Adafruit_STMPE610.h, Adafruit_PWMServoDriver.h, VL53L0X.h"
   BBSIM_LACKS(beginTransmission, BBSIM_NOBODY)
   BBSIM_LACKS(endTransmission, BBSIM_NOBODY)
   BBSIM_LACKS(requestFrom, BBSIM_NOBODY)

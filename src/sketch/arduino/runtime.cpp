@@ -11,4 +11,5 @@
 #include "runtime/screen.cpp"
 #include "runtime/serial.cpp"
 #include "runtime/servos.cpp"
+#include "runtime/steppers.cpp"
 #include "runtime/text.cpp"

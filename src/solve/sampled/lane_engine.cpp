@@ -398,7 +398,7 @@ void LaneEngine::go_on(std::size_t l) {
   }
   lane.time = lane.until;
   if (lane.switched && lane.standstill.after(lane.time)) lane.alive = false;
-  if (lane.run->unsettled()) lane.alive = false;
+  if (lane.run->unsettled() || lane.run->stops()) lane.alive = false;
   put_start(l);
   if (lane.switched) {
     take_mode(l);

@@ -70,6 +70,7 @@ void SteppedLanes::answer(std::size_t l, const Pair& command) {
   const bool begins = t == 0, touched = lane.run->touched();
   const bool over = is_at_end(l);
   if (lane.run->unsettled()) return end(l, State::given_up);
+  if (lane.run->stops()) return end(l, State::stopped);
   if ((begins || over) && lane.run->check_events(t, lane.z.data()) == model::Effect::stop) {
     return end(l, State::stopped);
   }

@@ -90,6 +90,14 @@ bool distance_reads(int pin, double& level);
 void trigger_distance(int pin, bool high);
 bool is_trigger(int pin);
 
+// steppers.cpp: what a step pin does, and the level of a limit switch's pin, false for other pins.
+bool has_steppers();
+void step_motor(int pin, bool high);
+bool limit_switch_reads(int pin, double& level);
+bool is_of_stepper(int pin);
+void place_steppers();    // at t = 0, after a setup() before it
+void command_steppers();  // sets board.command
+
 // pins.cpp: how a pin drives its wire.
 enum class Drive { none, pull_up, low, high };
 Drive drive_of(int pin);

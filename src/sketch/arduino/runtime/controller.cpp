@@ -18,6 +18,10 @@ bool is_wired(const bbsim_wired_servo& servo) {
   return servo.pin >= 0 || servo.channel >= 0;
 }
 
+bool has_legs(const bbsim_wiring& wiring) {
+  return is_wired(wiring.servos[2]) || wiring.steppers[2].step >= 0;
+}
+
 // Returns null, or the reason why it refuses the setup.
 const char* create(const bbsim_setup* setup, const bbsim_wiring* wiring) {
   if (!start_sketch()) return "out of memory for its stack";
@@ -28,9 +32,10 @@ const char* create(const bbsim_setup* setup, const bbsim_wiring* wiring) {
   if (setup->drives_acceleration != angle && setup->drives_acceleration != legs) {
     return "a sketch moves servos; allowed: drives: angle";
   }
-  if ((setup->drives_acceleration == legs) != is_wired(wiring->servos[2])) {
-    return "the wiring's servos and the scene's differ; allowed: servos.legs with drives: legs, "
-           "servos.phi and .theta with drives: angle";
+  if ((setup->drives_acceleration == legs) != has_legs(*wiring)) {
+    return "the wiring's servos and the scenario's differ; allowed: servos.legs, or steppers 1 to "
+           "3, "
+           "with drives: legs; phi and theta with drives: angle";
   }
   if (setup->parameter_count > 0) {
     snprintf(why, sizeof why,
@@ -75,6 +80,7 @@ void set_up() {
 int step(const bbsim_sample* sample, double* command, double* columns) {
   board.sample = *sample;
   if (board.said[0] == '\0' && sample->number == 0 && board.wiring.setup_before != 0) set_up();
+  if (sample->number == 0) place_steppers();
   if (board.said[0] == '\0') {
     const double next = static_cast<double>(sample->number + 1) * period;  // s
     board.horizon = switched_on_before + nanoseconds(next);
@@ -82,8 +88,9 @@ int step(const bbsim_sample* sample, double* command, double* columns) {
     if (board.now < board.horizon) run_sketch();
   }
   if (board.said[0] != '\0') return board.misfit ? BBSIM_WIRING_AT_FAULT : 1;
+  command_steppers();
   // `command` has room for a third number only if three servos are wired.
-  for (int i = 0; i < (is_wired(board.wiring.servos[2]) ? 3 : 2); ++i) {
+  for (int i = 0; i < (has_legs(board.wiring) ? 3 : 2); ++i) {
     command[i] = board.command[i];
   }
   for (size_t i = 0; i < column_count; ++i) columns[i] = column(i);

@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Ultrasonic distance sensors with a trigger and an echo pin, such as the HC-SR04.
+// Distance sensors: ultrasonic ones with a trigger and an echo pin, such as the HC-SR04, and the
+// time-of-flight chip VL53L0X.
 #include <math.h>
 
 #include "NewPing.h"
+#include "VL53L0X.h"
 #include "runtime/board.hpp"
 
 namespace bbsim_board {
@@ -32,16 +34,21 @@ double normal() {
   return size * cos(TWO_PI * uniform());
 }
 
-void send_burst(int axis) {
+// What a sensor measures now, m; below 0 if it does not see the ball.
+double measure(int axis) {
   const bbsim_wired_distance& sensor = board.wiring.distances[axis];
-  Echo& echo = echoes[axis];
-  if (board.now < echo.ends) return;  // still busy
-  echo.begins = board.now + burst;
   const double noise = sensor.noise > 0 ? sensor.noise * normal() : 0;
   const double measured = sensor.offset + board.sample.ball[axis] + noise;
   const double distance = measured < sensor.blind ? sensor.blind : measured;
-  const bool heard = board.sample.seen != 0 && distance <= sensor.range;
-  echo.ends = echo.begins + (heard ? nanoseconds(2 * distance / speed_of_sound) : no_echo);
+  return board.sample.seen != 0 && distance <= sensor.range ? distance : -1;
+}
+
+void send_burst(int axis) {
+  Echo& echo = echoes[axis];
+  if (board.now < echo.ends) return;  // still busy
+  echo.begins = board.now + burst;
+  const double distance = measure(axis);
+  echo.ends = echo.begins + (distance >= 0 ? nanoseconds(2 * distance / speed_of_sound) : no_echo);
 }
 
 // The axis whose sensor has this echo pin; -1: none.
@@ -123,4 +130,41 @@ unsigned long NewPing::ping_median(uint8_t count, unsigned most_cm) {
   }
   std::sort(found, found + heard);
   return heard == 0 ? NO_ECHO : found[heard / 2];
+}
+
+bool VL53L0X::init(bool) {
+  if (board.wiring.distances[0].chip == 0 && board.wiring.distances[1].chip == 0) {
+    fail(
+        "VL53L0X: nothing answers at address 0x29; allowed: a wiring with distances: {x: {chip: "
+        "vl53l0x, offset: LENGTH}}");
+  }
+  delay(40);
+  return true;
+}
+
+bool VL53L0X::setMeasurementTimingBudget(uint32_t us) {
+  if (us < 20000) return false;
+  budget_us_ = us;
+  return true;
+}
+
+void VL53L0X::startContinuous(uint32_t period_ms) {
+  const uint32_t period_us = 1000 * period_ms;
+  period_us_ = period_us > budget_us_ ? period_us : budget_us_;
+  next_ = now() + 1000LL * budget_us_;
+}
+
+uint16_t VL53L0X::readRangeSingleMillimeters() {
+  startContinuous(0);
+  return readRangeContinuousMillimeters();
+}
+
+uint16_t VL53L0X::readRangeContinuousMillimeters() {
+  if (next_ == 0) init();  // which fails without the chip
+  if (next_ > now()) spend(next_ - now());
+  over_wire(4);
+  const long long period = 1000LL * period_us_;
+  while (next_ <= now()) next_ += period;
+  const double distance = measure(board.wiring.distances[0].chip != 0 ? 0 : 1);
+  return distance < 0 ? 8190 : static_cast<uint16_t>(lround(1000 * distance));
 }

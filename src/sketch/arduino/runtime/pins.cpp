@@ -26,7 +26,9 @@ int checked(int pin, const char* function) {
 double level_of(int pin, const char* function) {
   double level = 0;
   if (state[pin].output) return state[pin].high ? 1 : 0;
-  if (screen_reads(pin, level) || distance_reads(pin, level)) return level;
+  if (screen_reads(pin, level) || distance_reads(pin, level) || limit_switch_reads(pin, level)) {
+    return level;
+  }
   for (size_t i = 0; i < board.wiring.input_count; ++i) {
     const bbsim_wired_input& input = board.wiring.inputs[i];
     if (input.pin == pin) return pin < first_analog ? input.value : input.value / full_scale();
@@ -71,7 +73,7 @@ void begin_reading() {
 
 bool is_heard(int pin) {
   const bbsim_wiring& wiring = board.wiring;
-  if (pin == LED_BUILTIN || is_of_screen(pin) || is_trigger(pin)) return true;
+  if (pin == LED_BUILTIN || is_of_screen(pin) || is_trigger(pin) || is_of_stepper(pin)) return true;
   for (const bbsim_wired_servo& servo : wiring.servos) {
     if (servo.pin == pin) return true;
   }
@@ -130,7 +132,9 @@ void digitalWrite(int number, int level) {
   pin.high = level != LOW;
   pin.driven = pin.driven || (pin.output && pin.high);
   spend(board.costs.digital);
-  if (pin.output) trigger_distance(number, pin.high);
+  if (!pin.output) return;
+  trigger_distance(number, pin.high);
+  step_motor(number, pin.high);
 }
 
 int digitalRead(int number) {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Functions are used before they are defined, partly in another file, helpers.ino.
+// Functions are used before they are defined, partly in another file, helpers.ino, and in src/.
 #include <Servo.h>
-#include "gains.h"
+#include "src/gains.h"
 
 Servo servos[2];
 Axis axes[2] = {{A0, 0, 0, 0}, {A1, 0, 0, 0}};
