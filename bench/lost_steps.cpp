@@ -30,14 +30,13 @@ Field field(double acceleration, double t) {
   return {peak * (t - rise / 2), peak};
 }
 
-// The periods that a rotor is behind a second after its field has come to rest. `damping`: of its
-// swings about the field, as a fraction of the critical one.
-double rotor_loses(double acceleration, double damping) {
-  const double swing = std::sqrt(torque * pole_pairs / inertia);  // rad/s
+// The periods that a rotor is behind a second after its field has come to rest. `friction`: dry, as
+// a fraction of the torque.
+double rotor_loses(double acceleration, double friction) {
   const auto pull = [&](double t, double angle, double rate) {
     const Field now = field(acceleration, t);
-    return torque / inertia * std::sin(pole_pairs * (now.angle - angle)) +
-           2 * damping * swing * (now.rate - rate);
+    return torque / inertia *
+           (std::sin(pole_pairs * (now.angle - angle)) - friction * std::tanh(rate / 0.05));
   };
   const double end = 2 * std::sqrt(move / acceleration) + move / fastest + 1;
   constexpr double h = 2e-6;
@@ -62,9 +61,11 @@ double bbsim_loses(double acceleration) {
       number(torque) + ", inertia: 2e-4}, rate_limit: " + number(fastest) +
       ", acceleration_limit: " + number(acceleration) +
       "}}\n"
-      "controller: {commands: {phi: {constant: " +
+      // One sample, which sees the ball at 0.
+      "controller: {pd: {kp: [[1, 0], [0, 0]], kv: 0}, drives: angle, reference: {point: [" +
       number(move) +
-      "}}, drives: angle, sampling: {period: 10}}\n"
+      ", 0]},\n"
+      "  sampling: {period: 10}}\n"
       "time: {end: 2, step: 1}\n"
       "output: {columns: [t, phi, phi_believed]}\n");
   const bbsim::Result result = bbsim::run(scenario);
@@ -75,13 +76,13 @@ double bbsim_loses(double acceleration) {
 
 int main() {
   std::printf("inertia x acceleration / torque from which steps are lost\n");
-  for (const double damping : {0.0, 0.1, 0.3, 0.5, 0.7, 1.0}) {
+  for (const double friction : {0.0, 0.02, 0.05, 0.1, 0.2}) {
     double none = 0.3, some = 1.5;
     while (some - none > 1e-3) {
       const double middle = (none + some) / 2;
-      (rotor_loses(middle * torque / inertia, damping) == 0 ? none : some) = middle;
+      (rotor_loses(middle * torque / inertia, friction) == 0 ? none : some) = middle;
     }
-    std::printf("  rotor, damping %.1f: %.3f\n", damping, some);
+    std::printf("  rotor, friction %.2f: %.3f\n", friction, some);
   }
   double none = 0.3, some = 1.5;
   while (some - none > 1e-3) {
@@ -92,8 +93,8 @@ int main() {
               move / period);
   for (const double load : {0.5, 0.9, 1.02, 1.1, 1.3, 2.0}) {
     const double a = load * torque / inertia;
-    std::printf("  load %.2f: rotor %3.0f (damping 0.1), %3.0f (0.5), bbsim %3.0f\n", load,
-                rotor_loses(a, 0.1), rotor_loses(a, 0.5), bbsim_loses(a));
+    std::printf("  load %.2f: rotor %3.0f (friction 0.05), %3.0f (0.2), bbsim %3.0f\n", load,
+                rotor_loses(a, 0.05), rotor_loses(a, 0.2), bbsim_loses(a));
   }
   return 0;
 }
