@@ -39,9 +39,12 @@ function law(name, size, n, i, rows) {
 }
 
 function stepper_keys() {
-  return "stepper: {microsteps: " (chance(0.5) ? 16 : 1) ", gear: " by_factors(0.5, 20) "}, rate_limit: " \
+  loses = chance(0.3)
+  return "stepper: {microsteps: " (chance(0.5) ? 16 : 1) ", gear: " by_factors(0.5, 20) \
+    (loses ? ", torque: " by_factors(0.05, 2) ", inertia: " by_factors(1e-5, 1e-2) : "") \
+    (loses && chance(0.5) ? ", corner_speed: " by_factors(1, 100) : "") "}, rate_limit: " \
     by_factors(0.5, 20) ", acceleration_limit: " by_factors(5, 500) \
-    (chance(0.2) && !slides ? ", backlash: " radians(by_factors(1e-4, 0.01)) : "")
+    (!loses && chance(0.2) && !slides ? ", backlash: " radians(by_factors(1e-4, 0.01)) : "")
 }
 function servo_keys(words) {
   words = first_order ? "time_constant: " seconds(by_factors(0.01, 0.3)) \
@@ -117,7 +120,10 @@ function sampling(drives, period) {
   if (chance(0.2)) line("    rotation: " radians(between(-0.3, 0.3)))
   if (chance(0.2)) line("    scale: " (chance(0.5) ? between(0.8, 1.2) : "[" between(0.8, 1.2) ", 1]"))
   if (chance(0.2)) line("    offset: " point(0.01))
-  if (chance(0.3)) line("    area: [0.3, " metres(between(0.05, 0.4)) "]")
+  area = chance(0.3)
+  if (area) line("    area: [0.3, " metres(between(0.05, 0.4)) "]")
+  if (chance(0.15)) line("    dead_zones: [[-0.01, 0.005, " metres(between(0, 0.05)) ", 0.02]]")
+  if (chance(0.2)) line("    on_miss: " (area && chance(0.5) ? "edge" : "last"))
   if (chance(0.3)) {
     period = chance(0.3) ? period * pick("0.5|1.5|2|3") : by_factors(0.003, 0.1)
     line("    period: " sprintf("%.6g", period))

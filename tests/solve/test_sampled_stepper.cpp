@@ -100,6 +100,10 @@ const Case cases[] = {
     {"backlash and a dead band",
      "{servo: {natural_frequency: 31.4, damping: 0.6, backlash: 0.01, dead_band: 0.002}}",
      "gravity_compensation: {kp: 8, kv: 6}, drives: angle, limit: 0.2"},
+    {"steppers that lose steps",
+     "{servo: {stepper: {steps: 2000, torque: 0.2, inertia: 1e-2, corner_speed: 0.3}, rate_limit: "
+     "0.8, acceleration_limit: 12}}",
+     "gravity_compensation: {kp: 10, kv: 8}, drives: angle, limit: 0.2"},
     {"steppers with backlash",
      "{servo: {stepper: {microsteps: 8, gear: 3}, rate_limit: 0.8, acceleration_limit: 12, "
      "backlash: 0.004, phi: {backlash: 0}}}",

@@ -526,7 +526,9 @@ TEST_CASE("rigs in lanes are those of single runs") {
         "{natural_frequency: 5 Hz, damping: 0.3, acceleration_limit: 20}",
         "{natural_frequency: 5 Hz, damping: 0.8, backlash: 0.5 deg, dead_band: 0.2 deg}",
         "{time_constant: 40 ms, rate_limit: 30 deg/s}",
-        "{stepper: {gear: 2}, rate_limit: 60 deg/s, acceleration_limit: 15}");
+        "{stepper: {gear: 2}, rate_limit: 60 deg/s, acceleration_limit: 15}",
+        "{stepper: {steps: 2000, torque: 0.2, inertia: 1e-2, corner_speed: 0.3}, rate_limit: 60 "
+        "deg/s, acceleration_limit: 15}");
     CAPTURE(servo);
     // Off its circle, so that limits are reached.
     check_rig_lanes(Setup("configs/rig.yaml",
@@ -595,7 +597,10 @@ TEST_CASE("rigs in lanes are those of single runs") {
     const std::string sensor =
         GENERATE("{noise: 0.2 mm, dropout: 0.2, seed: 1}",
                  "{noise: 0.2 mm, period: 33 ms, phase: 5 ms, delay: 21 ms, seed: 1}",
-                 "{resolution: 1 mm, area: [9 cm, 9 cm], delay: 35 ms}");
+                 "{resolution: 1 mm, area: [9 cm, 9 cm], delay: 35 ms}",
+                 "{noise: 0.2 mm, dropout: 0.1, dead_zones: [[1 cm, -9 cm, 2 cm, 9 cm]], on_miss: "
+                 "last}",
+                 "{contact_force: 0.32, area: [9 cm, 9 cm], on_miss: edge}");
     CAPTURE(sensor);
     check_rig_lanes(Setup("configs/rig.yaml",
                           {{"controller.gravity_compensation.kp", "uniform:6:14"}},
