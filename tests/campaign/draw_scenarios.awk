@@ -137,6 +137,7 @@ function has(name) {
   if (name ~ /_command/) return closed
   if (name ~ /measured/) return sampled
   if (name ~ /^motor_(torque|power)/) return inertia
+  if (name ~ /_believed/) return steppers && (name ~ /^servo_/) == (linked == "three")
   if (name == "servo_third") return linked == "three"
   if (name ~ /^servo_/) return by == "angle"
   if (name ~ /^push_/) return pushes
@@ -226,8 +227,9 @@ function draw(  name, drives, plate, end, i, columns, gravity, start, mounting, 
   if (start) {
     line("  start: {phi: " between(-0.05, 0.05) (first_order ? "" : ", theta_rate: " between(-0.1, 0.1)) "}")
   }
+  steppers = by == "angle" && sampled && chance(0.2)
   if (by == "angle") {
-    if (sampled && chance(0.2)) {
+    if (steppers) {
       line("  servo: {" stepper_keys() "}")
     } else {
       line("  servo: {" servo_keys() \
