@@ -75,16 +75,18 @@ bbsim.data = (() => {
       return low;
     }
 
-    // Interpolates linearly between two rows. `otherwise` if the run lacks the column or the
-    // number.
+    // Interpolates linearly between two rows.
+    between(t, values) {
+      const row = this.row(t), a = values[row];
+      if (t <= this.t[row] || row + 1 >= this.t.length) return a;
+      const part = (t - this.t[row]) / (this.t[row + 1] - this.t[row]);
+      return a + part * (values[row + 1] - a);
+    }
+
+    // The value of a column. `otherwise` if the run lacks the column or the number.
     at(t, name, otherwise = NaN) {
       const values = this.values(name);
-      if (!values) return otherwise;
-      const row = this.row(t);
-      const a = values[row];
-      if (t <= this.t[row] || row + 1 >= this.t.length) return Number.isFinite(a) ? a : otherwise;
-      const part = (t - this.t[row]) / (this.t[row + 1] - this.t[row]);
-      const value = a + part * (values[row + 1] - a);
+      const value = values ? this.between(t, values) : NaN;
       return Number.isFinite(value) ? value : otherwise;
     }
 

@@ -65,8 +65,11 @@
   bbsim.screen = screen;
   bbsim.picture = picture;
 
-  // Factors for the plate's angles in the picture.
-  const factors = [1, 2, 5, 10, 20, 50];
+  // Factors for the plate's angles in the picture, as far as it stays within 45 degrees.
+  const angles = runs.flatMap((run) => ['phi', 'theta'].map((name) => run.columns.get(name)));
+  const largest = Math.max(0, ...angles.map((column) => (column ? column.size : 0)));
+  const factors = [1, 2, 5, 10, 20, 50].filter((factor) => factor === 1 || factor * largest <= Math.PI / 4);
+  get('exaggeration').max = factors.length - 1;
   function setFactor(value) {
     const nearest = factors.reduce((best, f) => (Math.abs(f - value) < Math.abs(best - value) ? f : best));
     if (picture) picture.exaggerate(nearest);

@@ -81,11 +81,41 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
     return [...rows.values()].sort((a, b) => a[0] - b[0]);
   }
 
+  // Samples and commands of sampled loops hold from row to row; everything else is read off between rows.
+  const holds = (curve) => Boolean(curve.dots) || (curve.role === 'command' && curve.run.isMeasured);
   function valueOf(curve, t) {
     const {run} = curve;
     const slack = 1e-9 * Math.max(1, Math.abs(t));
     if (t < run.start - slack || t > run.last + slack) return NaN;
-    return curve.values[run.nearest(t)];
+    return holds(curve) ? curve.values[run.row(t + slack)] : run.between(t, curve.values);
+  }
+
+  // Places of 1, 2 or 5 times a power of ten: at least three, if two decimals more than the range
+  // has show them.
+  function roundTicks(low, high, pixels) {
+    const span = high - low;
+    let power = 10 ** Math.ceil(Math.log10(span)), step = power;
+    const count = (by) => Math.floor(high / by + 1e-9) - Math.ceil(low / by - 1e-9) + 1;
+    for (let i = 0; count(step) < Math.max(3, Math.floor(pixels / 40)) && i < 9; ++i) {
+      step = [5, 2, 1][i % 3] * (i % 3 === 2 ? (power /= 10) : power / 10);
+    }
+    const ticks = [];
+    for (let n = Math.ceil(low / step - 1e-9); n <= Math.floor(high / step + 1e-9) && ticks.length < 40; ++n) {
+      const v = Number((n * step).toPrecision(12));
+      ticks.push({v, label: text.number(v, 5)});
+    }
+    return ticks;
+  }
+
+  // The range of a plot in which a few values are a thousand times farther out than all others, as
+  // where a ball takes off: that of the others. Null if there are none.
+  function innerRange(curves) {
+    const values = curves.flatMap((curve) => Array.from(curve.values).filter(Number.isFinite)).sort((a, b) => a - b);
+    const few = Math.ceil(0.01 * values.length);
+    if (values.length < 20) return null;
+    const low = values[few], high = values[values.length - 1 - few], span = high - low;
+    if (!(span > 0) || values[values.length - 1] - values[0] < 1000 * span) return null;
+    return {low: low - 0.5 * span, high: high + 0.5 * span};
   }
 
   class Plot {
@@ -96,6 +126,9 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
       this.order = [...curves].sort((a, b) => a.layer - b.layer);
       this.curves = curves;
       this.size = Math.max(...curves.map((curve) => data.extent(curve.values).size));
+      this.inner = innerRange(curves);
+      // The others determine the unit, too.
+      if (this.inner) this.size = Math.max(Math.abs(this.inner.low), Math.abs(this.inner.high));
       this.shown = text.shownIn(unit, this.size);
       this.readings = curves.map(() => element('output', {}));
       const legend = element('ul', {class: 'legend'}, ...curves.map((curve, i) => {
@@ -108,7 +141,8 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
       this.canvas = element('div', {class: 'canvas'});
       this.cursor = element('div', {class: 'cursor', 'aria-hidden': 'true'});
       this.root = element('section', {class: 'plot', role: 'group', 'aria-label': text.visible(`${title} over time, in ${this.shown.unit || 'numbers'}`)},
-                          element('header', {}, element('h3', {}, title, this.shown.unit ? element('small', {}, ` ${this.shown.unit}`) : null), legend),
+                          element('header', {}, element('h3', {}, title, this.shown.unit ? element('small', {}, ` ${this.shown.unit}`) : null,
+                                                      this.inner ? element('small', {}, ' (a few values are far beyond)') : null), legend),
                           element('div', {class: 'frame'}, this.canvas, this.cursor));
       this.graph = null;
     }
@@ -120,7 +154,7 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
       this.order.forEach((curve, i) => {
         const cross = curve.dots === 'cross';
         const points = {strokeWidth: 0, drawPoints: true, pointSize: cross ? 2.6 : 1.6, highlightCircleSize: 3, drawPointCallback: drawPoint(cross, curve.every)};
-        series[`c${i}`] = curve.dots ? points : {strokePattern: curve.pattern, strokeWidth: curve.width || 1.8};
+        series[`c${i}`] = curve.dots ? points : {strokePattern: curve.pattern, strokeWidth: curve.width || 1.8, stepPlot: holds(curve)};
       });
       const mixed = new Set(this.curves.map((curve) => curve.run)).size > 1;
       this.graph = new Dygraph(this.canvas, tableOf(this.order, this.shown.factor), {
@@ -129,10 +163,11 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
         gridLineWidth: 0.6, axisLineWidth: 0.8, rightGap: 8, xlabel: timeLabel, xLabelHeight: 13,
         axes: {
           x: {axisLabelFormatter: (t) => text.number(t, 6), valueFormatter: (t) => text.number(t, 6), axisLabelWidth: 44, pixelsPerLabel: 50},
-          y: {axisLabelFormatter: (value) => text.number(value, 5), axisLabelWidth: 46, pixelsPerLabel: 26},
+          y: {axisLabelFormatter: (value) => text.number(value, 5), axisLabelWidth: 46, pixelsPerLabel: 26, ticker: roundTicks},
         },
         ...this.colours(),
         dateWindow: range || whole,
+        valueRange: this.inner ? [this.inner.low * this.shown.factor, this.inner.high * this.shown.factor] : null,
         highlightCallback: (event, t) => point(t),
         unhighlightCallback: () => point(null),
         clickCallback: (event, t) => {

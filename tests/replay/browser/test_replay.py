@@ -190,6 +190,42 @@ class TheBall(InBrowser):
         self.assertLess(abs(q[3]), 0.9999)
 
 
+class TheAxes(InBrowser):
+    def test_have_three_round_numbers_or_more(self):
+        for name in ["slips", "rig", "fig2b", "three-servos", "sags"]:
+            with self.subTest(name):
+                self.open(files.replay(name))
+                self.js("bbsim.plots.plots.forEach((plot) => plot.build())")
+                for labels in self.js("""bbsim.plots.plots.map((plot) =>
+                    [...plot.canvas.querySelectorAll('.dygraph-axis-label-y')].map((label) => label.textContent))"""):
+                    self.assertGreaterEqual(len(labels), 3)
+                    steps = [float(label.replace("\u2212", "-")) for label in labels]
+                    step = abs(steps[1] - steps[0])
+                    self.near(step / 10 ** math.floor(math.log10(step) + 1e-9) % 1, 0, 1e-6)
+
+    def test_are_those_of_the_many_where_a_few_values_are_far_beyond(self):
+        with open(files("beyond.csv"), "w") as table:
+            table.write("t,x,y,normal_force\n")
+            for i in range(81):
+                table.write(f"{i / 100},{i / 1000},0,{-1.7e14 if i == 80 else 0.3 + i / 1000}\n")
+        page = files("beyond.html")
+        subprocess.run([BBSIM, "replay", files("beyond.csv"), "-o", page, "-q"], check=True)
+        self.open("file://" + page)
+        low, high = self.js("bbsim.plots.plots.find((plot) => plot.group.title === 'Forces').graph.yAxisRange()")
+        self.assertGreater(low, 0.2)
+        self.assertLess(high, 0.5)
+        self.assertIn("a few values are far beyond", self.browser.text("#plots"))
+
+    def test_read_between_rows(self):
+        self.open(files.replay("fig2b"))
+        rows = rows_of(files("fig2b.csv"))
+        self.js("bbsim.seek(arguments[0])", (rows[100]["t"] + rows[101]["t"]) / 2)
+        self.browser.frame()
+        self.browser.frame()
+        shown = self.js("bbsim.plots.plots[0].readings[0].title").split()[0]
+        self.near(float(shown), (rows[100]["x"] + rows[101]["x"]) / 2, 1e-8)
+
+
 class TheProgram(InBrowser):
     """Pages that bbsim itself writes."""
 
