@@ -111,6 +111,7 @@ typedef struct bbsim_wiring {
   bbsim_wired_screen screen;
   bbsim_wired_camera camera;
   bbsim_wired_distance distances[2]; /* x, y */
+  uint64_t seed;                     /* of their noise: the scenario's sensor.seed */
   size_t input_count;
   const bbsim_wired_input* inputs;
   size_t ignored_count;

@@ -122,7 +122,7 @@ def _ideal(given: _bbsim.Given) -> Optional[_bbsim.Given]:
     without lag. None for scenes with feedback or torques."""
     changes = [("controller", "null")] if _bbsim.has(given, "controller") else []
     if _bbsim.has(given, "controller.commands"):
-        phi, theta = (_bbsim.text_at(given, f"controller.commands.{axis}") for axis in ("phi", "theta"))
+        phi, theta = (_bbsim.text_at(given, f"controller.commands.{axis}") or "0" for axis in ("phi", "theta"))
         changes += [("gimbal.motion", f"{{phi: {phi}, theta: {theta}}}")]
     elif not _bbsim.has(given, "gimbal.motion"):
         return None
@@ -157,7 +157,7 @@ class _Task:
             if wrong:
                 raise refuse_option(option, str(found), allowed)
         if _bbsim.has(given, "controller.program") or _bbsim.has(given, "controller.library"):
-            allowed = "a law of bbsim, or gimbal.motion from the log's table"
+            allowed = "a law of bbsim, or controller.commands or gimbal.motion from the log's table"
             raise _fault(f"controller: found a program or library of your own; allowed in a fit: {allowed}")
         self.keys: List[FreeKey] = read_free_keys(free, given)
         run = given.changed([("solver.error", "null"), ("solver.rtol", "1e-10"), ("solver.atol", "1e-12")])

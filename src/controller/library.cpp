@@ -200,6 +200,7 @@ void Library::create() {
       static_cast<Library*>(reader)->printed_.emplace_back(line);
     };
     if (wiring_->print() == sketch::Wiring::Print::off) wired.print = nullptr;
+    wired.seed = setup_.seed;
     fit_steppers(wired);
     controller_ = functions_->create_wired(setup.get(), &wired);
   } else {
@@ -314,8 +315,8 @@ std::string Library::unheard() const {
   return "the sketch drives " +
          std::string(pins.find(',') == std::string::npos ? "pin " : "pins ") + pins +
          ", to which nothing is wired; name in the wiring what is there, or, if it does not "
-         "move the plate, in servos.ignored: [" +
-         pins + "]";
+         "move the plate, in " +
+         (wiring_ && wiring_->has_steppers() ? "steppers" : "servos") + ".ignored: [" + pins + "]";
 }
 
 }  // namespace bbsim::controller

@@ -25,6 +25,7 @@ Setup setup_of(const Scenario& scenario) {
   for (const std::size_t axis : {0U, 1U}) {
     setup.limit = std::min(setup.limit, controller.limit_of(axis).value_or(setup.limit));
   }
+  if (controller.sensor) setup.seed = controller.sensor->seed;
   for (std::size_t i = 0; scenario.gimbal.servo && i < setup.commands(); ++i) {
     const auto& stepper = scenario.gimbal.servo_of(i).stepper;
     if (stepper) setup.microstep[i] = stepper->microstep();

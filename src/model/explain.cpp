@@ -107,7 +107,14 @@ std::string gimbal_note(const Scenario& scene) {
 
 std::string limits_of(const Servo& servo) {
   List list;
-  if (servo.stepper) list.add("microsteps of " + degrees(servo.stepper->microstep()));
+  if (servo.stepper) {
+    const StepperMotor& motor = *servo.stepper;
+    list.add("microsteps of " + degrees(motor.microstep()));
+    if (motor.torque) {
+      list.add("loses steps beyond " + short_number(*motor.torque / (*motor.inertia * motor.gear)) +
+               " rad/s^2");
+    }
+  }
   if (servo.angle_limit) list.add("stops at " + degrees(*servo.angle_limit));
   if (servo.rate_limit) list.add("at most " + degrees(*servo.rate_limit) + "/s");
   if (servo.acceleration_limit)
@@ -385,6 +392,10 @@ std::string mounting_note(const Scenario& scene) {
 
 std::string events_note(const Scenario& scene) {
   List list;
+  if (scene.gimbal.loses_steps()) {
+    list.add(scene.events.steps_lost == OnEvent::stop ? "steps_lost (stops the run)"
+                                                      : "steps_lost (is noted)");
+  }
   if (scene.events.rest) {
     list.add(*scene.events.rest == OnEvent::stop ? "rest (stops the run)" : "rest (is noted)");
   }

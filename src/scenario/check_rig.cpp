@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/number_text.hpp"
+#include "base/short_number.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/coupled.hpp"
 #include "scenario/groove.hpp"
@@ -78,6 +79,7 @@ class Checks {
     if (!scene_.controller) return;
     const Controller& controller = *scene_.controller;
     frames(controller);
+    contact_force();
     if (controller.law == Law::own && !controller.sampling) {
       for (const char* key : {"program", "library"}) {
         refuse({"controller", key},
@@ -192,6 +194,16 @@ class Checks {
     }
   }
 
+  void contact_force() const {
+    const auto& sensor = scene_.controller->sensor;
+    const double weight = scene_.ball.mass * scene_.gravity;
+    if (!sensor || !(sensor->contact_force > weight)) return;
+    if (const auto at = find_at(keys_, {"controller", "sensor", "contact_force"})) {
+      at->warn("exceeds the ball's weight of " + short_number(weight) +
+               " N, so the screen misses a ball that lies on it");
+    }
+  }
+
   // Checks the frames of a sensor with its own period.
   void frames(const Controller& controller) {
     if (!controller.sensor) return;
@@ -233,6 +245,10 @@ class Checks {
   }
 
   void servo() {
+    if (scene_.events.steps_lost && !scene_.gimbal.loses_steps()) {
+      refuse({"events", "steps_lost"},
+             "found, but no stepper loses steps; allowed: only with gimbal.servo.stepper.torque");
+    }
     if (!scene_.controller || !scene_.gimbal.servo) return;
     leg_servos();
     for (std::size_t axis = 0; axis < (scene_.gimbal.theta_servo ? 2U : 1U); ++axis) servo(axis);
@@ -259,6 +275,11 @@ class Checks {
              "each command";
     }
     if (scene_.controller->is_sketch()) {
+      if (servo.stepper->torque) {
+        return "with torque; allowed: only under a law of bbsim, whose ramps it limits. To test a "
+               "sketch's ramp, give its speed and acceleration as rate_limit and "
+               "acceleration_limit of such a law";
+      }
       if (servo.rate_limit || servo.acceleration_limit) {
         return "beside rate_limit or acceleration_limit; allowed: without them, since the sketch's "
                "pulses make the ramp";

@@ -171,11 +171,14 @@ inline constexpr std::array catalogue = {
            Panel::accelerations},
     Column{"theta_acceleration", "θ''", "rad/s^2", "acceleration of theta", Needs::accelerations,
            Panel::accelerations},
-    Column{"servo_phi", "servo φ", "rad",
-           "angle of phi's servo, before backlash and linkage; with three servos, of the first",
-           Needs::servos, Panel::servos, Role::main, "φ"},
+    Column{
+        "servo_phi", "servo φ", "rad",
+        "angle of phi's servo, before backlash, linkage and lost steps; with three servos, of the "
+        "first",
+        Needs::servos, Panel::servos, Role::main, "φ"},
     Column{"servo_theta", "servo θ", "rad",
-           "angle of theta's servo, before backlash and linkage; with three servos, of the second",
+           "angle of theta's servo, before backlash, linkage and lost steps; with three servos, of "
+           "the second",
            Needs::servos, Panel::servos, Role::main, "θ"},
     Column{"servo_third", "third servo", "rad", "angle of the third of three servos",
            Needs::third_servo, Panel::servos, Role::main, "third"},

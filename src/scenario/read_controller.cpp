@@ -288,7 +288,9 @@ struct Zone {
     for (std::size_t i = 0; i < into.size(); ++i) {
       fine = yaml::Number{yaml::Dimension::length}.read(value.item(i), into[i]) && fine;
     }
-    if (fine && !(into[0] < into[2] && into[1] < into[3])) return value.refuse("", allowed());
+    if (fine && !(into[0] < into[2] && into[1] < into[3])) {
+      return value.report("found corners in another order; allowed: " + allowed());
+    }
     return fine;
   }
 };

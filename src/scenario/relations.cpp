@@ -73,7 +73,8 @@ constexpr KeyRelation table[] = {
     {"gimbal.servo.stepper.torque", needs, "gimbal.servo.stepper.inertia"},
     {"gimbal.servo.stepper.inertia", needs, "gimbal.servo.stepper.torque"},
     {"gimbal.servo.stepper.corner_speed", needs, "gimbal.servo.stepper.torque"},
-    {"gimbal.servo.stepper.torque", excludes, "gimbal.servo.backlash>0"},
+    {"gimbal.servo.stepper.torque", excludes,
+     "gimbal.servo.backlash>0 or controller.library.wiring"},
     {"events.steps_lost", needs, "gimbal.servo.stepper.torque"},
     {"gimbal.servo.stepper", excludes, "gimbal.servo.angle_limit or gimbal.servo.model"},
     {"gimbal.servo.dead_band>0", needs, "controller.sampling"},
@@ -135,7 +136,8 @@ constexpr KeyRelation table[] = {
      "found, but no controller.sampling; allowed: only with it, since the controller reads the "
      "sensor at its samples; a continuous law knows the ball exactly"},
     {"controller.sensor.seed", needs,
-     "controller.sensor.noise or controller.sensor.dropout or controller.sampling.jitter",
+     "controller.sensor.noise or controller.sensor.dropout or controller.sampling.jitter or "
+     "controller.library.wiring",
      "found, but neither noise nor dropout nor sampling.jitter, and nothing else is random; "
      "allowed: only with one of them"},
     {"controller.sensor.contact_force>0", needs, "ball.mass",

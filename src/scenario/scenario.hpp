@@ -258,6 +258,14 @@ struct Gimbal {
     }
     return axis == 1 && theta_servo ? *theta_servo : *servo;
   }
+  // Whether a stepper has a torque, beyond which it loses steps.
+  [[nodiscard]] bool loses_steps() const {
+    bool any = false;
+    for (std::size_t i = 0; servo && i < (three_servos ? 3U : 2U); ++i) {
+      any = any || (servo_of(i).stepper && servo_of(i).stepper->torque);
+    }
+    return any;
+  }
 };
 
 struct PointReference {

@@ -124,7 +124,7 @@ void read_stepper(Keys& keys, bbsim_wired_stepper& stepper) {
   keys.optional("start", Number{Dimension::angle, {}, "\"-30 deg\""}, stepper.start);
   keys.optional("home", MappingOf(read_home), stepper);
   const auto home = keys.find("home");
-  if (home && std::isnan(stepper.start)) {
+  if (home && !keys.find("start")) {
     home->report(
         "found without start; allowed: beside start, the angle at which the board is switched on");
   } else if (home && stepper.start == stepper.home_angle) {

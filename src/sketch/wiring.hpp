@@ -28,6 +28,9 @@ class Wiring {
 
   // Its `print` is null.
   [[nodiscard]] const bbsim_wiring* get() const { return &c_; }
+  [[nodiscard]] bool has_steppers() const {
+    return c_.steppers[0].step >= 0 || c_.steppers[1].step >= 0;
+  }
   [[nodiscard]] Print print() const { return print_; }
   // The files that were read.
   [[nodiscard]] const std::vector<std::string>& files() const { return files_; }

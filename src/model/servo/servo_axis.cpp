@@ -112,39 +112,36 @@ double ServoAxis::drive(const AxisState& state) const {
 }
 
 void ServoAxis::plan_ramp(AxisState& state) {
-  const double before = state.rate;
   const bool is_new = std::exchange(has_new_target_, false);
+  may_stall_ = may_stall_ || is_new;
   if (follows_pulses()) {
     if (is_new) state.rate = (target_ - state.angle) / servo_.pulse_time;
     ramp_ = part_at_rate(state.angle, state.rate, target_);
-    pull_ = (state.rate - before) / servo_.pulse_time;
   } else {
     ramp_ =
         next_part(state.angle, state.rate, target_, {servo_.rate_limit, servo_.acceleration_limit});
-    pull_ = ramp_.acceleration;
   }
 }
 
 double ServoAxis::stall_rate() const {
-  const double pull = std::abs(pull_);
+  const double pull = std::abs(ramp_.acceleration);
   if (pull > servo_.torque_limit) return 0;
   return pull > 0 ? servo_.corner_rate * servo_.torque_limit / pull : unlimited;
 }
 
 // A rotor that its field pulls beyond its torque stalls, because a field that runs past it pulls it
 // forward and back in turns. It follows the field again when that passes it for the last time
-// before it halts, one or more of the field's periods later. A shorter way loses nothing: the rotor
-// catches up.
+// before it halts, one or more of the field's periods later. On a shorter way it catches up.
 void ServoAxis::settle_stall(const AxisState& state, AxisMode& mode) {
   const double period = servo_.field_period;
   if (stalls_ && catches_ != 0 && std::abs(state.angle - caught_at_) <= 2 * same_angle) {
     lost_ += caught_at_ - stalled_at_;
     stalls_ = false;
   }
-  may_stall_ = !stalls_ && std::abs(target_ - state.angle) >= period;
-  if (may_stall_ && std::abs(state.rate) >= stall_rate() * at_limit) {
-    stalls_ = loses_ = true;
-    may_stall_ = false;
+  if (!stalls_ && may_stall_ && std::abs(state.rate) >= stall_rate() * at_limit) {
+    loses_ = true;
+    may_stall_ = false;  // until the next target
+    stalls_ = std::abs(target_ - state.angle) >= period;
     stalled_at_ = state.angle;
   }
   if (stalls_) {
@@ -214,9 +211,9 @@ void ServoAxis::for_each_margin(Use use) const {
       if (stalls_ && catches_ != 0) {
         use(stop_down, AxisMargin{catches_ * caught_at_, -catches_});
       }
-      const double stall = may_stall_ ? stall_rate() : unlimited;
+      const double stall = may_stall_ && !stalls_ ? stall_rate() : unlimited;
       if (stall < unlimited) {
-        const double forward = pull_ > 0 ? 1 : -1;
+        const double forward = ramp_.acceleration > 0 ? 1 : -1;
         use(rate_down, AxisMargin{stall, 0, -forward});
       }
       if (ramp_.until == RampPart::Until::ever) break;

@@ -161,7 +161,6 @@ class ServoAxis {
   double root_;  // of the stiffness in free motion, rad/s
   Motion motion_ = Motion::free;
   RampPart ramp_;
-  double pull_ = 0;  // the acceleration that a stepper's torque has to give, rad/s^2
   // Of a stepper that stalls: its driver's angle then, that at which the shaft follows again, and
   // the direction in which the driver comes there; 0: not before the next target.
   bool stalls_ = false, may_stall_ = false, loses_ = false;

@@ -95,13 +95,17 @@ bool has_steppers();
 void step_motor(int pin, bool high);
 bool limit_switch_reads(int pin, double& level);
 bool is_of_stepper(int pin);
-void place_steppers();    // at t = 0, after a setup() before it
+void place_steppers();  // at t = 0, after a setup() before it; may say why not
+// For an error: "; the shafts have turned by 3 deg and ..."; empty without steppers.
+void describe_steppers(char* text, size_t size);
 void command_steppers();  // sets board.command
 
 // pins.cpp: how a pin drives its wire.
 enum class Drive { none, pull_up, low, high };
 Drive drive_of(int pin);
 const char* pin_name(int pin);
+// For an error: "; it last read pin 5 as HIGH"; empty if it has read none.
+void describe_last_read(char* text, size_t size);
 // The n-th pin that the sketch drives although nothing is wired to it; -1: there are no more.
 int unheard_pin(size_t n);
 // What a full reading of the analog converter counts, by the bits that are set at the first

@@ -69,7 +69,10 @@ void set_up() {
   run_sketch();
   if (board.said[0] != '\0') return;
   if (!setup_has_returned()) {
-    fail("setup() has not returned within 600 s of the board's clock");
+    char seen[160] = "", turns[160] = "";
+    describe_last_read(seen, sizeof seen);
+    describe_steppers(turns, sizeof turns);
+    fail("setup() has not returned within 600 s of the board's clock%s%s", seen, turns);
     return;
   }
   const double periods = ceil(static_cast<double>(board.now) * 1e-9 / period);

@@ -21,9 +21,9 @@ struct Echo {
   Nanoseconds begins, ends;
 } echoes[2];
 
-// A standard normal number. Each run draws the same ones.
+// A standard normal number. Runs with the same seed draw the same ones.
 double normal() {
-  static unsigned long long state = 0;
+  static unsigned long long state = 0x9E3779B97F4A7C15ULL * board.wiring.seed;
   const auto uniform = [] {  // SplitMix64
     unsigned long long z = state += 0x9E3779B97F4A7C15ULL;
     z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;

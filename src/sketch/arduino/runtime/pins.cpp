@@ -14,6 +14,7 @@ struct Pin {
   bool driven;  // it was an output at HIGH, or had pulses
 } state[pins];
 
+int last_read = -1, last_level = LOW;  // by digitalRead()
 int analog_bits = 10, first_bits = 0;  // at the first reading; 0: there was none
 
 int checked(int pin, const char* function) {
@@ -114,6 +115,12 @@ const char* pin_name(int pin) {
   return name;
 }
 
+void describe_last_read(char* text, size_t size) {
+  if (last_read < 0) return;
+  snprintf(text, size, "; it last read pin %s as %s", pin_name(last_read),
+           last_level == HIGH ? "HIGH" : "LOW");
+}
+
 }  // namespace bbsim_board
 
 using namespace bbsim_board;
@@ -139,6 +146,8 @@ void digitalWrite(int number, int level) {
 
 int digitalRead(int number) {
   const int read = level_of(checked(number, "digitalRead"), "digitalRead") > 0.5 ? HIGH : LOW;
+  last_read = number;
+  last_level = read;
   spend(board.costs.digital);
   return read;
 }

@@ -75,6 +75,30 @@ void place_steppers() {
   for (int i = 0; i < motors; ++i) {
     double& start = board.wiring.steppers[i].start;
     if (isnan(start)) start = angle[i] - turned(i);
+    const double off = start + turned(i) - angle[i];
+    if (fabs(off) > TWO_PI / 360) {
+      static const char* const names[] = {"phi", "theta", "1", "2", "3"};
+      const char* const name = names[board.wiring.steppers[2].step >= 0 ? 2 + i : i];
+      say_why(
+          "the motor %s stands at %.4g deg at t = 0, after setup(), where the run begins with its "
+          "servo at %.4g deg; allowed: steppers.%s.start and home that bring it there, to 1 deg",
+          name, 360 / TWO_PI * (angle[i] + off), 360 / TWO_PI * angle[i], name);
+      board.misfit = true;
+    }
+  }
+}
+
+void describe_steppers(char* text, size_t size) {
+  if (!has_steppers()) return;
+  const int count = wired(2).step >= 0 ? 3 : 2;
+  size_t used = 0;
+  for (int i = 0; i < count; ++i) {
+    const int wrote = snprintf(text + used, size - used, "%s%.4g deg",
+                               i == 0          ? "; the shafts have turned by "
+                               : i + 1 < count ? ", "
+                                               : " and ",
+                               360 / TWO_PI * turned(i));
+    used += wrote > 0 && static_cast<size_t>(wrote) < size - used ? static_cast<size_t>(wrote) : 0;
   }
 }
 
