@@ -21,6 +21,7 @@
 #include "model/control/common_cycle.hpp"
 #include "model/explain.hpp"
 #include "model/spectrum.hpp"
+#include "scenario/exercise.hpp"
 #include "scenario/family.hpp"
 #include "solve/choose.hpp"
 #include "solve/output_grid.hpp"
@@ -186,6 +187,20 @@ void report_sweep(Report& report, const Scenario& scenario) {
   report.push_back({"sweep", std::to_string(plan.cases()) + " cases of bbsim sweep, over " + keys});
 }
 
+void report_exercise(Report& report, const Scenario& scenario) {
+  const auto exercise = scenario::checked_exercise(scenario);
+  if (!exercise) return;
+  std::string free;
+  for (const std::string& key : exercise->free) free += (free.empty() ? "" : ", ") + key;
+  const std::size_t count = exercise->tasks.size();
+  report.push_back({"exercise", std::to_string(count) + (count == 1 ? " task" : " tasks") +
+                                    "; free keys: " + (free.empty() ? "none" : free)});
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& [text, expect] = exercise->tasks[i];
+    report.push_back({"", std::to_string(i + 1) + ". " + text + " (" + expect + ')'});
+  }
+}
+
 // Starts the user's controller, if there is one, and reports what it says and how it answers.
 void report_controller(Report& report, const Scenario& scenario, Watch& watch) {
   if (!scenario.controller || !scenario.controller->own) return;
@@ -248,7 +263,10 @@ Report report_of(const Scenario& scenario, bool sweep, bool reasons) {
 
   report_solver(report, scenario.solver);
   if (reasons) report_reasons(report, scenario, model);
-  if (sweep) report_sweep(report, scenario);
+  if (sweep) {
+    report_sweep(report, scenario);
+    report_exercise(report, scenario);
+  }
   for (const std::string& remark : scenario.remarks) report.push_back({"remark", remark});
   return report;
 }

@@ -22,6 +22,7 @@ constexpr KeyText top_level[] = {
     {"time", "[time, solver and output](#time-solver-and-output)"},
     {"solver output", "the same section"},
     {.keys = "sweep", .meaning = "defaults of `bbsim sweep`: [sweep](#sweep)", .standard = "none"},
+    {"exercise", "tasks for a learner: [exercise](#exercise)"},
 };
 
 constexpr KeyText ball[] = {
@@ -385,6 +386,14 @@ constexpr KeyText sweep[] = {
      .standard = "the [default measures](measures.md#default-measures-of-a-sweep)"},
 };
 
+constexpr KeyText exercise[] = {
+    {"exercise.tasks", "a list of mappings, one for each task"},
+    {"exercise.tasks.text", "what the learner should reach"},
+    {"exercise.tasks.expect",
+     "the bound that decides it, as in `run --expect`: `max_distance < 3 mm`"},
+    {"exercise.free", "keys that the learner may change: each a number, or one of several names"},
+};
+
 constexpr KeyText profiles[] = {
     {.keys = "sinusoid.amplitude",
      .meaning = "A in offset + A sin(ωt + p)",
@@ -446,6 +455,7 @@ constexpr KeyTable tables[] = {
     {"scenario.md", "Events", "", events},
     {"scenario.md", "Time, solver and output", "", time_solver_and_output},
     {"scenario.md", "Sweep", "", sweep},
+    {"scenario.md", "Exercise", "", exercise},
     {"scenario.md", "Profiles", "profile.", profiles},
     {"controllers.md", "Keys", "", own_controller},
 };
