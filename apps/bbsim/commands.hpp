@@ -16,8 +16,10 @@
 #include "scenario/scenario.hpp"
 
 namespace bbsim::api {
+struct Line;
+using Report = std::vector<Line>;
 struct RunResult;
-}
+}  // namespace bbsim::api
 namespace bbsim::results {
 struct LogChoice;
 }
@@ -84,6 +86,9 @@ void prints(file::Outputs& outputs);
 // Prints why a run ended early and which expectations fail; unless `quiet`, also warnings and noted
 // events.
 void tell(const api::RunResult& made, bool quiet);
+
+// Prints a report, on a terminal with lines that break between words.
+void print_report(const api::Report& report);
 
 void add_run(Command& command, const Options& options);
 void add_check(Command& command, const Options& options);

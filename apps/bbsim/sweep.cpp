@@ -64,7 +64,12 @@ std::string suffix(const api::Shard& shard) {
   return text + ".csv";
 }
 
-// "sweep.csv: 41 of 41 cases, by lanes, 0.0123 s"
+std::string_view how(std::string_view engine) {
+  if (engine.ends_with("lanes")) return "eight at a time";
+  return engine == "single runs" ? "one at a time" : "by linear analysis";
+}
+
+// "sweep.csv: 41 of 41 cases, eight at a time, 0.0123 s"
 std::string written_text(const api::SweepResult& made) {
   std::string line = name_of_output(made.output) + ": " + std::to_string(made.rows) + " of " +
                      std::to_string(made.cases) + " cases";
@@ -75,7 +80,7 @@ std::string written_text(const api::SweepResult& made) {
   if (made.statuses.not_finite > 0) {
     line += ", " + std::to_string(made.statuses.not_finite) + " with no finite number (see reason)";
   }
-  return line + ", by " + made.engine + ", " + rounded(made.seconds, 3) + " s";
+  return line + ", " + std::string(how(made.engine)) + ", " + rounded(made.seconds, 3) + " s";
 }
 
 // The options of a sweep that each of its shards needs, as words for a shell.

@@ -103,7 +103,7 @@ def _log_key(text: str, columns: Sequence[str], units: Sequence[str]) -> LogKey:
 
 
 def _candidates(task: "_Task") -> List[FreeKey]:
-    """Keys of this scene that are not free."""
+    """Keys of this scenario that are not free."""
     given = task.logs[0].given
     tables = [file.removesuffix(".file") for file, _ in _bbsim.tables(given)]
     tables = [one for one in tables if one.startswith(("gimbal.motion", "controller.commands"))]
@@ -119,7 +119,7 @@ def _candidates(task: "_Task") -> List[FreeKey]:
 
 def _ideal(given: _bbsim.Given) -> Optional[_bbsim.Given]:
     """A solid ball that rolls without losses on a perfectly mounted plate, which follows the motion or the commands
-    without lag. None for scenes with feedback or torques."""
+    without lag. None for scenarios with feedback or torques."""
     changes = [("controller", "null")] if _bbsim.has(given, "controller") else []
     if _bbsim.has(given, "controller.commands"):
         phi, theta = (_bbsim.text_at(given, f"controller.commands.{axis}") for axis in ("phi", "theta"))

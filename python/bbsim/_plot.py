@@ -138,7 +138,7 @@ class _Options:
         if self.csv:
             _bbsim.write_file(os.fspath(self.csv), text.encode())
         if figure is None:
-            raise InputError([("", "no method reached the end of the scene; `bbsim run` says why")])
+            raise InputError([("", "no method reached the end of the scenario; `bbsim run` says why")])
         return figure, content
 
 

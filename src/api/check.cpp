@@ -103,7 +103,7 @@ void report_sampled_loop(Report& report, const Scenario& scenario, const model::
   const double size = std::abs(poles.front()), period = loop.sampling.period * cycle.samples;
   report.push_back({"", "stable: the slowest mode decays by a factor of " + short_number(size) +
                             (cycle.samples > 1 ? " in these periods" : " a period") +
-                            ", with a time constant of " + short_number(-period / std::log(size)) +
+                            ", with a time constant of " + rounded(-period / std::log(size), 3) +
                             " s"});
   const Gimbal& gimbal = scenario.gimbal;
   const bool steppers = gimbal.servo && (gimbal.servo_of(0).stepper || gimbal.servo_of(1).stepper);
@@ -167,13 +167,17 @@ void report_solver(Report& report, const Solver& solver) {
 
 void report_reasons(Report& report, const Scenario& scenario, const model::Model& model) {
   report.push_back({"", scenario.solver.method == Method::automatic
-                            ? "auto chooses it: it was the cheapest at every error on every kind "
-                              "of scene measured"
+                            ? "auto takes the method that was fastest in all measurements"
                             : "asked for"});
   const double decays = solve::decays_over_scene(model, scenario.time.end);
-  report.push_back({"", std::string(decays > 100 ? "a stiff scene" : "not a stiff scene") +
-                            ": the run lasts " + short_number(decays) +
-                            " time constants of its fastest mode"});
+  if (decays <= 1) {
+    report.push_back({"", "not stiff: no motion decays within the run"});
+    return;
+  }
+  report.push_back({"", std::string(decays > 100 ? "stiff" : "not stiff") +
+                            ": the fastest motion decays with a time constant of " +
+                            rounded(scenario.time.end / decays, 3) + " s, in a run of " +
+                            short_number(scenario.time.end) + " s"});
 }
 
 // Describes the scenario's sweep block, after a check of its values.

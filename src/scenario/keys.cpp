@@ -37,7 +37,7 @@ constexpr KeyText ball[] = {
      "thin shell"},
     {.keys = "ball.rolling_radius",
      .meaning = "of a ball in a groove or between rails: distance from its center to the axis "
-                "through its two contacts; only in scenes along one axis",
+                "through its two contacts; only in scenarios along one axis",
      .range = "> 0, ≤ `ball.radius`"},
     {.keys = "ball.rotation",
      .meaning = "$[\\omega_x, \\omega_y]$ at t = 0, relative to the plate, about its x and y axes",

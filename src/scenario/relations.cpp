@@ -127,8 +127,8 @@ constexpr KeyRelation table[] = {
      "sensor at its samples; a continuous law knows the ball exactly"},
     {"controller.sensor.seed", needs,
      "controller.sensor.noise or controller.sensor.dropout or controller.sampling.jitter",
-     "found, but neither noise nor dropout nor sampling.jitter, and nothing else is random; "
-     "allowed: only with one of them"},
+     "found, but nothing here is random; allowed: only with sensor.noise, sensor.dropout or "
+     "sampling.jitter"},
     {"controller.sensor.phase", needs, "controller.sensor.period",
      "found without sensor.period; allowed: only with it, since a sensor without frames measures "
      "at the controller's samples"},

@@ -29,7 +29,7 @@ const char* create(const bbsim_setup* setup, const bbsim_wiring* wiring) {
     return "a sketch moves servos; allowed: drives: angle";
   }
   if ((setup->drives_acceleration == legs) != is_wired(wiring->servos[2])) {
-    return "the wiring's servos and the scene's differ; allowed: servos.legs with drives: legs, "
+    return "the wiring's servos and the scenario's differ; allowed: servos.legs with drives: legs, "
            "servos.phi and .theta with drives: angle";
   }
   if (setup->parameter_count > 0) {
