@@ -56,7 +56,7 @@ ExitCode with_error_option(const std::string& error, const What& what) {
 }
 void add_overrides(Command& command, std::vector<std::string>& overrides);
 
-// --map, --header, --period and --time-offset of a log.
+// --map, --header, --period, --time-offset and --missing of a log.
 void add_log_options(Command& command, results::LogChoice& choice);
 
 // Default output: the scenario's name with the suffix, in the current folder. For a scenario from
