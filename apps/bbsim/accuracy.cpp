@@ -80,7 +80,7 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
     return ExitCode::interrupted;
   }
   if (api::any_complete(study)) return ExitCode::done;
-  say("no method reached the end of the scene; `bbsim run` says why");
+  say("no method reached the end of the scenario; `bbsim run` says why");
   return ExitCode::ended_early;
 }
 
@@ -89,7 +89,7 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
 void add_accuracy(Command& command, const Options& options) {
   command.footer(
       "The error is the largest |dx| or |dy| over the output times, against a solution in quad "
-      "precision, or by CVODE at rtol 1e-13 for scenes that switch, then without resolutions of "
+      "precision, or by CVODE at rtol 1e-13 for scenarios that switch, then without resolutions of "
       "commands and sensors. The time is the median processor time of repeated runs, without "
       "files. atol is "
       "rtol / 100. A second table names the fastest choice for each decade of error.\n"

@@ -22,7 +22,7 @@ ExitCode check(const Arguments& arguments, const Options& options) {
   const Scenario scenario = read(arguments, options, outputs);
   prints(outputs);
   Progress progress(scenario.source.file, options.quiet);
-  print(to_text(api::check(scenario, progress, arguments.verbose)));
+  print_report(api::check(scenario, progress, arguments.verbose));
   return ExitCode::done;
 }
 
@@ -32,7 +32,7 @@ void add_check(Command& command, const Options& options) {
   const auto arguments = std::make_shared<Arguments>();
   add_scenario(command, *arguments);
   command.flag("--verbose", arguments->verbose,
-               "also say why the solver was chosen, and whether the scene is stiff");
+               "also say why the solver was chosen, and how stiff the scenario is");
   command.does([arguments, &options] { return check(*arguments, options); });
 }
 

@@ -166,6 +166,7 @@ constexpr const char* purpose =
 
 void add_help(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("help", "Print help on bbsim or on one command");
+  command->group("Setup");
   const auto name = std::make_shared<std::string>();
   command->add_option("COMMAND", *name, "the command; default: list all commands");
   command->callback([&app, name, &chosen] {
@@ -207,6 +208,7 @@ void add_commands(CLI::App& app, std::span<char* const> words,
     CLI::App* const added = app.add_subcommand(
         command.name,
         command.description != nullptr ? command.description : description_beside(command.name));
+    added->group(command.group);
     if (!command.alias.empty()) added->alias(std::string(command.alias));
     if (!named) continue;
     Command its(*added, chosen);

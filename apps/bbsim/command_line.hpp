@@ -11,6 +11,7 @@
 namespace bbsim::app {
 
 struct NamedCommand {
+  const char* group;               // of the list of commands
   const char *name, *description;  // without a description: beside the program
   void (*add_options)(Command& command, const Options& options);
   std::string_view alias{};  // empty: none

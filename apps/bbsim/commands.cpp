@@ -3,14 +3,19 @@
 
 #include "commands.hpp"
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <filesystem>
 
+#include "api/check.hpp"
 #include "api/inputs.hpp"
 #include "api/run.hpp"
 #include "api/sweep.hpp"
 #include "file/atomic_file.hpp"
 #include "scenario/reader.hpp"
 #include "terminal.hpp"
+#include "wrapped.hpp"
 
 namespace bbsim::app {
 void add_scenario(Command& command, ScenarioArguments& arguments) {
@@ -86,6 +91,18 @@ void tell(const api::RunResult& made, bool quiet) {
   if (quiet) return;
   for (const std::string& warning : made.summary.warnings) say(warning);
   if (!made.noted.empty()) say(made.noted);
+}
+
+void print_report(const api::Report& report) {
+  constexpr std::size_t fewest = 40;  // narrower terminals break lines themselves
+  const std::size_t width = columns_of(STDOUT_FILENO);
+  if (width < fewest) return print(to_text(report));
+  api::Report broken = report;
+  for (api::Line& line : broken) {
+    const std::size_t column = std::max(api::label_width, line.label.size()) + 1;
+    line.text = wrapped(line.text, api::label_width + 1, column, width);
+  }
+  print(to_text(broken));
 }
 
 void add_threads(Command& command, std::size_t& threads) {

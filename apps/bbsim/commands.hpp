@@ -16,8 +16,10 @@
 #include "scenario/scenario.hpp"
 
 namespace bbsim::api {
+struct Line;
+using Report = std::vector<Line>;
 struct RunResult;
-}
+}  // namespace bbsim::api
 namespace bbsim::results {
 struct LogChoice;
 }
@@ -54,7 +56,7 @@ ExitCode with_error_option(const std::string& error, const What& what) {
 }
 void add_overrides(Command& command, std::vector<std::string>& overrides);
 
-// --map, --header, --period and --time-offset of a log.
+// --map, --header, --period, --time-offset and --missing of a log.
 void add_log_options(Command& command, results::LogChoice& choice);
 
 // Default output: the scenario's name with the suffix, in the current folder. For a scenario from
@@ -84,6 +86,9 @@ void prints(file::Outputs& outputs);
 // Prints why a run ended early and which expectations fail; unless `quiet`, also warnings and noted
 // events.
 void tell(const api::RunResult& made, bool quiet);
+
+// Prints a report, on a terminal with lines that break between words.
+void print_report(const api::Report& report);
 
 void add_run(Command& command, const Options& options);
 void add_check(Command& command, const Options& options);

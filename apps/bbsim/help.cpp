@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <string_view>
 
+#include "wrapped.hpp"
+
 // After App.hpp, on which it depends.
 #include <CLI/Formatter.hpp>
 
@@ -15,34 +17,12 @@ namespace {
 constexpr std::size_t line_width = 80;
 constexpr std::size_t margin = 24;  // where descriptions start
 
-// Wraps a text into lines that start at column `indent`; the first one is at `column` already.
-std::string wrapped(std::string_view text, std::size_t indent, std::size_t column) {
-  std::string result;
-  bool first = true;
-  while (!text.empty()) {
-    const std::size_t end = text.find(' ');
-    const std::string_view word = text.substr(0, end);
-    if (!first && column + 1 + word.size() > line_width) {
-      result += '\n' + std::string(indent, ' ');
-      column = indent;
-    } else if (!first) {
-      result += ' ';
-      ++column;
-    }
-    result += word;
-    column += word.size();
-    first = false;
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  }
-  return result;
-}
-
 std::string entry(const std::string& name, const std::string& description) {
   std::string text = "  " + name;
   if (description.empty()) return text + '\n';
   text += text.size() + 2 > margin ? '\n' + std::string(margin, ' ')
                                    : std::string(margin - text.size(), ' ');
-  return text + wrapped(description, margin, margin) + '\n';
+  return text + wrapped(description, margin, margin, line_width) + '\n';
 }
 
 }  // namespace
@@ -79,14 +59,14 @@ std::string HelpFormatter::make_footer(const CLI::App* command) const {
   for (std::string_view rest = footer; !rest.empty();) {
     const std::size_t end = rest.find('\n');
     const std::string_view line = rest.substr(0, end);
-    text += (line.starts_with(' ') ? std::string(line) : wrapped(line, 0, 0)) + '\n';
+    text += (line.starts_with(' ') ? std::string(line) : wrapped(line, 0, 0, line_width)) + '\n';
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
   }
   return text;
 }
 
 std::string HelpFormatter::make_description(const CLI::App* command) const {
-  return wrapped(command->get_description(), 0, 0) + '\n';
+  return wrapped(command->get_description(), 0, 0, line_width) + '\n';
 }
 
 }  // namespace bbsim::app

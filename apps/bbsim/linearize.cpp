@@ -52,7 +52,7 @@ ExitCode linearize(const LinearizeArguments& arguments, const Options& options) 
   }
   if (!made.note.empty()) say("linearize: " + made.note + ".");
   if (arguments.output.empty()) {
-    print(to_text(report_of(made)));
+    print_report(report_of(made));
   } else {
     file::write_file(arguments.output, file_text(made, arguments.output));
   }

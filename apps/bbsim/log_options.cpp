@@ -28,6 +28,11 @@ void add_log_options(Command& command, results::LogChoice& choice) {
               "a time to add to the log's times; or start, so that its first row is t = 0; or, in "
               "compare and replay, auto, by cross-correlation with the run")
       .takes("TIME|start|auto");
+  command
+      .option("--missing", choice.missing,
+              "leave out rows in which x, y or another position is VALUE: what the log has where "
+              "it does not see the ball, such as -1")
+      .takes("VALUE");
 }
 
 }  // namespace bbsim::app

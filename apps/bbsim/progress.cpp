@@ -3,7 +3,6 @@
 
 #include "progress.hpp"
 
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,18 +17,6 @@
 namespace bbsim::app {
 
 using namespace std::chrono_literals;
-
-namespace {
-
-// Asks the terminal each time, since it may have been resized. The last column stays free, because
-// some terminals break the line there.
-std::size_t columns_of_terminal() {
-  winsize size{};
-  const bool told = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  return told ? std::size_t{size.ws_col} - 1 : 79;
-}
-
-}  // namespace
 
 void Progress::controller_says(std::string_view line) {
   if (quiet_) return;
@@ -88,7 +75,7 @@ void Progress::update(double fraction, const std::string& detail) {
     return;
   }
   drawn_ = true;
-  const std::string line = to_clear_line + progress_line(state, columns_of_terminal());
+  const std::string line = to_clear_line + progress_line(state, columns_of(STDERR_FILENO));
   std::fputs(line.c_str(), stderr);
   std::fflush(stderr);
 }

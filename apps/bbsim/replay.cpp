@@ -80,7 +80,8 @@ void add_replay(Command& command, const Options& options) {
       "  bbsim replay configs/rig.yaml -o rig.html\n"
       "  bbsim run configs/fig2b.yaml --summary fig2b.json && bbsim replay fig2b.csv\n"
       "  bbsim replay slow.h5 fast.h5 -o both.html\n"
-      "  bbsim replay configs/rig.yaml --data log.csv --map t=Time:ms,x=Ballx:mm,y=Bally:mm\n"
+      "  bbsim replay configs/rig.yaml --data log.csv \\\n"
+      "      --map t=Time:ms,x=Ballx:mm,y=Bally:mm\n"
       "  bbsim replay fig2b-sweep.csv --scenario configs/fig2b.yaml");
   const auto arguments = std::make_shared<ReplayArguments>();
   command.option(

@@ -9,13 +9,18 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "base/number_text.hpp"
+#include "base/shell_word.hpp"
 #include "base/short_number.hpp"
 #include "commands.hpp"
+#include "file/atomic_file.hpp"
 #include "progress.hpp"
 #include "scenario/measures.hpp"
 #include "scenario/variation.hpp"
+#include "slurm.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -24,9 +29,9 @@ namespace {
 struct SweepArguments {
   ScenarioArguments scenario;
   std::vector<std::string> vary, measure, expect;
-  std::string combine, output, summary, shard, error;
+  std::string combine, output, summary, shard, error, slurm;
   std::optional<double> samples, seed;
-  std::size_t threads = 0;
+  std::size_t threads = 0, slurm_tasks = 1000;
   bool resume = false, keep_trajectories = false, force = false;
 };
 
@@ -59,7 +64,12 @@ std::string suffix(const api::Shard& shard) {
   return text + ".csv";
 }
 
-// "sweep.csv: 41 of 41 cases, by lanes, 0.0123 s"
+std::string_view how(std::string_view engine) {
+  if (engine.ends_with("lanes")) return "eight at a time";
+  return engine == "single runs" ? "one at a time" : "by linear analysis";
+}
+
+// "sweep.csv: 41 of 41 cases, eight at a time, 0.0123 s"
 std::string written_text(const api::SweepResult& made) {
   std::string line = name_of_output(made.output) + ": " + std::to_string(made.rows) + " of " +
                      std::to_string(made.cases) + " cases";
@@ -70,7 +80,50 @@ std::string written_text(const api::SweepResult& made) {
   if (made.statuses.not_finite > 0) {
     line += ", " + std::to_string(made.statuses.not_finite) + " with no finite number (see reason)";
   }
-  return line + ", by " + made.engine + ", " + rounded(made.seconds, 3) + " s";
+  return line + ", " + std::string(how(made.engine)) + ", " + rounded(made.seconds, 3) + " s";
+}
+
+// The options of a sweep that each of its shards needs, as words for a shell.
+std::vector<std::string> options_of(const SweepArguments& arguments) {
+  std::vector<std::string> options;
+  const auto add = [&](const std::string& name, const std::string& value) {
+    if (!value.empty()) options.push_back(name + ' ' + shell_word(value));
+  };
+  const auto add_all = [&](const std::string& name, const std::vector<std::string>& values) {
+    for (const std::string& value : values) add(name, value);
+  };
+  add_all("--set", arguments.scenario.overrides);
+  add("--error", arguments.error);
+  add_all("--vary", arguments.vary);
+  add("--combine", arguments.combine);
+  if (arguments.samples) add("--samples", number_text(*arguments.samples));
+  if (arguments.seed) add("--seed", number_text(*arguments.seed));
+  add_all("--measure", arguments.measure);
+  add_all("--expect", arguments.expect);
+  if (arguments.keep_trajectories) options.emplace_back("--keep-trajectories");
+  return options;
+}
+
+// Writes the script that runs the sweep on a cluster, in place of a run.
+ExitCode write_slurm(const SweepArguments& arguments, api::SweepRequest request,
+                     const Options& options) {
+  if (request.file == "-" || request.output == "-" || request.summary == "-") {
+    throw InputError(
+        "--slurm: found - among the files of the sweep; allowed: files, which the tasks read and "
+        "write");
+  }
+  request.script = arguments.slurm;
+  Progress progress(request.family.source().file, options.quiet, true);
+  const api::SweepSize size = api::check_sweep(request, progress);
+  const std::size_t tasks = std::min(size.shards, arguments.slurm_tasks);
+  file::write_file(arguments.slurm, slurm_script({arguments.slurm, options_of(arguments),
+                                                  request.file, request.output, request.summary,
+                                                  size.cases, tasks, arguments.threads}));
+  if (!options.quiet) {
+    say(name_of_output(arguments.slurm) + ": " + std::to_string(size.cases) + " cases in " +
+        std::to_string(tasks) + (tasks == 1 ? " task" : " tasks") + "; submit it with sbatch");
+  }
+  return ExitCode::done;
 }
 
 ExitCode sweep(const SweepArguments& arguments, const Options& options) {
@@ -88,6 +141,7 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   request.resumes = arguments.resume;
   request.keeps_rows = arguments.keep_trajectories;
   request.expect = arguments.expect;
+  if (!arguments.slurm.empty()) return write_slurm(arguments, std::move(request), options);
   Progress progress(family.source().file, options.quiet, true);
   const api::SweepResult made = api::sweep(request, progress);
   if (!made.reason.empty()) {
@@ -96,6 +150,7 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
     say(written_text(made));
   }
   for (const std::string& one : made.unmet) say(one);
+  if (!options.quiet && !made.repeat.empty()) say(made.repeat);
   return made.code;
 }
 
@@ -161,10 +216,22 @@ void add_sweep(Command& command, const Options& options) {
               "how cases ended, the engine")
       .takes("FILE");
   add_threads(command, arguments->threads);
+  Option shard = command
+                     .option("--shard", arguments->shard,
+                             "run only part K of N, K from 1; `bbsim merge` joins the parts")
+                     .takes("K/N");
   command
-      .option("--shard", arguments->shard,
-              "run only part K of N, K from 1; `bbsim merge` joins the parts")
-      .takes("K/N");
+      .option(
+          "--slurm", arguments->slurm,
+          "run nothing: write FILE, a script for Slurm's sbatch that runs the sweep as an array "
+          "of tasks, one shard each, and says how to merge them")
+      .takes("FILE")
+      .excludes(shard);
+  command
+      .option("--slurm-tasks", arguments->slurm_tasks,
+              "the most tasks of that array; your site's limit; default: 1000")
+      .takes("N")
+      .takes_whole(1);
   command.flag("--resume", arguments->resume, "continue a sweep that did not end");
   command.flag("--keep-trajectories", arguments->keep_trajectories,
                "also keep the output rows of each case (HDF5 only)");

@@ -3,6 +3,7 @@
 
 #include "terminal.hpp"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -23,6 +24,13 @@ void say(std::string_view message) {
   } catch (const std::bad_alloc&) {
     std::fputs("out of memory\n", stderr);
   }
+}
+
+std::size_t columns_of(int descriptor) {
+  if (isatty(descriptor) != 1) return 0;
+  winsize size{};
+  const bool told = ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return told ? std::size_t{size.ws_col} - 1 : 79;
 }
 
 bool draws_on_terminal() {

@@ -6,6 +6,7 @@
 // programs (CSV, JSON, HDF5) are written unchanged.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -16,6 +17,11 @@ void say(std::string_view message);
 
 // Writes a requested report to standard output. Throws OutputError.
 void print(const std::string& report);
+
+// The columns for text on a stream that is a terminal; 0 if it is none. Asks the terminal each
+// time, since it may have been resized. The last column stays free, because some terminals break
+// the line there.
+[[nodiscard]] std::size_t columns_of(int descriptor);
 
 // Whether standard error is a terminal that obeys escape sequences (TERM=dumb does not).
 [[nodiscard]] bool draws_on_terminal();

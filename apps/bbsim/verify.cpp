@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "api/accuracy.hpp"
@@ -33,11 +34,10 @@ std::string table_of(const api::Verification& verification) {
     width = std::max(width, check.name.size());
   }
   const int columns = static_cast<int>(width);
-  std::string text =
-      formatted("%-*s  %9s  %9s        verdict\n", columns, "check", "error", "bound");
+  std::string text = formatted("%-*s  %7s  %7s    verdict\n", columns, "check", "error", "bound");
   std::size_t holding = 0;
   for (const auto& check : verification.checks) {
-    text += formatted("%-*s  %9.1e  %9.1e m      %s\n", columns, check.name.c_str(), check.error,
+    text += formatted("%-*s  %7.1e  %7.1e m  %s\n", columns, check.name.c_str(), check.error,
                       check.bound, check.holds() ? "holds" : "FAILS");
     if (check.holds()) ++holding;
   }
@@ -90,7 +90,10 @@ ExitCode verify(const ScenarioArguments& arguments, const Options& options) {
   }
   std::string equations = "\n";
   for (const api::SimplerModel& model : models) {
-    equations += model.name + ": " + model.equation + '\n';
+    const std::size_t of_y = model.equation.find("y''");  // on a line of its own
+    const std::string_view equation = model.equation;
+    equations += model.name + ":\n  " + std::string(equation.substr(0, of_y - 1)) + "\n  " +
+                 std::string(equation.substr(of_y)) + '\n';
   }
   print(equations);
   return verification.holds() ? ExitCode::done : ExitCode::ended_early;

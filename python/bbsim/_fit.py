@@ -103,7 +103,7 @@ def _log_key(text: str, columns: Sequence[str], units: Sequence[str]) -> LogKey:
 
 
 def _candidates(task: "_Task") -> List[FreeKey]:
-    """Keys of this scene that are not free."""
+    """Keys of this scenario that are not free."""
     given = task.logs[0].given
     tables = [file.removesuffix(".file") for file, _ in _bbsim.tables(given)]
     tables = [one for one in tables if one.startswith(("gimbal.motion", "controller.commands"))]
@@ -119,7 +119,7 @@ def _candidates(task: "_Task") -> List[FreeKey]:
 
 def _ideal(given: _bbsim.Given) -> Optional[_bbsim.Given]:
     """A solid ball that rolls without losses on a perfectly mounted plate, which follows the motion or the commands
-    without lag. None for scenes with feedback or torques."""
+    without lag. None for scenarios with feedback or torques."""
     changes = [("controller", "null")] if _bbsim.has(given, "controller") else []
     if _bbsim.has(given, "controller.commands"):
         phi, theta = (_bbsim.text_at(given, f"controller.commands.{axis}") or "0" for axis in ("phi", "theta"))
@@ -140,7 +140,7 @@ class _Task:
     """What is asked for, checked, and the logs, read."""
 
     def __init__(self, given: _bbsim.Given, logs: Any, free: Any, map: Any, header: Any, period: Any, time_offset: Any,
-                 window: Any, hold_out: Any, loss: Optional[str], starts: Any, threads: Any) -> None:  # fmt: skip
+                 missing: Any, window: Any, hold_out: Any, loss: Optional[str], starts: Any, threads: Any) -> None:  # fmt: skip
         self.given, self.files, self.notes = given, listed(logs), []  # type: ignore[var-annotated]
         self.share, self.starts, self.threads, self.robust = hold_out or 0, starts, threads or 0, loss == "huber"
         self.length = None if window is None else _bbsim.value_in(str(window), "s")
@@ -163,9 +163,10 @@ class _Task:
         run = given.changed([("solver.error", "null"), ("solver.rtol", "1e-10"), ("solver.atol", "1e-12")])
         run, self.warnings = self._without_noise(run), list(_bbsim.remarks(given))
         maps, header = listed(map), [name for text in listed(header) for name in text.split(",")]
+        gone = "" if missing is None else str(missing)
         tables, self.logs = self._tables_of_logs(), []  # type: ignore[var-annotated]
         for file in self.files:
-            stored, notes = _bbsim.read_log(file, maps, header, str(period or ""), str(time_offset or ""))
+            stored, notes = _bbsim.read_log(file, maps, header, str(period or ""), str(time_offset or ""), gone)
             self.warnings += notes
             self.columns = self.columns if self.logs else _compared(given, maps, stored, self.warnings)
             its = [(key, f"'{os.path.abspath(file)}'") for key in tables if len(self.files) > 1]
@@ -349,8 +350,8 @@ def _estimate(made: Any, search: Search) -> List[str]:
 
 def fit(
     scenario: Scenario, logs: Any, free: Any, *, set: Settings = None, map: Any = (), header: Any = (),
-    period: Any = None, time_offset: Any = None, window: Any = None, hold_out: float = 0, loss: str = "squares",
-    starts: Optional[int] = None, output: Any = None, json: Any = None, report: Any = None, threads: int = 0,
+    period: Any = None, time_offset: Any = None, missing: Any = None, window: Any = None, hold_out: float = 0,
+    loss: str = "squares", starts: Optional[int] = None, output: Any = None, json: Any = None, report: Any = None, threads: int = 0,
 ) -> Any:  # fmt: skip
     """Finds the values of a scenario's keys at which its runs are closest to logs of a rig.
 

@@ -22,7 +22,7 @@ AXES = ("phi", "theta")
 
 
 def linearized(scenario: Scenario, set: Settings = None) -> Linearization:
-    """The closed loop about home. Raises InputError for a scene without one."""
+    """The closed loop about home. Raises InputError for a scenario without one."""
     return Linearization(_bbsim.linearize(given(scenario, set), "loop", "home"))
 
 
@@ -59,7 +59,7 @@ def responses(scenario: Scenario, set: Settings = None) -> Tuple[Linearization, 
     loop = linearized(scenario, set)
     loops = open_loops(loop)
     if not loops:
-        raise InputError([("", "found a scene in which no command closes a loop; allowed: a controller that feeds back")])
+        raise InputError([("", "found a scenario in which no command closes a loop; allowed: a controller that feeds back")])
     at = frequencies(loops)
     nothing = np.full(len(at), np.nan, dtype=np.complex128)
     return loop, at, {axis: loops[axis].response(at) if axis in loops else nothing for axis in AXES}
@@ -76,7 +76,7 @@ def bode(scenario: Scenario, set: Settings = None) -> Columns:
     """frequency (rad/s), phi_gain, phi_phase (rad), theta_gain, theta_phase of the open loops.
 
     Each loop is broken at its command, with the other one closed, and with the sign for which -1 is the
-    critical point. Raises InputError for a scene without a loop.
+    critical point. Raises InputError for a scenario without a loop.
     """
     _, at, found = responses(scenario, set)
     columns = {"frequency": at}

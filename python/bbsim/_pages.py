@@ -50,7 +50,7 @@ class Compared:
 
 def replay(
     *files: Union[File, Result], output: Optional[File] = None, data: Texts = (), map: Texts = (), header: Texts = (),
-    period: str = "", time_offset: str = "", title: str = "", summary: File = "", scenario: File = "", set: Settings = None,
+    period: str = "", time_offset: str = "", missing: str = "", title: str = "", summary: File = "", scenario: File = "", set: Settings = None,
 ) -> Page:  # fmt: skip
     """A page that plays results of runs or sweeps, or scenarios. The keywords are the options of ``bbsim replay``.
 
@@ -64,7 +64,7 @@ def replay(
             shown.append(_bbsim.Stored(columns, file._run.summary()))
         else:
             shown.append(os.fspath(file))
-    log = _bbsim.LogOptions(listed(map), listed(header), period, time_offset)
+    log = _bbsim.LogOptions(listed(map), listed(header), period, time_offset, str(missing))
     beside = (os.fspath(summary), os.fspath(scenario), overrides(set))
     target = "" if output is None else os.fspath(output)
     if target and not target.lower().endswith(".html"):
@@ -77,10 +77,10 @@ def replay(
 
 def compare(
     a: File, b: File, *, rtol: Optional[float] = None, atol: Optional[float] = None, columns: Texts = (),
-    map: Texts = (), header: Texts = (), period: str = "", time_offset: str = "", set: Settings = None,
+    map: Texts = (), header: Texts = (), period: str = "", time_offset: str = "", missing: str = "", set: Settings = None,
 ) -> Compared:  # fmt: skip
     """Compares two files of results, or a log with a run or a scenario. The keywords are the options of ``bbsim compare``."""
-    log = _bbsim.LogOptions(listed(map), listed(header), period, time_offset)
+    log = _bbsim.LogOptions(listed(map), listed(header), period, time_offset, str(missing))
     for name, found in (("rtol", rtol), ("atol", atol)):
         if not (found is None or isinstance(found, Real)):
             raise refuse(name, repr(found), "a number, in SI units")

@@ -89,7 +89,8 @@ class _Options:
         self.scenario, self.summary = (os.fspath(options[name] or "") for name in ("scenario", "summary"))
         self.set = _settings(options["set"])
         header = _parts(options["header"], ",")
-        self.log = (listed(options["map"]), header, options["period"] or "", options["time_offset"] or "")
+        missing = "" if options["missing"] is None else str(options["missing"])
+        self.log = (listed(options["map"]), header, options["period"] or "", options["time_offset"] or "", missing)
         require_font(self.font)
         if self.csv and not self.kind:
             allowed = ", ".join(f"--{name.replace('_', '-')}" for name in _OF_SCENARIO)
@@ -138,7 +139,7 @@ class _Options:
         if self.csv:
             _bbsim.write_file(os.fspath(self.csv), text.encode())
         if figure is None:
-            raise InputError([("", "no method reached the end of the scene; `bbsim run` says why")])
+            raise InputError([("", "no method reached the end of the scenario; `bbsim run` says why")])
         return figure, content
 
 
@@ -154,6 +155,7 @@ def plot(
     header: Texts = (),
     period: Optional[str] = None,
     time_offset: Optional[str] = None,
+    missing: Union[float, str, None] = None,
     accuracy: bool = False,
     bode: bool = False,
     nyquist: bool = False,
@@ -182,7 +184,7 @@ def plot(
     """
     options = _Options(
         columns=columns, over=over, summary=summary, scenario=scenario, set=set, map=map, header=header, period=period,
-        time_offset=time_offset, accuracy=accuracy, bode=bode, nyquist=nyquist, poles=poles, step=step,
+        time_offset=time_offset, missing=missing, accuracy=accuracy, bode=bode, nyquist=nyquist, poles=poles, step=step,
         root_locus=root_locus, csv=csv, width=width, font=font,
     )  # fmt: skip
     chosen = _format(None if output is None else os.fspath(output), format)

@@ -31,7 +31,7 @@ def _locus(text: str) -> Tuple[str, str, str]:
 def draw_loop(
     kind: str, scenario: Scenario, set: Settings, locus: str, wide: Optional[float]
 ) -> Tuple[str, Figure, str]:
-    """The numbers as CSV, the figure, and what is in it. Raises InputError for a scene without a loop."""
+    """The numbers as CSV, the figure, and what is in it. Raises InputError for a scenario without a loop."""
     width: Dict[str, Any] = {"width": wide} if wide else {}
     if kind == "root_locus":
         key, low, high = _locus(locus)

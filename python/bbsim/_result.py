@@ -238,7 +238,7 @@ def _solved(systems: "np.ndarray[Any, np.dtype[np.complex128]]", right: Array) -
 
 
 class Linearization(_StateSpace):
-    """A scene as a linear system: dz = A z + B u, y = C z + D u.
+    """A scenario as a linear system: dz = A z + B u, y = C z + D u.
 
     In continuous time ``dt`` is None and dz is z'; otherwise dz is z after one period ``dt``.
     """

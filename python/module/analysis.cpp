@@ -144,16 +144,16 @@ void define_columns(py::module_& module) {
   module.def(
       "read_log",
       [](const std::string& file, std::vector<std::string> maps, std::vector<std::string> header,
-         std::string period, std::string time_offset) {
+         std::string period, std::string time_offset, std::string missing) {
         const results::LogChoice choice{std::move(maps), std::move(header), std::move(period),
-                                        std::move(time_offset)};
+                                        std::move(time_offset), std::move(missing)};
         results::refuse_auto(choice);
         std::vector<std::string> notes;
         results::Result log = results::read_log(file, choice, notes);
         return std::pair(std::move(log), std::move(notes));
       },
       py::arg("file"), py::arg("maps"), py::arg("header"), py::arg("period"),
-      py::arg("time_offset"));
+      py::arg("time_offset"), py::arg("missing"));
 }
 
 // Cases drawn from `--vary KEY=SPEC`.

@@ -29,9 +29,11 @@ class Noting : public Watch {
 
 struct LogOptions {
   std::vector<std::string> maps, header;
-  std::string period, time_offset;
+  std::string period, time_offset, missing;
 
-  [[nodiscard]] results::LogChoice choice() const { return {maps, header, period, time_offset}; }
+  [[nodiscard]] results::LogChoice choice() const {
+    return {maps, header, period, time_offset, missing};
+  }
 };
 
 struct Page {
@@ -101,11 +103,12 @@ api::Compared compare(const std::string& a, const std::string& b,
 void define_pages(py::module_& module) {
   py::class_<LogOptions>(module, "LogOptions")
       .def(py::init([](std::vector<std::string> maps, std::vector<std::string> header,
-                       std::string period, std::string time_offset) {
+                       std::string period, std::string time_offset, std::string missing) {
              return LogOptions{std::move(maps), std::move(header), std::move(period),
-                               std::move(time_offset)};
+                               std::move(time_offset), std::move(missing)};
            }),
-           py::arg("maps"), py::arg("header"), py::arg("period"), py::arg("time_offset"));
+           py::arg("maps"), py::arg("header"), py::arg("period"), py::arg("time_offset"),
+           py::arg("missing"));
   py::class_<Page>(module, "Page")
       .def_readonly("html", &Page::html)
       .def_readonly("reason", &Page::reason)

@@ -166,14 +166,16 @@ void define_stored(py::module_& module) {
       "read_result",
       [](const std::string& file, std::string summary, std::string scenario,
          std::vector<std::string> overrides, std::vector<std::string> maps,
-         std::vector<std::string> header, std::string period, std::string time_offset) {
+         std::vector<std::string> header, std::string period, std::string time_offset,
+         std::string missing) {
         const results::LogChoice log{std::move(maps), std::move(header), std::move(period),
-                                     std::move(time_offset)};
+                                     std::move(time_offset), std::move(missing)};
         results::refuse_auto(log);
         return read(file, {std::move(summary), std::move(scenario), std::move(overrides)}, log);
       },
       py::arg("file"), py::arg("summary"), py::arg("scenario"), py::arg("overrides"),
-      py::arg("maps"), py::arg("header"), py::arg("period"), py::arg("time_offset"));
+      py::arg("maps"), py::arg("header"), py::arg("period"), py::arg("time_offset"),
+      py::arg("missing"));
 }
 
 void define_sweeps(py::module_& module) {

@@ -57,7 +57,7 @@ AccuracyStudy accuracy(const Scenario& scenario, const std::vector<Method>& meth
   if (model.rig && model.rig->sampled && model.rig->sampled->law.kind == model::LawKind::held) {
     throw InputError(scenario.source.file +
                      ": controller: found one of your own, which accuracy does not run; allowed: a "
-                     "law of bbsim (`bbsim run --error` estimates the error of this scene)");
+                     "law of bbsim (`bbsim run --error` estimates the error of this scenario)");
   }
   AccuracyStudy study =
       study::measure_accuracy(model, solve::OutputGrid(scenario.time), methods, rtols,

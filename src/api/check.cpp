@@ -21,6 +21,7 @@
 #include "model/control/common_cycle.hpp"
 #include "model/explain.hpp"
 #include "model/spectrum.hpp"
+#include "scenario/exercise.hpp"
 #include "scenario/family.hpp"
 #include "solve/choose.hpp"
 #include "solve/output_grid.hpp"
@@ -102,7 +103,7 @@ void report_sampled_loop(Report& report, const Scenario& scenario, const model::
   const double size = std::abs(poles.front()), period = loop.sampling.period * cycle.samples;
   report.push_back({"", "stable: the slowest mode decays by a factor of " + short_number(size) +
                             (cycle.samples > 1 ? " in these periods" : " a period") +
-                            ", with a time constant of " + short_number(-period / std::log(size)) +
+                            ", with a time constant of " + rounded(-period / std::log(size), 3) +
                             " s"});
   const Gimbal& gimbal = scenario.gimbal;
   const bool steppers = gimbal.servo && (gimbal.servo_of(0).stepper || gimbal.servo_of(1).stepper);
@@ -166,13 +167,17 @@ void report_solver(Report& report, const Solver& solver) {
 
 void report_reasons(Report& report, const Scenario& scenario, const model::Model& model) {
   report.push_back({"", scenario.solver.method == Method::automatic
-                            ? "auto chooses it: it was the cheapest at every error on every kind "
-                              "of scene measured"
+                            ? "auto takes the method that was fastest in all measurements"
                             : "asked for"});
   const double decays = solve::decays_over_scene(model, scenario.time.end);
-  report.push_back({"", std::string(decays > 100 ? "a stiff scene" : "not a stiff scene") +
-                            ": the run lasts " + short_number(decays) +
-                            " time constants of its fastest mode"});
+  if (decays <= 1) {
+    report.push_back({"", "not stiff: no motion decays within the run"});
+    return;
+  }
+  report.push_back({"", std::string(decays > 100 ? "stiff" : "not stiff") +
+                            ": the fastest motion decays with a time constant of " +
+                            rounded(scenario.time.end / decays, 3) + " s, in a run of " +
+                            short_number(scenario.time.end) + " s"});
 }
 
 // Describes the scenario's sweep block, after a check of its values.
@@ -184,6 +189,20 @@ void report_sweep(Report& report, const Scenario& scenario) {
   std::string keys;
   for (const sweep::PlanAxis& axis : plan.axes()) keys += (keys.empty() ? "" : ", ") + axis.key;
   report.push_back({"sweep", std::to_string(plan.cases()) + " cases of bbsim sweep, over " + keys});
+}
+
+void report_exercise(Report& report, const Scenario& scenario) {
+  const auto exercise = scenario::checked_exercise(scenario);
+  if (!exercise) return;
+  std::string free;
+  for (const std::string& key : exercise->free) free += (free.empty() ? "" : ", ") + key;
+  const std::size_t count = exercise->tasks.size();
+  report.push_back({"exercise", std::to_string(count) + (count == 1 ? " task" : " tasks") +
+                                    "; free keys: " + (free.empty() ? "none" : free)});
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& [text, expect] = exercise->tasks[i];
+    report.push_back({"", std::to_string(i + 1) + ". " + text + " (" + expect + ')'});
+  }
 }
 
 // Starts the user's controller, if there is one, and reports what it says and how it answers.
@@ -248,7 +267,10 @@ Report report_of(const Scenario& scenario, bool sweep, bool reasons) {
 
   report_solver(report, scenario.solver);
   if (reasons) report_reasons(report, scenario, model);
-  if (sweep) report_sweep(report, scenario);
+  if (sweep) {
+    report_sweep(report, scenario);
+    report_exercise(report, scenario);
+  }
   for (const std::string& remark : scenario.remarks) report.push_back({"remark", remark});
   return report;
 }

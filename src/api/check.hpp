@@ -19,13 +19,14 @@ struct Line {
 };
 using Report = std::vector<Line>;
 
+constexpr std::size_t label_width = 12;
+
 // One line each, with the labels in a column.
 [[nodiscard]] inline std::string to_text(const Report& report) {
-  constexpr std::size_t width = 12;
   std::string text;
   for (const Line& line : report) {
     std::string label = line.label;
-    label.resize(std::max(width, label.size()), ' ');
+    label.resize(std::max(label_width, label.size()), ' ');
     text += label + ' ' + line.text + '\n';
   }
   return text;

@@ -127,7 +127,11 @@ file::TableData rows_of_result(const std::string& file) {
 
 Compared compare_log(const CompareRequest& request, Watch& watch) {
   Compared made;
-  file::TableData log = numbers_of(results::read_log(request.a, request.log, made.warnings));
+  results::Result read = results::read_log(request.a, request.log, made.warnings);
+  if (const results::Column* const t = read.find("t"); t == nullptr || t->is_text()) {
+    throw InputError(results::without_clock(read));
+  }
+  file::TableData log = numbers_of(std::move(read));
   const file::TableData run =
       request.run ? run_for(*request.run, log, watch, made) : rows_of_result(request.b);
   if (made.code == ExitCode::interrupted) return made;

@@ -20,29 +20,34 @@
 namespace bbsim::api {
 namespace {
 
+// Margins and bandwidths are estimates for a model.
+std::string three_digits(double value) {
+  return rounded(value, 3);
+}
+
 std::string degrees(double angle) {
-  return short_number(angle * 180 / std::numbers::pi) + " deg";
+  return three_digits(angle * 180 / std::numbers::pi) + " deg";
 }
 
 std::string at(double frequency) {
-  return " at " + short_number(frequency) + " rad/s";
+  return " at " + three_digits(frequency) + " rad/s";
 }
 
 std::string text_of(const model::Margins& margins) {
   std::string text;
   if (std::isfinite(margins.gain)) {
-    text += "gain by " + short_number(margins.gain) + " (" +
-            short_number(20 * std::log10(margins.gain)) + " dB)" + at(margins.gain_at);
+    text += "gain by " + three_digits(margins.gain) + " (" +
+            three_digits(20 * std::log10(margins.gain)) + " dB)" + at(margins.gain_at);
   } else {
     text += "any gain above";
   }
   if (margins.reduction > 0) {
-    text += ", or down by " + short_number(margins.reduction) + at(margins.reduction_at);
+    text += ", or down by " + three_digits(margins.reduction) + at(margins.reduction_at);
   }
   if (!std::isfinite(margins.phase)) return text + "; any phase and delay";
   text += "; phase " + degrees(std::abs(margins.phase)) + (margins.phase < 0 ? " of lead" : "") +
           at(margins.phase_at);
-  return text + "; delay " + short_number(margins.delay) + " s";
+  return text + "; delay " + three_digits(margins.delay) + " s";
 }
 
 std::string names_line(const std::vector<model::LinearSignal>& signals) {
@@ -152,7 +157,7 @@ Report margin_lines(const model::Linearization& made) {
     std::string text;
     for (const model::Bandwidth& one : made.bandwidths) {
       text += (text.empty() ? "" : ", ") + one.output + " " +
-              (std::isfinite(one.*of) ? short_number(one.*of) + " rad/s" : "none");
+              (std::isfinite(one.*of) ? three_digits(one.*of) + " rad/s" : "none");
     }
     return text;
   };
@@ -186,7 +191,7 @@ Report margin_remarks(const model::Linearization& made) {
     std::string small;
     const auto add = [&small](const char* name, double value, double least, const char* unit) {
       if (value < least) {
-        small += (small.empty() ? "" : ", ") + std::string(name) + short_number(value) + unit;
+        small += (small.empty() ? "" : ", ") + std::string(name) + three_digits(value) + unit;
       }
     };
     add("gain ", decibels(margins.gain), least_gain, " dB");

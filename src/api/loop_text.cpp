@@ -3,6 +3,7 @@
 
 #include "api/loop_text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <cstddef>
@@ -22,18 +23,29 @@ bool is_named(const std::complex<double>& pole) {
   return pole.imag() < -1e-7 * std::abs(pole);
 }
 
-void add_pole(std::string& line, const std::complex<double>& pole) {
+// `largest`: the size of the largest pole. A part that differs from zero by rounding is 0.
+void add_pole(std::string& line, const std::complex<double>& pole, double largest) {
+  const double rounding = 1e-12 * largest;
   if (!line.empty()) line += ", ";
-  line += short_number(pole.real());
-  if (pole.imag() > 1e-7 * std::abs(pole)) line += " +- " + short_number(pole.imag()) + "i";
+  line += short_number(std::abs(pole.real()) <= rounding ? 0 : pole.real());
+  if (pole.imag() > 1e-7 * std::abs(pole) && pole.imag() > rounding) {
+    line += " +- " + short_number(pole.imag()) + "i";
+  }
+}
+
+double largest_of(const model::Eigenvalues& poles) {
+  double largest = 0;
+  for (const auto& pole : poles) largest = std::max(largest, std::abs(pole));
+  return largest;
 }
 
 }  // namespace
 
 std::string poles_line(const model::Eigenvalues& poles) {
   std::string line;
+  const double largest = largest_of(poles);
   for (const auto& pole : poles) {
-    if (!is_named(pole)) add_pole(line, pole);
+    if (!is_named(pole)) add_pole(line, pole, largest);
   }
   return line;
 }
@@ -41,10 +53,11 @@ std::string poles_line(const model::Eigenvalues& poles) {
 std::string sampled_poles_line(const model::Eigenvalues& poles) {
   std::string line;
   std::size_t named = 0;
+  const double largest = largest_of(poles);
   for (const auto& pole : poles) {
     if (is_named(pole)) continue;
     if (named == 6 || (named > 0 && std::abs(pole) < 1e-3)) return line + ", smaller ones";
-    add_pole(line, pole);
+    add_pole(line, pole, largest);
     ++named;
   }
   return line;

@@ -70,7 +70,7 @@ void check_request(const ReplayRequest& request) {
   }
   if (maps > 0 && logs == 0) throw InputError("--map: allowed with --data, whose columns it names");
   if (request.log.given() && logs == 0) {
-    throw InputError("--header, --period, --time-offset: allowed with --data, a log");
+    throw InputError("--header, --period, --time-offset, --missing: allowed with --data, a log");
   }
   if (request.log.aligns() && request.shown.empty()) {
     throw InputError("--time-offset: found auto, without a run to align the log with");

@@ -79,7 +79,7 @@ SensitivityKey read_key(const std::string& name, const ScenarioFamily& family,
   for (const std::string_view section : {"time.", "solver.", "output.", "sweep."}) {
     if (!name.starts_with(section)) continue;
     refuse(shown(name) +
-           ": found a key of the computation; allowed: keys of the scene, such as ball.radius");
+           ": found a key of the computation; allowed: keys of the scenario, such as ball.radius");
   }
   const scenario::NamedNumber number = scenario::number_named("--sensitivity", name, family);
   if (!number.value) {

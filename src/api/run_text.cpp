@@ -67,11 +67,11 @@ std::string stopping_text(const Scenario& scenario, const std::string& event) {
            "may turn; gimbal.servo.angle_limit or controller.limit keeps them there.";
   }
   if (event.starts_with("stick")) {
-    return "The scene asks for this: events.stick is stop; note lets the run continue.";
+    return "The scenario asks for this: events.stick is stop; note lets the run continue.";
   }
   const bool plain =
       event == "edge" || event == "lift_off" || event == "rest" || event == "steps_lost";
-  return "The scene asks for this: events." + event + (plain ? "" : ".action") +
+  return "The scenario asks for this: events." + event + (plain ? "" : ".action") +
          " is stop; note lets the run continue.";
 }
 
@@ -108,11 +108,12 @@ std::string failure_text(const Scenario& scenario, const model::Model& model,
   }
   const std::string warning = instability_warning(scenario, model);
   if (!warning.empty()) {
-    text += "  The cause is the scene, not the solver: " + warning + ".\n";
+    text += "  The cause is the scenario, not the solver: " + warning + ".\n";
     text += "  Change the gains or the servo; `bbsim check` shows the poles.";
   } else if (none != state.end() || (largest != state.end() && std::abs(*largest) > 1e30)) {
     text +=
-        "  The cause is the motion, not the solver: end the scene earlier, or change the gimbal's "
+        "  The cause is the motion, not the solver: end the scenario earlier, or change the "
+        "gimbal's "
         "motion.";
   } else {
     text += "  Try a looser solver.rtol, or another solver.method; `bbsim check` shows the model.";

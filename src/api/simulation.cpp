@@ -93,10 +93,10 @@ std::string shortfall(const Scenario& scenario, const model::Model& model,
   }
   if (made.within_error) return "";
   return "an error of " + short_number(*scenario.solver.error) +
-         " m is out of reach: the scene amplifies rounding, and double precision gives about " +
+         " m is out of reach: the scenario amplifies rounding, and double precision gives about " +
          short_number(rounded_up(*made.error_estimate)) +
          " m.\n"
-         "  Ask for that, or end the scene earlier. The file has the rows of the best run.";
+         "  Ask for that, or end the scenario earlier. The file has the rows of the best run.";
 }
 
 record::RunSummary summary_of(const Scenario& scenario, const model::Model& model,

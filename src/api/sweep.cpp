@@ -79,6 +79,16 @@ void keep_rows(sweep::SweepTask& task, const Scenario& scenario) {
   task.series_rows = solve::OutputGrid(scenario.time).size();
 }
 
+sweep::SweepTask task_of(const SweepRequest& request, const sweep::SweepPlan& plan,
+                         const Scenario& first, Watch& watch) {
+  sweep::SweepTask task{request.family, plan,
+                        measures_of(request.sweep, request.family, plan, first)};
+  expect(task, request, first);
+  task.report = [&watch](std::string_view line) { watch.controller_says(line); };
+  if (request.keeps_rows) keep_rows(task, first);
+  return task;
+}
+
 // Call it before any of the files is opened.
 void declare_files(const SweepRequest& request, const Scenario& first) {
   file::Outputs outputs;
@@ -91,6 +101,7 @@ void declare_files(const SweepRequest& request, const Scenario& first) {
     outputs.writes(file, "kept beside " + request.output + " until the sweep is done");
   }
   if (!request.summary.empty()) outputs.writes(request.summary, "--summary");
+  if (!request.script.empty()) outputs.writes(request.script, "--slurm");
 }
 
 // Destination of a sweep's rows. The threads that compute them call prepare().
@@ -136,9 +147,10 @@ bool run_cases(const sweep::SweepTask& task, const sweep::Engine& engine, sweep:
         sink.take(results);
         result.rows += results.count;
         for (std::size_t i = 0; i < results.count; ++i) {
-          result.statuses.add(results.status[i].word, results.status[i].reason);
+          const std::size_t number = results.first + i;
+          result.statuses.add(number, results.status[i].word, results.status[i].reason);
           for (std::size_t e = 0; e < task.expectations.size(); ++e) {
-            result.statuses.add_expected(e, holds(task, results, i, e));
+            result.statuses.add_expected(number, e, holds(task, results, i, e));
           }
         }
         const double rate = static_cast<double>(result.rows - result.kept) / seconds();
@@ -176,15 +188,27 @@ Sweep with_choice(Sweep sweep, const SweepChoice& choice) {
   return sweep;
 }
 
+SweepSize check_sweep(const SweepRequest& request, Watch& watch) {
+  const sweep::SweepPlan plan(request.family, request.sweep);
+  const Scenario first = request.family.read(plan.settings(0));
+  const sweep::SweepTask task = task_of(request, plan, first, watch);
+  declare_files(request, first);
+  for (const std::string& remark : first.remarks) watch.note(remark);
+  static_cast<void>(plan.check(request.family, 0, plan.cases(), [&](double part) {
+    watch.update(part, "checking the cases");
+    return true;
+  }));
+  watch.end();
+  const std::size_t group = sweep::choose_engine(task).group;
+  return {plan.cases(), (plan.cases() + group - 1) / group};
+}
+
 SweepResult sweep(const SweepRequest& request, Watch& watch) {
   require_whole("threads", request.threads, 0, most_threads);
   const ScenarioFamily& family = request.family;
   const sweep::SweepPlan plan(family, request.sweep);
   const Scenario first = family.read(plan.settings(0));
-  sweep::SweepTask task{family, plan, measures_of(request.sweep, family, plan, first)};
-  expect(task, request, first);
-  task.report = [&watch](std::string_view line) { watch.controller_says(line); };
-  if (request.keeps_rows) keep_rows(task, first);
+  const sweep::SweepTask task = task_of(request, plan, first, watch);
   const sweep::Engine engine = sweep::choose_engine(task);
   const sweep::CaseRange range =
       sweep::shard_range(plan.cases(), engine.group, request.shard.number, request.shard.of);
@@ -251,6 +275,8 @@ SweepResult sweep(const SweepRequest& request, Watch& watch) {
     }
   }
   judge(task, result);
+  if (!result.statuses.failed.empty())
+    result.repeat = repeat_text(facts, result.statuses.failed[0]);
   if (summary) {
     summary->write(summary_text(facts, result));
     summary->commit();

@@ -46,6 +46,7 @@ struct SweepRequest {
   bool resumes = false;               // continue a part that an earlier run left
   bool keeps_rows = false;            // also keep the rows of output.columns of each case
   std::vector<std::string> expect{};  // "max_tilt < 5 deg", of every case
+  std::string script{};               // written in place of a run, for check_sweep(); or empty
 };
 
 // Rows of a sweep, by columns.
@@ -67,10 +68,18 @@ struct SweepResult {
   std::size_t cases = 0;           // in this shard
   std::size_t rows = 0, kept = 0;  // rows now there, and those kept from an earlier run
   sweep::StatusCounts statuses;    // of the rows
+  std::string repeat;              // the first failed case and the command that repeats it, if any
   std::string engine, output;
   SweepTable table;  // if the request names no output
   double seconds = 0;
 };
+
+struct SweepSize {
+  std::size_t cases = 0;
+  std::size_t shards = 0;  // the most that all have cases
+};
+// Checks all cases of a sweep and the names of its files, and runs nothing. Throws InputError.
+[[nodiscard]] SweepSize check_sweep(const SweepRequest& request, Watch& watch);
 
 // Throws InputError, OutputError, and ControllerFault if the scene's own controller does not begin.
 [[nodiscard]] SweepResult sweep(const SweepRequest& request, Watch& watch);

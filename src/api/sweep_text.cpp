@@ -9,6 +9,7 @@
 
 #include "api/version.hpp"
 #include "base/json.hpp"
+#include "base/shell_word.hpp"
 #include "file/case_text.hpp"
 #include "simd/instruction_set.hpp"
 #include "solve/output_grid.hpp"
@@ -151,6 +152,25 @@ file::Attributes attributes_of(const SweepFacts& facts, const sweep::Engine& eng
   return attributes;
 }
 
+// The command that runs a case alone.
+static std::string repeat_command(const SweepFacts& facts, std::size_t number) {
+  const Source& source = facts.family.source();
+  std::string command = "bbsim run " + shell_word(source.file);
+  for (const std::string& override_ : source.overrides) {
+    command += " --set " + shell_word(override_);
+  }
+  for (const ScenarioFamily::Setting& setting : facts.task.plan.settings(number)) {
+    command += " --set " + shell_word(setting.key + '=' + setting.value);
+  }
+  return command;
+}
+
+std::string repeat_text(const SweepFacts& facts, const sweep::FailedCase& failed) {
+  const std::string reason = failed.reason.empty() ? "" : " (" + failed.reason + ')';
+  return "case " + std::to_string(failed.number) + " is " + failed.status + reason +
+         "; repeat it with\n  " + repeat_command(facts, failed.number);
+}
+
 std::string summary_text(const SweepFacts& facts, const SweepResult& result) {
   Json summary = Json::object();
   summary["status"] = result.code == ExitCode::interrupted ? "interrupted" : "done";
@@ -161,6 +181,13 @@ std::string summary_text(const SweepFacts& facts, const SweepResult& result) {
   summary["rows"] = result.rows;
   Json& statuses = summary["statuses"] = Json::object();
   for (const auto& [word, count] : result.statuses.words) statuses[word] = count;
+  Json& failed = summary["failed"] = Json::array();
+  for (const sweep::FailedCase& one : result.statuses.failed) {
+    failed.push_back({{"case", one.number},
+                      {"status", one.status},
+                      {"reason", one.reason},
+                      {"command", repeat_command(facts, one.number)}});
+  }
   for (std::size_t i = 0; i < facts.task.expectations.size(); ++i) {
     const auto& unmet = result.statuses.unmet;
     summary["expectations"].push_back({{"text", facts.task.expectations[i].text},

@@ -30,6 +30,9 @@ struct SweepFacts {
 
 [[nodiscard]] file::Attributes attributes_of(const SweepFacts& facts, const sweep::Engine& engine);
 
+// "case 3 is stopped (edge); repeat it with" and the command.
+[[nodiscard]] std::string repeat_text(const SweepFacts& facts, const sweep::FailedCase& failed);
+
 // The plan and the outcome of the sweep, as JSON.
 [[nodiscard]] std::string summary_text(const SweepFacts& facts, const SweepResult& result);
 

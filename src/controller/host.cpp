@@ -96,7 +96,7 @@ std::string Host::unheard() const {
 }
 
 std::vector<std::string> Host::describe() const {
-  if (library_) return {"the library opens, and makes a controller for this scene"};
+  if (library_) return {"the library opens, and makes a controller for this scenario"};
   if (!program_) return {};
   if (program_->fault()) throw model::ControllerFault(*program_->fault());
   const Ready& ready = program_->ready();

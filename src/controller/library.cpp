@@ -209,7 +209,7 @@ void Library::create() {
   if (controller_ == nullptr) {
     throw KeyError("controller.library",
                    "found " + shown(path_, uncut) +
-                       ", which makes no controller for this scene: " + last_error());
+                       ", which makes no controller for this scenario: " + last_error());
   }
 }
 

@@ -68,9 +68,10 @@ struct CsvChoice {
 };
 
 // Reads an HDF5 file (by its ending) or a CSV; "-" is CSV on standard input. Commas, semicolons or
-// tabs separate the fields of a CSV. Fields may be quoted; numbers may have decimal commas. Skips
-// lines before the header, blank lines and lines that start with #. A field that is not a number is
-// text; a missing value is empty text. Throws InputError: where, found, allowed.
+// tabs separate the fields of a CSV. Fields may be quoted; numbers may have decimal commas. Rows
+// may name each field, as in "x:0.01 y:0.02", in place of a header. Skips lines before the header,
+// blank lines and lines that start with #. A field that is not a number is text; a missing value is
+// empty text. Throws InputError: where, found, allowed.
 [[nodiscard]] CellTable read_cells(const std::string& file, const CsvChoice& choice = {});
 
 // Throws read_table()'s InputError for text in a column, at first_gap or first_text.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -129,6 +130,39 @@ std::size_t fit(std::string_view header, std::string_view row, char delimiter) {
   return static_cast<std::size_t>(std::ranges::count_if(*fields, is_number));
 }
 
+// A field of a line such as "x:0.01 y:0.02 t:120", which the Arduino's serial plotter shows.
+struct Labelled {
+  std::string_view label, value;
+};
+
+// The fields of such a line, between blanks, tabs, commas or semicolons; empty for any other line.
+// A label begins with a letter, so that a time of day is none.
+std::vector<Labelled> labelled_fields(std::string_view line) {
+  constexpr std::string_view between = " \t,;";
+  std::vector<Labelled> fields;
+  for (line = trimmed(line); !line.empty();) {
+    const std::size_t colon = line.find(':');
+    const std::string_view label = line.substr(0, colon);
+    const unsigned char first = label.empty() ? '0' : static_cast<unsigned char>(label[0]);
+    if (colon == std::string_view::npos || std::isalpha(first) == 0 ||
+        label.find_first_of(between) != std::string_view::npos) {
+      return {};
+    }
+    line.remove_prefix(colon + 1);
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    const std::string_view value = line.substr(0, line.find_first_of(between));
+    if (!is_number(value) && !is_gap(value)) return {};
+    fields.push_back({label, value});
+    line.remove_prefix(value.size());
+    line.remove_prefix(std::min(line.find_first_not_of(between), line.size()));
+  }
+  return fields;
+}
+
+bool have_same_labels(const std::vector<Labelled>& a, const std::vector<Labelled>& b) {
+  return std::ranges::equal(a, b, {}, &Labelled::label, &Labelled::label);
+}
+
 struct Fit {
   std::size_t numbers = 0;
   char delimiter = ',';
@@ -240,6 +274,7 @@ class Parser {
     const Line remark = remark_;
     constexpr std::size_t most_lines = 50;
     for (std::size_t i = 0; i < most_lines && look(i + 1); ++i) {
+      if (take_labels(i)) return;
       const Fit found = best_fit(ahead_[i].text, ahead_[i + 1].text);
       if (found.numbers == 0) continue;
       delimiter_ = found.delimiter;
@@ -277,6 +312,30 @@ class Parser {
       if (text_.find(delimiter) != std::string_view::npos) delimiter_ = delimiter;
     }
     take_names();
+  }
+
+  // Takes the names from the labels of this row and the next one, if both have the same. The row
+  // itself stays to be read.
+  bool take_labels(std::size_t row) {
+    const std::vector<Labelled> fields = labelled_fields(ahead_[row].text);
+    if (fields.empty() || !have_same_labels(fields, labelled_fields(ahead_[row + 1].text))) {
+      return false;
+    }
+    std::unordered_set<std::string_view> seen;
+    for (const Labelled& field : fields) {
+      if (std::ranges::any_of(field.label, is_control) || !seen.emplace(field.label).second) {
+        return false;
+      }
+      cells_.names.emplace_back(field.label);
+    }
+    labelled_ = true;
+    next_ahead_ = row;
+    if (row > 0) {
+      cells_.notes.push_back("note: " + lines_.name() + ": rows begin in line " +
+                             std::to_string(ahead_[row].number) +
+                             "; the lines before it are left out");
+    }
+    return true;
   }
 
   void add_units(const std::vector<std::string>& units) {
@@ -401,7 +460,13 @@ class Parser {
     }
     beyond_ = false;
     std::size_t found = 0;
-    if (text_.find('"') == std::string_view::npos) {
+    if (labelled_) {
+      const std::vector<Labelled> fields = labelled_fields(text_);
+      found = fields.size();
+      const bool same = std::ranges::equal(fields, cells_.names, {}, &Labelled::label);
+      if (!same) return false;
+      for (std::size_t c = 0; c < found; ++c) read(fields[c].value, c);
+    } else if (text_.find('"') == std::string_view::npos) {
       found = for_each_field(text_, delimiter_, read);
     } else {
       if (!split_fields(text_, fields_, delimiter_)) {
@@ -419,7 +484,7 @@ class Parser {
   // rows with too few fields.
   void leave_out_cut_row() {
     const std::size_t number = number_;
-    std::string found = count_text(fields_of(text_, delimiter_)->size());
+    std::string found = count_text(labelled_ ? 0 : fields_of(text_, delimiter_)->size());
     for (CellColumn& column : cells_.columns) {
       column.shorten(cells_.rows);
       for (Place* const place : {&column.first_gap, &column.first_text}) {
@@ -441,6 +506,11 @@ class Parser {
 
   [[nodiscard]] std::string count_text(std::size_t found) const {
     const std::size_t expected = cells_.names.size();
+    if (labelled_) {
+      return "found " + quoted(text_, longest_name) + "; the first row has " +
+             std::to_string(expected) + (expected == 1 ? " label" : " labels") + ", " +
+             joined(cells_.names);
+    }
     const auto fields = fields_of(text_, delimiter_);
     const bool numbers = std::ranges::all_of(*fields, is_number);
     return "found " + std::to_string(found) + (numbers ? " number" : " field") +
@@ -453,8 +523,8 @@ class Parser {
     if (cells_.rows == 0 && delimiter_ == ',' && cells_.names.size() > 1 &&
         found == 2 * cells_.names.size() && text_.find('.') == std::string_view::npos) {
       fail(text_, count_text(found) +
-                      ": commas seem to separate columns and to mark decimals; separate the "
-                      "columns by semicolons or tabs");
+                      "; name the others; or, if commas mark decimals, separate the columns by "
+                      "semicolons or tabs");
     }
     if (rows_beyond_++ == 0)
       first_beyond_ = lines_.name() + ':' + std::to_string(number_) + ": " + count_text(found);
@@ -499,6 +569,7 @@ class Parser {
   std::size_t next_ahead_ = 0;
   Line remark_{};  // the last remark
   char delimiter_ = ',';
+  bool labelled_ = false;  // each field has its column's name before it
   std::string header_;
   CellTable cells_;
   std::vector<bool> reads_;          // per column: whether to read it

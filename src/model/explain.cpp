@@ -232,7 +232,9 @@ std::string linkage_note(const Scenario& scene) {
               beyond_note(linkage, scene.gimbal.servo_of(i));
     }
   }
-  return text + assumes_note(scene);
+  text += assumes_note(scene) + "; phi_command and theta_command are the servos' angles";
+  if (commands_of(scene) != nullptr) text += ", controller.commands the plate's";
+  return text;
 }
 
 std::string losses_note(const Losses& losses) {
@@ -371,15 +373,20 @@ std::string sensor_note(const Sensor& sensor) {
   return list.text().empty() ? "exact" : list.text();
 }
 
+// What makes the ball another than a solid one that rolls on a plane.
+std::string unusual_ball_note(const Ball& ball) {
+  List list;
+  if (ball.groove) {
+    list.add("in a groove along " + std::string(ball.groove->axis == 0 ? "x" : "y") +
+             " it acts as one of radius " + millimetres(ball.radius));
+  }
+  list.add_if(ball.inertia_factor != 0.4, "inertia factor " + short_number(ball.inertia_factor));
+  return list.text().empty() ? "" : "; " + list.text();
+}
+
 std::string mounting_note(const Scenario& scene) {
   const Mounting& mounting = scene.gimbal.mounting;
   List list;
-  if (scene.ball.groove) {
-    list.add("in a groove along " + std::string(scene.ball.groove->axis == 0 ? "x" : "y") +
-             " the ball acts as one of radius " + millimetres(scene.ball.radius));
-  }
-  list.add_if(scene.ball.inertia_factor != 0.4,
-              "inertia factor " + short_number(scene.ball.inertia_factor));
   list.add_if(mounting.height != 0,
               "plane " + short_number(mounting.height) + " m above the gimbal's center");
   list.add_if(mounting.phi_offset != 0, "phi off by " + degrees(mounting.phi_offset));
@@ -440,7 +447,7 @@ std::vector<Note> explain(const Scenario& scene, const Model& model) {
   const auto note = [&notes](const char* part, std::string reason) {
     if (!reason.empty()) notes.push_back({part, std::move(reason)});
   };
-  note("ball", ball_note(scene, shape));
+  note("ball", ball_note(scene, shape) + unusual_ball_note(scene.ball));
   note("gimbal", gimbal_note(scene));
   if (!gamma) {
     note("gamma", "not integrated: no output column asks for it");

@@ -51,13 +51,17 @@ std::string near(std::string_view name, const std::vector<std::string_view>& nam
   return nearest.empty() ? "" : "; did you mean " + std::string(nearest) + "?";
 }
 
+// A number; blanks may follow its sign.
 std::optional<double> number_of(std::string_view text) {
   text = trimmed(text);
-  if (text.starts_with('+')) text.remove_prefix(1);
+  const bool negative = text.starts_with('-');
+  if (negative || text.starts_with('+')) text = trimmed(text.substr(1));
+  if (text.starts_with('-') || text.starts_with('+')) return {};
   double value = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (text.empty() || error != std::errc() || stop != text.data() + text.size()) return {};
-  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+  if (!std::isfinite(value)) return {};
+  return negative ? -value : value;
 }
 
 const scenario::Column& target_of(std::string_view part, std::string_view name) {
@@ -305,12 +309,56 @@ void keep_rows(Result& log, const std::vector<std::size_t>& rows) {
   log.rows = rows.size();
 }
 
+// The rows in which a column of positions has the number that stands for "not seen", before it is
+// mapped. Empty if the user names none.
+std::vector<bool> missing_rows(const Result& log, const LogChoice& choice,
+                               const std::vector<Mapped>& mapped) {
+  if (choice.missing.empty()) return {};
+  const std::optional<double> missing = number_of(choice.missing);
+  if (!missing) {
+    throw InputError("--missing: found " + bbsim::quoted(choice.missing) +
+                     "; allowed: the number that the log has where it does not see the ball, such "
+                     "as -1");
+  }
+  std::vector<bool> rows(log.rows);
+  const auto look = [&](const Column& column) {
+    for (std::size_t row = 0; row < log.rows; ++row) {
+      rows[row] = rows[row] || column.numbers[row] == *missing;
+    }
+  };
+  const auto is_position = [](std::string_view unit) { return unit == "m"; };
+  for (const Mapped& one : mapped) {
+    if (is_position(one.column->unit)) look(log.columns[one.from]);
+  }
+  for (const Column& column : log.columns) {
+    const scenario::Column* const known = scenario::find_column(column.name);
+    const bool is_mapped = std::ranges::any_of(
+        mapped, [&](const Mapped& one) { return one.column->name == column.name; });
+    if (known != nullptr && !is_mapped && is_position(known->unit)) look(column);
+  }
+  return rows;
+}
+
+void leave_out(Result& log, const std::vector<bool>& rows, const std::string& missing,
+               std::vector<std::string>& notes) {
+  std::vector<std::size_t> kept;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    if (!rows[row]) kept.push_back(row);
+  }
+  const std::size_t count = rows.size() - kept.size();
+  if (count == 0) return;
+  const auto first = static_cast<std::size_t>(std::ranges::find(rows, true) - rows.begin());
+  keep_rows(log, kept);
+  notes.push_back("note: " + shown(log.file, uncut) + ": " + std::to_string(count) +
+                  (count == 1 ? " row has" : " rows have") + " a position of " + missing +
+                  ", first in row " + std::to_string(first + 1) + "; left out (--missing)");
+}
+
 void set_clock(Result& log, const LogChoice& choice, const Notes& note) {
   Column* t = find_column(log, "t");
   if (t == nullptr || t->is_text()) {
     if (choice.time_offset.empty()) return;
-    throw InputError("--time-offset: " + log.file +
-                     " has no column t; --map t=NAME:UNIT names it, --period gives the rows one");
+    throw InputError("--time-offset: " + without_clock(log));
   }
   const scenario::Clock clock = scenario::clock_of(t->numbers);
   if (clock.restart) {
@@ -339,6 +387,15 @@ void set_clock(Result& log, const LogChoice& choice, const Notes& note) {
 
 }  // namespace
 
+std::string without_clock(const Result& log) {
+  std::vector<std::string> names;
+  for (const Column& column : log.columns) {
+    names.push_back((column.is_text() ? "the text " : "") + shown(column.name));
+  }
+  return log.file + " has no column t with numbers; it has " + joined(names) +
+         "; --map t=NAME:UNIT names it, --period gives the rows one";
+}
+
 void make_log(Result& log, const LogChoice& choice, bool only_mapped,
               std::vector<std::string>& notes) {
   const Notes note(log, notes);
@@ -353,6 +410,7 @@ void make_log(Result& log, const LogChoice& choice, bool only_mapped,
   if (choice.period.empty() && std::ranges::none_of(mapped, is_clock)) {
     if (auto clock = usual_clock(log, notes)) mapped.push_back(*clock);
   }
+  const std::vector<bool> missing = missing_rows(log, choice, mapped);
   std::vector<Column> made;
   for (const Mapped& one : mapped) made.push_back(made_of(log, one, note));
   if (only_mapped && maps) log.columns.clear();
@@ -367,6 +425,7 @@ void make_log(Result& log, const LogChoice& choice, bool only_mapped,
     }
   }
   add_clock(log, choice.period);
+  leave_out(log, missing, choice.missing, notes);
   set_clock(log, choice, note);
 }
 

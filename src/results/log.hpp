@@ -19,9 +19,11 @@ struct LogChoice {
   std::vector<std::string> header{};  // the columns' names, if the file has none
   std::string period{};               // time between rows, if they have no clock
   std::string time_offset{};          // a time, "start", or "auto"
+  std::string missing{};              // the number in place of a position that was not seen
 
   [[nodiscard]] bool given() const {
-    return !maps.empty() || !header.empty() || !period.empty() || !time_offset.empty();
+    return !maps.empty() || !header.empty() || !period.empty() || !time_offset.empty() ||
+           !missing.empty();
   }
   [[nodiscard]] bool aligns() const { return time_offset == "auto"; }
 };
@@ -36,6 +38,9 @@ struct LogChoice {
 // Does the same to a log already read. Keeps unmapped columns, unless `only_mapped`.
 void make_log(Result& log, const LogChoice& choice, bool only_mapped,
               std::vector<std::string>& notes);
+
+// What is wrong with a log that lacks times: its columns, also those of text, and the remedy.
+[[nodiscard]] std::string without_clock(const Result& log);
 
 // Throws InputError if "auto" is requested without a run to align with.
 void refuse_auto(const LogChoice& choice);

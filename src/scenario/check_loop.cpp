@@ -89,7 +89,7 @@ void check_loop(yaml::Keys& scenario) {
   const auto controller = scenario.find("controller");
   if (motion && controller) {
     report(*controller,
-           "found beside gimbal.motion; allowed: exactly one of the two, since either the scene "
+           "found beside gimbal.motion; allowed: exactly one of the two, since either the scenario "
            "prescribes the motion or the controller drives it");
   } else if (torque && (motion || controller)) {
     report(*torque, std::string("found beside ") + (motion ? "gimbal.motion" : "controller") +

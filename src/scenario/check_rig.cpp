@@ -428,7 +428,7 @@ class Checks {
     const std::string along_x = why_not_along(0, scene_), along_y = why_not_along(1, scene_);
     if (!along_x.empty() && !along_y.empty()) {
       refuse({"ball", "rolling_radius"},
-             "found, but the scene moves along two axes: not along x alone, since " + along_x +
+             "found, but the scenario moves along two axes: not along x alone, since " + along_x +
                  "; not along y alone, since " + along_y +
                  "; allowed: only for a ball that rolls along one axis, in a groove or between "
                  "rails");

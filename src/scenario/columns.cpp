@@ -43,7 +43,7 @@ const Column& own_column(std::string_view name) {
   const std::lock_guard lock(own.mutex);
   const auto [place, is_new] = own.by_name.try_emplace(std::string(name), Column{});
   if (is_new) {
-    place->second = {place->first, place->first, "1", "as the scene's own controller gives it",
+    place->second = {place->first, place->first, "1", "as the scenario's own controller gives it",
                      Needs::own};
   }
   return place->second;

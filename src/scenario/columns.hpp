@@ -209,12 +209,12 @@ inline constexpr std::array catalogue = {
            "distance of the contact point from its reference", Needs::controller,
            Panel::tracking_error},
     Column{"phi_command", "φ command", "rad",
-           "command for phi: an angle; rad/s^2, N m or V if the controller drives accelerations, "
-           "torques or voltages",
+           "command for phi: an angle, of the servo behind a linkage; rad/s^2, N m or V if the "
+           "controller drives accelerations, torques or voltages",
            Needs::commands, Panel::phi, Role::command},
     Column{"theta_command", "θ command", "rad",
-           "command for theta: an angle; rad/s^2, N m or V if the controller drives accelerations, "
-           "torques or voltages",
+           "command for theta: an angle, of the servo behind a linkage; rad/s^2, N m or V if the "
+           "controller drives accelerations, torques or voltages",
            Needs::commands, Panel::theta, Role::command},
     Column{"x_measured", "x as seen", "m", "x that the sensor measured last", Needs::samples,
            Panel::x, Role::measured},

@@ -18,30 +18,35 @@ namespace {
 
 using yaml::Declared;
 
-std::optional<NumberKey> find(const Declared& declared, std::string_view path,
-                              const std::string& standard) {
+struct Leaf {
+  const Declared* value;
+  std::string standard;
+};
+
+// The declaration of this kind at the path.
+std::optional<Leaf> find_leaf(const Declared& declared, std::string_view path,
+                              const std::string& standard, Declared::Kind kind) {
   if (declared.kind == Declared::Kind::any) {
     for (const Declared& part : declared.parts) {
-      if (const auto found = find(part, path, standard)) return found;
+      if (const auto found = find_leaf(part, path, standard, kind)) return found;
     }
     return {};
   }
   if (path.empty()) {
-    if (declared.kind != Declared::Kind::number) return {};
-    return NumberKey{declared.dimension, declared.range,
-                     yaml::read_quantity(standard, false, declared.dimension).value};
+    return declared.kind == kind ? std::optional(Leaf{&declared, standard}) : std::nullopt;
   }
   const std::size_t dot = path.find('.');
   const std::string_view name = path.substr(0, dot);
   const std::string_view rest = dot == std::string_view::npos ? "" : path.substr(dot + 1);
   if (declared.kind == Declared::Kind::mapping) {
     const auto key = std::ranges::find(declared.keys, name, &yaml::DeclaredKey::name);
-    return key == declared.keys.end() ? std::nullopt : find(key->value, rest, key->standard);
+    if (key == declared.keys.end()) return {};
+    return find_leaf(key->value, rest, key->standard, kind);
   }
   const bool holds_any =
       declared.kind == Declared::Kind::list || declared.kind == Declared::Kind::names;
   if (!holds_any || declared.parts.empty()) return {};
-  return find(declared.parts.front(), rest, "");
+  return find_leaf(declared.parts.front(), rest, "", kind);
 }
 
 // What a servo has without its key: by its model, by its speed, or in common for both axes. Empty
@@ -66,7 +71,18 @@ std::optional<double> of_servo(const std::string& name, const ScenarioFamily& fa
 }  // namespace
 
 std::optional<NumberKey> number_key(std::string_view path) {
-  return find(declared_keys(), yaml::american(path), "");
+  const auto leaf = find_leaf(declared_keys(), yaml::american(path), "", Declared::Kind::number);
+  if (!leaf) return {};
+  return NumberKey{leaf->value->dimension, leaf->value->range,
+                   yaml::read_quantity(leaf->standard, false, leaf->value->dimension).value};
+}
+
+std::optional<ScalarKey> scalar_key(std::string_view path) {
+  for (const auto kind : {Declared::Kind::number, Declared::Kind::name}) {
+    const auto leaf = find_leaf(declared_keys(), yaml::american(path), "", kind);
+    if (leaf) return ScalarKey{leaf->value->dimension, leaf->standard};
+  }
+  return {};
 }
 
 ScenarioFamily::Setting NamedNumber::setting(double to) const {

@@ -19,6 +19,15 @@ struct NumberKey {
   std::optional<double> standard{};  // default, SI
 };
 
+// A key that is a single number or one of several names.
+struct ScalarKey {
+  yaml::Dimension dimension = yaml::Dimension::number;  // of a number
+  std::string standard{};                               // default as text, if any
+};
+
+// Empty for an unknown key and for a key that takes neither.
+[[nodiscard]] std::optional<ScalarKey> scalar_key(std::string_view path);
+
 // Empty for an unknown key and for a key that takes no number.
 [[nodiscard]] std::optional<NumberKey> number_key(std::string_view path);
 

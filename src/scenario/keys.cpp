@@ -22,6 +22,7 @@ constexpr KeyText top_level[] = {
     {"time", "[time, solver and output](#time-solver-and-output)"},
     {"solver output", "the same section"},
     {.keys = "sweep", .meaning = "defaults of `bbsim sweep`: [sweep](#sweep)", .standard = "none"},
+    {"exercise", "tasks for a learner: [exercise](#exercise)"},
 };
 
 constexpr KeyText ball[] = {
@@ -36,7 +37,7 @@ constexpr KeyText ball[] = {
      "thin shell"},
     {.keys = "ball.rolling_radius",
      .meaning = "of a ball in a groove or between rails: distance from its center to the axis "
-                "through its two contacts; only in scenes along one axis",
+                "through its two contacts; only in scenarios along one axis",
      .range = "> 0, ≤ `ball.radius`"},
     {.keys = "ball.rotation",
      .meaning = "$[\\omega_x, \\omega_y]$ at t = 0, relative to the plate, about its x and y axes",
@@ -153,6 +154,7 @@ constexpr KeyText linkages[] = {
     {.keys = "linkage.table.servo .plate",
      .meaning = "its columns: the servo's angle and the plate's",
      .unit = "rad"},
+    {"linkage.table.header", "names of the columns of a CSV without a header"},
     {.keys = "linkage.table.unit", .meaning = "unit of both columns", .standard = "rad"},
     {"linkage.phi .theta", "rods or a curve for one axis; an axis that you leave out is ideal"},
     {.keys = "controller.assumes",
@@ -302,6 +304,7 @@ constexpr KeyText reference_paths[] = {
      .meaning = "the time from which each point holds, one for each",
      .range = "increasing"},
     {"table.file .time .x .y", "a file and its columns: [tables from files](#tables-from-files)"},
+    {"table.header", "names of the columns of a CSV without a header"},
     {.keys = "table.unit .time_unit",
      .meaning = "units of x and y, and of the times",
      .standard = "m, s"},
@@ -329,6 +332,7 @@ constexpr KeyText sampling[] = {
      .meaning = "instead of a number: a table of measured periods, and its column; after the last "
                 "period it starts again",
      .standard = "-"},
+    {"sampling.jitter.header", "names of the columns of a CSV without a header"},
     {.keys = "sampling.jitter.unit .time_unit",
      .meaning = "unit of these periods",
      .standard = "s"},
@@ -407,6 +411,14 @@ constexpr KeyText sweep[] = {
      .standard = "the [default measures](measures.md#default-measures-of-a-sweep)"},
 };
 
+constexpr KeyText exercise[] = {
+    {"exercise.tasks", "a list of mappings, one for each task"},
+    {"exercise.tasks.text", "what the learner should reach"},
+    {"exercise.tasks.expect",
+     "the bound that decides it, as in `run --expect`: `max_distance < 3 mm`"},
+    {"exercise.free", "keys that the learner may change: each a number, or one of several names"},
+};
+
 constexpr KeyText profiles[] = {
     {.keys = "sinusoid.amplitude",
      .meaning = "A in offset + A sin(ωt + p)",
@@ -420,6 +432,7 @@ constexpr KeyText profiles[] = {
     {"pulse.duration", "duration of rise and fall together"},
     {.keys = "pulse.value", .meaning = "value in its middle", .unit = "of the quantity"},
     {"table.file .time .value", "a file and its columns: [tables from files](#tables-from-files)"},
+    {"table.header", "names of the columns of a CSV without a header: `[t, x, y]`"},
     {.keys = "table.unit .time_unit",
      .meaning = "units of the values and of the times",
      .standard = "SI"},
@@ -468,6 +481,7 @@ constexpr KeyTable tables[] = {
     {"scenario.md", "Events", "", events},
     {"scenario.md", "Time, solver and output", "", time_solver_and_output},
     {"scenario.md", "Sweep", "", sweep},
+    {"scenario.md", "Exercise", "", exercise},
     {"scenario.md", "Profiles", "profile.", profiles},
     {"controllers.md", "Keys", "", own_controller},
 };

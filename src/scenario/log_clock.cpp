@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/number_text.hpp"
+#include "base/text.hpp"
 
 namespace bbsim::scenario {
 namespace {
@@ -55,21 +56,34 @@ bool take(std::string_view& text, std::string_view any_of) {
   return true;
 }
 
-// Days since 1970 of a date; moves `text` beyond it and the character behind it.
-std::optional<double> take_date(std::string_view& text) {
+// Days since 1970 of a date; moves `text` beyond it and the character behind it. `american`: the
+// month comes before the day.
+std::optional<double> take_date(std::string_view& text, bool american) {
   const auto first = take_digits(text, 1, 4);
   if (!first || !take(text, "-./")) return {};
-  const auto month = take_digits(text, 1, 2);
-  if (!month || !take(text, "-./")) return {};
+  const auto second = take_digits(text, 1, 2);
+  if (!second || !take(text, "-./")) return {};
   const auto last = take_digits(text, 1, 4);
   if (!last || !take(text, " T_")) return {};
   const bool year_first = *first > 31;
-  const std::chrono::year_month_day date{
-      std::chrono::year(year_first ? *first : *last),
-      std::chrono::month(static_cast<unsigned>(*month)),
-      std::chrono::day(static_cast<unsigned>(year_first ? *last : *first))};
+  const int month = american && !year_first ? *first : *second;
+  const int day = year_first ? *last : american ? *second : *first;
+  const std::chrono::year_month_day date{std::chrono::year(year_first ? *first : *last),
+                                         std::chrono::month(static_cast<unsigned>(month)),
+                                         std::chrono::day(static_cast<unsigned>(day))};
   if (!date.ok()) return {};
   return static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count());
+}
+
+// The half of the day at the end of a text, which loses it: "AM", "pm"; nothing: 24 hours.
+enum class Half { none, morning, afternoon };
+Half take_half(std::string_view& text) {
+  if (text.size() < 3 || (text.back() != 'M' && text.back() != 'm')) return Half::none;
+  const char letter = text[text.size() - 2];
+  const bool morning = letter == 'A' || letter == 'a';
+  if (!morning && letter != 'P' && letter != 'p') return Half::none;
+  text = trimmed(text.substr(0, text.size() - 2));
+  return morning ? Half::morning : Half::afternoon;
 }
 
 }  // namespace
@@ -77,13 +91,18 @@ std::optional<double> take_date(std::string_view& text) {
 std::optional<double> seconds_of_stamp(std::string_view text) {
   constexpr double day = 86400;
   double whole = 0;
+  const Half half = take_half(text);
   if (text.find_first_of(" T_") != std::string_view::npos) {
-    const auto days = take_date(text);
+    const auto days = take_date(text, half != Half::none && text.find('/') != text.npos);
     if (!days) return {};
     whole = *days * day;
   }
-  const auto hours = take_digits(text, 1, 2);
+  auto hours = take_digits(text, 1, 2);
   if (!hours || *hours > 24 || !take(text, ":")) return {};
+  if (half != Half::none) {
+    if (*hours < 1 || *hours > 12) return {};
+    hours = *hours % 12 + (half == Half::afternoon ? 12 : 0);
+  }
   const auto minutes = take_digits(text, 2, 2);
   if (!minutes || *minutes > 59) return {};
   double seconds = 0;

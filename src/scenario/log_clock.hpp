@@ -26,7 +26,8 @@ struct Clock {
 [[nodiscard]] Clock clock_of(const std::vector<double>& times);
 
 // The seconds of a date with a time of day, since 1970, or of a time of day alone, since midnight:
-// "2026-03-01 12:00:01.25", "2026-03-01T12:00:01Z", "01.03.2026 12:00:01,25", "12:00:01".
+// "2026-03-01 12:00:01.25", "2026-03-01T12:00:01Z", "01.03.2026 12:00:01,25", "12:00:01",
+// "3/1/2026 12:00:01 PM".
 [[nodiscard]] std::optional<double> seconds_of_stamp(std::string_view text);
 
 // Whether times (s) count from an epoch, such as 1970.

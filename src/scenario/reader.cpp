@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "scenario/exercise.hpp"
 #include "scenario/groove.hpp"
 #include "scenario/sections.hpp"
 #include "yaml/check_text.hpp"
@@ -31,6 +32,8 @@ void read_sections(Keys& keys, Scenario& scenario) {
   keys.section("solver", read_solver, scenario.solver);
   keys.section("output", read_output, scenario.output);
   keys.section("sweep", read_sweep, scenario.sweep);
+  std::optional<Exercise> exercise;  // only `check` and pages look at it
+  keys.optional("exercise", MappingOf(read_exercise), exercise);
   place_groove(scenario);
   check_loop(keys);
   check_rig(keys, scenario);

@@ -138,8 +138,8 @@ constexpr KeyRelation table[] = {
     {"controller.sensor.seed", needs,
      "controller.sensor.noise or controller.sensor.dropout or controller.sampling.jitter or "
      "controller.library.wiring",
-     "found, but neither noise nor dropout nor sampling.jitter, and nothing else is random; "
-     "allowed: only with one of them"},
+     "found, but nothing here is random; allowed: only with sensor.noise, sensor.dropout or "
+     "sampling.jitter, or a sketch"},
     {"controller.sensor.contact_force>0", needs, "ball.mass",
      "found, but no ball.mass, and a lighter ball presses less; allowed: only with ball.mass"},
     {"controller.sensor.on_miss=edge", needs, "controller.sensor.area",

@@ -21,10 +21,14 @@ namespace {
 
 constexpr std::size_t fewest_rows = 4;  // a C2 interpolant needs four without extra end conditions
 
-// Texts become NaN, because the scenario may not use their columns.
-file::TableData read_numbers(const yaml::Value& value, const std::string& path) {
+using Names = std::vector<std::string>;
+
+// Texts become NaN, because the scenario may not use their columns. `header` names the columns of a
+// file without a header.
+file::TableData read_numbers(const yaml::Value& value, const std::string& path,
+                             const Names& header) {
   if (file::format_of(path) == file::Format::hdf5) return file::read_table(path);
-  file::CellTable cells = file::read_cells(path);
+  file::CellTable cells = file::read_cells(path, {{}, header});
   for (const std::string& note : cells.notes) {
     const bool warning = note.starts_with("warning: ");
     const std::string text = note.substr(note.find(' ') + 1);
@@ -42,14 +46,49 @@ void report(const yaml::Value& file, const InputError& error) {
   }
 }
 
-// The file's content; nullptr after reporting a fault.
-const file::TableData* load(const yaml::Value& file, const std::string& name) {
+// The names of a table's columns, for a CSV without a header.
+struct HeaderOf {
+  static constexpr yaml::ListOf<yaml::Text, std::string> names{
+      {"the name of a column"}, 1, 1000, "names, one for each column, such as [t, x, y]"};
+
+  [[nodiscard]] static std::string allowed() { return names.allowed(); }
+  [[nodiscard]] static yaml::Declared declared() {
+    yaml::Declared list = names.declared();
+    list.distinct = true;
+    return list;
+  }
+  static bool read(const yaml::Value& value, Names& into) {
+    if (!names.read(value, into)) return false;
+    bool fine = true;
+    for (std::size_t i = 1; i < into.size(); ++i) {
+      const auto here = into.begin() + static_cast<std::ptrdiff_t>(i);
+      if (std::find(into.begin(), here, into[i]) == here) continue;
+      fine = value.item(i).refuse(" again", "each name once");
+    }
+    return fine;
+  }
+};
+
+// The file's content; nullptr after reporting a fault. All tables of a file have the same header.
+const file::TableData* load(yaml::Keys& keys, const std::string& name, const Names& header) {
+  const yaml::Value file = *keys.find("file");
   yaml::Context& context = *file.context;
   const std::filesystem::path path = context.folder / name;
   const std::lock_guard lock(context.tables->mutex);
   auto& tables = context.tables->by_file;
+  if (!header.empty() && file::format_of(path.string()) == file::Format::hdf5) {
+    keys.find("header")->report(
+        "found for an HDF5 file, which names its columns; allowed: for CSV");
+    return nullptr;
+  }
   const auto known = tables.find(path.string());
-  if (known != tables.end()) return known->second.data.get();
+  if (known != tables.end()) {
+    const file::TableData& data = *known->second.data;
+    if (header.empty() || data.names == header) return &data;
+    keys.find("header")->report("found other names than where " + yaml::shown(name) +
+                                " is read first; allowed: the same names");
+    return nullptr;
+  }
 
   std::error_code error;
   if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {
@@ -57,7 +96,7 @@ const file::TableData* load(const yaml::Value& file, const std::string& name) {
     return nullptr;
   }
   try {
-    auto data = std::make_shared<const file::TableData>(read_numbers(file, path.string()));
+    auto data = std::make_shared<const file::TableData>(read_numbers(file, path.string(), header));
     return tables.emplace(path.string(), file::InputTable{name, std::move(data)})
         .first->second.data.get();
   } catch (const InputError& e) {
@@ -68,12 +107,12 @@ const file::TableData* load(const yaml::Value& file, const std::string& name) {
 
 // Whether a column has a text in place of a number, which is reported. Sets `gaps` to true for rows
 // in which a column is empty.
-bool has_text(const yaml::Value& file, const std::string& name,
-              const std::vector<std::string>& columns, std::vector<bool>& gaps) {
+bool has_text(const yaml::Value& file, const std::string& name, const Names& header,
+              const Names& columns, std::vector<bool>& gaps) {
   const std::string path = (file.context->folder / name).string();
   if (file::format_of(path) == file::Format::hdf5) return false;
   try {
-    const file::CellTable cells = file::read_cells(path, {columns, {}});
+    const file::CellTable cells = file::read_cells(path, {columns, header});
     gaps.assign(cells.rows, false);
     for (std::size_t c = 0; c < cells.columns.size(); ++c) {
       const file::CellColumn& column = cells.columns[c];
@@ -138,8 +177,11 @@ std::string fault(const TableRows& table, const std::vector<std::string_view>& v
              "; allowed: a finite " + std::string(noun);
     }
     if (i > 0 && !(table.times[i] > table.times[i - 1])) {
+      const bool same = table.times[i] == table.times[i - 1];
       return "found the time " + number_text(table.times[i]) + row + ", after " +
-             number_text(table.times[i - 1]) + "; allowed: strictly increasing times";
+             number_text(table.times[i - 1]) + "; allowed: strictly increasing times; " +
+             (same ? "remove one of the two rows"
+                   : "sort the rows by time, or split the file where its clock starts again");
     }
   }
   return "";
@@ -154,6 +196,31 @@ std::string cover_fault(const TableRows& table, double end) {
          (first > end || (first > 0 && last - first >= end)
               ? "; time_offset: start makes its first row t = 0"
               : "");
+}
+
+// Whether the table has a regular clock, and ends at most one of its periods before the run does.
+bool ends_a_period_early(const TableRows& table, double end) {
+  if (table.times.size() < fewest_rows || !(table.times.back() < end)) return false;
+  std::vector<double> periods;
+  for (std::size_t i = 1; i < table.times.size(); ++i) {
+    periods.push_back(table.times[i] - table.times[i - 1]);
+  }
+  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
+  std::ranges::nth_element(periods, middle);
+  const double longest = std::ranges::max(periods);
+  constexpr double most = 2;         // times the median: a regular clock may jitter
+  constexpr double rounding = 1e-6;  // of a clock with six digits
+  return longest <= most * *middle && end - table.times.back() <= longest * (1 + rounding);
+}
+
+// Adds rows at times of -infinity and infinity, so that Spline holds the end values outside.
+void hold_ends(TableRows& rows) {
+  rows.times.insert(rows.times.begin(), -INFINITY);
+  rows.times.push_back(INFINITY);
+  for (std::vector<double>& values : rows.values) {
+    values.insert(values.begin(), values.front());
+    values.push_back(values.back());
+  }
 }
 
 // The dimension's noun without its article: "angle".
@@ -280,8 +347,7 @@ void move_times(const Changes& changes, std::vector<double>& times) {
   for (double& time : times) time += offset;
 }
 
-// Makes a delayed table hold its end values outside its rows, as Spline does after a time of
-// -infinity and before one of infinity.
+// A delayed table holds its end values outside its rows.
 void change_values(const Changes& changes, TableRows& rows) {
   for (std::size_t k = 0; k < rows.values.size(); ++k) {
     const double scale = changes.scales[k], offset = changes.offsets[k];
@@ -290,18 +356,13 @@ void change_values(const Changes& changes, TableRows& rows) {
   }
   if (changes.delay == 0 || rows.times.empty()) return;
   for (double& time : rows.times) time += changes.delay;
-  rows.times.insert(rows.times.begin(), -INFINITY);
-  rows.times.push_back(INFINITY);
-  for (std::vector<double>& values : rows.values) {
-    values.insert(values.begin(), values.front());
-    values.push_back(values.back());
-  }
+  hold_ends(rows);
 }
 
 // Drops rows in which a column is empty, with a warning. Returns false after reporting a text.
-bool leave_out_gaps(yaml::Keys& keys, const std::vector<std::string>& columns, TableRows& rows) {
+bool leave_out_gaps(yaml::Keys& keys, const Names& header, const Names& columns, TableRows& rows) {
   std::vector<bool> gaps;
-  if (has_text(*keys.find("file"), rows.file, columns, gaps)) return false;
+  if (has_text(*keys.find("file"), rows.file, header, columns, gaps)) return false;
   const auto count = static_cast<std::size_t>(std::ranges::count(gaps, true));
   if (count == 0) return true;
   const auto first = static_cast<std::size_t>(std::ranges::find(gaps, true) - gaps.begin());
@@ -354,6 +415,8 @@ bool read_columns(yaml::Keys& keys, const std::vector<std::string_view>& column_
         keys.required(column_keys[k], yaml::Text{"the name of a column of the file"}, names[k]) &&
         named;
   }
+  Names header;
+  named = keys.optional("header", HeaderOf{}, header) && named;
   std::optional<yaml::UnitScale> unit;
   named = keys.optional("unit", UnitOf{dimension}, unit) && named;
   if (dimension == yaml::Dimension::time) {
@@ -364,7 +427,7 @@ bool read_columns(yaml::Keys& keys, const std::vector<std::string_view>& column_
     }
   }
   if (!named) return false;
-  const file::TableData* data = load(*keys.find("file"), into.file);
+  const file::TableData* data = load(keys, into.file, header);
   if (data == nullptr) return false;
   into.columns.clear();
   into.has_unit = unit.has_value();
@@ -380,7 +443,7 @@ bool read_columns(yaml::Keys& keys, const std::vector<std::string_view>& column_
   if (into.columns.size() < names.size()) return false;
   std::vector<bool> gaps;
   if (std::ranges::any_of(into.columns, has_nan) &&
-      has_text(*keys.find("file"), into.file, names, gaps)) {
+      has_text(*keys.find("file"), into.file, header, names, gaps)) {
     return false;
   }
   for (std::size_t k = 0; k < into.columns.size(); ++k) {
@@ -406,6 +469,8 @@ void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& valu
   for (std::size_t k = 0; k < names.size(); ++k) {
     named = keys.required(value_keys[k], column, names[k]) && named;
   }
+  Names header;
+  named = keys.optional("header", HeaderOf{}, header) && named;
   std::optional<yaml::UnitScale> unit, time_unit;
   Changes changes;
   named = keys.optional("unit", UnitOf{dimension}, unit) && named;
@@ -413,7 +478,7 @@ void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& valu
 
   named = read_changes(keys, value_keys.size(), dimension, changes) && named;
   if (!named) return;
-  const file::TableData* data = load(*keys.find("file"), into.file);
+  const file::TableData* data = load(keys, into.file, header);
   if (data == nullptr) return;
   const auto times = find_column(*keys.find("time"), time_name, yaml::Dimension::time, *data);
   std::vector<std::string> found_names;
@@ -438,7 +503,7 @@ void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& valu
   into.values = std::move(values);
   found_names.push_back(times->name);
   if ((has_nan(into.times) || std::ranges::any_of(into.values, has_nan)) &&
-      !leave_out_gaps(keys, found_names, into)) {
+      !leave_out_gaps(keys, header, found_names, into)) {
     into.values.clear();
     return;
   }
@@ -450,13 +515,23 @@ void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& valu
   move_times(changes, into.times);
 
   std::string wrong = fault(into, value_keys, bare_noun(dimension));
+  bool holds_end = false;
   if (wrong.empty() && keys.context().end && changes.delay == 0) {
-    wrong = cover_fault(into, *keys.context().end);
+    const double end = *keys.context().end;
+    holds_end = into.times.front() <= 0 && ends_a_period_early(into, end);
+    if (holds_end) {
+      keys.mapping().mention(yaml::shown(into.file) + ": its last row, at " +
+                             number_text(into.times.back()) + " s, holds until time.end, " +
+                             number_text(end) + " s");
+    } else {
+      wrong = cover_fault(into, end);
+    }
   }
   if (!wrong.empty()) keys.mapping().report(yaml::shown(into.file) + ": " + wrong);
   warn_of_units(keys.mapping(), into, value_keys, dimension, own_unit.has_value(),
                 time_unit.has_value());
   change_values(changes, into);
+  if (holds_end) hold_ends(into);
 }
 
 }  // namespace bbsim::scenario

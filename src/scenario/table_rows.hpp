@@ -22,9 +22,10 @@ struct TableRows {
 // Reads {file: motion.csv, time: t, KEY: column, ...} with a KEY for each of `value_keys`, and the
 // file (each file once for all scenarios that share a context). `unit` gives the unit of the values
 // and `time_unit` that of the times; the default is SI, with a warning if the numbers look
-// different. `scale`, `offset`, `delay` and `time_offset` change the rows; a delayed table has rows
-// at times of -infinity and infinity that hold its end values. Reports all faults; `into.values`
-// may then stay empty.
+// different. `header` names the columns of a CSV without a header. `scale`, `offset`, `delay` and
+// `time_offset` change the rows. A delayed table, and one that ends at most a period before the
+// run, have rows at times of -infinity and infinity that hold the end values. Reports all faults;
+// `into.values` may then stay empty.
 void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& value_keys,
                      yaml::Dimension dimension, TableRows& into);
 

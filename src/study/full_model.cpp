@@ -32,7 +32,7 @@ solve::Derivative simpler_derivative(const model::Model& model) {
           return [simpler = system.template with_equation<Equation>()](
                      double t, const double* z, double* dz) { simpler.derivative(t, z, dz); };
         } else {
-          throw InputError("verify: simpler models are compared over scenes without switches");
+          throw InputError("verify: simpler models are compared over scenarios without switches");
         }
       },
       model.system);
@@ -69,10 +69,11 @@ void require_comparable(const Scenario& scenario) {
   const model::Model model = model::assemble(scenario, false);
   if (model.hybrid() || model.rig || scenario::is_coupled(scenario) ||
       !model::is_the_papers(scenario)) {
-    throw InputError(scenario.source.file +
-                     ": simpler models are compared over scenes with the paper's gimbal and ball, "
-                     "with prescribed motion or under pd, without events and limits; try --set "
-                     "events=null, or run `bbsim verify` without a scenario");
+    throw InputError(
+        scenario.source.file +
+        ": simpler models are compared over scenarios with the paper's gimbal and ball, "
+        "with prescribed motion or under pd, without events and limits; try --set "
+        "events=null, or run `bbsim verify` without a scenario");
   }
 }
 

@@ -67,7 +67,7 @@ time: {end: 3, step: 0.1}
        return {0.1 + 0.3 * t + a * std::sin(0.2) * t * t,
                -0.2 + 0.4 * t + a * std::cos(0.2) * std::sin(0.3) * t * t, spun * t, spun};
      }},
-    {"plane turning at a constant rate: closed forms (M2), (M3)", R"yaml(
+    {"plane turning at a constant rate: (M2), (M3)", R"yaml(
 ball: {radius: 0.01, position: [0.05, 0], velocity: [0, 0.1], spin: 5}
 gimbal: {motion: {phi: {ramp: {start: 0, rate: 2}}, theta: 0}}
 time: {end: 3, step: 0.1}
@@ -84,7 +84,7 @@ time: {end: 3, step: 0.1}
        return {0.05 * std::cosh(k * t) + b * (std::sinh(k * t) / k - std::sin(w * t) / w), y,
                u0 * t - w * integral_of_y, u0 - w * y};
      }},
-    {"rolling resistance: a ball coasts down and stays (M41)", R"yaml(
+    {"rolling resistance: coasts down and stays (M41)", R"yaml(
 ball: {radius: 0.02, mass: 0.05, velocity: [0.2, 0], losses: {rolling: 0.004}}
 gimbal: {motion: {}}
 time: {end: 10, step: 0.1}
@@ -93,7 +93,7 @@ time: {end: 10, step: 0.1}
        const double a = 0.004 * scene.gravity / 1.4, rolled = std::min(t, 0.2 / a);
        return {0.2 * rolled - a * rolled * rolled / 2};
      }},
-    {"viscous loss: a ball slows down exponentially", R"yaml(
+    {"viscous loss: slows down exponentially", R"yaml(
 ball: {radius: 0.02, mass: 0.05, velocity: [0.2, 0], losses: {viscous: 5e-6}}
 gimbal: {motion: {}}
 time: {end: 10, step: 0.1}
@@ -102,7 +102,7 @@ time: {end: 10, step: 0.1}
        const double rate = 5e-6 / (1.4 * 0.05 * scene.ball.radius * scene.ball.radius);
        return {0.2 / rate * (1 - std::exp(-rate * t))};
      }},
-    {"sliding: a ball rolls after 2v/(7 mu g), with 5v/7", R"yaml(
+    {"sliding: rolls after 2v/(7 mu g), with 5v/7", R"yaml(
 ball: {radius: 0.02, mass: 0.05, velocity: [1, 0], rotation: [0, 0]}
 gimbal: {motion: {}}
 events: {slip: {friction: 0.3, sliding_friction: 0.25, action: slide}}
@@ -152,7 +152,7 @@ time: {end: 10, step: 0.1}
                         497.869147135942135708, 53.3890112275766053121);
      },
      true},
-    {"motors with position loops: quad-precision reference", R"yaml(
+    {"motors' position loops: quad-precision reference", R"yaml(
 gravity: 9.81
 ball: {radius: 0.01, mass: 0.1, position: [0.05, 0]}
 plate: {inertia: [2e-3, 3e-3, 5e-3]}

@@ -72,9 +72,12 @@ void CasePart::take_up(std::size_t most) {
     if (!fault.empty() && !lines.whole() && line.find('\0') == std::string_view::npos)
       fault.clear();
     if (!fault.empty() || !lines.whole()) break;
-    if (status < layout_.columns.size()) of_group.add(reader.text(status), reader.text(status + 1));
+    const std::size_t number = reader.case_number();
+    if (status < layout_.columns.size()) {
+      of_group.add(number, reader.text(status), reader.text(status + 1));
+    }
     for (std::size_t i = 0; i < layout_.expectations; ++i) {
-      of_group.add_expected(i, reader.number(expected + i) != 0);
+      of_group.add_expected(number, i, reader.number(expected + i) != 0);
     }
     if (++in_group < layout_.group && kept_.rows + in_group < layout_.cases) continue;
     kept_.statuses.add(of_group);

@@ -161,14 +161,21 @@ std::string RowReader::text(std::size_t field) const {
   return text;
 }
 
-void StatusCounts::add(const std::string& status, std::string_view reason) {
+void StatusCounts::add(std::size_t number, const std::string& status, std::string_view reason) {
   ++words[status];
+  if (status != "done" && failed.size() < most_failed) {
+    failed.push_back({number, status, std::string(reason)});
+  }
   not_finite += status == "done" && !reason.empty() ? 1 : 0;
 }
 
-void StatusCounts::add_expected(std::size_t which, bool holds) {
+void StatusCounts::add_expected(std::size_t number, std::size_t which, bool holds) {
   if (unmet.size() <= which) unmet.resize(which + 1);
-  unmet[which] += holds ? 0 : 1;
+  if (holds) return;
+  ++unmet[which];
+  if (failed.size() < most_failed && (failed.empty() || failed.back().number != number)) {
+    failed.push_back({number, "done", "not as expected"});
+  }
 }
 
 void StatusCounts::add(const StatusCounts& others) {
@@ -176,6 +183,9 @@ void StatusCounts::add(const StatusCounts& others) {
   not_finite += others.not_finite;
   unmet.resize(std::max(unmet.size(), others.unmet.size()));
   for (std::size_t i = 0; i < others.unmet.size(); ++i) unmet[i] += others.unmet[i];
+  const std::size_t more = std::min(others.failed.size(), most_failed - failed.size());
+  failed.insert(failed.end(), others.failed.begin(),
+                others.failed.begin() + static_cast<std::ptrdiff_t>(more));
 }
 
 std::size_t StatusCounts::early() const {

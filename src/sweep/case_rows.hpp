@@ -77,14 +77,24 @@ class RowReader {
   std::size_t case_number_ = 0;
 };
 
+// A case that ended early, or that misses an expectation.
+struct FailedCase {
+  std::size_t number = 0;
+  std::string status, reason;
+};
+
 // How many cases ended with each status, and how many miss each expectation.
 struct StatusCounts {
   std::map<std::string, std::size_t, std::less<>> words;  // by status
   std::size_t not_finite = 0;      // status done with a reason: a measure is not finite
   std::vector<std::size_t> unmet;  // by expectation
+  std::vector<FailedCase> failed;  // the first most_failed of them
 
-  void add(const std::string& status, std::string_view reason);
-  void add_expected(std::size_t which, bool holds);
+  static constexpr std::size_t most_failed = 20;
+
+  // In the order of the cases; add_expected() after add() of the same case.
+  void add(std::size_t number, const std::string& status, std::string_view reason);
+  void add_expected(std::size_t number, std::size_t which, bool holds);
   void add(const StatusCounts& others);
   [[nodiscard]] std::size_t early() const;  // cases that ended before their end time
 };

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // bbsim check and bbsim columns.
+#include <algorithm>
+#include <sstream>
 #include <string>
 
 #include "catch.hpp"
 #include "process.hpp"
+#include "shell.hpp"
 
 namespace bbsim_test::test_check {
 
@@ -24,11 +27,11 @@ TEST_CASE("check names the inputs of an open loop") {
   CHECK(contains(result.out, "no gimbal states"));
   CHECK(contains(result.out, "1001 rows"));
   CHECK(contains(result.out, "solver       radau, rtol 1e-08, atol 1e-10\n"));
-  CHECK_FALSE(contains(result.out, "stiff"));
+  CHECK_FALSE(contains(result.out, "stiff:"));
   CHECK_FALSE(contains(result.out, "closed loop"));
   const Result reasons = bbsim({"check", config("fig2a.yaml"), "--verbose"});
-  CHECK(contains(reasons.out, "rtol 1e-08, atol 1e-10\n             auto chooses it"));
-  CHECK(contains(reasons.out, "not a stiff scene"));
+  CHECK(contains(reasons.out, "rtol 1e-08, atol 1e-10\n             auto takes the method"));
+  CHECK(contains(reasons.out, "not stiff: "));
 }
 
 TEST_CASE("check reports tumble as a planar scene once its y motion and spin are removed") {
@@ -148,6 +151,43 @@ TEST_CASE("columns lists all columns with units") {
                            "energy",
                            "power"}) {
     CHECK(contains("\n" + result.out, "\n" + std::string(name) + " "));
+  }
+}
+
+TEST_CASE("on a terminal, reports break between words below their text") {
+  const Folder folder;
+  const std::string shown = on_terminal({"check", config("rig.yaml")}, 80, folder.path(), 5);
+  CAPTURE(shown);
+  CHECK(contains(shown, "\r\n             "));
+  std::size_t longest = 0;
+  for (std::size_t begin = 0; begin < shown.size();) {
+    const std::size_t end = std::min(shown.find("\r\n", begin), shown.size());
+    longest = std::max(longest, end - begin);
+    begin = end + 2;
+  }
+  CHECK(longest < 80);
+  const std::string loop = on_terminal({"linearize", config("rig.yaml")}, 60, folder.path(), 5);
+  CAPTURE(loop);
+  // Poles and zeros that differ from zero by rounding are zero.
+  CHECK_FALSE(contains(loop, "e-1"));
+  // A pipe gets whole lines.
+  CHECK(
+      contains(bbsim({"check", config("rig.yaml")}).out, "; phase 35.7 deg at 4.81 rad/s; delay"));
+}
+
+TEST_CASE("help is at most 80 columns wide, and groups the commands") {
+  const std::string help = bbsim({"--help"}).out;
+  for (const char* group : {"\nRun and check:\n", "\nRigs:\n", "\nSweeps:\n", "\nAnalysis:\n",
+                            "\nPictures:\n", "\nSetup:\n"}) {
+    CHECK(contains(help, group));
+  }
+  for (const char* command :
+       {"run",     "check",     "measure",   "compare",  "new",      "sketch", "design",
+        "fit",     "tune",      "sweep",     "merge",    "plot",     "replay", "verify",
+        "columns", "summarize", "linearize", "accuracy", "examples", "help"}) {
+    CAPTURE(command);
+    std::istringstream lines(bbsim({command, "--help"}).out);
+    for (std::string line; std::getline(lines, line);) CHECK(line.size() <= 80);
   }
 }
 

@@ -174,6 +174,18 @@ TEST_CASE("a rig's log is compared with a run at the log's times") {
   const Result moved = bbsim(with(words, {"-4.5 s", "--atol", "1e-3"}), folder.path());
   CHECK(moved.exit_code == 1);
   CHECK(contains(moved.out, "different: x is more than 0.001 apart"));
+  folder.write("gaps.csv", "millis;px\n5000;10\n5500;-1\n6000;20\n");
+  auto gaps = with(words, {"start", "--missing", "-1", "--atol", "1e-9"});
+  gaps[1] = "gaps.csv";
+  const Result seen = bbsim(gaps, folder.path());
+  CAPTURE(seen.err);
+  CHECK(seen.exit_code == 0);
+  CHECK(contains(seen.out, "gaps.csv from run.csv: 2 of 2 rows, 0 to 1 s"));
+  CHECK(contains(seen.err, "1 row has a position of -1, first in row 2; left out"));
+  folder.write("words.csv", "when,x\nearly,0.01\nlate,0.02\n");
+  const Result worded = bbsim({"compare", "words.csv", "run.csv", "--map", "x=x"}, folder.path());
+  CHECK(worded.exit_code == 2);
+  CHECK(contains(worded.err, "no column t with numbers; it has the text when, x"));
   const Result found = bbsim(with(words, {"auto"}), folder.path());
   CHECK(found.exit_code == 0);
   CHECK(contains(found.err, "log.csv: moved by "));

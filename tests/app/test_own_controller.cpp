@@ -255,7 +255,7 @@ TEST_CASE("faults of a library are reported with the key's place") {
       {with_misdeeds("0", BBSIM_MISDEEDS_VERSION),
        "which is of version 99 of bbsim/controller.h; allowed: version 1: compile it again"},
       {with_misdeeds("0", BBSIM_MISDEEDS_LACK), "which has no function bbsim_controller_step"},
-      {with_misdeeds("1"), "which makes no controller for this scene: no such mode"},
+      {with_misdeeds("1"), "which makes no controller for this scenario: no such mode"},
       {{"run", example("library.yaml"), "--set", library, "--set",
         "controller.library.parameters.kd=1", "-o", "-"},
        "it takes the parameters kp, kv and ki"},

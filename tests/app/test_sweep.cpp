@@ -13,6 +13,7 @@
 
 #include "catch.hpp"
 #include "process.hpp"
+#include "shell.hpp"
 
 namespace bbsim_test::test_sweep {
 
@@ -252,6 +253,85 @@ TEST_CASE("a resumed sweep knows which cases of the first run missed an expectat
     ++unmet;
   CHECK(unmet > 0);
   CHECK(contains(rest.err, "does not hold in " + std::to_string(unmet) + " of 200000 cases"));
+}
+
+TEST_CASE("a script for Slurm runs a sweep in shards whose merger is the sweep") {
+  const Folder folder;
+  const std::vector<std::string> keys{"--vary", "ball.position.0=linear:-0.1:0.1:41", "--set",
+                                      "title=it's a ball"};
+  const std::string scenario = config("fig2a.yaml");
+  REQUIRE(bbsim(sweep(scenario, with(keys, {"-o", "all.csv"})), folder.path()).exit_code == 0);
+  const Result written =
+      bbsim(with({"sweep", scenario}, with(keys, {"-o", "my part.csv", "--summary", "sum.json",
+                                                  "--slurm", "job.sh", "--slurm-tasks", "3"})),
+            folder.path());
+  CAPTURE(written.err);
+  REQUIRE(written.exit_code == 0);
+  CHECK(contains(written.err, "job.sh: 41 cases in 3 tasks; submit it with sbatch"));
+  CHECK_FALSE(std::filesystem::exists(folder / "my part.csv"));
+  const std::string script = folder.read("job.sh");
+  CHECK(contains(script, "\n#SBATCH --array=1-3\n"));
+  for (const char* task : {"1", "2", "3"}) {
+    const std::string command =
+        "BBSIM='" BBSIM_PROGRAM "' SLURM_ARRAY_TASK_ID=" + std::string(task) + " sh ./job.sh";
+    REQUIRE(shell(command, folder.path()).exit_code == 0);
+  }
+  CHECK(std::filesystem::exists(folder / "sum-3of3.json"));
+  const std::size_t merge = script.find("bbsim merge ");
+  REQUIRE(merge != std::string::npos);
+  const std::string command = script.substr(merge + 6, script.find('\n', merge) - merge - 6);
+  REQUIRE(shell("'" BBSIM_PROGRAM "' " + command, folder.path()).exit_code == 0);
+  CHECK(folder.read("my part.csv") == folder.read("all.csv"));
+}
+
+TEST_CASE("no script for Slurm has more tasks than groups of cases, or replaces an input") {
+  const Folder folder;
+  folder.write("s.yaml", "ball: {radius: 0.01}\ngimbal: {motion: {}}\ntime: {end: 1, step: 0.1}\n");
+  const auto slurm = [&](const std::vector<std::string>& more) {
+    return bbsim(with({"sweep", "s.yaml", "--vary", "ball.radius=linear:0.01:0.02:9"}, more),
+                 folder.path());
+  };
+  CHECK(contains(slurm({"--slurm", "a.sh"}).err, "a.sh: 9 cases in 9 tasks; submit it"));
+  CHECK(contains(slurm({"--slurm", "a.sh", "--slurm-tasks", "4"}).err, "a.sh: 9 cases in 4 tasks"));
+  const Result replaced = slurm({"--slurm", "s.yaml"});
+  CHECK(replaced.exit_code == 2);
+  CHECK(contains(replaced.err, "--slurm"));
+  CHECK(slurm({"--slurm", "b.csv", "-o", "b.csv"}).exit_code == 2);
+  CHECK(slurm({"--slurm", "c.sh", "-o", "-"}).exit_code == 2);
+  CHECK(slurm({"--slurm", "c.sh", "--slurm-tasks", "0"}).exit_code == 2);
+  CHECK(slurm({"--slurm", "c.sh", "--shard", "1/2"}).exit_code == 2);
+  CHECK(slurm({"--slurm", "c.sh", "--vary", "ball.mass=list:-1"}).exit_code == 2);
+  CHECK_FALSE(std::filesystem::exists(folder / "c.sh"));
+}
+
+TEST_CASE("a sweep names the cases that failed, and the command that repeats one") {
+  const Folder folder;
+  const std::vector<std::string> arguments{"sweep",     config("fig2a.yaml"),
+                                           "--vary",    "ball.position.0=list:1 mm,9 cm",
+                                           "--set",     "title=it's a ball",
+                                           "--expect",  "max_x < 5 cm",
+                                           "--vary",    "ball.radius=list:1cm,2cm",
+                                           "--summary", "s.json",
+                                           "-o",        "s.csv"};
+  const Result made = bbsim(arguments, folder.path());
+  CAPTURE(made.err);
+  CHECK(made.exit_code == 1);
+  const std::size_t command = made.err.find("  bbsim run ");
+  REQUIRE(command != std::string::npos);
+  CHECK(contains(made.err, " is done (not as expected); repeat it with\n"));
+  const std::string line = made.err.substr(command + 8, made.err.find('\n', command) - command - 8);
+  const Result again =
+      shell("'" BBSIM_PROGRAM "' " + line + " --expect 'max_x < 5 cm' -q -o -", folder.path());
+  CAPTURE(line);
+  CHECK(again.exit_code == 1);
+  const std::string summary = folder.read("s.json");
+  CHECK(contains(summary, "\"failed\": [\n"));
+  CHECK(contains(summary, "\"reason\": \"not as expected\""));
+  CHECK(contains(bbsim(sweep(config("falls.yaml"),
+                             {"--vary", "ball.mass=list:0.1,0.2", "-o", "f.csv", "--summary", "-"}),
+                       folder.path())
+                     .out,
+                 "\"status\": \"stopped\""));
 }
 
 TEST_CASE("a failed or stopped case is a row with its reason") {

@@ -75,7 +75,7 @@ void must_be_like_itself(const file::CellTable& table) {
 void must_be_a_log(const std::string& name) {
   std::vector<std::string> notes;
   const bbsim::results::Result log =
-      bbsim::results::read_log(name, {{"x=-2*x+1:mm", "y=y"}, {}, "", "start"}, notes);
+      bbsim::results::read_log(name, {{"x=-2*x+1:mm", "y=y"}, {}, "", "start", "-1"}, notes);
   for (const auto& column : log.columns) must(column.numbers.size() == log.rows);
   const auto* t = log.find("t");
   must(t != nullptr);

@@ -98,6 +98,14 @@ class Case(unittest.TestCase):
 
 
 class Estimates(Case):
+    def test_rows_that_saw_nothing_are_left_out(self):
+        rows = rows_of(sd=5e-4)
+        unseen = np.arange(rows["x"].size) % 7 == 3
+        rows["x"][unseen] = rows["y"][unseen] = -1
+        self.put(rows)
+        made = self.fit("ball.inertia_factor", missing=-1)
+        self.assert_near(made.parameters[0], 0.43)
+
     def test_keys_within_their_intervals(self):
         self.put(rows_of(sd=5e-4, scale=1.1, offset=0.01))
         free = ["ball.inertia_factor", PHI + "scale", PHI + "offset=-5 deg:5 deg"]

@@ -343,7 +343,7 @@ class Command(Case):
         self.refused(CONFIGS / "rig.yaml", "--bode", "--poles", message="found --bode and --poles; allowed: one picture")
         self.refused(CONFIGS / "rig.yaml", "--root-locus", "gravity", message="--root-locus: found gravity; allowed: KEY=FROM:TO")
         self.refused(CONFIGS / "rig.yaml", "--root-locus", "title=1:2", message="title")
-        self.refused(CONFIGS / "fig2a.yaml", "--bode", message="the scene has no controller")
+        self.refused(CONFIGS / "fig2a.yaml", "--bode", message="the scenario has no controller")
 
     def test_what_cannot_be_drawn(self):
         files = {

@@ -272,10 +272,11 @@ TEST_CASE("a ball in a groove is a smaller one with more inertia, on one axis") 
              Contains("ball.rolling_radius: found 0.021; allowed: a length of at most "
                       "ball.radius, 0.02 m"));
   CHECK_THAT(errors(beam, {"ball.rolling_radius=0"}), Contains("ball.rolling_radius: found 0"));
-  CHECK_THAT(errors(beam, {"ball.velocity=[0, 0.1]"}),
-             Contains("ball.rolling_radius: found, but the scene moves along two axes: not along x "
-                      "alone, since ball.velocity is not 0 across it; not along y alone, since "
-                      "ball.position is not 0 across it"));
+  CHECK_THAT(
+      errors(beam, {"ball.velocity=[0, 0.1]"}),
+      Contains("ball.rolling_radius: found, but the scenario moves along two axes: not along x "
+               "alone, since ball.velocity is not 0 across it; not along y alone, since "
+               "ball.position is not 0 across it"));
   CHECK_THAT(errors(beam, {"controller.reference.point=[0.1, 0.1]"}),
              Contains("controller.reference is not 0 across it"));
   CHECK_THAT(errors(beam, {"gimbal.three_servos=" + three}),
@@ -335,7 +336,7 @@ TEST_CASE("invalid values of these keys are refused with a reason") {
       {{"controller.sampling={period: 0.02}", "controller.sensor={scale: 0}"},
        "controller.sensor.scale: found 0"},
       {{"controller.sampling={period: 0.02}", "controller.sensor={seed: 2}"},
-       "controller.sensor.seed: found, but neither noise nor dropout nor sampling.jitter"},
+       "controller.sensor.seed: found, but nothing here is random"},
       {{"output.columns=[t, push_x]"}, "but nothing pushes the ball"},
       {{"output.columns=[t, servo_third]"}, "but there are no three servos"},
   };

@@ -130,7 +130,7 @@ TEST_CASE("a table must be usable") {
   CHECK(refused(five_rows("2.5,3,4"), good) ==
         key +
             "found the time 2.5 in row 3 below the header, after 2.5; allowed: strictly "
-            "increasing times");
+            "increasing times; remove one of the two rows");
   CHECK(refused("t,a\n0,1\n1,1\n2,1\n9,1\n", good) ==
         key + "found times from 0 to 9 s; allowed: a table that covers the run, 0 to 10 s");
   CHECK(refused("t,a\n1,1\n2,1\n3,1\n11,1\n", good) ==
@@ -175,6 +175,41 @@ TEST_CASE("a table is moved, scaled and delayed") {
   CHECK(delayed.values.back() == delayed.values[4]);
 }
 
+TEST_CASE("a table's header names the columns of a file without one") {
+  const TemporaryFolder folder;
+  static_cast<void>(folder.write("log.csv", "0,1,2\n5,3,4\n10,5,6\n15,7,8\n"));
+  const auto file = [&](const std::string& phi, const std::string& theta) {
+    return folder.write("scenario.yaml",
+                        "ball: {radius: 0.01}\ntime: {end: 10, step: 0.1}\n"
+                        "gimbal:\n  motion:\n    phi: {table: {" +
+                            phi + "}}\n    theta: {table: {" + theta + "}}\n");
+  };
+  const std::string named = "file: log.csv, unit: rad, header: [t, a, b], time: t, value: ";
+  const Scenario read = read_scenario(file(named + "a", named + "b"));
+  CHECK(std::get<Table>(read.gimbal.motion->theta[0]).values == std::vector<double>{2, 4, 6, 8});
+  CHECK_THROWS_WITH(
+      read_scenario(file(named + "a", "file: log.csv, header: [t, a, c], time: t, value: c")),
+      Contains("scenario.yaml:6:") &&
+          Contains("theta.table.header: found other names than where log.csv is read first"));
+  CHECK_THROWS_WITH(
+      read_scenario(file("file: log.csv, header: [t, t], time: t, value: t", named + "b")),
+      Contains("phi.table.header.1: found t again; allowed: each name once"));
+}
+
+TEST_CASE("a time twice in a table, or a falling one, is refused with row and cure") {
+  const TemporaryFolder folder;
+  const std::string scenario =
+      folder.write("scenario.yaml", with_phi("{table: {file: log.csv, time: t, value: a}}"));
+  static_cast<void>(folder.write("log.csv", "t,a\n0,1\n5,1\n5,1\n10,1\n"));
+  CHECK_THROWS_WITH(
+      read_scenario(scenario),
+      Contains("found the time 5 in row 3 below the header, after 5; allowed: strictly "
+               "increasing times; remove one of the two rows"));
+  static_cast<void>(folder.write("log.csv", "t,a\n0,1\n6,1\n5,1\n10,1\n"));
+  CHECK_THROWS_WITH(read_scenario(scenario),
+                    Contains("in row 3") && Contains("sort the rows by time"));
+}
+
 TEST_CASE("a wrapping 32-bit clock drives a scene") {
   const TemporaryFolder folder;
   static_cast<void>(
@@ -193,9 +228,17 @@ TEST_CASE("a table must cover a run that an override lengthens") {
   const std::string scenario =
       folder.write("scenario.yaml", with_phi("{table: {file: motion.csv, time: t, value: b}}"));
   CHECK(read_scenario(scenario, {"time.end=9"}).time.end == 9);
-  CHECK_THROWS_WITH(read_scenario(scenario, {"time.end=11"}),
+  CHECK_THROWS_WITH(read_scenario(scenario, {"time.end=13"}),
                     Contains("found times from 0 to 10 s; allowed: a table that covers the run, 0 "
-                             "to 11 s"));
+                             "to 13 s"));
+  // A log ends with the last sample before the end.
+  const Scenario held = read_scenario(scenario, {"time.end=11"});
+  const auto& table = std::get<Table>(held.gimbal.motion->phi[0]);
+  CHECK(table.times.back() == INFINITY);
+  CHECK(table.values.back() == table.values[table.values.size() - 2]);
+  REQUIRE_FALSE(held.remarks.empty());
+  CHECK_THAT(held.remarks.front(),
+             Contains("note: ") && Contains("its last row, at 10 s, holds until time.end, 11 s"));
 }
 
 TEST_CASE("the tables read are reported under the scenario's names") {

@@ -171,7 +171,7 @@ TEST_CASE("a reference table is read relative to the scenario") {
   CHECK(refused("t,a,b\n0,1,1\n2,1,1\n2,1,1\n9,1,1\n", good) ==
         place +
             "found the time 2 in row 3 below the header, after 2; allowed: strictly increasing "
-            "times");
+            "times; remove one of the two rows");
   CHECK(refused("t,a,b\n0,1,1\n1,1,1\n2,1,1\n9,1,1\n", good) ==
         place + "found times from 0 to 9 s; allowed: a table that covers the run, 0 to 10 s");
   CHECK(refused("t,a,b\n0,1,1\n1,1,nan\n2,1,1\n10,1,1\n", good) ==
@@ -182,8 +182,8 @@ TEST_CASE("a reference table is read relative to the scenario") {
         key + ".table.y: missing; allowed: the name of a column of the file");
   CHECK(refused(rows, "{file: path.csv, time: t, x: a, y: b, value: c}") ==
         key +
-            ".table.value: unknown key; known keys here: file, time, x, y, unit, "
-            "time_unit, scale, offset, delay, time_offset");
+            ".table.value: unknown key; known keys here: file, time, x, y, header, "
+            "unit, time_unit, scale, offset, delay, time_offset");
 }
 
 TEST_CASE("a step starts at the origin at t = 0 unless given otherwise") {

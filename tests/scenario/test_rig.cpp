@@ -127,7 +127,7 @@ TEST_CASE("combinations that mean nothing are refused, with why") {
                 "controller.sensor: found, but no controller.sampling"},
            Case{base,
                 {"controller.sampling.period=0.01", "controller.sensor.seed=3"},
-                "controller.sensor.seed: found, but neither noise nor dropout"},
+                "controller.sensor.seed: found, but nothing here is random"},
            Case{base,
                 {"gimbal.servo.dead_band=0.01"},
                 "gimbal.servo.dead_band: found without controller.sampling"},

@@ -79,7 +79,7 @@ TEST_CASE("values at the limits of their ranges") {
 TEST_CASE("exactly one of a prescribed motion and a controller") {
   CHECK(errors(closed_loop + "gimbal:\n  motion: {}\n") ==
         "scenario.yaml:3:1: controller: found beside gimbal.motion; allowed: exactly one of the "
-        "two, since either the scene prescribes the motion or the controller drives it");
+        "two, since either the scenario prescribes the motion or the controller drives it");
   CHECK(errors("ball: {radius: 0.01}\ntime: {end: 10, step: 0.1}\n\ngimbal: {}\n") ==
         "scenario.yaml:4:1: gimbal.motion: missing, and so is controller; allowed: exactly one of "
         "the two");

@@ -345,7 +345,8 @@ Linearization sampled_plant_about(const Scenario& scene, const Model& model,
                                   const LinearPoint& at) {
   if (!scene.controller || !scene.controller->sampling) {
     throw InputError(
-        "linearize: the scene has no controller.sampling, which gives the period and the delays of "
+        "linearize: the scenario has no controller.sampling, which gives the period and the delays "
+        "of "
         "the sampled plant; allowed: plant or loop");
   }
   const auto [plant, cycle, signals] = sampled_about(scene, model, at);
@@ -435,7 +436,7 @@ Linearization linearize_as(const Scenario& scene, const Model& model, LinearKind
     case LinearKind::loop:
       if (!scene.controller) {
         throw InputError(
-            "linearize: the scene has no controller, which the loop needs; allowed: plant");
+            "linearize: the scenario has no controller, which the loop needs; allowed: plant");
       }
       if (commands_of(scene) != nullptr) {
         throw InputError("linearize: controller.commands close no loop; allowed: plant, sampled");

@@ -34,8 +34,7 @@ const char* create(const bbsim_setup* setup, const bbsim_wiring* wiring) {
   }
   if ((setup->drives_acceleration == legs) != has_legs(*wiring)) {
     return "the wiring's servos and the scenario's differ; allowed: servos.legs, or steppers 1 to "
-           "3, "
-           "with drives: legs; phi and theta with drives: angle";
+           "3, with drives: legs; phi and theta with drives: angle";
   }
   if (setup->parameter_count > 0) {
     snprintf(why, sizeof why,

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A scenario's exercise: read with the other sections, checked only when someone asks.
+#include "base/error.hpp"
+#include "catch.hpp"
+#include "scenario/exercise.hpp"
+#include "scenario/family.hpp"
+#include "support/reading.hpp"
+
+namespace bbsim_test::test_exercise {
+
+using Catch::Matchers::Contains;
+using namespace bbsim::test;
+using bbsim::scenario::checked_exercise;
+
+namespace {
+
+const std::string closed_loop =
+    "ball: {radius: 0.01}\n"
+    "time: {end: 1, step: 0.1}\n"
+    "gimbal: {servo: {natural_frequency: 30, damping: 0.8}}\n"
+    "controller: {drives: angle, gravity_compensation: {kp: 4, kv: 4}, reference: {point: [0, "
+    "0]}}\n"
+    "exercise: ";
+
+// What checked_exercise() says of the section.
+std::string faults(const std::string& section) {
+  const bbsim::Scenario scenario = parse(closed_loop + section + '\n');
+  try {
+    static_cast<void>(checked_exercise(scenario));
+  } catch (const bbsim::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("an exercise has tasks and free keys, and a scenario needs none") {
+  const auto exercise = checked_exercise(parse(
+      closed_loop +
+      "\n  tasks: [{text: Keep it close., expect: max_distance from 0.5 s < 3 mm}]"
+      "\n  free: [controller.gravity_compensation.kp, solver.method, ball.losses.rolling]\n"));
+  REQUIRE(exercise);
+  REQUIRE(exercise->tasks.size() == 1);
+  CHECK(exercise->tasks[0].text == "Keep it close.");
+  CHECK(exercise->tasks[0].expect == "max_distance from 0.5 s < 3 mm");
+  CHECK(exercise->free.size() == 3);
+  CHECK_FALSE(checked_exercise(parse(open_loop)));
+}
+
+TEST_CASE("every command refuses an exercise of another shape") {
+  const auto refused = [](const std::string& section) {
+    return errors(open_loop + "exercise: " + section + '\n');
+  };
+  CHECK_THAT(refused("{task: []}"),
+             Contains("exercise.task: unknown key; did you mean exercise.tasks?"));
+  CHECK_THAT(refused("{tasks: [{text: Hold it.}]}"), Contains("exercise.tasks.0.expect: missing"));
+  CHECK_THAT(refused("{tasks: [{text: '', expect: max_tilt < 1}]}"),
+             Contains("exercise.tasks.0.text: found nothing") ||
+                 Contains("exercise.tasks.0.text: found \"\""));
+  CHECK_THAT(refused("{tasks: []}"), Contains("exercise.tasks: found an empty list"));
+  CHECK_THAT(refused("{free: [gravity, gravity]}"),
+             Contains("exercise.free.1: found gravity again; allowed: each key once"));
+}
+
+TEST_CASE("a bound that run --expect refuses is refused with its place") {
+  CHECK_THAT(faults("{tasks: [{text: a, expect: max_tilt}]}"),
+             Contains("scenario.yaml:5:38: exercise.tasks.0.expect: found \"max_tilt\"; allowed: "
+                      "\"MEASURE < VALUE\""));
+  CHECK_THAT(faults("{tasks: [{text: a, expect: max_tilt < 1}, {text: b, expect: max_tlt < 1}]}"),
+             Contains("exercise.tasks.1.expect: found max_tlt (did you mean max_tilt?)"));
+  CHECK_THAT(faults("{tasks: [{text: a, expect: max_tilt < 3 mm}]}"),
+             Contains("max_tilt is in rad"));
+  CHECK_THAT(faults("{tasks: [{text: a, expect: max_tilt from 5 s < 1}]}"),
+             Contains("exercise.tasks.0.expect: found max_tilt from 5 s"));
+}
+
+TEST_CASE("a free key is one that --set can change in this scenario") {
+  CHECK_THAT(faults("{free: [controller.gravity_compensation.kq]}"),
+             Contains("scenario.yaml:5:19: exercise.free.0: found "
+                      "controller.gravity_compensation.kq (did you mean "
+                      "controller.gravity_compensation.kp?)"));
+  CHECK_THAT(faults("{free: [title]}"),
+             Contains("exercise.free.0: found title, which is neither; allowed: a key that is"));
+  CHECK_THAT(faults("{free: [controller.pd.kp]}"), Contains("this scenario has no controller.pd"));
+  CHECK_THAT(faults("{free: [gimbal.motor.viscous]}"), Contains("exercise.free.0"));
+  // All problems at once.
+  const std::string all = faults("{tasks: [{text: a, expect: max_tilt}], free: [title]}");
+  CHECK_THAT(all, Contains("exercise.tasks.0.expect") && Contains("exercise.free.0"));
+}
+
+TEST_CASE("an exercise does not change a family's scenarios") {
+  const bbsim::ScenarioFamily family(
+      bbsim::Source{"a.yaml", closed_loop + "{tasks: [{text: a, expect: no bound}]}\n", {}});
+  CHECK(family.read({{"ball.radius", "0.02"}}).ball.radius == 0.02);
+}
+
+}  // namespace bbsim_test::test_exercise
