@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import argparse
+import functools
 import importlib
 import json
 import logging
@@ -16,14 +17,14 @@ from pathlib import Path
 from typing import Any, Dict, List, NoReturn, Optional, Sequence
 
 from . import _bbsim
-from ._errors import ControllerError, InputError, OutputError
+from ._errors import ControllerError, InputError, OutputError, fault
 
 _DONE, _ENDED_EARLY, _INPUT_AT_FAULT, _OUTPUT_FAILED, _INTERRUPTED = 0, 1, 2, 3, 130
 
 
 class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
-        raise InputError([("", f"{message}\nRun {self.prog} --help for more information.")])
+        raise fault(f"{message}\nRun {self.prog} --help for more information.")
 
 
 def _name_of(option: Dict[str, Any]) -> str:
@@ -45,7 +46,7 @@ def _number(option: Dict[str, Any], text: str) -> float:
     if math.isfinite(number) and (least is None or number >= least):
         return number
     name, allowed = option["names"].split(",")[-1], "a number" if least is None else f"a whole number from {least} up"
-    raise InputError([("", f"{name}: found {text}; allowed: {allowed}")])
+    raise fault(f"{name}: found {text}; allowed: {allowed}")
 
 
 def _parsed(name: str, table: Dict[str, Any], words: Sequence[str]) -> Dict[str, Any]:
@@ -128,17 +129,4 @@ def main(name: str, words: Optional[List[str]] = None) -> int:
         return _INTERRUPTED
 
 
-def design() -> int:
-    return main("design")
-
-
-def fit() -> int:
-    return main("fit")
-
-
-def plot() -> int:
-    return main("plot")
-
-
-def tune() -> int:
-    return main("tune")
+design, fit, plot, tune = (functools.partial(main, name) for name in ("design", "fit", "plot", "tune"))

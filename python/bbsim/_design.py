@@ -16,13 +16,10 @@ import numpy as np
 from scipy.optimize import minimize
 
 from . import _bbsim
-from ._errors import InputError
+from ._errors import InputError, fault, refuse
 from ._experiment import Experiment, Motions
-from ._found_files import aligned, as_json, declare, print_report, write
-from ._free_keys import read_free_keys
-from ._progress import Bar, Progress, silent
-from ._scenario import Scenario, Settings, given, listed
-from ._simulate import Array, refuse
+from ._scenario import Array, Scenario, Settings, given, listed
+from ._task import Bar, Progress, aligned, as_json, declare, print_report, read_free_keys, silent, write
 
 Size = Union[float, str, None]
 
@@ -196,19 +193,19 @@ def section_of(rig: _bbsim.Given, sketch: Optional[str]) -> str:
     tilts = [key for key in ("controller.commands", "gimbal.motion") if _bbsim.has(rig, key)]
     if tilts:
         return tilts[0]
-    fault = ""
+    why = ""
     if not _bbsim.has(rig, "controller"):
-        fault = ("gimbal.torque: found, which a design cannot choose; allowed: gimbal.motion, or a controller with a "
+        why = ("gimbal.torque: found, which a design cannot choose; allowed: gimbal.motion, or a controller with a "
                  "reference")  # fmt: skip
     elif any(_bbsim.has(rig, f"controller.{key}") for key in ("program", "library")):
-        fault = ("controller: found a program or library of your own; allowed in a design: a law of bbsim, "
+        why = ("controller: found a program or library of your own; allowed in a design: a law of bbsim, "
                  "controller.commands, or gimbal.motion")  # fmt: skip
     elif sketch:
-        fault = ("sketch: the scenario has a controller with a reference; allowed: with gimbal.motion or "
+        why = ("sketch: the scenario has a controller with a reference; allowed: with gimbal.motion or "
                  "controller.commands, whose tilts a sketch can play; "
                  "--table writes the reference for your own firmware")  # fmt: skip
-    if fault:
-        raise InputError([("", fault)])
+    if why:
+        raise fault(why)
     return "controller.reference"
 
 
@@ -236,7 +233,7 @@ def limits_of(rig: _bbsim.Given, tilt: Optional[float], rate: Optional[float], m
     sides = [side for side in (facts(rig, f"plate.{key}") for key in ("size.0", "size.1", "diameter")) if side]
     if not sides:
         allowed = 'allowed: with plate.size or plate.diameter, such as --set "plate.size=[30 cm, 30 cm]"'
-        raise InputError([("", f"plate: has no size, but the ball must stay on it; {allowed}")])
+        raise fault(f"plate: has no size, but the ball must stay on it; {allowed}")
     half, short, rounded = min(sides) / 2, _bbsim.short_number, _bbsim.rounded
     margin = half / 5 if margin is None else margin
     if margin >= half:
@@ -332,7 +329,7 @@ def design(
     if table and table != "-" and not table.lower().endswith(".csv"):
         raise refuse("table", table, "FILE.csv, or - for standard output")
     if output and (table == "-" or (not table and output == "-")):
-        raise InputError([("", "table: found no file, and the scenario of -o must name one; allowed: FILE.csv")])
+        raise fault("table: found no file, and the scenario of -o must name one; allowed: FILE.csv")
     table = table or (os.path.splitext(output)[0] + "-motion.csv" if output else None)  # a run writes FILE.csv
     files = {"table": table, "output": output, "sketch": sketch, "json": json}  # the scenario refers to the table
     declare(files, {rig.name: "the scenario"}, "table", "sketch")
@@ -369,7 +366,7 @@ def design(
 
     name_of_table = os.path.relpath(table, os.path.dirname(os.path.abspath(output))) if output and table else ""
     if output:
-        _bbsim.edited(rig, settings(name_of_table), "", False)  # fails now if the text cannot be written
+        _bbsim.edited(rig, settings(name_of_table), "")  # fails now if the text cannot be written
     with tempfile.TemporaryDirectory(prefix="bbsim-") as folder:
         still, names = Path(folder) / "still.csv", "phi,theta" if tilts else "x,y"
         still.write_text(f"t,{names}\n" + "".join(f"{seconds * i / 3!r},0,0\n" for i in range(4)))
@@ -391,11 +388,11 @@ def design(
         chosen = best_sines(experiment, frequency * seconds / _TURN)
         if not np.isfinite(chosen.merit):
             share = experiment.play(Motions(np.zeros((1, 2 * rows + 6)), np.empty((1, 0))))[0].shares.max()
-            fault = ("the scenario does not run to its end without a motion" if np.isinf(share) else
+            why = ("the scenario does not run to its end without a motion" if np.isinf(share) else
                      "without a motion, the ball or the plate goes beyond its limits" if share > 1 else
                      "found no motion within the limits")  # fmt: skip
             allowed = f"a rig that keeps the ball on the plate for {short(seconds)} s, or a shorter --length"
-            raise InputError([("", f"{fault}; allowed: {allowed}")])
+            raise fault(f"{why}; allowed: {allowed}")
         tried, final = experiment.played, chosen.motion.table(experiment.times)
         place = final.numbers[0, -4:-2] = np.round(final.numbers[0, -4:-2], 3) + 0.0  # placed by hand
         rise = within(experiment, step(experiment)).get(0)
@@ -404,7 +401,7 @@ def design(
     idle = [key.name for key, effect in zip(keys, effects[0][0]) if effect <= 1e-6]  # in units of noise
     if idle:
         what = f"free: {idle[0]}: has no effect on {', '.join(deviations_of_log)}"
-        raise InputError([("", f"{what}; allowed: keys that the log's columns depend on")])
+        raise fault(f"{what}; allowed: keys that the log's columns depend on")
     of_u = [np.full(len(keys), np.inf) if one is None else deviations(one[0]) for one in slopes]
     sds = [[float(f"{sd * abs(key.slope(0)):.8g}") for sd, key in zip(one, keys)] for one in of_u]
     used = dict.fromkeys((limit[0] for limit in limits), 0.0)
@@ -433,7 +430,7 @@ def design(
     texts = {
         "table": "\n".join([f"t,{names}", *lines, ""]), "json": as_json(result),
         "sketch": player_sketch(hertz, commands, place) if sketch else "",
-        "output": _bbsim.edited(rig, settings(name_of_table, place), comments, False) if output else "",
+        "output": _bbsim.edited(rig, settings(name_of_table, place), comments) if output else "",
     }  # fmt: skip
     for name, file in files.items():
         if file:

@@ -13,9 +13,9 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple, TypeVar,
 import numpy as np
 
 from . import _bbsim
-from ._errors import InputError
+from ._errors import fault
 from ._result import Result
-from ._scenario import Scenario, Settings, as_yaml, given
+from ._scenario import Array, Scenario, Settings, as_yaml, given
 
 try:
     import gymnasium
@@ -60,7 +60,6 @@ except ImportError:
             return f"Box({self.low}, {self.high}, {self.shape}, {self.dtype})"
 
 
-Array = "np.ndarray[Any, Any]"
 Distribution = Union[Tuple[float, float], Callable[[np.random.Generator], Any]]
 Reward = Callable[[Array, Array, Array], Array]
 
@@ -101,7 +100,7 @@ def _require_range(key: str, found: Any) -> None:
     except (TypeError, ValueError):
         pass
     allowed = "allowed: (low, high), two numbers in SI units with low <= high, or a function of a numpy Generator"
-    raise InputError([("", f"{key}: found {found!r} in randomize; {allowed}")])
+    raise fault(f"{key}: found {found!r} in randomize; {allowed}")
 
 
 class VectorEnv(_VectorBase):
@@ -121,7 +120,7 @@ class VectorEnv(_VectorBase):
     """
 
     metadata: Dict[str, Any] = {"render_modes": [], "autoreset_mode": "NextStep"}
-    observation_columns: List[Tuple[str, str, str]] = [tuple(c) for c in _bbsim.Environments.columns]
+    observation_columns: List[Tuple[str, str, str]] = [tuple(c) for c in _bbsim.OBSERVATIONS]
     """Name, unit and meaning of each column of an observation."""
 
     render_mode = None
@@ -129,19 +128,12 @@ class VectorEnv(_VectorBase):
     closed = False
 
     def __init__(
-        self,
-        scenario: Scenario,
-        n: int,
-        randomize: Optional[Mapping[str, Distribution]] = None,
-        seed: int = 0,
-        *,
-        set: Settings = None,
-        reward: Optional[Reward] = None,
-        record: bool = False,
-    ) -> None:
+        self, scenario: Scenario, n: int, randomize: Optional[Mapping[str, Distribution]] = None, seed: int = 0, *,
+        set: Settings = None, reward: Optional[Reward] = None, record: bool = False,
+    ) -> None:  # fmt: skip
         count = operator.index(n)
         if not 1 <= count <= _MOST_RUNS:
-            raise InputError([("", f"n: found {n}; allowed: a whole number from 1 to {_MOST_RUNS}")])
+            raise fault(f"n: found {n}; allowed: a whole number from 1 to {_MOST_RUNS}")
         for key, distribution in (randomize or {}).items():
             if not callable(distribution):
                 _require_range(key, distribution)
@@ -170,8 +162,8 @@ class VectorEnv(_VectorBase):
         """The unit of an action: rad, rad/s^2, N m or V."""
         return self._runs.command_unit
 
-    def _beginnings(self, which: Array, random: np.random.Generator, options: Mapping[str, Any]) -> _bbsim.Beginnings:
-        """Draws the values of new episodes."""
+    def _beginnings(self, which: Array, random: np.random.Generator, options: Mapping[str, Any]) -> Tuple[List[int], List[List[str]], List[int]]:
+        """The runs, and what is drawn for their new episodes: values and seeds."""
         values, seeds = [], []
         for _ in which:
             drawn = []
@@ -180,7 +172,7 @@ class VectorEnv(_VectorBase):
                 drawn.append(as_yaml(options.get(key, value)))
             values.append(drawn)
             seeds.append(int(random.integers(_MOST_SEED)))
-        return _bbsim.Beginnings([int(one) for one in which], values, seeds)
+        return [int(one) for one in which], values, seeds
 
     def _which(self, mask: Any) -> Array:
         """The runs that a ``reset_mask`` names."""
@@ -189,7 +181,7 @@ class VectorEnv(_VectorBase):
         flags = np.asarray(mask)
         if flags.shape != (self.num_envs,) or flags.dtype != bool:
             allowed = f"allowed: an array of {self.num_envs} booleans"
-            raise InputError([("", f"reset_mask: found shape {flags.shape} and type {flags.dtype}; {allowed}")])
+            raise fault(f"reset_mask: found shape {flags.shape} and type {flags.dtype}; {allowed}")
         return np.flatnonzero(flags)
 
     @_one_at_a_time
@@ -207,8 +199,8 @@ class VectorEnv(_VectorBase):
         for key in fixed:
             if key not in self._randomize:
                 names = ", ".join(self._randomize) or "none"
-                raise InputError([("", f"options: found {key}; allowed: the keys of randomize, which are: {names}")])
-        self._runs.begin(self._beginnings(which, random, fixed))
+                raise fault(f"options: found {key}; allowed: the keys of randomize, which are: {names}")
+        self._runs.begin(*self._beginnings(which, random, fixed))
         self._random, self._options = random, fixed
         self._over[which] = False
         self._begun[which] = True
@@ -221,7 +213,7 @@ class VectorEnv(_VectorBase):
             raise RuntimeError("step: found a run that has not begun; allowed: reset() first")
         commands = np.ascontiguousarray(actions, dtype=np.float64)
         begins = self._over
-        self._runs.step(commands, self._beginnings(np.flatnonzero(begins), self._random, self._options))
+        self._runs.step(commands, *self._beginnings(np.flatnonzero(begins), self._random, self._options))
         terminated, truncated = self._runs.terminated, self._runs.truncated
         self._over = terminated | truncated
         observations = self._runs.observations.copy()
@@ -255,16 +247,9 @@ class Env(_EnvBase):  # type: ignore[misc]
     render_mode = None
 
     def __init__(
-        self,
-        scenario: Scenario,
-        randomize: Optional[Mapping[str, Distribution]] = None,
-        seed: int = 0,
-        *,
-        set: Settings = None,
-        reward: Optional[Reward] = None,
-        record: bool = False,
-        render_mode: None = None,
-    ) -> None:
+        self, scenario: Scenario, randomize: Optional[Mapping[str, Distribution]] = None, seed: int = 0, *,
+        set: Settings = None, reward: Optional[Reward] = None, record: bool = False, render_mode: None = None,
+    ) -> None:  # fmt: skip
         self._all = VectorEnv(scenario, 1, randomize, seed, set=set, reward=reward, record=record)
         self.observation_space = self._all.single_observation_space
         self.action_space = self._all.single_action_space

@@ -62,6 +62,14 @@ class InputError(Error, ValueError):
         return type(self), ([(p.place, p.message) for p in self.problems],)
 
 
+def fault(text: str) -> InputError:
+    return InputError([("", text)])
+
+
+def refuse(what: str, found: object, allowed: str) -> InputError:
+    return fault(f"{what}: found {found}; allowed: {allowed}")
+
+
 class OutputError(Error, OSError):
     """A file could not be written."""
 

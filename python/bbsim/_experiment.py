@@ -11,9 +11,9 @@ from typing import Any, Dict, List, NamedTuple, Tuple
 import numpy as np
 
 from . import _bbsim
-from ._free_keys import FreeKey
-from ._progress import Progress
-from ._simulate import Array, simulate
+from ._scenario import Array
+from ._simulate import simulate
+from ._task import FreeKey, Progress
 
 _STEP = 1e-3  # of keys' numbers u and of starts (SI), for differences
 _ROUGH = ("sampling.resolution", "sampling.jitter", "sensor.resolution", "sensor.noise", "sensor.dropout",

@@ -13,9 +13,8 @@ from scipy.special import stdtrit
 
 from . import _bbsim
 from ._fit_windows import LogKey, WindowsFit
-from ._free_keys import FreeKey, refuse
-from ._progress import Progress, silent
-from ._simulate import Array
+from ._scenario import Array
+from ._task import FreeKey, Progress, refuse_free, silent
 
 _HUBER = 1.345  # standard deviations; costs 5 % of the efficiency for Gaussian noise
 _KINKED_STARTS = 3
@@ -136,7 +135,7 @@ class Search:
         for key, change in zip(self.keys, changes):
             if not change > 1e-7:
                 columns = ", ".join(self.windows.columns)
-                refuse(f"{key.name}: has no effect on {columns}; allowed: keys that the compared columns depend on")
+                refuse_free(f"{key.name}: has no effect on {columns}; allowed: keys that the compared columns depend on")
         # Mirrors the scale of a sensor if that fits better: between 1 and -1 it would pass 0, where the log determines
         # no other key.
         for k, key in enumerate(self.keys):

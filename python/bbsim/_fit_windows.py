@@ -13,8 +13,9 @@ from scipy.sparse import block_diag, csr_matrix, hstack
 
 from . import _bbsim
 from ._errors import InputError
-from ._free_keys import FreeKey
-from ._simulate import Array, simulate
+from ._scenario import Array
+from ._simulate import simulate
+from ._task import FreeKey
 
 FAR = 1e6  # the residual of a window that does not run, in standard deviations
 # Central differences: the error of a run over the step and the square of the step are both small.

@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws the columns of _loops: frequency responses with margins, poles with a grid of damping, step responses."""
+"""Pictures of a scenario: the columns of _loops, with margins or a grid of damping; and the time that each method takes
+for its error."""
 
 from __future__ import annotations
 
+import csv
 import math
 from typing import Any, Dict, List, Mapping, Optional, Tuple
 
@@ -11,17 +13,19 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.ticker import MaxNLocator, MultipleLocator, NullFormatter
-from scipy.optimize import linear_sum_assignment
 
-from ._plot_sheet import MM, TEXT, Figure, cut, number, width_of
+from . import _loops
+from ._errors import fault
+from ._loops import AXES, Columns
+from ._plot_axes import covered, logarithmic
+from ._plot_sheet import MM, TEXT, Figure, Sheet, cut, mark, number, stroke, width_of
+from ._scenario import Array, Scenario, Settings
 
-Array = "np.ndarray[Any, np.dtype[np.float64]]"
-Columns = Mapping[str, Array]
 Margins = Mapping[str, Mapping[str, Any]]
 Label = Tuple[str, float, float, bool, str]  # text, x, y, whether above y, color
 Labels = Dict[Axes, List[Label]]
 
-AXES = ("phi", "theta")
+KINDS = ("bode", "nyquist", "poles", "step", "root_locus")
 NAMES = {"phi": "φ", "theta": "θ"}
 COLORS = {"phi": "#0072b2", "theta": "#d55e00"}
 DASHES = {"phi": "-", "theta": (0, (4, 1.5))}
@@ -214,6 +218,8 @@ def root_locus(columns: Columns, dt: Optional[float], key: str, unit: str = "", 
 
 def _branches(columns: Columns) -> Tuple[List[Array], Array]:
     """Lines from each pole to the pole that it moves to at the next value, and these values."""
+    from scipy.optimize import linear_sum_assignment  # takes long to import
+
     lines: List[Array] = []
     values: List[float] = []
     before: Optional[Array] = None
@@ -244,3 +250,58 @@ def step(columns: Columns, width: float = 135.0) -> Figure:
     axes.margins(x=0)
     _legend(axes)
     return figure
+
+
+_VALUES = 200  # of the key of a root locus
+
+
+def _csv(columns: Columns) -> str:
+    rows = zip(*(map(repr, column.tolist()) for column in columns.values()))
+    return "\n".join([",".join(columns), *(",".join(row) for row in rows), ""])
+
+
+def draw_loop(kind: str, scenario: Scenario, set: Settings, locus: str, wide: Optional[float]) -> Tuple[str, Figure, str]:
+    """The numbers as CSV, the figure, and what is in it. Raises InputError for a scene without a loop."""
+    width: Dict[str, Any] = {"width": wide} if wide else {}
+    if kind == "root_locus":
+        key, _, between = locus.partition("=")
+        low, _, high = between.partition(":")
+        if not (key and low and high):
+            raise fault(f"root-locus: found {locus}; allowed: KEY=FROM:TO, such as controller.pd.kv.0.0=0.2:2")
+        values = _loops.values_between(scenario, key, low, high, _VALUES, set)
+        columns = _loops.root_locus(scenario, key, list(values), set)
+        figure = root_locus(columns, _loops.linearized(scenario, set).dt, key, **width)
+        return _csv(columns), figure, f"the poles at {_VALUES} values of {key}"
+    columns = getattr(_loops, kind)(scenario, set)
+    if kind == "poles":
+        figure = poles(columns, _loops.linearized(scenario, set).dt, **width)
+    elif kind == "bode":
+        figure = bode(columns, _loops.margins(scenario, set), **width)
+    else:
+        figure = {"nyquist": nyquist, "step": step}[kind](columns, **width)
+    rows, what = len(next(iter(columns.values()))), {"poles": "poles", "step": "times"}.get(kind, "frequencies")
+    return _csv(columns), figure, f"{rows} {what}"
+
+
+def draw_accuracy(text: str, title: str, wide: Optional[float]) -> Tuple[Any, int]:
+    """The figure of a table of `bbsim accuracy --csv`, without runs that ended early; and its number of points."""
+    points: Dict[str, List[Tuple[float, float]]] = {}
+    for row in csv.DictReader(text.splitlines()):
+        if row["status"] != "failed":
+            # A logarithm has no zero. An error below all rounding can be zero.
+            points.setdefault(row["method"], []).append((max(float(row["error_m"]), 1e-20), float(row["time_us"])))
+    shapes = ("o", "^", "s", "D")
+    looks = {name: {**mark(shapes[i % 4], stroke(i)["color"], 3.5), **stroke(i)} for i, name in enumerate(points)}
+    width = wide or 135.0
+    height = 0.6 * (width - 19)
+    sheet = Sheet(width, height + 14, title, "", list(looks.items()))
+    box = (15.0, 4.8, width - 4, 4.8 + height)
+    axes = sheet.panel(box, "processor time of a run (µs)")
+    across = box[2] - box[0]
+    every = [point for method in points.values() for point in method]
+    label = "error: largest |Δx|, |Δy| over the output times (m)"
+    logarithmic(axes.xaxis, covered([error for error, _ in every]), across, label, air=0.04)
+    logarithmic(axes.yaxis, covered([time for _, time in every]), height, air=0.06)
+    for method, look in looks.items():
+        axes.plot(*zip(*points[method]), **look)
+    return sheet.figure, len(every)

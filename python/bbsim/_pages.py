@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import Any, Dict, List, Optional, Sequence, Union
 
 from . import _bbsim
+from ._errors import refuse
 from ._result import Result
 from ._scenario import Settings, listed, overrides
-from ._simulate import refuse
 
 File = Union[str, "os.PathLike[str]"]
 Texts = Union[str, Sequence[str]]
@@ -61,18 +61,18 @@ def replay(
     for file in files:
         if isinstance(file, Result):
             columns = [(name, file.units[name], file[name], []) for name in file.columns]
-            shown.append(_bbsim.Stored(columns, file._run.summary()))
+            shown.append(_bbsim.Stored(columns, file._run.summary))
         else:
             shown.append(os.fspath(file))
-    log = _bbsim.LogOptions(listed(map), listed(header), period, time_offset)
-    beside = (os.fspath(summary), os.fspath(scenario), overrides(set))
+    log = _bbsim.LogChoice(listed(map), listed(header), period, time_offset)
+    beside = _bbsim.Beside(os.fspath(summary), os.fspath(scenario), overrides(set))
     target = "" if output is None else os.fspath(output)
     if target and not target.lower().endswith(".html"):
         raise refuse("output", target, "a name that ends in .html")
-    made = _bbsim.replay(shown, listed(data), log, *beside, title, target)
+    made = _bbsim.replay(shown, listed(data), log, beside, title, target)
     if target:
-        _bbsim.write_file(target, made.html.encode())
-    return Page(made.html, made.reason, made.notes)
+        _bbsim.write_file(target, made[0].encode())
+    return Page(*made)
 
 
 def compare(
@@ -80,7 +80,7 @@ def compare(
     map: Texts = (), header: Texts = (), period: str = "", time_offset: str = "", set: Settings = None,
 ) -> Compared:  # fmt: skip
     """Compares two files of results, or a log with a run or a scenario. The keywords are the options of ``bbsim compare``."""
-    log = _bbsim.LogOptions(listed(map), listed(header), period, time_offset)
+    log = _bbsim.LogChoice(listed(map), listed(header), period, time_offset)
     for name, found in (("rtol", rtol), ("atol", atol)):
         if not (found is None or isinstance(found, Real)):
             raise refuse(name, repr(found), "a number, in SI units")

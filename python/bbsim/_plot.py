@@ -14,9 +14,8 @@ from typing import Any, Dict, List, Mapping, NoReturn, Optional, Sequence, Tuple
 import numpy as np
 
 from . import _bbsim
-from ._errors import InputError
-from ._plot_accuracy import draw_accuracy
-from ._plot_loops import KINDS, draw_loop
+from ._errors import InputError, fault
+from ._loop_pictures import KINDS, draw_accuracy, draw_loop
 from ._plot_runs import draw_runs
 from ._plot_sheet import FONT, Figure, require_font, style
 from ._plot_sweeps import draw_sweep
@@ -39,7 +38,7 @@ def _settings(settings: Union[Mapping[str, Any], Texts, None]) -> Mapping[str, A
 
 
 def _refuse_setting(text: str) -> NoReturn:
-    raise InputError([("", f"set: found {text}; allowed: KEY=VALUE")])
+    raise fault(f"set: found {text}; allowed: KEY=VALUE")
 
 
 def _parts(texts: Optional[Texts], separator: str) -> List[str]:
@@ -54,14 +53,14 @@ def _millimeters(width: Union[float, str, None]) -> Optional[float]:
     found = re.fullmatch(r"\s*([0-9.]+(?:e-?[0-9]+)?)\s*(mm|cm|m|)\s*", str(width))
     size = float(found[1]) * {"mm": 1, "cm": 10}.get(found[2], 1000) if found and found[1].count(".") < 2 else 0.0
     if not 50 <= size <= 600:
-        raise InputError([("", f'width: found {width}; allowed: a length from 50 mm to 600 mm, such as "88 mm"')])
+        raise fault(f'width: found {width}; allowed: a length from 50 mm to 600 mm, such as "88 mm"')
     return size
 
 
 def _in_memory(drawn: Any) -> _bbsim.Stored:
     if isinstance(drawn, Result):
         columns = [(name, drawn.units[name], drawn[name], []) for name in drawn.columns]
-        return _bbsim.Stored(columns, drawn._run.summary())
+        return _bbsim.Stored(columns, drawn._run.summary)
     if not isinstance(drawn, np.ndarray) or not drawn.dtype.names:
         allowed = "allowed: files, results of bbsim.run, arrays of bbsim.sweep"
         raise TypeError(f"found {type(drawn).__name__}; {allowed}")
@@ -76,32 +75,35 @@ def _in_memory(drawn: Any) -> _bbsim.Stored:
 class _Options:
     """What all pictures of one call share."""
 
-    def __init__(self, **options: Any) -> None:
+    def __init__(self, options: Dict[str, Any]) -> None:
         self.columns, self.over = _parts(options["columns"], ";"), _parts(options["over"], ",")
         self.width, self.font = _millimeters(options["width"]), options["font"] or FONT
         asked = [name for name in _OF_SCENARIO if options[name]]
         if len(asked) > 1:
             both = " and --".join(asked).replace("_", "-")
-            raise InputError([("", f"found --{both}; allowed: one picture of a scenario at a time")])
+            raise fault(f"found --{both}; allowed: one picture of a scenario at a time")
         self.kind = asked[0] if asked else ""  # of the picture, if a scenario is drawn
         locus, self.csv = options["root_locus"] or "", options["csv"]
         self.locus = locus if isinstance(locus, str) else "{}={}:{}".format(*locus)
         self.scenario, self.summary = (os.fspath(options[name] or "") for name in ("scenario", "summary"))
         self.set = _settings(options["set"])
         header = _parts(options["header"], ",")
-        self.log = (listed(options["map"]), header, options["period"] or "", options["time_offset"] or "")
+        self.log = _bbsim.LogChoice(
+            listed(options["map"]), header, options["period"] or "", options["time_offset"] or ""
+        )
         require_font(self.font)
         if self.csv and not self.kind:
             allowed = ", ".join(f"--{name.replace('_', '-')}" for name in _OF_SCENARIO)
-            raise InputError([("", f"csv: allowed with the pictures of a scenario, {allowed}")])
+            raise fault(f"csv: allowed with the pictures of a scenario, {allowed}")
         if self.set and not self.scenario and not self.kind:
-            raise InputError([("", "set: allowed with --scenario, in which it sets a key")])
+            raise fault("set: allowed with --scenario, in which it sets a key")
 
     def read(self, files: Sequence[Any], notes: List[str]) -> List[_bbsim.Stored]:
         stored, overrides = [], [f"{key}={as_yaml(value)}" for key, value in self.set.items()]
+        beside = _bbsim.Beside(self.summary, self.scenario, overrides)
         for file in files:
             if isinstance(file, (str, os.PathLike)):
-                one, its = _bbsim.read_result(os.fspath(file), self.summary, self.scenario, overrides, *self.log)
+                one, its = _bbsim.read_result(os.fspath(file), beside, self.log)
                 notes += its
                 stored.append(one)
             else:
@@ -114,13 +116,13 @@ class _Options:
             if not any(result.is_sweep for result in results):
                 if self.over:
                     name = results[0].file or "the result"
-                    raise InputError([("", f"over: {name} is not a sweep; bbsim draws a run over time")])
+                    raise fault(f"over: {name} is not a sweep; bbsim draws a run over time")
                 asked = [[name.strip() for name in panel.split(",")] for panel in self.columns]
                 figure, panels = draw_runs(results, asked, self.width)
                 rows, what = sum(result.rows - result.has_end_row for result in results), "rows"
             else:
                 if len(results) > 1:
-                    raise InputError([("", "overlay: found a sweep; allowed: runs, since a sweep has its own picture")])
+                    raise fault("overlay: found a sweep; allowed: runs, since a sweep has its own picture")
                 figure, panels = draw_sweep(results[0], _parts(self.columns, ","), self.over, self.width)
                 rows, what = results[0].rows, "cases"
         return figure, f"{rows} {what}, {panels} panel{'s' if panels != 1 else ''}"
@@ -138,34 +140,19 @@ class _Options:
         if self.csv:
             _bbsim.write_file(os.fspath(self.csv), text.encode())
         if figure is None:
-            raise InputError([("", "no method reached the end of the scene; `bbsim run` says why")])
+            raise fault("no method reached the end of the scene; `bbsim run` says why")
         return figure, content
 
 
 def plot(
-    files: Union[Drawn, Sequence[Drawn]],
-    *,
-    columns: Texts = (),
-    over: Texts = (),
-    summary: Optional[File] = None,
-    scenario: Optional[File] = None,
-    set: Union[Mapping[str, Any], Texts, None] = None,
-    map: Texts = (),
-    header: Texts = (),
-    period: Optional[str] = None,
-    time_offset: Optional[str] = None,
-    accuracy: bool = False,
-    bode: bool = False,
-    nyquist: bool = False,
-    poles: bool = False,
-    step: bool = False,
-    root_locus: Union[str, Tuple[str, Any, Any], None] = None,
-    csv: Optional[File] = None,
-    width: Union[float, str, None] = None,
-    font: Optional[str] = None,
-    output: Optional[File] = None,
+    files: Union[Drawn, Sequence[Drawn]], *, columns: Texts = (), over: Texts = (), summary: Optional[File] = None,
+    scenario: Optional[File] = None, set: Union[Mapping[str, Any], Texts, None] = None, map: Texts = (),
+    header: Texts = (), period: Optional[str] = None, time_offset: Optional[str] = None, accuracy: bool = False,
+    bode: bool = False, nyquist: bool = False, poles: bool = False, step: bool = False,
+    root_locus: Union[str, Tuple[str, Any, Any], None] = None, csv: Optional[File] = None,
+    width: Union[float, str, None] = None, font: Optional[str] = None, output: Optional[File] = None,
     format: Optional[str] = None,
-) -> Figure:
+) -> Figure:  # fmt: skip
     """Draws runs, a sweep or a log; returns a matplotlib figure. The keywords are the options of ``bbsim plot``.
 
     files    CSV or HDF5 files, results of ``bbsim.run``, or an array of ``bbsim.sweep``; several runs
@@ -180,18 +167,14 @@ def plot(
 
     Raises InputError and OutputError.
     """
-    options = _Options(
-        columns=columns, over=over, summary=summary, scenario=scenario, set=set, map=map, header=header, period=period,
-        time_offset=time_offset, accuracy=accuracy, bode=bode, nyquist=nyquist, poles=poles, step=step,
-        root_locus=root_locus, csv=csv, width=width, font=font,
-    )  # fmt: skip
+    options = _Options(dict(locals()))
     chosen = _format(None if output is None else os.fspath(output), format)
     if options.kind:
         figure, _ = options.draw_scenario(files)
     else:
         all_files = files if isinstance(files, (list, tuple)) else [files]
         if not all_files:
-            raise InputError([("", "files: found none; allowed: a file, a result, or a list of them")])
+            raise fault("files: found none; allowed: a file, a result, or a list of them")
         figure, _ = options.draw(options.read(all_files, []))
     if output is not None:
         _save(figure, os.fspath(output), chosen)
@@ -204,8 +187,8 @@ def _format(output: Optional[str], asked: Optional[str]) -> str:
     if name in _FORMATS:
         return name
     if asked:
-        raise InputError([("", f"format: found {asked}; allowed: svg, png and pdf")])
-    raise InputError([("", f"output: found {output}; allowed: a name that ends in .svg, .png or .pdf")])
+        raise fault(f"format: found {asked}; allowed: svg, png and pdf")
+    raise fault(f"output: found {output}; allowed: a name that ends in .svg, .png or .pdf")
 
 
 def _save(figure: Figure, output: str, format: str) -> None:
@@ -222,16 +205,16 @@ def _tasks(files: List[str], kind: str, options: Dict[str, Any], ending: str) ->
     output = options["output"]
     kind = kind.replace("_", "-")
     if len(files) > 1 and kind:
-        raise InputError([("", f"{kind}: found several files; allowed: one scenario")])
+        raise fault(f"{kind}: found several files; allowed: one scenario")
     if len(files) > 1 and not options["overlay"] and output:
         allowed = "allowed: with --overlay, which draws them in one picture"
-        raise InputError([("", f"output: found {output} for several files; {allowed}")])
+        raise fault(f"output: found {output} for several files; {allowed}")
 
     def named(file: str, more: str) -> str:
         if output:
             return str(output)
         if file == "-":
-            raise InputError([("", "output: missing; standard input (-) gives the picture no name")])
+            raise fault("output: missing; standard input (-) gives the picture no name")
         return f"{Path(Path(file).name if kind else file).with_suffix('')}{more}.{ending}"
 
     if kind:
@@ -282,10 +265,10 @@ def command(options: Dict[str, Any], say: Any) -> None:
     _bbsim.end_at_signals()
     files = options["files"]
     format = _format(options["output"], options["format"])
-    shared = _Options(**options)
+    shared = _Options(options)
     tasks = _tasks(files, shared.kind, options, format)
     if len(files) > 1 and options["summary"]:
-        raise InputError([("", "summary: found several files; allowed: one run, to which the summary belongs")])
+        raise fault("summary: found several files; allowed: one run, to which the summary belongs")
     _declare(_bbsim.Outputs(), tasks, options)
     # Draw what can be drawn, even if other files have faults.
     problems: List[Tuple[str, str]] = []

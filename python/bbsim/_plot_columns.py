@@ -10,7 +10,7 @@ from typing import Any, Dict, List, NamedTuple, Optional, Sequence
 import numpy as np
 
 from . import _bbsim
-from ._errors import InputError
+from ._errors import fault
 from ._plot_axes import Range, Unit, Units, covered, is_wide, width
 from ._plot_sheet import Stroke, clean, stroke
 
@@ -140,15 +140,15 @@ class Runs:
             for name in names:
                 found = f"columns: found {name or 'nothing'}"
                 if name == "t":
-                    raise InputError([("", f"{found}, over which the others are drawn")])
+                    raise fault(f"{found}, over which the others are drawn")
                 if not self.having(name):
-                    raise InputError([("", found + self._allowed(name))])
+                    raise fault(found + self._allowed(name))
                 if self.range(name) is None:
-                    raise InputError([("", f"{found}, which holds no finite number")])
+                    raise fault(f"{found}, which holds no finite number")
                 panel = panel or Panel(self.unit(name), [])
                 if self.unit(name) != panel.unit:
                     beside = f"{found} in a panel with {panel.lines[0].column}, which has another unit"
-                    raise InputError([("", f"{beside}; a semicolon begins another panel")])
+                    raise fault(f"{beside}; a semicolon begins another panel")
                 panel.lines.append(self.line(name))
             if panel:
                 panels.append(panel)

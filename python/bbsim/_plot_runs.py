@@ -10,7 +10,7 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple
 import numpy as np
 
 from . import _bbsim
-from ._errors import InputError
+from ._errors import fault
 from ._plot_axes import Unit, choose_scale, choose_scales, covered, is_wide, largest, linear, linear_limits, width
 from ._plot_columns import COMMAND, MAIN, MEASURED, REFERENCE, Panel, Runs
 from ._plot_sheet import BAND, ORANGE, Box, Legend, Sheet, Stroke, mark, number, stroke
@@ -303,12 +303,12 @@ def draw_runs(results: Sequence[_bbsim.Stored], asked: Sequence[Sequence[str]], 
     path = _Path(runs)
     lists = [list(names) for names in asked if list(names) != ["path"]]
     if len(lists) < len(asked) and not path.exists:
-        raise InputError([("", f"columns: found path; {results[0].file or 'the result'} has no numbers x and y")])
+        raise fault(f"columns: found path; {results[0].file or 'the result'} has no numbers x and y")
     panels = runs.asked(lists) if asked else runs.planned()
     with_path = len(lists) < len(asked) if asked else path.exists and (not panels or not path.is_along_an_axis)
     if not panels and not with_path:
         name = results[0].file or "the result"
-        raise InputError([("", f"{name}: nothing to draw: no column but t holds finite numbers")])
+        raise fault(f"{name}: nothing to draw: no column but t holds finite numbers")
 
     sheet_width, path_height, columns = _columns(with_path, len(panels), wide)
     abscissa, marks = _Abscissa(runs), _Marks(runs)

@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.colors import LogNorm, Normalize
 
 from . import _bbsim
-from ._errors import InputError
+from ._errors import fault
 from ._plot_axes import (
     CLOSE, Range, Unit, Units, better_by_log, choose_scale, covered, is_wide, linear, linear_limits, logarithmic, ticks,
     width,
@@ -346,13 +346,13 @@ def _choose_form(table: _bbsim.SweepTable, names: Sequence[str]) -> _Form:
     listed = [key for k, key in enumerate(table.keys) if not key.drawn and key.leader == k]
     if names:
         if len(names) > 2:
-            raise InputError([("", f"over: found {', '.join(names)}; allowed: one key, or two")])
+            raise fault(f"over: found {', '.join(names)}; allowed: one key, or two")
         if len(set(names)) < len(names):
-            raise InputError([("", f"over: found {names[0]} twice")])
+            raise fault(f"over: found {names[0]} twice")
         keys = {key.name: key for key in table.keys}
         for name in names:
             if name not in keys:
-                raise InputError([("", f"over: found {name}; what varies: {', '.join(keys)}")])
+                raise fault(f"over: found {name}; what varies: {', '.join(keys)}")
         first = keys[names[0]]
         if len(names) == 2:
             return _Form(first, keys[names[1]])
@@ -376,7 +376,7 @@ def _choose_measures(sweep: _Sweep, asked: Sequence[str]) -> List[str]:
     for name in asked:
         if name not in known and not (name == "end_time" and name in sweep.stored.names):
             source = sweep.stored.file or "the sweep"
-            raise InputError([("", f"columns: found {name or 'nothing'}; measures of {source}: {', '.join(known)}")])
+            raise fault(f"columns: found {name or 'nothing'}; measures of {source}: {', '.join(known)}")
     return list(asked) or [name for name in known if is_wide(_Measure(sweep, name).range)] or known
 
 
@@ -400,10 +400,10 @@ def draw_sweep(stored: _bbsim.Stored, asked: Sequence[str], over: Sequence[str],
     sweep = _Sweep(stored)
     source = stored.file or "the sweep"
     if not sweep.table.keys:
-        raise InputError([("", f"{source}: nothing to draw: no key varies")])
+        raise fault(f"{source}: nothing to draw: no key varies")
     measures = _choose_measures(sweep, asked)
     if not measures:
-        raise InputError([("", f"{source}: nothing to draw: it has no measures")])
+        raise fault(f"{source}: nothing to draw: it has no measures")
     form = _choose_form(sweep.table, over)
     histogram, is_map = form.over is None, form.against is not None
     one = len(measures) == 1

@@ -7,34 +7,19 @@ from __future__ import annotations
 import html
 import json
 from functools import cached_property
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _bbsim
-from ._errors import InputError
+from ._errors import fault
+from ._scenario import Array
 
 if TYPE_CHECKING:
     import matplotlib.figure
     import pandas
 
-Array = "np.ndarray[Any, np.dtype[np.float64]]"
-
-
-class _Pickled:
-    """What a result asks of ``_bbsim.Run``, after pickling."""
-
-    def __init__(self, run: _bbsim.Run) -> None:
-        names = ("columns", "units", "unmet", "measures", "warnings", "title", "status", "reason")
-        self.__dict__.update((name, getattr(run, name)) for name in names)
-        self._arrays = {name: np.array(run.column(name)) for name in run.columns}
-        self._summary = run.summary()
-
-    def column(self, name: str) -> Array:
-        return self._arrays[name]
-
-    def summary(self) -> str:
-        return self._summary
 
 
 class Result:
@@ -43,8 +28,12 @@ class Result:
     ``result["x"]`` is a numpy array that shares the memory of the run, in SI units and radians.
     """
 
-    def __init__(self, run: _bbsim.Run) -> None:
+    def __init__(self, run: Any) -> None:
         self._run = run
+
+    @cached_property
+    def _rows(self) -> Dict[str, Array]:
+        return self._run.rows
 
     @cached_property
     def columns(self) -> List[str]:
@@ -59,7 +48,7 @@ class Result:
     @cached_property
     def summary(self) -> Dict[str, Any]:
         """What ``bbsim run --summary`` writes."""
-        return json.loads(self._run.summary())  # type: ignore[no-any-return]
+        return json.loads(self._run.summary)  # type: ignore[no-any-return]
 
     @property
     def events(self) -> List[Dict[str, Any]]:
@@ -93,7 +82,7 @@ class Result:
 
     def __getitem__(self, column: str) -> Array:
         try:
-            return self._run.column(column)
+            return self._rows[column]
         except KeyError:
             raise KeyError(f"there is no column {column!r}; there are {', '.join(self.columns)}") from None
 
@@ -104,7 +93,8 @@ class Result:
         return iter(self.columns)
 
     def __reduce__(self) -> "tuple[type, tuple[Any]]":
-        return Result, (self._run if isinstance(self._run, _Pickled) else _Pickled(self._run),)
+        names = ("columns", "units", "unmet", "measures", "warnings", "title", "status", "reason", "summary", "rows")
+        return Result, (SimpleNamespace(**{name: getattr(self._run, name) for name in names}),)
 
     def __len__(self) -> int:
         """The number of rows."""
@@ -174,14 +164,15 @@ class Result:
 class _StateSpace:
     """dz = A z + B u, y = C z + D u: dz is z', or z after one period ``dt``."""
 
-    A: Array
-    B: Array
-    C: Array
-    D: Array
-    dt: Optional[float]
-    states: List[str]
-    inputs: List[str]
-    outputs: List[str]
+    def __init__(self, made: Any) -> None:
+        self.A: Array = made.A
+        self.B: Array = made.B
+        self.C: Array = made.C
+        self.D: Array = made.D
+        self.dt: Optional[float] = made.dt
+        self.states, self.inputs, self.outputs = (
+            [name for name, _ in signals] for signals in (made.states, made.inputs, made.outputs)
+        )
 
     def to_scipy(self) -> Any:
         """A ``scipy.signal.StateSpace``."""
@@ -207,12 +198,12 @@ class OpenLoop(_StateSpace):
     sample to sample, with all its delays; in continuous time ``dt`` is 0.
     """
 
-    def __init__(self, made: _bbsim.LinearSystem) -> None:
-        self.A, self.B, self.C, self.D = made.A, made.B, made.C, made.D
-        self.dt: float = made.dt or 0.0
-        self.states = [name for name, _ in made.states]
+    dt: float
+
+    def __init__(self, made: Any) -> None:
+        super().__init__(made)
+        self.dt = made.dt or 0.0
         (self.command, self.unit), = made.inputs
-        self.inputs = [self.command]
         self.outputs = [self.command]
 
     def response(self, frequencies: Any) -> "np.ndarray[Any, np.dtype[np.complex128]]":
@@ -243,35 +234,15 @@ class Linearization(_StateSpace):
     In continuous time ``dt`` is None and dz is z'; otherwise dz is z after one period ``dt``.
     """
 
-    def __init__(self, made: _bbsim.Linearized) -> None:
-        self._made = made
-        self.A, self.B, self.C, self.D = made.A, made.B, made.C, made.D
-        self.dt = made.dt
-        self.states: List[str] = [name for name, _ in made.states]
-        self.inputs: List[str] = [name for name, _ in made.inputs]
-        self.outputs: List[str] = [name for name, _ in made.outputs]
-        self.units: Dict[str, str] = dict([*made.states, *made.inputs, *made.outputs])
+    def __init__(self, made: Any) -> None:
+        super().__init__(made.system)
+        self.units: Dict[str, str] = dict([*made.system.states, *made.system.inputs, *made.system.outputs])
         self.kind: str = made.kind
         self.at: str = made.at
         self.note: str = made.note
-
-    @cached_property
-    def _json(self) -> Dict[str, Any]:
-        return json.loads(self._made.json())  # type: ignore[no-any-return]
-
-    @cached_property
-    def _report(self) -> str:
-        return self._made.report().rstrip("\n")
-
-    @cached_property
-    def _loops(self) -> Dict[str, Optional[OpenLoop]]:
-        found = {axis: self._made.open_loop(f"{axis}_command") for axis in ("phi", "theta")}
-        return {axis: loop and OpenLoop(loop) for axis, loop in found.items()}
-
-    def __getstate__(self) -> Dict[str, Any]:
-        """All that ``_made`` would be asked for."""
-        return {"_json": self._json, "_report": self._report, "_loops": self._loops,
-                **{name: value for name, value in self.__dict__.items() if name != "_made"}}  # fmt: skip
+        self._json: Dict[str, Any] = json.loads(made.json)
+        self._report: str = made.report.rstrip("\n")
+        self._loops = {name: OpenLoop(loop) for name, loop in made.open_loops.items()}
 
     @property
     def poles(self) -> "np.ndarray[Any, np.dtype[np.complex128]]":
@@ -294,12 +265,11 @@ class Linearization(_StateSpace):
         along which no command moves the ball.
         """
         if axis not in ("phi", "theta"):
-            raise InputError([("", f"axis: found {axis!r}; allowed: phi, theta")])
-        found = self._loops[axis]
-        if found is None:
+            raise fault(f"axis: found {axis!r}; allowed: phi, theta")
+        if f"{axis}_command" not in self._loops:
             why = "its command closes no loop" if self.kind == "loop" else f"this is the {self.kind}, without a loop"
-            raise InputError([("", f"axis: found {axis}, but {why}; allowed: axes of a closed loop")])
-        return found
+            raise fault(f"axis: found {axis}, but {why}; allowed: axes of a closed loop")
+        return self._loops[f"{axis}_command"]
 
     def __repr__(self) -> str:
         return self._report

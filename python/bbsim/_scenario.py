@@ -12,8 +12,9 @@ from typing import Any, Callable, Iterable, List, Mapping, Optional, Sequence, T
 import numpy as np
 
 from . import _bbsim
-from ._errors import InputError
+from ._errors import fault
 
+Array = np.ndarray  # of numbers
 Scenario = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 Settings = Optional[Mapping[str, Any]]
 
@@ -55,7 +56,7 @@ def _whole(text: str) -> str:
     try:
         text.encode()
     except UnicodeEncodeError:
-        raise InputError([("", f"found {text!r}, a part of a character; allowed: Unicode text")]) from None
+        raise fault(f"found {text!r}, a part of a character; allowed: Unicode text") from None
     return text
 
 
@@ -81,11 +82,11 @@ def _without_callable(scenario: Mapping[str, Any]) -> Tuple[Mapping[str, Any], O
         return scenario, None
     function = controller["callable"]
     if not callable(function):
-        raise InputError([("", f"controller.callable: found {function!r}; allowed: a callable")])
+        raise fault(f"controller.callable: found {function!r}; allowed: a callable")
     rest = {key: value for key, value in controller.items() if key != "callable"}
     laws = [key for key in ("program", "library") if key in rest]
     if laws:
-        raise InputError([("", f"controller.{laws[0]}: found beside callable; allowed: one law")])
+        raise fault(f"controller.{laws[0]}: found beside callable; allowed: one law")
     name = getattr(function, "__qualname__", type(function).__qualname__)
     return {**scenario, "controller": {"library": {"file": f"Python: {name}"}, **rest}}, function
 

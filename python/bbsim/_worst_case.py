@@ -10,7 +10,7 @@ from typing import Any, Callable, Tuple
 import numpy as np
 from scipy.optimize import minimize
 
-from ._simulate import Array
+from ._scenario import Array
 
 _CASES, _MORE, _ROUNDS = 16, 8, 9  # cases of the first search, those that a round adds, rounds
 _SCANNED, _STEPS, _RUNS = 8, 10, 8  # points of the scan, for each number and 1; steps from a point; least runs of one

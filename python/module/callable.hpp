@@ -4,8 +4,6 @@
 // A Python callable as the controller of a scene.
 #pragma once
 
-#include <pybind11/pybind11.h>
-
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,9 +12,6 @@
 #include "watch.hpp"
 
 namespace bbsim::python {
-
-// Defines the argument of a callable, with the names of docs/reference/controllers.md.
-void define_sample(py::module_& module);
 
 // Must outlive the runs that it controls. Create and destroy it with the interpreter's lock.
 class Callable {

@@ -258,7 +258,7 @@ class Intervals(Case):
         in_a_dict = self.fit({"ball.inertia_factor": (0.3, 0.41), PHI + "offset": None}).parameters
         self.assertEqual((in_a_dict[0].estimate, in_a_dict[0].at_bound, len(in_a_dict)), (0.41, True, 2))
         self.assertIn("threads: found -1", self.refused("ball.inertia_factor", threads=-1))
-        key = bbsim._free_keys.read_free_key
+        key = bbsim._task.read_free_key
         given = bbsim._scenario.given("rig.yaml")
         for text, ends in (("-100:100 ms", (-0.1, 0.1)), ("5ms:0.06 s", (0.005, 0.06)), ("0.005:0.06", (0.005, 0.06))):
             its = key(PHI + "delay=" + text, given)
