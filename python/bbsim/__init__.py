@@ -21,10 +21,10 @@ import numpy as np
 from . import _bbsim
 from ._bbsim import Sample, __version__
 from ._environments import Env, VectorEnv
-from ._errors import ControllerError, Error, InputError, OutputError, Problem
-from ._pages import Compared, Page, compare, examples, replay
-from ._result import Linearization, OpenLoop, Result
-from ._scenario import Scenario, Settings, given, listed, specification
+from ._result import Compared, Linearization, OpenLoop, Page, Result, compare, examples, replay
+from ._scenario import (
+    ControllerError, Error, InputError, OutputError, Problem, Scenario, Settings, given, listed, specification,
+)  # fmt: skip
 from ._simulate import Simulated, simulate
 
 __all__ = [

@@ -16,9 +16,8 @@ import numpy as np
 from scipy.optimize import minimize
 
 from . import _bbsim
-from ._errors import InputError, fault, refuse
 from ._experiment import Experiment, Motions
-from ._scenario import Array, Scenario, Settings, given, listed
+from ._scenario import Array, InputError, Scenario, Settings, fault, given, listed, refuse
 from ._task import Bar, Progress, aligned, as_json, declare, print_report, read_free_keys, silent, write
 
 Size = Union[float, str, None]
@@ -87,7 +86,8 @@ class Candidate:
     """A sum of four sines for each axis, at multiples of 1/length, that begins and ends at rest; if it tilts a ball at
     rest, it leaves it at rest. `turns`: directions in which its numbers may change."""
 
-    slopes, merit = np.empty(0), -np.inf
+    slopes: Array = np.empty(0)
+    merit: Any = -np.inf
 
     def __init__(self, experiment: Experiment, random: np.random.Generator, middle: float) -> None:
         waves, turns = np.ones((1, 2, 4)), []
@@ -150,7 +150,7 @@ def best_sines(experiment: Experiment, middle: float) -> Candidate:
     for count in (first, first // 2, 3, 3, 2, 2, 2, 2, 0):
         before = [one.merit for one in active]
         found = within(experiment, motions, experiment.tilts)
-        for i, slopes in zip(found, experiment.slopes(join(found.values()))[0] if found else []):
+        for i, slopes in zip(found, experiment.slopes(join(found.values()))[0] if found else np.empty(0)):
             if merits(slopes) > owners[i].merit:
                 owners[i].motion, owners[i].slopes, owners[i].merit = found[i], slopes, merits(slopes)
         active = [one for one, merit in zip(active, before) if one.merit > merit + 0.1]
@@ -196,14 +196,14 @@ def section_of(rig: _bbsim.Given, sketch: Optional[str]) -> str:
     why = ""
     if not _bbsim.has(rig, "controller"):
         why = ("gimbal.torque: found, which a design cannot choose; allowed: gimbal.motion, or a controller with a "
-                 "reference")  # fmt: skip
+               "reference")  # fmt: skip
     elif any(_bbsim.has(rig, f"controller.{key}") for key in ("program", "library")):
         why = ("controller: found a program or library of your own; allowed in a design: a law of bbsim, "
-                 "controller.commands, or gimbal.motion")  # fmt: skip
+               "controller.commands, or gimbal.motion")  # fmt: skip
     elif sketch:
         why = ("sketch: the scenario has a controller with a reference; allowed: with gimbal.motion or "
-                 "controller.commands, whose tilts a sketch can play; "
-                 "--table writes the reference for your own firmware")  # fmt: skip
+               "controller.commands, whose tilts a sketch can play; --table writes the reference for your own "
+               "firmware")  # fmt: skip
     if why:
         raise fault(why)
     return "controller.reference"
@@ -256,7 +256,7 @@ def limits_of(rig: _bbsim.Given, tilt: Optional[float], rate: Optional[float], m
     def parts(columns: Sequence[str], most: Any) -> List[Tuple[str, float]]:
         return [(column, sign / one) for column, one in zip(columns, most) for sign in (1, -1)]
 
-    def degrees(most: Array) -> str:
+    def degrees(most: Any) -> str:
         return " and ".join(dict.fromkeys(rounded(np.degrees(one), 3) for one in most)) + " deg"
 
     limits = [
@@ -389,14 +389,14 @@ def design(
         if not np.isfinite(chosen.merit):
             share = experiment.play(Motions(np.zeros((1, 2 * rows + 6)), np.empty((1, 0))))[0].shares.max()
             why = ("the scenario does not run to its end without a motion" if np.isinf(share) else
-                     "without a motion, the ball or the plate goes beyond its limits" if share > 1 else
-                     "found no motion within the limits")  # fmt: skip
+                   "without a motion, the ball or the plate goes beyond its limits" if share > 1 else
+                   "found no motion within the limits")  # fmt: skip
             allowed = f"a rig that keeps the ball on the plate for {short(seconds)} s, or a shorter --length"
             raise fault(f"{why}; allowed: {allowed}")
         tried, final = experiment.played, chosen.motion.table(experiment.times)
         place = final.numbers[0, -4:-2] = np.round(final.numbers[0, -4:-2], 3) + 0.0  # placed by hand
         rise = within(experiment, step(experiment)).get(0)
-        played = [one and experiment.play(one)[0] for one in (final, circle, rise)]
+        played: List[Any] = [one and experiment.play(one)[0] for one in (final, circle, rise)]
         slopes, effects = zip(*(experiment.slopes(one, True) if one else (None, None) for one in played))
     idle = [key.name for key, effect in zip(keys, effects[0][0]) if effect <= 1e-6]  # in units of noise
     if idle:
@@ -423,8 +423,8 @@ def design(
     shown = [[f"{sd:.3g}" if np.isfinite(sd) else "-" for sd in its] for its in zip(*sds)]
     comments = f"# Designed by bbsim {_bbsim.__version__}: plays {name_of_table}, {short(seconds)} s; {begin}\n"
     comments += "# Standard deviations to expect from a fit:\n"
-    for key, its in zip(keys, shown):
-        comments += f"#   {key.name}: {its[0]}" + f" {key.unit}" * (its[0] != "-" and key.unit != "") + "\n"
+    for key, (designed, *_) in zip(keys, shown):
+        comments += f"#   {key.name}: {designed}" + f" {key.unit}" * (designed != "-" and key.unit != "") + "\n"
     commands = experiment.commands(final)[0]
     lines = [",".join(map(text_of, row)) for row in zip(experiment.times, *commands)]
     texts = {

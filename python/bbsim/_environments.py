@@ -13,9 +13,8 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple, TypeVar,
 import numpy as np
 
 from . import _bbsim
-from ._errors import fault
 from ._result import Result
-from ._scenario import Array, Scenario, Settings, as_yaml, given
+from ._scenario import Array, Scenario, Settings, as_yaml, fault, given
 
 try:
     import gymnasium
@@ -120,7 +119,7 @@ class VectorEnv(_VectorBase):
     """
 
     metadata: Dict[str, Any] = {"render_modes": [], "autoreset_mode": "NextStep"}
-    observation_columns: List[Tuple[str, str, str]] = [tuple(c) for c in _bbsim.OBSERVATIONS]
+    observation_columns: List[Tuple[str, str, str]] = _bbsim.OBSERVATIONS
     """Name, unit and meaning of each column of an observation."""
 
     render_mode = None
@@ -162,15 +161,12 @@ class VectorEnv(_VectorBase):
         """The unit of an action: rad, rad/s^2, N m or V."""
         return self._runs.command_unit
 
-    def _beginnings(self, which: Array, random: np.random.Generator, options: Mapping[str, Any]) -> Tuple[List[int], List[List[str]], List[int]]:
+    def _beginnings(self, which: Array, random: np.random.Generator, options: Mapping[str, Any]) -> Any:
         """The runs, and what is drawn for their new episodes: values and seeds."""
         values, seeds = [], []
         for _ in which:
-            drawn = []
-            for key, distribution in self._randomize.items():
-                value = distribution(random) if callable(distribution) else random.uniform(*distribution)
-                drawn.append(as_yaml(options.get(key, value)))
-            values.append(drawn)
+            drawn = {key: its(random) if callable(its) else random.uniform(*its) for key, its in self._randomize.items()}
+            values.append([as_yaml(options.get(key, value)) for key, value in drawn.items()])
             seeds.append(int(random.integers(_MOST_SEED)))
         return [int(one) for one in which], values, seeds
 
@@ -240,7 +236,7 @@ class VectorEnv(_VectorBase):
         return f"<bbsim.VectorEnv of {self.num_envs} runs>"
 
 
-class Env(_EnvBase):  # type: ignore[misc]
+class Env(_EnvBase):
     """A single run with Gymnasium's API: ``gymnasium.make("bbsim/Plate-v0", scenario=...)``."""
 
     metadata: Dict[str, Any] = {"render_modes": []}
@@ -276,10 +272,9 @@ class Env(_EnvBase):  # type: ignore[misc]
         self._all.close()
 
 
-def _vector(scenario: Scenario, num_envs: int = 1, **rest: Any) -> VectorEnv:
-    """For ``gymnasium.make_vec("bbsim/Plate-v0", num_envs=n, scenario=...)``."""
-    return VectorEnv(scenario, num_envs, **rest)
-
-
 if gymnasium is not None:
+
+    def _vector(scenario: Scenario, num_envs: int = 1, **rest: Any) -> VectorEnv:
+        return VectorEnv(scenario, num_envs, **rest)
+
     gymnasium.register(id="bbsim/Plate-v0", entry_point=Env, vector_entry_point=_vector)

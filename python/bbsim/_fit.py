@@ -13,10 +13,9 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple
 import numpy as np
 
 from . import _bbsim, _fit_text
-from ._errors import InputError, fault, refuse
 from ._fit_search import Search
 from ._fit_windows import Log, LogKey, Windows, WindowsFit, cut, start_coordinates
-from ._scenario import Array, Scenario, Settings, given as given_of, listed
+from ._scenario import Array, InputError, Scenario, Settings, fault, given as given_of, listed, log_choice, refuse
 from ._task import (
     Bar, FreeKey, Progress, declare, print_report, read_bounds, read_free_key, read_free_keys, refuse_free, silent,
     usual_scale, write, write_found,
@@ -159,16 +158,18 @@ class _Task:
         run = given.changed([("solver.error", "null"), ("solver.rtol", "1e-10"), ("solver.atol", "1e-12")])
         run, self.warnings = self._without_noise(run), list(_bbsim.remarks(given))
         maps, header = listed(map), [name for text in listed(header) for name in text.split(",")]
-        choice = _bbsim.LogChoice(maps, header, str(period or ""), str(time_offset or ""))
-        tables, self.logs = self._tables_of_logs(), []  # type: ignore[var-annotated]
+        choice = log_choice(maps, header, period, time_offset)
+        self.logs: List[Log] = []
+        self.columns: List[str] = []
+        tables = self._tables_of_logs()
         for file in self.files:
             stored, notes = _bbsim.read_log(file, choice)
             self.warnings += notes
-            self.columns = self.columns if self.logs else _compared(given, maps, stored, self.warnings)
+            self.columns = self.columns or _compared(given, maps, stored, self.warnings)
             its = [(key, f"'{os.path.abspath(file)}'") for key in tables if len(self.files) > 1]
             self.logs.append(_log(run.changed(its), stored, self.columns, self.warnings))
         known = {column[0]: column[2] for column in _bbsim.known_columns("rad")}
-        self.units = [known[name] for name in self.columns]
+        self.units: List[str] = [known[name] for name in self.columns]
         self.keys += [_log_key(text, self.columns, self.units) for text in free if text.strip().startswith("log.")]
         names = [key.name for key in self.keys]
         if len(set(names)) < len(names):
@@ -222,11 +223,10 @@ def _other(search: Search, windows: Windows, u: Array, ideal: bool = False) -> O
     """Other windows at u, or those of an ideal rig; None if one does not run."""
     its, logs = search.windows, search.windows.logs
     if ideal:
-        logs = [Log(log.name, log.times, log.values, _ideal(log.given)) for log in logs]  # type: ignore[arg-type]
+        logs = [Log(log.name, log.times, log.values, _ideal(log.given)) for log in logs]
     other = WindowsFit(logs, its.columns, windows, [] if ideal else its.keys, its.free, its.threads)
     other.reweigh(its.noise)
     other.residuals(np.empty(0) if ideal else u)
-    assert other.point is not None
     return other if other.point.runs.all() else None
 
 
@@ -284,10 +284,10 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
     if not made.white:
         notes.append(f"neighboring residuals are correlated ({made.correlated}); the model is incomplete and the "
                      "intervals are too short")  # fmt: skip
-        its = None if made.interrupted else search.suggestion(_candidates(task))
-        if its is not None:
-            made.suggestion = {"key": its[0], "residuals_smaller_by": its[1]}
-            notes.append(f"--free {its[0]} could make the residuals about {_bbsim.rounded(100 * its[1], 2)} % smaller")
+        best = None if made.interrupted else search.suggestion(_candidates(task))
+        if best is not None:
+            made.suggestion = {"key": best[0], "residuals_smaller_by": best[1]}
+            notes.append(f"--free {best[0]} could make the residuals about {_bbsim.rounded(100 * best[1], 2)} % smaller")
     made.warnings = [text.partition(": ")[2] for text in task.warnings]
     made.notes = [*made.warnings, *task.notes, *search.doubts, *notes]
     return made
@@ -372,6 +372,8 @@ def _carry_out(given: _bbsim.Given, options: Dict[str, Any], progress: Progress,
     files = {name: str(options.pop(name) or "") for name in ("output", "json", "report")}
     task = _Task(given, **options)
     reads = {given.name: "the scenario"} if os.path.exists(given.name) else {}
+    if files["report"]:
+        reads[_bbsim.file_of_template("fit.html")] = "the template of pages"
     declare(files, {**reads, **{file: "the log" for file in task.files}}, "report")
     if files["output"]:  # fails before the work if the text cannot be written
         keys = [key for key in task.keys if not isinstance(key, LogKey)]
@@ -383,6 +385,7 @@ def _carry_out(given: _bbsim.Given, options: Dict[str, Any], progress: Progress,
     made = _fit(task, progress, bool(files["report"]))
     if made is None:
         return None
+    progress(1, "")
     made.report = _fit_text.report(made)
     if files["report"]:
         write(files["report"], _fit_text.page(made, given))

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import math
-from typing import List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 from scipy.optimize import least_squares, lsq_linear
@@ -77,7 +77,9 @@ class Search:
             made, slopes = residuals(x), np.concatenate([windows.derivatives(u)[0], weak])
             step, gain = _best_step(slopes, made, u <= low, u >= high)
             variance = np.mean(made**2)
-            if exact and gain < variance and self._is_away(slopes[: -len(u)]):
+            # Those of a point more than 3 % of a standard deviation away?
+            away = slopes[: -len(u)] @ (u - windows.base.u)
+            if exact and gain < variance and float(np.linalg.norm(away)) ** 2 > 1e-3 * self.scatter():
                 slopes[: -len(u)] = windows.derivatives(u, near=False)[0]
                 step, gain = _best_step(slopes, made, u <= low, u >= high)
             if gain <= (1e-5 if exact else 0.1) * variance:  # SciPy would look for a decrease among rounding errors
@@ -201,10 +203,6 @@ class Search:
             last, change = change, self._reweigh()
             if self.windows.kinked and change < 0.01 or last < 0.01 and change < (1e-4 if self.robust else 1e-5):
                 break
-
-    def _is_away(self, slopes: Array) -> bool:
-        """Whether the derivatives are those of a point more than 3 % of a standard deviation away."""
-        return float(np.linalg.norm(slopes @ (self.u - self.windows.base.u)) ** 2) > 1e-3 * self.scatter()
 
     def _reweigh(self) -> float:
         """Estimates each column's noise from its residuals. Returns how much weights change."""
@@ -354,7 +352,7 @@ class Search:
         if rest.size:
             # Directions that are hardly determined stay.
             stay = np.diag(_UNTOLD * np.linalg.norm(slopes[:, rest], axis=0))
-            small = np.linalg.qr(np.column_stack([slopes[:, rest], residuals + slopes[:, k] * by]), "r")
+            small: Any = np.linalg.qr(np.column_stack([slopes[:, rest], residuals + slopes[:, k] * by]), "r")
             matrix, goal = np.concatenate([small[:, :-1], stay]), np.concatenate([small[:, -1], np.zeros(rest.size)])
             room = (np.minimum(low - u, 0)[rest], np.maximum(high - u, 0)[rest])
             step[rest] = lsq_linear(matrix, -goal, room, method="bvls").x

@@ -15,11 +15,10 @@ from matplotlib.collections import LineCollection
 from matplotlib.ticker import MaxNLocator, MultipleLocator, NullFormatter
 
 from . import _loops
-from ._errors import fault
 from ._loops import AXES, Columns
 from ._plot_axes import covered, logarithmic
 from ._plot_sheet import MM, TEXT, Figure, Sheet, cut, mark, number, stroke, width_of
-from ._scenario import Array, Scenario, Settings
+from ._scenario import Array, Scenario, Settings, fault
 
 Margins = Mapping[str, Mapping[str, Any]]
 Label = Tuple[str, float, float, bool, str]  # text, x, y, whether above y, color
@@ -80,34 +79,23 @@ def bode(columns: Columns, margins: Margins, width: float = 135.0) -> Figure:
         axes.margins(x=0)
     labels: Labels = {above: [], below: []}
     for axis, _, _ in curves:
-        its = margins.get(axis, {})
-        _mark_gains(above, its, COLORS[axis], labels[above])
-        _mark_phase(below, its, at, phases[axis], COLORS[axis], labels[below])
+        its, color = margins.get(axis, {}), COLORS[axis]
+        for name in ("gain", "gain_reduction", "phase"):
+            margin, where = its.get(name), its.get(f"{name}_frequency")
+            if margin is None or not where:
+                continue
+            if name == "phase":
+                level = float(np.interp(where, at, phases[axis]))
+                critical = level - math.degrees(margin)  # an odd multiple of 180 degrees
+                text = f"{math.degrees(margin):.3g}°"
+            else:
+                level, critical, text = -_decibels(margin), 0.0, f"{_decibels(margin):+.3g} dB"
+            panel = below if name == "phase" else above
+            panel.vlines(where, *sorted((critical, level)), color=color, lw=1.6)
+            labels[panel].append((text, where, critical, level < critical, color))
     for axes, texts in labels.items():
         _write(axes, texts)
     return figure
-
-
-def _mark_gains(axes: Axes, its: Mapping[str, Any], color: str, labels: List[Label]) -> None:
-    for name in ("gain", "gain_reduction"):
-        factor, where = its.get(name), its.get(f"{name}_frequency")
-        if factor is None or not where:
-            continue
-        level = -_decibels(factor)
-        axes.vlines(where, *sorted((level, 0)), color=color, lw=1.6)
-        labels.append((f"{_decibels(factor):+.3g} dB", where, 0.0, level < 0, color))
-
-
-def _mark_phase(
-    axes: Axes, its: Mapping[str, Any], at: Array, phase: Array, color: str, labels: List[Label]
-) -> None:
-    margin, where = its.get("phase"), its.get("phase_frequency")
-    if margin is None or not where:
-        return
-    level = float(np.interp(where, at, phase))
-    critical = level - math.degrees(margin)  # an odd multiple of 180 degrees
-    axes.vlines(where, *sorted((critical, level)), color=color, lw=1.6)
-    labels.append((f"{math.degrees(margin):.3g}°", where, critical, level < critical, color))
 
 
 def _write(axes: Axes, labels: List[Label]) -> None:
@@ -200,7 +188,7 @@ def poles(columns: Columns, dt: Optional[float], width: float = 100.0) -> Figure
     return figure
 
 
-def root_locus(columns: Columns, dt: Optional[float], key: str, unit: str = "", width: float = 110.0) -> Figure:
+def root_locus(columns: Columns, dt: Optional[float], key: str, width: float = 110.0) -> Figure:
     """The poles at each value of a key, colored by it; crosses at its first value, circles at its last."""
     figure, axes = _plane(columns, dt, width, 1.14 * width)
     value = columns["value"]
@@ -211,8 +199,7 @@ def root_locus(columns: Columns, dt: Optional[float], key: str, unit: str = "", 
         axes.plot(columns["real"][at], columns["imag"][at], shape, color="black", ms=5, mfc="none", mew=0.8,
                   label=f"at {number(end)}")  # fmt: skip
     _legend(axes)
-    label = cut(f"{key} ({unit})" if unit else key, 0.8 * width, TEXT)
-    figure.colorbar(points, ax=axes, location="bottom", aspect=40, fraction=0.05, label=label)
+    figure.colorbar(points, ax=axes, location="bottom", aspect=40, fraction=0.05, label=cut(key, 0.8 * width, TEXT))
     return figure
 
 

@@ -5,14 +5,13 @@
 from __future__ import annotations
 
 import math
-from typing import Callable, Dict, Optional, Sequence, Union
+from typing import Any, Callable, Dict, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _bbsim
-from ._errors import fault
 from ._result import Linearization, OpenLoop
-from ._scenario import Array, Scenario, Settings, as_yaml, given
+from ._scenario import Array, Scenario, Settings, as_yaml, fault, given
 
 Complex = np.ndarray
 Columns = Dict[str, Array]
@@ -113,7 +112,7 @@ def values_between(
         if number is None:
             raise fault(f"{key}: found {bound}; allowed: the bounds of a key that holds one number")
         ends.append(number)
-    return np.linspace(*ends, count)
+    return np.linspace(ends[0], ends[1], count)
 
 
 def root_locus(scenario: Scenario, key: str, values: Sequence[float], set: Settings = None) -> Columns:

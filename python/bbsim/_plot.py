@@ -9,18 +9,17 @@ import os
 import re
 import sys
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, NoReturn, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _bbsim
-from ._errors import InputError, fault
 from ._loop_pictures import KINDS, draw_accuracy, draw_loop
 from ._plot_runs import draw_runs
 from ._plot_sheet import FONT, Figure, require_font, style
 from ._plot_sweeps import draw_sweep
 from ._result import Result
-from ._scenario import as_yaml, given, listed
+from ._scenario import InputError, fault, given, listed, log_choice, overrides
 
 File = Union[str, "os.PathLike[str]"]
 Drawn = Union[File, Result, "np.ndarray[Any, np.dtype[np.void]]"]
@@ -34,11 +33,10 @@ _OF_SCENARIO = ("accuracy", *KINDS)
 def _settings(settings: Union[Mapping[str, Any], Texts, None]) -> Mapping[str, Any]:
     if isinstance(settings, Mapping):
         return settings
-    return dict(one.split("=", 1) for one in listed(settings) if "=" in one or _refuse_setting(one))
-
-
-def _refuse_setting(text: str) -> NoReturn:
-    raise fault(f"set: found {text}; allowed: KEY=VALUE")
+    for text in listed(settings):
+        if "=" not in text:
+            raise fault(f"set: found {text}; allowed: KEY=VALUE")
+    return dict(text.split("=", 1) for text in listed(settings))
 
 
 def _parts(texts: Optional[Texts], separator: str) -> List[str]:
@@ -59,8 +57,7 @@ def _millimeters(width: Union[float, str, None]) -> Optional[float]:
 
 def _in_memory(drawn: Any) -> _bbsim.Stored:
     if isinstance(drawn, Result):
-        columns = [(name, drawn.units[name], drawn[name], []) for name in drawn.columns]
-        return _bbsim.Stored(columns, drawn._run.summary)
+        return drawn._stored()
     if not isinstance(drawn, np.ndarray) or not drawn.dtype.names:
         allowed = "allowed: files, results of bbsim.run, arrays of bbsim.sweep"
         raise TypeError(f"found {type(drawn).__name__}; {allowed}")
@@ -88,9 +85,7 @@ class _Options:
         self.scenario, self.summary = (os.fspath(options[name] or "") for name in ("scenario", "summary"))
         self.set = _settings(options["set"])
         header = _parts(options["header"], ",")
-        self.log = _bbsim.LogChoice(
-            listed(options["map"]), header, options["period"] or "", options["time_offset"] or ""
-        )
+        self.log = log_choice(options["map"], header, options["period"], options["time_offset"])
         require_font(self.font)
         if self.csv and not self.kind:
             allowed = ", ".join(f"--{name.replace('_', '-')}" for name in _OF_SCENARIO)
@@ -99,8 +94,7 @@ class _Options:
             raise fault("set: allowed with --scenario, in which it sets a key")
 
     def read(self, files: Sequence[Any], notes: List[str]) -> List[_bbsim.Stored]:
-        stored, overrides = [], [f"{key}={as_yaml(value)}" for key, value in self.set.items()]
-        beside = _bbsim.Beside(self.summary, self.scenario, overrides)
+        stored, beside = [], _bbsim.Beside(self.summary, self.scenario, overrides(self.set))
         for file in files:
             if isinstance(file, (str, os.PathLike)):
                 one, its = _bbsim.read_result(os.fspath(file), beside, self.log)
@@ -202,26 +196,21 @@ def _save(figure: Figure, output: str, format: str) -> None:
 
 def _tasks(files: List[str], kind: str, options: Dict[str, Any], ending: str) -> List[Tuple[List[str], str]]:
     """The files of each picture, and its name."""
-    output = options["output"]
-    kind = kind.replace("_", "-")
-    if len(files) > 1 and kind:
+    output, kind, several = options["output"], kind.replace("_", "-"), len(files) > 1
+    if several and kind:
         raise fault(f"{kind}: found several files; allowed: one scenario")
-    if len(files) > 1 and not options["overlay"] and output:
-        allowed = "allowed: with --overlay, which draws them in one picture"
-        raise fault(f"output: found {output} for several files; {allowed}")
-
-    def named(file: str, more: str) -> str:
-        if output:
-            return str(output)
-        if file == "-":
+    together = kind or "overlay" * (several and options["overlay"])
+    if several and not together and output:
+        raise fault(f"output: found {output} for several files; allowed: with --overlay, which draws them in one picture")
+    if output:
+        return [(files, str(output))]
+    tasks = []
+    for its in [files] if together else [[file] for file in files]:
+        if its[0] == "-":
             raise fault("output: missing; standard input (-) gives the picture no name")
-        return f"{Path(Path(file).name if kind else file).with_suffix('')}{more}.{ending}"
-
-    if kind:
-        return [(files, named(files[0], f"-{kind}"))]
-    if options["overlay"] and len(files) > 1:
-        return [(files, named(files[0], "-overlay"))]
-    return [([file], named(file, "")) for file in files]
+        name = Path(Path(its[0]).name if kind else its[0]).with_suffix("")
+        tasks.append((its, f"{name}{'-' * bool(together)}{together}.{ending}"))
+    return tasks
 
 
 def _declare(outputs: _bbsim.Outputs, tasks: Sequence[Tuple[List[str], str]], options: Dict[str, Any]) -> None:
@@ -244,16 +233,13 @@ def _option(files: Sequence[str], options: Dict[str, Any]) -> str:
     return "-o" if options["output"] else f"the picture of {files[0]}, without -o"
 
 
-def _read(
-    shared: _Options, files: Sequence[str], output: str, options: Dict[str, Any], say: Any
-) -> List[_bbsim.Stored]:
+def _read(shared: _Options, files: Sequence[str], output: str, options: Dict[str, Any], say: Any) -> List[Any]:
     if "-" in files and sys.stdin.isatty():
         say("reading a CSV from the terminal; Ctrl-D ends it, Ctrl-C ends bbsim")
     notes: List[str] = []
-    results = shared.read(files, notes)
+    results, outputs = shared.read(files, notes), _bbsim.Outputs()
     for note in notes:
         say(note)
-    outputs = _bbsim.Outputs()
     for result in results:
         outputs.reads_with(result)
     outputs.writes(output, _option(files, options))

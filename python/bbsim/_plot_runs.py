@@ -10,10 +10,10 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple
 import numpy as np
 
 from . import _bbsim
-from ._errors import fault
 from ._plot_axes import Unit, choose_scale, choose_scales, covered, is_wide, largest, linear, linear_limits, width
 from ._plot_columns import COMMAND, MAIN, MEASURED, REFERENCE, Panel, Runs
 from ._plot_sheet import BAND, ORANGE, Box, Legend, Sheet, Stroke, mark, number, stroke
+from ._scenario import fault
 
 _MEASURED_STROKE: Stroke = {"color": "#f2c45c", "lw": 2.4}
 _COMMAND_STROKE: Stroke = {"color": "#707070", "lw": 0.7}
@@ -69,19 +69,6 @@ def _lone(x: Any, y: Any) -> Tuple[Any, Any]:
     return x[drawn & ~beside], y[drawn & ~beside]
 
 
-def _is_held(run: _bbsim.Stored, role: int) -> bool:
-    """A sampled controller holds each command until the next one; a sensor holds its value."""
-    return role == MEASURED or (role == COMMAND and run.sampled is not False)
-
-
-def _line_stroke(runs: Runs, run: _bbsim.Stored, role: int, mains_before: int) -> Stroke:
-    if role == REFERENCE:
-        return BAND
-    if not runs.one:
-        return runs.stroke(run)
-    return {MEASURED: _MEASURED_STROKE, COMMAND: _COMMAND_STROKE}.get(role) or stroke(mains_before)
-
-
 def _time_panel(
     sheet: Sheet, box: Box, runs: Runs, planned: Panel, abscissa: _Abscissa, marks: _Marks, lowest: bool
 ) -> None:
@@ -99,7 +86,8 @@ def _time_panel(
     for run in runs.runs:
         mains = 0
         for line in planned.lines:
-            look = _line_stroke(runs, run, line.role, mains)
+            look = {MEASURED: _MEASURED_STROKE, COMMAND: _COMMAND_STROKE}.get(line.role) or stroke(mains)
+            look = BAND if line.role == REFERENCE else look if runs.one else runs.stroke(run)
             mains += line.role == MAIN
             if len(planned.lines) > 1 and run is runs.runs[0] and (runs.one or line.role == REFERENCE):
                 legend.append((line.name, look))
@@ -118,8 +106,9 @@ def _time_panel(
     order = [REFERENCE, MEASURED, COMMAND, MAIN]
     for run, line, look in sorted(curves, key=lambda curve: order.index(curve[1].role)):
         x, y = abscissa.of(run), scale(run.numbers(line.column))
-        how = "steps-post" if _is_held(run, line.role) else "default"
-        axes.plot(x, y, drawstyle=how, **look)
+        # A sampled controller holds each command until the next one; a sensor holds its value.
+        held = line.role == MEASURED or (line.role == COMMAND and run.sampled is not False)
+        axes.plot(x, y, drawstyle="steps-post" if held else "default", **look)
         dots = _lone(x, y)
         if len(dots[0]):
             axes.plot(*dots, **mark("o", look["color"], 2.0))

@@ -17,7 +17,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure as _Figure
 from matplotlib.lines import Line2D
 
-from ._errors import fault
+from ._scenario import fault
 
 MM = 1 / 25.4  # inches
 TITLE, TEXT, SMALL = 9.5, 8.0, 7.0  # points

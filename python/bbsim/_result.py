@@ -1,25 +1,32 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The results of a run."""
+"""The results of runs: of one, as a linear system, on pages, compared; and the example scenarios."""
 
 from __future__ import annotations
 
 import html
 import json
+import os
+from dataclasses import dataclass
 from functools import cached_property
+from numbers import Real
+from pathlib import Path
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _bbsim
-from ._errors import fault
-from ._scenario import Array
+from ._scenario import Array, Settings, fault, listed, log_choice, overrides, refuse
 
 if TYPE_CHECKING:
     import matplotlib.figure
     import pandas
 
+
+
+File = Union[str, "os.PathLike[str]"]
+Texts = Union[str, Sequence[str]]
 
 
 class Result:
@@ -48,12 +55,12 @@ class Result:
     @cached_property
     def summary(self) -> Dict[str, Any]:
         """What ``bbsim run --summary`` writes."""
-        return json.loads(self._run.summary)  # type: ignore[no-any-return]
+        return json.loads(self._run.summary)
 
     @property
     def events(self) -> List[Dict[str, Any]]:
         """The events that occurred, with the state at each."""
-        return self.summary["events"]  # type: ignore[no-any-return]
+        return self.summary["events"]
 
     @cached_property
     def measures(self) -> Dict[str, float]:
@@ -114,6 +121,9 @@ class Result:
         frame = pandas.DataFrame({name: self[name] for name in self.columns})
         frame.attrs["units"] = dict(self.units)
         return frame
+
+    def _stored(self) -> _bbsim.Stored:
+        return _bbsim.Stored([(name, self.units[name], self[name], []) for name in self.columns], self._run.summary)
 
     def plot(self, columns: Union[str, Sequence[str]] = (), **options: Any) -> "matplotlib.figure.Figure":
         """Draws the run with ``bbsim.plot``: all columns, or the panels ``["path", "x,x_reference", "phi"]``."""
@@ -273,3 +283,70 @@ class Linearization(_StateSpace):
 
     def __repr__(self) -> str:
         return self._report
+
+
+@dataclass
+class Page:
+    """A page that plays runs; notebooks show it."""
+
+    html: str
+    reason: str  # why the run of a scenario ended early
+    notes: List[str]
+
+    def __repr__(self) -> str:
+        return f"<bbsim.Page, {len(self.html) / 1e6:.2f} MB>"
+
+    def _repr_html_(self) -> str:
+        return f'<iframe srcdoc="{html.escape(self.html)}" style="width: 100%; height: 600px; border: 0"></iframe>'
+
+
+@dataclass
+class Compared:
+    """Whether two results are alike, with the table that ``bbsim compare`` prints."""
+
+    alike: bool
+    text: str
+    reason: str  # why the run of a scenario ended early
+    warnings: List[str]
+
+    def __bool__(self) -> bool:
+        return self.alike
+
+
+def replay(
+    *files: Union[File, Result], output: Optional[File] = None, data: Texts = (), map: Texts = (), header: Texts = (),
+    period: str = "", time_offset: str = "", title: str = "", summary: File = "", scenario: File = "", set: Settings = None,
+) -> Page:  # fmt: skip
+    """A page that plays results of runs or sweeps, or scenarios. The keywords are the options of ``bbsim replay``.
+
+    files     files, or results of ``bbsim.run``
+    output    also writes the page to this file, NAME.html
+    """
+    shown = [file._stored() if isinstance(file, Result) else os.fspath(file) for file in files]
+    log = log_choice(map, header, period, time_offset)
+    beside = _bbsim.Beside(os.fspath(summary), os.fspath(scenario), overrides(set))
+    target = "" if output is None else os.fspath(output)
+    if target and not target.lower().endswith(".html"):
+        raise refuse("output", target, "a name that ends in .html")
+    made = _bbsim.replay(shown, listed(data), log, beside, title, target)
+    if target:
+        _bbsim.write_file(target, made[0].encode())
+    return Page(*made)
+
+
+def compare(
+    a: File, b: File, *, rtol: Optional[float] = None, atol: Optional[float] = None, columns: Texts = (),
+    map: Texts = (), header: Texts = (), period: str = "", time_offset: str = "", set: Settings = None,
+) -> Compared:  # fmt: skip
+    """Compares two files of results, or a log with a run or a scenario. The keywords are the options of ``bbsim compare``."""
+    log = log_choice(map, header, period, time_offset)
+    for name, found in (("rtol", rtol), ("atol", atol)):
+        if not (found is None or isinstance(found, Real)):
+            raise refuse(name, repr(found), "a number, in SI units")
+    made = _bbsim.compare(os.fspath(a), os.fspath(b), overrides(set), rtol, atol, listed(columns), log)
+    return Compared(made.alike, made.text, made.reason, made.warnings)
+
+
+def examples() -> Dict[str, Path]:
+    """The scenarios that come with bbsim: their files, by name."""
+    return {file.stem: file for file in sorted((Path(__file__).parent / "examples").glob("*.yaml"))}

@@ -9,10 +9,9 @@ from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple
 import numpy as np
 
 from . import _bbsim
-from ._errors import refuse
-from ._scenario import Array, Scenario, Settings, as_yaml, given, listed
+from ._scenario import Array, Scenario, Settings, as_yaml, given, listed, refuse
 
-Cases = Union[Mapping[str, Sequence[Any]], Sequence[Mapping[str, Any]]]
+Cases = Union[Mapping[str, Any], Sequence[Mapping[str, Any]]]
 Names = Union[str, Sequence[str]]
 
 

@@ -18,7 +18,7 @@ from typing import Any, Callable, Dict, List, NoReturn, Optional, Sequence
 import numpy as np
 
 from . import _bbsim
-from ._errors import fault
+from ._scenario import fault
 
 # A change that probably has a visible effect, by unit (SI). Other units span orders of magnitude.
 _USUAL = {"m": 0.01, "s": 0.01, "rad": 0.01, "m/s": 0.01, "N": 0.01}
@@ -48,7 +48,7 @@ class FreeKey:
     logarithmic: bool = False
     scale: float = 1.0
 
-    def value(self, u: "float | np.ndarray") -> "float | np.ndarray":  # type: ignore[type-arg]
+    def value(self, u: Any) -> Any:
         """Within the bounds."""
         raw = self.start * np.exp(u) if self.logarithmic else self.start + self.scale * np.asarray(u)
         # value(number(bound)) equals the bound only within rounding.
@@ -193,12 +193,6 @@ def silent(fraction: float, detail: str = "") -> None:
     pass
 
 
-def _time_text(seconds: float) -> str:
-    if seconds > 7200:
-        return f"{seconds / 3600:.1f} h"
-    return f"{seconds / 60:.0f} min" if seconds > 120 else f"{seconds:.0f} s"
-
-
 class Bar:
     """Draws a bar on standard error if that is a terminal; `with Bar(name, quiet) as progress: ...`."""
 
@@ -215,8 +209,11 @@ class Bar:
         if self._drawn:
             sys.stderr.write(_CLEAR)
             sys.stderr.flush()
+        self._drawn = False
 
     def __call__(self, fraction: float, detail: str = "") -> None:
+        if fraction >= 1:  # messages may follow
+            return self.__exit__()
         now = time.monotonic()
         if not self._draws or now - self._start < 1 or now - self._last < 0.1:
             return
@@ -224,7 +221,9 @@ class Bar:
         done = min(max(fraction, 0.0), 1.0)
         text = f" {100 * done:3.0f}%" + (f", {detail}" if detail else "")
         if done > 0.01:
-            text += f", {_time_text((now - self._start) * (1 - done) / done)} left"
+            left = (now - self._start) * (1 - done) / done
+            short = f"{left:.0f} s" if left <= 120 else f"{left / 60:.0f} min"
+            text += f", {short if left <= 7200 else f'{left / 3600:.1f} h'} left"
         length = min(30, shutil.get_terminal_size().columns - len(self._label) - len(text) - 5)
         if length >= 8:
             filled = int(done * length)

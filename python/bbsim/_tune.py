@@ -13,10 +13,11 @@ from typing import Any, Dict, List, Tuple
 import numpy as np
 
 from . import _bbsim
-from ._errors import InputError, fault
-from ._scenario import Array, Scenario, Settings, given, listed
+from ._scenario import Array, InputError, Scenario, Settings, fault, given, listed
 from ._simulate import simulate
-from ._task import Bar, aligned, as_json, declare, print_report, read_free_key, refuse_free, silent, write_found
+from ._task import (
+    Bar, Progress, aligned, as_json, declare, print_report, read_free_key, refuse_free, silent, write_found,
+)  # fmt: skip
 from ._worst_case import Search, merit_of, worst_of
 
 _SEARCHES, _TIGHTER = 4, 1.5  # a requirement is tightened by this times what it lacked on rigs held out
@@ -132,7 +133,8 @@ class _Tuning:
     def find(self, progress: Any) -> Any:
         """Searches; if a requirement fails on rigs held out, tightens it, goes on, and tries others."""
         seen: Dict[bytes, Array] = {}
-        tighter, tries, low, high = np.zeros(len(self.goals)), [], *self.scaled(self.bounds)  # type: Any
+        low, high = self.scaled(self.bounds)
+        tighter, tries = np.zeros(len(self.goals)), []  # type: Array, List[Any]
         start = np.clip((self.scaled(self.start) - low) / (high - low), 0, 1)
 
         def score(points: Array, cases: Array) -> Tuple[Array, Array]:
@@ -252,29 +254,32 @@ def tune(
     """
     options = dict(locals())
     options.update((name, listed(options[name])) for name in ("free", "require", "vary"))
-    files, base = {"output": str(output or ""), "json": str(json or "")}, given(scenario, set)
-    declare(files, {base.name: "the scenario"} if os.path.exists(base.name) else {})
+    files = {name: str(options.pop(name) or "") for name in ("output", "json")}
+    return _carry_out(given(scenario, set), {**options, **files}, silent, lambda text: None)
+
+
+def _carry_out(base: _bbsim.Given, options: Dict[str, Any], progress: Progress, say: Any) -> Any:
+    """Tunes, and writes the files that the options ask for."""
+    declare(options, {base.name: "the scenario"} if os.path.exists(base.name) else {})
     tuning = _Tuning(base, options)
-    made = tuning.result(tuning.find(silent))
-    write_found(base, files, made.scenario, _json(made), lambda text: None)
+    for remark in _bbsim.remarks(base):
+        say(remark)
+    made = tuning.result(tuning.find(progress))
+    progress(1, "")
+    write_found(base, options, made.scenario, _json(made), say)
     return made
 
 
 def command(options: Dict[str, Any], say: Any) -> int:
     """`bbsim tune`; `say` prints a message unless -q is given."""
     base = _bbsim.Given(options["scenario"], None, options["set"], None).changed([])  # reads standard input once
-    declare(options, {options["scenario"]: "the scenario"})
     options["quantile"] = 1 if options["quantile"] is None else options["quantile"]
     try:
         with Bar(base.name, options["quiet"]) as progress:
-            tuning = _Tuning(base, options)
-            for remark in _bbsim.remarks(base):
-                say(remark)
-            made = tuning.result(tuning.find(progress))
+            made = _carry_out(base, options, progress, say)
     except KeyboardInterrupt:
         sys.stderr.write("tune: interrupted before the first result; nothing is written\n")
         return 130
-    write_found(base, options, made.scenario, _json(made), say)
     print_report(made.report, options)
     sys.stderr.write(made.reason + "\n" * (made.reason != ""))
     return 130 if made.interrupted else 0 if made.met else 1

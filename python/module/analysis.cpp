@@ -186,6 +186,7 @@ void define_analysis(py::module_& module) {
              [](const std::string& name, const std::string& title, const std::string& json) {
                return replay::filled(replay::read_template(name), title, json);
              });
+  module.def("file_of_template", &replay::file_of_template);
   module.def("short_number", &short_number);
   module.def("rounded", &rounded);
 }

@@ -161,7 +161,7 @@ void Callable::throw_if_raised() {
   py::error_already_set error = std::move(*raised_);
   raised_.reset();
   if (!error.matches(PyExc_Exception)) throw error;
-  const py::object type = py::module_::import("bbsim._errors").attr("ControllerError");
+  const py::object type = py::module_::import("bbsim._scenario").attr("ControllerError");
   py::raise_from(error, type.ptr(), fault_.c_str());
   throw py::error_already_set();
 }

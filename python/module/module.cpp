@@ -8,7 +8,6 @@
 #include <pybind11/eigen.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -357,15 +356,15 @@ void define_environments(py::module_& module) {
         const api::RunResult* const made = which < its.count() ? its.result(which) : nullptr;
         return made == nullptr ? nullptr : std::make_shared<api::RunResult>(*made);
       });
-  std::vector<std::array<std::string, 3>> columns;
+  py::list columns;
   for (const auto& one : Environments::columns()) {
-    columns.push_back({std::string(one.name), std::string(one.unit), std::string(one.meaning)});
+    columns.append(py::make_tuple(one.name, one.unit, one.meaning));
   }
   module.attr("OBSERVATIONS") = columns;
 }
 
 void raise(const char* type, const py::object& argument) {
-  const py::object its = py::module_::import("bbsim._errors").attr(type);
+  const py::object its = py::module_::import("bbsim._scenario").attr(type);
   PyErr_SetObject(its.ptr(), its(argument).ptr());
 }
 

@@ -229,7 +229,7 @@ void define_results(py::module_& module) {
       &Result::title, "status", &Result::status, "end_time", &Result::end_time, "events",
       &Result::events, "units_known", &Result::units_known, "has_end_row", &Result::has_end_row,
       "shown_file", &Result::shown_file, "is_sweep", &Result::is_sweep, "names", &Result::names,
-      "scenario_text",
+      "raw", &Result::raw, "scenario_text",
       [](const Result& one) { return one.scenario ? one.scenario->source.text : ""; }, "plate",
       &plate_of, "friction", &friction_of, "command_unit", &command_unit_of, "sampled", &is_sampled)
       .def(py::init(&in_memory))

@@ -354,7 +354,10 @@ void make_log(Result& log, const LogChoice& choice, bool only_mapped,
     if (auto clock = usual_clock(log, notes)) mapped.push_back(*clock);
   }
   std::vector<Column> made;
-  for (const Mapped& one : mapped) made.push_back(made_of(log, one, note));
+  for (const Mapped& one : mapped) {
+    made.push_back(made_of(log, one, note));
+    log.raw.push_back(log.columns[one.from].name);
+  }
   if (only_mapped && maps) log.columns.clear();
   for (Column& column : made) {
     Column* const there = find_column(log, column.name);

@@ -442,6 +442,7 @@ class Command(Case):
             (["--report", "/dev/full"], 3, "/dev/full"), (["-o", "/dev/full"], 3, "/dev/full"),
             (["--json", "/dev/full"], 3, "/dev/full"), (["--report", "none/fit.html"], 3, "none/fit.html"),
             (["--report", "log.csv"], 2, "the log"), (["--report", rig], 2, "the scenario"),
+            (["--report", bbsim._bbsim.file_of_template("fit.html")], 2, "the template of pages"),
             (["--report", "one", "-o", "./one"], 2, "--report"), (["--report", "-", "--json", "-"], 2, "--report"),
             (["--continuity"], 2, "--continuity"), (["--hold-out", "1"], 2, "--hold-out: found 1"),
             (["--starts", "0"], 2, "--starts"), (["--lost", "huber"], 2, "did you mean --loss?"),
