@@ -35,10 +35,10 @@ except ImportError:
 
         def __init__(self, low: Any, high: Any, shape: Optional[Tuple[int, ...]] = None, dtype: Any = np.float64) -> None:
             self.dtype = np.dtype(dtype)
-            self.low = np.broadcast_to(np.asarray(low, dtype), shape or np.shape(low)).copy()
-            self.high = np.broadcast_to(np.asarray(high, dtype), shape or np.shape(low)).copy()
+            ends = (np.asarray(end, dtype) for end in (low, high))
+            self.low, self.high = (np.broadcast_to(end, shape or np.shape(low)).copy() for end in ends)
             self.shape = self.low.shape
-            self._random = np.random.default_rng()
+            self.seed()
 
         def seed(self, seed: Optional[int] = None) -> None:
             self._random = np.random.default_rng(seed)
@@ -52,8 +52,7 @@ except ImportError:
             array = np.asarray(value)
             return array.shape == self.shape and bool(np.all(array >= self.low) and np.all(array <= self.high))
 
-        def __contains__(self, value: Any) -> bool:
-            return self.contains(value)
+        __contains__ = contains
 
         def __repr__(self) -> str:
             return f"Box({self.low}, {self.high}, {self.shape}, {self.dtype})"
@@ -61,6 +60,7 @@ except ImportError:
 
 Distribution = Union[Tuple[float, float], Callable[[np.random.Generator], Any]]
 Reward = Callable[[Array, Array, Array], Array]
+_Options = Optional[Mapping[str, Any]]
 
 _MOST_SEED = 2**53  # the largest seed of a scenario
 _MOST_RUNS = 2**20
@@ -74,10 +74,8 @@ def _one_at_a_time(method: _Method) -> _Method:
     @functools.wraps(method)
     def turn(self: "VectorEnv", *args: Any, **rest: Any) -> Any:
         if not self._turn.acquire(blocking=False):
-            raise RuntimeError(
-                f"{method.__name__}: found within another call, as from another thread; "
-                "allowed: one call of an environment at a time"
-            )
+            found = f"{method.__name__}: found within another call, as from another thread"
+            raise RuntimeError(f"{found}; allowed: one call of an environment at a time")
         try:
             return method(self, *args, **rest)
         finally:
@@ -181,9 +179,7 @@ class VectorEnv(_VectorBase):
         return np.flatnonzero(flags)
 
     @_one_at_a_time
-    def reset(
-        self, *, seed: Optional[int] = None, options: Optional[Mapping[str, Any]] = None
-    ) -> Tuple[Array, Dict[str, Any]]:
+    def reset(self, *, seed: Optional[int] = None, options: _Options = None) -> Tuple[Array, Dict[str, Any]]:
         """Begins an episode of each run.
 
         ``options`` fix values of keys of ``randomize`` until the next ``reset()``;
@@ -250,9 +246,7 @@ class Env(_EnvBase):
         self.observation_space = self._all.single_observation_space
         self.action_space = self._all.single_action_space
 
-    def reset(
-        self, *, seed: Optional[int] = None, options: Optional[Mapping[str, Any]] = None
-    ) -> Tuple[Array, Dict[str, Any]]:
+    def reset(self, *, seed: Optional[int] = None, options: _Options = None) -> Tuple[Array, Dict[str, Any]]:
         if gymnasium is not None:
             super().reset(seed=seed)
         observations, info = self._all.reset(seed=seed, options=options)

@@ -280,7 +280,7 @@ class Search:
         untold = [self._words(one / sizes, np.abs(one) > 0.02) for one in directions[~known]]
         deviations = np.where(told, np.sqrt(np.diag(covariance)), np.nan)
         correlations = covariance / np.outer(deviations, np.where(deviations > 0, deviations, np.nan))
-        return Linear(slopes, covariance, told, untold, correlations)
+        return Linear(covariance, told, untold, correlations)
 
     def _words(self, change: Array, members: Array) -> str:
         keys = [(key, by) for key, by, is_in in zip(self.keys, change, members) if is_in]
@@ -360,7 +360,6 @@ class Search:
 
 
 class Linear(NamedTuple):
-    slopes: Array
     covariance: Array  # over the scatter
     told: Array
     untold: List[str]

@@ -75,7 +75,6 @@ def bode(columns: Columns, margins: Margins, width: float = 135.0) -> Figure:
     below.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
     below.xaxis.set_minor_formatter(NullFormatter())
     for axes in (above, below):
-        axes.grid(color="#e4e4e4", lw=0.5)
         axes.margins(x=0)
     labels: Labels = {above: [], below: []}
     for axis, _, _ in curves:
@@ -131,25 +130,26 @@ def nyquist(columns: Columns, width: float = 100.0) -> Figure:
     axes.plot([-1], [0], "k+", ms=8)
     far = 2.5  # integrators go to infinity
     axes.set(xlim=(-far, far), ylim=(-far, far), aspect="equal", xlabel="real part", ylabel="imaginary part")
-    axes.grid(color="#e4e4e4", lw=0.5)
     _legend(axes)
     return figure
 
 
 def _grid(axes: Axes, dt: Optional[float], reach: float) -> None:
     """Lines of equal damping ratio, and of equal natural frequency, in the plane of s or of z."""
-    frequencies = np.array([0.2, 0.4, 0.6, 0.8, 1.0]) * (math.pi / dt if dt else reach)
+
+    def place(s: Any) -> Any:
+        return np.exp(s * dt) if dt else s
+
     along = np.linspace(0, 1, 200)
     for damping in DAMPINGS:
         to = math.pi / dt / math.sqrt(1 - damping**2) if dt else 2 * reach
-        s = along * to * complex(-damping, math.sqrt(1 - damping**2))
-        _line(axes, np.exp(s * dt) if dt else s)
-        place = (np.exp(s * dt) if dt else s)[60 if dt else 90]
-        if dt or abs(place) < reach:
-            axes.text(place.real, place.imag, f"{damping:g}", color="#909090", size="x-small", ha="right")
-    for frequency in frequencies:
-        s = frequency * np.exp(1j * math.pi * (0.5 + 0.5 * along))
-        _line(axes, np.exp(s * dt) if dt else s)
+        line = place(along * to * complex(-damping, math.sqrt(1 - damping**2)))
+        _line(axes, line)
+        at = line[60 if dt else 90]
+        if dt or abs(at) < reach:
+            axes.text(at.real, at.imag, f"{damping:g}", color="#909090", size="x-small", ha="right")
+    for frequency in np.array([0.2, 0.4, 0.6, 0.8, 1.0]) * (math.pi / dt if dt else reach):
+        _line(axes, place(frequency * np.exp(1j * math.pi * (0.5 + 0.5 * along))))
     if dt:
         turn = np.exp(1j * 2 * math.pi * along)
         axes.plot(turn.real, turn.imag, **QUIET)
@@ -233,7 +233,6 @@ def step(columns: Columns, width: float = 135.0) -> Figure:
         if np.isfinite(columns[name]).any() and not (same and name == "y"):
             axes.plot(columns["t"], columns[name], color=COLORS[axis], ls=DASHES[axis], label="x, y" if same else name)
     axes.set(xlabel="t (s)", ylabel="step response")
-    axes.grid(color="#e4e4e4", lw=0.5)
     axes.margins(x=0)
     _legend(axes)
     return figure

@@ -19,7 +19,7 @@ from ._plot_runs import draw_runs
 from ._plot_sheet import FONT, Figure, require_font, style
 from ._plot_sweeps import draw_sweep
 from ._result import Result
-from ._scenario import InputError, fault, given, listed, log_choice, overrides
+from ._scenario import InputError, fault, given, listed, log_choice, overrides, refuse
 
 File = Union[str, "os.PathLike[str]"]
 Drawn = Union[File, Result, "np.ndarray[Any, np.dtype[np.void]]"]
@@ -93,13 +93,14 @@ class _Options:
         if self.set and not self.scenario and not self.kind:
             raise fault("set: allowed with --scenario, in which it sets a key")
 
-    def read(self, files: Sequence[Any], notes: List[str]) -> List[_bbsim.Stored]:
+    def read(self, files: Sequence[Any], say: Any) -> List[_bbsim.Stored]:
         stored, beside = [], _bbsim.Beside(self.summary, self.scenario, overrides(self.set))
         for file in files:
             if isinstance(file, (str, os.PathLike)):
-                one, its = _bbsim.read_result(os.fspath(file), beside, self.log)
-                notes += its
+                one, notes = _bbsim.read_result(os.fspath(file), beside, self.log)
                 stored.append(one)
+                for note in notes:
+                    say(note)
             else:
                 stored.append(_in_memory(file))
         return stored
@@ -169,7 +170,7 @@ def plot(
         all_files = files if isinstance(files, (list, tuple)) else [files]
         if not all_files:
             raise fault("files: found none; allowed: a file, a result, or a list of them")
-        figure, _ = options.draw(options.read(all_files, []))
+        figure, _ = options.draw(options.read(all_files, lambda note: None))
     if output is not None:
         _save(figure, os.fspath(output), chosen)
     return figure
@@ -178,24 +179,23 @@ def plot(
 def _format(output: Optional[str], asked: Optional[str]) -> str:
     """From `format`, else from the ending of the output."""
     name = asked or ("svg" if output in (None, "-") else Path(str(output)).suffix[1:].lower())
-    if name in _FORMATS:
-        return name
-    if asked:
-        raise fault(f"format: found {asked}; allowed: svg, png and pdf")
-    raise fault(f"output: found {output}; allowed: a name that ends in .svg, .png or .pdf")
+    if name not in _FORMATS:
+        allowed = ("output", output, "a name that ends in .svg, .png or .pdf")
+        raise refuse("format", asked, "svg, png and pdf") if asked else refuse(*allowed)
+    return name
 
 
 def _save(figure: Figure, output: str, format: str) -> None:
     """Writes a file that appears whole, with the same bytes each time, and with a mark of bbsim's."""
     drawn = io.BytesIO()
-    metadata = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {"Comment": _MARK}}[format]
+    metadata, end = {"svg": ({"Date": None}, f"<!-- {_MARK} -->\n"), "pdf": ({"CreationDate": None}, f"% {_MARK}\n"),
+                     "png": ({"Comment": _MARK}, "")}[format]  # fmt: skip
     figure.savefig(drawn, format=format, metadata=metadata)
-    end = {"svg": f"<!-- {_MARK} -->\n", "pdf": f"% {_MARK}\n", "png": ""}[format]
     _bbsim.write_file(output, drawn.getvalue() + end.encode())
 
 
-def _tasks(files: List[str], kind: str, options: Dict[str, Any], ending: str) -> List[Tuple[List[str], str]]:
-    """The files of each picture, and its name."""
+def _tasks(files: List[str], kind: str, options: Dict[str, Any], ending: str) -> List[Tuple[List[str], str, str]]:
+    """The files of each picture, its name, and what names it in messages."""
     output, kind, several = options["output"], kind.replace("_", "-"), len(files) > 1
     if several and kind:
         raise fault(f"{kind}: found several files; allowed: one scenario")
@@ -203,19 +203,21 @@ def _tasks(files: List[str], kind: str, options: Dict[str, Any], ending: str) ->
     if several and not together and output:
         raise fault(f"output: found {output} for several files; allowed: with --overlay, which draws them in one picture")
     if output:
-        return [(files, str(output))]
+        return [(files, str(output), "-o")]
     tasks = []
     for its in [files] if together else [[file] for file in files]:
         if its[0] == "-":
             raise fault("output: missing; standard input (-) gives the picture no name")
-        name = Path(Path(its[0]).name if kind else its[0]).with_suffix("")
-        tasks.append((its, f"{name}{'-' * bool(together)}{together}.{ending}"))
+        name = str(Path(Path(its[0]).name if kind else its[0]).with_suffix(""))
+        name = f"{name}-{together}.{ending}" if together else f"{name}.{ending}"
+        tasks.append((its, name, f"the picture of {its[0]}, without -o"))
     return tasks
 
 
-def _declare(outputs: _bbsim.Outputs, tasks: Sequence[Tuple[List[str], str]], options: Dict[str, Any]) -> None:
+def _declare(tasks: Sequence[Tuple[List[str], str, str]], options: Dict[str, Any]) -> None:
     """Call it before any of the files is opened."""
-    for file in [file for files, _ in tasks for file in files]:
+    outputs = _bbsim.Outputs()
+    for file in [file for files, _, _ in tasks for file in files]:
         outputs.reads(file, "what is drawn")
         summary = _bbsim.summary_beside(file)
         if summary:
@@ -225,25 +227,8 @@ def _declare(outputs: _bbsim.Outputs, tasks: Sequence[Tuple[List[str], str]], op
             outputs.reads(options[name], f"--{name}")
     if options["csv"]:
         outputs.writes(options["csv"], "--csv")
-    for files, output in tasks:
-        outputs.writes(output, _option(files, options))
-
-
-def _option(files: Sequence[str], options: Dict[str, Any]) -> str:
-    return "-o" if options["output"] else f"the picture of {files[0]}, without -o"
-
-
-def _read(shared: _Options, files: Sequence[str], output: str, options: Dict[str, Any], say: Any) -> List[Any]:
-    if "-" in files and sys.stdin.isatty():
-        say("reading a CSV from the terminal; Ctrl-D ends it, Ctrl-C ends bbsim")
-    notes: List[str] = []
-    results, outputs = shared.read(files, notes), _bbsim.Outputs()
-    for note in notes:
-        say(note)
-    for result in results:
-        outputs.reads_with(result)
-    outputs.writes(output, _option(files, options))
-    return results
+    for _, output, what in tasks:
+        outputs.writes(output, what)
 
 
 def command(options: Dict[str, Any], say: Any) -> None:
@@ -255,12 +240,18 @@ def command(options: Dict[str, Any], say: Any) -> None:
     tasks = _tasks(files, shared.kind, options, format)
     if len(files) > 1 and options["summary"]:
         raise fault("summary: found several files; allowed: one run, to which the summary belongs")
-    _declare(_bbsim.Outputs(), tasks, options)
+    _declare(tasks, options)
     # Draw what can be drawn, even if other files have faults.
     problems: List[Tuple[str, str]] = []
-    for its, output in tasks:
+    for its, output, what in tasks:
         try:
-            results = [] if shared.kind else _read(shared, its, output, options, say)
+            if "-" in its and not shared.kind and sys.stdin.isatty():
+                say("reading a CSV from the terminal; Ctrl-D ends it, Ctrl-C ends bbsim")
+            results = [] if shared.kind else shared.read(its, say)
+            outputs = _bbsim.Outputs()
+            for result in results:
+                outputs.reads_with(result)
+            outputs.writes(output, what)
             if not options["output"] and not options["force"]:
                 _bbsim.require_mark(output, "a picture of bbsim's", _MARK)
             figure, content = shared.draw(results) if results else shared.draw_scenario(its[0])

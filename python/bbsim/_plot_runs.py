@@ -13,7 +13,7 @@ from . import _bbsim
 from ._plot_axes import Unit, choose_scale, choose_scales, covered, is_wide, largest, linear, linear_limits, width
 from ._plot_columns import COMMAND, MAIN, MEASURED, REFERENCE, Panel, Runs
 from ._plot_sheet import BAND, ORANGE, Box, Legend, Sheet, Stroke, mark, number, stroke
-from ._scenario import fault
+from ._scenario import Array, fault
 
 _MEASURED_STROKE: Stroke = {"color": "#f2c45c", "lw": 2.4}
 _COMMAND_STROKE: Stroke = {"color": "#707070", "lw": 0.7}
@@ -131,29 +131,23 @@ def _mark_events(axes: Any, run: _bbsim.Stored, abscissa: _Abscissa, marks: _Mar
         axes.plot(times, np.ones(len(times)), transform=above, clip_on=False, **look)
 
 
-def _points(run: _bbsim.Stored, suffix: str = "") -> Tuple[Any, Any]:
+def _points(run: _bbsim.Stored, suffix: str = "") -> Array:
+    """Two rows, x and y; without columns if the run lacks one of them."""
     names = [f"x{suffix}", f"y{suffix}"]
-    if not set(names) <= set(run.names):
-        return np.empty(0), np.empty(0)
-    x, y = (run.numbers(name) for name in names)
-    gone = ~(np.isfinite(x) & np.isfinite(y))
-    return np.where(gone, np.nan, x), np.where(gone, np.nan, y)
+    points = np.array([run.numbers(name) if set(names) <= set(run.names) else [] for name in names], float)
+    return np.where(np.isfinite(points).all(0), points, np.nan)
 
 
-def _stands_still(points: Tuple[Any, Any]) -> bool:
+def _stands_still(points: Array) -> bool:
     return not any(is_wide(covered(part)) for part in points)
 
 
-def _plates(runs: Sequence[_bbsim.Stored]) -> List[Tuple[Any, Any]]:
+def _plates(runs: Sequence[_bbsim.Stored]) -> List[Array]:
     """The edges of the known plates, m."""
-    edges = []
-    for size in dict.fromkeys(tuple(run.plate) for run in runs if run.plate):
-        if len(size) == 1:
-            turn = np.linspace(0, 2 * math.pi, 181)
-            edges.append((size[0] / 2 * np.cos(turn), size[0] / 2 * np.sin(turn)))
-        else:
-            edges.append((size[0] / 2 * np.array([-1, 1, 1, -1, -1]), size[1] / 2 * np.array([-1, -1, 1, 1, -1])))
-    return edges
+    turn = np.linspace(0, 2 * math.pi, 181)
+    circle, square = np.array([np.cos(turn), np.sin(turn)]), np.array([[-1, 1, 1, -1, -1], [-1, -1, 1, 1, -1]])
+    sizes = dict.fromkeys(tuple(run.plate) for run in runs if run.plate)
+    return [np.array(size)[:, None] / 2 * (circle if len(size) == 1 else square) for size in sizes]
 
 
 class _Path:
@@ -163,20 +157,19 @@ class _Path:
         self._runs = runs
         paths = [_points(run, suffix) for run in runs.runs for suffix in ("", "_reference")]
         self.exists = any(covered(_points(run)[0]) for run in runs.runs)
-        events = [event for run in runs.runs for event in run.events]
-        spots = ([event.x for event in events], [event.y for event in events])
-        self._x, self._y = (covered(*(path[i] for path in paths)) for i in range(2))
-        longer, shorter = max(width(self._x), width(self._y)), min(width(self._x), width(self._y))
+        spots = np.array([(event.x, event.y) for run in runs.runs for event in run.events]).reshape(-1, 2).T
+
+        def ranges(*more: Array) -> List[Any]:
+            return [covered(*(points[i] for points in (*paths, *more))) for i in range(2)]
+
+        shorter, longer = sorted(map(width, ranges()))
         plates = _plates(runs.runs)
         # Whether the picture shows no more than the columns: the ball stays on a line along x or y.
         self.is_along_an_axis = self.exists and not plates and shorter < 1e-6 * longer
-        self._x, self._y = (covered(range_ or [], more) for range_, more in zip((self._x, self._y), spots))
         # A plate ten times the path's size would make the path too small to see.
-        most = 10 * max(width(self._x), width(self._y))
+        most = 10 * max(map(width, ranges(spots)))
         self._edges = [edge for edge in plates if max(width(covered(part)) for part in edge) <= most]
-        self._x, self._y = (
-            covered(range_ or [], *(edge[i] for edge in self._edges)) for i, range_ in enumerate((self._x, self._y))
-        )
+        self._x, self._y = ranges(spots, *self._edges)
 
     def legend(self) -> Legend:
         entries: Dict[str, Stroke] = {"path": stroke(0)} if self._runs.one else {}
@@ -202,12 +195,12 @@ class _Path:
         middle, tall = y[0] / 2 + y[1] / 2, half * up / across
         linear(axes.yaxis, middle - tall, middle + tall, up, step=step)
 
-        def line(points: Tuple[Any, Any], look: Stroke) -> None:
+        def line(points: Array, look: Stroke) -> None:
             drawn = x_scale(points[0]), y_scale(points[1])
             axes.plot(*drawn, **look)
             axes.plot(*_lone(*drawn), **mark("o", look["color"], 2.0))
 
-        def spot(points: Tuple[Any, Any], at: int, look: Stroke) -> None:
+        def spot(points: Array, at: int, look: Stroke) -> None:
             finite = np.flatnonzero(np.isfinite(points[0]))
             if len(finite):
                 axes.plot(x_scale(points[0][finite[at]]), y_scale(points[1][finite[at]]), **look)

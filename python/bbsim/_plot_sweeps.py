@@ -189,24 +189,28 @@ def _map(sweep: _Sweep, name: str, over: _bbsim.SweepKey, against: _bbsim.SweepK
         return
     x_edges, columns = _shared(along)
     y_edges, rows = _shared(up)
-    shape = len(y_edges) - 1, len(x_edges) - 1
+    x, y = _middles(x_edges, along.log), _middles(y_edges, up.log)
+    shape = len(y), len(x)
     there = (columns >= 0) & (rows >= 0)
     cells = np.where(there, rows * shape[1] + columns, -1)
     medians = np.full(shape, np.nan)
     good = there & sweep.done & np.isfinite(colors.values)
     at, bundles = _bundles(cells[good], colors.scale(colors.values[good]))
     medians.flat[at] = [np.median(bundle) for bundle in bundles]
-    present = np.full(shape, np.nan)
-    present.flat[np.unique(cells[there])] = 0
+    present = np.where(np.isin(np.arange(medians.size), cells), 0.85, np.nan).reshape(shape)
     many = medians.size > 2500  # as one image in SVG and PDF
     gray = Normalize(0, 1)
-    axes.pcolormesh(x_edges, y_edges, np.ma.masked_invalid(present + 0.85), cmap="gray", norm=gray, rasterized=many)
+    axes.pcolormesh(x_edges, y_edges, np.ma.masked_invalid(present), cmap="gray", norm=gray, rasterized=many)
     if norm is not None:
         drawn = np.ma.masked_invalid(medians)
-        mesh = axes.pcolormesh(x_edges, y_edges, drawn, cmap="viridis", norm=norm, rasterized=many)
+        axes.pcolormesh(x_edges, y_edges, drawn, cmap="viridis", norm=norm, rasterized=many)
         if place.across / shape[1] >= 7 and place.up / shape[0] >= 3.2:
-            _write_values(axes, mesh, x_edges, y_edges, medians, colors, along, up)
-    _mark_cells(sweep, axes, cells, there, x_edges, y_edges, along, up, min(place.across / shape[1], place.up / shape[0]))
+            for (row, column), value in np.ndenumerate(medians):
+                if np.isfinite(value):
+                    color = "#ffffff" if norm(value) < 0.55 else "#000000"  # readable on both halves of the colors
+                    shown = number(value, 3)
+                    axes.text(x[column], y[row], shown, size=6, ha="center", va="center_baseline", color=color)
+    _mark_cells(sweep, axes, cells, x, y, min(place.across / shape[1], place.up / shape[0]))
 
 
 def _color_scale(axes: Any, colors: _Measure, norm: Any, up: float) -> None:
@@ -237,25 +241,12 @@ def _middles(edges: Any, log: bool) -> Any:
     return np.sqrt(edges[1:] * edges[:-1]) if log else (edges[1:] + edges[:-1]) / 2
 
 
-def _write_values(
-    axes: Any, mesh: Any, x_edges: Any, y_edges: Any, medians: Any, colors: _Measure, along: _Key, up: _Key
-) -> None:
-    x, y = _middles(x_edges, along.log), _middles(y_edges, up.log)
-    for (row, column), value in np.ndenumerate(medians):
-        if np.isfinite(value):
-            color = "#ffffff" if mesh.norm(value) < 0.55 else "#000000"  # readable on both halves of the colors
-            axes.text(x[column], y[row], number(value, 3), size=6, ha="center", va="center_baseline", color=color)
-
-
-def _mark_cells(
-    sweep: _Sweep, axes: Any, cells: Any, there: Any, x_edges: Any, y_edges: Any, along: _Key, up: _Key, size: float
-) -> None:
+def _mark_cells(sweep: _Sweep, axes: Any, cells: Any, x: Any, y: Any, size: float) -> None:
     """Marks cells with a case that is not done, by the status of the first one."""
-    status, x, y = np.array(sweep.table.status), _middles(x_edges, along.log), _middles(y_edges, up.log)
     marked: Dict[str, List[int]] = {}
-    which = np.flatnonzero(there & ~sweep.done)
+    which = np.flatnonzero((cells >= 0) & ~sweep.done)
     for cell, first in zip(*np.unique(cells[which], return_index=True)):
-        marked.setdefault(status[which[first]], []).append(cell)
+        marked.setdefault(sweep.table.status[which[first]], []).append(cell)
     for other, of in marked.items():
         look = {**sweep.mark(other), "ms": min(max(size / 0.35 * 0.55, 0.8), 4.0)}
         look["mew"] = min(0.9, look["ms"] / 4)

@@ -40,16 +40,6 @@ class Problem:
         return f"{self.place}: {self.message}" if self.place else self.message
 
 
-def _problem(place: str, message: str) -> Problem:
-    if place.startswith("<dict>"):
-        place = ""
-    elif place.startswith("--set "):
-        place = place[len("--set "):]
-    message = message.removeprefix("--set ")
-    key, hint = _bbsim.key_and_hint(message)
-    return Problem(message, place, key or None, hint)
-
-
 class InputError(Error, ValueError):
     """The scenario or an argument is wrong."""
 
@@ -61,7 +51,11 @@ class InputError(Error, ValueError):
     """What to write instead, for the first problem."""
 
     def __init__(self, problems: Iterable[Tuple[str, str]]) -> None:
-        self.problems = [_problem(place, message) for place, message in problems]
+        self.problems = []
+        for place, message in problems:
+            key, hint = _bbsim.key_and_hint(message.removeprefix("--set "))
+            its_place = "" if place.startswith("<dict>") else place.removeprefix("--set ")
+            self.problems.append(Problem(message.removeprefix("--set "), its_place, key or None, hint))
         super().__init__("\n".join(str(problem) for problem in self.problems))
         first = self.problems[0] if self.problems else Problem("")
         self.key = first.key

@@ -91,11 +91,6 @@ class Work {
   std::optional<Callable> callable_;
 };
 
-Texts measures_of(const std::optional<Texts>& asked, const Scenario& scenario) {
-  if (asked) return *asked;
-  return scenario::default_measures(scenario.controller && commands_of(scenario) == nullptr);
-}
-
 api::RunResult run(const Given& given, const std::optional<Texts>& measures, const Texts& expect,
                    const std::string& output) {
   Work work(given);
@@ -104,7 +99,8 @@ api::RunResult run(const Given& given, const std::optional<Texts>& measures, con
     api::RunRequest request;
     request.scenario = first_of(family);
     request.inputs = family.inputs();
-    request.measures = measures_of(measures, request.scenario);
+    const bool feeds_back = request.scenario.controller && commands_of(request.scenario) == nullptr;
+    request.measures = measures ? *measures : scenario::default_measures(feeds_back);
     request.expect = expect;
     request.keeps_rows = true;
     if (!output.empty()) {
@@ -286,11 +282,6 @@ void define_linearize(py::module_& module) {
 
 using api::Environments;
 
-std::unique_ptr<Environments> environments(const Given& given, std::size_t count, Texts keys,
-                                           bool keeps_rows) {
-  return std::make_unique<Environments>(family_of(given), count, std::move(keys), keeps_rows);
-}
-
 using Indices = std::vector<std::size_t>;
 
 // For each run that begins, its values as texts and its seed.
@@ -349,7 +340,9 @@ void define_environments(py::module_& module) {
         return py::array_t<double>({its.count(), Environments::columns().size()},
                                    its.observations().data(), self);
       })
-      .def(py::init(&environments))
+      .def(py::init([](const Given& given, std::size_t count, Texts keys, bool keeps_rows) {
+        return std::make_unique<Environments>(family_of(given), count, std::move(keys), keeps_rows);
+      }))
       .def("begin", &begin)
       .def("step", &step)
       .def("result", [](Environments& its, std::size_t which) -> std::shared_ptr<api::RunResult> {

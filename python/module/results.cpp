@@ -81,16 +81,15 @@ Result in_memory(const std::vector<std::tuple<std::string, std::string, Numbers,
 
 // What bbsim knows of a column, where commands have this unit: name, symbol, unit, the number of
 // its panel, the panel's heading, role, symbol below that heading, axis.
-using Known =
-    std::tuple<std::string, std::string, std::string, int, std::string, int, std::string, int>;
-std::vector<Known> known_columns(const std::string& command_unit) {
-  std::vector<Known> all;
+py::list known_columns(const std::string& command_unit) {
+  py::list all;
   const auto add = [&](const scenario::Column& column) {
     const std::string_view unit = scenario::is_command(column.name) ? command_unit : column.unit;
     const scenario::Panel panel = scenario::panel_of(column, unit);
-    all.emplace_back(column.name, column.symbol, unit, static_cast<int>(panel),
-                     scenario::text_of(panel).heading, static_cast<int>(column.role), column.beside,
-                     scenario::axis_of(column.name));
+    const auto its = scenario::text_of(panel);
+    all.append(py::make_tuple(column.name, column.symbol, unit, static_cast<int>(panel),
+                              its.heading, static_cast<int>(column.role), column.beside,
+                              scenario::axis_of(column.name)));
   };
   std::ranges::for_each(scenario::catalogue, add);
   add(scenario::position_error);
