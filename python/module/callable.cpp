@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "callable.hpp"
-
 #include <cmath>
 #include <memory>
 #include <utility>

@@ -27,11 +27,9 @@
 #include "api/run.hpp"
 #include "api/sweep.hpp"
 #include "base/error.hpp"
-#include "callable.hpp"
 #include "file/outputs.hpp"
 #include "scenario/family.hpp"
 #include "scenario/measures.hpp"
-#include "watch.hpp"
 
 namespace bbsim::python {
 namespace {

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the parts of the module share: a scenario as the Python package names it, arrays, and the
-// attributes of bound types. Only the package calls what is bound, so arguments have no names.
+// What the parts of the module share: a scenario as the Python package names it, arrays, the
+// attributes of bound types, and callables. Only the package calls what is bound, so arguments have
+// no names.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -17,10 +18,10 @@
 #include <vector>
 
 #include "scenario/family.hpp"
+#include "scenario/scenario.hpp"
+#include "watch.hpp"
 
 namespace bbsim::python {
-
-namespace py = pybind11;
 
 using Texts = std::vector<std::string>;
 using Pairs = std::vector<std::pair<std::string, std::string>>;
@@ -80,6 +81,28 @@ Bound attributes(Bound bound, const char* name, Its its, Rest... rest) {
   if constexpr (sizeof...(rest) > 0) attributes(bound, rest...);
   return bound;
 }
+
+// A Python callable as the controller of a scene. Must outlive the runs that it controls. Create
+// and destroy it with the interpreter's lock.
+class Callable {
+ public:
+  explicit Callable(py::object function);
+
+  // For runs under `watch`, which end if the callable raises. Needs no lock.
+  [[nodiscard]] ControllerFactory factory(Watch& watch);
+
+  // Raises what the callable raised: an Exception as the cause of a ControllerError, others (such
+  // as KeyboardInterrupt) unchanged.
+  void throw_if_raised();
+
+ private:
+  class Controller;
+
+  py::object function_;
+  std::string name_;  // in messages
+  std::optional<py::error_already_set> raised_;
+  std::string fault_;
+};
 
 void define_sample(py::module_& module);    // the argument of a callable
 void define_results(py::module_& module);   // stored results, pages of them, files written whole

@@ -33,7 +33,6 @@
 #include "scenario/columns.hpp"
 #include "scenario/measures.hpp"
 #include "scenario/reader.hpp"
-#include "watch.hpp"
 #include "yaml/nearest.hpp"
 
 namespace bbsim::python {
