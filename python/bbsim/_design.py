@@ -18,7 +18,7 @@ from scipy.optimize import minimize
 from . import _bbsim
 from ._experiment import Experiment, Motions
 from ._scenario import Array, InputError, Scenario, Settings, fault, given, listed, refuse
-from ._task import Bar, Progress, aligned, as_json, declare, print_report, read_free_keys, silent, write
+from ._task import Bar, Progress, aligned, as_json, declare, print_report, read_free_keys, silent
 
 Size = Union[float, str, None]
 
@@ -407,11 +407,10 @@ def design(
     used = dict.fromkeys((limit[0] for limit in limits), 0.0)
     for (kind, *_), share in zip((limit for limit in limits for _ in limit[-1]), played[0].shares[0].max(1)):
         used[kind] = max(used[kind], float(share))
-    sines: Dict[str, List[Dict[str, float]]] = {name: [] for name in experiment.names}
+    sines: Dict[str, List[Any]] = {name: [] for name in experiment.names}
     for i in axes:
         cosine, sine = chosen.motion.numbers[0, 8 * i : 8 * i + 8].reshape(2, 4)
-        of_sine = np.hypot(cosine, sine), chosen.motion.waves[0, i], np.arctan2(cosine, sine)
-        for one in zip(*of_sine):
+        for one in zip(np.hypot(cosine, sine), chosen.motion.waves[0, i], np.arctan2(cosine, sine)):
             sines[experiment.names[i]].append(dict(zip(("amplitude", "frequency", "phase"), map(float, one))))
     result = {
         "parameters": [dict(zip(("key", "value", "sd", "circle_sd", "step_sd"), (key.name, float(key.value(0)), *its)))
@@ -434,7 +433,7 @@ def design(
     }  # fmt: skip
     for name, file in files.items():
         if file:
-            write(file, texts[name])
+            _bbsim.write_file(file, texts[name])
     made = loads(texts["json"], object_hook=lambda its: SimpleNamespace(**its))
     better = circle and merits(slopes[0])[0] < merits(slopes[1])[0]
     circling = f"; the best circle has {frequency / _TURN:.3g} Hz" if circle else ""

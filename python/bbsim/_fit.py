@@ -18,7 +18,7 @@ from ._fit_windows import Log, LogKey, Windows, WindowsFit, cut, start_coordinat
 from ._scenario import Array, InputError, Scenario, Settings, fault, given as given_of, listed, log_choice, refuse
 from ._task import (
     Bar, FreeKey, Progress, declare, print_report, read_bounds, read_free_key, read_free_keys, refuse_free, silent,
-    usual_scale, write, write_found,
+    usual_scale, write_found,
 )  # fmt: skip
 
 _USUAL_WINDOW = 2.0  # s; short, because a plate makes the ball a double integrator
@@ -388,7 +388,7 @@ def _carry_out(given: _bbsim.Given, options: Dict[str, Any], progress: Progress,
     progress(1, "")
     made.report = _fit_text.report(made)
     if files["report"]:
-        write(files["report"], _fit_text.page(made, given))
+        _bbsim.write_file(files["report"], _fit_text.page(made, given))
     text = _fit_text.scenario(made, given) if files["output"] else ""
     write_found(given, files, text, _fit_text.as_document(made), say)
     return made

@@ -133,7 +133,7 @@ class _Options:
                     figure, points = draw_accuracy(text, title, self.width)
                     content = f"{points} points"
         if self.csv:
-            _bbsim.write_file(os.fspath(self.csv), text.encode())
+            _bbsim.write_file(os.fspath(self.csv), text)
         if figure is None:
             raise fault("no method reached the end of the scene; `bbsim run` says why")
         return figure, content

@@ -330,7 +330,7 @@ def replay(
         raise refuse("output", target, "a name that ends in .html")
     made = _bbsim.replay(shown, listed(data), log, beside, title, target)
     if target:
-        _bbsim.write_file(target, made[0].encode())
+        _bbsim.write_file(target, made[0])
     return Page(*made)
 
 

@@ -161,21 +161,17 @@ def declare(options: Dict[str, Any], reads: Dict[str, str], *others: str) -> Non
         outputs.writes("-", "the report")
 
 
-def write(target: str, text: str) -> None:
-    _bbsim.write_file(target, text.encode())
-
-
 def write_found(given: _bbsim.Given, options: Dict[str, Any], scenario: str, json_text: str, say: Any) -> None:
     """Writes the files that the options ask for."""
     output = options["output"]
     if output:
-        write(output, scenario)
+        _bbsim.write_file(output, scenario)
         folders: List[str] = [os.path.dirname(os.path.abspath(file)) for file in (output, given.name)]
         if output != "-" and folders[0] != folders[1] and _bbsim.tables(given):
             say(f"note: {output} is not in the scenario's folder, from which its tables are read; move it there to "
                 "run it")  # fmt: skip
     if options["json"]:
-        write(options["json"], json_text)
+        _bbsim.write_file(options["json"], json_text)
 
 
 def print_report(report: str, options: Dict[str, Any], *others: str) -> None:

@@ -273,8 +273,8 @@ void define_results(py::module_& module) {
              [](const std::string& target, const std::string& what, const std::string& mark) {
                file::require_like(target, {.what = what, .mark = mark});
              });
-  module.def("write_file", [](const std::string& target, const py::bytes& content) {
-    file::write_file(target, static_cast<std::string_view>(content));
+  module.def("write_file", [](const std::string& target, const std::string& content) {
+    file::write_file(target, content);
   });
   module.def("end_at_signals", &end_at_signals);
   module.def("printable", [](const std::string& text) { return printable(text); });
