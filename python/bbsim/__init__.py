@@ -21,10 +21,10 @@ import numpy as np
 from . import _bbsim
 from ._bbsim import Sample, __version__
 from ._environments import Env, VectorEnv
-from ._errors import ControllerError, Error, InputError, OutputError, Problem
-from ._pages import Compared, Page, compare, examples, replay
-from ._result import Linearization, OpenLoop, Result
-from ._scenario import Scenario, Settings, given, listed, specification
+from ._result import Compared, Linearization, OpenLoop, Page, Result, compare, examples, replay
+from ._scenario import (
+    ControllerError, Error, InputError, OutputError, Problem, Scenario, Settings, given, listed, specification,
+)  # fmt: skip
 from ._simulate import Simulated, simulate
 
 __all__ = [
@@ -54,14 +54,10 @@ def __dir__() -> List[str]:
 
 
 def run(
-    scenario: Scenario,
-    set: Settings = None,
-    error: Union[float, str, None] = None,
-    *,
-    measures: Union[str, Sequence[str], None] = None,
-    expect: Union[str, Sequence[str]] = (),
+    scenario: Scenario, set: Settings = None, error: Union[float, str, None] = None, *,
+    measures: Union[str, Sequence[str], None] = None, expect: Union[str, Sequence[str]] = (),
     output: Union[str, "os.PathLike[str]", None] = None,
-) -> Result:
+) -> Result:  # fmt: skip
     """Runs a scenario.
 
     set       values of keys in place of the scenario's: ``{"ball.radius": "2 cm"}``; None removes a key
@@ -96,18 +92,11 @@ def linearize(
 
 
 def sweep(
-    scenario: Scenario,
-    vary: Optional[Mapping[str, Union[str, Sequence[Any]]]] = None,
-    measures: Union[str, Sequence[str]] = (),
-    *,
-    set: Settings = None,
-    error: Union[float, str, None] = None,
-    combine: str = "",
-    samples: Optional[int] = None,
-    seed: Optional[int] = None,
-    threads: int = 0,
+    scenario: Scenario, vary: Optional[Mapping[str, Union[str, Sequence[Any]]]] = None,
+    measures: Union[str, Sequence[str]] = (), *, set: Settings = None, error: Union[float, str, None] = None,
+    combine: str = "", samples: Optional[int] = None, seed: Optional[int] = None, threads: int = 0,
     expect: Union[str, Sequence[str]] = (),
-) -> "np.ndarray[Any, np.dtype[np.void]]":
+) -> "np.ndarray[Any, np.dtype[np.void]]":  # fmt: skip
     """Runs a scenario at many values of its keys; returns a structured array, one row per case.
 
     vary      {KEY: values}: a sequence, or a SPEC such as "linear:0:1:11" or "normal:0:2 mm"
@@ -122,12 +111,9 @@ def sweep(
     ``expect``.
     """
     pairs = [(key, specification(values)) for key, values in (vary or {}).items()]
-    choice = _bbsim.SweepChoice(pairs, combine, samples, seed, listed(measures))
-    made = _bbsim.sweep(given(scenario, set, error), choice, listed(expect), threads)
-    fields = {
-        column.name: np.array(column.texts, dtype=np.str_) if column.is_text else column.numbers
-        for column in made.columns
-    }
+    drawn = (combine, samples, seed)
+    made = _bbsim.sweep(given(scenario, set, error), pairs, *drawn, listed(measures), listed(expect), threads)
+    fields = {name: np.array(its, np.str_) if isinstance(its, list) else its for name, its in made}
     fields["case"] = fields["case"].astype(np.int64)
     table = np.empty(len(fields["case"]), dtype=[(name, field.dtype) for name, field in fields.items()])
     for name, field in fields.items():

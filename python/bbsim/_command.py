@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import argparse
+import functools
 import importlib
 import json
 import logging
@@ -16,23 +17,19 @@ from pathlib import Path
 from typing import Any, Dict, List, NoReturn, Optional, Sequence
 
 from . import _bbsim
-from ._errors import ControllerError, InputError, OutputError
+from ._scenario import ControllerError, InputError, OutputError, fault
 
 _DONE, _ENDED_EARLY, _INPUT_AT_FAULT, _OUTPUT_FAILED, _INTERRUPTED = 0, 1, 2, 3, 130
 
 
 class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
-        raise InputError([("", f"{message}\nRun {self.prog} --help for more information.")])
+        raise fault(f"{message}\nRun {self.prog} --help for more information.")
 
 
 def _name_of(option: Dict[str, Any]) -> str:
     """The keyword of an option: some_name of "-s,--some-name"."""
     return str(option["names"]).split(",")[-1].lstrip("-").replace("-", "_").lower()
-
-
-def _table(name: str) -> Dict[str, Any]:
-    return json.loads((Path(__file__).parent / "commands.json").read_text("utf-8"))[name]  # type: ignore[no-any-return]
 
 
 def _number(option: Dict[str, Any], text: str) -> float:
@@ -45,7 +42,7 @@ def _number(option: Dict[str, Any], text: str) -> float:
     if math.isfinite(number) and (least is None or number >= least):
         return number
     name, allowed = option["names"].split(",")[-1], "a number" if least is None else f"a whole number from {least} up"
-    raise InputError([("", f"{name}: found {text}; allowed: {allowed}")])
+    raise fault(f"{name}: found {text}; allowed: {allowed}")
 
 
 def _parsed(name: str, table: Dict[str, Any], words: Sequence[str]) -> Dict[str, Any]:
@@ -91,27 +88,23 @@ def _say(text: str) -> None:
     sys.stderr.write(_bbsim.printable(text) + "\n")
 
 
-def _told(error: InputError, table: Dict[str, Any]) -> str:
-    """The messages, with options named as on a command line."""
-    options = [option["names"].split(",")[-1] for option in table["options"]]
-    names = "|".join(re.escape(option[2:]) for option in options if option.startswith("--"))
-    return "\n".join(re.sub(rf"^({names}): ", r"--\1: ", str(problem)) for problem in error.problems)
-
-
 def main(name: str, words: Optional[List[str]] = None) -> int:
     """Carries out `bbsim NAME`; returns its exit code."""
     for number in (signal.SIGTERM, signal.SIGHUP):
         if signal.getsignal(number) == signal.SIG_DFL:
             signal.signal(number, signal.default_int_handler)
     logging.disable(logging.ERROR)  # of matplotlib, on its own folders
-    table = _table(name)
+    table = json.loads((Path(__file__).parent / "commands.json").read_text("utf-8"))[name]
     try:
         options = _parsed(name, table, sys.argv[1:] if words is None else words)
         quiet = options["quiet"]
         command = importlib.import_module(f"bbsim._{name}").command
         return command(options, (lambda text: None) if quiet else _say) or _DONE
     except InputError as error:
-        _say(_told(error, table))
+        # Options are named as on a command line.
+        names = [option["names"].split(",")[-1] for option in table["options"]]
+        known = "|".join(re.escape(name[2:]) for name in names if name.startswith("--"))
+        _say("\n".join(re.sub(rf"^({known}): ", r"--\1: ", str(problem)) for problem in error.problems))
         return _INPUT_AT_FAULT
     except BrokenPipeError:  # the reader has seen enough
         return _OUTPUT_FAILED
@@ -128,17 +121,4 @@ def main(name: str, words: Optional[List[str]] = None) -> int:
         return _INTERRUPTED
 
 
-def design() -> int:
-    return main("design")
-
-
-def fit() -> int:
-    return main("fit")
-
-
-def plot() -> int:
-    return main("plot")
-
-
-def tune() -> int:
-    return main("tune")
+design, fit, plot, tune = (functools.partial(main, name) for name in ("design", "fit", "plot", "tune"))

@@ -16,13 +16,9 @@ import numpy as np
 from scipy.optimize import minimize
 
 from . import _bbsim
-from ._errors import InputError
 from ._experiment import Experiment, Motions
-from ._found_files import aligned, as_json, declare, print_report, write
-from ._free_keys import read_free_keys
-from ._progress import Bar, Progress, silent
-from ._scenario import Scenario, Settings, given, listed
-from ._simulate import Array, refuse
+from ._scenario import Array, InputError, Scenario, Settings, fault, given, listed, refuse
+from ._task import Bar, Progress, aligned, as_json, declare, print_report, read_free_keys, silent
 
 Size = Union[float, str, None]
 
@@ -90,7 +86,8 @@ class Candidate:
     """A sum of four sines for each axis, at multiples of 1/length, that begins and ends at rest; if it tilts a ball at
     rest, it leaves it at rest. `turns`: directions in which its numbers may change."""
 
-    slopes, merit = np.empty(0), -np.inf
+    slopes: Array = np.empty(0)
+    merit: Any = -np.inf
 
     def __init__(self, experiment: Experiment, random: np.random.Generator, middle: float) -> None:
         waves, turns = np.ones((1, 2, 4)), []
@@ -153,7 +150,7 @@ def best_sines(experiment: Experiment, middle: float) -> Candidate:
     for count in (first, first // 2, 3, 3, 2, 2, 2, 2, 0):
         before = [one.merit for one in active]
         found = within(experiment, motions, experiment.tilts)
-        for i, slopes in zip(found, experiment.slopes(join(found.values()))[0] if found else []):
+        for i, slopes in zip(found, experiment.slopes(join(found.values()))[0] if found else np.empty(0)):
             if merits(slopes) > owners[i].merit:
                 owners[i].motion, owners[i].slopes, owners[i].merit = found[i], slopes, merits(slopes)
         active = [one for one, merit in zip(active, before) if one.merit > merit + 0.1]
@@ -196,19 +193,19 @@ def section_of(rig: _bbsim.Given, sketch: Optional[str]) -> str:
     tilts = [key for key in ("controller.commands", "gimbal.motion") if _bbsim.has(rig, key)]
     if tilts:
         return tilts[0]
-    fault = ""
+    why = ""
     if not _bbsim.has(rig, "controller"):
-        fault = ("gimbal.torque: found, which a design cannot choose; allowed: gimbal.motion, or a controller with a "
-                 "reference")  # fmt: skip
+        why = ("gimbal.torque: found, which a design cannot choose; allowed: gimbal.motion, or a controller with a "
+               "reference")  # fmt: skip
     elif any(_bbsim.has(rig, f"controller.{key}") for key in ("program", "library")):
-        fault = ("controller: found a program or library of your own; allowed in a design: a law of bbsim, "
-                 "controller.commands, or gimbal.motion")  # fmt: skip
+        why = ("controller: found a program or library of your own; allowed in a design: a law of bbsim, "
+               "controller.commands, or gimbal.motion")  # fmt: skip
     elif sketch:
-        fault = ("sketch: the scenario has a controller with a reference; allowed: with gimbal.motion or "
-                 "controller.commands, whose tilts a sketch can play; "
-                 "--table writes the reference for your own firmware")  # fmt: skip
-    if fault:
-        raise InputError([("", fault)])
+        why = ("sketch: the scenario has a controller with a reference; allowed: with gimbal.motion or "
+               "controller.commands, whose tilts a sketch can play; --table writes the reference for your own "
+               "firmware")  # fmt: skip
+    if why:
+        raise fault(why)
     return "controller.reference"
 
 
@@ -236,7 +233,7 @@ def limits_of(rig: _bbsim.Given, tilt: Optional[float], rate: Optional[float], m
     sides = [side for side in (facts(rig, f"plate.{key}") for key in ("size.0", "size.1", "diameter")) if side]
     if not sides:
         allowed = 'allowed: with plate.size or plate.diameter, such as --set "plate.size=[30 cm, 30 cm]"'
-        raise InputError([("", f"plate: has no size, but the ball must stay on it; {allowed}")])
+        raise fault(f"plate: has no size, but the ball must stay on it; {allowed}")
     half, short, rounded = min(sides) / 2, _bbsim.short_number, _bbsim.rounded
     margin = half / 5 if margin is None else margin
     if margin >= half:
@@ -259,7 +256,7 @@ def limits_of(rig: _bbsim.Given, tilt: Optional[float], rate: Optional[float], m
     def parts(columns: Sequence[str], most: Any) -> List[Tuple[str, float]]:
         return [(column, sign / one) for column, one in zip(columns, most) for sign in (1, -1)]
 
-    def degrees(most: Array) -> str:
+    def degrees(most: Any) -> str:
         return " and ".join(dict.fromkeys(rounded(np.degrees(one), 3) for one in most)) + " deg"
 
     limits = [
@@ -332,7 +329,7 @@ def design(
     if table and table != "-" and not table.lower().endswith(".csv"):
         raise refuse("table", table, "FILE.csv, or - for standard output")
     if output and (table == "-" or (not table and output == "-")):
-        raise InputError([("", "table: found no file, and the scenario of -o must name one; allowed: FILE.csv")])
+        raise fault("table: found no file, and the scenario of -o must name one; allowed: FILE.csv")
     table = table or (os.path.splitext(output)[0] + "-motion.csv" if output else None)  # a run writes FILE.csv
     files = {"table": table, "output": output, "sketch": sketch, "json": json}  # the scenario refers to the table
     declare(files, {rig.name: "the scenario"}, "table", "sketch")
@@ -369,7 +366,7 @@ def design(
 
     name_of_table = os.path.relpath(table, os.path.dirname(os.path.abspath(output))) if output and table else ""
     if output:
-        _bbsim.edited(rig, settings(name_of_table), "", False)  # fails now if the text cannot be written
+        _bbsim.edited(rig, settings(name_of_table), "")  # fails now if the text cannot be written
     with tempfile.TemporaryDirectory(prefix="bbsim-") as folder:
         still, names = Path(folder) / "still.csv", "phi,theta" if tilts else "x,y"
         still.write_text(f"t,{names}\n" + "".join(f"{seconds * i / 3!r},0,0\n" for i in range(4)))
@@ -391,30 +388,29 @@ def design(
         chosen = best_sines(experiment, frequency * seconds / _TURN)
         if not np.isfinite(chosen.merit):
             share = experiment.play(Motions(np.zeros((1, 2 * rows + 6)), np.empty((1, 0))))[0].shares.max()
-            fault = ("the scenario does not run to its end without a motion" if np.isinf(share) else
-                     "without a motion, the ball or the plate goes beyond its limits" if share > 1 else
-                     "found no motion within the limits")  # fmt: skip
+            why = ("the scenario does not run to its end without a motion" if np.isinf(share) else
+                   "without a motion, the ball or the plate goes beyond its limits" if share > 1 else
+                   "found no motion within the limits")  # fmt: skip
             allowed = f"a rig that keeps the ball on the plate for {short(seconds)} s, or a shorter --length"
-            raise InputError([("", f"{fault}; allowed: {allowed}")])
+            raise fault(f"{why}; allowed: {allowed}")
         tried, final = experiment.played, chosen.motion.table(experiment.times)
         place = final.numbers[0, -4:-2] = np.round(final.numbers[0, -4:-2], 3) + 0.0  # placed by hand
         rise = within(experiment, step(experiment)).get(0)
-        played = [one and experiment.play(one)[0] for one in (final, circle, rise)]
+        played: List[Any] = [one and experiment.play(one)[0] for one in (final, circle, rise)]
         slopes, effects = zip(*(experiment.slopes(one, True) if one else (None, None) for one in played))
     idle = [key.name for key, effect in zip(keys, effects[0][0]) if effect <= 1e-6]  # in units of noise
     if idle:
         what = f"free: {idle[0]}: has no effect on {', '.join(deviations_of_log)}"
-        raise InputError([("", f"{what}; allowed: keys that the log's columns depend on")])
+        raise fault(f"{what}; allowed: keys that the log's columns depend on")
     of_u = [np.full(len(keys), np.inf) if one is None else deviations(one[0]) for one in slopes]
     sds = [[float(f"{sd * abs(key.slope(0)):.8g}") for sd, key in zip(one, keys)] for one in of_u]
     used = dict.fromkeys((limit[0] for limit in limits), 0.0)
     for (kind, *_), share in zip((limit for limit in limits for _ in limit[-1]), played[0].shares[0].max(1)):
         used[kind] = max(used[kind], float(share))
-    sines: Dict[str, List[Dict[str, float]]] = {name: [] for name in experiment.names}
+    sines: Dict[str, List[Any]] = {name: [] for name in experiment.names}
     for i in axes:
         cosine, sine = chosen.motion.numbers[0, 8 * i : 8 * i + 8].reshape(2, 4)
-        of_sine = np.hypot(cosine, sine), chosen.motion.waves[0, i], np.arctan2(cosine, sine)
-        for one in zip(*of_sine):
+        for one in zip(np.hypot(cosine, sine), chosen.motion.waves[0, i], np.arctan2(cosine, sine)):
             sines[experiment.names[i]].append(dict(zip(("amplitude", "frequency", "phase"), map(float, one))))
     result = {
         "parameters": [dict(zip(("key", "value", "sd", "circle_sd", "step_sd"), (key.name, float(key.value(0)), *its)))
@@ -426,18 +422,18 @@ def design(
     shown = [[f"{sd:.3g}" if np.isfinite(sd) else "-" for sd in its] for its in zip(*sds)]
     comments = f"# Designed by bbsim {_bbsim.__version__}: plays {name_of_table}, {short(seconds)} s; {begin}\n"
     comments += "# Standard deviations to expect from a fit:\n"
-    for key, its in zip(keys, shown):
-        comments += f"#   {key.name}: {its[0]}" + f" {key.unit}" * (its[0] != "-" and key.unit != "") + "\n"
+    for key, (designed, *_) in zip(keys, shown):
+        comments += f"#   {key.name}: {designed}" + f" {key.unit}" * (designed != "-" and key.unit != "") + "\n"
     commands = experiment.commands(final)[0]
     lines = [",".join(map(text_of, row)) for row in zip(experiment.times, *commands)]
     texts = {
         "table": "\n".join([f"t,{names}", *lines, ""]), "json": as_json(result),
         "sketch": player_sketch(hertz, commands, place) if sketch else "",
-        "output": _bbsim.edited(rig, settings(name_of_table, place), comments, False) if output else "",
+        "output": _bbsim.edited(rig, settings(name_of_table, place), comments) if output else "",
     }  # fmt: skip
     for name, file in files.items():
         if file:
-            write(file, texts[name])
+            _bbsim.write_file(file, texts[name])
     made = loads(texts["json"], object_hook=lambda its: SimpleNamespace(**its))
     better = circle and merits(slopes[0])[0] < merits(slopes[1])[0]
     circling = f"; the best circle has {frequency / _TURN:.3g} Hz" if circle else ""

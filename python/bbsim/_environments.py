@@ -13,9 +13,8 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple, TypeVar,
 import numpy as np
 
 from . import _bbsim
-from ._errors import InputError
 from ._result import Result
-from ._scenario import Scenario, Settings, as_yaml, given
+from ._scenario import Array, Scenario, Settings, as_yaml, fault, given
 
 try:
     import gymnasium
@@ -36,10 +35,10 @@ except ImportError:
 
         def __init__(self, low: Any, high: Any, shape: Optional[Tuple[int, ...]] = None, dtype: Any = np.float64) -> None:
             self.dtype = np.dtype(dtype)
-            self.low = np.broadcast_to(np.asarray(low, dtype), shape or np.shape(low)).copy()
-            self.high = np.broadcast_to(np.asarray(high, dtype), shape or np.shape(low)).copy()
+            ends = (np.asarray(end, dtype) for end in (low, high))
+            self.low, self.high = (np.broadcast_to(end, shape or np.shape(low)).copy() for end in ends)
             self.shape = self.low.shape
-            self._random = np.random.default_rng()
+            self.seed()
 
         def seed(self, seed: Optional[int] = None) -> None:
             self._random = np.random.default_rng(seed)
@@ -53,16 +52,15 @@ except ImportError:
             array = np.asarray(value)
             return array.shape == self.shape and bool(np.all(array >= self.low) and np.all(array <= self.high))
 
-        def __contains__(self, value: Any) -> bool:
-            return self.contains(value)
+        __contains__ = contains
 
         def __repr__(self) -> str:
             return f"Box({self.low}, {self.high}, {self.shape}, {self.dtype})"
 
 
-Array = "np.ndarray[Any, Any]"
 Distribution = Union[Tuple[float, float], Callable[[np.random.Generator], Any]]
 Reward = Callable[[Array, Array, Array], Array]
+_Options = Optional[Mapping[str, Any]]
 
 _MOST_SEED = 2**53  # the largest seed of a scenario
 _MOST_RUNS = 2**20
@@ -76,10 +74,8 @@ def _one_at_a_time(method: _Method) -> _Method:
     @functools.wraps(method)
     def turn(self: "VectorEnv", *args: Any, **rest: Any) -> Any:
         if not self._turn.acquire(blocking=False):
-            raise RuntimeError(
-                f"{method.__name__}: found within another call, as from another thread; "
-                "allowed: one call of an environment at a time"
-            )
+            found = f"{method.__name__}: found within another call, as from another thread"
+            raise RuntimeError(f"{found}; allowed: one call of an environment at a time")
         try:
             return method(self, *args, **rest)
         finally:
@@ -101,7 +97,7 @@ def _require_range(key: str, found: Any) -> None:
     except (TypeError, ValueError):
         pass
     allowed = "allowed: (low, high), two numbers in SI units with low <= high, or a function of a numpy Generator"
-    raise InputError([("", f"{key}: found {found!r} in randomize; {allowed}")])
+    raise fault(f"{key}: found {found!r} in randomize; {allowed}")
 
 
 class VectorEnv(_VectorBase):
@@ -121,7 +117,7 @@ class VectorEnv(_VectorBase):
     """
 
     metadata: Dict[str, Any] = {"render_modes": [], "autoreset_mode": "NextStep"}
-    observation_columns: List[Tuple[str, str, str]] = [tuple(c) for c in _bbsim.Environments.columns]
+    observation_columns: List[Tuple[str, str, str]] = _bbsim.OBSERVATIONS
     """Name, unit and meaning of each column of an observation."""
 
     render_mode = None
@@ -129,19 +125,12 @@ class VectorEnv(_VectorBase):
     closed = False
 
     def __init__(
-        self,
-        scenario: Scenario,
-        n: int,
-        randomize: Optional[Mapping[str, Distribution]] = None,
-        seed: int = 0,
-        *,
-        set: Settings = None,
-        reward: Optional[Reward] = None,
-        record: bool = False,
-    ) -> None:
+        self, scenario: Scenario, n: int, randomize: Optional[Mapping[str, Distribution]] = None, seed: int = 0, *,
+        set: Settings = None, reward: Optional[Reward] = None, record: bool = False,
+    ) -> None:  # fmt: skip
         count = operator.index(n)
         if not 1 <= count <= _MOST_RUNS:
-            raise InputError([("", f"n: found {n}; allowed: a whole number from 1 to {_MOST_RUNS}")])
+            raise fault(f"n: found {n}; allowed: a whole number from 1 to {_MOST_RUNS}")
         for key, distribution in (randomize or {}).items():
             if not callable(distribution):
                 _require_range(key, distribution)
@@ -170,17 +159,14 @@ class VectorEnv(_VectorBase):
         """The unit of an action: rad, rad/s^2, N m or V."""
         return self._runs.command_unit
 
-    def _beginnings(self, which: Array, random: np.random.Generator, options: Mapping[str, Any]) -> _bbsim.Beginnings:
-        """Draws the values of new episodes."""
+    def _beginnings(self, which: Array, random: np.random.Generator, options: Mapping[str, Any]) -> Any:
+        """The runs, and what is drawn for their new episodes: values and seeds."""
         values, seeds = [], []
         for _ in which:
-            drawn = []
-            for key, distribution in self._randomize.items():
-                value = distribution(random) if callable(distribution) else random.uniform(*distribution)
-                drawn.append(as_yaml(options.get(key, value)))
-            values.append(drawn)
+            drawn = {key: its(random) if callable(its) else random.uniform(*its) for key, its in self._randomize.items()}
+            values.append([as_yaml(options.get(key, value)) for key, value in drawn.items()])
             seeds.append(int(random.integers(_MOST_SEED)))
-        return _bbsim.Beginnings([int(one) for one in which], values, seeds)
+        return [int(one) for one in which], values, seeds
 
     def _which(self, mask: Any) -> Array:
         """The runs that a ``reset_mask`` names."""
@@ -189,13 +175,11 @@ class VectorEnv(_VectorBase):
         flags = np.asarray(mask)
         if flags.shape != (self.num_envs,) or flags.dtype != bool:
             allowed = f"allowed: an array of {self.num_envs} booleans"
-            raise InputError([("", f"reset_mask: found shape {flags.shape} and type {flags.dtype}; {allowed}")])
+            raise fault(f"reset_mask: found shape {flags.shape} and type {flags.dtype}; {allowed}")
         return np.flatnonzero(flags)
 
     @_one_at_a_time
-    def reset(
-        self, *, seed: Optional[int] = None, options: Optional[Mapping[str, Any]] = None
-    ) -> Tuple[Array, Dict[str, Any]]:
+    def reset(self, *, seed: Optional[int] = None, options: _Options = None) -> Tuple[Array, Dict[str, Any]]:
         """Begins an episode of each run.
 
         ``options`` fix values of keys of ``randomize`` until the next ``reset()``;
@@ -207,8 +191,8 @@ class VectorEnv(_VectorBase):
         for key in fixed:
             if key not in self._randomize:
                 names = ", ".join(self._randomize) or "none"
-                raise InputError([("", f"options: found {key}; allowed: the keys of randomize, which are: {names}")])
-        self._runs.begin(self._beginnings(which, random, fixed))
+                raise fault(f"options: found {key}; allowed: the keys of randomize, which are: {names}")
+        self._runs.begin(*self._beginnings(which, random, fixed))
         self._random, self._options = random, fixed
         self._over[which] = False
         self._begun[which] = True
@@ -221,7 +205,7 @@ class VectorEnv(_VectorBase):
             raise RuntimeError("step: found a run that has not begun; allowed: reset() first")
         commands = np.ascontiguousarray(actions, dtype=np.float64)
         begins = self._over
-        self._runs.step(commands, self._beginnings(np.flatnonzero(begins), self._random, self._options))
+        self._runs.step(commands, *self._beginnings(np.flatnonzero(begins), self._random, self._options))
         terminated, truncated = self._runs.terminated, self._runs.truncated
         self._over = terminated | truncated
         observations = self._runs.observations.copy()
@@ -248,30 +232,21 @@ class VectorEnv(_VectorBase):
         return f"<bbsim.VectorEnv of {self.num_envs} runs>"
 
 
-class Env(_EnvBase):  # type: ignore[misc]
+class Env(_EnvBase):
     """A single run with Gymnasium's API: ``gymnasium.make("bbsim/Plate-v0", scenario=...)``."""
 
     metadata: Dict[str, Any] = {"render_modes": []}
     render_mode = None
 
     def __init__(
-        self,
-        scenario: Scenario,
-        randomize: Optional[Mapping[str, Distribution]] = None,
-        seed: int = 0,
-        *,
-        set: Settings = None,
-        reward: Optional[Reward] = None,
-        record: bool = False,
-        render_mode: None = None,
-    ) -> None:
+        self, scenario: Scenario, randomize: Optional[Mapping[str, Distribution]] = None, seed: int = 0, *,
+        set: Settings = None, reward: Optional[Reward] = None, record: bool = False, render_mode: None = None,
+    ) -> None:  # fmt: skip
         self._all = VectorEnv(scenario, 1, randomize, seed, set=set, reward=reward, record=record)
         self.observation_space = self._all.single_observation_space
         self.action_space = self._all.single_action_space
 
-    def reset(
-        self, *, seed: Optional[int] = None, options: Optional[Mapping[str, Any]] = None
-    ) -> Tuple[Array, Dict[str, Any]]:
+    def reset(self, *, seed: Optional[int] = None, options: _Options = None) -> Tuple[Array, Dict[str, Any]]:
         if gymnasium is not None:
             super().reset(seed=seed)
         observations, info = self._all.reset(seed=seed, options=options)
@@ -291,10 +266,9 @@ class Env(_EnvBase):  # type: ignore[misc]
         self._all.close()
 
 
-def _vector(scenario: Scenario, num_envs: int = 1, **rest: Any) -> VectorEnv:
-    """For ``gymnasium.make_vec("bbsim/Plate-v0", num_envs=n, scenario=...)``."""
-    return VectorEnv(scenario, num_envs, **rest)
-
-
 if gymnasium is not None:
+
+    def _vector(scenario: Scenario, num_envs: int = 1, **rest: Any) -> VectorEnv:
+        return VectorEnv(scenario, num_envs, **rest)
+
     gymnasium.register(id="bbsim/Plate-v0", entry_point=Env, vector_entry_point=_vector)

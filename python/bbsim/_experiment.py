@@ -11,9 +11,9 @@ from typing import Any, Dict, List, NamedTuple, Tuple
 import numpy as np
 
 from . import _bbsim
-from ._free_keys import FreeKey
-from ._progress import Progress
-from ._simulate import Array, simulate
+from ._scenario import Array
+from ._simulate import simulate
+from ._task import FreeKey, Progress
 
 _STEP = 1e-3  # of keys' numbers u and of starts (SI), for differences
 _ROUGH = ("sampling.resolution", "sampling.jitter", "sensor.resolution", "sensor.noise", "sensor.dropout",
@@ -100,7 +100,7 @@ class Experiment:
     def _simulate(self, motions: Motions, per: int, keys: Dict[str, Array], columns: List[str], **windows: Any) -> Any:
         """`per` cases of each motion."""
         self._progress(1 - 0.998**self.played, f"{self.played} motions")
-        how = {"events": False, "threads": self._threads, **windows}
+        how: Dict[str, Any] = {"events": False, "threads": self._threads, **windows}
         if motions.waves.size and not self.tilts:
             motions = motions.table(np.linspace(0, self.length, 16 * self.highest + 1))
         if motions.waves.size:

@@ -13,14 +13,13 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple
 import numpy as np
 
 from . import _bbsim, _fit_text
-from ._errors import InputError
 from ._fit_search import Search
 from ._fit_windows import Log, LogKey, Windows, WindowsFit, cut, start_coordinates
-from ._found_files import declare, print_report, write, write_found
-from ._free_keys import FreeKey, read_bounds, read_free_key, read_free_keys, refuse, usual_scale
-from ._progress import Bar, Progress, silent
-from ._scenario import Scenario, Settings, given as given_of, listed
-from ._simulate import Array, refuse as refuse_option
+from ._scenario import Array, InputError, Scenario, Settings, fault, given as given_of, listed, log_choice, refuse
+from ._task import (
+    Bar, FreeKey, Progress, declare, print_report, read_bounds, read_free_key, read_free_keys, refuse_free, silent,
+    usual_scale, write_found,
+)  # fmt: skip
 
 _USUAL_WINDOW = 2.0  # s; short, because a plate makes the ball a double integrator
 _USUAL_DELAY = 0.2  # s; a camera's delay is at most that
@@ -32,10 +31,6 @@ _CANDIDATES = ("ball.inertia_factor", "ball.losses.rolling", "ball.losses.viscou
                "controller.sampling.delay")  # fmt: skip
 _NOISE = ("controller.sensor.noise", "controller.sensor.dropout", "controller.sensor.seed", "controller.sensor.resolution",
            "controller.sampling.jitter", "controller.sampling.resolution")  # fmt: skip
-
-
-def _fault(text: str) -> InputError:
-    return InputError([("", text)])
 
 
 def _compared(given: _bbsim.Given, maps: Sequence[str], log: _bbsim.Stored, notes: List[str]) -> List[str]:
@@ -50,10 +45,10 @@ def _compared(given: _bbsim.Given, maps: Sequence[str], log: _bbsim.Stored, note
     for name in names:
         why = _bbsim.lacks(given, name)[0]
         if why:
-            raise _fault(f"--map: found {name}, {why}; allowed: columns that the scenario has")
+            raise fault(f"--map: found {name}, {why}; allowed: columns that the scenario has")
     if not names:
         allowed = "x, y, vx or vy by name, or --map x=NAME:UNIT"
-        raise _fault(f"{log.shown_file}: has no column to compare; allowed: {allowed}")
+        raise fault(f"{log.shown_file}: has no column to compare; allowed: {allowed}")
     return names
 
 
@@ -61,9 +56,9 @@ def _log(given: _bbsim.Given, stored: _bbsim.Stored, columns: Sequence[str], not
     file, values = stored.shown_file, []
     for name, hint in (("t", ". --map t=NAME:UNIT names the time"), *((name, "") for name in columns)):
         if name not in stored.names:
-            raise _fault(f"{file}: has no column {name}; it has {', '.join(stored.names)}{hint}")
+            raise fault(f"{file}: has no column {name}; it has {', '.join(stored.names)}{hint}")
         if stored.is_text(name):
-            raise _fault(f"{file}: column {name}: found texts; allowed: numbers, or an empty field")
+            raise fault(f"{file}: column {name}: found texts; allowed: numbers, or an empty field")
         values.append(np.array(stored.numbers(name), dtype=float))
         doubt = name != "t" and _bbsim.unit_doubt(name, float(np.nanmax(np.abs(values[-1]), initial=0)))
         if doubt:
@@ -73,9 +68,9 @@ def _log(given: _bbsim.Given, stored: _bbsim.Stored, columns: Sequence[str], not
     wrong = np.flatnonzero(~np.isfinite(times) | (np.diff(times, prepend=-np.inf) <= 0))
     if wrong.size:
         found = f"column t, row {wrong[0] + 1}: found {times[wrong[0]]:.17g}; allowed: finite times that increase"
-        raise _fault(f"{file}: {found}")
+        raise fault(f"{file}: {found}")
     if not times.size:
-        raise _fault(f"{file}: has no rows")
+        raise fault(f"{file}: has no rows")
     return Log(file, times, np.array(values[1:]), given)
 
 
@@ -90,7 +85,7 @@ def _log_key(text: str, columns: Sequence[str], units: Sequence[str]) -> LogKey:
         key = LogKey(name, units[place] if of == "offset" else "", of=of, column=place)
     else:
         allowed = ", ".join(f"log.{one}.scale, log.{one}.offset" for one in columns)
-        refuse(f"{name}: allowed for a log: log.delay, {allowed}")
+        refuse_free(f"{name}: allowed for a log: log.delay, {allowed}")
     if equals:
         read_bounds(bounds, key)
     key.logarithmic = of == "scale" and key.lower > 0
@@ -155,28 +150,30 @@ class _Task:
             ("free", not free, "nothing", "at least one key"), ("logs", not self.files, "nothing", "at least one"),
         ):  # fmt: skip
             if wrong:
-                raise refuse_option(option, str(found), allowed)
+                raise refuse(option, found, allowed)
         if _bbsim.has(given, "controller.program") or _bbsim.has(given, "controller.library"):
             allowed = "a law of bbsim, or controller.commands or gimbal.motion from the log's table"
-            raise _fault(f"controller: found a program or library of your own; allowed in a fit: {allowed}")
+            raise fault(f"controller: found a program or library of your own; allowed in a fit: {allowed}")
         self.keys: List[FreeKey] = read_free_keys(free, given)
         run = given.changed([("solver.error", "null"), ("solver.rtol", "1e-10"), ("solver.atol", "1e-12")])
         run, self.warnings = self._without_noise(run), list(_bbsim.remarks(given))
         maps, header = listed(map), [name for text in listed(header) for name in text.split(",")]
-        gone = "" if missing is None else str(missing)
-        tables, self.logs = self._tables_of_logs(), []  # type: ignore[var-annotated]
+        choice = log_choice(maps, header, period, time_offset, missing)
+        self.logs: List[Log] = []
+        self.columns: List[str] = []
+        tables = self._tables_of_logs()
         for file in self.files:
-            stored, notes = _bbsim.read_log(file, maps, header, str(period or ""), str(time_offset or ""), gone)
+            stored, notes = _bbsim.read_log(file, choice)
             self.warnings += notes
-            self.columns = self.columns if self.logs else _compared(given, maps, stored, self.warnings)
+            self.columns = self.columns or _compared(given, maps, stored, self.warnings)
             its = [(key, f"'{os.path.abspath(file)}'") for key in tables if len(self.files) > 1]
             self.logs.append(_log(run.changed(its), stored, self.columns, self.warnings))
         known = {column[0]: column[2] for column in _bbsim.known_columns("rad")}
-        self.units = [known[name] for name in self.columns]
+        self.units: List[str] = [known[name] for name in self.columns]
         self.keys += [_log_key(text, self.columns, self.units) for text in free if text.strip().startswith("log.")]
         names = [key.name for key in self.keys]
         if len(set(names)) < len(names):
-            refuse(f"{max(names, key=names.count)} is given twice")
+            refuse_free(f"{max(names, key=names.count)} is given twice")
 
     def _without_noise(self, given: _bbsim.Given) -> _bbsim.Given:
         """Leaves out the noise in a loop, which differs in the log, and the steps that this noise smooths."""
@@ -217,7 +214,7 @@ class _Task:
         numbers, unknowns = int(np.isfinite(windows.values).sum()), len(windows) * len(free) + len(self.keys)
         if numbers <= unknowns:
             allowed = f"more than the {unknowns} that are sought, starts included"
-            raise _fault(f"the logs have {numbers} numbers in {len(windows)} windows; allowed: {allowed}; use a longer "
+            raise fault(f"the logs have {numbers} numbers in {len(windows)} windows; allowed: {allowed}; use a longer "
                          "--window or fewer --free keys")  # fmt: skip
         return windows, held, free, length
 
@@ -226,11 +223,10 @@ def _other(search: Search, windows: Windows, u: Array, ideal: bool = False) -> O
     """Other windows at u, or those of an ideal rig; None if one does not run."""
     its, logs = search.windows, search.windows.logs
     if ideal:
-        logs = [Log(log.name, log.times, log.values, _ideal(log.given)) for log in logs]  # type: ignore[arg-type]
+        logs = [Log(log.name, log.times, log.values, _ideal(log.given)) for log in logs]
     other = WindowsFit(logs, its.columns, windows, [] if ideal else its.keys, its.free, its.threads)
     other.reweigh(its.noise)
     other.residuals(np.empty(0) if ideal else u)
-    assert other.point is not None
     return other if other.point.runs.all() else None
 
 
@@ -258,7 +254,7 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
         w = int(np.argmin(fit.point.runs))
         if not fit.point.runs[w]:
             place = f"{task.logs[windows.log[w]].name}: from t = {windows.begin[w]:.6g} s on"
-            raise _fault(f"{place}, the scenario does not run to the window's end: {fit.point.why[w]}")
+            raise fault(f"{place}, the scenario does not run to the window's end: {fit.point.why[w]}")
         before = _rms(fit)
         search.begin(task.starts)
         search.settle()
@@ -288,10 +284,10 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
     if not made.white:
         notes.append(f"neighboring residuals are correlated ({made.correlated}); the model is incomplete and the "
                      "intervals are too short")  # fmt: skip
-        its = None if made.interrupted else search.suggestion(_candidates(task))
-        if its is not None:
-            made.suggestion = {"key": its[0], "residuals_smaller_by": its[1]}
-            notes.append(f"--free {its[0]} could make the residuals about {_bbsim.rounded(100 * its[1], 2)} % smaller")
+        best = None if made.interrupted else search.suggestion(_candidates(task))
+        if best is not None:
+            made.suggestion = {"key": best[0], "residuals_smaller_by": best[1]}
+            notes.append(f"--free {best[0]} could make the residuals about {_bbsim.rounded(100 * best[1], 2)} % smaller")
     made.warnings = [text.partition(": ")[2] for text in task.warnings]
     made.notes = [*made.warnings, *task.notes, *search.doubts, *notes]
     return made
@@ -351,7 +347,8 @@ def _estimate(made: Any, search: Search) -> List[str]:
 def fit(
     scenario: Scenario, logs: Any, free: Any, *, set: Settings = None, map: Any = (), header: Any = (),
     period: Any = None, time_offset: Any = None, missing: Any = None, window: Any = None, hold_out: float = 0,
-    loss: str = "squares", starts: Optional[int] = None, output: Any = None, json: Any = None, report: Any = None, threads: int = 0,
+    loss: str = "squares", starts: Optional[int] = None, output: Any = None, json: Any = None, report: Any = None,
+    threads: int = 0,
 ) -> Any:  # fmt: skip
     """Finds the values of a scenario's keys at which its runs are closest to logs of a rig.
 
@@ -376,10 +373,12 @@ def _carry_out(given: _bbsim.Given, options: Dict[str, Any], progress: Progress,
     files = {name: str(options.pop(name) or "") for name in ("output", "json", "report")}
     task = _Task(given, **options)
     reads = {given.name: "the scenario"} if os.path.exists(given.name) else {}
+    if files["report"]:
+        reads[_bbsim.file_of_template("fit.html")] = "the template of pages"
     declare(files, {**reads, **{file: "the log" for file in task.files}}, "report")
     if files["output"]:  # fails before the work if the text cannot be written
         keys = [key for key in task.keys if not isinstance(key, LogKey)]
-        _bbsim.edited(given, [(key.name, key.text(key.start)) for key in keys], "", False)
+        _bbsim.edited(given, [(key.name, key.text(key.start)) for key in keys], "")
     if files["report"]:
         _bbsim.filled_page("fit.html", "", "{}")
     for text in task.warnings:
@@ -387,9 +386,10 @@ def _carry_out(given: _bbsim.Given, options: Dict[str, Any], progress: Progress,
     made = _fit(task, progress, bool(files["report"]))
     if made is None:
         return None
+    progress(1, "")
     made.report = _fit_text.report(made)
     if files["report"]:
-        write(files["report"], _fit_text.page(made, given))
+        _bbsim.write_file(files["report"], _fit_text.page(made, given))
     text = _fit_text.scenario(made, given) if files["output"] else ""
     write_found(given, files, text, _fit_text.as_document(made), say)
     return made

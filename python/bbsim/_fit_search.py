@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import math
-from typing import List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 from scipy.optimize import least_squares, lsq_linear
@@ -13,9 +13,8 @@ from scipy.special import stdtrit
 
 from . import _bbsim
 from ._fit_windows import LogKey, WindowsFit
-from ._free_keys import FreeKey, refuse
-from ._progress import Progress, silent
-from ._simulate import Array
+from ._scenario import Array
+from ._task import FreeKey, Progress, refuse_free, silent
 
 _HUBER = 1.345  # standard deviations; costs 5 % of the efficiency for Gaussian noise
 _KINKED_STARTS = 3
@@ -78,7 +77,9 @@ class Search:
             made, slopes = residuals(x), np.concatenate([windows.derivatives(u)[0], weak])
             step, gain = _best_step(slopes, made, u <= low, u >= high)
             variance = np.mean(made**2)
-            if exact and gain < variance and self._is_away(slopes[: -len(u)]):
+            # Those of a point more than 3 % of a standard deviation away?
+            away = slopes[: -len(u)] @ (u - windows.base.u)
+            if exact and gain < variance and float(np.linalg.norm(away)) ** 2 > 1e-3 * self.scatter():
                 slopes[: -len(u)] = windows.derivatives(u, near=False)[0]
                 step, gain = _best_step(slopes, made, u <= low, u >= high)
             if gain <= (1e-5 if exact else 0.1) * variance:  # SciPy would look for a decrease among rounding errors
@@ -136,7 +137,7 @@ class Search:
         for key, change in zip(self.keys, changes):
             if not change > 1e-7:
                 columns = ", ".join(self.windows.columns)
-                refuse(f"{key.name}: has no effect on {columns}; allowed: keys that the compared columns depend on")
+                refuse_free(f"{key.name}: has no effect on {columns}; allowed: keys that the compared columns depend on")
         # Mirrors the scale of a sensor if that fits better: between 1 and -1 it would pass 0, where the log determines
         # no other key.
         for k, key in enumerate(self.keys):
@@ -202,10 +203,6 @@ class Search:
             last, change = change, self._reweigh()
             if self.windows.kinked and change < 0.01 or last < 0.01 and change < (1e-4 if self.robust else 1e-5):
                 break
-
-    def _is_away(self, slopes: Array) -> bool:
-        """Whether the derivatives are those of a point more than 3 % of a standard deviation away."""
-        return float(np.linalg.norm(slopes @ (self.u - self.windows.base.u)) ** 2) > 1e-3 * self.scatter()
 
     def _reweigh(self) -> float:
         """Estimates each column's noise from its residuals. Returns how much weights change."""
@@ -283,7 +280,7 @@ class Search:
         untold = [self._words(one / sizes, np.abs(one) > 0.02) for one in directions[~known]]
         deviations = np.where(told, np.sqrt(np.diag(covariance)), np.nan)
         correlations = covariance / np.outer(deviations, np.where(deviations > 0, deviations, np.nan))
-        return Linear(slopes, covariance, told, untold, correlations)
+        return Linear(covariance, told, untold, correlations)
 
     def _words(self, change: Array, members: Array) -> str:
         keys = [(key, by) for key, by, is_in in zip(self.keys, change, members) if is_in]
@@ -355,7 +352,7 @@ class Search:
         if rest.size:
             # Directions that are hardly determined stay.
             stay = np.diag(_UNTOLD * np.linalg.norm(slopes[:, rest], axis=0))
-            small = np.linalg.qr(np.column_stack([slopes[:, rest], residuals + slopes[:, k] * by]), "r")
+            small: Any = np.linalg.qr(np.column_stack([slopes[:, rest], residuals + slopes[:, k] * by]), "r")
             matrix, goal = np.concatenate([small[:, :-1], stay]), np.concatenate([small[:, -1], np.zeros(rest.size)])
             room = (np.minimum(low - u, 0)[rest], np.maximum(high - u, 0)[rest])
             step[rest] = lsq_linear(matrix, -goal, room, method="bvls").x
@@ -363,7 +360,6 @@ class Search:
 
 
 class Linear(NamedTuple):
-    slopes: Array
     covariance: Array  # over the scatter
     told: Array
     untold: List[str]

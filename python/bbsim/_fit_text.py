@@ -14,8 +14,8 @@ from typing import Any, Dict, List, Sequence
 import numpy as np
 
 from . import _bbsim
-from ._found_files import aligned, as_json
-from ._simulate import Array
+from ._scenario import Array
+from ._task import aligned, as_json
 
 _MOST_ROWS = 40000  # of a page
 
@@ -99,7 +99,7 @@ def scenario(fitted: Any, given: _bbsim.Given) -> str:
         text += (known if one.told else ", which the logs do not determine") + "\n"
         if not one.key.startswith("log."):  # no scenario has those
             settings.append((one.key, f"{one.estimate!r}{unit}"))
-    return _bbsim.edited(given, settings, text, False)
+    return _bbsim.edited(given, settings, text)
 
 
 def _encoded(values: Any, kind: str) -> str:

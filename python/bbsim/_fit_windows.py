@@ -12,9 +12,9 @@ import numpy as np
 from scipy.sparse import block_diag, csr_matrix, hstack
 
 from . import _bbsim
-from ._errors import InputError
-from ._free_keys import FreeKey
-from ._simulate import Array, simulate
+from ._scenario import Array, InputError
+from ._simulate import simulate
+from ._task import FreeKey
 
 FAR = 1e6  # the residual of a window that does not run, in standard deviations
 # Central differences: the error of a run over the step and the square of the step are both small.
@@ -137,8 +137,8 @@ class WindowsFit:
         self.size = int(self.there.sum())
         self.noise = np.ones(len(columns))
         self.weights = np.ones((count, width))
-        self.base: Optional[_Point] = None  # with derivatives
-        self.point: Optional[_Point] = None  # the last one
+        self.base: Any = None  # a _Point with derivatives
+        self.point: Any = None  # the last one
         self._solvers: Optional[Tuple[Array, Array]] = None
         self.kinked = False
         self.key_steps, self.start_steps = np.full(len(keys), _KEY_STEP), _START_STEPS.copy()
@@ -176,7 +176,8 @@ class WindowsFit:
         """Model minus log of n windows, or the model alone; whether they run, and why not."""
         windows, count = self.windows, len(which)
         values = [np.broadcast_to(key.value(u[:, k]), count) for k, key in enumerate(self.keys)]
-        scales, offsets, delay = np.ones((count, len(self.columns), 1)), np.zeros((count, len(self.columns), 1)), 0.0
+        scales, delay = np.ones((count, len(self.columns), 1)), np.zeros(1)
+        offsets = np.zeros_like(scales)
         for key, value in zip(self.keys, values):
             if isinstance(key, LogKey):
                 if key.of == "delay":
@@ -237,7 +238,6 @@ class WindowsFit:
     def _solve(self) -> Tuple[Array, Array]:
         """For each window, the derivatives by its start over the noise, and their pseudoinverse."""
         if self._solvers is None:
-            assert self.base is not None
             slopes = self.base.by_start * self.over_noise()[..., None]
             self._solvers = slopes, np.linalg.pinv(slopes, rcond=_LEAST_EFFECT)
         return self._solvers
@@ -317,7 +317,6 @@ class WindowsFit:
         """Whether the residuals near u have kinks or flat stretches, as with dry friction: slopes over larger steps
         then differ, and replace those over small ones."""
         self.residuals(u)
-        assert self.point is not None
         smooth, factors = self.base, self.over_noise()[..., None]
         before = self.key_steps, self.start_steps
         self.key_steps, self.start_steps = (_WIDE * steps for steps in before)

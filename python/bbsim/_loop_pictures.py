@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws the columns of _loops: frequency responses with margins, poles with a grid of damping, step responses."""
+"""Pictures of a scenario: the columns of _loops, with margins or a grid of damping; and the time that each method takes
+for its error."""
 
 from __future__ import annotations
 
+import csv
 import math
 from typing import Any, Dict, List, Mapping, Optional, Tuple
 
@@ -11,17 +13,18 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.ticker import MaxNLocator, MultipleLocator, NullFormatter
-from scipy.optimize import linear_sum_assignment
 
-from ._plot_sheet import MM, TEXT, Figure, cut, number, width_of
+from . import _loops
+from ._loops import AXES, Columns
+from ._plot_axes import covered, logarithmic
+from ._plot_sheet import MM, TEXT, Figure, Sheet, cut, mark, number, stroke, width_of
+from ._scenario import Array, Scenario, Settings, fault
 
-Array = "np.ndarray[Any, np.dtype[np.float64]]"
-Columns = Mapping[str, Array]
 Margins = Mapping[str, Mapping[str, Any]]
 Label = Tuple[str, float, float, bool, str]  # text, x, y, whether above y, color
 Labels = Dict[Axes, List[Label]]
 
-AXES = ("phi", "theta")
+KINDS = ("bode", "nyquist", "poles", "step", "root_locus")
 NAMES = {"phi": "φ", "theta": "θ"}
 COLORS = {"phi": "#0072b2", "theta": "#d55e00"}
 DASHES = {"phi": "-", "theta": (0, (4, 1.5))}
@@ -72,38 +75,26 @@ def bode(columns: Columns, margins: Margins, width: float = 135.0) -> Figure:
     below.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
     below.xaxis.set_minor_formatter(NullFormatter())
     for axes in (above, below):
-        axes.grid(color="#e4e4e4", lw=0.5)
         axes.margins(x=0)
     labels: Labels = {above: [], below: []}
     for axis, _, _ in curves:
-        its = margins.get(axis, {})
-        _mark_gains(above, its, COLORS[axis], labels[above])
-        _mark_phase(below, its, at, phases[axis], COLORS[axis], labels[below])
+        its, color = margins.get(axis, {}), COLORS[axis]
+        for name in ("gain", "gain_reduction", "phase"):
+            margin, where = its.get(name), its.get(f"{name}_frequency")
+            if margin is None or not where:
+                continue
+            if name == "phase":
+                level = float(np.interp(where, at, phases[axis]))
+                critical = level - math.degrees(margin)  # an odd multiple of 180 degrees
+                text = f"{math.degrees(margin):.3g}°"
+            else:
+                level, critical, text = -_decibels(margin), 0.0, f"{_decibels(margin):+.3g} dB"
+            panel = below if name == "phase" else above
+            panel.vlines(where, *sorted((critical, level)), color=color, lw=1.6)
+            labels[panel].append((text, where, critical, level < critical, color))
     for axes, texts in labels.items():
         _write(axes, texts)
     return figure
-
-
-def _mark_gains(axes: Axes, its: Mapping[str, Any], color: str, labels: List[Label]) -> None:
-    for name in ("gain", "gain_reduction"):
-        factor, where = its.get(name), its.get(f"{name}_frequency")
-        if factor is None or not where:
-            continue
-        level = -_decibels(factor)
-        axes.vlines(where, *sorted((level, 0)), color=color, lw=1.6)
-        labels.append((f"{_decibels(factor):+.3g} dB", where, 0.0, level < 0, color))
-
-
-def _mark_phase(
-    axes: Axes, its: Mapping[str, Any], at: Array, phase: Array, color: str, labels: List[Label]
-) -> None:
-    margin, where = its.get("phase"), its.get("phase_frequency")
-    if margin is None or not where:
-        return
-    level = float(np.interp(where, at, phase))
-    critical = level - math.degrees(margin)  # an odd multiple of 180 degrees
-    axes.vlines(where, *sorted((critical, level)), color=color, lw=1.6)
-    labels.append((f"{math.degrees(margin):.3g}°", where, critical, level < critical, color))
 
 
 def _write(axes: Axes, labels: List[Label]) -> None:
@@ -139,25 +130,26 @@ def nyquist(columns: Columns, width: float = 100.0) -> Figure:
     axes.plot([-1], [0], "k+", ms=8)
     far = 2.5  # integrators go to infinity
     axes.set(xlim=(-far, far), ylim=(-far, far), aspect="equal", xlabel="real part", ylabel="imaginary part")
-    axes.grid(color="#e4e4e4", lw=0.5)
     _legend(axes)
     return figure
 
 
 def _grid(axes: Axes, dt: Optional[float], reach: float) -> None:
     """Lines of equal damping ratio, and of equal natural frequency, in the plane of s or of z."""
-    frequencies = np.array([0.2, 0.4, 0.6, 0.8, 1.0]) * (math.pi / dt if dt else reach)
+
+    def place(s: Any) -> Any:
+        return np.exp(s * dt) if dt else s
+
     along = np.linspace(0, 1, 200)
     for damping in DAMPINGS:
         to = math.pi / dt / math.sqrt(1 - damping**2) if dt else 2 * reach
-        s = along * to * complex(-damping, math.sqrt(1 - damping**2))
-        _line(axes, np.exp(s * dt) if dt else s)
-        place = (np.exp(s * dt) if dt else s)[60 if dt else 90]
-        if dt or abs(place) < reach:
-            axes.text(place.real, place.imag, f"{damping:g}", color="#909090", size="x-small", ha="right")
-    for frequency in frequencies:
-        s = frequency * np.exp(1j * math.pi * (0.5 + 0.5 * along))
-        _line(axes, np.exp(s * dt) if dt else s)
+        line = place(along * to * complex(-damping, math.sqrt(1 - damping**2)))
+        _line(axes, line)
+        at = line[60 if dt else 90]
+        if dt or abs(at) < reach:
+            axes.text(at.real, at.imag, f"{damping:g}", color="#909090", size="x-small", ha="right")
+    for frequency in np.array([0.2, 0.4, 0.6, 0.8, 1.0]) * (math.pi / dt if dt else reach):
+        _line(axes, place(frequency * np.exp(1j * math.pi * (0.5 + 0.5 * along))))
     if dt:
         turn = np.exp(1j * 2 * math.pi * along)
         axes.plot(turn.real, turn.imag, **QUIET)
@@ -196,7 +188,7 @@ def poles(columns: Columns, dt: Optional[float], width: float = 100.0) -> Figure
     return figure
 
 
-def root_locus(columns: Columns, dt: Optional[float], key: str, unit: str = "", width: float = 110.0) -> Figure:
+def root_locus(columns: Columns, dt: Optional[float], key: str, width: float = 110.0) -> Figure:
     """The poles at each value of a key, colored by it; crosses at its first value, circles at its last."""
     figure, axes = _plane(columns, dt, width, 1.14 * width)
     value = columns["value"]
@@ -207,13 +199,14 @@ def root_locus(columns: Columns, dt: Optional[float], key: str, unit: str = "", 
         axes.plot(columns["real"][at], columns["imag"][at], shape, color="black", ms=5, mfc="none", mew=0.8,
                   label=f"at {number(end)}")  # fmt: skip
     _legend(axes)
-    label = cut(f"{key} ({unit})" if unit else key, 0.8 * width, TEXT)
-    figure.colorbar(points, ax=axes, location="bottom", aspect=40, fraction=0.05, label=label)
+    figure.colorbar(points, ax=axes, location="bottom", aspect=40, fraction=0.05, label=cut(key, 0.8 * width, TEXT))
     return figure
 
 
 def _branches(columns: Columns) -> Tuple[List[Array], Array]:
     """Lines from each pole to the pole that it moves to at the next value, and these values."""
+    from scipy.optimize import linear_sum_assignment  # takes long to import
+
     lines: List[Array] = []
     values: List[float] = []
     before: Optional[Array] = None
@@ -240,7 +233,61 @@ def step(columns: Columns, width: float = 135.0) -> Figure:
         if np.isfinite(columns[name]).any() and not (same and name == "y"):
             axes.plot(columns["t"], columns[name], color=COLORS[axis], ls=DASHES[axis], label="x, y" if same else name)
     axes.set(xlabel="t (s)", ylabel="step response")
-    axes.grid(color="#e4e4e4", lw=0.5)
     axes.margins(x=0)
     _legend(axes)
     return figure
+
+
+_VALUES = 200  # of the key of a root locus
+
+
+def _csv(columns: Columns) -> str:
+    rows = zip(*(map(repr, column.tolist()) for column in columns.values()))
+    return "\n".join([",".join(columns), *(",".join(row) for row in rows), ""])
+
+
+def draw_loop(kind: str, scenario: Scenario, set: Settings, locus: str, wide: Optional[float]) -> Tuple[str, Figure, str]:
+    """The numbers as CSV, the figure, and what is in it. Raises InputError for a scenario without a loop."""
+    width: Dict[str, Any] = {"width": wide} if wide else {}
+    if kind == "root_locus":
+        key, _, between = locus.partition("=")
+        low, _, high = between.partition(":")
+        if not (key and low and high):
+            raise fault(f"root-locus: found {locus}; allowed: KEY=FROM:TO, such as controller.pd.kv.0.0=0.2:2")
+        values = _loops.values_between(scenario, key, low, high, _VALUES, set)
+        columns = _loops.root_locus(scenario, key, list(values), set)
+        figure = root_locus(columns, _loops.linearized(scenario, set).dt, key, **width)
+        return _csv(columns), figure, f"the poles at {_VALUES} values of {key}"
+    columns = getattr(_loops, kind)(scenario, set)
+    if kind == "poles":
+        figure = poles(columns, _loops.linearized(scenario, set).dt, **width)
+    elif kind == "bode":
+        figure = bode(columns, _loops.margins(scenario, set), **width)
+    else:
+        figure = {"nyquist": nyquist, "step": step}[kind](columns, **width)
+    rows, what = len(next(iter(columns.values()))), {"poles": "poles", "step": "times"}.get(kind, "frequencies")
+    return _csv(columns), figure, f"{rows} {what}"
+
+
+def draw_accuracy(text: str, title: str, wide: Optional[float]) -> Tuple[Any, int]:
+    """The figure of a table of `bbsim accuracy --csv`, without runs that ended early; and its number of points."""
+    points: Dict[str, List[Tuple[float, float]]] = {}
+    for row in csv.DictReader(text.splitlines()):
+        if row["status"] != "failed":
+            # A logarithm has no zero. An error below all rounding can be zero.
+            points.setdefault(row["method"], []).append((max(float(row["error_m"]), 1e-20), float(row["time_us"])))
+    shapes = ("o", "^", "s", "D")
+    looks = {name: {**mark(shapes[i % 4], stroke(i)["color"], 3.5), **stroke(i)} for i, name in enumerate(points)}
+    width = wide or 135.0
+    height = 0.6 * (width - 19)
+    sheet = Sheet(width, height + 14, title, "", list(looks.items()))
+    box = (15.0, 4.8, width - 4, 4.8 + height)
+    axes = sheet.panel(box, "processor time of a run (µs)")
+    across = box[2] - box[0]
+    every = [point for method in points.values() for point in method]
+    label = "error: largest |Δx|, |Δy| over the output times (m)"
+    logarithmic(axes.xaxis, covered([error for error, _ in every]), across, label, air=0.04)
+    logarithmic(axes.yaxis, covered([time for _, time in every]), height, air=0.06)
+    for method, look in looks.items():
+        axes.plot(*zip(*points[method]), **look)
+    return sheet.figure, len(every)

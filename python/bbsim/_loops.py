@@ -5,17 +5,15 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Dict, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _bbsim
-from ._errors import InputError
 from ._result import Linearization, OpenLoop
-from ._scenario import Scenario, Settings, as_yaml, given
+from ._scenario import Array, Scenario, Settings, as_yaml, fault, given
 
-Array = "np.ndarray[Any, np.dtype[np.float64]]"
-Complex = "np.ndarray[Any, np.dtype[np.complex128]]"
+Complex = np.ndarray
 Columns = Dict[str, Array]
 
 AXES = ("phi", "theta")
@@ -54,15 +52,14 @@ def frequencies(loops: Dict[str, OpenLoop]) -> Array:
     return points[(points >= sizes.min() / far) & (points <= max(sizes.max() * far, points[-1] if dt else 0))]
 
 
-def responses(scenario: Scenario, set: Settings = None) -> Tuple[Linearization, Array, Dict[str, Complex]]:
-    """The loop, frequencies, and the open-loop response of each axis; nan for an axis without a loop."""
-    loop = linearized(scenario, set)
-    loops = open_loops(loop)
+def _responses(scenario: Scenario, set: Settings, parts: Dict[str, Callable[[Complex], Array]]) -> Columns:
+    """Frequencies, and parts of the open-loop response of each axis; nan for an axis without a loop."""
+    loops = open_loops(linearized(scenario, set))
     if not loops:
-        raise InputError([("", "found a scenario in which no command closes a loop; allowed: a controller that feeds back")])
+        raise fault("found a scenario in which no command closes a loop; allowed: a controller that feeds back")
     at = frequencies(loops)
-    nothing = np.full(len(at), np.nan, dtype=np.complex128)
-    return loop, at, {axis: loops[axis].response(at) if axis in loops else nothing for axis in AXES}
+    found = {axis: loops[axis].response(at) if axis in loops else np.full(len(at), np.nan * 1j) for axis in AXES}
+    return {"frequency": at, **{f"{axis}_{name}": part(found[axis]) for axis in AXES for name, part in parts.items()}}
 
 
 def phase_of(response: Complex) -> Array:
@@ -78,22 +75,12 @@ def bode(scenario: Scenario, set: Settings = None) -> Columns:
     Each loop is broken at its command, with the other one closed, and with the sign for which -1 is the
     critical point. Raises InputError for a scenario without a loop.
     """
-    _, at, found = responses(scenario, set)
-    columns = {"frequency": at}
-    for axis in AXES:
-        columns[f"{axis}_gain"] = np.abs(found[axis])
-        columns[f"{axis}_phase"] = phase_of(found[axis])
-    return columns
+    return _responses(scenario, set, {"gain": np.abs, "phase": phase_of})
 
 
 def nyquist(scenario: Scenario, set: Settings = None) -> Columns:
     """frequency (rad/s), phi_real, phi_imag, theta_real, theta_imag of the open loops, as in bode()."""
-    _, at, found = responses(scenario, set)
-    columns = {"frequency": at}
-    for axis in AXES:
-        columns[f"{axis}_real"] = found[axis].real
-        columns[f"{axis}_imag"] = found[axis].imag
-    return columns
+    return _responses(scenario, set, {"real": np.real, "imag": np.imag})
 
 
 def margins(scenario: Scenario, set: Settings = None) -> Dict[str, Dict[str, Any]]:
@@ -123,20 +110,17 @@ def values_between(
     for bound in (low, high):
         number = _bbsim.number_at(given(scenario, set), key, as_yaml(bound))
         if number is None:
-            raise InputError([("", f"{key}: found {bound}; allowed: the bounds of a key that holds one number")])
+            raise fault(f"{key}: found {bound}; allowed: the bounds of a key that holds one number")
         ends.append(number)
-    return np.linspace(*ends, count)
+    return np.linspace(ends[0], ends[1], count)
 
 
 def root_locus(scenario: Scenario, key: str, values: Sequence[float], set: Settings = None) -> Columns:
     """value, real, imag: a row for each pole of the closed loop at each value of the key (SI)."""
-    columns: Dict[str, list[float]] = {"value": [], "real": [], "imag": []}
-    for value in values:
-        found = linearized(scenario, {**(set or {}), key: float(value)}).poles
-        columns["value"] += [float(value)] * len(found)
-        columns["real"] += list(found.real)
-        columns["imag"] += list(found.imag)
-    return {name: np.array(column) for name, column in columns.items()}
+    found = [linearized(scenario, {**(set or {}), key: float(value)}).poles for value in values]
+    every = np.concatenate(found)
+    return {"value": np.repeat(np.asarray(values, float), [len(poles) for poles in found]), "real": every.real,
+            "imag": every.imag}  # fmt: skip
 
 
 def step(scenario: Scenario, set: Settings = None, end: Optional[float] = None) -> Columns:
@@ -145,9 +129,11 @@ def step(scenario: Scenario, set: Settings = None, end: Optional[float] = None) 
     ``end`` (s) is by default when the slowest mode has decayed to 0.1 %, or has grown tenfold. A sampled
     loop has a row for each sample. nan for an axis that the loop leaves out.
     """
+    from scipy.signal import cont2discrete  # takes long to import
+
     loop = linearized(scenario, set)
     if not loop.inputs:
-        raise InputError([("", "found a controller of your own, whose answer to a reference is not known; allowed: a law of bbsim")])
+        raise fault("found a controller of your own, whose answer to a reference is not known; allowed: a law of bbsim")
     decay = rates(loop.poles, loop.dt).real
     decay = decay[np.isfinite(decay) & (np.abs(decay) > 1e-6 * np.abs(decay[np.isfinite(decay)]).max())]
     if end is None:
@@ -156,7 +142,8 @@ def step(scenario: Scenario, set: Settings = None, end: Optional[float] = None) 
     most = 20000
     count = min(int(round(end / loop.dt)), most) if loop.dt else 500
     period = loop.dt or end / count
-    advance, push = (loop.A, loop.B) if loop.dt else _held(loop.A, loop.B, period)
+    system = (loop.A, loop.B, loop.C, loop.D)
+    advance, push = system[:2] if loop.dt else cont2discrete(system, period)[:2]
     columns = {"t": np.arange(count + 1) * period}
     for output in ("x", "y"):
         column = np.full(count + 1, np.nan)
@@ -168,12 +155,3 @@ def step(scenario: Scenario, set: Settings = None, end: Optional[float] = None) 
                 state = advance @ state + push[:, of]
         columns[output] = column
     return columns
-
-
-def _held(a: Array, b: Array, time: float) -> Tuple[Array, Array]:
-    """The exact map over a time with constant inputs."""
-    from scipy.linalg import expm
-
-    n, m = b.shape
-    whole = expm(time * np.block([[a, b], [np.zeros((m, n + m))]]))
-    return whole[:n, :n], whole[:n, n:]

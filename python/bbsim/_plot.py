@@ -9,19 +9,17 @@ import os
 import re
 import sys
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, NoReturn, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _bbsim
-from ._errors import InputError
-from ._plot_accuracy import draw_accuracy
-from ._plot_loops import KINDS, draw_loop
+from ._loop_pictures import KINDS, draw_accuracy, draw_loop
 from ._plot_runs import draw_runs
 from ._plot_sheet import FONT, Figure, require_font, style
 from ._plot_sweeps import draw_sweep
 from ._result import Result
-from ._scenario import as_yaml, given, listed
+from ._scenario import InputError, fault, given, listed, log_choice, overrides, refuse
 
 File = Union[str, "os.PathLike[str]"]
 Drawn = Union[File, Result, "np.ndarray[Any, np.dtype[np.void]]"]
@@ -35,11 +33,10 @@ _OF_SCENARIO = ("accuracy", *KINDS)
 def _settings(settings: Union[Mapping[str, Any], Texts, None]) -> Mapping[str, Any]:
     if isinstance(settings, Mapping):
         return settings
-    return dict(one.split("=", 1) for one in listed(settings) if "=" in one or _refuse_setting(one))
-
-
-def _refuse_setting(text: str) -> NoReturn:
-    raise InputError([("", f"set: found {text}; allowed: KEY=VALUE")])
+    for text in listed(settings):
+        if "=" not in text:
+            raise fault(f"set: found {text}; allowed: KEY=VALUE")
+    return dict(text.split("=", 1) for text in listed(settings))
 
 
 def _parts(texts: Optional[Texts], separator: str) -> List[str]:
@@ -54,14 +51,13 @@ def _millimeters(width: Union[float, str, None]) -> Optional[float]:
     found = re.fullmatch(r"\s*([0-9.]+(?:e-?[0-9]+)?)\s*(mm|cm|m|)\s*", str(width))
     size = float(found[1]) * {"mm": 1, "cm": 10}.get(found[2], 1000) if found and found[1].count(".") < 2 else 0.0
     if not 50 <= size <= 600:
-        raise InputError([("", f'width: found {width}; allowed: a length from 50 mm to 600 mm, such as "88 mm"')])
+        raise fault(f'width: found {width}; allowed: a length from 50 mm to 600 mm, such as "88 mm"')
     return size
 
 
 def _in_memory(drawn: Any) -> _bbsim.Stored:
     if isinstance(drawn, Result):
-        columns = [(name, drawn.units[name], drawn[name], []) for name in drawn.columns]
-        return _bbsim.Stored(columns, drawn._run.summary())
+        return drawn._stored()
     if not isinstance(drawn, np.ndarray) or not drawn.dtype.names:
         allowed = "allowed: files, results of bbsim.run, arrays of bbsim.sweep"
         raise TypeError(f"found {type(drawn).__name__}; {allowed}")
@@ -76,35 +72,35 @@ def _in_memory(drawn: Any) -> _bbsim.Stored:
 class _Options:
     """What all pictures of one call share."""
 
-    def __init__(self, **options: Any) -> None:
+    def __init__(self, options: Dict[str, Any]) -> None:
         self.columns, self.over = _parts(options["columns"], ";"), _parts(options["over"], ",")
         self.width, self.font = _millimeters(options["width"]), options["font"] or FONT
         asked = [name for name in _OF_SCENARIO if options[name]]
         if len(asked) > 1:
             both = " and --".join(asked).replace("_", "-")
-            raise InputError([("", f"found --{both}; allowed: one picture of a scenario at a time")])
+            raise fault(f"found --{both}; allowed: one picture of a scenario at a time")
         self.kind = asked[0] if asked else ""  # of the picture, if a scenario is drawn
         locus, self.csv = options["root_locus"] or "", options["csv"]
         self.locus = locus if isinstance(locus, str) else "{}={}:{}".format(*locus)
         self.scenario, self.summary = (os.fspath(options[name] or "") for name in ("scenario", "summary"))
         self.set = _settings(options["set"])
         header = _parts(options["header"], ",")
-        missing = "" if options["missing"] is None else str(options["missing"])
-        self.log = (listed(options["map"]), header, options["period"] or "", options["time_offset"] or "", missing)
+        self.log = log_choice(options["map"], header, options["period"], options["time_offset"], options["missing"])
         require_font(self.font)
         if self.csv and not self.kind:
             allowed = ", ".join(f"--{name.replace('_', '-')}" for name in _OF_SCENARIO)
-            raise InputError([("", f"csv: allowed with the pictures of a scenario, {allowed}")])
+            raise fault(f"csv: allowed with the pictures of a scenario, {allowed}")
         if self.set and not self.scenario and not self.kind:
-            raise InputError([("", "set: allowed with --scenario, in which it sets a key")])
+            raise fault("set: allowed with --scenario, in which it sets a key")
 
-    def read(self, files: Sequence[Any], notes: List[str]) -> List[_bbsim.Stored]:
-        stored, overrides = [], [f"{key}={as_yaml(value)}" for key, value in self.set.items()]
+    def read(self, files: Sequence[Any], say: Any) -> List[_bbsim.Stored]:
+        stored, beside = [], _bbsim.Beside(self.summary, self.scenario, overrides(self.set))
         for file in files:
             if isinstance(file, (str, os.PathLike)):
-                one, its = _bbsim.read_result(os.fspath(file), self.summary, self.scenario, overrides, *self.log)
-                notes += its
+                one, notes = _bbsim.read_result(os.fspath(file), beside, self.log)
                 stored.append(one)
+                for note in notes:
+                    say(note)
             else:
                 stored.append(_in_memory(file))
         return stored
@@ -115,13 +111,13 @@ class _Options:
             if not any(result.is_sweep for result in results):
                 if self.over:
                     name = results[0].file or "the result"
-                    raise InputError([("", f"over: {name} is not a sweep; bbsim draws a run over time")])
+                    raise fault(f"over: {name} is not a sweep; bbsim draws a run over time")
                 asked = [[name.strip() for name in panel.split(",")] for panel in self.columns]
                 figure, panels = draw_runs(results, asked, self.width)
                 rows, what = sum(result.rows - result.has_end_row for result in results), "rows"
             else:
                 if len(results) > 1:
-                    raise InputError([("", "overlay: found a sweep; allowed: runs, since a sweep has its own picture")])
+                    raise fault("overlay: found a sweep; allowed: runs, since a sweep has its own picture")
                 figure, panels = draw_sweep(results[0], _parts(self.columns, ","), self.over, self.width)
                 rows, what = results[0].rows, "cases"
         return figure, f"{rows} {what}, {panels} panel{'s' if panels != 1 else ''}"
@@ -137,37 +133,22 @@ class _Options:
                     figure, points = draw_accuracy(text, title, self.width)
                     content = f"{points} points"
         if self.csv:
-            _bbsim.write_file(os.fspath(self.csv), text.encode())
+            _bbsim.write_file(os.fspath(self.csv), text)
         if figure is None:
-            raise InputError([("", "no method reached the end of the scenario; `bbsim run` says why")])
+            raise fault("no method reached the end of the scenario; `bbsim run` says why")
         return figure, content
 
 
 def plot(
-    files: Union[Drawn, Sequence[Drawn]],
-    *,
-    columns: Texts = (),
-    over: Texts = (),
-    summary: Optional[File] = None,
-    scenario: Optional[File] = None,
-    set: Union[Mapping[str, Any], Texts, None] = None,
-    map: Texts = (),
-    header: Texts = (),
-    period: Optional[str] = None,
-    time_offset: Optional[str] = None,
-    missing: Union[float, str, None] = None,
-    accuracy: bool = False,
-    bode: bool = False,
-    nyquist: bool = False,
-    poles: bool = False,
-    step: bool = False,
-    root_locus: Union[str, Tuple[str, Any, Any], None] = None,
-    csv: Optional[File] = None,
-    width: Union[float, str, None] = None,
-    font: Optional[str] = None,
-    output: Optional[File] = None,
+    files: Union[Drawn, Sequence[Drawn]], *, columns: Texts = (), over: Texts = (), summary: Optional[File] = None,
+    scenario: Optional[File] = None, set: Union[Mapping[str, Any], Texts, None] = None, map: Texts = (),
+    header: Texts = (), period: Optional[str] = None, time_offset: Optional[str] = None,
+    missing: Union[float, str, None] = None, accuracy: bool = False,
+    bode: bool = False, nyquist: bool = False, poles: bool = False, step: bool = False,
+    root_locus: Union[str, Tuple[str, Any, Any], None] = None, csv: Optional[File] = None,
+    width: Union[float, str, None] = None, font: Optional[str] = None, output: Optional[File] = None,
     format: Optional[str] = None,
-) -> Figure:
+) -> Figure:  # fmt: skip
     """Draws runs, a sweep or a log; returns a matplotlib figure. The keywords are the options of ``bbsim plot``.
 
     files    CSV or HDF5 files, results of ``bbsim.run``, or an array of ``bbsim.sweep``; several runs
@@ -182,19 +163,15 @@ def plot(
 
     Raises InputError and OutputError.
     """
-    options = _Options(
-        columns=columns, over=over, summary=summary, scenario=scenario, set=set, map=map, header=header, period=period,
-        time_offset=time_offset, missing=missing, accuracy=accuracy, bode=bode, nyquist=nyquist, poles=poles, step=step,
-        root_locus=root_locus, csv=csv, width=width, font=font,
-    )  # fmt: skip
+    options = _Options(dict(locals()))
     chosen = _format(None if output is None else os.fspath(output), format)
     if options.kind:
         figure, _ = options.draw_scenario(files)
     else:
         all_files = files if isinstance(files, (list, tuple)) else [files]
         if not all_files:
-            raise InputError([("", "files: found none; allowed: a file, a result, or a list of them")])
-        figure, _ = options.draw(options.read(all_files, []))
+            raise fault("files: found none; allowed: a file, a result, or a list of them")
+        figure, _ = options.draw(options.read(all_files, lambda note: None))
     if output is not None:
         _save(figure, os.fspath(output), chosen)
     return figure
@@ -203,49 +180,45 @@ def plot(
 def _format(output: Optional[str], asked: Optional[str]) -> str:
     """From `format`, else from the ending of the output."""
     name = asked or ("svg" if output in (None, "-") else Path(str(output)).suffix[1:].lower())
-    if name in _FORMATS:
-        return name
-    if asked:
-        raise InputError([("", f"format: found {asked}; allowed: svg, png and pdf")])
-    raise InputError([("", f"output: found {output}; allowed: a name that ends in .svg, .png or .pdf")])
+    if name not in _FORMATS:
+        allowed = ("output", output, "a name that ends in .svg, .png or .pdf")
+        raise refuse("format", asked, "svg, png and pdf") if asked else refuse(*allowed)
+    return name
 
 
 def _save(figure: Figure, output: str, format: str) -> None:
     """Writes a file that appears whole, with the same bytes each time, and with a mark of bbsim's."""
     drawn = io.BytesIO()
-    metadata = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {"Comment": _MARK}}[format]
+    metadata, end = {"svg": ({"Date": None}, f"<!-- {_MARK} -->\n"), "pdf": ({"CreationDate": None}, f"% {_MARK}\n"),
+                     "png": ({"Comment": _MARK}, "")}[format]  # fmt: skip
     figure.savefig(drawn, format=format, metadata=metadata)
-    end = {"svg": f"<!-- {_MARK} -->\n", "pdf": f"% {_MARK}\n", "png": ""}[format]
     _bbsim.write_file(output, drawn.getvalue() + end.encode())
 
 
-def _tasks(files: List[str], kind: str, options: Dict[str, Any], ending: str) -> List[Tuple[List[str], str]]:
-    """The files of each picture, and its name."""
-    output = options["output"]
-    kind = kind.replace("_", "-")
-    if len(files) > 1 and kind:
-        raise InputError([("", f"{kind}: found several files; allowed: one scenario")])
-    if len(files) > 1 and not options["overlay"] and output:
-        allowed = "allowed: with --overlay, which draws them in one picture"
-        raise InputError([("", f"output: found {output} for several files; {allowed}")])
-
-    def named(file: str, more: str) -> str:
-        if output:
-            return str(output)
-        if file == "-":
-            raise InputError([("", "output: missing; standard input (-) gives the picture no name")])
-        return f"{Path(Path(file).name if kind else file).with_suffix('')}{more}.{ending}"
-
-    if kind:
-        return [(files, named(files[0], f"-{kind}"))]
-    if options["overlay"] and len(files) > 1:
-        return [(files, named(files[0], "-overlay"))]
-    return [([file], named(file, "")) for file in files]
+def _tasks(files: List[str], kind: str, options: Dict[str, Any], ending: str) -> List[Tuple[List[str], str, str]]:
+    """The files of each picture, its name, and what names it in messages."""
+    output, kind, several = options["output"], kind.replace("_", "-"), len(files) > 1
+    if several and kind:
+        raise fault(f"{kind}: found several files; allowed: one scenario")
+    together = kind or "overlay" * (several and options["overlay"])
+    if several and not together and output:
+        raise fault(f"output: found {output} for several files; allowed: with --overlay, which draws them in one picture")
+    if output:
+        return [(files, str(output), "-o")]
+    tasks = []
+    for its in [files] if together else [[file] for file in files]:
+        if its[0] == "-":
+            raise fault("output: missing; standard input (-) gives the picture no name")
+        name = str(Path(Path(its[0]).name if kind else its[0]).with_suffix(""))
+        name = f"{name}-{together}.{ending}" if together else f"{name}.{ending}"
+        tasks.append((its, name, f"the picture of {its[0]}, without -o"))
+    return tasks
 
 
-def _declare(outputs: _bbsim.Outputs, tasks: Sequence[Tuple[List[str], str]], options: Dict[str, Any]) -> None:
+def _declare(tasks: Sequence[Tuple[List[str], str, str]], options: Dict[str, Any]) -> None:
     """Call it before any of the files is opened."""
-    for file in [file for files, _ in tasks for file in files]:
+    outputs = _bbsim.Outputs()
+    for file in [file for files, _, _ in tasks for file in files]:
         outputs.reads(file, "what is drawn")
         summary = _bbsim.summary_beside(file)
         if summary:
@@ -255,28 +228,8 @@ def _declare(outputs: _bbsim.Outputs, tasks: Sequence[Tuple[List[str], str]], op
             outputs.reads(options[name], f"--{name}")
     if options["csv"]:
         outputs.writes(options["csv"], "--csv")
-    for files, output in tasks:
-        outputs.writes(output, _option(files, options))
-
-
-def _option(files: Sequence[str], options: Dict[str, Any]) -> str:
-    return "-o" if options["output"] else f"the picture of {files[0]}, without -o"
-
-
-def _read(
-    shared: _Options, files: Sequence[str], output: str, options: Dict[str, Any], say: Any
-) -> List[_bbsim.Stored]:
-    if "-" in files and sys.stdin.isatty():
-        say("reading a CSV from the terminal; Ctrl-D ends it, Ctrl-C ends bbsim")
-    notes: List[str] = []
-    results = shared.read(files, notes)
-    for note in notes:
-        say(note)
-    outputs = _bbsim.Outputs()
-    for result in results:
-        outputs.reads_with(result)
-    outputs.writes(output, _option(files, options))
-    return results
+    for _, output, what in tasks:
+        outputs.writes(output, what)
 
 
 def command(options: Dict[str, Any], say: Any) -> None:
@@ -284,16 +237,22 @@ def command(options: Dict[str, Any], say: Any) -> None:
     _bbsim.end_at_signals()
     files = options["files"]
     format = _format(options["output"], options["format"])
-    shared = _Options(**options)
+    shared = _Options(options)
     tasks = _tasks(files, shared.kind, options, format)
     if len(files) > 1 and options["summary"]:
-        raise InputError([("", "summary: found several files; allowed: one run, to which the summary belongs")])
-    _declare(_bbsim.Outputs(), tasks, options)
+        raise fault("summary: found several files; allowed: one run, to which the summary belongs")
+    _declare(tasks, options)
     # Draw what can be drawn, even if other files have faults.
     problems: List[Tuple[str, str]] = []
-    for its, output in tasks:
+    for its, output, what in tasks:
         try:
-            results = [] if shared.kind else _read(shared, its, output, options, say)
+            if "-" in its and not shared.kind and sys.stdin.isatty():
+                say("reading a CSV from the terminal; Ctrl-D ends it, Ctrl-C ends bbsim")
+            results = [] if shared.kind else shared.read(its, say)
+            outputs = _bbsim.Outputs()
+            for result in results:
+                outputs.reads_with(result)
+            outputs.writes(output, what)
             if not options["output"] and not options["force"]:
                 _bbsim.require_mark(output, "a picture of bbsim's", _MARK)
             figure, content = shared.draw(results) if results else shared.draw_scenario(its[0])

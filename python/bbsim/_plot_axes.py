@@ -9,7 +9,7 @@ import math
 import re
 from collections import Counter
 from dataclasses import dataclass
-from typing import Any, List, Optional, Sequence, Tuple
+from typing import Any, Optional, Sequence, Tuple
 
 import numpy as np
 from matplotlib.ticker import FixedFormatter, FixedLocator, FuncFormatter, MultipleLocator, NullLocator
@@ -30,13 +30,9 @@ _AUTO.update({"m/s": _AUTO["m"], "N m": _AUTO["N"], "J": _AUTO["N"], "W": _AUTO[
 
 
 def covered(*arrays: Any) -> Range:
-    low, high = math.inf, -math.inf
-    for array in arrays:
-        values = np.asarray(array, float)
-        finite = values[np.isfinite(values)]
-        if len(finite):
-            low, high = min(low, float(finite.min())), max(high, float(finite.max()))
-    return None if low > high else (low, high)
+    values = np.concatenate([np.empty(0), *(np.ravel(array) for array in arrays)], dtype=float)
+    finite = values[np.isfinite(values)]
+    return (float(finite.min()), float(finite.max())) if len(finite) else None
 
 
 def width(range_: Range) -> float:
@@ -44,7 +40,7 @@ def width(range_: Range) -> float:
 
 
 def largest(range_: Range) -> float:
-    return 0.0 if range_ is None else max(map(abs, range_))
+    return 0.0 if range_ is None else max(abs(range_[0]), abs(range_[1]))
 
 
 def is_wide(range_: Range) -> bool:
@@ -185,10 +181,9 @@ def linear_limits(range_: Range, air: float = 0.06) -> Tuple[float, float]:
     """The ends of an axis over a range, with free space at both."""
     if range_ is None:
         return 0.0, 1.0
-    if not is_wide(range_):  # a constant, with its value in the middle
-        half = largest(range_) / 2 if largest(range_) > _SMALLEST else 1.0
-        return range_[0] - half, range_[1] + half
     more = air * width(range_)
+    if not is_wide(range_):  # a constant, with its value in the middle
+        more = largest(range_) / 2 if largest(range_) > _SMALLEST else 1.0
     return range_[0] - more, range_[1] + more
 
 
@@ -233,19 +228,26 @@ def logarithmic(
     most = max(2.0, millimeters / _spaced(axis))
     mantissas = [1, 2, 5] if 3 * decades <= most else [1, 3] if 2 * decades <= most else [1]
     every = max(1, math.ceil(decades / most))
-    at: List[float] = []
-    labels: List[str] = []
+    labels = {}
     for exponent in range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1):
         for mantissa in mantissas if exponent % every == 0 else []:
-            value = mantissa * 10.0**exponent
-            if not low * (1 - 1e-9) <= value <= high * (1 + 1e-9):
-                continue
-            at.append(value)
-            ten = power_of_ten(exponent)
-            labels.append(number(value) if -3 <= exponent <= 4 else ten if mantissa == 1 else f"{mantissa}·{ten}")
+            value, ten = mantissa * 10.0**exponent, power_of_ten(exponent)
+            if low * (1 - 1e-9) <= value <= high * (1 + 1e-9):
+                long = ten if mantissa == 1 else f"{mantissa}·{ten}"
+                labels[value] = number(value) if -3 <= exponent <= 4 else long
     getattr(axis.axes, f"set_{axis.axis_name}scale")("log")
-    ticks(axis, at, labels)
+    ticks(axis, list(labels), list(labels.values()))
     _limit(axis, low, high, label, numbered, millimeters)
+
+
+def fitted(
+    axis: Any, log: bool, range_: Range, millimeters: float, label: str = "", *, air: float = 0.0, numbered: bool = True
+) -> None:
+    """A logarithmic or a linear axis over a range."""
+    if log:
+        logarithmic(axis, range_, millimeters, label, air=air, numbered=numbered)
+    else:
+        linear(axis, *linear_limits(range_, air), millimeters, label, numbered=numbered)
 
 
 def ticks(axis: Any, at: Sequence[float], labels: Sequence[str]) -> None:

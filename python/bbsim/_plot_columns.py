@@ -10,9 +10,9 @@ from typing import Any, Dict, List, NamedTuple, Optional, Sequence
 import numpy as np
 
 from . import _bbsim
-from ._errors import InputError
 from ._plot_axes import Range, Unit, Units, covered, is_wide, width
 from ._plot_sheet import Stroke, clean, stroke
+from ._scenario import fault
 
 MAIN, REFERENCE, MEASURED, COMMAND = range(4)  # roles of columns
 
@@ -65,8 +65,8 @@ def _command_unit(run: _bbsim.Stored) -> str:
     misfits = [0.0, 0.0]
     for axis in ("phi", "theta"):
         if {"t", axis, f"{axis}_command"} <= set(run.names):
-            values = [run.numbers(name) for name in ("t", f"{axis}_command", axis)]
-            misfits = [misfits[i] + _misfit(*values, twice=bool(i)) for i in range(2)]
+            t, command, angle = (run.numbers(name) for name in ("t", f"{axis}_command", axis))
+            misfits = [misfits[i] + _misfit(t, command, angle, twice=bool(i)) for i in range(2)]
     return "rad/s^2" if misfits[1] < misfits[0] else "rad"
 
 
@@ -96,12 +96,12 @@ class Runs:
             return self.units.drawn(known.unit, column in ("gamma", "spin"))
         return self.units.drawn(next((run.unit(column) for run in self.having(column) if run.unit(column)), ""))
 
-    def line(self, column: str) -> Line:
-        known = self.known.get(column)
-        return Line(column, known.role, known.symbol) if known else Line(column, MAIN, clean(column))
+    def facts(self, column: str) -> Known:
+        """What is known of a column; of others little."""
+        return self.known.get(column) or Known(column, clean(column), "", 0, "", MAIN, "", 0)
 
-    def axis(self, column: str) -> int:
-        return self.known[column].axis if column in self.known else 0
+    def line(self, column: str) -> Line:
+        return Line(column, self.facts(column).role, self.facts(column).symbol)
 
     def stroke(self, run: _bbsim.Stored) -> Stroke:
         return stroke(next(i for i, other in enumerate(self.runs) if other is run))
@@ -126,6 +126,8 @@ class Runs:
             else:
                 panels.append(panel)
         planned = {line.column for panel in panels for line in panel.lines} | {"t"}
+        # A column of a log from which another was made would be the same line again.
+        planned |= {column for run in self.runs for column in run.raw} - set(self.known)
         for run in self.runs:
             for column in run.names:
                 if column in names - planned:
@@ -140,15 +142,15 @@ class Runs:
             for name in names:
                 found = f"columns: found {name or 'nothing'}"
                 if name == "t":
-                    raise InputError([("", f"{found}, over which the others are drawn")])
+                    raise fault(f"{found}, over which the others are drawn")
                 if not self.having(name):
-                    raise InputError([("", found + self._allowed(name))])
+                    raise fault(found + self._allowed(name))
                 if self.range(name) is None:
-                    raise InputError([("", f"{found}, which holds no finite number")])
+                    raise fault(f"{found}, which holds no finite number")
                 panel = panel or Panel(self.unit(name), [])
                 if self.unit(name) != panel.unit:
                     beside = f"{found} in a panel with {panel.lines[0].column}, which has another unit"
-                    raise InputError([("", f"{beside}; a semicolon begins another panel")])
+                    raise fault(f"{beside}; a semicolon begins another panel")
                 panel.lines.append(self.line(name))
             if panel:
                 panels.append(panel)
@@ -187,22 +189,21 @@ class Runs:
         parts = [Panel(panel.unit, [line]) for line in leaders] or [Panel(panel.unit, [])]
         for line in panel.lines:
             if not any(line is leader for leader in leaders):
-                axis = self.axis(line.column)
-                same = [part for part in parts if part.lines and self.axis(part.lines[0].column) == axis]
+                axis = self.facts(line.column).axis
+                same = [part for part in parts if part.lines and self.facts(part.lines[0].column).axis == axis]
                 (same or parts)[0].lines.append(line)
         return parts
 
     def _name(self, panel: Panel) -> None:
         """Sets the heading, and shortens names of lines that the heading completes."""
-        mains = [self.known.get(line.column) for line in panel.lines if line.role == MAIN]
-        common = {known.heading if known else "" for known in mains}
+        mains = [self.facts(line.column) for line in panel.lines if line.role == MAIN]
+        common = {known.heading for known in mains}
         if len(mains) > 1 and len(common) == 1 and "" not in common:
             panel.name = common.pop()
             for line in panel.lines:
-                line.name = (self.known[line.column].beside if line.column in self.known else "") or line.name
+                line.name = self.facts(line.column).beside or line.name
             return
         panel.name = ", ".join(line.name for line in panel.lines if line.role == MAIN or not mains)
         if len(mains) == 1:
             for line in panel.lines:
-                main = (mains[0].beside if mains[0] else "") or line.name
-                line.name = (main, "reference", "as seen", "command")[line.role]
+                line.name = (mains[0].beside or line.name, "reference", "as seen", "command")[line.role]

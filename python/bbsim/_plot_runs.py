@@ -10,10 +10,10 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple
 import numpy as np
 
 from . import _bbsim
-from ._errors import InputError
 from ._plot_axes import Unit, choose_scale, choose_scales, covered, is_wide, largest, linear, linear_limits, width
 from ._plot_columns import COMMAND, MAIN, MEASURED, REFERENCE, Panel, Runs
 from ._plot_sheet import BAND, ORANGE, Box, Legend, Sheet, Stroke, mark, number, stroke
+from ._scenario import Array, fault
 
 _MEASURED_STROKE: Stroke = {"color": "#f2c45c", "lw": 2.4}
 _COMMAND_STROKE: Stroke = {"color": "#707070", "lw": 0.7}
@@ -69,19 +69,6 @@ def _lone(x: Any, y: Any) -> Tuple[Any, Any]:
     return x[drawn & ~beside], y[drawn & ~beside]
 
 
-def _is_held(run: _bbsim.Stored, role: int) -> bool:
-    """A sampled controller holds each command until the next one; a sensor holds its value."""
-    return role == MEASURED or (role == COMMAND and run.sampled is not False)
-
-
-def _line_stroke(runs: Runs, run: _bbsim.Stored, role: int, mains_before: int) -> Stroke:
-    if role == REFERENCE:
-        return BAND
-    if not runs.one:
-        return runs.stroke(run)
-    return {MEASURED: _MEASURED_STROKE, COMMAND: _COMMAND_STROKE}.get(role) or stroke(mains_before)
-
-
 def _time_panel(
     sheet: Sheet, box: Box, runs: Runs, planned: Panel, abscissa: _Abscissa, marks: _Marks, lowest: bool
 ) -> None:
@@ -99,7 +86,8 @@ def _time_panel(
     for run in runs.runs:
         mains = 0
         for line in planned.lines:
-            look = _line_stroke(runs, run, line.role, mains)
+            look = {MEASURED: _MEASURED_STROKE, COMMAND: _COMMAND_STROKE}.get(line.role) or stroke(mains)
+            look = BAND if line.role == REFERENCE else look if runs.one else runs.stroke(run)
             mains += line.role == MAIN
             if len(planned.lines) > 1 and run is runs.runs[0] and (runs.one or line.role == REFERENCE):
                 legend.append((line.name, look))
@@ -118,8 +106,9 @@ def _time_panel(
     order = [REFERENCE, MEASURED, COMMAND, MAIN]
     for run, line, look in sorted(curves, key=lambda curve: order.index(curve[1].role)):
         x, y = abscissa.of(run), scale(run.numbers(line.column))
-        how = "steps-post" if _is_held(run, line.role) else "default"
-        axes.plot(x, y, drawstyle=how, **look)
+        # A sampled controller holds each command until the next one; a sensor holds its value.
+        held = line.role == MEASURED or (line.role == COMMAND and run.sampled is not False)
+        axes.plot(x, y, drawstyle="steps-post" if held else "default", **look)
         dots = _lone(x, y)
         if len(dots[0]):
             axes.plot(*dots, **mark("o", look["color"], 2.0))
@@ -142,29 +131,23 @@ def _mark_events(axes: Any, run: _bbsim.Stored, abscissa: _Abscissa, marks: _Mar
         axes.plot(times, np.ones(len(times)), transform=above, clip_on=False, **look)
 
 
-def _points(run: _bbsim.Stored, suffix: str = "") -> Tuple[Any, Any]:
+def _points(run: _bbsim.Stored, suffix: str = "") -> Array:
+    """Two rows, x and y; without columns if the run lacks one of them."""
     names = [f"x{suffix}", f"y{suffix}"]
-    if not set(names) <= set(run.names):
-        return np.empty(0), np.empty(0)
-    x, y = (run.numbers(name) for name in names)
-    gone = ~(np.isfinite(x) & np.isfinite(y))
-    return np.where(gone, np.nan, x), np.where(gone, np.nan, y)
+    points = np.array([run.numbers(name) if set(names) <= set(run.names) else [] for name in names], float)
+    return np.where(np.isfinite(points).all(0), points, np.nan)
 
 
-def _stands_still(points: Tuple[Any, Any]) -> bool:
+def _stands_still(points: Array) -> bool:
     return not any(is_wide(covered(part)) for part in points)
 
 
-def _plates(runs: Sequence[_bbsim.Stored]) -> List[Tuple[Any, Any]]:
+def _plates(runs: Sequence[_bbsim.Stored]) -> List[Array]:
     """The edges of the known plates, m."""
-    edges = []
-    for size in dict.fromkeys(tuple(run.plate) for run in runs if run.plate):
-        if len(size) == 1:
-            turn = np.linspace(0, 2 * math.pi, 181)
-            edges.append((size[0] / 2 * np.cos(turn), size[0] / 2 * np.sin(turn)))
-        else:
-            edges.append((size[0] / 2 * np.array([-1, 1, 1, -1, -1]), size[1] / 2 * np.array([-1, -1, 1, 1, -1])))
-    return edges
+    turn = np.linspace(0, 2 * math.pi, 181)
+    circle, square = np.array([np.cos(turn), np.sin(turn)]), np.array([[-1, 1, 1, -1, -1], [-1, -1, 1, 1, -1]])
+    sizes = dict.fromkeys(tuple(run.plate) for run in runs if run.plate)
+    return [np.array(size)[:, None] / 2 * (circle if len(size) == 1 else square) for size in sizes]
 
 
 class _Path:
@@ -174,20 +157,19 @@ class _Path:
         self._runs = runs
         paths = [_points(run, suffix) for run in runs.runs for suffix in ("", "_reference")]
         self.exists = any(covered(_points(run)[0]) for run in runs.runs)
-        events = [event for run in runs.runs for event in run.events]
-        spots = ([event.x for event in events], [event.y for event in events])
-        self._x, self._y = (covered(*(path[i] for path in paths)) for i in range(2))
-        longer, shorter = max(width(self._x), width(self._y)), min(width(self._x), width(self._y))
+        spots = np.array([(event.x, event.y) for run in runs.runs for event in run.events]).reshape(-1, 2).T
+
+        def ranges(*more: Array) -> List[Any]:
+            return [covered(*(points[i] for points in (*paths, *more))) for i in range(2)]
+
+        shorter, longer = sorted(map(width, ranges()))
         plates = _plates(runs.runs)
         # Whether the picture shows no more than the columns: the ball stays on a line along x or y.
         self.is_along_an_axis = self.exists and not plates and shorter < 1e-6 * longer
-        self._x, self._y = (covered(range_ or [], more) for range_, more in zip((self._x, self._y), spots))
         # A plate ten times the path's size would make the path too small to see.
-        most = 10 * max(width(self._x), width(self._y))
+        most = 10 * max(map(width, ranges(spots)))
         self._edges = [edge for edge in plates if max(width(covered(part)) for part in edge) <= most]
-        self._x, self._y = (
-            covered(range_ or [], *(edge[i] for edge in self._edges)) for i, range_ in enumerate((self._x, self._y))
-        )
+        self._x, self._y = ranges(spots, *self._edges)
 
     def legend(self) -> Legend:
         entries: Dict[str, Stroke] = {"path": stroke(0)} if self._runs.one else {}
@@ -213,12 +195,12 @@ class _Path:
         middle, tall = y[0] / 2 + y[1] / 2, half * up / across
         linear(axes.yaxis, middle - tall, middle + tall, up, step=step)
 
-        def line(points: Tuple[Any, Any], look: Stroke) -> None:
+        def line(points: Array, look: Stroke) -> None:
             drawn = x_scale(points[0]), y_scale(points[1])
             axes.plot(*drawn, **look)
             axes.plot(*_lone(*drawn), **mark("o", look["color"], 2.0))
 
-        def spot(points: Tuple[Any, Any], at: int, look: Stroke) -> None:
+        def spot(points: Array, at: int, look: Stroke) -> None:
             finite = np.flatnonzero(np.isfinite(points[0]))
             if len(finite):
                 axes.plot(x_scale(points[0][finite[at]]), y_scale(points[1][finite[at]]), **look)
@@ -303,12 +285,12 @@ def draw_runs(results: Sequence[_bbsim.Stored], asked: Sequence[Sequence[str]], 
     path = _Path(runs)
     lists = [list(names) for names in asked if list(names) != ["path"]]
     if len(lists) < len(asked) and not path.exists:
-        raise InputError([("", f"columns: found path; {results[0].file or 'the result'} has no numbers x and y")])
+        raise fault(f"columns: found path; {results[0].file or 'the result'} has no numbers x and y")
     panels = runs.asked(lists) if asked else runs.planned()
     with_path = len(lists) < len(asked) if asked else path.exists and (not panels or not path.is_along_an_axis)
     if not panels and not with_path:
         name = results[0].file or "the result"
-        raise InputError([("", f"{name}: nothing to draw: no column but t holds finite numbers")])
+        raise fault(f"{name}: nothing to draw: no column but t holds finite numbers")
 
     sheet_width, path_height, columns = _columns(with_path, len(panels), wide)
     abscissa, marks = _Abscissa(runs), _Marks(runs)

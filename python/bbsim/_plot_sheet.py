@@ -17,7 +17,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure as _Figure
 from matplotlib.lines import Line2D
 
-from ._errors import InputError
+from ._scenario import fault
 
 MM = 1 / 25.4  # inches
 TITLE, TEXT, SMALL = 9.5, 8.0, 7.0  # points
@@ -65,7 +65,7 @@ def require_font(font: str) -> None:
         _face(font)
     except ValueError:
         allowed = f"allowed: a font that matplotlib finds, such as {FONT}"
-        raise InputError([("", f"font: found {font}; {allowed}")]) from None
+        raise fault(f"font: found {font}; {allowed}") from None
 
 
 class Figure(_Figure):

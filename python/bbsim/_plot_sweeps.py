@@ -12,12 +12,11 @@ import numpy as np
 from matplotlib.colors import LogNorm, Normalize
 
 from . import _bbsim
-from ._errors import InputError
 from ._plot_axes import (
-    CLOSE, Range, Unit, Units, better_by_log, choose_scale, covered, is_wide, linear, linear_limits, logarithmic, ticks,
-    width,
+    CLOSE, Unit, Units, better_by_log, choose_scale, covered, fitted, is_wide, linear, linear_limits, ticks, width,
 )  # fmt: skip
-from ._plot_sheet import ORANGE, SMALL, Box, Legend, Sheet, Stroke, cut, mark, number, stroke
+from ._plot_sheet import ORANGE, SMALL, Box, Sheet, Stroke, cut, mark, number, stroke
+from ._scenario import fault
 
 _MOST_GROUPS = 5  # more values make a map instead of a line for each
 _MOST_BANDS = 3  # more would hide each other
@@ -55,10 +54,7 @@ class _Measure:
         self.heading = self.scale.heading(name)
 
     def set(self, axis: Any, millimeters: float, air: float, label: str = "", numbered: bool = True) -> None:
-        if self.log:
-            logarithmic(axis, self.range, millimeters, label, air=air, numbered=numbered)
-        else:
-            linear(axis, *linear_limits(self.range, air), millimeters, label, numbered=numbered)
+        fitted(axis, self.log, self.range, millimeters, label, air=air, numbered=numbered)
 
 
 class _Key:
@@ -70,7 +66,11 @@ class _Key:
         self.label = key.name + (", with " + ", ".join(followers) if followers else "")
         self.log, self.scale = False, choose_scale(Unit(), None)
         if not self.is_text:
-            self.log = _by_equal_factors(self.distinct)
+            low, high = self.distinct[[0, -1]]
+            # Logarithmic: positive values that grow by equal factors, over at least a factor of ten.
+            if len(self.distinct) > 2 and low > 0 and high >= 10 * low:
+                factors = self.distinct[1:] / self.distinct[:-1]
+                self.log = bool(np.all(np.abs(factors / factors[0] - 1) < 1e-3))
             self.scale = choose_scale(sweep.units.drawn(key.unit), covered(self.distinct), 0 if self.log else CLOSE)
             self.label = self.scale.heading(self.label)
 
@@ -87,26 +87,13 @@ class _Key:
     def set(self, axis: Any, millimeters: float, cells: bool, numbered: bool = True) -> None:
         """Leaves half the distance to the next value at both ends if `cells`, else room for a marker."""
         ends = self.edges() if cells else self.place(self.distinct)
-        range_: Range = (float(ends[0]), float(ends[-1]))
-        air = 0.0 if cells else 0.02
-        if self.log:
-            logarithmic(axis, range_, millimeters, self.label, air=air, numbered=numbered)
-            return
         if not self.is_text:
-            linear(axis, *linear_limits(range_, air), millimeters, self.label, numbered=numbered)
-            return
+            range_, air = (float(ends[0]), float(ends[-1])), 0.0 if cells else 0.02
+            return fitted(axis, self.log, range_, millimeters, self.label, air=air, numbered=numbered)
         count = len(self.key.labels)
         linear(axis, -0.5, count - 0.5, millimeters, self.label, numbered=numbered)
         room = 0.9 * millimeters / count if axis.axis_name == "x" else 9.0
         ticks(axis, range(count), [cut(label, room, SMALL) for label in self.key.labels])
-
-
-def _by_equal_factors(values: Any) -> bool:
-    """Whether positive values grow by equal factors, over at least a factor of ten."""
-    if len(values) < 3 or values[0] <= 0 or values[-1] / values[0] < 10:
-        return False
-    factors = values[1:] / values[:-1]
-    return bool(np.all(np.abs(factors / factors[0] - 1) < 1e-3))
 
 
 # Panels
@@ -131,11 +118,11 @@ def _group_stroke(group: int) -> Stroke:
     return {**marker, **stroke(group)}
 
 
-def _group_legend(group: Optional[_bbsim.SweepKey]) -> Legend:
-    if group is None:
-        return []
-    names = group.labels or [number(value) for value in group.distinct]
-    return [(f"{group.name} = {name}", _group_stroke(g)) for g, name in enumerate(names)]
+def _bundles(places: Any, values: Any) -> Tuple[Any, List[Any]]:
+    """The distinct places, and the values at each."""
+    order = np.argsort(places, kind="stable")
+    at, first = np.unique(places[order], return_index=True)
+    return at, np.split(values[order], first[1:]) if len(at) else []
 
 
 def _lines(sweep: _Sweep, name: str, over: _bbsim.SweepKey, group: Optional[_bbsim.SweepKey], place: _Place) -> None:
@@ -156,13 +143,10 @@ def _lines(sweep: _Sweep, name: str, over: _bbsim.SweepKey, group: Optional[_bbs
         if over.drawn and len(over.values) > _MANY_POINTS:
             look["ms"] = 1.5
         good = mine & sweep.done & np.isfinite(up.values)
-        order = np.argsort(over.values[good], kind="stable")
-        at, first = np.unique(over.values[good][order], return_index=True)
-        bundles = np.split(up.scale(up.values[good][order]), first[1:]) if len(at) else []
+        at, bundles = _bundles(over.values[good], up.scale(up.values[good]))
         present = np.unique(over.values[mine])
         low, middle, high = np.full((3, len(present)), np.nan)
-        for value, bundle in zip(at, bundles):
-            i = np.searchsorted(present, value)
+        for i, bundle in zip(np.searchsorted(present, at), bundles):
             low[i], middle[i], high[i] = np.quantile(bundle, [0.05, 0.5, 0.95])
         x = along.place(present)
         if any(len(bundle) > 1 for bundle in bundles) and len(groups) <= _MOST_BANDS:
@@ -205,27 +189,28 @@ def _map(sweep: _Sweep, name: str, over: _bbsim.SweepKey, against: _bbsim.SweepK
         return
     x_edges, columns = _shared(along)
     y_edges, rows = _shared(up)
-    shape = len(y_edges) - 1, len(x_edges) - 1
+    x, y = _middles(x_edges, along.log), _middles(y_edges, up.log)
+    shape = len(y), len(x)
     there = (columns >= 0) & (rows >= 0)
     cells = np.where(there, rows * shape[1] + columns, -1)
     medians = np.full(shape, np.nan)
     good = there & sweep.done & np.isfinite(colors.values)
-    order = np.argsort(cells[good], kind="stable")
-    at, first = np.unique(cells[good][order], return_index=True)
-    if len(at):
-        bundles = np.split(colors.scale(colors.values[good][order]), first[1:])
-        medians.flat[at] = [np.median(bundle) for bundle in bundles]
-    present = np.full(shape, np.nan)
-    present.flat[np.unique(cells[there])] = 0
+    at, bundles = _bundles(cells[good], colors.scale(colors.values[good]))
+    medians.flat[at] = [np.median(bundle) for bundle in bundles]
+    present = np.where(np.isin(np.arange(medians.size), cells), 0.85, np.nan).reshape(shape)
     many = medians.size > 2500  # as one image in SVG and PDF
     gray = Normalize(0, 1)
-    axes.pcolormesh(x_edges, y_edges, np.ma.masked_invalid(present + 0.85), cmap="gray", norm=gray, rasterized=many)
+    axes.pcolormesh(x_edges, y_edges, np.ma.masked_invalid(present), cmap="gray", norm=gray, rasterized=many)
     if norm is not None:
         drawn = np.ma.masked_invalid(medians)
-        mesh = axes.pcolormesh(x_edges, y_edges, drawn, cmap="viridis", norm=norm, rasterized=many)
+        axes.pcolormesh(x_edges, y_edges, drawn, cmap="viridis", norm=norm, rasterized=many)
         if place.across / shape[1] >= 7 and place.up / shape[0] >= 3.2:
-            _write_values(axes, mesh, x_edges, y_edges, medians, colors, along, up)
-    _mark_cells(sweep, axes, cells, there, x_edges, y_edges, along, up, min(place.across / shape[1], place.up / shape[0]))
+            for (row, column), value in np.ndenumerate(medians):
+                if np.isfinite(value):
+                    color = "#ffffff" if norm(value) < 0.55 else "#000000"  # readable on both halves of the colors
+                    shown = number(value, 3)
+                    axes.text(x[column], y[row], shown, size=6, ha="center", va="center_baseline", color=color)
+    _mark_cells(sweep, axes, cells, x, y, min(place.across / shape[1], place.up / shape[0]))
 
 
 def _color_scale(axes: Any, colors: _Measure, norm: Any, up: float) -> None:
@@ -256,26 +241,12 @@ def _middles(edges: Any, log: bool) -> Any:
     return np.sqrt(edges[1:] * edges[:-1]) if log else (edges[1:] + edges[:-1]) / 2
 
 
-def _write_values(
-    axes: Any, mesh: Any, x_edges: Any, y_edges: Any, medians: Any, colors: _Measure, along: _Key, up: _Key
-) -> None:
-    x, y = _middles(x_edges, along.log), _middles(y_edges, up.log)
-    for (row, column), value in np.ndenumerate(medians):
-        if np.isfinite(value):
-            white = mesh.norm(value) < 0.55  # readable on the dark half of the colors
-            color = "#ffffff" if white else "#000000"
-            axes.text(x[column], y[row], number(value, 3), size=6, ha="center", va="center_baseline", color=color)
-
-
-def _mark_cells(
-    sweep: _Sweep, axes: Any, cells: Any, there: Any, x_edges: Any, y_edges: Any, along: _Key, up: _Key, size: float
-) -> None:
+def _mark_cells(sweep: _Sweep, axes: Any, cells: Any, x: Any, y: Any, size: float) -> None:
     """Marks cells with a case that is not done, by the status of the first one."""
-    status, x, y = np.array(sweep.table.status), _middles(x_edges, along.log), _middles(y_edges, up.log)
     marked: Dict[str, List[int]] = {}
-    which = np.flatnonzero(there & ~sweep.done)
+    which = np.flatnonzero((cells >= 0) & ~sweep.done)
     for cell, first in zip(*np.unique(cells[which], return_index=True)):
-        marked.setdefault(status[which[first]], []).append(cell)
+        marked.setdefault(sweep.table.status[which[first]], []).append(cell)
     for other, of in marked.items():
         look = {**sweep.mark(other), "ms": min(max(size / 0.35 * 0.55, 0.8), 4.0)}
         look["mew"] = min(0.9, look["ms"] / 4)
@@ -287,7 +258,7 @@ def _histogram(sweep: _Sweep, name: str, place: _Place) -> None:
     good = along.values[sweep.done & np.isfinite(along.values)]
     values = np.sort(np.log(along.scale(good)) if along.log else along.scale(good))
     legend: List[Tuple[str, Stroke]] = []
-    edges, counts, at = np.empty(0), np.ones(1), []
+    edges, counts, at = np.empty(0), np.ones(1), np.empty(0)
     median: Stroke = {"color": "#000000", "lw": 0.9}
     tail: Stroke = {**median, "lw": 0.7, "ls": (0, (4, 2))}
     if len(values):
@@ -295,7 +266,9 @@ def _histogram(sweep: _Sweep, name: str, place: _Place) -> None:
         at = np.quantile(values, [0.05, 0.5, 0.95])
         at = np.exp(at) if along.log else at
         ends = np.exp(values[[0, -1]]) if along.log else values[[0, -1]]
-        digits = _digits_between(*ends)
+        part = np.ptp(ends) / max(*np.abs(ends), 1e-300)
+        # As many digits as resolve a hundredth of the range.
+        digits = min(max(2 - math.floor(math.log10(part)), 3), 12) if part > 0 else 4
         if number(at[0], digits) == number(at[2], digits):
             at, legend = at[1:2], [(f"all {number(at[1], digits)}", median)]
         else:
@@ -320,12 +293,6 @@ def _bars(values: Any, wide: bool, along: _Measure) -> Tuple[Any, Any]:
     return np.histogram(values, int(min(max(math.ceil(count), 5), 60)))
 
 
-def _digits_between(low: float, high: float) -> int:
-    """The number of digits that resolve a hundredth of a range."""
-    part = (high - low) / max(abs(low), abs(high), 1e-300)
-    return min(max(2 - math.floor(math.log10(part)), 3), 12) if part > 0 else 4
-
-
 # What is drawn over what
 
 @dataclass
@@ -346,13 +313,13 @@ def _choose_form(table: _bbsim.SweepTable, names: Sequence[str]) -> _Form:
     listed = [key for k, key in enumerate(table.keys) if not key.drawn and key.leader == k]
     if names:
         if len(names) > 2:
-            raise InputError([("", f"over: found {', '.join(names)}; allowed: one key, or two")])
+            raise fault(f"over: found {', '.join(names)}; allowed: one key, or two")
         if len(set(names)) < len(names):
-            raise InputError([("", f"over: found {names[0]} twice")])
+            raise fault(f"over: found {names[0]} twice")
         keys = {key.name: key for key in table.keys}
         for name in names:
             if name not in keys:
-                raise InputError([("", f"over: found {name}; what varies: {', '.join(keys)}")])
+                raise fault(f"over: found {name}; what varies: {', '.join(keys)}")
         first = keys[names[0]]
         if len(names) == 2:
             return _Form(first, keys[names[1]])
@@ -376,7 +343,7 @@ def _choose_measures(sweep: _Sweep, asked: Sequence[str]) -> List[str]:
     for name in asked:
         if name not in known and not (name == "end_time" and name in sweep.stored.names):
             source = sweep.stored.file or "the sweep"
-            raise InputError([("", f"columns: found {name or 'nothing'}; measures of {source}: {', '.join(known)}")])
+            raise fault(f"columns: found {name or 'nothing'}; measures of {source}: {', '.join(known)}")
     return list(asked) or [name for name in known if is_wide(_Measure(sweep, name).range)] or known
 
 
@@ -400,10 +367,10 @@ def draw_sweep(stored: _bbsim.Stored, asked: Sequence[str], over: Sequence[str],
     sweep = _Sweep(stored)
     source = stored.file or "the sweep"
     if not sweep.table.keys:
-        raise InputError([("", f"{source}: nothing to draw: no key varies")])
+        raise fault(f"{source}: nothing to draw: no key varies")
     measures = _choose_measures(sweep, asked)
     if not measures:
-        raise InputError([("", f"{source}: nothing to draw: it has no measures")])
+        raise fault(f"{source}: nothing to draw: it has no measures")
     form = _choose_form(sweep.table, over)
     histogram, is_map = form.over is None, form.against is not None
     one = len(measures) == 1
@@ -419,9 +386,12 @@ def draw_sweep(stored: _bbsim.Stored, asked: Sequence[str], over: Sequence[str],
     none = sum(not np.isfinite(sweep.stored.numbers(name)[sweep.done]).all() for name in measures)
     if is_map and none:
         others.append(("no value", _NO_VALUE))
-    legend = [*_group_legend(form.group), *others]
+    legend: List[Tuple[str, Stroke]] = []
+    if form.group is not None:
+        names = form.group.labels or [number(value) for value in form.group.distinct]
+        legend = [(f"{form.group.name} = {name}", _group_stroke(g)) for g, name in enumerate(names)]
     subtitle = ", ".join(filter(None, [subtitle, cases]))
-    sheet = Sheet(sheet_width, pitch * rows + (1 if histogram else 8.5), title, subtitle, legend)
+    sheet = Sheet(sheet_width, pitch * rows + (1 if histogram else 8.5), title, subtitle, legend + others)
     for m, name in enumerate(measures):
         x, y = left + (m % columns) * (part + between), pitch * (m // columns)
         box = (x, y + 5.0, x + part, y + pitch - (9.5 if histogram else 1.5))

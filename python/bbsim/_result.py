@@ -1,40 +1,32 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The results of a run."""
+"""The results of runs: of one, as a linear system, on pages, compared; and the example scenarios."""
 
 from __future__ import annotations
 
 import html
 import json
+import os
+from dataclasses import dataclass
 from functools import cached_property
+from numbers import Real
+from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _bbsim
-from ._errors import InputError
+from ._scenario import Array, Settings, fault, listed, log_choice, overrides, refuse
 
 if TYPE_CHECKING:
     import matplotlib.figure
     import pandas
 
-Array = "np.ndarray[Any, np.dtype[np.float64]]"
 
 
-class _Pickled:
-    """What a result asks of ``_bbsim.Run``, after pickling."""
-
-    def __init__(self, run: _bbsim.Run) -> None:
-        names = ("columns", "units", "unmet", "measures", "warnings", "title", "status", "reason")
-        self.__dict__.update((name, getattr(run, name)) for name in names)
-        self._arrays = {name: np.array(run.column(name)) for name in run.columns}
-        self._summary = run.summary()
-
-    def column(self, name: str) -> Array:
-        return self._arrays[name]
-
-    def summary(self) -> str:
-        return self._summary
+File = Union[str, "os.PathLike[str]"]
+Texts = Union[str, Sequence[str]]
 
 
 class Result:
@@ -43,8 +35,12 @@ class Result:
     ``result["x"]`` is a numpy array that shares the memory of the run, in SI units and radians.
     """
 
-    def __init__(self, run: _bbsim.Run) -> None:
+    def __init__(self, run: Any) -> None:
         self._run = run
+
+    @cached_property
+    def _rows(self) -> Dict[str, Array]:
+        return self._run.rows
 
     @cached_property
     def columns(self) -> List[str]:
@@ -59,12 +55,12 @@ class Result:
     @cached_property
     def summary(self) -> Dict[str, Any]:
         """What ``bbsim run --summary`` writes."""
-        return json.loads(self._run.summary())  # type: ignore[no-any-return]
+        return json.loads(self._run.summary)
 
     @property
     def events(self) -> List[Dict[str, Any]]:
         """The events that occurred, with the state at each."""
-        return self.summary["events"]  # type: ignore[no-any-return]
+        return self.summary["events"]
 
     @cached_property
     def measures(self) -> Dict[str, float]:
@@ -93,7 +89,7 @@ class Result:
 
     def __getitem__(self, column: str) -> Array:
         try:
-            return self._run.column(column)
+            return self._rows[column]
         except KeyError:
             raise KeyError(f"there is no column {column!r}; there are {', '.join(self.columns)}") from None
 
@@ -104,7 +100,8 @@ class Result:
         return iter(self.columns)
 
     def __reduce__(self) -> "tuple[type, tuple[Any]]":
-        return Result, (self._run if isinstance(self._run, _Pickled) else _Pickled(self._run),)
+        names = ("columns", "units", "unmet", "measures", "warnings", "title", "status", "reason", "summary", "rows")
+        return Result, (SimpleNamespace(**{name: getattr(self._run, name) for name in names}),)
 
     def __len__(self) -> int:
         """The number of rows."""
@@ -124,6 +121,9 @@ class Result:
         frame = pandas.DataFrame({name: self[name] for name in self.columns})
         frame.attrs["units"] = dict(self.units)
         return frame
+
+    def _stored(self) -> _bbsim.Stored:
+        return _bbsim.Stored([(name, self.units[name], self[name], []) for name in self.columns], self._run.summary)
 
     def plot(self, columns: Union[str, Sequence[str]] = (), **options: Any) -> "matplotlib.figure.Figure":
         """Draws the run with ``bbsim.plot``: all columns, or the panels ``["path", "x,x_reference", "phi"]``."""
@@ -174,14 +174,15 @@ class Result:
 class _StateSpace:
     """dz = A z + B u, y = C z + D u: dz is z', or z after one period ``dt``."""
 
-    A: Array
-    B: Array
-    C: Array
-    D: Array
-    dt: Optional[float]
-    states: List[str]
-    inputs: List[str]
-    outputs: List[str]
+    def __init__(self, made: Any) -> None:
+        self.A: Array = made.A
+        self.B: Array = made.B
+        self.C: Array = made.C
+        self.D: Array = made.D
+        self.dt: Optional[float] = made.dt
+        self.states, self.inputs, self.outputs = (
+            [name for name, _ in signals] for signals in (made.states, made.inputs, made.outputs)
+        )
 
     def to_scipy(self) -> Any:
         """A ``scipy.signal.StateSpace``."""
@@ -207,12 +208,12 @@ class OpenLoop(_StateSpace):
     sample to sample, with all its delays; in continuous time ``dt`` is 0.
     """
 
-    def __init__(self, made: _bbsim.LinearSystem) -> None:
-        self.A, self.B, self.C, self.D = made.A, made.B, made.C, made.D
-        self.dt: float = made.dt or 0.0
-        self.states = [name for name, _ in made.states]
+    dt: float
+
+    def __init__(self, made: Any) -> None:
+        super().__init__(made)
+        self.dt = made.dt or 0.0
         (self.command, self.unit), = made.inputs
-        self.inputs = [self.command]
         self.outputs = [self.command]
 
     def response(self, frequencies: Any) -> "np.ndarray[Any, np.dtype[np.complex128]]":
@@ -243,35 +244,15 @@ class Linearization(_StateSpace):
     In continuous time ``dt`` is None and dz is z'; otherwise dz is z after one period ``dt``.
     """
 
-    def __init__(self, made: _bbsim.Linearized) -> None:
-        self._made = made
-        self.A, self.B, self.C, self.D = made.A, made.B, made.C, made.D
-        self.dt = made.dt
-        self.states: List[str] = [name for name, _ in made.states]
-        self.inputs: List[str] = [name for name, _ in made.inputs]
-        self.outputs: List[str] = [name for name, _ in made.outputs]
-        self.units: Dict[str, str] = dict([*made.states, *made.inputs, *made.outputs])
+    def __init__(self, made: Any) -> None:
+        super().__init__(made.system)
+        self.units: Dict[str, str] = dict([*made.system.states, *made.system.inputs, *made.system.outputs])
         self.kind: str = made.kind
         self.at: str = made.at
         self.note: str = made.note
-
-    @cached_property
-    def _json(self) -> Dict[str, Any]:
-        return json.loads(self._made.json())  # type: ignore[no-any-return]
-
-    @cached_property
-    def _report(self) -> str:
-        return self._made.report().rstrip("\n")
-
-    @cached_property
-    def _loops(self) -> Dict[str, Optional[OpenLoop]]:
-        found = {axis: self._made.open_loop(f"{axis}_command") for axis in ("phi", "theta")}
-        return {axis: loop and OpenLoop(loop) for axis, loop in found.items()}
-
-    def __getstate__(self) -> Dict[str, Any]:
-        """All that ``_made`` would be asked for."""
-        return {"_json": self._json, "_report": self._report, "_loops": self._loops,
-                **{name: value for name, value in self.__dict__.items() if name != "_made"}}  # fmt: skip
+        self._json: Dict[str, Any] = json.loads(made.json)
+        self._report: str = made.report.rstrip("\n")
+        self._loops = {name: OpenLoop(loop) for name, loop in made.open_loops.items()}
 
     @property
     def poles(self) -> "np.ndarray[Any, np.dtype[np.complex128]]":
@@ -294,12 +275,80 @@ class Linearization(_StateSpace):
         along which no command moves the ball.
         """
         if axis not in ("phi", "theta"):
-            raise InputError([("", f"axis: found {axis!r}; allowed: phi, theta")])
-        found = self._loops[axis]
-        if found is None:
+            raise fault(f"axis: found {axis!r}; allowed: phi, theta")
+        if f"{axis}_command" not in self._loops:
             why = "its command closes no loop" if self.kind == "loop" else f"this is the {self.kind}, without a loop"
-            raise InputError([("", f"axis: found {axis}, but {why}; allowed: axes of a closed loop")])
-        return found
+            raise fault(f"axis: found {axis}, but {why}; allowed: axes of a closed loop")
+        return self._loops[f"{axis}_command"]
 
     def __repr__(self) -> str:
         return self._report
+
+
+@dataclass
+class Page:
+    """A page that plays runs; notebooks show it."""
+
+    html: str
+    reason: str  # why the run of a scenario ended early
+    notes: List[str]
+
+    def __repr__(self) -> str:
+        return f"<bbsim.Page, {len(self.html) / 1e6:.2f} MB>"
+
+    def _repr_html_(self) -> str:
+        return f'<iframe srcdoc="{html.escape(self.html)}" style="width: 100%; height: 600px; border: 0"></iframe>'
+
+
+@dataclass
+class Compared:
+    """Whether two results are alike, with the table that ``bbsim compare`` prints."""
+
+    alike: bool
+    text: str
+    reason: str  # why the run of a scenario ended early
+    warnings: List[str]
+
+    def __bool__(self) -> bool:
+        return self.alike
+
+
+def replay(
+    *files: Union[File, Result], output: Optional[File] = None, data: Texts = (), map: Texts = (), header: Texts = (),
+    period: str = "", time_offset: str = "", missing: Any = None, title: str = "", summary: File = "",
+    scenario: File = "", set: Settings = None,
+) -> Page:  # fmt: skip
+    """A page that plays results of runs or sweeps, or scenarios. The keywords are the options of ``bbsim replay``.
+
+    files     files, or results of ``bbsim.run``
+    output    also writes the page to this file, NAME.html
+    """
+    shown = [file._stored() if isinstance(file, Result) else os.fspath(file) for file in files]
+    log = log_choice(map, header, period, time_offset, missing)
+    beside = _bbsim.Beside(os.fspath(summary), os.fspath(scenario), overrides(set))
+    target = "" if output is None else os.fspath(output)
+    if target and not target.lower().endswith(".html"):
+        raise refuse("output", target, "a name that ends in .html")
+    made = _bbsim.replay(shown, listed(data), log, beside, title, target)
+    if target:
+        _bbsim.write_file(target, made[0])
+    return Page(*made)
+
+
+def compare(
+    a: File, b: File, *, rtol: Optional[float] = None, atol: Optional[float] = None, columns: Texts = (),
+    map: Texts = (), header: Texts = (), period: str = "", time_offset: str = "", missing: Any = None,
+    set: Settings = None,
+) -> Compared:  # fmt: skip
+    """Compares two files of results, or a log with a run or a scenario. The keywords are the options of ``bbsim compare``."""
+    log = log_choice(map, header, period, time_offset, missing)
+    for name, found in (("rtol", rtol), ("atol", atol)):
+        if not (found is None or isinstance(found, Real)):
+            raise refuse(name, repr(found), "a number, in SI units")
+    made = _bbsim.compare(os.fspath(a), os.fspath(b), overrides(set), rtol, atol, listed(columns), log)
+    return Compared(made.alike, made.text, made.reason, made.warnings)
+
+
+def examples() -> Dict[str, Path]:
+    """The scenarios that come with bbsim: their files, by name."""
+    return {file.stem: file for file in sorted((Path(__file__).parent / "examples").glob("*.yaml"))}

@@ -1,77 +1,115 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scenarios: a path, YAML text or a dict."""
+"""Scenarios: a path, YAML text or a dict; and the exceptions of bbsim."""
 
 from __future__ import annotations
 
 import json
 import math
 import os
+from dataclasses import dataclass
 from typing import Any, Callable, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _bbsim
-from ._errors import InputError
 
+Array = np.ndarray  # of numbers
 Scenario = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 Settings = Optional[Mapping[str, Any]]
 
 
-def _plain(value: Any) -> Any:
-    """The value in the types of JSON: dicts, lists, texts, numbers, booleans and None."""
-    if isinstance(value, (str, bool, int)) or value is None:
-        return value
-    if isinstance(value, (float, np.floating)):
-        number = float(value)
-        if not math.isfinite(number):  # the reader refuses these words of YAML and names the key
-            return _Word(".nan" if math.isnan(number) else ".inf" if number > 0 else "-.inf")
-        return number
-    if isinstance(value, Mapping):
-        return {str(key): _plain(one) for key, one in value.items()}
-    if isinstance(value, np.ndarray):
-        return _plain(value.tolist())
-    if isinstance(value, (np.integer, np.bool_)):
-        return value.item()
-    if isinstance(value, os.PathLike):
-        return os.fspath(value)
-    if isinstance(value, Iterable):
-        return [_plain(one) for one in value]
-    raise TypeError(
-        f"found {value!r} of type {type(value).__name__}; "
-        "allowed: numbers, texts, lists, dicts, numpy arrays and None"
-    )
+class Error(Exception):
+    """Any error of bbsim."""
 
 
-class _Word(str):
-    """A word to write without quotation marks."""
+@dataclass(frozen=True)
+class Problem:
+    """One fault of a scenario or an argument."""
+
+    message: str
+    """The key, what was found, and what is allowed."""
+    place: str = ""
+    """``file:line:column``, or the setting; empty for a dict."""
+    key: Optional[str] = None
+    """The path of the key, such as ``ball.radius``."""
+    hint: str = ""
+    """What to write instead."""
+
+    def __str__(self) -> str:
+        return f"{self.place}: {self.message}" if self.place else self.message
 
 
-def _quoted(text: str) -> str:
-    return json.dumps(_whole(text), ensure_ascii=False)
+class InputError(Error, ValueError):
+    """The scenario or an argument is wrong."""
+
+    problems: List[Problem]
+    """All problems, in the order of the scenario."""
+    key: Optional[str]
+    """The key of the first problem; None if no key is at fault."""
+    hint: str
+    """What to write instead, for the first problem."""
+
+    def __init__(self, problems: Iterable[Tuple[str, str]]) -> None:
+        self.problems = []
+        for place, message in problems:
+            key, hint = _bbsim.key_and_hint(message.removeprefix("--set "))
+            its_place = "" if place.startswith("<dict>") else place.removeprefix("--set ")
+            self.problems.append(Problem(message.removeprefix("--set "), its_place, key or None, hint))
+        super().__init__("\n".join(str(problem) for problem in self.problems))
+        first = self.problems[0] if self.problems else Problem("")
+        self.key = first.key
+        self.hint = first.hint
+
+    def __reduce__(self):
+        return type(self), ([(p.place, p.message) for p in self.problems],)
+
+
+def fault(text: str) -> InputError:
+    return InputError([("", text)])
+
+
+def refuse(what: str, found: object, allowed: str) -> InputError:
+    return fault(f"{what}: found {found}; allowed: {allowed}")
+
+
+class OutputError(Error, OSError):
+    """A file could not be written."""
+
+
+class ControllerError(Error, RuntimeError):
+    """The scenario's controller failed; its exception is the cause (``__cause__``)."""
 
 
 def _whole(text: str) -> str:
     try:
         text.encode()
     except UnicodeEncodeError:
-        raise InputError([("", f"found {text!r}, a part of a character; allowed: Unicode text")]) from None
+        raise fault(f"found {text!r}, a part of a character; allowed: Unicode text") from None
     return text
 
 
-def _text(plain: Any) -> str:
-    if isinstance(plain, _Word):
-        return str(plain)
-    if isinstance(plain, dict):
-        return "{" + ", ".join(f"{_quoted(key)}: {_text(one)}" for key, one in plain.items()) + "}"
-    if isinstance(plain, list):
-        return "[" + ", ".join(map(_text, plain)) + "]"
-    return _quoted(plain) if isinstance(plain, str) else json.dumps(plain)
+def _text(value: Any) -> str:
+    """The value in YAML's flow style."""
+    if isinstance(value, (np.generic, np.ndarray)):
+        value = value.tolist()
+    if isinstance(value, (str, os.PathLike)):
+        return json.dumps(_whole(os.fspath(value)), ensure_ascii=False)
+    if isinstance(value, float) and not math.isfinite(value):  # the reader refuses these words and names the key
+        return ".nan" if math.isnan(value) else ".inf" if value > 0 else "-.inf"
+    if isinstance(value, (bool, int, float)) or value is None:
+        return json.dumps(value)
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{_text(str(key))}: {_text(one)}" for key, one in value.items()) + "}"
+    if isinstance(value, Iterable):
+        return "[" + ", ".join(map(_text, value)) + "]"
+    kinds = "numbers, texts, lists, dicts, numpy arrays and None"
+    raise TypeError(f"found {value!r} of type {type(value).__name__}; allowed: {kinds}")
 
 
 def as_yaml(value: Any) -> str:
     """The value as written after ``KEY=``: texts unchanged, everything else in YAML's flow style."""
-    return _whole(value) if isinstance(value, str) else _text(_plain(value))
+    return _whole(value) if isinstance(value, str) else _text(value)
 
 
 def _without_callable(scenario: Mapping[str, Any]) -> Tuple[Mapping[str, Any], Optional[Callable[..., Any]]]:
@@ -81,11 +119,11 @@ def _without_callable(scenario: Mapping[str, Any]) -> Tuple[Mapping[str, Any], O
         return scenario, None
     function = controller["callable"]
     if not callable(function):
-        raise InputError([("", f"controller.callable: found {function!r}; allowed: a callable")])
+        raise fault(f"controller.callable: found {function!r}; allowed: a callable")
     rest = {key: value for key, value in controller.items() if key != "callable"}
     laws = [key for key in ("program", "library") if key in rest]
     if laws:
-        raise InputError([("", f"controller.{laws[0]}: found beside callable; allowed: one law")])
+        raise fault(f"controller.{laws[0]}: found beside callable; allowed: one law")
     name = getattr(function, "__qualname__", type(function).__qualname__)
     return {**scenario, "controller": {"library": {"file": f"Python: {name}"}, **rest}}, function
 
@@ -106,13 +144,19 @@ def listed(texts: Any) -> List[str]:
         return [os.fspath(texts)]
     if not isinstance(texts, Mapping):
         return list(texts)
-    return [f"{key}={_value(one)}" if one is not None else str(key) for key, one in texts.items()]
+
+    def written(value: Any) -> str:
+        if isinstance(value, tuple) and len(value) == 2:
+            return ":".join(map(as_yaml, value))
+        return as_yaml(value) if np.isscalar(value) else specification(value)
+
+    return [str(key) if one is None else f"{key}={written(one)}" for key, one in texts.items()]
 
 
-def _value(value: Any) -> str:
-    if isinstance(value, tuple) and len(value) == 2:
-        return ":".join(map(as_yaml, value))
-    return as_yaml(value) if np.isscalar(value) else specification(value)
+def log_choice(map: Any, header: Any, period: Any, time_offset: Any, missing: Any) -> _bbsim.LogChoice:
+    """How to read a log; None and "" leave an option out."""
+    gone = "" if missing is None else str(missing)
+    return _bbsim.LogChoice(listed(map), listed(header), str(period or ""), str(time_offset or ""), gone)
 
 
 def given(scenario: Union[Scenario, _bbsim.Given], settings: Settings = None, error: Any = None) -> _bbsim.Given:
@@ -124,7 +168,7 @@ def given(scenario: Union[Scenario, _bbsim.Given], settings: Settings = None, er
         texts.append(f"solver.error={as_yaml(error)}")
     if isinstance(scenario, Mapping):
         plain, function = _without_callable(scenario)
-        return _bbsim.Given("<dict>", _text(_plain(plain)), texts, function)
+        return _bbsim.Given("<dict>", _text(plain), texts, function)
     name = os.fspath(scenario)
     if not isinstance(name, str):
         raise TypeError(f"found a scenario of type {type(scenario).__name__}; allowed: a path, YAML text or a dict")

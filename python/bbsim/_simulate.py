@@ -4,27 +4,25 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Union
+from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _bbsim
-from ._errors import InputError
-from ._scenario import Scenario, Settings, as_yaml, given, listed
+from ._scenario import Array, Scenario, Settings, as_yaml, given, listed, refuse
 
-Array = "np.ndarray[Any, np.dtype[np.float64]]"
-Cases = Union[Mapping[str, Sequence[Any]], Sequence[Mapping[str, Any]]]
+Cases = Union[Mapping[str, Any], Sequence[Mapping[str, Any]]]
 Names = Union[str, Sequence[str]]
 
 
 class Simulated:
     """The columns, measures and status of each case; ``made["x"]`` has a row for each case."""
 
-    def __init__(self, made: _bbsim.CasesResult, columns: Sequence[str], measures: Sequence[str]) -> None:
-        self._columns: Dict[str, Array] = {name: made.column(i) for i, name in enumerate(columns)}
-        self.measures: Dict[str, Array] = {name: made.measure(i) for i, name in enumerate(measures)}
-        self.status: "np.ndarray[Any, np.dtype[np.str_]]" = np.array(made.status, dtype=np.str_)
-        self.reason: List[str] = made.reason
+    def __init__(self, made: Any, columns: Sequence[str], measures: Sequence[str]) -> None:
+        self._columns: Dict[str, Array] = dict(zip(columns, made[0]))
+        self.measures: Dict[str, Array] = dict(zip(measures, made[1]))
+        self.status: "np.ndarray[Any, np.dtype[np.str_]]" = np.array(made[2], dtype=np.str_)
+        self.reason: List[str] = made[3]
 
     @property
     def columns(self) -> List[str]:
@@ -52,10 +50,6 @@ class Simulated:
         return f"<bbsim.Simulated {len(self)} cases ({ends}): {', '.join([*self._columns, *self.measures])}>"
 
 
-def refuse(what: str, found: str, allowed: str) -> InputError:
-    return InputError([("", f"{what}: found {found}; allowed: {allowed}")])
-
-
 def _numbers(what: str, values: Any) -> Array:
     try:
         return np.asarray(values, dtype=np.float64)
@@ -63,18 +57,19 @@ def _numbers(what: str, values: Any) -> Array:
         raise refuse(what, f"{values!r:.60}", "an array of numbers") from None
 
 
-def _key(key: str, values: Any) -> _bbsim.CaseKey:
+def _key(key: str, values: Any) -> Tuple[str, Array, List[str]]:
+    """The name of a key, and its numbers or texts."""
     what = f"cases: {key}"
     if isinstance(values, (str, bytes, Mapping)) or not hasattr(values, "__len__"):
         raise refuse(what, f"{values!r:.60}", "an array or list with a value for each case")
     plain = isinstance(values, np.ndarray) or all(isinstance(one, (float, int)) for one in values)
     array = np.asarray(values) if plain else None
     if array is not None and array.ndim == 1 and array.dtype.kind in "fiu":
-        return _bbsim.CaseKey(key, _numbers(what, array), [])
-    return _bbsim.CaseKey(key, np.empty(0), [as_yaml(one) for one in values])
+        return key, _numbers(what, array), []
+    return key, np.empty(0), [as_yaml(one) for one in values]
 
 
-def _keys(cases: Cases) -> "tuple[Optional[int], List[_bbsim.CaseKey]]":
+def _keys(cases: Cases) -> Tuple[Optional[int], List[Any]]:
     """The number of cases, if the keys tell it, and their values."""
     if isinstance(cases, Mapping):
         keys = [_key(str(key), values) for key, values in cases.items()]
@@ -88,19 +83,9 @@ def _keys(cases: Cases) -> "tuple[Optional[int], List[_bbsim.CaseKey]]":
 
 
 def simulate(
-    scenario: Scenario,
-    cases: Cases,
-    columns: Names,
-    times: Any = None,
-    measures: Names = (),
-    begin: Any = None,
-    end: Any = None,
-    start: Any = None,
-    events: bool = True,
-    *,
-    set: Settings = None,
-    threads: int = 0,
-) -> Simulated:
+    scenario: Scenario, cases: Cases, columns: Names, times: Any = None, measures: Names = (), begin: Any = None,
+    end: Any = None, start: Any = None, events: bool = True, *, set: Settings = None, threads: int = 0,
+) -> Simulated:  # fmt: skip
     """Runs a scenario at many values of its keys; returns arrays.
 
     cases     {KEY: array of n values}, or a list of n dicts; {} if only begin, end or start differ
@@ -133,5 +118,6 @@ def simulate(
         elif array.ndim != 1:
             raise refuse(name, f"an array of shape {array.shape}", "(n,) for n cases")
     names, asked = listed(columns), listed(measures)
-    request = _bbsim.CasesAsked(count, keys, names, asked, at, arrays["begin"], arrays["end"], states, events)
-    return Simulated(_bbsim.simulate(given(scenario, set), request, threads), names, asked)
+    windows = (at, arrays["begin"], arrays["end"], states, events)
+    made = _bbsim.simulate(given(scenario, set), count, keys, names, asked, *windows, threads)
+    return Simulated(made, names, asked)

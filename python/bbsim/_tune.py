@@ -13,12 +13,11 @@ from typing import Any, Dict, List, Tuple
 import numpy as np
 
 from . import _bbsim
-from ._errors import InputError
-from ._found_files import aligned, as_json, declare, print_report, write_found
-from ._free_keys import read_free_key, refuse
-from ._progress import Bar, silent
-from ._scenario import Scenario, Settings, given, listed
-from ._simulate import Array, simulate
+from ._scenario import Array, InputError, Scenario, Settings, fault, given, listed
+from ._simulate import simulate
+from ._task import (
+    Bar, Progress, aligned, as_json, declare, print_report, read_free_key, refuse_free, silent, write_found,
+)  # fmt: skip
 from ._worst_case import Search, merit_of, worst_of
 
 _SEARCHES, _TIGHTER = 4, 1.5  # a requirement is tightened by this times what it lacked on rigs held out
@@ -34,11 +33,11 @@ class _Tuning:
         self.base, self.share, self.vary = base, options["quantile"], options["vary"]
         self.threads = options["threads"] or 0
         if self.threads < 0:
-            raise _fault(f"--threads: found {self.threads}; allowed: 0, for one per processor, or more")
+            raise fault(f"--threads: found {self.threads}; allowed: 0, for one per processor, or more")
         if not 0 < self.share <= 1:
-            raise _fault(f"--quantile: found {self.share:g}; allowed: a share above 0 and up to 1, such as 0.95")
+            raise fault(f"--quantile: found {self.share:g}; allowed: a share above 0 and up to 1, such as 0.95")
         if not options["free"]:
-            refuse("found nothing; allowed: at least one KEY=FROM:TO")
+            refuse_free("found nothing; allowed: at least one KEY=FROM:TO")
         if not isinstance(options["minimize"], str):
             raise TypeError(f"minimize: found {options['minimize']!r}; allowed: a measure")
         self.keys: List[Tuple[str, str, float, int]] = []  # name, unit, factor, place of its number
@@ -46,7 +45,7 @@ class _Tuning:
         self.bounds, self.start, names = free[:2], free[2], [key[0] for key in self.keys]
         for i, name in enumerate(names):
             if name in names[:i]:
-                refuse(f"{name} is given twice")
+                refuse_free(f"{name} is given twice")
         self.logarithmic = (free[0] > 0) & (free[1] > 10 * free[0])  # positive numbers over more than a decade
         _bbsim.remarks(base.changed(self.settings(self.start)))  # reads these values together
         self.goals = [_bbsim.expectation(base, "--require", text) for text in options["require"]]
@@ -57,11 +56,11 @@ class _Tuning:
         self.hold_out, draws = options["hold_out"], any(re.search("= *(normal|uniform):", text) for text in self.vary)
         for option, number in (("--samples", options["samples"]), ("--hold-out", self.hold_out)):
             if number and not draws:
-                raise _fault(f"{option}: {_LACKS_DRAW}")
+                raise fault(f"{option}: {_LACKS_DRAW}")
         self.rigs, self.others = self.draw(options["samples"], 1), self.draw(self.hold_out or options["samples"], 2)
         for name in self.rigs:
             if name in names:
-                raise _fault(f"--vary: {name}: found among the free keys, too; allowed: one of the two")
+                raise fault(f"--vary: {name}: found among the free keys, too; allowed: one of the two")
         self.quick = _bbsim.without_notes(base, [*names, *self.rigs], [measure, *(goal.measure for goal in self.goals)])
         self.end = _bbsim.key_facts(base, "", "time.end").value or 1.0
         if options["output"]:
@@ -70,24 +69,23 @@ class _Tuning:
     def _read(self, text: str, place: int) -> Tuple[float, float, float]:
         names, equals, bounds = (part.strip() for part in text.partition("="))
         if not equals:
-            refuse(f"{names}: found no range; allowed: KEY=FROM:TO, such as controller.gravity_compensation.kp=1:20")
+            refuse_free(f"{names}: found no range; allowed: KEY=FROM:TO, such as controller.gravity_compensation.kp=1:20")
         for part in names.split(","):
             number, star, name = (word.strip() for word in part.rpartition("*"))
             negative = not star and name.startswith("-")
             factor = _bbsim.value_in(number, "") if star else -1.0 if negative else 1.0
             name = name[1:].strip() if negative else name
             if not factor or not name:
-                refuse(f"{names}: found '{part}'; allowed: KEY, -KEY or NUMBER*KEY with a number that is not 0")
+                refuse_free(f"{names}: found '{part}'; allowed: KEY, -KEY or NUMBER*KEY with a number that is not 0")
             if len(self.keys) == 0 or self.keys[-1][3] != place:
                 if factor != 1:
-                    refuse(f"{names}: found a factor before the first key; allowed: KEY,FACTOR*KEY=FROM:TO")
+                    refuse_free(f"{names}: found a factor before the first key; allowed: KEY,FACTOR*KEY=FROM:TO")
                 first = read_free_key(f"{name}={bounds}", self.base)
             self.keys.append((name, _bbsim.key_facts(self.base, "--free", name).unit, factor, place))
         return first.lower, first.upper, first.start
 
     def draw(self, samples: Any, seed: int) -> Any:
-        drawn = _bbsim.drawn(self.base, self.vary, samples, seed)
-        return {name: np.array(drawn.texts(i) or drawn.numbers(i)) for i, name in enumerate(drawn.names)}
+        return {name: np.array(values) for name, values in _bbsim.drawn(self.base, self.vary, samples, seed)}
 
     def scaled(self, numbers: Array) -> Array:
         return np.where(self.logarithmic, np.log(np.where(self.logarithmic, numbers, 1)), numbers)
@@ -102,7 +100,7 @@ class _Tuning:
         return [(name, f"{float(factor * numbers[at])!r} {unit}".strip()) for name, unit, factor, at in self.keys]
 
     def scenario(self, comments: str, numbers: Array) -> str:
-        return _bbsim.edited(self.base, self.settings(numbers), comments, False)
+        return _bbsim.edited(self.base, self.settings(numbers), comments)
 
     def measured(self, points: Array, rigs: Any) -> Tuple[Array, Array]:
         """The measures of all rigs at all points, NaN where a run does not reach its end; the part that it missed."""
@@ -135,7 +133,8 @@ class _Tuning:
     def find(self, progress: Any) -> Any:
         """Searches; if a requirement fails on rigs held out, tightens it, goes on, and tries others."""
         seen: Dict[bytes, Array] = {}
-        tighter, tries, low, high = np.zeros(len(self.goals)), [], *self.scaled(self.bounds)  # type: Any
+        low, high = self.scaled(self.bounds)
+        tighter, tries = np.zeros(len(self.goals)), []  # type: Array, List[Any]
         start = np.clip((self.scaled(self.start) - low) / (high - low), 0, 1)
 
         def score(points: Array, cases: Array) -> Tuple[Array, Array]:
@@ -224,10 +223,6 @@ class _Tuning:
         return made
 
 
-def _fault(text: str) -> InputError:
-    return InputError([("", text)])
-
-
 def _count(rigs: Any) -> int:
     return len(next(iter(rigs.values()), [0]))
 
@@ -259,29 +254,32 @@ def tune(
     """
     options = dict(locals())
     options.update((name, listed(options[name])) for name in ("free", "require", "vary"))
-    files, base = {"output": str(output or ""), "json": str(json or "")}, given(scenario, set)
-    declare(files, {base.name: "the scenario"} if os.path.exists(base.name) else {})
+    files = {name: str(options.pop(name) or "") for name in ("output", "json")}
+    return _carry_out(given(scenario, set), {**options, **files}, silent, lambda text: None)
+
+
+def _carry_out(base: _bbsim.Given, options: Dict[str, Any], progress: Progress, say: Any) -> Any:
+    """Tunes, and writes the files that the options ask for."""
+    declare(options, {base.name: "the scenario"} if os.path.exists(base.name) else {})
     tuning = _Tuning(base, options)
-    made = tuning.result(tuning.find(silent))
-    write_found(base, files, made.scenario, _json(made), lambda text: None)
+    for remark in _bbsim.remarks(base):
+        say(remark)
+    made = tuning.result(tuning.find(progress))
+    progress(1, "")
+    write_found(base, options, made.scenario, _json(made), say)
     return made
 
 
 def command(options: Dict[str, Any], say: Any) -> int:
     """`bbsim tune`; `say` prints a message unless -q is given."""
     base = _bbsim.Given(options["scenario"], None, options["set"], None).changed([])  # reads standard input once
-    declare(options, {options["scenario"]: "the scenario"})
     options["quantile"] = 1 if options["quantile"] is None else options["quantile"]
     try:
         with Bar(base.name, options["quiet"]) as progress:
-            tuning = _Tuning(base, options)
-            for remark in _bbsim.remarks(base):
-                say(remark)
-            made = tuning.result(tuning.find(progress))
+            made = _carry_out(base, options, progress, say)
     except KeyboardInterrupt:
         sys.stderr.write("tune: interrupted before the first result; nothing is written\n")
         return 130
-    write_found(base, options, made.scenario, _json(made), say)
     print_report(made.report, options)
     sys.stderr.write(made.reason + "\n" * (made.reason != ""))
     return 130 if made.interrupted else 0 if made.met else 1

@@ -5,12 +5,12 @@
 from __future__ import annotations
 
 import warnings
-from typing import Any, Callable, Tuple
+from typing import Any, Callable, List, Tuple
 
 import numpy as np
 from scipy.optimize import minimize
 
-from ._simulate import Array
+from ._scenario import Array
 
 _CASES, _MORE, _ROUNDS = 16, 8, 9  # cases of the first search, those that a round adds, rounds
 _SCANNED, _STEPS, _RUNS = 8, 10, 8  # points of the scan, for each number and 1; steps from a point; least runs of one
@@ -41,13 +41,17 @@ class Search:
 
     def __init__(self, score: Callable[[Array, Array], Tuple[Array, Array]], count: int, share: float = 1.0) -> None:
         self.score, self.all, self.share, self.tried, self.spread = score, np.arange(count), share, 0, 0
-        self.merit, self.best = (np.inf,) * 3, None  # type: Any  # of the best point that was tried in all cases
+        self.merit: Tuple[float, ...] = (np.inf,) * 3  # of the best point that was tried in all cases
+        self.best: Any = None
+        self.points: Array
+        self.scores: Array
+        self.merits: List[Any]
 
-    def _in_all(self, point: Array) -> Any:
+    def _in_all(self, point: Array, anew: bool = False) -> Any:
         """The merit of a point, and the cases that are worst by the objective and by each requirement, in turn."""
         scores, missed = (one[0] for one in self.score(point[None], self.all))
         merit, self.tried = merit_of(scores, missed, self.share), self.tried + 1
-        if self.best is None or merit < self.merit:
+        if anew or merit < self.merit:
             self.merit, self.best = merit, point
         orders = np.stack([np.lexsort((-missed, -score)) for score in scores.T], 1)
         return merit, [*dict.fromkeys(orders.ravel())][:_MORE]
@@ -115,8 +119,8 @@ class Search:
 
     def run(self, start: Array, again: bool = False) -> None:
         """Searches from a point and from the best of a scan; or `again` near a point, for other scores."""
-        size, stalled, self.best = len(start), 0, None
-        _, worst = self._in_all(start)
+        self.merit, size, stalled = (np.inf,) * 3, len(start), 0
+        _, worst = self._in_all(start, anew=True)
         if not again:  # the worst cases, and some from all over
             some = np.linspace(0, self.all[-1], _CASES + 1).astype(int)
             self.cases = self.all if self.share < 1 else np.array([*dict.fromkeys([*worst, *some])][:_CASES])

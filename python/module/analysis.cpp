@@ -1,11 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "analysis.hpp"
-
-#include <pybind11/numpy.h>
-#include <pybind11/stl.h>
-
+// What fits, tuning and designs need of a scenario: its keys, tables, measures and drawn cases.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -17,8 +13,8 @@
 
 #include "base/error.hpp"
 #include "base/short_number.hpp"
+#include "module.hpp"
 #include "replay/template.hpp"
-#include "results/log.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/edit_text.hpp"
 #include "scenario/expectation.hpp"
@@ -34,184 +30,92 @@
 namespace bbsim::python {
 namespace {
 
-using Pairs = std::vector<std::pair<std::string, std::string>>;
-using Setting = ScenarioFamily::Setting;
-using ListedKey = sweep::SweepPlan::ListedKey;
+std::string text_at(const Given& given, const std::string& key) {
+  return shared_family(given).text_at(key);
+}
 
-constexpr double unlimited = std::numeric_limits<double>::infinity();
+Scenario scenario_of(const Given& given) {
+  return shared_family(given).read({});
+}
 
-std::vector<Setting> settings_of(const Pairs& pairs) {
-  std::vector<Setting> settings;
+// Of each axis: the limits of its command, and of its servo's angle and rate.
+std::vector<std::array<std::optional<double>, 3>> rig_limits(const Given& given) {
+  const Scenario scenario = scenario_of(given);
+  std::vector<std::array<std::optional<double>, 3>> limits(2);
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    if (scenario.controller) limits[axis][0] = scenario.controller->limit_of(axis);
+    if (!scenario.gimbal.servo) continue;
+    limits[axis][1] = scenario.gimbal.servo_of(axis).angle_limit;
+    limits[axis][2] = scenario.gimbal.servo_of(axis).rate_limit;
+  }
+  return limits;
+}
+
+std::string edited(const Given& given, const Pairs& pairs, const std::string& comments) {
+  std::vector<ScenarioFamily::Setting> settings;
   for (const auto& [key, value] : pairs) settings.push_back({key, value});
-  return settings;
+  return edited_scenario(shared_family(given).source(), comments, settings);
 }
 
-void define_keys(py::module_& module) {
-  using scenario::NamedNumber;
-  py::class_<NamedNumber>(module, "KeyFacts")
-      .def_readonly("name", &NamedNumber::name)
-      .def_readonly("unit", &NamedNumber::unit)
-      .def_readonly("value", &NamedNumber::value)
-      .def_property_readonly("lower",
-                             [](const NamedNumber& its) {
-                               const yaml::Range& range = its.key.range;
-                               return range.above.value_or(range.at_least.value_or(-unlimited));
-                             })
-      .def_property_readonly(
-          "upper", [](const NamedNumber& its) { return its.key.range.at_most.value_or(unlimited); })
-      .def_property_readonly("positive",
-                             [](const NamedNumber& its) { return its.key.range.above >= 0.0; });
-  module.def(
-      "key_facts",
-      [](const Given& given, const std::string& option, const std::string& key) {
-        return scenario::number_named(option, key, shared_family(given));
-      },
-      py::arg("given"), py::arg("option"), py::arg("key"));
-  module.def("value_in", &scenario::value_in, py::arg("text"), py::arg("unit"));
-  module.def(
-      "text_at",
-      [](const Given& given, const std::string& key) { return shared_family(given).text_at(key); },
-      py::arg("given"), py::arg("key"));
-  module.def(
-      "has",
-      [](const Given& given, const std::string& key) {
-        return !shared_family(given).text_at(key).empty();
-      },
-      py::arg("given"), py::arg("key"));
-  module.def(
-      "rig_limits",
-      [](const Given& given) {
-        const Scenario scenario = shared_family(given).read({});
-        using Limit = std::optional<double>;
-        std::vector<std::array<Limit, 3>> limits(2);
-        for (std::size_t axis = 0; axis < 2; ++axis) {
-          if (scenario.controller) limits[axis][0] = scenario.controller->limit_of(axis);
-          if (!scenario.gimbal.servo) continue;
-          limits[axis][1] = scenario.gimbal.servo_of(axis).angle_limit;
-          limits[axis][2] = scenario.gimbal.servo_of(axis).rate_limit;
-        }
-        return limits;
-      },
-      py::arg("given"));
-  module.def(
-      "remarks", [](const Given& given) { return shared_family(given).read({}).remarks; },
-      py::arg("given"));
-  module.def(
-      "begins_anywhere",
-      [](const Given& given) { return sweep::begins_anywhere(shared_family(given).read({})); },
-      py::arg("given"));
-  module.def(
-      "edited",
-      [](const Given& given, const Pairs& settings, const std::string& comments, bool reads) {
-        const Source& source = shared_family(given).source();
-        std::string text = edited_scenario(source, comments, settings_of(settings));
-        if (reads) static_cast<void>(ScenarioFamily(Source{source.file, text, {}}).read({}));
-        return text;
-      },
-      py::arg("given"), py::arg("settings"), py::arg("comments"), py::arg("reads"));
-  module.def(
-      "tables",
-      [](const Given& given) {
-        Scenario scenario = shared_family(given).read({});
-        scenario.source = shared_family(given).source();
-        Pairs files;
-        for (const TableFile& table : table_files(scenario)) {
-          files.emplace_back(table.key, table.path);
-        }
-        return files;
-      },
-      py::arg("given"));
+Pairs tables(const Given& given) {
+  Scenario scenario = scenario_of(given);
+  scenario.source = shared_family(given).source();
+  Pairs files;
+  for (const TableFile& table : table_files(scenario)) files.emplace_back(table.key, table.path);
+  return files;
 }
 
-void define_columns(py::module_& module) {
-  module.def(
-      "lacks",
-      [](const Given& given, const std::string& column) -> std::pair<std::string, std::string> {
-        const scenario::Column* const found = scenario::find_column(column);
-        if (found == nullptr) return {"unknown", "the names that `bbsim columns` lists"};
-        const auto missing = scenario::missing(*found, shared_family(given).read({}));
-        if (!missing) return {};
-        return {missing.why, missing.instead};
-      },
-      py::arg("given"), py::arg("column"));
-  module.def(
-      "unit_doubt",
-      [](const std::string& column, double largest) -> std::string {
-        const auto doubt = scenario::doubt_of(largest, column);
-        return doubt ? std::string(doubt->looks_like) : "";
-      },
-      py::arg("column"), py::arg("largest"));
-  module.def(
-      "read_log",
-      [](const std::string& file, std::vector<std::string> maps, std::vector<std::string> header,
-         std::string period, std::string time_offset, std::string missing) {
-        const results::LogChoice choice{std::move(maps), std::move(header), std::move(period),
-                                        std::move(time_offset), std::move(missing)};
-        results::refuse_auto(choice);
-        std::vector<std::string> notes;
-        results::Result log = results::read_log(file, choice, notes);
-        return std::pair(std::move(log), std::move(notes));
-      },
-      py::arg("file"), py::arg("maps"), py::arg("header"), py::arg("period"),
-      py::arg("time_offset"), py::arg("missing"));
+// Why the scenario lacks a column, and what is allowed; empty if it has the column.
+std::pair<std::string, std::string> lacks(const Given& given, const std::string& column) {
+  const scenario::Column* const found = scenario::find_column(column);
+  if (found == nullptr) return {"unknown", "the names that `bbsim columns` lists"};
+  const auto missing = scenario::missing(*found, scenario_of(given));
+  if (!missing) return {};
+  return {missing.why, missing.instead};
 }
 
-// Cases drawn from `--vary KEY=SPEC`.
-struct Drawn {
-  std::size_t count = 1;
-  std::vector<ListedKey> keys;
-  std::vector<std::string> units;
-  bool draws = false;  // whether any value is random
-};
+std::string unit_doubt(const std::string& column, double largest) {
+  const auto doubt = scenario::doubt_of(largest, column);
+  return doubt ? std::string(doubt->looks_like) : "";
+}
 
-Drawn drawn(const Given& given, const std::vector<std::string>& vary, std::optional<double> samples,
-            double seed) {
+// For each key of `--vary KEY=SPEC`, its numbers (SI) or texts in all cases.
+py::list drawn(const Given& given, const Texts& vary, std::optional<double> samples, double seed) {
+  py::list keys;
+  if (vary.empty()) return keys;
   const ScenarioFamily& family = shared_family(given);
   Sweep sweep;
-  Drawn all;
-  for (const std::string& text : vary) {
-    sweep.vary.push_back(scenario::split_variation(text));
-    all.draws = all.draws || scenario::parse_variation(sweep.vary.back()).random();
-  }
-  if (vary.empty()) return all;
+  for (const std::string& text : vary) sweep.vary.push_back(scenario::split_variation(text));
   sweep.samples = samples;
   sweep.seed = seed;
   const sweep::SweepPlan plan(family, sweep);
   static_cast<void>(plan.check(family, 0, plan.cases(), [](double) { return true; }));
-  all.count = plan.cases();
-  std::vector<std::vector<double>> numbers(plan.axes().size());
-  std::vector<double> row(plan.axes().size());
-  for (std::size_t i = 0; i < all.count; ++i) {
+  std::vector<py::list> values(plan.axes().size());
+  std::vector<double> row(values.size());
+  for (std::size_t i = 0; i < plan.cases(); ++i) {
     plan.values(i, row.data());
-    for (std::size_t k = 0; k < row.size(); ++k) numbers[k].push_back(row[k]);
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      const sweep::PlanAxis& axis = plan.axes()[k];
+      values[k].append(axis.numeric ? py::cast(row[k])
+                                    : py::cast(axis.texts[static_cast<std::size_t>(row[k])]));
+    }
   }
   for (std::size_t k = 0; k < row.size(); ++k) {
-    const sweep::PlanAxis& axis = plan.axes()[k];
-    ListedKey key{axis.key};
-    if (axis.numeric) {
-      key.numbers = std::move(numbers[k]);
-    } else {
-      for (const double one : numbers[k]) {
-        key.texts.push_back(axis.texts[static_cast<std::size_t>(one)]);
-      }
-    }
-    all.keys.push_back(std::move(key));
-    all.units.emplace_back(family.unit_of(axis.key, plan.first_settings()));
+    keys.append(py::make_tuple(plan.axes()[k].key, values[k]));
   }
-  return all;
+  return keys;
 }
 
 // The scenario without slips that are only noted, unless a key or a measure refers to them: they
 // change no measure, but take a rig out of the lanes of a sweep.
-Given without_notes(const Given& given, const std::vector<std::string>& keys,
-                    const std::vector<std::string>& measures) {
+Given without_notes(const Given& given, const Texts& keys, const Texts& measures) {
   const std::string section = "events.slip";
-  const auto slip = shared_family(given).read({}).events.slip;
+  const auto slip = scenario_of(given).events.slip;
   const bool is_noted = slip && slip->action == OnEvent::note && !slip->sliding;
   const auto refers = [&](const std::string& key) { return key.starts_with(section); };
   if (!is_noted || std::ranges::any_of(keys, refers)) return given;
   Given without = changed(given, {{section, "null"}});
-  const Scenario scenario = shared_family(without).read({});
+  const Scenario scenario = scenario_of(without);
   for (const std::string& name : measures) {
     const auto measure = scenario::find_measure(name);
     if (!measure || scenario::missing(*measure, scenario)) return given;
@@ -219,76 +123,72 @@ Given without_notes(const Given& given, const std::vector<std::string>& keys,
   return without;
 }
 
-void define_drawn(py::module_& module) {
-  py::class_<Drawn>(module, "Drawn")
-      .def_readonly("count", &Drawn::count)
-      .def_readonly("units", &Drawn::units)
-      .def_readonly("draws", &Drawn::draws)
-      .def_property_readonly("names",
-                             [](const Drawn& all) {
-                               std::vector<std::string> names;
-                               for (const ListedKey& key : all.keys) names.push_back(key.key);
-                               return names;
-                             })
-      .def("numbers",
-           [](const Drawn& all, std::size_t place) {
-             return py::array_t<double>(static_cast<py::ssize_t>(all.keys.at(place).numbers.size()),
-                                        all.keys.at(place).numbers.data());
-           })
-      .def("texts", [](const Drawn& all, std::size_t place) { return all.keys.at(place).texts; });
-  module.def("without_notes", &without_notes, py::arg("given"), py::arg("keys"),
-             py::arg("measures"));
-  module.def("drawn", &drawn, py::arg("given"), py::arg("vary"), py::arg("samples"),
-             py::arg("seed"));
-}
-
-void define_measures(py::module_& module) {
-  using scenario::Expectation;
-  using Relation = Expectation::Relation;
-  py::class_<Expectation>(module, "Expectation")
-      .def_readonly("text", &Expectation::text)
-      .def_readonly("value", &Expectation::value)
-      .def_property_readonly("measure", [](const Expectation& its) { return its.measure.name; })
-      .def_property_readonly("unit", [](const Expectation& its) { return its.measure.unit(); })
-      .def_property_readonly("upper",
-                             [](const Expectation& its) {
-                               return its.relation == Relation::below ||
-                                      its.relation == Relation::at_most;
-                             })
-      .def_property_readonly(
-          "of_loop",
-          [](const Expectation& its) { return its.measure.kind == scenario::Measure::Kind::loop; })
-      .def("holds", &Expectation::holds, py::arg("measured"));
-  module.def(
-      "expectation",
-      [](const Given& given, const std::string& option, const std::string& text) {
-        return scenario::read_expectation(option, text, shared_family(given).read({}));
-      },
-      py::arg("given"), py::arg("option"), py::arg("text"));
-  module.def(
-      "measure_name",
-      [](const Given& given, const std::string& option, const std::string& name) {
-        const auto its = scenario::measure_named(option, name, shared_family(given).read({}));
-        return std::pair(its.name, its.unit());
-      },
-      py::arg("given"), py::arg("option"), py::arg("name"));
-}
-
 }  // namespace
 
 void define_analysis(py::module_& module) {
-  define_keys(module);
-  define_columns(module);
-  define_drawn(module);
-  define_measures(module);
-  module.def(
-      "filled_page",
-      [](const std::string& name, const std::string& title, const std::string& json) {
-        return replay::filled(replay::read_template(name), title, json);
+  using scenario::Expectation;
+  using scenario::NamedNumber;
+  using Relation = Expectation::Relation;
+  static constexpr double unlimited = std::numeric_limits<double>::infinity();
+  // A key that takes a number: its value (SI) in the scenario, else its default; and its range.
+  attributes(
+      py::class_<NamedNumber>(module, "KeyFacts"), "name", &NamedNumber::name, "unit",
+      &NamedNumber::unit, "value", &NamedNumber::value, "lower",
+      [](const NamedNumber& its) {
+        const yaml::Range& range = its.key.range;
+        return range.above.value_or(range.at_least.value_or(-unlimited));
       },
-      py::arg("template"), py::arg("title"), py::arg("json"));
-  module.def("short_number", &short_number, py::arg("value"));
-  module.def("rounded", &rounded, py::arg("value"), py::arg("digits"));
+      "upper", [](const NamedNumber& its) { return its.key.range.at_most.value_or(unlimited); },
+      "positive", [](const NamedNumber& its) { return its.key.range.above >= 0.0; });
+  attributes(
+      py::class_<Expectation>(module, "Expectation"), "text", &Expectation::text, "value",
+      &Expectation::value, "measure", [](const Expectation& its) { return its.measure.name; },
+      "unit", [](const Expectation& its) { return its.measure.unit(); }, "upper",
+      [](const Expectation& its) {
+        return its.relation == Relation::below || its.relation == Relation::at_most;
+      },
+      "of_loop",
+      [](const Expectation& its) { return its.measure.kind == scenario::Measure::Kind::loop; })
+      .def("holds", &Expectation::holds);
+  module.def("key_facts",
+             [](const Given& given, const std::string& option, const std::string& key) {
+               return scenario::number_named(option, key, shared_family(given));
+             });
+  module.def("expectation",
+             [](const Given& given, const std::string& option, const std::string& text) {
+               return scenario::read_expectation(option, text, scenario_of(given));
+             });
+  module.def("measure_name",
+             [](const Given& given, const std::string& option, const std::string& name) {
+               const auto its = scenario::measure_named(option, name, scenario_of(given));
+               return std::pair(its.name, its.unit());
+             });
+  // The number (SI) that a text such as "2 cm" gives the key; empty if it has no single number.
+  module.def("number_at", [](const Given& given, const std::string& key, const std::string& value) {
+    return shared_family(given).number_at(key, {{key, value}});
+  });
+  module.def("value_in", &scenario::value_in);
+  module.def("text_at", &text_at);
+  module.def("has", [](const Given& given, const std::string& key) {
+    return !text_at(given, key).empty();
+  });
+  module.def("rig_limits", &rig_limits);
+  module.def("remarks", [](const Given& given) { return scenario_of(given).remarks; });
+  module.def("begins_anywhere",
+             [](const Given& given) { return sweep::begins_anywhere(scenario_of(given)); });
+  module.def("edited", &edited);
+  module.def("tables", &tables);
+  module.def("lacks", &lacks);
+  module.def("unit_doubt", &unit_doubt);
+  module.def("without_notes", &without_notes);
+  module.def("drawn", &drawn);
+  module.def("filled_page",
+             [](const std::string& name, const std::string& title, const std::string& json) {
+               return replay::filled(replay::read_template(name), title, json);
+             });
+  module.def("file_of_template", &replay::file_of_template);
+  module.def("short_number", &short_number);
+  module.def("rounded", &rounded);
 }
 
 }  // namespace bbsim::python

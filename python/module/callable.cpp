@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "callable.hpp"
-
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -11,6 +9,7 @@
 #include "api/stepped_run.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
+#include "module.hpp"
 #include "scenario/columns.hpp"
 
 namespace bbsim::python {
@@ -39,6 +38,7 @@ std::string name_of(const py::object& function) {
 
 }  // namespace
 
+// With the names of docs/reference/controllers.md.
 void define_sample(py::module_& module) {
   const auto of = [](Pair Sample::*member) {
     return [member](const Sample& sample) { return pair(sample.*member); };
@@ -50,19 +50,15 @@ void define_sample(py::module_& module) {
                                   : py::make_tuple(all[0], all[1]);
     };
   };
-  py::class_<Sample> type(module, "Sample");
-  type.def_readonly("sample", &Sample::number)
-      .def_readonly("t", &Sample::t)
-      .def_property_readonly("ball",
-                             [](const Sample& sample) -> py::object {
-                               return sample.ball ? py::object(pair(*sample.ball))
-                                                  : py::object(py::none());
-                             })
-      .def_property_readonly("reference", of(&Sample::reference))
-      .def_property_readonly("reference_rate", of(&Sample::reference_rate))
-      .def_property_readonly("reference_acceleration", of(&Sample::reference_acceleration))
-      .def_property_readonly("servo", of_servos(&Sample::servo))
-      .def_property_readonly("servo_rate", of_servos(&Sample::servo_rate))
+  attributes(
+      py::class_<Sample>(module, "Sample"), "sample", &Sample::number, "t", &Sample::t, "ball",
+      [](const Sample& sample) -> py::object {
+        if (!sample.ball) return py::none();
+        return pair(*sample.ball);
+      },
+      "reference", of(&Sample::reference), "reference_rate", of(&Sample::reference_rate),
+      "reference_acceleration", of(&Sample::reference_acceleration), "servo",
+      of_servos(&Sample::servo), "servo_rate", of_servos(&Sample::servo_rate))
       .def("__getitem__",
            [](const py::object& self, const py::str& name) {
              if (!py::hasattr(self, name)) throw py::key_error(std::string(name));
@@ -163,7 +159,7 @@ void Callable::throw_if_raised() {
   py::error_already_set error = std::move(*raised_);
   raised_.reset();
   if (!error.matches(PyExc_Exception)) throw error;
-  const py::object type = py::module_::import("bbsim._errors").attr("ControllerError");
+  const py::object type = py::module_::import("bbsim._scenario").attr("ControllerError");
   py::raise_from(error, type.ptr(), fault_.c_str());
   throw py::error_already_set();
 }

@@ -2,14 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The compiled part of the Python package bbsim. The documented functions are in its Python part.
+#include "module.hpp"
+
 #include <pybind11/complex.h>
 #include <pybind11/eigen.h>
-#include <pybind11/numpy.h>
-#include <pybind11/pybind11.h>
-#include <pybind11/stl.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -19,7 +17,6 @@
 #include <utility>
 #include <vector>
 
-#include "analysis.hpp"
 #include "api/accuracy.hpp"
 #include "api/cases.hpp"
 #include "api/check.hpp"
@@ -30,13 +27,9 @@
 #include "api/run.hpp"
 #include "api/sweep.hpp"
 #include "base/error.hpp"
-#include "callable.hpp"
 #include "file/outputs.hpp"
-#include "pages.hpp"
-#include "results.hpp"
 #include "scenario/family.hpp"
 #include "scenario/measures.hpp"
-#include "watch.hpp"
 
 namespace bbsim::python {
 namespace {
@@ -96,34 +89,16 @@ class Work {
   std::optional<Callable> callable_;
 };
 
-using Column = py::array_t<double>;
-
-// An array on memory of `owner`, which the array keeps alive.
-Column view(const std::vector<double>& values, const py::object& owner) {
-  return {{static_cast<py::ssize_t>(values.size())}, {sizeof(double)}, values.data(), owner};
-}
-
-std::size_t place_of_column(const api::RunResult& made, const std::string& name) {
-  const auto found = std::ranges::find(made.columns, name);
-  if (found == made.columns.end()) throw py::key_error(name);
-  return static_cast<std::size_t>(found - made.columns.begin());
-}
-
-std::vector<std::string> measures_of(const std::optional<std::vector<std::string>>& asked,
-                                     const Scenario& scenario) {
-  if (asked) return *asked;
-  return scenario::default_measures(scenario.controller && commands_of(scenario) == nullptr);
-}
-
-api::RunResult run(const Given& given, const std::optional<std::vector<std::string>>& measures,
-                   const std::vector<std::string>& expect, const std::string& output) {
+api::RunResult run(const Given& given, const std::optional<Texts>& measures, const Texts& expect,
+                   const std::string& output) {
   Work work(given);
   return work.here([&] {
     const ScenarioFamily family = work.family();
     api::RunRequest request;
     request.scenario = first_of(family);
     request.inputs = family.inputs();
-    request.measures = measures_of(measures, request.scenario);
+    const bool feeds_back = request.scenario.controller && commands_of(request.scenario) == nullptr;
+    request.measures = measures ? *measures : scenario::default_measures(feeds_back);
     request.expect = expect;
     request.keeps_rows = true;
     if (!output.empty()) {
@@ -134,12 +109,6 @@ api::RunResult run(const Given& given, const std::optional<std::vector<std::stri
     }
     return api::run(request, work.watch());
   });
-}
-
-// The number (SI) that a text such as "2 cm" gives the key; empty if the key has no single number.
-std::optional<double> number_at(const Given& given, const std::string& key,
-                                const std::string& value) {
-  return shared_family(given).number_at(key, {{key, value}});
 }
 
 std::string check(const Given& given) {
@@ -166,10 +135,14 @@ api::Linearized linearize(const Given& given, const std::optional<std::string>& 
   return made;
 }
 
-api::SweepResult sweep(const Given& given, const api::SweepChoice& choice,
-                       const std::vector<std::string>& expect, double threads) {
+// For each column its name, and its numbers or texts.
+py::list sweep(const Given& given, const Pairs& vary, const std::string& combine,
+               std::optional<double> samples, std::optional<double> seed, const Texts& measures,
+               const Texts& expect, double threads) {
+  api::SweepChoice choice{{}, combine, samples, seed, measures};
+  for (const auto& [key, spec] : vary) choice.vary.push_back({key, spec});
   Work work(given);
-  return work.beside([&] {
+  const api::SweepResult made = work.beside([&] {
     const ScenarioFamily family = work.family();
     api::SweepRequest request{
         given.name, family, api::with_choice(family.read_sweep(), choice), {}, {}};
@@ -178,94 +151,59 @@ api::SweepResult sweep(const Given& given, const api::SweepChoice& choice,
     request.expect = expect;
     return api::sweep(request, work.watch());
   });
+  py::list columns;
+  for (const api::SweepTable::Column& one : made.table.columns) {
+    py::object values = py::cast(one.texts);
+    if (!one.is_text) {
+      const auto count = static_cast<py::ssize_t>(one.numbers.size());
+      values = py::array_t<double>(count, one.numbers.data());
+    }
+    columns.append(py::make_tuple(one.name, values));
+  }
+  return columns;
 }
 
-using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+// A key of cases: its name, and for each case a number, or a text.
+using CaseKey = std::tuple<std::string, Numbers, Texts>;
 
-std::vector<double> list_of(const Numbers& numbers) {
-  return {numbers.data(), numbers.data() + numbers.size()};
-}
-
-struct CasesAsked {
-  std::size_t count;
-  std::vector<sweep::SweepPlan::ListedKey> keys;
-  std::vector<std::string> columns, measures;
-  std::optional<sweep::CaseTimes> times;
-  sweep::Windows windows;
-};
-
-api::CasesResult simulate(const Given& given, const CasesAsked& asked, double threads) {
+// Arrays of the columns and measures, and the status of each case, with its reason.
+py::tuple simulate(const Given& given, std::size_t count, std::vector<CaseKey> keys,
+                   const Texts& columns, const Texts& measures, const std::optional<Numbers>& times,
+                   const Numbers& begin, const Numbers& end, const Numbers& start, bool events,
+                   double threads) {
+  std::vector<sweep::SweepPlan::ListedKey> listed;
+  for (auto& [key, numbers, texts] : keys) listed.push_back({key, list_of(numbers), texts});
+  sweep::Windows windows{list_of(begin), list_of(end), {}, events};
+  for (py::ssize_t i = 0; i < start.size(); i += sweep::start_names.size()) {
+    std::copy_n(start.data() + i, sweep::start_names.size(), windows.start.emplace_back().begin());
+  }
+  std::optional<sweep::CaseTimes> at;
+  if (times) {
+    const auto each = static_cast<std::size_t>(times->shape(times->ndim() - 1));
+    at = {list_of(*times), each, times->ndim() == 2};
+  }
   Work work(given);
   // The controller of a callable belongs to this call.
   std::shared_ptr<const ScenarioFamily> family;
   if (!work.has_callable()) family = given.family;
-  api::CasesResult made = work.beside([&] {
+  const py::object owner = py::cast(work.beside([&] {
     if (!family) family = std::make_shared<const ScenarioFamily>(work.family());
-    api::CasesRequest request{*family,        asked.count, asked.keys,   asked.columns,
-                              asked.measures, asked.times, asked.windows};
+    api::CasesRequest request{*family, count, listed, columns, measures, at, windows};
     request.threads = work.has_callable() ? 1 : threads;
     return api::run_cases(request, work.watch());
-  });
+  }));
   if (!work.has_callable()) given.family = std::move(family);
-  return made;
-}
-
-void define_simulate(py::module_& module) {
-  using api::CasesResult;
-  using Key = sweep::SweepPlan::ListedKey;
-  py::class_<Key>(module, "CaseKey")
-      .def(py::init([](std::string key, const Numbers& numbers, std::vector<std::string> texts) {
-             return Key{std::move(key), list_of(numbers), std::move(texts)};
-           }),
-           py::arg("key"), py::arg("numbers"), py::arg("texts"));
-  py::class_<CasesAsked>(module, "CasesAsked")
-      .def(
-          py::init([](std::size_t count, std::vector<Key> keys, std::vector<std::string> columns,
-                      std::vector<std::string> measures, const std::optional<Numbers>& times,
-                      const Numbers& begin, const Numbers& end, const Numbers& start, bool events) {
-            CasesAsked asked{count,
-                             std::move(keys),
-                             std::move(columns),
-                             std::move(measures),
-                             {},
-                             {list_of(begin), list_of(end), {}, events}};
-            for (py::ssize_t i = 0; i < start.size(); i += sweep::start_names.size()) {
-              std::copy_n(start.data() + i, sweep::start_names.size(),
-                          asked.windows.start.emplace_back().begin());
-            }
-            if (times) {
-              asked.times = {list_of(*times),
-                             static_cast<std::size_t>(times->shape(times->ndim() - 1)),
-                             times->ndim() == 2};
-            }
-            return asked;
-          }),
-          py::arg("count"), py::arg("keys"), py::arg("columns"), py::arg("measures"),
-          py::arg("times"), py::arg("begin"), py::arg("end"), py::arg("start"), py::arg("events"));
-  py::class_<CasesResult>(module, "CasesResult")
-      .def("column",
-           [](const py::object& self, std::size_t place) {
-             const auto& made = self.cast<const CasesResult&>();
-             return Column({made.status.size(), made.times}, made.columns.at(place).data(), self);
-           })
-      .def("measure",
-           [](const py::object& self, std::size_t place) {
-             return view(self.cast<const CasesResult&>().measures.at(place), self);
-           })
-      .def_property_readonly("times", [](const CasesResult& made) { return made.times; })
-      .def_property_readonly("status",
-                             [](const CasesResult& made) {
-                               std::vector<std::string> words;
-                               for (const auto& one : made.status) words.push_back(one.word);
-                               return words;
-                             })
-      .def_property_readonly("reason", [](const CasesResult& made) {
-        std::vector<std::string> texts;
-        for (const auto& one : made.status) texts.push_back(one.reason);
-        return texts;
-      });
-  module.attr("START") = py::cast(sweep::start_names);
-  module.def("simulate", &simulate, py::arg("given"), py::arg("asked"), py::arg("threads"));
+  const auto& made = owner.cast<const api::CasesResult&>();
+  py::list of_columns, of_measures, status, reasons;
+  for (const auto& one : made.columns) {
+    of_columns.append(py::array_t<double>({made.status.size(), made.times}, one.data(), owner));
+  }
+  for (const auto& one : made.measures) of_measures.append(view(one, owner));
+  for (const auto& one : made.status) {
+    status.append(one.word);
+    reasons.append(one.reason);
+  }
+  return py::make_tuple(of_columns, of_measures, status, reasons);
 }
 
 // The scenario's title, or its name without one; and what `bbsim accuracy --csv` writes for all
@@ -288,154 +226,92 @@ std::pair<std::string, std::string> accuracy(const Given& given, const std::stri
 
 void define_run(py::module_& module) {
   using api::RunResult;
-  const auto text = [](std::string record::RunSummary::*member) {
+  const auto of = [](auto record::RunSummary::*member) {
     return [member](const RunResult& made) { return made.summary.*member; };
   };
-  py::class_<RunResult, std::shared_ptr<RunResult>>(module, "Run")
-      .def_readonly("columns", &RunResult::columns)
-      .def_readonly("units", &RunResult::units)
-      .def_readonly("unmet", &RunResult::unmet)
-      .def("column",
-           [](const py::object& self, const std::string& name) {
-             const auto& made = self.cast<const RunResult&>();
-             return view(made.rows.columns[place_of_column(made, name)], self);
-           })
-      .def_property_readonly("measures",
-                             [](const RunResult& made) { return made.summary.measures; })
-      .def_property_readonly("warnings",
-                             [](const RunResult& made) { return made.summary.warnings; })
-      .def_property_readonly("title", text(&record::RunSummary::title))
-      .def_property_readonly("status", text(&record::RunSummary::status))
-      .def_property_readonly("reason", text(&record::RunSummary::reason))
-      .def("summary", [](const RunResult& made) { return record::to_json(made.summary); });
-  module.def("run", &run, py::arg("given"), py::arg("measures"), py::arg("expect"),
-             py::arg("output"));
-}
-
-void define_sweep(py::module_& module) {
-  py::class_<api::SweepChoice>(module, "SweepChoice")
-      .def(py::init([](const std::vector<std::pair<std::string, std::string>>& vary,
-                       std::string combine, std::optional<double> samples,
-                       std::optional<double> seed, std::vector<std::string> measures) {
-             api::SweepChoice choice{{}, std::move(combine), samples, seed, std::move(measures)};
-             for (const auto& [key, spec] : vary) choice.vary.push_back({key, spec});
-             return choice;
-           }),
-           py::arg("vary"), py::arg("combine"), py::arg("samples"), py::arg("seed"),
-           py::arg("measures"));
-  using Its = api::SweepTable::Column;
-  py::class_<Its>(module, "SweepColumn")
-      .def_readonly("name", &Its::name)
-      .def_readonly("unit", &Its::unit)
-      .def_readonly("is_text", &Its::is_text)
-      .def_readonly("texts", &Its::texts)
-      .def_property_readonly("numbers", [](const py::object& self) {
-        return view(self.cast<const Its&>().numbers, self);
+  using Summary = record::RunSummary;
+  attributes(py::class_<RunResult, std::shared_ptr<RunResult>>(module, "Run"), "columns",
+             &RunResult::columns, "units", &RunResult::units, "unmet", &RunResult::unmet,
+             "measures", of(&Summary::measures), "warnings", of(&Summary::warnings), "title",
+             of(&Summary::title), "status", of(&Summary::status), "reason", of(&Summary::reason))
+      .def_property_readonly("summary",
+                             [](const RunResult& made) { return record::to_json(made.summary); })
+      .def_property_readonly("rows", [](const py::object& self) {
+        const auto& made = self.cast<const RunResult&>();
+        py::dict rows;
+        for (std::size_t i = 0; i < made.columns.size(); ++i) {
+          rows[py::str(made.columns[i])] = view(made.rows.columns[i], self);
+        }
+        return rows;
       });
-  py::class_<api::SweepResult>(module, "Sweep")
-      .def_readonly("engine", &api::SweepResult::engine)
-      .def_property_readonly(
-          "columns",
-          [](const api::SweepResult& made) -> const std::vector<Its>& {
-            return made.table.columns;
-          },
-          py::return_value_policy::reference_internal);
-  module.def("sweep", &sweep, py::arg("given"), py::arg("choice"), py::arg("expect"),
-             py::arg("threads"));
-}
-
-std::vector<std::pair<std::string, std::string>> names_of(
-    const std::vector<model::LinearSignal>& signals) {
-  std::vector<std::pair<std::string, std::string>> names;
-  for (const model::LinearSignal& signal : signals) names.emplace_back(signal.name, signal.unit);
-  return names;
+  module.def("run", &run);
 }
 
 void define_linearize(py::module_& module) {
   using api::Linearized;
-  const auto matrix = [](Eigen::MatrixXd model::LinearSystem::*member) {
-    return [member](const Linearized& made) { return made.linearisation.system.*member; };
-  };
-  const auto signals = [](std::vector<model::LinearSignal> model::LinearSystem::*member) {
-    return [member](const Linearized& made) { return names_of(made.linearisation.system.*member); };
-  };
   using model::LinearSystem;
-  py::class_<LinearSystem>(module, "LinearSystem")
-      .def_readonly("A", &LinearSystem::a)
-      .def_readonly("B", &LinearSystem::b)
-      .def_readonly("C", &LinearSystem::c)
-      .def_readonly("D", &LinearSystem::d)
-      .def_readonly("dt", &LinearSystem::period)
-      .def_property_readonly("states", [](const LinearSystem& its) { return names_of(its.states); })
-      .def_property_readonly("inputs",
-                             [](const LinearSystem& its) { return names_of(its.inputs); });
-  py::class_<Linearized>(module, "Linearized")
-      .def_property_readonly("A", matrix(&LinearSystem::a))
-      .def_property_readonly("B", matrix(&LinearSystem::b))
-      .def_property_readonly("C", matrix(&LinearSystem::c))
-      .def_property_readonly("D", matrix(&LinearSystem::d))
-      .def_property_readonly(
-          "dt", [](const Linearized& made) { return made.linearisation.system.period; })
-      .def_property_readonly("states", signals(&LinearSystem::states))
-      .def_property_readonly("inputs", signals(&LinearSystem::inputs))
-      .def_property_readonly("outputs", signals(&LinearSystem::outputs))
-      .def_readonly("kind", &Linearized::kind)
-      .def_readonly("at", &Linearized::at)
-      .def_readonly("note", &Linearized::note)
-      .def("open_loop",
-           [](const Linearized& made, const std::string& command) -> std::optional<LinearSystem> {
-             const auto& loops = made.linearisation.margins;
-             const auto found = std::ranges::find(loops, command, &model::LoopMargins::command);
-             if (found == loops.end()) return {};
-             return found->open;
-           })
-      .def("json", [](const Linearized& made) { return api::file_text(made, ".json"); })
-      .def("report", [](const Linearized& made) { return to_text(api::report_of(made)); });
-  module.def("frequencies", &model::frequencies_to_look_at, py::arg("poles"), py::arg("closed"),
-             py::arg("period"));
-  module.def("linearize", &linearize, py::arg("given"), py::arg("kind"), py::arg("at"));
+  const auto signals = [](std::vector<model::LinearSignal> LinearSystem::*member) {
+    return [member](const LinearSystem& its) {
+      Pairs names;
+      for (const auto& signal : its.*member) names.emplace_back(signal.name, signal.unit);
+      return names;
+    };
+  };
+  attributes(py::class_<LinearSystem>(module, "LinearSystem"), "A", &LinearSystem::a, "B",
+             &LinearSystem::b, "C", &LinearSystem::c, "D", &LinearSystem::d, "dt",
+             &LinearSystem::period, "states", signals(&LinearSystem::states), "inputs",
+             signals(&LinearSystem::inputs), "outputs", signals(&LinearSystem::outputs));
+  attributes(
+      py::class_<Linearized>(module, "Linearized"), "kind", &Linearized::kind, "at",
+      &Linearized::at, "note", &Linearized::note, "system",
+      [](const Linearized& made) { return made.linearisation.system; }, "json",
+      [](const Linearized& made) { return api::file_text(made, ".json"); }, "report",
+      [](const Linearized& made) { return to_text(api::report_of(made)); }, "open_loops",
+      [](const Linearized& made) {
+        std::map<std::string, LinearSystem> loops;
+        for (const auto& its : made.linearisation.margins) {
+          loops.emplace(its.command, its.open);
+        }
+        return loops;
+      });
+  module.def("frequencies", &model::frequencies_to_look_at);
+  module.def("linearize", &linearize);
 }
 
 using api::Environments;
 
-std::unique_ptr<Environments> environments(const Given& given, std::size_t count,
-                                           std::vector<std::string> keys, bool keeps_rows) {
-  return std::make_unique<Environments>(family_of(given), count, std::move(keys), keeps_rows);
-}
+using Indices = std::vector<std::size_t>;
 
-// Runs that begin: their indices, and for each its values as texts and its seed.
-struct Beginnings {
-  std::vector<std::size_t> which;
-  std::vector<Environments::Beginning> how;
-};
-
-Beginnings beginnings(std::vector<std::size_t> which, std::vector<std::vector<std::string>> values,
-                      const std::vector<std::size_t>& seeds) {
+// For each run that begins, its values as texts and its seed.
+std::vector<Environments::Beginning> beginnings(const Indices& which, std::vector<Texts>& values,
+                                                const Indices& seeds) {
   if (values.size() != which.size() || seeds.size() != which.size()) {
     throw py::value_error("found lists of different lengths");
   }
-  Beginnings all{std::move(which), {}};
-  for (std::size_t i = 0; i < seeds.size(); ++i) {
-    all.how.push_back({std::move(values[i]), seeds[i]});
-  }
+  std::vector<Environments::Beginning> all;
+  for (std::size_t i = 0; i < seeds.size(); ++i) all.push_back({std::move(values[i]), seeds[i]});
   return all;
 }
 
-void begin(Environments& its, const Beginnings& these) {
+void begin(Environments& its, const Indices& which, std::vector<Texts> values,
+           const Indices& seeds) {
+  const auto how = beginnings(which, values, seeds);
   const WithoutLock unlocked;
-  its.begin(these.which, these.how);
+  its.begin(which, how);
 }
 
 // Steps the runs that do not begin.
-void step(Environments& its, const Numbers& commands, const Beginnings& these) {
+void step(Environments& its, const Numbers& commands, const Indices& which,
+          std::vector<Texts> values, const Indices& seeds) {
   const auto count = static_cast<py::ssize_t>(its.count());
   if (commands.ndim() != 2 || commands.shape(0) != count || commands.shape(1) != 2) {
     throw py::value_error("actions: found another shape; allowed: (" + std::to_string(count) +
                           ", 2)");
   }
   const std::span of(commands.data(), 2 * its.count());
+  const auto how = beginnings(which, values, seeds);
   const WithoutLock unlocked;
-  its.step(of, these.which, these.how);
+  its.step(of, which, how);
 }
 
 void define_environments(py::module_& module) {
@@ -446,53 +322,40 @@ void define_environments(py::module_& module) {
       return all;
     };
   };
-  py::class_<Beginnings>(module, "Beginnings")
-      .def(py::init(&beginnings), py::arg("which"), py::arg("values"), py::arg("seeds"));
-  py::class_<Environments>(module, "Environments")
-      .def(py::init(&environments), py::arg("given"), py::arg("count"), py::arg("keys"),
-           py::arg("keeps_rows"))
-      .def_property_readonly_static("columns",
-                                    [](const py::object& /*type*/) {
-                                      std::vector<std::array<std::string, 3>> all;
-                                      for (const auto& one : Environments::columns()) {
-                                        all.push_back({std::string(one.name), std::string(one.unit),
-                                                       std::string(one.meaning)});
-                                      }
-                                      return all;
-                                    })
-      .def_property_readonly(
-          "command_unit",
-          [](const Environments& its) { return command_unit(its.scenario().controller->drives); })
-      .def_property_readonly("limits",
-                             [](const Environments& its) {
-                               const Controller& controller = *its.scenario().controller;
-                               return std::pair(controller.limit_of(0), controller.limit_of(1));
-                             })
-      .def("begin", &begin, py::arg("these"))
-      .def("step", &step, py::arg("commands"), py::arg("these"))
-      .def_property_readonly("observations",
-                             [](const py::object& self) {
-                               const auto& its = self.cast<const Environments&>();
-                               const auto width =
-                                   static_cast<py::ssize_t>(Environments::columns().size());
-                               return Column({static_cast<py::ssize_t>(its.count()), width},
-                                             its.observations().data(), self);
-                             })
-      .def_property_readonly("terminated", of_each(&Environments::terminated))
-      .def_property_readonly("truncated", of_each(&Environments::truncated))
-      .def_property_readonly("costs_of_ending", of_each(&Environments::cost_of_ending))
-      .def(
-          "result",
-          [](Environments& its, std::size_t which) -> std::shared_ptr<api::RunResult> {
-            const api::RunResult* const made = which < its.count() ? its.result(which) : nullptr;
-            return made == nullptr ? nullptr : std::make_shared<api::RunResult>(*made);
-          },
-          py::arg("which"))
-      .def_property_readonly("in_lanes", &Environments::in_lanes);
+  attributes(
+      py::class_<Environments>(module, "Environments"), "command_unit",
+      [](const Environments& its) { return command_unit(its.scenario().controller->drives); },
+      "limits",
+      [](const Environments& its) {
+        const Controller& controller = *its.scenario().controller;
+        return std::pair(controller.limit_of(0), controller.limit_of(1));
+      },
+      "terminated", of_each(&Environments::terminated), "truncated",
+      of_each(&Environments::truncated), "costs_of_ending", of_each(&Environments::cost_of_ending),
+      "in_lanes", &Environments::in_lanes, "observations",
+      [](const py::object& self) {
+        const auto& its = self.cast<const Environments&>();
+        return py::array_t<double>({its.count(), Environments::columns().size()},
+                                   its.observations().data(), self);
+      })
+      .def(py::init([](const Given& given, std::size_t count, Texts keys, bool keeps_rows) {
+        return std::make_unique<Environments>(family_of(given), count, std::move(keys), keeps_rows);
+      }))
+      .def("begin", &begin)
+      .def("step", &step)
+      .def("result", [](Environments& its, std::size_t which) -> std::shared_ptr<api::RunResult> {
+        const api::RunResult* const made = which < its.count() ? its.result(which) : nullptr;
+        return made == nullptr ? nullptr : std::make_shared<api::RunResult>(*made);
+      });
+  py::list columns;
+  for (const auto& one : Environments::columns()) {
+    columns.append(py::make_tuple(one.name, one.unit, one.meaning));
+  }
+  module.attr("OBSERVATIONS") = columns;
 }
 
 void raise(const char* type, const py::object& argument) {
-  const py::object its = py::module_::import("bbsim._errors").attr(type);
+  const py::object its = py::module_::import("bbsim._scenario").attr(type);
   PyErr_SetObject(its.ptr(), its(argument).ptr());
 }
 
@@ -521,35 +384,27 @@ PYBIND11_MODULE(_bbsim, module) {
   using namespace bbsim::python;
   module.doc() = "The compiled part of bbsim.";
   module.attr("__version__") = BBSIM_VERSION;
+  module.attr("START") = bbsim::sweep::start_names;
   py::register_exception_translator(translate);
   end_work_with_the_interpreter();
   py::class_<Given>(module, "Given")
-      .def(py::init([](std::string name, std::optional<std::string> text,
-                       std::vector<std::string> overrides, py::object callable) {
-             return Given{
-                 std::move(name), std::move(text), std::move(overrides), std::move(callable), {}};
-           }),
-           py::arg("name"), py::arg("text"), py::arg("overrides"), py::arg("callable"))
+      .def(py::init<std::string, std::optional<std::string>, Texts, py::object>())
       .def_property_readonly("name",
                              [](const Given& given) { return shared_family(given).source().file; })
-      .def("changed", &changed, py::arg("settings"));
+      .def("changed", &changed);
   define_sample(module);
   define_run(module);
-  define_sweep(module);
-  define_simulate(module);
   define_linearize(module);
   define_environments(module);
   define_results(module);
   define_analysis(module);
-  define_pages(module);
-  module.def("check", &check, py::arg("given"));
-  module.def("number_at", &number_at, py::arg("given"), py::arg("key"), py::arg("value"));
-  module.def("accuracy", &accuracy, py::arg("given"), py::arg("rtols"));
-  module.def(
-      "key_and_hint",
-      [](const std::string& message) {
-        const bbsim::api::KeyAndHint found = bbsim::api::key_and_hint(message);
-        return std::pair(found.key, found.hint);
-      },
-      py::arg("message"));
+  py::class_<bbsim::api::CasesResult>(module, "CasesResult");
+  module.def("sweep", &sweep);
+  module.def("simulate", &simulate);
+  module.def("check", &check);
+  module.def("accuracy", &accuracy);
+  module.def("key_and_hint", [](const std::string& message) {
+    const bbsim::api::KeyAndHint found = bbsim::api::key_and_hint(message);
+    return std::pair(found.key, found.hint);
+  });
 }

@@ -412,7 +412,10 @@ void make_log(Result& log, const LogChoice& choice, bool only_mapped,
   }
   const std::vector<bool> missing = missing_rows(log, choice, mapped);
   std::vector<Column> made;
-  for (const Mapped& one : mapped) made.push_back(made_of(log, one, note));
+  for (const Mapped& one : mapped) {
+    made.push_back(made_of(log, one, note));
+    log.raw.push_back(log.columns[one.from].name);
+  }
   if (only_mapped && maps) log.columns.clear();
   for (Column& column : made) {
     Column* const there = find_column(log, column.name);

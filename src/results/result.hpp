@@ -52,7 +52,8 @@ struct Result {
   // Whether columns of `bbsim columns` have its units if the file gives none. False for tables that
   // nothing identifies as results of bbsim.
   bool units_known = true;
-  bool has_end_row = false;  // added by add_end_row()
+  bool has_end_row = false;        // added by add_end_row()
+  std::vector<std::string> raw{};  // columns of a log from which others were made
 
   [[nodiscard]] const Column* find(std::string_view name) const;
   [[nodiscard]] std::vector<std::string> names() const;  // of the columns

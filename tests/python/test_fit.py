@@ -266,7 +266,7 @@ class Intervals(Case):
         in_a_dict = self.fit({"ball.inertia_factor": (0.3, 0.41), PHI + "offset": None}).parameters
         self.assertEqual((in_a_dict[0].estimate, in_a_dict[0].at_bound, len(in_a_dict)), (0.41, True, 2))
         self.assertIn("threads: found -1", self.refused("ball.inertia_factor", threads=-1))
-        key = bbsim._free_keys.read_free_key
+        key = bbsim._task.read_free_key
         given = bbsim._scenario.given("rig.yaml")
         for text, ends in (("-100:100 ms", (-0.1, 0.1)), ("5ms:0.06 s", (0.005, 0.06)), ("0.005:0.06", (0.005, 0.06))):
             its = key(PHI + "delay=" + text, given)
@@ -450,6 +450,7 @@ class Command(Case):
             (["--report", "/dev/full"], 3, "/dev/full"), (["-o", "/dev/full"], 3, "/dev/full"),
             (["--json", "/dev/full"], 3, "/dev/full"), (["--report", "none/fit.html"], 3, "none/fit.html"),
             (["--report", "log.csv"], 2, "the log"), (["--report", rig], 2, "the scenario"),
+            (["--report", bbsim._bbsim.file_of_template("fit.html")], 2, "the template of pages"),
             (["--report", "one", "-o", "./one"], 2, "--report"), (["--report", "-", "--json", "-"], 2, "--report"),
             (["--continuity"], 2, "--continuity"), (["--hold-out", "1"], 2, "--hold-out: found 1"),
             (["--starts", "0"], 2, "--starts"), (["--lost", "huber"], 2, "did you mean --loss?"),

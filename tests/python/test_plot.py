@@ -254,6 +254,15 @@ class Content(Case):
         self.assertEqual(list(np.isnan(path.get_ydata())), [False, False, True, False, True])
         self.assertEqual(len(figure.axes[0].lines[1].get_xdata()), 1)  # the lone point
 
+    def test_a_mapped_column_is_drawn_once(self):
+        (self.folder / "log.csv").write_text("millis,ball_x,servo\n0,10,1\n20,11,2\n40,13,4\n")
+        log = {"map": "x=ball_x:mm"}
+        words = words_of(bbsim.plot(self.folder / "log.csv", **log)).split()
+        self.assertIn("servo", words)
+        self.assertFalse({"ball_x", "millis"} & set(words))
+        # Its own name still draws it.
+        self.assertIn("ball_x", words_of(bbsim.plot(self.folder / "log.csv", columns="ball_x", **log)))
+
     def test_a_map_over_decades_has_logarithmic_colors(self):
         table = np.array(
             [(i, 1.0 + i % 6, 1.0 + i // 6, "done", 10.0 ** (i / 8)) for i in range(36)],

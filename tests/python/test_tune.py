@@ -130,8 +130,8 @@ class Rigs(unittest.TestCase):
         for text in ("# Tuned by bbsim ", "on the worst of 8 rigs\n", "# hard stops", "# All requirements hold on 100"):
             self.assertIn(text, made.scenario)
         # Each rig has the measures that a sweep of the tuned scenario has.
-        drawn = _bbsim.drawn(bbsim.given(RIG), [SERVO], 8, 1)
-        rigs = bbsim.simulate(made.scenario, {drawn.names[0]: drawn.numbers(0)}, [], measures=["rms_tracking_error"])
+        (name, values), = _bbsim.drawn(bbsim.given(RIG), [SERVO], 8, 1)
+        rigs = bbsim.simulate(made.scenario, {name: values}, [], measures=["rms_tracking_error"])
         self.assertAlmostEqual(rigs.measures["rms_tracking_error"].max(), made.objective, delta=1e-9)
         # Another call gives the same result, with any number of threads; it can be pickled.
         again = pickle.loads(pickle.dumps(tune(hold_out=16, threads=1)))
@@ -166,8 +166,7 @@ class Rigs(unittest.TestCase):
             self.assertRegex(made.report, r"searched for max_tilt < 1 deg with [0-9.]+ % to spare, for rigs held out\n")
         else:
             self.assertEqual(made.report, once.report)
-        drawn = _bbsim.drawn(bbsim.given(RIG), options["vary"], 1000, 77)
-        rigs = {name: drawn.numbers(i) for i, name in enumerate(drawn.names)}
+        rigs = dict(_bbsim.drawn(bbsim.given(RIG), options["vary"], 1000, 77))
         tilts = bbsim.simulate(made.scenario, rigs, [], measures=["max_tilt"]).measures["max_tilt"]
         self.assertGreater((tilts < np.radians(1)).mean(), 0.99)
 

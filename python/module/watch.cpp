@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "interpreter.hpp"
+#include "watch.hpp"
 
 #include <unistd.h>
 
 #include <atomic>
 #include <chrono>
 #include <thread>
-
-#include "watch.hpp"
 
 namespace bbsim::python {
 namespace {

@@ -1,0 +1,229 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What fits, tuning and designs have in common: free keys, `--free KEY=FROM:TO`; the files that they write, a report,
+its JSON, and a scenario with the numbers that they found; and their progress on the terminal."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import re
+import shutil
+import sys
+import time
+from dataclasses import dataclass
+from typing import Any, Callable, Dict, List, NoReturn, Optional, Sequence
+
+import numpy as np
+
+from . import _bbsim
+from ._scenario import fault
+
+# A change that probably has a visible effect, by unit (SI). Other units span orders of magnitude.
+_USUAL = {"m": 0.01, "s": 0.01, "rad": 0.01, "m/s": 0.01, "N": 0.01}
+_ROUNDING = 1e-12
+
+
+def refuse_free(what: str) -> NoReturn:
+    raise fault(f"--free: {what}")
+
+
+def usual_scale(start: float, unit: str) -> float:
+    if unit in _USUAL:
+        return max(abs(start), _USUAL[unit])
+    return abs(start) or 0.1
+
+
+@dataclass
+class FreeKey:
+    """A key as a number u without bounds or unit, which is 0 at the start: its value is start exp(u) if it must
+    be positive, else start + scale u. Differences and deviations of u then have size 1."""
+
+    name: str
+    unit: str = ""  # SI
+    start: float = 0.0
+    lower: float = -math.inf
+    upper: float = math.inf
+    logarithmic: bool = False
+    scale: float = 1.0
+
+    def value(self, u: Any) -> Any:
+        """Within the bounds."""
+        raw = self.start * np.exp(u) if self.logarithmic else self.start + self.scale * np.asarray(u)
+        # value(number(bound)) equals the bound only within rounding.
+        raw = np.where(raw >= self.upper - _ROUNDING * abs(self.upper), self.upper, raw)
+        return np.where(raw <= self.lower + _ROUNDING * abs(self.lower), self.lower, raw)[()]
+
+    def number(self, value: float) -> float:
+        return math.log(value / self.start) if self.logarithmic else (value - self.start) / self.scale
+
+    def slope(self, u: float) -> float:
+        """The derivative of the value by u."""
+        return float(self.value(u)) if self.logarithmic else self.scale
+
+    def text(self, value: float) -> str:
+        """A value as a scenario writes it."""
+        return f"{float(value)!r} {self.unit}".strip()
+
+
+def read_bounds(text: str, key: FreeKey) -> None:
+    """Reads FROM:TO into the key. If only TO has a unit, it applies to FROM, too."""
+    first, colon, last = (part.strip() for part in text.partition(":"))
+    unit = re.fullmatch(r"[-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?\s*(.*)", last)
+    if unit and re.fullmatch(r"[-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?", first):
+        first += " " + unit[1]
+    low: Optional[float] = _bbsim.value_in(first, key.unit) if colon else None
+    high: Optional[float] = _bbsim.value_in(last, key.unit) if colon else None
+    if low is None or high is None or not low < high:
+        units = f" of {key.unit}" if key.unit else ""
+        allowed = f"FROM:TO with FROM below TO, numbers in SI units or with a unit{units}"
+        refuse_free(f"{key.name}: found '{text}'; allowed: {allowed}")
+    if low < key.lower or high > key.upper:
+        refuse_free(f"{key.name}: found '{text}'; allowed: values from {key.lower:g} to {key.upper:g}")
+    key.lower, key.upper = low, high
+
+
+def read_free_key(text: str, given: _bbsim.Given) -> FreeKey:
+    """KEY or KEY=FROM:TO. Raises InputError for a key that the scenario does not take."""
+    name, equals, bounds = (part.strip() for part in text.partition("="))
+    facts = _bbsim.key_facts(given, "--free", name)
+    key = FreeKey(name, facts.unit, lower=facts.lower, upper=facts.upper)
+    if equals:
+        read_bounds(bounds, key)
+    start = facts.value
+    if equals and (start is None or not key.lower <= start <= key.upper):
+        start = math.sqrt(key.lower * key.upper) if key.lower > 0 else (key.lower + key.upper) / 2
+    if start is None:
+        _bbsim.number_at(given, name, key.text(1.0))  # reports a misspelled key, or one of another law
+        allowed = f"{name}=FROM:TO, or a value in the scenario"
+        refuse_free(f"{name}: the scenario gives no value to start from; allowed: {allowed}")
+    key.start = start
+    key.logarithmic = start > 0 and (facts.positive or key.lower > 0)
+    bounded = bool(equals) and math.isfinite(key.upper - key.lower)
+    key.scale = (key.upper - key.lower) / 10 if bounded else usual_scale(start, key.unit)
+    _bbsim.number_at(given, name, key.text(start))  # raises if the scenario does not take the key
+    return key
+
+
+def read_free_keys(texts: Sequence[str], given: _bbsim.Given) -> List[FreeKey]:
+    """Skips keys of a log (log.x.scale). Refuses keys of a window's start, and a key that stands twice."""
+    keys: List[FreeKey] = []
+    for text in texts:
+        name = text.partition("=")[0].strip()
+        if name.startswith("log."):
+            continue
+        if name.startswith(("ball.position", "ball.velocity")):
+            allowed = "any other key that is a number"
+            refuse_free(f"{name}: each window's start is fitted anyway; allowed: {allowed}")
+        if any(key.name == name for key in keys):
+            refuse_free(f"{name} is given twice")
+        keys.append(read_free_key(text, given))
+    return keys
+
+
+def aligned(lines: Sequence[Sequence[str]]) -> str:
+    """A table: the first field of each line to the left, the others to the right."""
+    widths = [max(map(len, column)) for column in zip(*lines)]
+    texts = []
+    for first, *rest in lines:
+        texts.append(first.ljust(widths[0]) + "".join("  " + one.rjust(n) for one, n in zip(rest, widths[1:])))
+    return "".join(text.rstrip() + "\n" for text in texts)
+
+
+def _plain(value: Any) -> Any:
+    """JSON has no numbers that are not finite."""
+    if isinstance(value, dict):
+        return {key: _plain(one) for key, one in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(one) for one in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def as_json(value: Dict[str, Any]) -> str:
+    return json.dumps(_plain(value), indent=2, ensure_ascii=False) + "\n"
+
+
+def reports(options: Dict[str, Any], *others: str) -> bool:
+    """Whether the report goes to standard output: no file does."""
+    return "-" not in [options[name] for name in ("output", "json", *others)]
+
+
+def declare(options: Dict[str, Any], reads: Dict[str, str], *others: str) -> None:
+    """Refuses files that would overwrite each other or an input. `others`: more options that name a file."""
+    outputs = _bbsim.Outputs()
+    for file, what in reads.items():
+        outputs.reads(file, what)
+    for name in ("output", "json", *others):
+        if options[name]:
+            outputs.writes(options[name], "-o" if name == "output" else f"--{name}")
+    if reports(options, *others):
+        outputs.writes("-", "the report")
+
+
+def write_found(given: _bbsim.Given, options: Dict[str, Any], scenario: str, json_text: str, say: Any) -> None:
+    """Writes the files that the options ask for."""
+    output = options["output"]
+    if output:
+        _bbsim.write_file(output, scenario)
+        folders: List[str] = [os.path.dirname(os.path.abspath(file)) for file in (output, given.name)]
+        if output != "-" and folders[0] != folders[1] and _bbsim.tables(given):
+            say(f"note: {output} is not in the scenario's folder, from which its tables are read; move it there to "
+                "run it")  # fmt: skip
+    if options["json"]:
+        _bbsim.write_file(options["json"], json_text)
+
+
+def print_report(report: str, options: Dict[str, Any], *others: str) -> None:
+    """Unless a file goes to standard output."""
+    if reports(options, *others):
+        sys.stdout.write(report)
+        sys.stdout.flush()
+
+
+Progress = Callable[[float, str], None]  # the fraction done, and a detail for people
+_CLEAR = "\r\x1b[K"
+
+
+def silent(fraction: float, detail: str = "") -> None:
+    pass
+
+
+class Bar:
+    """Draws a bar on standard error if that is a terminal; `with Bar(name, quiet) as progress: ...`."""
+
+    def __init__(self, label: str, quiet: bool) -> None:
+        self._label = label
+        self._draws = not quiet and sys.stderr.isatty()
+        self._start = self._last = time.monotonic()
+        self._drawn = False
+
+    def __enter__(self) -> Progress:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._drawn:
+            sys.stderr.write(_CLEAR)
+            sys.stderr.flush()
+        self._drawn = False
+
+    def __call__(self, fraction: float, detail: str = "") -> None:
+        if fraction >= 1:  # messages may follow
+            return self.__exit__()
+        now = time.monotonic()
+        if not self._draws or now - self._start < 1 or now - self._last < 0.1:
+            return
+        self._last = now
+        done = min(max(fraction, 0.0), 1.0)
+        text = f" {100 * done:3.0f}%" + (f", {detail}" if detail else "")
+        if done > 0.01:
+            left = (now - self._start) * (1 - done) / done
+            short = f"{left:.0f} s" if left <= 120 else f"{left / 60:.0f} min"
+            text += f", {short if left <= 7200 else f'{left / 3600:.1f} h'} left"
+        length = min(30, shutil.get_terminal_size().columns - len(self._label) - len(text) - 5)
+        if length >= 8:
+            filled = int(done * length)
+            text = f"{self._label} [{'#' * filled}{'.' * (length - filled)}]{text}"
+        sys.stderr.write(_CLEAR + text.strip()[: shutil.get_terminal_size().columns - 1])
+        sys.stderr.flush()
+        self._drawn = True
