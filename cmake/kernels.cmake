@@ -26,9 +26,9 @@ function(_bbsim_add_kernels_of target isa)
 
   # Source options come last on the command line, so they override those of bbsim::options. Instruction sets agree to
   # the tolerance, not bit for bit, so products may be fused. Packs never cross a function's boundary, so their calling
-  # convention (-Wpsabi) does not matter. Sanitizers are off, because compilers would take many minutes for the
-  # unrolled loops; all memory is in fixed arrays.
-  set(options -ffp-contract=fast -Wno-psabi ${ARGN})
+  # convention (-Wpsabi) does not matter. Without errno, the roots of a pack are one instruction. Sanitizers are off,
+  # because compilers would take many minutes for the unrolled loops; all memory is in fixed arrays.
+  set(options -ffp-contract=fast -fno-math-errno -Wno-psabi ${ARGN})
   if(BBSIM_INSTRUMENTED)
     list(APPEND options -fno-sanitize=all)
   endif()

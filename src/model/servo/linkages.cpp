@@ -588,9 +588,8 @@ ThreeServos make_three_servos(const ThreeServoPlate& of, Assumed assumed, const 
     scale *= leg.rod;
   }
   scale *= three.leg[0].plate * three.leg[0].plate;
-  const double none[3] = {0, 0, 0};
-  double unused[3];
-  three.determinant = ThreeServos::solve(m, none, unused);
+  const ThreeServos::Inverse<double> inverse = ThreeServos::inverse_of(m);
+  three.determinant = inverse.determinant;
   if (!(std::abs(three.determinant) > 1e-9 * scale)) {
     throw KeyError(key,
                    "found rods that are level at home, and do not hold the plate up; allowed: "
@@ -603,11 +602,10 @@ ThreeServos make_three_servos(const ThreeServoPlate& of, Assumed assumed, const 
     // For equal legs, the two columns of slopes are orthogonal and of equal length.
     for (int j = 0; j < 2; ++j) three.inferred[j][i] = three.leg[i].slope[j] / length;
     if (three.equal) continue;
-    double right[3] = {0, 0, 0}, pose[3];
-    right[i] = -(m[i].of_horn * three.leg[i].turns);
-    ThreeServos::solve(m, right, pose);
-    three.inferred[0][i] = pose[0];
-    three.inferred[1][i] = -pose[1];
+    double by[3][3];
+    three.pose_slopes(m, inverse, by);
+    three.inferred[0][i] = by[0][i];
+    three.inferred[1][i] = -by[1][i];
   }
   return three;
 }
@@ -625,36 +623,38 @@ double greatest_twist(const ThreeServos& three, double tilt) {
 }
 
 double greatest_tilt(const ThreeServos& three) {
-  // Whether all legs reach this tilt in every direction; by the symmetry of equal legs, a third of
-  // a turn suffices.
-  const auto reached = [&](double tilt) {
-    const int directions = 60 * (three.equal ? 1 : 3);
-    for (int j = 0; j <= directions; ++j) {
-      const double azimuth = 2 * std::numbers::pi / 3 * j / 60;
-      const ThreeServos::Pose<double> at{std::sin(tilt) * std::cos(azimuth),
-                                         std::sin(tilt) * std::sin(azimuth), three.leg[0].height};
-      ThreeServos::Joint<double> joint[3];
-      three.joints(
-          at, [](double value) { return value; }, joint);
-      for (int i = 0; i < 3; ++i) {
-        const ThreeServos::Leg& leg = three.leg[i];
-        const double length = std::hypot(joint[i].x, joint[i].z);
-        if (!(length > std::abs(leg.horn - leg.rod) * (1 + 1e-9) &&
-              length < (leg.horn + leg.rod) * (1 - 1e-9))) {
-          return false;
-        }
-      }
+  // Whether all legs reach a tilt in this direction.
+  const auto reached = [&](double tilt, double azimuth) {
+    const ThreeServos::Pose<double> at{std::sin(tilt) * std::cos(azimuth),
+                                       std::sin(tilt) * std::sin(azimuth), three.leg[0].height};
+    ThreeServos::Joint<double> joint[3];
+    three.joints(at, joint);
+    for (int i = 0; i < 3; ++i) {
+      const ThreeServos::Leg& leg = three.leg[i];
+      const double least = std::abs(leg.horn - leg.rod) * (1 + 1e-9);
+      const double most = (leg.horn + leg.rod) * (1 - 1e-9);
+      const double square = joint[i].x * joint[i].x + joint[i].z * joint[i].z;
+      if (!(square > least * least && square < most * most)) return false;
     }
     return true;
   };
-  double low = 0, high = 1.4;
-  if (reached(high)) return high;
-  while (high - low > 1e-12) {
-    const double middle = low + (high - low) / 2;
-    (reached(middle) ? low : high) = middle;
+  // The least of the directions' tilts; by the symmetry of equal legs, a third of a turn suffices.
+  double found = 1.4;
+  bool is_limited = false;
+  const int directions = 60 * (three.equal ? 1 : 3);
+  for (int j = 0; j <= directions; ++j) {
+    const double azimuth = 2 * std::numbers::pi / 3 * j / 60;
+    if (reached(found, azimuth)) continue;
+    is_limited = true;
+    double low = 0, high = found;
+    while (high - low > 1e-12) {
+      const double middle = low + (high - low) / 2;
+      (reached(middle, azimuth) ? low : high) = middle;
+    }
+    found = low;
   }
   constexpr double between_those = 0.999;  // allows for directions between the samples
-  return between_those * low;
+  return is_limited ? between_those * found : found;
 }
 
 }  // namespace bbsim::model

@@ -36,14 +36,14 @@ HeldPlate::HeldPlate(const model::Model& model)
     if constexpr (std::is_same_v<Link, model::ThreeServos>) three_ = &loop.link;
   });
   if (three_ == nullptr) return;
-  pose_ = three_->home(horns_);
+  known_.legs.pose = three_->home(known_.horn);
   gain_ = 0;
   for (int i = 0; i < 3; ++i) {
     double rates[3] = {};
     const double none[3] = {};
     rates[i] = 1;
     model::GimbalAngle<double> plane[2];
-    three_->planes(horns_, rates, none, plane);
+    three_->planes(known_.horn, rates, none, plane);
     gain_ = std::max({gain_, std::abs(plane[0].rate), std::abs(plane[1].rate)});
   }
 }
@@ -78,39 +78,54 @@ void HeldPlate::prepare(const model::HeldMotions& motions, double length, Motion
 }
 
 // Computes the plate's motion at the start of the piece.
-template <class Link>
-void HeldPlate::start_plate(const Link& link, PlateMotion& motion) {
-  double horn[Link::servos], rate[Link::servos], acting[Link::servos];
-  for (int i = 0; i < Link::servos; ++i) {
+void HeldPlate::start_plate(const model::Linkages& link, PlateMotion& motion) const {
+  motion.gain = 0;
+  for (int i = 0; i < 2; ++i) {
+    const PieceAxis& of = motion.axis[i];
+    const double rate = of.ratio * of.rate, acting = of.ratio * of.acceleration;
+    // The rate for a unit rate of the horn.
+    const model::Turn<double> turn = link.of[i].turn(horn_of(of, of.angle));
+    motion.plane_start[i] = {turn.sin, turn.cos, turn.slope * rate,
+                             turn.slope * acting + turn.bend * (rate * rate)};
+    motion.gain = std::max(motion.gain, std::abs(turn.slope));
+  }
+}
+
+// The same for three servos. Usually the piece starts where the last one ended, and only the
+// servos' accelerations differ.
+void HeldPlate::start_plate(const model::ThreeServos& link, PlateMotion& motion) {
+  double horn[3], rate[3], acting[3];
+  for (int i = 0; i < 3; ++i) {
     const PieceAxis& of = motion.axis[i];
     horn[i] = horn_of(of, of.angle);
     rate[i] = of.ratio * of.rate;
     acting[i] = of.ratio * of.acceleration;
   }
-  if constexpr (Link::servos == 3) {
+  if (!known_.has_plate || !std::equal(horn, horn + 3, known_.horn) ||
+      !std::equal(rate, rate + 3, known_.rate)) {
     double sine[3], cosine[3];
     link.directions(horn, sine, cosine);
-    // Usually the piece starts where the last one ended.
-    if (!std::equal(horn, horn + 3, horns_)) {
-      pose_ = link.pose_from(pose_, horns_, horn, sine, cosine);
-      std::copy_n(horn, 3, horns_);
-    }
-    motion.pose_start = pose_;
+    model::ThreeServos::Pose<double>& pose = known_.legs.pose;
+    pose = link.pose_from(pose, known_.horn, horn, sine, cosine);
     model::ThreeServos::Slopes<double> slopes[3];
-    link.slopes(pose_, sine, cosine, slopes);
-    link.pose_slopes(slopes, motion.pose_slopes);
-    const double whole =
-        link.planes_in(pose_, slopes, sine, cosine, rate, acting, motion.plane_start);
-    link.edges(pose_, sine, cosine, whole, motion.edges_start);
-  } else {
-    motion.gain = 0;
-    for (int i = 0; i < Link::servos; ++i) {
-      // The rate for a unit rate of the horn.
-      const model::Turn<double> turn = link.of[i].turn(horn[i]);
-      motion.plane_start[i] = {turn.sin, turn.cos, turn.slope * rate[i],
-                               turn.slope * acting[i] + turn.bend * (rate[i] * rate[i])};
-      motion.gain = std::max(motion.gain, std::abs(turn.slope));
-    }
+    link.slopes(pose, sine, cosine, slopes);
+    const auto inverse = link.inverse_of(slopes);
+    link.pose_slopes(slopes, inverse, known_.legs.slopes);
+    link.planes_in(pose, slopes, inverse, sine, cosine, rate, acting, known_.plane);
+    link.edges(slopes, inverse.determinant, known_.edges);
+    std::copy_n(horn, 3, known_.horn);
+    std::copy_n(rate, 3, known_.rate);
+    std::copy_n(acting, 3, known_.acceleration);
+    known_.has_plate = true;
+  }
+  motion.legs_start = known_.legs;
+  std::copy_n(known_.edges, model::ThreeServos::edge_count, motion.edges_start);
+  double more[3], by_more[2];
+  for (int i = 0; i < 3; ++i) more[i] = acting[i] - known_.acceleration[i];
+  link.tilt_rates(known_.legs.pose, known_.legs.slopes, more, by_more);
+  for (int i = 0; i < 2; ++i) {
+    motion.plane_start[i] = known_.plane[i];
+    motion.plane_start[i].acceleration += by_more[i];
   }
 }
 
@@ -124,22 +139,34 @@ void HeldPlate::write_end(const PlateMotion& motion, double* z) const {
 
 void HeldPlate::pass(const PlateMotion& motion) {
   if (three_ == nullptr) return;
-  pose_ = motion.pose_end;
-  for (std::size_t i = 0; i < servos_; ++i) {
+  constexpr int last = nodes - 1;
+  known_.legs = motion.legs_end;
+  known_.has_plate = true;
+  for (int i = 0; i < 3; ++i) {
     const PieceAxis& axis = motion.axis[i];
-    horns_[i] = horn_of(axis, axis.angle + end_of(axis, MotionTable::angle));
+    known_.horn[i] = horn_of(axis, axis.angle + end_of(axis, MotionTable::angle));
+    known_.rate[i] = axis.ratio * end_of(axis, MotionTable::rate);
+    known_.acceleration[i] = axis.ratio * end_of(axis, MotionTable::acceleration);
   }
+  for (int i = 0; i < 2; ++i) {
+    const PlateMotion::Plane& plane = motion.plane[i];
+    known_.plane[i] = {plane.sin[last], plane.cos[last], plane.rate[last],
+                       plane.acceleration[last]};
+  }
+  for (int k = 0; k < model::ThreeServos::edge_count; ++k) known_.edges[k] = motion.edges[k][last];
 }
 
 bool HeldPlate::stays_off_dead_points(const PlateMotion& motion, const model::HeldMotions& motions,
                                       double length) const {
   if (three_ != nullptr) {
     for (int k = 0; k < model::ThreeServos::edge_count; ++k) {
-      double edge[nodes];  // the start replaces the first node, as for all ranges
-      std::copy_n(motion.edges[k], nodes, edge);
-      edge[0] = motion.edges_start[k];
-      const auto [least, most] = std::minmax_element(edge, edge + nodes);
-      if (!(widened({*least, *most}).least > 0)) return false;
+      // The start replaces the first node, as for all ranges.
+      Range of{motion.edges_start[k], motion.edges_start[k]};
+      for (int n = 1; n < nodes; ++n) {
+        const double edge = motion.edges[k][n];
+        of = {edge < of.least ? edge : of.least, edge > of.most ? edge : of.most};
+      }
+      if (!(widened(of).least > 0)) return false;
     }
     return true;
   }

@@ -34,7 +34,7 @@ class HeldPlate {
                PlateMotion& motion);
   // Writes the servos' angles and rates at the end of the piece into states z.
   void write_end(const PlateMotion& motion, double* z) const;
-  // Goes on from near the end of a piece whose plate was computed.
+  // Goes on from the end of a piece whose plate was computed.
   void pass(const PlateMotion& motion);
 
   // Whether the mechanism is certain to stay within its range over the piece.
@@ -42,17 +42,22 @@ class HeldPlate {
                                            const model::HeldMotions& motions, double length) const;
 
  private:
-  template <class Link>
-  void start_plate(const Link& link, PlateMotion& motion);
+  void start_plate(const model::Linkages& link, PlateMotion& motion) const;
+  void start_plate(const model::ThreeServos& link, PlateMotion& motion);
 
   std::size_t servos_ = 2;
   const model::RigMode* mode_ = nullptr;
   model::ServoResponses response_;
   const model::Linkages* linkages_ = nullptr;
   const model::ThreeServos* three_ = nullptr;
-  // A pose of three servos near the next one, and the horns' angles in it, rad.
-  model::ThreeServos::Pose<double> pose_{};
-  double horns_[model::ThreeServos::servos]{};
+  // A pose of three servos near the next one, the horns' angles in it, rad, and the plate there.
+  struct Known {
+    PlateMotion::Legs legs;
+    double horn[3], rate[3], acceleration[3];
+    model::GimbalAngle<double> plane[2];
+    double edges[model::ThreeServos::edge_count];
+    bool has_plate;
+  } known_{};
   double gain_ = 1;  // of three servos, at home (PlateMotion::gain)
 };
 

@@ -58,9 +58,11 @@ struct alignas(64) PlateMotion {
   const model::ThreeServos* three;
   model::GimbalAngle<double> plane_start[2];
   double edges_start[model::ThreeServos::edge_count];
-  // Of three servos: the poses, and the derivatives of the first one (ThreeServos::pose_slopes).
-  model::ThreeServos::Pose<double> pose_start, pose_end;
-  double pose_slopes[3][3];
+  // Of three servos: the pose, and its derivatives (ThreeServos::pose_slopes).
+  struct Legs {
+    model::ThreeServos::Pose<double> pose;
+    double slopes[3][3];
+  } legs_start, legs_end;
 };
 
 // Constants of a run.

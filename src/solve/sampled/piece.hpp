@@ -90,11 +90,12 @@ struct Kernel {
     for (int i = 0; i < 3; ++i) {
       from[i] = plate.axis[i].ratio * plate.axis[i].angle + plate.axis[i].offset;
     }
-    const auto& start = plate.pose_start;
+    const auto& start = plate.legs_start.pose;
     if (parts > 1) return plate.three->follow(start, from, horn, parts);
     P at[3] = {P(start.p), P(start.q), P(start.z)};
     for (int k = 0; k < 3; ++k) {
-      for (int i = 0; i < 3; ++i) at[k] += P(plate.pose_slopes[k][i]) * (horn[i] - P(from[i]));
+      for (int i = 0; i < 3; ++i)
+        at[k] += P(plate.legs_start.slopes[k][i]) * (horn[i] - P(from[i]));
     }
     return {at[0], at[1], at[2]};
   }
@@ -124,10 +125,18 @@ struct Kernel {
         link.directions(horn, sine, cosine);
         const auto near = pose_towards(plate, horn, Link::parts_for(motion));
         const auto pose = link.pose_near(near, sine, cosine);
-        const P whole = link.planes_in(pose, sine, cosine, rate, acting, axis);
-        link.edges(pose, sine, cosine, whole, edges);
+        model::ThreeServos::Slopes<P> slopes[3];
+        link.slopes(pose, sine, cosine, slopes);
+        const auto inverse = link.inverse_of(slopes);
+        link.planes_in(pose, slopes, inverse, sine, cosine, rate, acting, axis);
+        link.edges(slopes, inverse.determinant, edges);
         for (int k = 0; k < Link::edge_count; ++k) edges[k].store(plate.edges[k] + p * lanes);
-        plate.pose_end = {last_of(pose.p), last_of(pose.q), last_of(pose.z)};
+        P by[3][3];
+        link.pose_slopes(slopes, inverse, by);
+        plate.legs_end.pose = {last_of(pose.p), last_of(pose.q), last_of(pose.z)};
+        for (int k = 0; k < 3; ++k) {
+          for (int i = 0; i < 3; ++i) plate.legs_end.slopes[k][i] = last_of(by[k][i]);
+        }
       } else {
         link.planes(horn, rate, acting, axis);
       }
