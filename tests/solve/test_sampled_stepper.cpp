@@ -11,6 +11,7 @@
 #include "solve/hybrid_driver.hpp"
 #include "solve/make_stepper.hpp"
 #include "solve/radau/radau.hpp"
+#include "solve/sampled/lane_engine.hpp"
 #include "solve/sampled/lane_kernel.hpp"
 #include "solve/sampled/motion_tables.hpp"
 #include "solve/sampled/sampled.hpp"
@@ -55,16 +56,10 @@ Both run_of(const model::Model& model, const solve::OutputGrid& grid,
   return run;
 }
 
-// How many numbers of a row both ways compute: of a rig with a linkage not the motors' work, the
-// last state.
-std::size_t shared(const model::Model& model) {
-  return model.rig->between.none() ? model.row_size() : model.size() - 1;
-}
-
 // Largest difference of any number in any row, relative to its size.
 double largest_difference(const model::Model& model, const Both& a, const Both& b) {
   REQUIRE(a.rows.rows() == b.rows.rows());
-  std::vector<double> size(shared(model), 1e-3);
+  std::vector<double> size(model.row_size(), 1e-3);
   for (std::size_t i = 0; i < a.rows.rows(); ++i) {
     for (std::size_t k = 0; k < size.size(); ++k) {
       size[k] = std::max(size[k], std::abs(a.rows.row(i)[k]));
@@ -175,12 +170,6 @@ const char* const uneven =
     "sampling: {period: 0.02, delay: 0.006, jitter: 0.002, derivative_filter: 0.03}, "
     "sensor: {period: 0.033, phase: 0.004, delay: 0.011, noise: 2e-4, seed: 3}";
 
-scenario::Integrals without_work(bool gamma) {
-  scenario::Integrals integrals(gamma);
-  integrals.work = false;
-  return integrals;
-}
-
 }  // namespace
 
 TEST_CASE("a rig by pieces is the rig in general, whatever its servos, law and mounting") {
@@ -188,7 +177,7 @@ TEST_CASE("a rig by pieces is the rig in general, whatever its servos, law and m
   for (const Case& one : cases) {
     INFO(one.what << ", " << sampling_of);
     const Scenario scene = scene_of(text_of(one, sampling_of, "t, x, gamma"));
-    const model::Model model = model::assemble(scene, without_work(true));
+    const model::Model model = model::assemble(scene, true);
     REQUIRE(solve::sampled::knows(model));
     const solve::OutputGrid grid(scene.time);
     const Both general = run_of(model, grid, generally(grid));
@@ -217,12 +206,15 @@ TEST_CASE("integrate() solves sampled rigs by pieces, and no others") {
   continuous.controller->sampling.reset();
   continuous.controller->sensor.reset();
   CHECK_FALSE(solve::sampled::knows(model::assemble(continuous, false)));
-  // With a linkage, unless the motors' work is asked for, or something else moves the ball.
+  // With a linkage, unless something else moves the ball. Lanes do not count the motors' work.
   Scenario linked = scene_of(text_of(cases[13], sampling, "t, x"));
-  CHECK(solve::sampled::knows(model::assemble(linked, without_work(false))));
-  CHECK_FALSE(solve::sampled::knows(model::assemble(linked, false)));
+  scenario::Integrals without_work(false);
+  without_work.work = false;
+  CHECK(solve::sampled::knows(model::assemble(linked, false)));
+  CHECK_FALSE(solve::sampled::moves(model::assemble(linked, false)));
+  CHECK(solve::sampled::moves(model::assemble(linked, without_work)));
   linked.ball.losses.viscous = 1e-6;
-  CHECK_FALSE(solve::sampled::knows(model::assemble(linked, without_work(false))));
+  CHECK_FALSE(solve::sampled::knows(model::assemble(linked, without_work)));
 }
 
 TEST_CASE("pieces too long for their tolerance are split") {
@@ -375,7 +367,7 @@ TEST_CASE("bounds of a piece contain the motors' loads within it") {
     INFO(one.what);
     Scenario scene = scene_of(text_of(one, sampling, "t, x"));
     scene.time.end = 0.5;
-    const model::Model model = model::assemble(scene, without_work(false));
+    const model::Model model = model::assemble(scene, false);
     const model::BallConstants constants = model::constants_of(scene);
     const solve::OutputGrid grid(scene.time);
     Looks looks(model, constants);

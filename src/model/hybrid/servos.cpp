@@ -6,26 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/ball/dynamics.hpp"
+#include "model/hybrid/rig_energy.hpp"
 
 namespace bbsim::model {
-namespace {
-
-// The energy of a rolling ball and of the bodies that turn with the plane, (M51), J.
-double energy_of(const CoupledBall& ball, const double* z, const RigExtras& plane) {
-  BallConstants constants{ball.r, ball.m, ball.g, false, ball.rolling};
-  std::copy_n(ball.body.plate, 3, constants.plate_inertia.begin());
-  constants.plate_imbalance = ball.body.imbalance;
-  constants.ring_inertia = ball.body.ring;
-  constants.rotor_inertia = ball.body.rotor;
-  Sample sample;
-  sample.ball = ball_motion<Shape::full>(RigLayout::unpack(z), ball.r);
-  sample.gimbal = {plane.angle[0], plane.angle[1], plane.rate[0], plane.rate[1], 0, 0};
-  const Dynamics now = dynamics(sample, constants);
-  return now.energy() + now.gimbal_energy;
-}
-
-}  // namespace
 
 Servos::Servos(SwitchedModel& model) : model_(model) {
   const Rig& rig = model.rig();
@@ -68,40 +51,48 @@ bool Servos::reset(double t, double* z) {
   chose_ = !stay_free(z);
   if (!chose_) return false;
   const Demands demands = model_.demands(t, z);
-  const RigExtras before = model_.plane(z);
-  const std::array<double, 5> ball_before{z[0], z[1], z[2], z[3], z[4]};
-  bool jumped = false;
+  RigMode mode_before = model_.mode();
+  std::array<double, CoupledLayout<most_servos>::states> z_before;
+  std::copy_n(z, model_.get().size(), z_before.begin());
+  bool jumped = false, moved = false;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     AxisState axis = state(i, demands, z);
-    axes_[i].settle(axis, model_.mode().axis[i]);
+    AxisMode& mode = model_.mode().axis[i];
+    axes_[i].settle(axis, mode);
     double& angle = z[SwitchedModel::angle + i];
     double& rate = z[model_.rate() + i];
     jumped = jumped || axis.angle != angle || axis.rate != rate;
     angle = axis.angle;
     rate = axis.rate;
+    const AxisMode& before = mode_before.axis[i];
+    moved = moved || mode.ratio != before.ratio || mode.offset != before.offset;
   }
+  if (!jumped && !moved) return false;
   const RigExtras now = model_.plane(z);
+  std::swap(model_.mode(), mode_before);
+  const RigExtras before = model_.plane(z_before.data());
+  std::swap(model_.mode(), mode_before);
   if (now.rate[0] == before.rate[0] && now.rate[1] == before.rate[1]) return jumped;
-  kick_ball(z, ball_before, before, now);
+  kick_ball(z, z_before.data(), before, now);
   return true;
 }
 
 // The ball's velocity jumps with the rates of the plane.
-void Servos::kick_ball(double* z, const std::array<double, 5>& before,
-                       const RigExtras& plane_before, const RigExtras& plane) {
+void Servos::kick_ball(double* z, const double* before, const RigExtras& plane_before,
+                       const RigExtras& plane) {
   const auto kick = model_.with_loop([&](const auto& loop) {
     return loop.impulse(z, plane.rate[0] - plane_before.rate[0],
                         plane.rate[1] - plane_before.rate[1]);
   });
   for (std::size_t i = 0; i < 3; ++i) z[2 + i] += kick[i];
+  if (!model_.get().work) return;
   // The servos apply the impulse that this takes. Its energy counts as their work.
   std::visit(
       [&](const auto& any) {
         using Any = std::decay_t<decltype(any)>;
         if constexpr (is_coupled_loop<Any>) {
           const CoupledBall& ball = any.parts.ball;
-          z[Any::Layout::work] +=
-              energy_of(ball, z, plane) - energy_of(ball, before.data(), plane_before);
+          z[Any::Layout::work] += energy_of(ball, z, plane) - energy_of(ball, before, plane_before);
         }
       },
       model_.get().system);

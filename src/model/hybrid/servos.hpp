@@ -52,7 +52,7 @@ class Servos : public Part {
             demands.servo_command[i]};
   }
   [[nodiscard]] bool stay_free(const double* z) const;
-  void kick_ball(double* z, const std::array<double, 5>& before, const RigExtras& plane_before,
+  void kick_ball(double* z, const double* before, const RigExtras& plane_before,
                  const RigExtras& plane);
 
   SwitchedModel& model_;

@@ -47,7 +47,7 @@ const LaneKernels& choose_lane_kernels() {
 }
 
 bool moves(const model::Model& model) {
-  return knows(model) && !model.gamma && !model.rig->sampled->legs;
+  return knows(model) && !model.gamma && !counts_work(model) && !model.rig->sampled->legs;
 }
 
 LaneEngine::LaneEngine(Tolerances tolerances)

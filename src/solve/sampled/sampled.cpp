@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "base/instant.hpp"
+#include "model/hybrid/rig_energy.hpp"
 #include "simd/instruction_set.hpp"
 #include "solve/collocation/step_length.hpp"
 #include "solve/sampled/monitor_ranges.hpp"
@@ -30,8 +31,11 @@ bool knows(const model::Model& model) {
   if (!model.rig || !model.rig->sampled || model.dry || model.rig->between.has_pieces()) {
     return false;
   }
-  const bool works = model.work && !std::holds_alternative<model::RigLoop<false>>(model.system);
-  return !works && with_given_plate(model.system, [](const auto& /*loop*/) {});
+  return with_given_plate(model.system, [](const auto& /*loop*/) {});
+}
+
+bool counts_work(const model::Model& model) {
+  return model.work && !std::holds_alternative<model::RigLoop<false>>(model.system);
 }
 
 HeldStepper::HeldStepper(const model::Model& model, const Kernels& kernels, Tolerances tolerances)
@@ -42,6 +46,7 @@ HeldStepper::HeldStepper(const model::Model& model, const Kernels& kernels, Tole
       plate_(model),
       servos_(plate_.servos()),
       rate_(angle + servos_),
+      counts_work_(counts_work(model)),
       reached_(model.size()) {
   with_given_plate(model.system, [this](const auto& loop) {
     using Link = std::decay_t<decltype(loop.link)>;
@@ -83,6 +88,7 @@ void HeldStepper::start(double t, const double* z) {
   evaluated_ = false;
   time_ = t;
   std::copy_n(z, reached_.size(), reached_.begin());
+  if (counts_work_) work_beyond_energy_ = reached_.back() - model::rig_energy(model_->system, z);
   servo_ = plate_.motions(z);
   settle();
 }
@@ -225,6 +231,7 @@ void HeldStepper::evaluate_some(const double* times, std::size_t count, double* 
     std::copy(reached_.begin(), reached_.end(), row);
     if (is_end(i)) {
       if (model_->gamma) row[size] = turned_;
+      put_work(row);
       continue;
     }
     if (known[i] != nullptr) known[i]->evaluate(piece_, ball[i]);
@@ -239,11 +246,21 @@ void HeldStepper::evaluate_some(const double* times, std::size_t count, double* 
       row[angle + k] = at.angle;
       row[rate_ + k] = at.rate;
     }
+    put_work(row);
   }
 }
 
+// Sets the servos' work in states of the last step. Nothing else changes the energy until the next
+// switch.
+void HeldStepper::put_work(double* z) const {
+  if (!counts_work_) return;
+  z[reached_.size() - 1] = work_beyond_energy_ + model::rig_energy(model_->system, z);
+}
+
 std::vector<double> HeldStepper::state() const {
-  return reached_;
+  std::vector<double> state = reached_;
+  put_work(state.data());
+  return state;
 }
 
 // As for radau, if 8 nodes just resolve the motion. Usually half as many would do.

@@ -27,6 +27,8 @@ namespace bbsim::solve::sampled {
 // Whether HeldStepper can run the model: its command is held between samples, its servos move in
 // closed form in every mode, and nothing but their motion moves the plate and the ball.
 [[nodiscard]] bool knows(const model::Model& model);
+// Whether such a model has the servos' work among its states, as the last one, and it is wanted.
+[[nodiscard]] bool counts_work(const model::Model& model);
 
 // A stepper for models that pass knows(). A step usually reaches its limit, because pieces are
 // short. Steps get shorter if 8 nodes do not resolve the ball's motion, as after a jump of a stiff
@@ -64,6 +66,7 @@ class HeldStepper : public Stepper {
 
   void settle();
   void finish();
+  void put_work(double* z) const;
   void evaluate_some(const double* times, std::size_t count, double* rows);
   [[nodiscard]] const Shares* shares(double after);
   const Range& range(Quantity of);
@@ -78,7 +81,9 @@ class HeldStepper : public Stepper {
   std::array<Shares, 4> shares_{};  // two instants within pieces of each of two lengths
   std::size_t next_shares_ = 0;
   HeldPlate plate_;
-  std::size_t servos_, rate_;                   // how many; the index of the first one's rate
+  std::size_t servos_, rate_;  // how many; the index of the first one's rate
+  bool counts_work_;
+  double work_beyond_energy_ = 0;               // servos' work less the rig's energy, J
   model::HeldMotions servo_{};                  // from the start of the last step
   std::vector<double> reached_;                 // states at its end
   std::array<Range, quantity_count> ranges_{};  // of the last step
