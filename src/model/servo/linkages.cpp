@@ -623,10 +623,10 @@ double greatest_twist(const ThreeServos& three, double tilt) {
 }
 
 double greatest_tilt(const ThreeServos& three) {
-  // Whether all legs reach a tilt in this direction.
-  const auto reached = [&](double tilt, double azimuth) {
-    const ThreeServos::Pose<double> at{std::sin(tilt) * std::cos(azimuth),
-                                       std::sin(tilt) * std::sin(azimuth), three.leg[0].height};
+  // Whether all legs reach a tilt in the direction (east, north).
+  const auto reached = [&](double tilt, double east, double north) {
+    const double sine = std::sin(tilt);
+    const ThreeServos::Pose<double> at{sine * east, sine * north, three.leg[0].height};
     ThreeServos::Joint<double> joint[3];
     three.joints(at, joint);
     for (int i = 0; i < 3; ++i) {
@@ -641,15 +641,18 @@ double greatest_tilt(const ThreeServos& three) {
   // The least of the directions' tilts; by the symmetry of equal legs, a third of a turn suffices.
   double found = 1.4;
   bool is_limited = false;
-  const int directions = 60 * (three.equal ? 1 : 3);
-  for (int j = 0; j <= directions; ++j) {
-    const double azimuth = 2 * std::numbers::pi / 3 * j / 60;
-    if (reached(found, azimuth)) continue;
+  // In an order that jumps about, few directions limit it more than all before. 61 and 181 are
+  // prime.
+  const int directions = three.equal ? 61 : 181;
+  for (int j = 0; j < directions; ++j) {
+    const double azimuth = 2 * std::numbers::pi / 3 * (j * 23 % directions) / 60;
+    const double east = std::cos(azimuth), north = std::sin(azimuth);
+    if (reached(found, east, north)) continue;
     is_limited = true;
     double low = 0, high = found;
     while (high - low > 1e-12) {
       const double middle = low + (high - low) / 2;
-      (reached(middle, azimuth) ? low : high) = middle;
+      (reached(middle, east, north) ? low : high) = middle;
     }
     found = low;
   }
