@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The error estimate of a collocation step from the decay of its accelerations' last Legendre
-// coefficients, with one case in each lane. radau/step.hpp does the same for a single case.
+// coefficients, with one case in each lane. radau/collocation.hpp does the same for a single case.
 //
 // Included only by the kernels. See simd/pack.hpp for why everything is inlined or tagged.
 #pragma once

@@ -12,8 +12,9 @@
 //     v = v(0) + h A1 k,    q = q(0) + c h v(0) + h^2 A2 k
 //
 // Pieces are so short that each iteration contracts the error by factors of hundreds or thousands.
-// The decay of the Legendre coefficients of k gives the error estimate, as in radau/step.hpp. This
-// is the special case without a Jacobian, a linear system or servo states.
+// The decay of the Legendre coefficients of k gives the error estimate, as in
+// radau/collocation.hpp. This is the special case without a Jacobian, a linear system or servo
+// states.
 //
 // Included only by the kernels. See simd/pack.hpp for why everything is inlined or tagged.
 #pragma once
@@ -415,8 +416,8 @@ struct Substitution {
     }
   };
 
-  // From the decay of the last Legendre coefficients, as in radau/step.hpp: the first coefficient
-  // left out, integrated once for a velocity and twice for a position.
+  // From the decay of the last Legendre coefficients, as in radau/collocation.hpp: the first
+  // coefficient left out, integrated once for a velocity and twice for a position.
   template <class Of, class OfScene>
   BBSIM_INLINE static Errors estimate(const Of& of, const OfScene& scene, int servos, bool direct,
                                       bool gamma, int first) {
