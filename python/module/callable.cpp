@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// A Python callable as the controller of a scenario.
 #include <cmath>
 #include <memory>
 #include <utility>
