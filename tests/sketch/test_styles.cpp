@@ -64,6 +64,7 @@ const Style styles[] = {
     {"forward", {"helpers.ino"}},
     {"steppers", {}, stepper_rig},
     {"stepper_legs", {}, stepper_legs},
+    {"pca_legs", {}, {stepper_legs.begin() + 2, stepper_legs.end() - 2}},
     {"beam", {}, {"--set", "ball.position=[\"-5 cm\", 0]"}},
 };
 
@@ -133,6 +134,28 @@ TEST_CASE("a wiring and a scenario agree on what is a stepper") {
   const Result limited = bbsim(words);
   CHECK(limited.exit_code == 2);
   CHECK(contains(limited.err, "the sketch's pulses make the ramp"));
+}
+
+TEST_CASE("homing that ends elsewhere than the run begins, or never, is refused with its angles") {
+  const Sketch elsewhere("void setup() {}\nvoid loop() {}\n",
+                         "steppers: {phi: {step: 2, dir: 3, start: \"10 deg\"}}\n");
+  std::vector<std::string> words = elsewhere.words("run", stepper_rig);
+  words.insert(words.end(), {"-o", "-", "-q"});
+  const Result off = bbsim(words);
+  CHECK(off.exit_code == 2);
+  CHECK(contains(off.err, "wiring.yaml"));
+  CHECK(contains(off.err, "the motor phi stands at 10 deg"));
+  const Sketch never(
+      "void setup() {\n  pinMode(2, OUTPUT); pinMode(3, OUTPUT); pinMode(9, INPUT_PULLUP);\n"
+      "  while (digitalRead(9) == HIGH) { digitalWrite(2, HIGH); digitalWrite(2, LOW); delay(20); "
+      "}\n"
+      "}\nvoid loop() {}\n",
+      "steppers: {phi: {step: 2, dir: 3, start: 0, home: {pin: 9, angle: \"10 deg\"}}}\n");
+  words = never.words("run", stepper_rig);
+  words.insert(words.end(), {"-o", "-", "-q"});
+  const Result endless = bbsim(words);
+  CHECK(endless.exit_code != 0);
+  CHECK(contains(endless.err, "it last read pin 9 as HIGH; the shafts have turned by -3"));
 }
 
 TEST_CASE("the public AccelStepper compiles unchanged, and ramps") {

@@ -82,7 +82,7 @@ void set_up() {
 int step(const bbsim_sample* sample, double* command, double* columns) {
   board.sample = *sample;
   if (board.said[0] == '\0' && sample->number == 0 && board.wiring.setup_before != 0) set_up();
-  if (sample->number == 0) place_steppers();
+  if (board.said[0] == '\0' && sample->number == 0) place_steppers();
   if (board.said[0] == '\0') {
     const double next = static_cast<double>(sample->number + 1) * period;  // s
     board.horizon = switched_on_before + nanoseconds(next);

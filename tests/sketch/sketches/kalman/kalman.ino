@@ -75,6 +75,7 @@ void loop() {
       correct(&fx, (x - 2048) * 0.0001);
       correct(&fy, (y - 2048) * 0.0001);
     }
+    touch.writeRegister8(STMPE_INT_STA, 0xFF);  // clears the chip's interrupts
   }
   ux = constrain(-k1 * fx.x - k2 * fx.v, -0.2, 0.2);
   uy = constrain(-k1 * fy.x - k2 * fy.v, -0.2, 0.2);
