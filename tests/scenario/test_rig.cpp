@@ -242,4 +242,46 @@ TEST_CASE("measured periods count toward the number of samples") {
         std::string::npos);
 }
 
+TEST_CASE("a sensor's dead zones, contact force and misses are checked") {
+  const auto read = [](const std::string& sensor, const std::string& mass = ", mass: 0.1") {
+    return parse("ball: {radius: 0.02" + mass +
+                 "}\ngimbal: {servo: {natural_frequency: 30, damping: 0.8}}\n"
+                 "controller: {gravity_compensation: {kp: 5, kv: 5}, drives: angle, reference: "
+                 "{point: [0, 0]}, "
+                 "sampling: {period: 0.02}, sensor: " +
+                 sensor + "}\ntime: {end: 1, step: 0.1}\n");
+  };
+  CHECK(read("{contact_force: 0.9}").remarks.empty());
+  const auto heavy = read("{contact_force: 1}").remarks;
+  REQUIRE(heavy.size() == 1);
+  CHECK_THAT(heavy[0], Catch::Matchers::Contains("exceeds the ball's weight of 0.98"));
+  CHECK_THROWS_WITH(read("{contact_force: 0.9}", ""),
+                    Catch::Matchers::Contains("found, but no ball.mass"));
+  CHECK_THROWS_WITH(read("{on_miss: edge}"),
+                    Catch::Matchers::Contains("found without sensor.area"));
+  CHECK_THROWS_WITH(read("{dead_zones: [[0.1, 0, 0, 0.1]]}"),
+                    Catch::Matchers::Contains("found corners in another order"));
+}
+
+TEST_CASE("a stepper's torque goes with its inertia, without backlash") {
+  const auto fault = [](const std::string& servo, const std::string& events = "") {
+    return "ball: {radius: 0.02}\ngimbal: {servo: {rate_limit: 5, acceleration_limit: 60, " +
+           servo +
+           "}}\ncontroller: {gravity_compensation: {kp: 5, kv: 5}, drives: angle, reference: "
+           "{point: [0, 0]}, "
+           "sampling: {period: 0.02}}\n" +
+           events + "time: {end: 1, step: 0.1}\n";
+  };
+  CHECK_NOTHROW(
+      parse(fault("stepper: {torque: 0.2, inertia: 1e-4}", "events: {steps_lost: stop}\n")));
+  CHECK_THROWS_WITH(parse(fault("stepper: {torque: 0.2}")),
+                    Catch::Matchers::Contains("one of torque and inertia"));
+  CHECK_THROWS_WITH(parse(fault("stepper: {corner_speed: 9}")),
+                    Catch::Matchers::Contains("but no torque"));
+  CHECK_THROWS_WITH(parse(fault("stepper: {torque: 0.2, inertia: 1e-4}, backlash: 0.01")),
+                    Catch::Matchers::Contains("beside backlash"));
+  CHECK_THROWS_WITH(parse(fault("stepper: {}", "events: {steps_lost: note}\n")),
+                    Catch::Matchers::Contains("no stepper loses steps"));
+}
+
 }  // namespace bbsim_test::test_rig
