@@ -129,9 +129,9 @@ double ServoAxis::stall_rate() const {
   return pull > 0 ? servo_.corner_rate * servo_.torque_limit / pull : unlimited;
 }
 
-// A rotor that its field pulls beyond its torque stalls, because a field that runs past it pulls it
-// forward and back in turns. It follows the field again when that passes it for the last time
-// before it halts, one or more of the field's periods later. On a shorter way it catches up.
+// A rotor stalls if its field asks for more than its torque: a field that runs past pulls it
+// forward and back in turns. The field passes it once a period. The last time before the field
+// halts, the rotor follows again. In a move shorter than a period it catches up.
 void ServoAxis::settle_stall(const AxisState& state, AxisMode& mode) {
   const double period = servo_.field_period;
   if (stalls_ && catches_ != 0 && std::abs(state.angle - caught_at_) <= 2 * same_angle) {
