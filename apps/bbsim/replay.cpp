@@ -15,6 +15,7 @@
 #include "progress.hpp"
 #include "replay/page.hpp"
 #include "replay_file.hpp"
+#include "scenario/reader.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -23,7 +24,7 @@ namespace {
 struct ReplayArguments {
   std::vector<std::string> files;
   std::string output;
-  bool force = false;
+  bool force = false, live = false;
   api::ReplayRequest request{};
 };
 
@@ -42,6 +43,10 @@ ExitCode replay_files(const ReplayArguments& arguments, const Options& options) 
   if (!arguments.output.empty()) require_replay_ending(arguments.output, "--output");
   const std::string output = output_of(arguments);
   const results::Beside& beside = arguments.request.beside;
+  if (arguments.live && (arguments.files.size() != 1 || !arguments.request.logs.empty() ||
+                         !api::is_scenario(arguments.files.front()))) {
+    throw InputError("--live: allowed with one scenario, FILE.yaml, and no logs");
+  }
   file::Outputs outputs;
   if (!beside.summary.empty()) outputs.reads(beside.summary, "--summary");
   if (!beside.scenario.empty()) outputs.reads(beside.scenario, "--scenario");
@@ -57,10 +62,13 @@ ExitCode replay_files(const ReplayArguments& arguments, const Options& options) 
     if (arguments.output.empty() && !arguments.force) {
       file::require_like(output, {.what = "a replay of bbsim's", .mark = replay::page_mark});
     }
-    file.emplace(output);
+    file.emplace(output, arguments.live);
   };
   Progress progress(output, options.quiet);
-  const api::ReplayMade made = api::replay(request, outputs, progress);
+  api::ReplayMade made = api::replay(request, outputs, progress);
+  if (arguments.live) {
+    made.scene.live = replay::live_of(read_scenario(arguments.files.front(), beside.overrides));
+  }
   progress.end();
   for (const api::RunResult& run : made.runs) tell(run, options.quiet);
   file->write(made.scene, options.quiet);
@@ -78,6 +86,7 @@ void add_replay(Command& command, const Options& options) {
       "\n"
       "Examples:\n"
       "  bbsim replay configs/rig.yaml -o rig.html\n"
+      "  bbsim replay configs/fig2b.yaml --live -o fig2b.html\n"
       "  bbsim run configs/fig2b.yaml --summary fig2b.json && bbsim replay fig2b.csv\n"
       "  bbsim replay slow.h5 fast.h5 -o both.html\n"
       "  bbsim replay configs/rig.yaml --data log.csv \\\n"
@@ -93,6 +102,8 @@ void add_replay(Command& command, const Options& options) {
           "write FILE.html, or - for standard output; default: the first file's name with .html")
       .takes("FILE");
   add_force(command, arguments->force);
+  command.flag("--live", arguments->live,
+               "a page that changes the scenario and runs it again, in the browser");
   command
       .option("--data", arguments->request.logs,
               "LOG.csv of a real rig, shown with the runs; repeatable")

@@ -47,11 +47,14 @@ void declare_replay(file::Outputs& outputs, const std::string& file, const std::
   outputs.writes(file, what);
 }
 
-ReplayFile::ReplayFile(const std::string& target)
-    : target_(target), template_(replay::page_template()), file_(target) {}
+ReplayFile::ReplayFile(const std::string& target, bool live)
+    : target_(target),
+      template_(replay::page_template()),
+      engine_(live ? replay::read_engine() : ""),
+      file_(target) {}
 
 void ReplayFile::write(const replay::Scene& scene, bool quiet) {
-  const std::string content = replay::page(scene, template_);
+  const std::string content = replay::page(scene, template_, engine_);
   file_.write(content);
   file_.commit();
   if (quiet || target_ == "-") return;

@@ -21,15 +21,16 @@ void declare_replay(file::Outputs& outputs, const std::string& file, const std::
 // Opened before the work that it will show, so that a missing file or template is reported at once.
 class ReplayFile {
  public:
-  // Throws OutputError if the file cannot be written, or the template of pages is missing.
-  explicit ReplayFile(const std::string& target);
+  // Throws OutputError if the file cannot be written, or the template of pages is missing or, for a
+  // live page, its engine.
+  explicit ReplayFile(const std::string& target, bool live = false);
 
   // Writes the whole file or nothing, and reports it. Throws InputError, OutputError.
   void write(const replay::Scene& scene, bool quiet);
 
  private:
   std::string target_;
-  std::string template_;
+  std::string template_, engine_;
   file::AtomicFile file_;
 };
 

@@ -21,10 +21,12 @@ namespace bbsim::api {
 
 // Run of the scenario for a page; `end_row` is that of record::Recorder.
 [[nodiscard]] replay::Run run_of(const Scenario& scenario, file::TableData rows,
-                                 record::RunSummary summary, const std::vector<double>& end_row);
+                                 record::RunSummary summary, const std::vector<double>& end_row,
+                                 bool checked);
 
-// Adds facts about the scene: its plate, ball and signals, and the report of `bbsim check`.
-void describe(replay::Run& run, const Scenario& scenario);
+// Adds facts about the scene: its plate, ball and signals, and, if `checked`, the report of
+// `bbsim check`.
+void describe(replay::Run& run, const Scenario& scenario, bool checked = true);
 
 // Name of a file without its folder, as scenes show it.
 [[nodiscard]] std::string short_name(const std::string& file);

@@ -182,7 +182,7 @@ RunResult run(const RunRequest& request, Watch& watch) {
   }
   host.finish();
   if (request.pictured) {
-    result.pictured = run_of(scenario, std::move(table), summary, made.end_row);
+    result.pictured = run_of(scenario, std::move(table), summary, made.end_row, request.checked);
   } else if (kept) {
     result.rows = std::move(table);
     std::ranges::copy(sensitivity.names(), std::back_inserter(result.rows.names));

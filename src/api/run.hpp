@@ -40,6 +40,8 @@ struct RunRequest {
   // `measures` to the summary.
   std::vector<std::string> sensitivity{};
   bool pictured = false;  // make what a page shows of the run
+  // With `pictured`: also what `bbsim check` says, which takes longer than a short run.
+  bool checked = true;
   // Called once the whole request has been checked, before files are opened.
   std::function<void()> ready = [] {};
 };

@@ -31,7 +31,7 @@ constexpr std::array state_columns = {
     "x",     "y",        "vx",         "vy",        "spin",        "gamma",      "phi",
     "theta", "phi_rate", "theta_rate", "servo_phi", "servo_theta", "servo_third"};
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 // The neighbors of a key are at these many steps from its value.
 constexpr std::array offsets = {-2, -1, 1, 2};
@@ -256,8 +256,8 @@ Sensitivity::Runs Sensitivity::run_neighbors(Watch& watch) const {
       });
   watch.end();
   runs.status.resize(cases.size());
-  runs.measures.resize(cases.size() * measures_.size(), nothing);
-  for (auto& column : runs.columns) column.resize(cases.size() * grid_.size(), nothing);
+  runs.measures.resize(cases.size() * measures_.size(), no_value);
+  for (auto& column : runs.columns) column.resize(cases.size() * grid_.size(), no_value);
   return runs;
 }
 
@@ -307,8 +307,8 @@ std::vector<std::vector<double>> Sensitivity::find(RunResult& run, Watch& watch)
         largest = std::max(largest, std::abs(f[i] - f[i - 1]) / step);
       }
       const bool good = all && is_reliable(one, largest, std::abs(f[2]), step);
-      summary.gradients[m].second.emplace_back(key, good ? one.value : nothing);
-      if (!good) doubt(measures_[m].name, nothing);
+      summary.gradients[m].second.emplace_back(key, good ? one.value : no_value);
+      if (!good) doubt(measures_[m].name, no_value);
     }
     if (doubts.empty()) continue;
     summary.warnings.push_back(

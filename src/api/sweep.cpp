@@ -46,7 +46,7 @@ void expect(sweep::SweepTask& task, const SweepRequest& request, const Scenario&
   for (const std::string& text : request.expect) {
     scenario::Expectation one = scenario::read_expectation("--expect", text, first);
     if (std::ranges::count(task.expectations, one.text, &scenario::Expectation::text) > 0) {
-      throw InputError("--expect: found " + quoted(one.text) + " twice; allowed: once");
+      throw InputError("--expect: found " + bbsim::quoted(one.text) + " twice; allowed: once");
     }
     task.expectations.push_back(std::move(one));
   }

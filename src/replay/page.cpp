@@ -29,6 +29,31 @@ constexpr std::size_t most_sweep_numbers = 320000;
 constexpr std::size_t most_events = 2000;
 constexpr std::size_t longest_chord = 200;  // points
 
+// How numbers enter the JSON. A page that is open already takes arrays, and JSON with their places.
+class Numbers {
+ public:
+  explicit Numbers(std::vector<std::vector<double>>* arrays) : arrays_(arrays) {}
+
+  [[nodiscard]] Json floats(std::vector<double> values) const {
+    return arrays_ != nullptr ? place(std::move(values)) : Json(base64_of_floats(values));
+  }
+  [[nodiscard]] Json doubles(std::vector<double> values) const {
+    return arrays_ != nullptr ? place(std::move(values)) : Json(base64_of_doubles(values));
+  }
+  // Between -1 and 1.
+  [[nodiscard]] Json parts(std::vector<double> values) const {
+    return arrays_ != nullptr ? place(std::move(values)) : Json(base64_of_parts(values));
+  }
+
+ private:
+  [[nodiscard]] Json place(std::vector<double> values) const {
+    arrays_->push_back(std::move(values));
+    return arrays_->size() - 1;
+  }
+
+  std::vector<std::vector<double>>* arrays_;
+};
+
 template <class Value>
 std::vector<Value> picked(const std::vector<Value>& values, const std::vector<std::size_t>& rows) {
   std::vector<Value> result;
@@ -37,14 +62,14 @@ std::vector<Value> picked(const std::vector<Value>& values, const std::vector<st
   return result;
 }
 
-Json columns_json(const Run& run, const std::vector<std::size_t>& rows) {
+Json columns_json(const Run& run, const std::vector<std::size_t>& rows, const Numbers& numbers) {
   Json columns = Json::array();
   for (const Series& series : run.columns) {
     if (series.name == "t") continue;
     columns.push_back({{"name", series.name},
                        {"unit", series.unit},
                        {"meaning", series.meaning},
-                       {"data", base64_of_floats(picked(series.values, rows))}});
+                       {"data", numbers.floats(picked(series.values, rows))}});
   }
   return columns;
 }
@@ -85,26 +110,26 @@ Json plots_json() {
   return plots;
 }
 
-std::string orientation_text(const std::vector<Quaternion>& orientation,
+std::vector<double> parts_of(const std::vector<Quaternion>& orientation,
                              const std::vector<std::size_t>& rows) {
-  std::vector<double> numbers;
-  if (orientation.empty()) return "";
-  numbers.reserve(4 * rows.size());
+  std::vector<double> parts;
+  if (orientation.empty()) return parts;
+  parts.reserve(4 * rows.size());
   for (const std::size_t row : rows) {
-    numbers.insert(numbers.end(), orientation[row].begin(), orientation[row].end());
+    parts.insert(parts.end(), orientation[row].begin(), orientation[row].end());
   }
-  return base64_of_parts(numbers);
+  return parts;
 }
 
 // Times that equal start + i * step bit for bit need only three numbers; others are all listed.
-Json times_json(const std::vector<double>& t) {
+Json times_json(const std::vector<double>& t, const Numbers& numbers) {
   const double start = t.front(), step = t.size() > 1 ? t[1] - t[0] : 0;
   bool even = true;
   for (std::size_t i = 0; i < t.size(); ++i) {
     even = even && t[i] == start + static_cast<double>(i) * step;
   }
   if (even) return {{"start", start}, {"step", step}, {"count", t.size()}};
-  return base64_of_doubles(t);
+  return numbers.doubles(t);
 }
 
 Json events_json(const Run& run) {
@@ -138,21 +163,21 @@ bool near_chord(const std::vector<std::array<double, 2>>& path, std::size_t from
 
 // The points of the reference path that a polyline needs to stay within 1/5000 of the path's
 // extent.
-std::string reference_text(const Run& run) {
+std::vector<double> reference_points(const Run& run) {
   const auto& path = run.reference;
   double extent = 0;
   for (const auto& point : path)
     extent = std::max({extent, std::abs(point[0]), std::abs(point[1])});
   const double tolerance = extent / 5000;
-  std::vector<double> numbers;
+  std::vector<double> points;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const bool must = i == 0 || i + 1 == path.size() || i - kept >= longest_chord;
     if (!must && near_chord(path, kept, i + 1, tolerance)) continue;
-    numbers.insert(numbers.end(), path[i].begin(), path[i].end());
+    points.insert(points.end(), path[i].begin(), path[i].end());
     kept = i;
   }
-  return base64_of_floats(numbers);
+  return points;
 }
 
 Json poles_json(const Poles& poles) {
@@ -177,7 +202,7 @@ Json legs_json(const Run& run) {
   return {{"legs", legs}, {"phiOffset", run.plate_offset[0]}, {"thetaOffset", run.plate_offset[1]}};
 }
 
-Json run_json(const Run& run, const Stage& stage, std::size_t most) {
+Json run_json(const Run& run, const Stage& stage, std::size_t most, const Numbers& numbers) {
   const double radius = run.ball_radius.value_or(stage.ball_radius);
   const std::vector<Quaternion> orientation = orientation_of(run, radius);
   const KeptRows kept = kept_rows(run, orientation, most);
@@ -191,16 +216,16 @@ Json run_json(const Run& run, const Stage& stage, std::size_t most) {
                       {"yaw", run.mounting.yaw},
                       {"baseTilt", run.mounting.base_tilt}};
   if (!run.legs.empty()) json["legs"] = legs_json(run);
-  json["time"] = times_json(picked(find_series(run, "t")->values, kept.rows));
-  json["columns"] = columns_json(run, kept.rows);
-  json["orientation"] = orientation_text(orientation, kept.rows);
+  json["time"] = times_json(picked(find_series(run, "t")->values, kept.rows), numbers);
+  json["columns"] = columns_json(run, kept.rows, numbers);
+  json["orientation"] = numbers.parts(parts_of(orientation, kept.rows));
   json["orientationGiven"] = !run.orientation.empty();
   json["reached"] = run.reached ? Json(*run.reached) : Json();
   json["hasEndRow"] = run.has_end_row;
   json["unitsKnown"] = run.units_known;
   json["events"] = events_json(run);
   json["eventCount"] = run.events.size();
-  json["reference"] = reference_text(run);
+  json["reference"] = numbers.floats(reference_points(run));
   json["friction"] = run.friction ? Json(*run.friction) : Json();
   json["scenario"] = {
       {"file", run.scenario_file}, {"text", run.scenario_text}, {"overrides", run.overrides}};
@@ -256,7 +281,26 @@ Json sweep_json(const Sweep& sweep, std::size_t sweeps) {
   return json;
 }
 
-Json scene_json(const Scene& scene) {
+Json live_json(const Live& live) {
+  const auto bound = [](const std::optional<double>& value) {
+    return value ? Json(*value) : Json();
+  };
+  Json keys = Json::array(), tasks = Json::array();
+  for (const LiveKey& key : live.keys) {
+    keys.push_back({{"key", key.key},
+                    {"text", key.text},
+                    {"value", key.value},
+                    {"least", bound(key.least)},
+                    {"most", bound(key.most)},
+                    {"whole", key.whole}});
+  }
+  for (const auto& task : live.exercise.tasks) {
+    tasks.push_back({{"text", task.text}, {"expect", task.expect}});
+  }
+  return {{"keys", keys}, {"free", live.exercise.free}, {"tasks", tasks}};
+}
+
+Json json_of(const Scene& scene, const Numbers& numbers) {
   Json json = {{"format", 1}, {"version", scene.version}, {"title", scene.title}};
   Json runs = Json::array(), sweeps = Json::array();
   if (!scene.runs.empty()) {
@@ -266,12 +310,15 @@ Json scene_json(const Scene& scene) {
                      {"round", stage.round},
                      {"plateGiven", stage.plate_given},
                      {"largest", largest_drawn}};
-    for (const Run& run : scene.runs) runs.push_back(run_json(run, stage, rows_allowed(scene)));
+    for (const Run& run : scene.runs) {
+      runs.push_back(run_json(run, stage, rows_allowed(scene), numbers));
+    }
   }
   for (const Sweep& sweep : scene.sweeps) sweeps.push_back(sweep_json(sweep, scene.sweeps.size()));
   json["plots"] = plots_json();
   json["runs"] = std::move(runs);
   json["sweeps"] = std::move(sweeps);
+  if (scene.live) json["live"] = live_json(*scene.live);
   return json;
 }
 
@@ -304,13 +351,19 @@ std::size_t rows_allowed(const Scene& scene) {
   return std::max<std::size_t>(std::min(most_rows, most_bytes / bytes) / runs, 100);
 }
 
-std::string page(const Scene& scene, std::string_view whole_template) {
+std::string page(const Scene& scene, std::string_view whole_template, std::string_view engine) {
   check_scene(scene);
-  std::string needed{whole_template};
+  std::string needed = without(engine.empty() ? "live" : "still", whole_template);
+  if (!engine.empty()) needed = with_engine(std::move(needed), engine);
   if (scene.runs.empty()) needed = without("runs", needed);
   if (scene.sweeps.empty()) needed = without("sweeps", needed);
-  const Json json = scene_json(scene);
+  const Json json = json_of(scene, Numbers(nullptr));
   return filled(needed, scene.title, json_text(json));
+}
+
+std::string scene_json(const Scene& scene, std::vector<std::vector<double>>& arrays) {
+  check_scene(scene);
+  return json_text(json_of(scene, Numbers(&arrays)));
 }
 
 std::string page_template(const std::vector<std::string>& folders) {
@@ -319,6 +372,11 @@ std::string page_template(const std::vector<std::string>& folders) {
 
 std::string page_template() {
   return read_template(template_name);
+}
+
+std::string read_engine() {
+  return read_template("engine.html",
+                       "`scripts/setup --wasm && scripts/build wasm` makes it in bbsim's sources");
 }
 
 std::string template_file() {

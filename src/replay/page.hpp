@@ -18,7 +18,14 @@ namespace bbsim::replay {
 // at most 20,000 rows and 2.4 MB of numbers in all runs together; sweeps keep cases_kept(). Every
 // text of the scene appears as text in the page, whatever characters it has. Throws InputError as
 // check_scene() does, and for a damaged template.
-[[nodiscard]] std::string page(const Scene& scene, std::string_view page_template);
+//
+// With an `engine`, read_engine(), the page is live: it can run the scene's scenario again.
+[[nodiscard]] std::string page(const Scene& scene, std::string_view page_template,
+                               std::string_view engine = {});
+
+// The data of the same page, for one that is open already (wasm/engine.cpp): JSON in which each
+// list of numbers is the place of one of `arrays`. Throws InputError as check_scene() does.
+[[nodiscard]] std::string scene_json(const Scene& scene, std::vector<std::vector<double>>& arrays);
 
 // Reads the template, which CMake assembles, from share/bbsim beside the program or from
 // BBSIM_SHARE_PATH. Throws OutputError with advice if it is not there.
@@ -26,6 +33,10 @@ namespace bbsim::replay {
 
 // Reads the template from the first of these folders that has it.
 [[nodiscard]] std::string page_template(const std::vector<std::string>& folders);
+
+// Reads the engine of live pages, which scripts/build wasm makes, from the same folder. Throws
+// OutputError with advice if it is not there.
+[[nodiscard]] std::string read_engine();
 
 // Identifies a page of bbsim; found at the beginning of the template.
 inline constexpr const char* page_mark = "A replay made by bbsim";

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "base/quaternion.hpp"
+#include "replay/live.hpp"
 
 namespace bbsim::replay {
 
@@ -121,7 +122,8 @@ struct Scene {
   std::string title;
   std::vector<Run> runs;  // the first one leads; the others are its ghosts
   std::vector<Sweep> sweeps;
-  std::string version;  // of the bbsim that makes the page
+  std::optional<Live> live{};  // of a page that can run its scenario again
+  std::string version;         // of the bbsim that makes the page
 };
 
 // The column of this name, or nullptr.

@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::string_view title_mark = "@BBSIM_TITLE@";
 constexpr std::string_view data_mark = "@BBSIM_DATA@";
+constexpr std::string_view engine_mark = "@BBSIM_ENGINE@";
 
 // JSON for a <script> element. These characters occur only in strings, where the escapes mean the
 // same. Without them, nothing ends the script or one of its lines.
@@ -101,7 +102,12 @@ std::string filled(std::string_view page_template, const std::string& title,
   return result;
 }
 
-std::string read_template(const std::string& name, const std::vector<std::string>& folders) {
+std::string with_engine(std::string page_template, std::string_view engine) {
+  return page_template.replace(place_of(engine_mark, page_template), engine_mark.size(), engine);
+}
+
+std::string read_template(const std::string& name, const std::vector<std::string>& folders,
+                          const std::string& remedy) {
   std::string looked_in;
   for (const std::string& folder : folders) {
     try {
@@ -110,14 +116,18 @@ std::string read_template(const std::string& name, const std::vector<std::string
     }
     looked_in.append(looked_in.empty() ? "" : " and ").append(folder);
   }
+  if (!remedy.empty()) {
+    throw OutputError("cannot make a live page: " + name + " is not in " + looked_in + "; " +
+                      remedy);
+  }
   throw OutputError("cannot make a page: its template " + name + " is not in " + looked_in +
                     "; it is made where bbsim is built with three.js and dygraphs (Debian: "
                     "libjs-three, libjs-dygraphs; scripts/setup installs them): build bbsim again, "
                     "or set BBSIM_SHARE_PATH to the template's folder");
 }
 
-std::string read_template(const std::string& name) {
-  return read_template(name, file::share_folders());
+std::string read_template(const std::string& name, const std::string& remedy) {
+  return read_template(name, file::share_folders(), remedy);
 }
 
 std::string file_of_template(const std::string& name) {

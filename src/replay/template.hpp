@@ -15,12 +15,17 @@ namespace bbsim::replay {
 [[nodiscard]] std::string filled(std::string_view page_template, const std::string& title,
                                  const std::string& json);
 
+// Inserts the engine of a live page into its template. Throws InputError for a damaged template.
+[[nodiscard]] std::string with_engine(std::string page_template, std::string_view engine);
+
 // Reads a template from the first of these folders that has it. Throws OutputError with advice if
 // none does.
 [[nodiscard]] std::string read_template(const std::string& name,
-                                        const std::vector<std::string>& folders);
-// Reads it from share/bbsim beside the program or from BBSIM_SHARE_PATH.
-[[nodiscard]] std::string read_template(const std::string& name);
+                                        const std::vector<std::string>& folders,
+                                        const std::string& remedy = "");
+// Reads it from share/bbsim beside the program or from BBSIM_SHARE_PATH. `remedy` replaces the
+// usual advice.
+[[nodiscard]] std::string read_template(const std::string& name, const std::string& remedy = "");
 
 // The file that read_template() reads; empty if it is not there.
 [[nodiscard]] std::string file_of_template(const std::string& name);

@@ -74,7 +74,8 @@ std::optional<NumberKey> number_key(std::string_view path) {
   const auto leaf = find_leaf(declared_keys(), yaml::american(path), "", Declared::Kind::number);
   if (!leaf) return {};
   return NumberKey{leaf->value->dimension, leaf->value->range,
-                   yaml::read_quantity(leaf->standard, false, leaf->value->dimension).value};
+                   yaml::read_quantity(leaf->standard, false, leaf->value->dimension).value,
+                   leaf->value->whole};
 }
 
 std::optional<ScalarKey> scalar_key(std::string_view path) {

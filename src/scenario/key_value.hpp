@@ -17,6 +17,7 @@ struct NumberKey {
   yaml::Dimension dimension = yaml::Dimension::number;
   yaml::Range range{};
   std::optional<double> standard{};  // default, SI
+  bool whole = false;                // without fractions
 };
 
 // A key that is a single number or one of several names.

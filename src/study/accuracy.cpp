@@ -11,6 +11,7 @@
 #include "base/cpu_clock.hpp"
 #include "base/real.hpp"
 #include "solve/integrate.hpp"
+#include "study/checks.hpp"
 #include "study/reference.hpp"
 
 namespace bbsim::study {

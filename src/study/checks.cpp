@@ -10,7 +10,6 @@
 
 #include "base/real.hpp"
 #include "solve/radau/radau.hpp"
-#include "study/reference.hpp"
 
 namespace bbsim::study {
 namespace {
@@ -56,6 +55,10 @@ double rounding(const Track& run) {
 
 solve::Tolerances tolerances_of(double rtol) {
   return {rtol, 1e-2 * rtol};
+}
+
+int coordinates(const model::Model& model) {
+  return model.spin_state() < 0 ? 1 : 2;
 }
 
 bool came_to_its_end(const solve::Outcome& outcome) {

@@ -27,6 +27,9 @@ inline constexpr double finest_rtol = 1e-14;
 // Whether a run reached the end of the scene, or an event that stops it.
 [[nodiscard]] bool came_to_its_end(const solve::Outcome& outcome);
 
+// The number of leading states that are coordinates of the contact point in m: 2 (x and y) or 1.
+[[nodiscard]] int coordinates(const model::Model& model);
+
 // The part of a run that determines its error.
 struct Track {
   solve::Outcome outcome;

@@ -18,6 +18,7 @@
 #include "model/spectrum.hpp"
 #include "model/systems/any_jacobian.hpp"
 #include "solve/integrate.hpp"
+#include "study/checks.hpp"
 #include "study/quad_step.hpp"
 
 namespace bbsim::study {
@@ -193,10 +194,6 @@ double difference(const ReferenceSolution& a, const ReferenceSolution& b, int co
 }
 
 }  // namespace
-
-int coordinates(const model::Model& model) {
-  return model.spin_state() < 0 ? 1 : 2;
-}
 
 ReferenceSolution solve_reference(const model::Model& model, const solve::OutputGrid& grid,
                                   double tolerance, const solve::Watch& watch) {

@@ -34,9 +34,6 @@ struct ReferenceSolution {
   [[nodiscard]] const Quad* row(std::size_t i) const { return values.data() + i * row_size; }
 };
 
-// The number of leading states that are coordinates of the contact point in m: 2 (x and y) or 1.
-[[nodiscard]] int coordinates(const model::Model& model);
-
 // Solves by Radau IIA collocation of order 47, with steps as long as the solution's smoothness
 // allows. Shares only the model with the integrators. Stiff models are no harder than others. Ends
 // a step at each of the model's stops and restarts there.

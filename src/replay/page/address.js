@@ -36,6 +36,7 @@ bbsim.address = (() => {
     const zoom = plots ? plots.range : zoomIn(read());
     if (zoom) parts.push(`zoom=${zoom.map((t) => Number(t.toPrecision(9))).join(',')}`);
     if (palette.chosen()) parts.push(`theme=${palette.chosen()}`);
+    if (bbsim.live && bbsim.live.fragment()) parts.push(bbsim.live.fragment());
     const hash = '#' + parts.join('&');
     try {
       if (hash !== location.hash) history.replaceState(null, '', hash);

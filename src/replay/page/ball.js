@@ -43,6 +43,10 @@ bbsim.ball = (() => {
     const mesh = new THREE.Mesh(new THREE.SphereBufferGeometry(radius, 40, 28), material);
     return {
       mesh,
+      dispose() {
+        texture.dispose();
+        material.dispose();
+      },
       colour(cream, colour) {
         paint(canvas, cream, colour, plain);
         texture.needsUpdate = true;

@@ -23,8 +23,8 @@ bbsim.makeCamera = (canvas, rig, told) => {
   });
   const {yUp, zUp} = controls;
   // The unit of length is the longest side of the plate, as in the picture.
-  const scale = 1 / rig.size, radius = rig.ballRadius * scale;
-  controls.minDistance = Math.min(0.05, 3 * radius);
+  const scale = () => 1 / rig.size, radius = () => rig.ballRadius * scale();
+  controls.minDistance = Math.min(0.05, 3 * radius());
   controls.maxDistance = 20;
   const reduced = matchMedia('(prefers-reduced-motion: reduce)');
   const frameOf = (name) => (name === 'plate' || name === 'ball' ? name : 'world');
@@ -36,7 +36,7 @@ bbsim.makeCamera = (canvas, rig, told) => {
     const half = Math.tan(fov * Math.PI / 360) * 0.93, target = new THREE.Vector3();
     let far = 0;
     for (let again = 0; again < 3; ++again) {
-      const seen = rig.outline().map((point) => point.clone().multiplyScalar(scale).sub(target));
+      const seen = rig.outline().map((point) => point.clone().multiplyScalar(scale()).sub(target));
       far = Math.max(...seen.map((p) => p.dot(back) + Math.max(Math.abs(p.dot(over)) / half, Math.abs(p.dot(right)) / half / camera.aspect)));
       const heights = seen.map((p) => p.dot(over) / (far - p.dot(back)));
       target.addScaledVector(over, far * (Math.max(...heights) + Math.min(...heights)) / 2);
@@ -61,7 +61,7 @@ bbsim.makeCamera = (canvas, rig, told) => {
     if (name === 'front') return fit(new THREE.Vector3(0, -1, 0.09), up);
     if (name === 'axis') return fit(tiltAxis().negate().add(new THREE.Vector3(0, 0, 0.06)), up);
     // The ball takes a sixth of the picture's height.
-    if (name === 'ball') return {target: new THREE.Vector3(), position: corner().setLength(6 * radius / Math.tan(fov * Math.PI / 360))};
+    if (name === 'ball') return {target: new THREE.Vector3(), position: corner().setLength(6 * radius() / Math.tan(fov * Math.PI / 360))};
     return fit(corner(), up);
   }
 

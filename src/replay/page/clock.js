@@ -3,7 +3,9 @@
 
 'use strict';
 // The time that picture, plots and scrubber show, and its progress.
-bbsim.makeClock = ({start, end, runs}) => {
+bbsim.makeClock = (data) => {
+  const {runs} = data;
+  let {start, end} = data;
   const listeners = [], stateListeners = [], relaxed = [];
   let span = 0, due = 0;  // ms between calls of the relaxed listeners while time runs
   let now = start, playing = false, speed = 1, loop = false, last = null;
@@ -87,6 +89,11 @@ bbsim.makeClock = ({start, end, runs}) => {
     // For listeners that need not follow every frame if frames are slow.
     onTimeRelaxed: (listener) => relaxed.push(listener),
     relax(least) { span = least; },
+    // The runs have changed: stays at the time, as far as they have it.
+    reset() {
+      ({start, end} = data);
+      clock.seek(now);
+    },
     onState: (listener) => stateListeners.push(listener),
   };
   return clock;

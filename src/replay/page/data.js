@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// Decodes the numbers of the page's scene, and makes runs that know their state at any time.
+// Decodes the numbers of the page's scene, and makes runs that know their state at any time. A live
+// page replaces the scene: runs keep their identity, and views listen with onChange().
 bbsim.data = (() => {
   function bytes(text) {
     const raw = atob(text);
@@ -10,14 +11,16 @@ bbsim.data = (() => {
     for (let i = 0; i < raw.length; ++i) result[i] = raw.charCodeAt(i);
     return result;
   }
-  const floats = (text) => new Float32Array(bytes(text).buffer);
-  const doubles = (text) => new Float64Array(bytes(text).buffer);
-
-  const parts = (text) => Float32Array.from(new Int16Array(bytes(text).buffer), (part) => part / 32767);
+  // Numbers are encoded as text or, in a live page, places of these arrays.
+  let arrays = [];
+  const decoded = (decode) => (given) => (typeof given === 'number' ? arrays[given] : decode(bytes(given).buffer));
+  const floats = decoded((buffer) => new Float32Array(buffer));
+  const doubles = decoded((buffer) => new Float64Array(buffer));
+  const parts = decoded((buffer) => Float32Array.from(new Int16Array(buffer), (part) => part / 32767));
 
   // Times are listed or, if evenly spaced, given by start, step and count.
   function times(json) {
-    if (typeof json === 'string') return doubles(json);
+    if (typeof json !== 'object') return doubles(json);
     return Float64Array.from({length: json.count}, (_, i) => json.start + i * json.step);
   }
 
@@ -34,8 +37,14 @@ bbsim.data = (() => {
 
   class Run {
     constructor(json, index) {
-      Object.assign(this, json);
       this.index = index;
+      this.shown = true;
+      this.load(json);
+    }
+
+    load(json) {
+      delete this.legs;
+      Object.assign(this, json);
       this.t = times(json.time);
       this.columns = new Map();
       for (const column of json.columns) {
@@ -56,7 +65,6 @@ bbsim.data = (() => {
       this.hasAngles = this.columns.has('phi') || this.columns.has('theta');
       this.hasReference = this.columns.has('x_reference') && this.columns.has('y_reference');
       this.isMeasured = this.columns.has('x_measured') && this.columns.has('y_measured');
-      this.shown = true;
     }
 
     values(name) {
@@ -134,10 +142,30 @@ bbsim.data = (() => {
 
   const scene = JSON.parse(document.getElementById('bbsim-data').textContent);
   const runs = scene.runs.map((run, index) => new Run(run, index));
-  const start = Math.min(...runs.map((run) => run.start));
-  const end = Math.max(...runs.map((run) => run.last));
-  // Whether a coordinate can be drawn.
-  const shown = (value) => Math.abs(value) <= scene.stage.largest;
-
-  return {scene, runs, start, end, floats, doubles, extent, shown};
+  const listeners = [];
+  return {
+    scene, runs, floats, doubles, extent,
+    before: null,  // in a live page: the run to compare with
+    get start() { return Math.min(...runs.map((run) => run.start)); },
+    get end() { return Math.max(...runs.map((run) => run.last)); },
+    // Whether a coordinate can be drawn.
+    shown: (value) => Math.abs(value) <= scene.stage.largest,
+    // A run with the same content, which stays as it is.
+    copyOf: (run) => Object.assign(Object.create(Run.prototype), run),
+    // Replaces the scene by another one with as many runs.
+    replace(next, numbers) {
+      arrays = numbers;
+      const {stage} = scene;
+      Object.assign(scene, next);
+      const sameStage = JSON.stringify(stage) === JSON.stringify(next.stage);
+      scene.stage = Object.assign(stage, next.stage);
+      next.runs.forEach((json, index) => runs[index].load(json));
+      for (const listener of listeners) listener({sameStage});
+    },
+    // `listener({sameStage})` after each replacement; returns its unsubscription.
+    onChange(listener) {
+      listeners.push(listener);
+      return () => listeners.splice(listeners.indexOf(listener), 1);
+    },
+  };
 })();

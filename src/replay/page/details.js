@@ -133,6 +133,14 @@ bbsim.makeDetails = (container) => {
     return card(`Events (${run.eventCount})`, list, more > 0 ? element('p', {class: 'fine'}, `and ${more} more`) : null);
   }
 
-  for (const run of data.runs) container.append(section(run));
-  return {copyButton};
+  // Cards stay open or closed when the run changes.
+  function fill() {
+    const closed = new Set([...container.querySelectorAll('.card:not([open]) h3')].map((one) => one.textContent));
+    container.replaceChildren(...data.runs.map(section));
+    for (const heading of container.querySelectorAll('.card h3')) {
+      if (closed.has(heading.textContent)) heading.closest('.card').open = false;
+    }
+  }
+  fill();
+  return {copyButton, fill};
 };

@@ -8,7 +8,7 @@ bbsim.makeFlat = (canvas) => {
   const {scene, runs, shown} = bbsim.data;
   const {stage} = scene;
   const {palette, text} = bbsim;
-  const lead = runs[0], size = Math.max(stage.width, stage.depth);
+  const [lead] = runs;
   const visible = {trail: true, reference: true, sensor: true, events: true, axes: true, gimbal: true};
   const make = () => {
     const made = document.createElement('canvas');
@@ -83,7 +83,7 @@ bbsim.makeFlat = (canvas) => {
     const words = [];
     if (visible.axes) {
       for (const [name, dx, dy] of [['x', 1, 0], ['y', 0, -1]]) {
-        const far = 0.13 * size * scale, [x, y] = [px(0) + dx * far, py(0) + dy * far];
+        const far = 0.13 * Math.max(stage.width, stage.depth) * scale, [x, y] = [px(0) + dx * far, py(0) + dy * far];
         ground.strokeStyle = ground.fillStyle = colours[name];
         ground.lineWidth = 3 * line;
         ground.beginPath();
@@ -359,5 +359,10 @@ bbsim.makeFlat = (canvas) => {
   bbsim.clock.onTime(ask);
   bbsim.clock.onTimeRelaxed(drawBase);
   palette.onChange(invalidate);
+  bbsim.data.onChange(({sameStage}) => {
+    for (const actor of actors) actor.last = [0, 0];
+    if (!sameStage) width = 0;  // measures the room anew
+    invalidate();
+  });
   return flat;
 };

@@ -74,6 +74,16 @@ bbsim.groups = (() => {
     return made;
   }
 
+  // In a live page, the motion of the run before, thin and pale.
+  function beforeOf(curves) {
+    const {before} = bbsim.data;
+    if (!before) return [];
+    return curves.filter(({role, name}) => role === 'main' && before.columns.has(name)).map((curve) => ({
+      ...fromColumn(before, curve.name, {colour: () => palette.now().rim, width: 1, pattern: curve.axis === 2 ? [3, 3] : null, layer: 0.5}),
+      label: `${labelOf(curve.name)} before`,
+    }));
+  }
+
   function ofOneRun() {
     const more = derived(lead), used = new Set(), plots = [];
     for (const {title, columns} of scene.plots) {
@@ -88,7 +98,8 @@ bbsim.groups = (() => {
         curves.push({...curve, role, axis});
       }
       if (curves.length === 0) continue;
-      plots.push({title, unit: curves[0].unit, curves: curves.map((curve) => ({...curve, ...styleOf(curve, curves)}))});
+      const styled = curves.map((curve) => ({...curve, ...styleOf(curve, curves)}));
+      plots.push({title, unit: curves[0].unit, curves: [...styled, ...beforeOf(curves)]});
     }
     // Columns in no plot above: a plot for each unit, with at most four curves.
     const rest = new Map();

@@ -59,17 +59,19 @@
   }
 
   get('replay').hidden = false;
-  get('subtitle').append(describe(runs[0]));
   makePicture();
   const screen = bbsim.makeScreen(picture, () => bbsim.makeFlat(get('flat-canvas')));
   bbsim.screen = screen;
   bbsim.picture = picture;
 
   // Factors for the plate's angles in the picture, as far as it stays within 45 degrees.
-  const angles = runs.flatMap((run) => ['phi', 'theta'].map((name) => run.columns.get(name)));
-  const largest = Math.max(0, ...angles.map((column) => (column ? column.size : 0)));
-  const factors = [1, 2, 5, 10, 20, 50].filter((factor) => factor === 1 || factor * largest <= Math.PI / 4);
-  get('exaggeration').max = factors.length - 1;
+  let factors = [1];
+  function findFactors() {
+    const angles = runs.flatMap((run) => ['phi', 'theta'].map((name) => run.columns.get(name)));
+    const largest = Math.max(0, ...angles.map((column) => (column ? column.size : 0)));
+    factors = [1, 2, 5, 10, 20, 50].filter((factor) => factor === 1 || factor * largest <= Math.PI / 4);
+    get('exaggeration').max = factors.length - 1;
+  }
   function setFactor(value) {
     const nearest = factors.reduce((best, f) => (Math.abs(f - value) < Math.abs(best - value) ? f : best));
     if (picture) picture.exaggerate(nearest);
@@ -117,7 +119,7 @@
   if (picture) picture.eyes.onChange(mark);
 
   const chip = (name, words, sign) => {
-    const button = text.element('button', {type: 'button', class: 'chip', 'aria-pressed': 'true'},
+    const button = text.element('button', {type: 'button', class: 'chip', 'aria-pressed': String(screen.shows(name))},
                                 text.element('span', {class: `sign ${sign}`, 'aria-hidden': 'true'}), words);
     button.addEventListener('click', () => {
       const on = button.getAttribute('aria-pressed') !== 'true';
@@ -126,21 +128,37 @@
     });
     get('shown').append(button);
   };
-  chip('trail', 'trail', 'line');
-  if (runs[0].path.length > 0 || runs[0].hasReference) chip('reference', 'reference', 'dashed');
-  if (runs[0].isMeasured) chip('sensor', 'sensor', 'cross');
-  if (runs[0].events.length > 0) chip('events', 'events', 'diamond');
-  chip('axes', 'axes', 'axes');
-  if (picture) chip('gimbal', 'gimbal', 'frame');
-  const spacing = bbsim.gimbal.gridSpacing(), shown = text.shownIn(runs[0].unitsKnown ? 'm' : '', spacing);
-  const grid = `grid ${text.number(spacing * shown.factor)} ${shown.unit}`.trim();
-  get('canvas').setAttribute('aria-label', text.visible(
-      `${scene.title}: a ball on a plate in a gimbal, seen in three dimensions: ${grid}.` +
-      (scene.stage.plateGiven ? '' : ' The scene has no plate: the one drawn is large enough for the path.')));
-  get('flat-canvas').setAttribute('aria-label', text.visible(`${scene.title}: a ball on a plate, seen from above: ${grid}.`));
-  get('screen').append(text.element('p', {class: 'scale'},
-      `${grid}${scene.stage.plateGiven ? '' : ' · plate drawn to fit the path'}${runs[0].ball.given ? '' : ' · ball of no known size'}` +
-      `${runs[0].turns ? '' : ' · how the ball turns is not known'}`));
+  const scale = text.element('p', {class: 'scale'});
+  get('screen').append(scale);
+  // What depends on the runs.
+  function renew() {
+    const [lead] = runs;
+    get('subtitle').replaceChildren(describe(lead));
+    findFactors();
+    get('shown').replaceChildren();
+    chip('trail', 'trail', 'line');
+    if (lead.path.length > 0 || lead.hasReference) chip('reference', 'reference', 'dashed');
+    if (lead.isMeasured) chip('sensor', 'sensor', 'cross');
+    if (lead.events.length > 0) chip('events', 'events', 'diamond');
+    chip('axes', 'axes', 'axes');
+    if (picture) chip('gimbal', 'gimbal', 'frame');
+    const spacing = bbsim.gimbal.gridSpacing(), shown = text.shownIn(lead.unitsKnown ? 'm' : '', spacing);
+    const grid = `grid ${text.number(spacing * shown.factor)} ${shown.unit}`.trim();
+    get('canvas').setAttribute('aria-label', text.visible(
+        `${scene.title}: a ball on a plate in a gimbal, seen in three dimensions: ${grid}.` +
+        (scene.stage.plateGiven ? '' : ' The scene has no plate: the one drawn is large enough for the path.')));
+    get('flat-canvas').setAttribute('aria-label', text.visible(`${scene.title}: a ball on a plate, seen from above: ${grid}.`));
+    scale.textContent = `${grid}${scene.stage.plateGiven ? '' : ' · plate drawn to fit the path'}${lead.ball.given ? '' : ' · ball of no known size'}` +
+        `${lead.turns ? '' : ' · how the ball turns is not known'}`;
+    get('save-csv').title = `Save the numbers of this page as CSV (S): ${lead.t.length - (lead.hasEndRow ? 1 : 0)} of ${lead.rows} rows, seven digits`;
+  }
+  renew();
+  data.onChange(() => {
+    const factor = picture ? picture.factor : 1;
+    renew();
+    if (!factors.includes(factor)) setFactor(factor);
+    clock.reset();
+  });
   if (picture) picture.recolour();
   screen.setFlat(false);
   setFactor(1);
@@ -156,7 +174,6 @@
 
   const speeds = [...get('speed').options].map((option) => Number(option.value));
   get('save-csv').addEventListener('click', () => bbsim.save.csv(runs[0]));
-  get('save-csv').title = `Save the numbers of this page as CSV (S): ${runs[0].t.length - (runs[0].hasEndRow ? 1 : 0)} of ${runs[0].rows} rows, seven digits`;
   const png = () => bbsim.save.png(screen.shown, transport.timeText);
   get('save-png').addEventListener('click', png);
   bbsim.makeKeys({

@@ -8,8 +8,7 @@ bbsim.makePicture = (canvas, left) => {
   const {scene, runs} = bbsim.data;
   const {stage} = scene;
   const {palette, paint, text} = bbsim;
-  const lead = runs[0];
-  const size = Math.max(stage.width, stage.depth);
+  const [lead] = runs;
 
   // The canvas gets its final size at the start, so that its buffers are made once.
   const sizeOf = () => {
@@ -26,14 +25,12 @@ bbsim.makePicture = (canvas, left) => {
   // card do not cover all sizes.
   const root = new THREE.Scene(), world = new THREE.Group();
   root.background = new THREE.Color();
-  world.scale.setScalar(1 / size);
   root.add(world);
 
   const plate = document.createElement('canvas');
   plate.width = plate.height = 1024;
   const plateTexture = new THREE.CanvasTexture(plate);
   plateTexture.anisotropy = 4;
-  const trailWidth = 0.0055 * size;
   const materials = {
     face: paint.lit({map: plateTexture, gloss: 0.16}),
     slab: paint.lit({gloss: 0.05}),
@@ -44,18 +41,14 @@ bbsim.makePicture = (canvas, left) => {
     y: paint.flat(), event: paint.flat(), eventRim: paint.flat(), sensor: paint.flat({transparent: true, opacity: 0.85}),
     rim: paint.flat({depthTest: false}),
   };
-  const rig = bbsim.gimbal.build(lead, materials);
-  rig.width = stage.width + 0.2 * size;
-  rig.depth = stage.depth + 0.26 * size;
-  world.add(rig.base);
-  const floor = paint.shadow(0.3);
-  floor.scale.set(0.62 * rig.width, 0.62 * rig.depth, 1);
-  floor.position.z = -rig.foot - 0.012 * size;
-  world.add(floor);
+  const visible = {trail: true, reference: true, sensor: true, events: true, axes: true, gimbal: true};
+  const labels = [];
+  // What furnish() makes of the runs.
+  const rig = {}, parts = {};
+  let size, trailWidth, layers, marks, ribbons, actors, leader, floor, hasPath, target, targetLeast, seen, marked;
 
   // Puts an object on the plate, in layer n.
   const layer = (n, near = 1) => lead.mounting.height + n * 0.00025 * size * near;
-  const layers = [];
   function onPlate(object, n, plane = rig.plane) {
     layers.push({object, n});
     object.position.z = layer(n);
@@ -64,82 +57,108 @@ bbsim.makePicture = (canvas, left) => {
     return object;
   }
 
-  const visible = {trail: true, reference: true, sensor: true, events: true, axes: true, gimbal: true};
-  const labels = [];
-  const parts = {axes: new THREE.Group(), events: new THREE.Group(), reference: new THREE.Group(), sensor: new THREE.Group()};
-  for (const group of Object.values(parts)) rig.plane.add(group);
-  const marks = [];  // do not grow on the screen when the eye comes near
-  const ribbons = [];  // materials of ribbons, and their greatest widths
-
   function ribbonOf(part, make) {
     const material = paint.flat({spread: part * trailWidth});
     ribbons.push({material, width: part * trailWidth});
     return make(material);
   }
 
-  for (const axis of ['x', 'y']) {
-    onPlate(paint.arrow(axis, 0.13 * size, 0.0085 * size, materials[axis]), 2, parts.axes);
+  // Removes everything but the labels, with its memory on the graphics card.
+  function clear() {
+    for (const group of [world, ...actors.map(({marker}) => marker)]) {
+      group.traverse((part) => { if (part.geometry) part.geometry.dispose(); });
+    }
+    root.remove(...actors.map(({marker}) => marker));
+    world.remove(...world.children);
+    for (const {material} of ribbons) material.dispose();
+    for (const {ball} of actors) ball.dispose();
   }
 
-  // The balls and trails of all runs. The leading run is on the rig's plate; a run with angles has
-  // a ghost plate.
-  const actors = runs.map((run) => {
-    const leads = run === lead;
-    const edge = paint.flat({transparent: true, opacity: 0.7});
-    const links = leads ? rig : run.hasAngles ? bbsim.gimbal.buildGhost(run, edge) : null;
-    if (links && !leads) world.add(links.base);
-    const plane = links ? links.plane : rig.plane;
-    const ball = bbsim.ball.build(run.ball.radius, !leads, !run.turns);
-    ball.mesh.renderOrder = 10;
-    plane.add(ball.mesh);
-    const xs = run.values('x'), ys = run.values('y');
-    const pattern = leads ? null : palette.dash(run.index);
-    const dash = pattern && pattern.slice(0, 2).map((n) => n * 0.0022 * size);
-    const past = ribbonOf(1, (material) => new THREE.Mesh(paint.ribbon(xs, ys, trailWidth, dash), material));
-    // A ribbon of length 1 along x, with the width of its material.
-    const tip = new THREE.Mesh(paint.ribbon([-0.5, 0.5], [0, 0], 1, [2, 0]), past.material);
-    const future = ribbonOf(0.9, (material) => new THREE.Mesh(
-        leads ? paint.ribbon(xs, ys, 0.9 * trailWidth, [0.02 * size, 0.009 * size]) : past.geometry.clone(), material));
-    future.visible = leads;
-    const shadow = paint.shadow(0.55);
-    shadow.scale.set(1.5 * run.ball.radius, 1.5 * run.ball.radius, 1);
-    onPlate(future, 3, plane);
-    onPlate(past, 5, plane);
-    onPlate(tip, 5, plane);
-    onPlate(shadow, 8, plane);
-    const marker = paint.marker(paint.flat({depthTest: false}), materials.rim);
-    root.add(marker);
-    return {run, leads, links, plane, ball, past, tip, future, shadow, edge, marker};
-  });
-  const leader = actors[0];
+  // Builds the rig, the balls, trails, reference, sensor points and events.
+  function furnish() {
+    if (actors) clear();
+    size = Math.max(stage.width, stage.depth);
+    world.scale.setScalar(1 / size);
+    trailWidth = 0.0055 * size;
+    layers = [];
+    marks = [];  // do not grow on the screen when the eye comes near
+    ribbons = [];  // materials of ribbons, and their greatest widths
+    Object.assign(rig, bbsim.gimbal.build(lead, materials));
+    rig.width = stage.width + 0.2 * size;
+    rig.depth = stage.depth + 0.26 * size;
+    world.add(rig.base);
+    floor = paint.shadow(0.3);
+    floor.scale.set(0.62 * rig.width, 0.62 * rig.depth, 1);
+    floor.position.z = -rig.foot - 0.012 * size;
+    world.add(floor);
 
-  const hasPath = lead.path.length >= 4;
-  if (hasPath) {
-    const xs = lead.path.filter((_, i) => i % 2 === 0), ys = lead.path.filter((_, i) => i % 2 === 1);
-    onPlate(ribbonOf(0.75, (material) => {
-      materials.reference = material;
-      return new THREE.Mesh(paint.ribbon(xs, ys, 0.75 * trailWidth, [0.012 * size, 0.009 * size]), material);
-    }), 4, parts.reference);
-  }
-  const target = onPlate(paint.target(Math.max(1.45 * lead.ball.radius, 0.02 * size), materials.target), 7, parts.reference);
-  target.visible = lead.hasReference || lead.path.length === 2;
-  const targetLeast = 1.45 * lead.ball.radius / Math.max(1.45 * lead.ball.radius, 0.02 * size);
+    Object.assign(parts, {axes: new THREE.Group(), events: new THREE.Group(), reference: new THREE.Group(), sensor: new THREE.Group()});
+    for (const group of Object.values(parts)) rig.plane.add(group);
+    for (const axis of ['x', 'y']) {
+      onPlate(paint.arrow(axis, 0.13 * size, 0.0085 * size, materials[axis]), 2, parts.axes);
+    }
 
-  // The last points of the sensor.
-  const seen = [];
-  if (lead.isMeasured) {
-    for (let i = 0; i < 12; ++i) seen.push(onPlate(paint.cross(0.016 * size, materials.sensor), 6, parts.sensor));
-    marks.push(...seen);
-  }
+    // The balls and trails of all runs. The leading run is on the rig's plate; a run with angles has
+    // a ghost plate.
+    actors = runs.map((run) => {
+      const leads = run === lead;
+      const edge = paint.flat({transparent: true, opacity: 0.7});
+      const links = leads ? rig : run.hasAngles ? bbsim.gimbal.buildGhost(run, edge) : null;
+      if (links && !leads) world.add(links.base);
+      const plane = links ? links.plane : rig.plane;
+      const ball = bbsim.ball.build(run.ball.radius, !leads, !run.turns);
+      ball.mesh.renderOrder = 10;
+      plane.add(ball.mesh);
+      const xs = run.values('x'), ys = run.values('y');
+      const pattern = leads ? null : palette.dash(run.index);
+      const dash = pattern && pattern.slice(0, 2).map((n) => n * 0.0022 * size);
+      const past = ribbonOf(1, (material) => new THREE.Mesh(paint.ribbon(xs, ys, trailWidth, dash), material));
+      // A ribbon of length 1 along x, with the width of its material.
+      const tip = new THREE.Mesh(paint.ribbon([-0.5, 0.5], [0, 0], 1, [2, 0]), past.material);
+      const future = ribbonOf(0.9, (material) => new THREE.Mesh(
+          leads ? paint.ribbon(xs, ys, 0.9 * trailWidth, [0.02 * size, 0.009 * size]) : past.geometry.clone(), material));
+      future.visible = leads;
+      const shadow = paint.shadow(0.55);
+      shadow.scale.set(1.5 * run.ball.radius, 1.5 * run.ball.radius, 1);
+      onPlate(future, 3, plane);
+      onPlate(past, 5, plane);
+      onPlate(tip, 5, plane);
+      onPlate(shadow, 8, plane);
+      const marker = paint.marker(paint.flat({depthTest: false}), materials.rim);
+      root.add(marker);
+      return {run, leads, links, plane, ball, past, tip, future, shadow, edge, marker};
+    });
+    leader = actors[0];
 
-  // Marks only the first hundred events and the last one.
-  const marked = lead.events.filter((_, i) => i < 100 || i === lead.events.length - 1);
-  for (const event of marked) {
-    const mark = onPlate(paint.eventMark(event.action, 0.016 * size, materials.event, materials.eventRim), 6, parts.events);
-    mark.position.x = event.x;
-    mark.position.y = event.y;
-    marks.push(mark);
+    hasPath = lead.path.length >= 4;
+    if (hasPath) {
+      const xs = lead.path.filter((_, i) => i % 2 === 0), ys = lead.path.filter((_, i) => i % 2 === 1);
+      onPlate(ribbonOf(0.75, (material) => {
+        materials.reference = material;
+        return new THREE.Mesh(paint.ribbon(xs, ys, 0.75 * trailWidth, [0.012 * size, 0.009 * size]), material);
+      }), 4, parts.reference);
+    }
+    target = onPlate(paint.target(Math.max(1.45 * lead.ball.radius, 0.02 * size), materials.target), 7, parts.reference);
+    target.visible = lead.hasReference || lead.path.length === 2;
+    targetLeast = 1.45 * lead.ball.radius / Math.max(1.45 * lead.ball.radius, 0.02 * size);
+
+    // The last points of the sensor.
+    seen = [];
+    if (lead.isMeasured) {
+      for (let i = 0; i < 12; ++i) seen.push(onPlate(paint.cross(0.016 * size, materials.sensor), 6, parts.sensor));
+      marks.push(...seen);
+    }
+
+    // Marks only the first hundred events and the last one.
+    marked = lead.events.filter((_, i) => i < 100 || i === lead.events.length - 1);
+    for (const event of marked) {
+      const mark = onPlate(paint.eventMark(event.action, 0.016 * size, materials.event, materials.eventRim), 6, parts.events);
+      mark.position.x = event.x;
+      mark.position.y = event.y;
+      marks.push(mark);
+    }
   }
+  furnish();
 
   function label(words, colour, at, group, pixels) {
     const mesh = paint.label(words, colour, palette.now().plate, pixels);
@@ -244,7 +263,7 @@ bbsim.makePicture = (canvas, left) => {
 
   let factor = 1, waiting = false, forced = false, pixels = 1;
   const turn = new THREE.Quaternion();
-  const last = runs.map(() => [0, 0]);
+  let last = runs.map(() => [0, 0]);
   // An unknown angle is drawn level; the page says so.
   const angle = (run, t, name) => run.angleAt(t, name) || 0;
 
@@ -356,7 +375,10 @@ bbsim.makePicture = (canvas, left) => {
   }
 
   const picture = {
-    eyes, rig, actors, visible, hasPath, target, lead, renderer, canvas,
+    eyes, rig, visible, lead, renderer, canvas,
+    get actors() { return actors; },
+    get hasPath() { return hasPath; },
+    get target() { return target; },
     active: true,  // is on the screen
     draws: 0,      // number of drawings, for tests
     get factor() { return factor; },
@@ -420,5 +442,12 @@ bbsim.makePicture = (canvas, left) => {
   };
   bbsim.clock.onTime(() => picture.active && ask(false));
   palette.onChange(recolour);
+  bbsim.data.onChange(() => {
+    last = runs.map(() => [0, 0]);
+    furnish();
+    rig.reach(factor);
+    recolour();
+    eyes.refit();
+  });
   return picture;
 };

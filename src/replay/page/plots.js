@@ -9,7 +9,8 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
   const {element} = text;
   const plots = [];
   // Slightly more than the run, to have a number at its end.
-  const whole = data.end > data.start ? [data.start, data.end + 1e-6 * (data.end - data.start)] : [data.start - 0.5, data.end + 0.5];
+  const wholeRange = () => (data.end > data.start ? [data.start, data.end + 1e-6 * (data.end - data.start)] : [data.start - 0.5, data.end + 0.5]);
+  let whole = wholeRange();
   const timeLabel = data.runs.every((run) => run.unitsKnown) ? 't (s)' : 't';
   let hover = null, zooming = false, printing = false, range = bbsim.address.zoom();
 
@@ -110,6 +111,12 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
   // The range of a plot in which a few values are a thousand times farther out than all others, as
   // where a ball takes off: that of the others. Null if there are none.
   function innerRange(curves) {
+    // A few hundred values tell nearly always that there are none.
+    const some = curves.flatMap(({values}) => Array.from({length: Math.min(values.length, 100)}, (_, i) => values[Math.floor(i * values.length / 100)]))
+        .filter(Number.isFinite).sort((a, b) => a - b);
+    const extents = curves.map((curve) => data.extent(curve.values));
+    const reach = Math.max(...extents.map(({greatest}) => greatest)) - Math.min(...extents.map(({least}) => least));
+    if (some.length > 20 && reach < 500 * (some[Math.floor(0.9 * some.length)] - some[Math.floor(0.1 * some.length)])) return null;
     const values = curves.flatMap((curve) => Array.from(curve.values).filter(Number.isFinite)).sort((a, b) => a - b);
     const few = Math.ceil(0.01 * values.length);
     if (values.length < 20) return null;
@@ -118,18 +125,20 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
     return {low: low - 0.5 * span, high: high + 0.5 * span};
   }
 
+  // What a plot shows of a group of curves.
+  function contentOf(group) {
+    const {unit, curves} = group, inner = innerRange(curves);
+    // If a few values are far beyond the others, these determine the unit.
+    const size = inner ? Math.max(Math.abs(inner.low), Math.abs(inner.high)) : Math.max(...curves.map((curve) => data.extent(curve.values).size));
+    // Later curves cover earlier ones: references, then points and commands, then the motion.
+    const order = [...curves].sort((a, b) => a.layer - b.layer);
+    return {group, curves, order, size, inner, shown: text.shownIn(unit, size)};
+  }
+
   class Plot {
     constructor(group) {
-      const {title, unit, curves} = group;
-      this.group = group;
-      // Later curves cover earlier ones: references, then points and commands, then the motion.
-      this.order = [...curves].sort((a, b) => a.layer - b.layer);
-      this.curves = curves;
-      this.size = Math.max(...curves.map((curve) => data.extent(curve.values).size));
-      this.inner = innerRange(curves);
-      // The others determine the unit, too.
-      if (this.inner) this.size = Math.max(Math.abs(this.inner.low), Math.abs(this.inner.high));
-      this.shown = text.shownIn(unit, this.size);
+      const {title, curves} = group;
+      Object.assign(this, contentOf(group));
       this.readings = curves.map(() => element('output', {}));
       const legend = element('ul', {class: 'legend'}, ...curves.map((curve, i) => {
         const item = element('li', {title: text.visible(curve.meaning || '')}, swatch(curve),
@@ -167,7 +176,7 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
         },
         ...this.colours(),
         dateWindow: range || whole,
-        valueRange: this.inner ? [this.inner.low * this.shown.factor, this.inner.high * this.shown.factor] : null,
+        valueRange: this.valueRange(),
         highlightCallback: (event, t) => point(t),
         unhighlightCallback: () => point(null),
         clickCallback: (event, t) => {
@@ -180,6 +189,29 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
         },
         underlayCallback: (ink, area, graph) => (behind ? behind(ink, area, graph, this.group) : this.paintEvents(ink, area, graph)),
       });
+      this.placeCursor();
+    }
+
+    valueRange() {
+      return this.inner ? [this.inner.low * this.shown.factor, this.inner.high * this.shown.factor] : null;
+    }
+
+    // Takes the curves of another run, if it has the same ones in the same unit.
+    takes(group) {
+      const next = contentOf(group), names = ({title, curves}) => [title, ...curves.map((curve) => curve.label)].join();
+      if (names(group) !== names(this.group) || next.shown.unit !== this.shown.unit || Boolean(next.inner) !== Boolean(this.inner)) return false;
+      Object.assign(this, next);
+      this.stale = this.graph !== null;
+      if (this.near) this.freshen();
+      return true;
+    }
+
+    freshen() {
+      if (!this.stale) return;
+      this.stale = false;
+      zooming = true;
+      this.graph.updateOptions({file: tableOf(this.order, this.shown.factor), dateWindow: range || whole, valueRange: this.valueRange()});
+      zooming = false;
       this.placeCursor();
     }
 
@@ -283,11 +315,6 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
                              for (const plot of plots) if (plot.graph && plot.graph.isZoomed('y')) plot.graph.resetZoom();
                              setRange(null);
                            }}, 'all of it')));
-  for (const group of bbsim.groups()) {
-    const plot = new Plot(group);
-    plots.push(plot);
-    container.append(plot.root);
-  }
   // Builds a plot when it comes near the window, because many runs have more plots than anyone
   // reads.
   const near = new IntersectionObserver((entries) => {
@@ -296,9 +323,34 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
       plot.near = entry.isIntersecting;
       if (plot.near && plot.graph) plot.placeCursor();
       if (plot.near) plot.build();
+      if (plot.near) plot.freshen();
     }
   }, {rootMargin: '300px'});
-  for (const plot of plots) near.observe(plot.root);
+
+  function fill() {
+    for (const group of bbsim.groups()) {
+      const plot = new Plot(group);
+      plots.push(plot);
+      container.append(plot.root);
+      near.observe(plot.root);
+    }
+  }
+  function empty() {
+    near.disconnect();
+    for (const plot of plots.splice(0)) {
+      if (plot.graph) plot.graph.destroy();
+      plot.root.remove();
+    }
+  }
+  fill();
+  // Keeps the plots that show the same columns as before.
+  const unsubscribe = data.onChange(() => {
+    whole = wholeRange();
+    const groups = bbsim.groups();
+    if (groups.length === plots.length && groups.every((group, i) => plots[i].takes(group))) return;
+    empty();
+    fill();
+  });
 
   // Cursors follow the time. While it runs, numbers change a few times a second, as fast as one can
   // read.
@@ -316,10 +368,8 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
     zoom: (to) => setRange(to),
     // Removes all plots.
     end() {
-      near.disconnect();
-      for (const plot of plots.splice(0)) {
-        if (plot.graph) plot.graph.destroy();
-      }
+      unsubscribe();
+      empty();
       container.replaceChildren();
     },
     // Prints all plots whole at this size; null restores them.

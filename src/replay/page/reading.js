@@ -48,8 +48,9 @@
     if (data.runs.length > 1) makeRuns(get('runs'));
     if (data.runs.length > 0) {
       bbsim.plots = bbsim.makePlots(get('plots'));
-      bbsim.makeDetails(get('details'));
+      bbsim.details = bbsim.makeDetails(get('details'));
       bbsim.preparePrint();
+      if (bbsim.makeLive) bbsim.makeLive(get('live'));
     }
     const sweeps = data.scene.sweeps;
     if (sweeps.length > 0) {

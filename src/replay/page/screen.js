@@ -32,6 +32,7 @@ bbsim.makeScreen = (solid, makeFlat) => {
       screen.shown.invalidate();
       for (const listener of listeners) listener();
     },
+    shows: (name) => !off.has(name),
     show(name, on) {
       off[on ? 'delete' : 'add'](name);
       for (const one of [solid, flat]) if (one) one.show(name, on);

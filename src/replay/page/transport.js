@@ -6,21 +6,20 @@
 // corner.
 bbsim.makeTransport = () => {
   const {clock, text, data} = bbsim;
-  const {start, end, runs} = data;
-  const lead = runs[0];
+  const [lead] = data.runs;
+  let {start, end} = data;
   const get = (id) => document.getElementById(id);
   const scrub = get('scrub'), time = get('time'), play = get('play'), speed = get('speed'), loop = get('loop');
-  const decimals = text.decimalsOfTime(lead.t.length > 1 ? (lead.last - lead.start) / (lead.t.length - 1) : 0.1);
+  let decimals, early, endText, scale;  // set by renew()
   const steps = Number(scrub.max);
 
   const timeText = (t) => t.toFixed(decimals).replace('-', '−');
   // A run that ended between two rows shows its end time, to six digits.
-  const early = lead.status && lead.status !== 'done';
   const isOver = (t) => early && t >= lead.last - 1e-9 * Math.max(1, Math.abs(lead.last));
-  const endText = early && end === lead.last && timeText(lead.reached) * 1 !== lead.reached ? text.number(lead.reached, 6) : timeText(end);
   const shownTime = (t) => (isOver(t) && t === end ? endText : timeText(t));
   const put = (node, words) => { if (node.textContent !== words) node.textContent = words; };
-  time.append(text.element('b', {}), ` / ${endText} s`);
+  const of = document.createTextNode('');
+  time.append(text.element('b', {}), of);
 
   function showTime(t) {
     scrub.value = end > start ? Math.round((t - start) / (end - start) * steps) : 0;
@@ -58,11 +57,11 @@ bbsim.makeTransport = () => {
   }
 
   // The full scale of the level: the first of these that holds the run's largest tilt.
-  const scale = (() => {
+  function scaleOfLevel() {
     const largest = Math.hypot(...['phi', 'theta'].map((name) => (lead.columns.get(name) || {size: 0}).size));
     const degrees = text.degrees * (Math.min(largest, Math.PI) + Math.abs(lead.mounting.baseTilt));
     return [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 45, 90, 180].find((s) => degrees <= s) || 180;
-  })();
+  }
   get('level').title = 'Tilt of the plate: the dot shows downhill, in the plate\'s own axes';
 
   let lastTilt;
@@ -103,19 +102,30 @@ bbsim.makeTransport = () => {
   speed.addEventListener('change', () => clock.setSpeed(Number(speed.value)));
   loop.addEventListener('click', () => clock.setLoop(!clock.loop));
 
-  const ticks = get('ticks');
-  for (const event of lead.events.slice(0, 300)) {
+  const tickOf = (event) => {
     const part = end > start ? (event.t - start) / (end - start) : 0;
-    ticks.append(text.element('button', {
+    return text.element('button', {
       type: 'button', class: `tick ${event.action === 'stop' ? 'stop' : 'note'}`, style: `left: ${100 * part}%`, tabindex: '-1',
       title: text.visible(`${event.name} at ${event.t.toFixed(decimals + 1)} s`), onclick: () => clock.seek(event.t),
       'aria-label': text.visible(`To ${event.name} at ${event.t.toFixed(decimals + 1)} s`),
-    }));
-  }
-  if (lead.status && lead.status !== 'done') {
-    const [why] = lead.reason.split('\n');
+    });
+  };
+
+  // What depends on the run, not on the time.
+  function renew() {
+    ({start, end} = data);
+    decimals = text.decimalsOfTime(lead.t.length > 1 ? (lead.last - lead.start) / (lead.t.length - 1) : 0.1);
+    early = lead.status && lead.status !== 'done';
+    endText = early && end === lead.last && timeText(lead.reached) * 1 !== lead.reached ? text.number(lead.reached, 6) : timeText(end);
+    of.textContent = ` / ${endText} s`;
+    scale = scaleOfLevel();
+    lastTilt = undefined;
+    get('ticks').replaceChildren(...lead.events.slice(0, 300).map(tickOf));
+    const [why] = (lead.reason || '').split('\n');
     get('ended').textContent = text.visible(why ? why[0].toUpperCase() + why.slice(1) : `The run ended here: ${lead.status}`);
   }
+  renew();
+  data.onChange(renew);
   clock.onTimeRelaxed(showTime);
   clock.onState(showState);
   showTime(clock.now);

@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The engine of a live page, for src/replay/page/engine.js, which calls it in a worker. It takes
+// {text, name, set, measures, checked, keys}: the text of a scenario, its name, settings as after
+// --set, and what to tell beside the run.
+#include <emscripten/emscripten.h>
+
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/fault.hpp"
+#include "api/replay.hpp"
+#include "api/run.hpp"
+#include "base/json.hpp"
+#include "replay/page.hpp"
+#include "scenario/edit_text.hpp"
+#include "scenario/exercise.hpp"
+#include "scenario/family.hpp"
+#include "scenario/measures.hpp"
+
+namespace bbsim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Answer {
+  std::string text;                         // JSON
+  std::vector<std::vector<double>> arrays;  // which the JSON names by their places
+};
+Answer answer;
+
+std::vector<ScenarioFamily::Setting> settings_of(const Json& request) {
+  std::vector<ScenarioFamily::Setting> settings;
+  for (const auto& [key, value] : request["set"].items()) {
+    settings.push_back({key, value.get<std::string>()});
+  }
+  return settings;
+}
+
+Source source_of(const Json& request) {
+  Source source{request["name"], request["text"], {}};
+  for (const auto& [key, value] : settings_of(request))
+    source.overrides.push_back(key + '=' + value);
+  return source;
+}
+
+Json problems_json(const InputError& error) {
+  Json faults = Json::array();
+  for (const Problem& problem : error.problems()) {
+    const api::KeyAndHint found = api::key_and_hint(problem.message);
+    faults.push_back({{"place", problem.where},
+                      {"message", problem.message},
+                      {"key", found.key},
+                      {"hint", found.hint}});
+  }
+  return {{"faults", faults}};
+}
+
+// The scenario's own columns, without the row at which an event stopped the run.
+Json columns_json(const api::RunResult& result, std::vector<std::vector<double>>& arrays) {
+  Json columns = Json::object();
+  const std::size_t rows = replay::rows_of_file(*result.pictured);
+  for (const std::string& name : result.columns) {
+    const std::vector<double>& all = replay::find_series(*result.pictured, name)->values;
+    columns[name] = arrays.size();
+    arrays.emplace_back(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(rows));
+  }
+  return columns;
+}
+
+// The text with the settings, comments kept; the text alone if one of them cannot be set in it.
+std::string edited(const Json& request) {
+  const std::vector<ScenarioFamily::Setting> settings = settings_of(request);
+  try {
+    return settings.empty() ? request["text"] : Json(edited_text(request["text"], settings));
+  } catch (const InputError&) {
+    return request["text"];
+  }
+}
+
+// A run: what a page shows of it, its columns, measures, and which tasks of its exercise hold.
+Json run(const Json& request, std::vector<std::vector<double>>& arrays) {
+  const Source source = source_of(request);
+  const ScenarioFamily family(source);
+  api::RunRequest wanted;
+  wanted.scenario = family.read({});
+  wanted.scenario.source = source;
+  wanted.pictured = true;
+  wanted.checked = request["checked"];
+  for (const auto& name : request["measures"]) wanted.measures.push_back(name);
+  if (wanted.measures.empty()) {
+    wanted.measures = scenario::default_measures(wanted.scenario.controller &&
+                                                 commands_of(wanted.scenario) == nullptr);
+  }
+  const std::optional<scenario::Exercise> exercise = scenario::checked_exercise(wanted.scenario);
+  if (exercise) {
+    for (const scenario::Exercise::Task& task : exercise->tasks)
+      wanted.expect.push_back(task.expect);
+  }
+  api::Watch nobody;
+  api::RunResult result = api::run(wanted, nobody);
+  Json json;
+  Json& measures = json["measures"] = Json::object();
+  for (const auto& [name, value] : result.summary.measures) {
+    measures[name] = {{"value", value}, {"unit", scenario::find_measure(name)->unit()}};
+  }
+  Json& tasks = json["tasks"] = Json::array();
+  for (std::size_t i = 0; i < wanted.expect.size(); ++i) {
+    tasks.push_back({{"text", exercise->tasks[i].text},
+                     {"expect", wanted.expect[i]},
+                     {"value", result.summary.expectations[i].value},
+                     {"holds", result.summary.expectations[i].holds}});
+  }
+  json["warnings"] = result.summary.warnings;
+  json["columns"] = columns_json(result, arrays);
+  replay::Scene scene = api::scene_of(std::move(*result.pictured));
+  if (request["keys"]) scene.live = replay::live_of(wanted.scenario);
+  json["scene"] = parse_json(replay::scene_json(scene, arrays));
+  json["text"] = edited(request);
+  return json;
+}
+
+Json answered(const Json& request, std::vector<std::vector<double>>& arrays) {
+  try {
+    return run(request, arrays);
+  } catch (const InputError& error) {
+    return problems_json(error);
+  } catch (const std::exception& error) {
+    return {{"faults", {{{"place", ""}, {"message", error.what()}, {"key", ""}, {"hint", ""}}}}};
+  }
+}
+
+}  // namespace
+}  // namespace bbsim
+
+extern "C" {
+
+// Does what the request says. Returns JSON, valid until the next call.
+EMSCRIPTEN_KEEPALIVE const char* bbsim_answer(const char* request) {
+  using bbsim::answer;
+  answer.arrays.clear();
+  answer.text = bbsim::json_text(bbsim::answered(bbsim::parse_json(request), answer.arrays));
+  return answer.text.c_str();
+}
+
+EMSCRIPTEN_KEEPALIVE int bbsim_arrays() {
+  return static_cast<int>(bbsim::answer.arrays.size());
+}
+
+EMSCRIPTEN_KEEPALIVE const double* bbsim_array(int place) {
+  return bbsim::answer.arrays.at(static_cast<std::size_t>(place)).data();
+}
+
+EMSCRIPTEN_KEEPALIVE int bbsim_size(int place) {
+  return static_cast<int>(bbsim::answer.arrays.at(static_cast<std::size_t>(place)).size());
+}
+}
