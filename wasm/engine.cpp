@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The engine of a live page, for src/replay/page/engine.js, which calls it in a worker. It takes
-// {text, name, set, measures, checked, keys}: the text of a scenario, its name, settings as after
-// --set, and what to tell beside the run.
+// {text, name, set, controlled, measures, checked, keys}: the text of a scenario, its name,
+// settings as after --set, whether the page's controller replaces the law, and what to tell beside
+// the run.
 #include <emscripten/emscripten.h>
 
+#include <cstdlib>
 #include <exception>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -14,6 +17,7 @@
 #include <vector>
 
 #include "api/fault.hpp"
+#include "api/outside_commands.hpp"
 #include "api/replay.hpp"
 #include "api/run.hpp"
 #include "base/json.hpp"
@@ -61,6 +65,67 @@ Json problems_json(const InputError& error) {
   return {{"faults", faults}};
 }
 
+// Asks the page's controller, step(sample) of engine.js. `sample` has its number, the time, whether
+// the ball was seen, the ball, the reference and its two derivatives, the servo and its rate, and
+// the sampling period. Writes two commands. Returns 0, or 1 if the controller failed: its message
+// is in Module.fault.
+EM_JS(int, ask_page, (const double* sample, double* commands), {
+  return Module.command(HEAPF64.subarray(sample / 8, sample / 8 + 16),
+                        HEAPF64.subarray(commands / 8, commands / 8 + 2));
+});
+
+EM_JS(char*, page_fault, (), {
+  const size = lengthBytesUTF8(Module.fault) + 1;
+  const text = _malloc(size);
+  stringToUTF8(Module.fault, text, size);
+  return text;
+});
+
+// A controller that the viewer of the page has written.
+class InPage : public model::ExternalController {
+ public:
+  explicit InPage(double period) : period_(period) {}
+
+  void begin() override {}
+  model::Commands command(const model::ControllerSample& of, double* /*own*/) override {
+    const api::Sample its = api::copy_of(of);
+    const Pair ball = its.ball.value_or(Pair{});
+    const double sample[16] = {static_cast<double>(its.number),
+                               its.t,
+                               its.ball ? 1.0 : 0.0,
+                               ball[0],
+                               ball[1],
+                               its.reference[0],
+                               its.reference[1],
+                               its.reference_rate[0],
+                               its.reference_rate[1],
+                               its.reference_acceleration[0],
+                               its.reference_acceleration[1],
+                               its.servo[0],
+                               its.servo[1],
+                               its.servo_rate[0],
+                               its.servo_rate[1],
+                               period_};
+    Pair commands{};
+    if (ask_page(sample, commands.data()) == 0) return {commands[0], commands[1], 0};
+    char* const words = page_fault();
+    const std::string fault = words;
+    std::free(words);
+    throw model::ControllerFault(fault);
+  }
+
+ private:
+  double period_;  // s
+};
+
+Scenario with_controller_of_page(const Scenario& scenario) {
+  Scenario its = api::with_outside_commands(scenario);
+  its.controller->own->by = ControllerFactory{
+      "the controller of this page",
+      [](const Scenario& of) { return std::make_shared<InPage>(of.controller->sampling->period); }};
+  return its;
+}
+
 // The scenario's own columns, without the row at which an event stopped the run.
 Json columns_json(const api::RunResult& result, std::vector<std::vector<double>>& arrays) {
   Json columns = Json::object();
@@ -90,6 +155,7 @@ Json run(const Json& request, std::vector<std::vector<double>>& arrays) {
   api::RunRequest wanted;
   wanted.scenario = family.read({});
   wanted.scenario.source = source;
+  if (request["controlled"]) wanted.scenario = with_controller_of_page(wanted.scenario);
   wanted.pictured = true;
   wanted.checked = request["checked"];
   for (const auto& name : request["measures"]) wanted.measures.push_back(name);
@@ -104,6 +170,8 @@ Json run(const Json& request, std::vector<std::vector<double>>& arrays) {
   }
   api::Watch nobody;
   api::RunResult result = api::run(wanted, nobody);
+  // As when a controller fails at once.
+  if (replay::row_count(*result.pictured) == 0) throw InputError(result.summary.reason);
   Json json;
   Json& measures = json["measures"] = Json::object();
   for (const auto& [name, value] : result.summary.measures) {

@@ -20,7 +20,7 @@ namespace bbsim::api {
 namespace {
 
 // One of the files after reading; a scenario is run later.
-struct Source {
+struct Opened {
   std::string name;
   std::optional<Scenario> scenario{};
   std::optional<results::Result> result{};
@@ -81,21 +81,21 @@ void note_all(const std::vector<std::string>& notes, Watch& watch) {
   for (const std::string& note : notes) watch.note(note);
 }
 
-Source read_log(const ReplayRequest& request, std::size_t log, const std::string& name,
+Opened read_log(const ReplayRequest& request, std::size_t log, const std::string& name,
                 Watch& watch) {
   results::LogChoice choice = request.log;
   if (request.logs.size() > 1 && choice.maps.size() > 1) choice.maps = {choice.maps[log]};
   std::vector<std::string> notes;
   results::Result read = results::read_csv_columns(request.logs[log], choice.header, notes);
-  Source source{name};
+  Opened source{name};
   source.log = replay::run_of_log(std::move(read), choice, name, notes);
   note_all(notes, watch);
   return source;
 }
 
-Source read_shown(const ReplayRequest& request, const ReplayRequest::Shown& shown,
+Opened read_shown(const ReplayRequest& request, const ReplayRequest::Shown& shown,
                   const std::string& name, file::Outputs& outputs, Watch& watch) {
-  Source source{name};
+  Opened source{name};
   if (shown.result) {
     source.result = shown.result;
   } else if (is_scenario(shown.file)) {
@@ -112,12 +112,12 @@ Source read_shown(const ReplayRequest& request, const ReplayRequest::Shown& show
 }
 
 // Reads all files, and reports all their faults together.
-std::vector<Source> read_all(const ReplayRequest& request, file::Outputs& outputs, Watch& watch) {
+std::vector<Opened> read_all(const ReplayRequest& request, file::Outputs& outputs, Watch& watch) {
   std::vector<std::string> files;
   for (const ReplayRequest::Shown& shown : request.shown) files.push_back(shown.file);
   files.insert(files.end(), request.logs.begin(), request.logs.end());
   const std::vector<std::string> names = names_of(files);
-  std::vector<Source> sources;
+  std::vector<Opened> sources;
   std::vector<Problem> problems;
   for (std::size_t i = 0; i < files.size(); ++i) {
     const std::size_t count = request.shown.size();
@@ -156,19 +156,19 @@ bool is_scenario(const std::string& file) {
 
 ReplayMade replay(const ReplayRequest& request, file::Outputs& outputs, Watch& watch) {
   check_request(request);
-  std::vector<Source> sources = read_all(request, outputs, watch);
-  const auto sweeps = static_cast<std::size_t>(std::ranges::count_if(sources, &Source::is_sweep));
+  std::vector<Opened> sources = read_all(request, outputs, watch);
+  const auto sweeps = static_cast<std::size_t>(std::ranges::count_if(sources, &Opened::is_sweep));
   if (sweeps > 0 && sweeps < sources.size()) {
-    throw InputError(std::ranges::find_if(sources, &Source::is_sweep)->name +
+    throw InputError(std::ranges::find_if(sources, &Opened::is_sweep)->name +
                      ": is a sweep, among runs; allowed: a page of runs, or one of sweeps");
   }
-  for (const Source& source : sources) {
+  for (const Opened& source : sources) {
     if (source.result && !source.result->left_out.empty()) watch.note(source.result->left_out);
   }
   if (request.before_running) request.before_running();
   ReplayMade made;
   made.scene.version = version();
-  for (Source& source : sources) {
+  for (Opened& source : sources) {
     if (source.scenario) {
       RunRequest run;
       run.scenario = std::move(*source.scenario);
@@ -201,7 +201,7 @@ replay::Run run_of(results::Result result, const std::string& name) {
   const std::string title = result.title;
   replay::Run run = replay::run_of_result(std::move(result), name);
   if (!scenario) return run;
-  const bbsim::Source& source = scenario->source;
+  const Source& source = scenario->source;
   try {
     api::describe(run, parse_scenario(source.text, source.file, source.overrides));
   } catch (const InputError&) {  // its tables are gone, for example, or another version wrote it

@@ -3,13 +3,9 @@
 
 #include "api/stepped_run.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "api/fiber.hpp"
-#include "base/error.hpp"
-#include "base/number_text.hpp"
 
 namespace bbsim::api {
 
@@ -26,16 +22,6 @@ struct SteppedRun::State {
   RunResult result;
   Fiber fiber;
 };
-
-Sample copy_of(const model::ControllerSample& sample) {
-  const auto& [x, y] = sample.reference;
-  Sample copy{sample.number,      sample.t,         sample.seen,
-              {x.value, y.value}, {x.rate, y.rate}, {x.acceleration, y.acceleration},
-              sample.servo.size()};
-  std::ranges::copy(sample.servo, copy.servo.begin());
-  std::ranges::copy(sample.servo_rate, copy.servo_rate.begin());
-  return copy;
-}
 
 namespace {
 
@@ -58,28 +44,6 @@ class Waiting : public model::ExternalController {
 };
 
 }  // namespace
-
-void require_finite(const Pair& command) {
-  if (std::isfinite(command[0]) && std::isfinite(command[1])) return;
-  throw InputError("commands: found [" + number_text(command[0]) + ", " + number_text(command[1]) +
-                   "]; allowed: finite numbers");
-}
-
-Scenario with_outside_commands(Scenario scenario) {
-  if (!scenario.controller || !scenario.controller->sampling) {
-    throw InputError(
-        "controller.sampling: found none; allowed: {period: \"20 ms\"}, since commands from "
-        "outside are given once per sample");
-  }
-  if (scenario.controller->drives == Drives::legs) {
-    throw InputError(
-        "controller.drives: found legs; allowed: angle, since commands from outside are for phi "
-        "and theta");
-  }
-  scenario.controller->law = Law::own;
-  scenario.controller->own.emplace();
-  return scenario;
-}
 
 SteppedRun::SteppedRun(const Scenario& scenario, RunRequest request) {
   request.scenario = with_outside_commands(scenario);

@@ -4,37 +4,13 @@
 // A run that waits at each sample for commands from outside.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <memory>
-#include <optional>
-#include <string>
-#include <vector>
 
+#include "api/outside_commands.hpp"
 #include "api/run.hpp"
 #include "base/pair.hpp"
-#include "scenario/family.hpp"
 
 namespace bbsim::api {
-
-// What a controller receives at a sample (docs/reference/controllers.md), SI.
-struct Sample {
-  std::size_t number = 0;
-  double t = 0;
-  std::optional<Pair> ball;
-  Pair reference{}, reference_rate{}, reference_acceleration{};
-  std::size_t commands = 2;  // number of commands; three, like the servos, under drives: legs
-  std::array<double, 3> servo{}, servo_rate{};
-};
-
-[[nodiscard]] Sample copy_of(const model::ControllerSample& sample);
-
-// Replaces the scenario's law with commands from outside. Throws InputError if its controller takes
-// no samples, or drives legs.
-[[nodiscard]] Scenario with_outside_commands(Scenario scenario);
-
-// Throws InputError for a command that is not finite.
-void require_finite(const Pair& command);
 
 class SteppedRun {
  public:

@@ -16,7 +16,7 @@ bbsim.makeLive = (container) => {
   let base = original.text, set = new Map(original.set);  // the text, and the keys set in it
   let offered = data.scene.live, yaml = base, measures = {}, tasks = offered.tasks.map(() => false), columns = null;
   const history = [];
-  let pinned = false, computing = false, waiting = null, calm = 0;
+  let pinned = false, controlled = false, computing = false, waiting = null, calm = 0;
 
   function settingsOf(overrides) {
     return overrides.map((words) => [words.slice(0, words.indexOf('=')), words.slice(words.indexOf('=') + 1)]);
@@ -28,7 +28,7 @@ bbsim.makeLive = (container) => {
   const stop = element('button', {type: 'button', hidden: true, onclick: () => engine.stop('stopped')}, 'Stop');
   const faults = element('ul', {class: 'faults'});
 
-  const request = (more = {}) => ({text: base, name, set: Object.fromEntries(set), measures: [], checked: false, keys: false, ...more});
+  const request = (more = {}) => ({text: base, name, set: Object.fromEntries(set), controlled, measures: [], checked: false, keys: false, ...more});
 
   async function ask(more) {
     const begun = performance.now();
@@ -263,6 +263,16 @@ bbsim.makeLive = (container) => {
         ? [bbsim.drawPoles(lead.poles), element('figcaption', {}, lead.poles.period === null ? 'Poles: stable left of the line, 1/s' : 'Poles of a period: stable within the circle')] : []));
   }
 
+  // --- The viewer's controller --------------------------------------------------------------
+
+  const control = (script) => {
+    remember();
+    engine.control(script);
+    controlled = script !== '';
+    return run();
+  };
+  const controller = bbsim.makeControllerCard((script) => quietly(control(script)));
+
   // --- Buttons ------------------------------------------------------------------------------
 
   const button = (words, title, action) => element('button', {type: 'button', title, onclick: action}, words);
@@ -312,7 +322,7 @@ bbsim.makeLive = (container) => {
   showNumbers(null);
   showButtons();
   container.append(element('div', {class: 'live-head'}, element('h2', {}, 'Change it'), status, stop), ...[offerLink()].filter(Boolean),
-                   element('p', {class: 'buttons'}, undoing, back, pin, download), faults, exercise, sliders, element('div', {class: 'live-numbers'}, numbers, poles), editing);
+                   element('p', {class: 'buttons'}, undoing, back, pin, download), faults, exercise, sliders, element('div', {class: 'live-numbers'}, numbers, poles), controller, editing);
   // The engine starts at the first touch.
   for (const touch of ['pointerenter', 'focusin', 'pointerdown']) container.addEventListener(touch, () => engine.start(), {once: true});
 
@@ -337,6 +347,8 @@ bbsim.makeLive = (container) => {
       set = new Map();
       return run({keys: true});
     },
+    // Lets a script with step(sample) control the gimbal; '' for the scenario's law.
+    control,
     undo, reset, fragment,
   };
 };
