@@ -29,8 +29,8 @@ function(content_of name result)
   string(REGEX REPLACE "\n?(//|/[*])# sourceMappingURL=[^\n]*" "" content "${content}")
   # The page states its license once.
   string(REGEX REPLACE "^((//|/[*]) SPDX-[^\n]*\n+)+" "" content "${content}")
-  # Remove indentation and comment lines, which a page does not need.
-  if(NOT name MATCHES "[.]min[.]")
+  # Remove indentation and comment lines, which a page does not need. examples.js has texts to show.
+  if(NOT name MATCHES "[.]min[.]|^examples[.]js$")
     string(REGEX REPLACE "\n[ \t]*//[^\n]*" "" content "${content}")
     string(REGEX REPLACE "\n[ \t\n]+" "\n" content "${content}")
   endif()

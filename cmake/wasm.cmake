@@ -12,7 +12,6 @@ foreach(_needed IN ITEMS yaml-cpp/src include/Eigen include/nlohmann include/fas
   endif()
 endforeach()
 
-# -Oz halves the time that a browser needs to compile the engine; the kernels, which compute, keep -O2.
 target_compile_options(bbsim_options INTERFACE
   -msimd128 -fwasm-exceptions -fno-math-errno $<$<COMPILE_LANGUAGE:CXX>:-include${PROJECT_SOURCE_DIR}/wasm/libcxx.hpp>
   -Wno-unused-command-line-argument -Wno-sign-compare)

@@ -9,7 +9,7 @@
 * At the end, no link may be broken, and nothing may come from the network.
 
 The environment names the folder that scripts/docs prepared: BBSIM_SITE_MADE, with assets/ and replays/,
-and the scenarios that it replayed: BBSIM_SITE_REPLAYS.
+the scenarios that it replayed, BBSIM_SITE_REPLAYS, and those with live pages, BBSIM_SITE_LIVE.
 """
 
 import json
@@ -161,15 +161,25 @@ def on_page_read_source(page, config):
     return None
 
 
+def described(name):
+    """The title of a shipped scenario, and the first lines of its comment."""
+    with open(os.path.join(ROOT, "configs", name + ".yaml"), encoding="utf-8") as scenario:
+        text = scenario.read()
+    comment = re.match(r"(?:# \S.*\n)*", text)[0].replace("# ", "").replace("\n", " ")
+    title = re.search(r"^title: *(.*)$", text, re.MULTILINE)
+    return title[1].strip("\"'") if title else name, comment
+
+
 def gallery():
-    """The replays that scripts/docs made, each under its title and the first lines of its scenario's comment."""
+    """The replays that scripts/docs made, each under its title, and a table of all live pages."""
     parts = []
+    live = os.environ["BBSIM_SITE_LIVE"].split()
+    if live:
+        parts.append("\n## Try bbsim in the browser\n\nThese pages run bbsim itself. Move a slider, or change the text "
+                     "([how](how-to/live.md)).\n\n| page | scenario |\n|---|---|\n")
+        parts += [f'| <a href="replays/{name}.html" target="_blank">{name}</a> | {described(name)[0]} |\n' for name in live]
     for name in os.environ["BBSIM_SITE_REPLAYS"].split():
-        with open(os.path.join(ROOT, "configs", name + ".yaml"), encoding="utf-8") as scenario:
-            text = scenario.read()
-        comment = re.match(r"(?:# \S.*\n)*", text)[0].replace("# ", "").replace("\n", " ")
-        title = re.search(r"^title: *(.*)$", text, re.MULTILINE)
-        heading = title[1].strip("\"'") if title else name
+        heading, comment = described(name)
         parts.append(f"""
 ## {heading}
 

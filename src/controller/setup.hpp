@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,7 @@ struct Setup {
   std::vector<Parameter> parameters;
   // The number of commands that it gives, and of servos whose state it receives.
   [[nodiscard]] std::size_t commands() const { return drives == Drives::legs ? 3 : 2; }
-  unsigned long seed = 1;             // of random parts beside the controller's sensor
+  std::uint64_t seed = 1;             // of random parts beside the controller's sensor
   std::array<double, 3> microstep{};  // of each axis or leg, rad; 0: not a stepper
   std::vector<std::string> columns;   // names of the numbers that bbsim wants from it
 };

@@ -302,7 +302,7 @@ void read_sensor(yaml::Keys& keys, Sensor& sensor) {
   keys.optional("noise", fine, sensor.noise);
   auto seed = static_cast<double>(sensor.seed);
   if (keys.optional("seed", yaml::Whole{0, "1"}, seed)) {
-    sensor.seed = static_cast<unsigned long>(seed);
+    sensor.seed = static_cast<std::uint64_t>(seed);
   }
   const yaml::Number delay{yaml::Dimension::time, {.at_least = 0}};
   keys.optional("delay", yaml::Usual{delay, "ms", 1}, sensor.delay);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <numbers>
@@ -384,7 +385,7 @@ enum class OnMiss { none, last, edge };
 struct Sensor {
   double resolution = 0;       // quantization, m; 0: none
   double noise = 0;            // standard deviation of each coordinate, m
-  unsigned long seed = 1;      // for noise, dropouts and the jitter of the sampling
+  std::uint64_t seed = 1;      // for noise, dropouts and the jitter of the sampling
   double delay = 0;            // from the measurement to the sample, s
   double dropout = 0;          // probability that a sample has no measurement
   std::optional<Pair> area{};  // sides of the field of view, a rectangle, m

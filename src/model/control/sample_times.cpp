@@ -10,13 +10,13 @@ namespace bbsim::model {
 namespace {
 
 // Jitter has its own sequence for each seed, so that noise and dropouts draw as without it.
-constexpr unsigned long other_sequence = 0x9e3779b97f4a7c15UL;
+constexpr std::uint64_t other_sequence = 0x9e3779b97f4a7c15U;
 // The shortest period, as a fraction of the nominal one.
 constexpr double shortest = 0.1;
 
 }  // namespace
 
-SampleTimes::SampleTimes(const Sampling& sampling, unsigned long seed)
+SampleTimes::SampleTimes(const Sampling& sampling, std::uint64_t seed)
     : sampling_(sampling), noise_(seed + other_sequence) {}
 
 double SampleTimes::at(double n) {

@@ -16,7 +16,7 @@ namespace bbsim::model {
 class SampleTimes {
  public:
   // `seed` is that of the sensor's noise; jitter uses another sequence.
-  SampleTimes(const Sampling& sampling, unsigned long seed);
+  SampleTimes(const Sampling& sampling, std::uint64_t seed);
 
   // The time of sample n = 0, 1, ..., s; not of samples that have been forgotten.
   [[nodiscard]] double at(double n);

@@ -10,7 +10,7 @@ namespace bbsim::model {
 
 BallSensor::BallSensor(const Sensor& sensor) : sensor_(sensor), noise_(sensor.seed) {
   // The seed of noise and jitter (sample_times.cpp), but another sequence.
-  constexpr unsigned long other_sequence = 0x3c6ef372fe94f82aUL;
+  constexpr std::uint64_t other_sequence = 0x3c6ef372fe94f82aU;
   if (sensor.dropout > 0) dropouts_.emplace(sensor.seed + other_sequence);
 }
 

@@ -1,30 +1,32 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Makes the pictures of docs/how-to/replay.md: pictures.py BBSIM MAKE_PAGE TEMPLATE SOURCE FOLDER"""
+"""Makes the pictures of docs/how-to/replay.md and live.md: pictures.py BBSIM MAKE_PAGE TEMPLATE SOURCE FOLDER"""
 
 import os
 import subprocess
 import sys
+import time
 
 folder = os.path.abspath(sys.argv[5])
-from test_replay import BBSIM, SOURCE, Comparison, files  # noqa: E402: it reads the command line
+from test_replay import BBSIM, SOURCE, TEMPLATE, Comparison, files  # noqa: E402: it reads the command line
 from webdriver import Browser, small_png  # noqa: E402
 
 
-def take(name, page, script, width, height, **options):
+def take(name, page, script, width, height, wait=0, **options):
     with Browser(width, height, **options) as browser:
         browser.open(page)
         browser.run(script)
+        time.sleep(wait)
         browser.frame()
         browser.frame()
         with open(os.path.join(folder, name + ".png"), "wb") as picture:
             picture.write(small_png(browser.picture()))
 
 
-def replay(config):
+def replay(config, *options):
     page = files("picture-" + config + ".html")
-    subprocess.run([BBSIM, "replay", files.config(config), "-o", page, "-q"], cwd=SOURCE, check=False)
+    subprocess.run([BBSIM, "replay", files.config(config), "-o", page, "-q", *options], cwd=SOURCE, check=False)
     return "file://" + page
 
 
@@ -36,3 +38,6 @@ take("replay-compare", Comparison().page(), "bbsim.seek(1.2)", 1100, 700)
 gains, _ = files.sweep("map", "fig2b", "--vary", "controller.pd.kv.0.0=linear:0.2:4:31", "--vary",
                        "controller.pd.kp.0.0=linear:0:8:25")
 take("replay-sweep", gains, "bbsim.sweeps[0].choose(134)", 1100, 700)
+if os.path.exists(os.path.join(os.path.dirname(TEMPLATE), "engine.html")):
+    take("live", replay("fig2b", "--live"),
+         "bbsim.live.set('controller.reference.circle.radius', '8 cm').then(() => bbsim.seek(12.4))", 1100, 700, wait=5)

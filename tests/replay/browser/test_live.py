@@ -1,0 +1,251 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+
+"""Tests live pages in a headless Chromium: test_live.py BBSIM SOURCE [TEST...]
+
+The engine computes what the program computes with its baseline kernels; sliders, text, links and controllers work; no
+text runs as code. scripts/test-browser calls it.
+"""
+
+import atexit
+import csv
+import os
+import platform
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from webdriver import Browser
+
+BBSIM, SOURCE = (os.path.abspath(name) for name in sys.argv[1:3])
+FOLDER = tempfile.mkdtemp(prefix="bbsim-live-")
+atexit.register(shutil.rmtree, FOLDER, True)
+
+# Scenarios of configs/ whose motion is smooth: their error falls with the tolerance.
+SMOOTH = ["fig2a", "fig2b", "incline", "beam", "lissajous", "waypoints", "torque-lqr"]
+BASELINE = "sse2" if platform.machine() in ("x86_64", "AMD64") else "baseline"
+# These read files.
+WITH_FILES = ["recorded", "traced"]
+
+
+def page(scenario, *options):
+    file = os.path.join(FOLDER, os.path.basename(scenario) + f"{len(os.listdir(FOLDER))}.html")
+    subprocess.run([BBSIM, "replay", scenario, "--live", "-o", file, "-q", *options], cwd=SOURCE, check=False)
+    return "file://" + file
+
+
+def native(scenario, *options):
+    """The columns of the program's own run."""
+    file = os.path.join(FOLDER, "native.csv")
+    subprocess.run([BBSIM, "run", scenario, "-o", file, "-q", *options], cwd=SOURCE, check=False,
+                   env={**os.environ, "BBSIM_SIMD": BASELINE}, stderr=subprocess.DEVNULL)
+    with open(file, newline="") as stream:
+        rows = list(csv.reader(stream))
+    return {name: [float(row[i]) for row in rows[1:]] for i, name in enumerate(rows[0])}
+
+
+class Live(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = Browser(1280, 900).__enter__()
+        cls.addClassCleanup(cls.browser.__exit__, None, None, None)
+
+    def open(self, url):
+        self.browser.call("POST", "/url", {"url": "about:blank"})
+        self.browser.console()
+        self.browser.open(url)
+        self.assertEqual(self.browser.console(), [])
+        self.js("bbsim.screen.setFlat(true)")
+
+    def js(self, script, *arguments):
+        return self.browser.run("return " + script, *arguments)
+
+    def run_js(self, script, *arguments):
+        """The value of an async function's body; a rejection becomes {fault: its message}."""
+        return self.browser.call("POST", "/execute/async", {
+            "script": "const done = arguments[arguments.length - 1], args = [...arguments];"
+                      f"(async () => {{ {script} }})().then(done, (error) => done({{fault: error.message}}));",
+            "args": list(arguments)})
+
+    def columns_of(self, text, **keys):
+        found = self.run_js("await bbsim.live.edit(args[0]);"
+                            "for (const [key, value] of Object.entries(args[1])) await bbsim.live.set(key, value);"
+                            "return Object.fromEntries(Object.entries(bbsim.live.columns).map(([key, values]) => "
+                            "[key, [...values].map(String)]))", text, keys)
+        self.assertNotIn("fault", found)
+        return {name: [float(value.replace("Infinity", "inf")) for value in values] for name, values in found.items()}
+
+    def compare(self, found, wanted, within):
+        self.assertEqual(sorted(found), sorted(wanted))
+        for name, values in wanted.items():
+            self.assertEqual(len(found[name]), len(values), name)
+            size = max((abs(value) for value in values if value == value), default=0)
+            apart = [0 if a != a and b != b else abs(a - b) for a, b in zip(found[name], values)]
+            row = max(range(len(apart)), key=lambda i: apart[i])
+            self.assertLessEqual(apart[row], within * size, f"{name}, row {row}: {found[name][row]} and {values[row]}")
+
+
+class Engine(Live):
+    def test_computes_what_the_program_computes(self):
+        self.open(page("configs/fig2b.yaml"))
+        for file in sorted(os.listdir(os.path.join(SOURCE, "configs"))):
+            name, ending = os.path.splitext(file)
+            if ending != ".yaml" or name in WITH_FILES:
+                continue
+            with self.subTest(name), open(os.path.join(SOURCE, "configs", file), encoding="utf-8") as stream:
+                text = stream.read()
+                # The positions' rounding differs with the machine's sine and root; a motion that is not smooth
+                # multiplies it.
+                self.compare(self.columns_of(text), native(f"configs/{file}"), 1e-6)
+                if name in SMOOTH:
+                    self.compare(self.columns_of(text, **{"solver.rtol": "1e-12", "solver.atol": "1e-14"}),
+                                 native(f"configs/{file}", "--set", "solver.rtol=1e-12", "--set", "solver.atol=1e-14"),
+                                 1e-12)
+
+    def test_says_what_it_cannot_run(self):
+        self.open(page("configs/recorded.yaml"))
+        fault = self.run_js("await bbsim.live.set('ball.radius', '2 cm')")["fault"]
+        self.assertIn("recorded-angles.csv", fault)
+        self.open(page("configs/fig2b.yaml"))
+        self.assertIn("solver.method", self.run_js("await bbsim.live.set('solver.method', 'bdf')")["fault"])
+
+    def test_starts_at_the_first_touch(self):
+        self.open(page("configs/fig2b.yaml"))
+        self.assertEqual(self.js("document.querySelector('.live-status').textContent"), "")
+        self.assertEqual(len(self.js("[...bbsim.live.columns.x]")), 1051)
+
+
+class Page(Live):
+    def test_sliders_follow_the_exercise(self):
+        self.open(page("examples/exercise/circle.yaml"))
+        free = self.js("bbsim.data.scene.live.free")
+        self.assertEqual(self.js("[...document.querySelectorAll('.slider input[type=range]')].map((one) => one.dataset.key)"),
+                         [key for key in sorted(free) if key in self.js("bbsim.data.scene.live.keys.map(({key}) => key)")])
+        self.run_js("await bbsim.live.set('gravity', 9.81)")
+        tasks = self.js("bbsim.live.tasks")
+        self.assertEqual(len(tasks), self.js("bbsim.data.scene.live.tasks.length"))
+        self.assertEqual(self.js("document.querySelectorAll('.tasks .holds').length"), tasks.count(True))
+
+    def test_a_slider_changes_the_run(self):
+        self.open(page("configs/fig2b.yaml"))
+        before = self.js("bbsim.data.runs[0].at(0, 'x')")
+        self.run_js("const slider = document.querySelector('[data-key=\"controller.reference.circle.radius\"]');"
+                    "slider.value = 8; slider.dispatchEvent(new Event('input'));"
+                    "await new Promise((resolve) => setTimeout(resolve, 50)); await bbsim.live.set('gravity', '9.8')")
+        self.assertIn("radius: 8 cm", self.js("bbsim.live.yaml"))
+        self.assertIn("# Fig. 2(b)", self.js("bbsim.live.yaml"))  # comments stay
+        after = self.js("bbsim.data.runs[0].at(0, 'x')")
+        self.assertNotEqual(before, after)
+        # The picture has the new path, and the plots the former run beside it.
+        self.assertAlmostEqual(max(self.js("[...bbsim.data.runs[0].path]")), 0.08, 3)
+        self.assertIn("x before", self.js("document.getElementById('plots').textContent"))
+
+    def test_undo_and_back_to_the_file(self):
+        self.open(page("configs/fig2b.yaml", "--set", "gravity=9.7"))
+        x = self.js("bbsim.data.runs[0].values('x')[500]")
+        self.run_js("await bbsim.live.set('gravity', 3); await bbsim.live.set('gravity', 4)")
+        self.assertNotEqual(self.js("bbsim.data.runs[0].values('x')[500]"), x)
+        for act in ["bbsim.live.undo(); bbsim.live.undo()", "bbsim.live.set('gravity', 5).catch(() => {}); bbsim.live.reset()"]:
+            self.run_js(act + "; await new Promise((resolve) => setTimeout(resolve, 1500))")
+            self.assertAlmostEqual(self.js("bbsim.data.runs[0].values('x')[500]"), x, 6)
+
+    def test_faults_are_told_at_their_line(self):
+        self.open(page("configs/fig2b.yaml"))
+        said = self.run_js("await bbsim.live.edit(bbsim.live.yaml.replace('radius', 'radios'))")
+        self.assertIn("did you mean ball.radius?", said["fault"])
+        self.js("[...document.querySelectorAll('.faults li')].find((one) => one.textContent.includes('did you mean ball.radius'))"
+                ".querySelector('button').click()")
+        self.assertIn("radios", self.js("document.activeElement.value.slice(document.activeElement.selectionStart, "
+                                        "document.activeElement.selectionEnd)"))
+        # The run before stays.
+        self.assertEqual(self.js("bbsim.data.runs[0].t.length"), 1051)
+
+    def test_an_event_and_another_plate(self):
+        self.open(page("configs/fig2b.yaml"))
+        self.run_js("await bbsim.live.edit(bbsim.live.yaml + '\\nplate: {size: [\"6 cm\", \"6 cm\"]}\\nevents: {edge: stop}\\n')")
+        self.assertEqual(self.js("bbsim.data.runs[0].status"), "stopped")
+        self.assertEqual(self.js("bbsim.data.scene.stage.width"), 0.06)
+        self.js("bbsim.screen.setFlat(false)")
+        self.js("bbsim.picture.draw()")
+        self.assertEqual(self.js("document.querySelectorAll('.tick.stop').length"), 1)
+        self.assertEqual(self.browser.console(), [])
+
+    def test_a_link_asks_before_it_changes_anything(self):
+        url = page("configs/fig2b.yaml")
+        self.open(url)
+        self.run_js("await bbsim.live.set('gravity', '5'); await new Promise((resolve) => setTimeout(resolve, 400))")
+        link = self.js("location.href")
+        self.assertIn("set=", link)
+        self.open(link)
+        self.assertIn("gravity = 5", self.js("document.querySelector('.offer').textContent"))
+        self.assertIn("gravity: 9.81", self.js("bbsim.live.yaml"))
+        self.js("document.querySelector('.offer button').click()")
+        self.run_js("await new Promise((resolve) => setTimeout(resolve, 2000))")
+        self.assertIn("gravity: 5", self.js("bbsim.live.yaml"))
+
+
+class Controllers(Live):
+    def test_the_examples_follow_the_circle(self):
+        self.open(page("configs/rig.yaml"))
+        for name in self.js("Object.keys(bbsim.examples)"):
+            with self.subTest(name):
+                self.assertIsNone(self.run_js("await bbsim.live.control(bbsim.examples[args[0]])", name))
+                self.assertEqual(self.js("bbsim.data.runs[0].status"), "done")
+                self.assertLess(self.js("bbsim.live.measures.max_tracking_error"), 0.02)
+
+    def test_errors_are_told_at_their_line(self):
+        self.open(page("configs/rig.yaml"))
+        for script, said in [("function step() {\n  return [1 2];\n}", "line 2: SyntaxError"),
+                             ("function step(s) {\n\n  return s.no.where;\n}", "line 3: Cannot read"),
+                             ("function step() { return [0]; }", "returned [0]; allowed: [phi, theta]"),
+                             ("let a = 1;", "step is not defined")]:
+            with self.subTest(script):
+                self.assertIn(said, self.run_js("await bbsim.live.control(args[0])", script)["fault"])
+
+    def test_an_endless_one_can_be_stopped(self):
+        self.open(page("configs/rig.yaml"))
+        said = self.run_js("const run = bbsim.live.control('function step() { for (;;); }').catch((error) => error.message);"
+                           "await new Promise((resolve) => setTimeout(resolve, 2500));"
+                           "const button = document.querySelector('.live-head button');"
+                           "if (button.hidden) return 'no button'; button.click(); return run")
+        self.assertEqual(said, "stopped")
+        self.assertIsNone(self.run_js("await bbsim.live.control('')"))
+
+    def test_has_no_network(self):
+        self.open(page("configs/rig.yaml"))
+        self.browser.requests()
+        self.run_js("await bbsim.live.control('function step() { fetch(\"http://127.0.0.1:9/\").catch(() => {}); return [0, 0]; }')")
+        self.assertEqual([url for url in self.browser.requests() if url.startswith("http")], [])
+        self.browser.console()
+
+
+class Hostile(Live):
+    SCRIPTS = ["</script><script>window.broken = 1</script>", "<img src=x onerror='window.broken = 1'>",
+               "\"><svg onload=window.broken=1>", "javascript:window.broken=1", "${window.broken=1}",
+               "<!--<script>window.broken=1//-->", "'; window.broken = 1; '", "{{constructor.constructor('window.broken=1')()}}",
+               "\u2028window.broken=1\u202e", "</textarea><script>window.broken=1</script>"]
+
+    def test_no_text_runs_as_code(self):
+        for i, words in enumerate(self.SCRIPTS):
+            quoted = "'" + words.replace("'", "''").replace("\u2028", " ") + "'"
+            file = os.path.join(FOLDER, f"hostile{i}.yaml")
+            with open(os.path.join(SOURCE, "configs/fig2b.yaml"), encoding="utf-8") as stream:
+                text = stream.read()
+            lines = [line for line in text.split("\n") if not line.startswith("title:")]
+            tasks = f"exercise: {{tasks: [{{text: {quoted}, expect: max_tilt < 5 deg}}]}}"
+            with open(file, "w", encoding="utf-8") as stream:
+                stream.write("\n".join(lines) + f"\ntitle: {quoted}\n{tasks}\n# {words.splitlines()[0]}\n")
+            with self.subTest(words):
+                self.open(page(file) + "#set=" + "%5B%5B%22gravity%22%2C" + "".join(
+                    f"%{byte:02X}" for byte in ('"' + words.replace("\\", "\\\\").replace('"', '\\"') + '"').encode()) + "%5D%5D")
+                self.run_js("for (const key of ['title', 'gravity', args[0]]) await bbsim.live.set(key, args[0]).catch(() => {});"
+                            "await bbsim.live.edit(args[0]).catch(() => {});"
+                            "for (const button of document.querySelectorAll('.offer button')) button.click();"
+                            "await new Promise((resolve) => setTimeout(resolve, 300))", words)
+                self.assertIsNone(self.js("window.broken || null"))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
