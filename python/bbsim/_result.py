@@ -17,7 +17,8 @@ from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Sequence,
 import numpy as np
 
 from . import _bbsim
-from ._scenario import Array, Settings, fault, listed, log_choice, overrides, refuse
+from ._logs import Log, as_files, log_choice, without_folders
+from ._scenario import Array, Settings, fault, listed, overrides, refuse
 
 if TYPE_CHECKING:
     import matplotlib.figure
@@ -314,7 +315,7 @@ class Compared:
 
 
 def replay(
-    *files: Union[File, Result], output: Optional[File] = None, data: Texts = (), map: Texts = (), header: Texts = (),
+    *files: Union[File, Result], output: Optional[File] = None, data: Union[Log, Sequence[Log]] = (), map: Texts = (), header: Texts = (),
     period: str = "", time_offset: str = "", missing: Any = None, title: str = "", summary: File = "",
     scenario: File = "", set: Settings = None,
 ) -> Page:  # fmt: skip
@@ -322,6 +323,7 @@ def replay(
 
     files     files, or results of ``bbsim.run``
     output    also writes the page to this file, NAME.html
+    data      logs to show beside a scenario: files, dicts of arrays or DataFrames
     """
     shown = [file._stored() if isinstance(file, Result) else os.fspath(file) for file in files]
     log = log_choice(map, header, period, time_offset, missing)
@@ -329,24 +331,30 @@ def replay(
     target = "" if output is None else os.fspath(output)
     if target and not target.lower().endswith(".html"):
         raise refuse("output", target, "a name that ends in .html")
-    made = _bbsim.replay(shown, listed(data), log, beside, title, target)
+    with as_files(data) as logs:
+        made = _bbsim.replay(shown, logs, log, beside, title, target)
     if target:
         _bbsim.write_file(target, made[0])
-    return Page(*made)
+    return Page(made[0], made[1], [without_folders(note) for note in made[2]])
 
 
 def compare(
-    a: File, b: File, *, rtol: Optional[float] = None, atol: Optional[float] = None, columns: Texts = (),
+    a: Log, b: Log, *, rtol: Optional[float] = None, atol: Optional[float] = None, columns: Texts = (),
     map: Texts = (), header: Texts = (), period: str = "", time_offset: str = "", missing: Any = None,
     set: Settings = None,
 ) -> Compared:  # fmt: skip
-    """Compares two files of results, or a log with a run or a scenario. The keywords are the options of ``bbsim compare``."""
+    """Compares two files of results, or a log with a run or a scenario. The keywords are the options of ``bbsim compare``.
+
+    a, b      files; a log may be a dict of arrays or a DataFrame
+    """
     log = log_choice(map, header, period, time_offset, missing)
     for name, found in (("rtol", rtol), ("atol", atol)):
         if not (found is None or isinstance(found, Real)):
             raise refuse(name, repr(found), "a number, in SI units")
-    made = _bbsim.compare(os.fspath(a), os.fspath(b), overrides(set), rtol, atol, listed(columns), log)
-    return Compared(made.alike, made.text, made.reason, made.warnings)
+    with as_files([a, b]) as (one, other):
+        made = _bbsim.compare(one, other, overrides(set), rtol, atol, listed(columns), log)
+    notes = [without_folders(text) for text in made.warnings]
+    return Compared(made.alike, without_folders(made.text), made.reason, notes)
 
 
 def examples() -> Dict[str, Path]:

@@ -153,12 +153,6 @@ def listed(texts: Any) -> List[str]:
     return [str(key) if one is None else f"{key}={written(one)}" for key, one in texts.items()]
 
 
-def log_choice(map: Any, header: Any, period: Any, time_offset: Any, missing: Any) -> _bbsim.LogChoice:
-    """How to read a log; None and "" leave an option out."""
-    gone = "" if missing is None else str(missing)
-    return _bbsim.LogChoice(listed(map), listed(header), str(period or ""), str(time_offset or ""), gone)
-
-
 def given(scenario: Union[Scenario, _bbsim.Given], settings: Settings = None, error: Any = None) -> _bbsim.Given:
     """The scenario with settings. One that is already given stays as it is, and simulate() reads it only once."""
     if isinstance(scenario, _bbsim.Given):

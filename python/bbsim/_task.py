@@ -13,7 +13,7 @@ import shutil
 import sys
 import time
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, List, NoReturn, Optional, Sequence
+from typing import Any, Callable, Dict, List, NoReturn, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -57,6 +57,11 @@ class FreeKey:
 
     def number(self, value: float) -> float:
         return math.log(value / self.start) if self.logarithmic else (value - self.start) / self.scale
+
+    def ends(self) -> Tuple[float, float]:
+        """The numbers of the bounds."""
+        low = -math.inf if self.logarithmic and self.lower <= 0 else self.number(self.lower)
+        return low, self.number(self.upper)
 
     def slope(self, u: float) -> float:
         """The derivative of the value by u."""
