@@ -18,7 +18,7 @@ from ._fit_windows import Log, LogKey, Windows, WindowsFit, cut, start_coordinat
 from ._logs import as_files, log_choice, without_folders
 from ._scenario import Array, InputError, Scenario, Settings, fault, given as given_of, listed, refuse
 from ._task import (
-    Bar, FreeKey, Progress, declare, print_report, read_bounds, read_free_key, read_free_keys, refuse_free, silent,
+    Bar, FreeKey, Progress, declare, print_report, read_bounds, read_free_key, read_free_keys, refuse_free, refuse_twice, silent,
     usual_scale, write_found,
 )  # fmt: skip
 
@@ -172,9 +172,7 @@ class _Task:
         known = {column[0]: column[2] for column in _bbsim.known_columns("rad")}
         self.units: List[str] = [known[name] for name in self.columns]
         self.keys += [_log_key(text, self.columns, self.units) for text in free if text.strip().startswith("log.")]
-        names = [key.name for key in self.keys]
-        if len(set(names)) < len(names):
-            refuse_free(f"{max(names, key=names.count)} is given twice")
+        refuse_twice([key.name for key in self.keys])
 
     def _without_noise(self, given: _bbsim.Given) -> _bbsim.Given:
         """Leaves out the noise in a loop, which differs in the log, and the steps that this noise smooths."""

@@ -12,46 +12,43 @@ from functools import cached_property
 from numbers import Real
 from pathlib import Path
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _bbsim
 from ._logs import Log, as_files, log_choice, without_folders
-from ._scenario import Array, Settings, fault, listed, overrides, refuse
+from ._scenario import Array, Columns, Settings, fault, listed, overrides, refuse
 
 if TYPE_CHECKING:
     import matplotlib.figure
     import pandas
 
-
-
 File = Union[str, "os.PathLike[str]"]
 Texts = Union[str, Sequence[str]]
 
 
-class Result:
+class Result(Columns):
     """The rows of a run, by column, and how the run ended.
 
     ``result["x"]`` is a numpy array that shares the memory of the run, in SI units and radians.
     """
 
     def __init__(self, run: Any) -> None:
+        super().__init__(run.rows)
         self._run = run
-
-    @cached_property
-    def _rows(self) -> Dict[str, Array]:
-        return self._run.rows
-
-    @cached_property
-    def columns(self) -> List[str]:
-        """The names of the columns, in the order of ``output.columns``."""
-        return self._run.columns
-
-    @cached_property
-    def units(self) -> Dict[str, str]:
+        self.units: Dict[str, str] = dict(zip(run.columns, run.units))
         """The unit of each column, such as ``"m"``; ``"1"`` for a number without a unit."""
-        return dict(zip(self.columns, self._run.units))
+        self.measures: Dict[str, float] = dict(run.measures)
+        """The measures that were asked for, or the usual ones."""
+        self.status: str = run.status
+        """``done``, ``stopped`` by an event, or ``failed``."""
+        self.reason: str = run.reason
+        """Why the run ended early; empty if it did not."""
+        self.warnings: List[str] = run.warnings
+        """What may not be as you meant it."""
+        self.unmet: List[str] = run.unmet
+        """The conditions of ``expect`` that do not hold."""
 
     @cached_property
     def summary(self) -> Dict[str, Any]:
@@ -62,43 +59,6 @@ class Result:
     def events(self) -> List[Dict[str, Any]]:
         """The events that occurred, with the state at each."""
         return self.summary["events"]
-
-    @cached_property
-    def measures(self) -> Dict[str, float]:
-        """The measures that were asked for, or the usual ones."""
-        return dict(self._run.measures)
-
-    @property
-    def status(self) -> str:
-        """``done``, ``stopped`` by an event, or ``failed``."""
-        return self._run.status
-
-    @property
-    def reason(self) -> str:
-        """Why the run ended early; empty if it did not."""
-        return self._run.reason
-
-    @property
-    def warnings(self) -> List[str]:
-        """What may not be as you meant it."""
-        return self._run.warnings
-
-    @property
-    def unmet(self) -> List[str]:
-        """The conditions of ``expect`` that do not hold."""
-        return self._run.unmet
-
-    def __getitem__(self, column: str) -> Array:
-        try:
-            return self._rows[column]
-        except KeyError:
-            raise KeyError(f"there is no column {column!r}; there are {', '.join(self.columns)}") from None
-
-    def __contains__(self, column: object) -> bool:
-        return column in self.columns
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.columns)
 
     def __reduce__(self) -> "tuple[type, tuple[Any]]":
         names = ("columns", "units", "unmet", "measures", "warnings", "title", "status", "reason", "summary", "rows")

@@ -8,7 +8,7 @@ import json
 import math
 import os
 from dataclasses import dataclass
-from typing import Any, Callable, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -79,6 +79,28 @@ class OutputError(Error, OSError):
 
 class ControllerError(Error, RuntimeError):
     """The scenario's controller failed; its exception is the cause (``__cause__``)."""
+
+
+class Columns:
+    """Arrays by name."""
+
+    columns: List[str]
+    """The names, in order."""
+
+    def __init__(self, arrays: Mapping[str, Array]) -> None:
+        self._arrays, self.columns = arrays, list(arrays)
+
+    def __getitem__(self, column: str) -> Array:
+        try:
+            return self._arrays[column]
+        except KeyError:
+            raise KeyError(f"there is no column {column!r}; there are {', '.join(self.columns)}") from None
+
+    def __contains__(self, column: object) -> bool:
+        return column in self._arrays
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.columns)
 
 
 def _whole(text: str) -> str:

@@ -29,6 +29,12 @@ def refuse_free(what: str) -> NoReturn:
     raise fault(f"--free: {what}")
 
 
+def refuse_twice(names: Sequence[str]) -> None:
+    for i, name in enumerate(names):
+        if name in names[:i]:
+            refuse_free(f"{name} is given twice")
+
+
 def usual_scale(start: float, unit: str) -> float:
     if unit in _USUAL:
         return max(abs(start), _USUAL[unit])
@@ -121,8 +127,7 @@ def read_free_keys(texts: Sequence[str], given: _bbsim.Given) -> List[FreeKey]:
         if name.startswith(("ball.position", "ball.velocity")):
             allowed = "any other key that is a number"
             refuse_free(f"{name}: each window's start is fitted anyway; allowed: {allowed}")
-        if any(key.name == name for key in keys):
-            refuse_free(f"{name} is given twice")
+        refuse_twice([*(key.name for key in keys), name])
         keys.append(read_free_key(text, given))
     return keys
 
