@@ -217,13 +217,16 @@ class Search:
             windows.key_steps = np.sqrt(windows.key_steps * np.clip(self._sizes(), KEY_STEP, _WIDEST))
 
     def _sizes(self) -> Array:
-        """The deviations of the keys' numbers, as far as the logs determine them."""
-        return np.sqrt(np.diag(self.linear().covariance) * self.scatter())
+        """The deviations of the keys' numbers; infinite if the logs do not determine them."""
+        linear = self.linear()
+        return np.where(linear.told, np.sqrt(np.diag(linear.covariance) * self.scatter()), np.inf)
 
     def _hop(self, random: np.random.Generator) -> bool:
         """Moves u over jumps, which end a descent, to a better point, if there is one among draws from the estimates'
         distribution and from wider ones."""
-        covariance = self.linear().covariance * self.scatter()
+        linear = self.linear()
+        covariance = np.where(np.outer(linear.told, linear.told), linear.covariance * self.scatter(), 0.0)
+        covariance += np.diag(np.where(linear.told, 0.0, self.windows.key_steps**2))
         draws = random.multivariate_normal(np.zeros(len(self.u)), covariance, _DRAWS * len(_WIDER), method="eigh")
         draws *= np.repeat(_WIDER, _DRAWS)[:, None]
         u, starts, cost = self.windows.best_of(np.clip(self.u + draws, *self.bounds()))
@@ -316,6 +319,8 @@ class Search:
         _, values, directions = np.linalg.svd(slopes / sizes, full_matrices=False)
         known = values > max(_UNTOLD * values[0], 1e-6)
         covariance = (directions[known].T / values[known] ** 2) @ directions[known] / np.outer(sizes, sizes)
+        grown = self.windows.base.least / np.sqrt(np.diag(covariance) * self.scatter())
+        covariance *= np.outer(np.fmax(grown, 1), np.fmax(grown, 1))
         told = ~(np.abs(directions[~known]) > 0.02).any(0)
         untold = [self._words(one / sizes, np.abs(one) > 0.02) for one in directions[~known]]
         deviations = np.where(told, np.sqrt(np.diag(covariance)), np.nan)

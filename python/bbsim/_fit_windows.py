@@ -126,6 +126,7 @@ class _Point:
     why: List[str]
     by_key: Array = field(default_factory=lambda: np.empty(0))  # windows x numbers x keys
     by_start: Array = field(default_factory=lambda: np.empty(0))
+    least: Array = field(default_factory=lambda: np.empty(0))  # of each key's deviation: slopes across jumps alone end there
 
 
 class WindowsFit:
@@ -241,18 +242,19 @@ class WindowsFit:
         for k, key in enumerate(self.keys):
             moved[:, k] &= (key.value(u[k] + at[:, k]) != key.value(u[k]))[:, None]
         sides = np.where(moved[..., None], made[1:].reshape(*moved.shape, -1), made[0])
-        by_all = self._slopes(sides, made[0], np.where(moved, at[..., None], 0.0))
-        self.base = _Point(u, starts, made[0], runs[0], why[:count], by_all[..., :keys], by_all[..., keys:])
+        by_all, jumps = self._slopes(sides, made[0], np.where(moved, at[..., None], 0.0))
+        least = np.where(jumps[:keys], steps[:keys], 0.0)
+        self.base = _Point(u, starts, made[0], runs[0], why[:count], by_all[..., :keys], by_all[..., keys:], least)
         self._solvers = None
 
-    def _slopes(self, sides: Array, middle: Array, at: Array) -> Array:
-        """Windows x numbers x steps, from values at places beside the middle."""
+    def _slopes(self, sides: Array, middle: Array, at: Array) -> Tuple[Array, Array]:
+        """Windows x numbers x steps, from values at places beside the middle; whether they are of jumps alone."""
 
         def between(low: int, high: int) -> Array:
             widths = at[high] - at[low]
             return (sides[high] - sides[low]) / np.where(widths == 0, np.nan, widths)[..., None]
 
-        slopes = between(0, -1)
+        slopes, jumps = between(0, -1), np.zeros(len(sides[0]), bool)
         if len(at) > 2:
             half = len(at) // 2
             sides, at = np.insert(sides, half, middle, 0), np.insert(at, half, 0, 0)
@@ -260,9 +262,10 @@ class WindowsFit:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # numpy's, on windows that do not run
                 median = np.nanmedian(parts, 0)
-            sizes = [np.nansum((one * self.over_noise()) ** 2, (1, 2), keepdims=True) for one in (median, slopes)]
-            slopes = np.where(sizes[0] < _ONLY_JUMPS**2 * sizes[1], slopes, median)
-        return np.nan_to_num(np.moveaxis(slopes, 0, -1))
+            sizes = [np.nansum((one * self.over_noise()) ** 2, (1, 2)) for one in (median, slopes)]
+            jumps = sizes[0] < _ONLY_JUMPS**2 * sizes[1]
+            slopes = np.where(jumps[:, None, None], slopes, median)
+        return np.nan_to_num(np.moveaxis(slopes, 0, -1)), jumps
 
     def _solve(self) -> Tuple[Array, Array]:
         """For each window, the derivatives by its start over the noise, and their pseudoinverse."""
