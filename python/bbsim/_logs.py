@@ -6,15 +6,17 @@ from __future__ import annotations
 
 import contextlib
 import csv
+import io
 import os
 import re
 import tempfile
+from pathlib import Path
 from typing import Any, Iterator, List, Mapping, Union
 
 import numpy as np
 
 from . import _bbsim
-from ._scenario import InputError, listed, refuse
+from ._scenario import InputError, listed, refuse, whole
 
 # A file, or a table in memory: a dict of arrays, a pandas DataFrame, or anything else with `columns`, each by its name.
 Log = Union[str, "os.PathLike[str]", Mapping[str, Any], Any]
@@ -40,16 +42,22 @@ def as_files(logs: Any) -> Iterator[List[str]]:
     if not any(map(is_table, logs)):
         yield [os.fspath(log) for log in logs]
         return
-    with tempfile.TemporaryDirectory(prefix=_PREFIX) as folder:
+    with tempfile.TemporaryDirectory(prefix=_PREFIX) as folder, tables_named():
         files = [f"{folder}/log-{i}.csv" if is_table(log) else os.fspath(log) for i, log in enumerate(logs, 1)]
         for log, file in zip(logs, files):
             if is_table(log):
                 _write(log, file)
-        try:
-            yield files
-        except InputError as error:
-            texts = [(without_folders(its.place), without_folders(its.message)) for its in error.problems]
-            raise InputError(texts) from None
+        yield files
+
+
+@contextlib.contextmanager
+def tables_named() -> Iterator[None]:
+    """Within it, errors name tables in memory without the folders of their files."""
+    try:
+        yield
+    except InputError as error:
+        texts = [(without_folders(its.place), without_folders(its.message)) for its in error.problems]
+        raise InputError(texts) from None
 
 
 def without_folders(text: str) -> str:
@@ -63,15 +71,20 @@ def _write(table: Any, file: str) -> None:
     for name, fields in zip(names, columns):
         if len(fields) != len(columns[0]):
             raise refuse(f"a log's column {name}", f"{len(fields)} values", f"{len(columns[0])}, as in {names[0]}")
-    with open(file, "w", newline="", encoding="utf-8") as into:
-        csv.writer(into).writerows([names, *zip(*columns)])
+    text = io.StringIO()
+    csv.writer(text).writerows([names, *zip(*columns)])
+    Path(file).write_bytes(whole(text.getvalue()).encode())
 
 
 def _fields(name: str, values: Any) -> List[str]:
     """Numbers with all their digits; a gap is empty."""
-    array = np.asarray(values)
+    try:
+        array = np.asarray(values)
+        found = f"an array of shape {array.shape}"
+    except ValueError:
+        array, found = np.empty(()), "rows of different lengths"
     if array.ndim != 1:
-        raise refuse(f"a log's column {name}", f"an array of shape {array.shape}", "one value for each row")
+        raise refuse(f"a log's column {name}", found, "one value for each row")
     if array.dtype.kind == "M":
         array = np.datetime_as_string(array, "us")
     elif array.dtype.kind == "m":

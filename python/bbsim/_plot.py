@@ -15,7 +15,7 @@ import numpy as np
 
 from . import _bbsim
 from ._loop_pictures import KINDS, draw_accuracy, draw_loop
-from ._logs import Log, as_files, is_table, log_choice, without_folders
+from ._logs import Log, as_files, is_table, log_choice, tables_named, without_folders
 from ._plot_runs import draw_runs
 from ._plot_sheet import FONT, Figure, require_font, style
 from ._plot_sweeps import draw_sweep
@@ -173,7 +173,8 @@ def plot(
         all_files = files if isinstance(files, (list, tuple)) else [files]
         if not all_files:
             raise fault("files: found none; allowed: a file, a result, or a list of them")
-        figure, _ = options.draw(options.read(all_files, lambda note: None))
+        with tables_named():
+            figure, _ = options.draw(options.read(all_files, lambda note: None))
     if output is not None:
         _save(figure, os.fspath(output), chosen)
     return figure

@@ -103,7 +103,7 @@ class Columns:
         return iter(self.columns)
 
 
-def _whole(text: str) -> str:
+def whole(text: str) -> str:
     try:
         text.encode()
     except UnicodeEncodeError:
@@ -116,7 +116,7 @@ def _text(value: Any) -> str:
     if isinstance(value, (np.generic, np.ndarray)):
         value = value.tolist()
     if isinstance(value, (str, os.PathLike)):
-        return json.dumps(_whole(os.fspath(value)), ensure_ascii=False)
+        return json.dumps(whole(os.fspath(value)), ensure_ascii=False)
     if isinstance(value, float) and not math.isfinite(value):  # the reader refuses these words and names the key
         return ".nan" if math.isnan(value) else ".inf" if value > 0 else "-.inf"
     if isinstance(value, (bool, int, float)) or value is None:
@@ -131,7 +131,7 @@ def _text(value: Any) -> str:
 
 def as_yaml(value: Any) -> str:
     """The value as written after ``KEY=``: texts unchanged, everything else in YAML's flow style."""
-    return _whole(value) if isinstance(value, str) else _text(value)
+    return whole(value) if isinstance(value, str) else _text(value)
 
 
 def _without_callable(scenario: Mapping[str, Any]) -> Tuple[Mapping[str, Any], Optional[Callable[..., Any]]]:
@@ -189,7 +189,7 @@ def given(scenario: Union[Scenario, _bbsim.Given], settings: Settings = None, er
     if not isinstance(name, str):
         raise TypeError(f"found a scenario of type {type(scenario).__name__}; allowed: a path, YAML text or a dict")
     if isinstance(scenario, str) and ("\n" in name or name.lstrip().startswith("{")):
-        return _bbsim.Given("<text>", _whole(name), texts, None)
+        return _bbsim.Given("<text>", whole(name), texts, None)
     return _bbsim.Given(name, None, texts, None)
 
 

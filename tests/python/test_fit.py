@@ -282,10 +282,14 @@ class Tables(Case):
         for log, message in (
             ({"t": [0, 1], "x": [1]}, "column x: found 1 values; allowed: 2, as in t"),
             ({"t": [0, 1], "x": [[1, 2], [3, 4]]}, "column x: found an array of shape (2, 2)"),
+            ({"t": [0, 1], "x": [[1], [3, 4]]}, "column x: found rows of different lengths"),
+            ({"t": [0, 1], "x": ["\ud800", "b"]}, "a part of a character"),
             ({"t": [0, 1, 1.5], "phi": [1, 2, 3]}, "log-1.csv: has no column to compare"),
             ({"t": [0, 1, 1.5], "x": ["a", "b", "c"]}, "log-1.csv: column x: found texts"),
         ):  # fmt: skip
             self.assertIn(message, self.refused("ball.inertia_factor", logs=log))
+        with self.assertRaisesRegex(bbsim.InputError, "^log-1.csv: nothing to draw"):
+            bbsim.plot({"t": [0, 1], "x": [None, None]})
 
     def test_pictures_comparisons_and_pages(self):
         rows = rows_of()
