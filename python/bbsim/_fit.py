@@ -16,7 +16,7 @@ from . import _bbsim, _fit_text
 from ._fit_search import Search
 from ._fit_windows import Log, LogKey, Windows, WindowsFit, cut, start_coordinates
 from ._logs import as_files, log_choice, without_folders
-from ._scenario import Array, InputError, Scenario, Settings, fault, given as given_of, listed, refuse
+from ._scenario import Array, InputError, Scenario, Settings, counted, fault, given as given_of, listed, refuse
 from ._task import (
     Bar, FreeKey, Progress, declare, print_report, read_bounds, read_free_key, read_free_keys, refuse_free, refuse_twice, silent,
     usual_scale, write_found,
@@ -279,8 +279,7 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
         made.hold_out_ideal_rms = _rms(_other(search, held, search.u, True)) if made.ideal_rms else {}
     notes = _estimate(made, search) + notes
     if made.interrupted:
-        count = search.iterations
-        notes.append(f"interrupted after {count} iteration{'s' * (count != 1)}: these are the best values so far")
+        notes.append(f"interrupted after {counted(search.iterations, 'iteration')}: these are the best values so far")
     if not made.white:
         notes.append(f"neighboring residuals are correlated ({made.correlated}); the model is incomplete and the "
                      "intervals are too short")  # fmt: skip

@@ -126,7 +126,7 @@ class _Point:
     why: List[str]
     by_key: Array = field(default_factory=lambda: np.empty(0))  # windows x numbers x keys
     by_start: Array = field(default_factory=lambda: np.empty(0))
-    least: Array = field(default_factory=lambda: np.empty(0))  # of each key's deviation: slopes across jumps alone end there
+    least: Array = field(default_factory=lambda: np.empty(0))  # deviations of keys: the steps, where they act by jumps alone
 
 
 class WindowsFit:

@@ -20,7 +20,7 @@ from ._plot_runs import draw_runs
 from ._plot_sheet import FONT, Figure, require_font, style
 from ._plot_sweeps import draw_sweep
 from ._result import Result
-from ._scenario import InputError, fault, given, listed, overrides, refuse
+from ._scenario import InputError, counted, fault, given, listed, overrides, refuse
 
 File = Union[str, "os.PathLike[str]"]
 Drawn = Union[Log, Result, "np.ndarray[Any, np.dtype[np.void]]"]
@@ -122,7 +122,7 @@ class _Options:
                     raise fault("overlay: found a sweep; allowed: runs, since a sweep has its own picture")
                 figure, panels = draw_sweep(results[0], _parts(self.columns, ","), self.over, self.width)
                 rows, what = results[0].rows, "cases"
-        return figure, f"{rows} {what}, {panels} panel{'s' if panels != 1 else ''}"
+        return figure, f"{rows} {what}, {counted(panels, 'panel')}"
 
     def draw_scenario(self, scenario: Any) -> Tuple[Figure, str]:
         with style(self.font):

@@ -187,11 +187,10 @@ class Sheet:
         for at, text, size, color in lines:
             self.figure.text(0.5, 1 - at / self.height, text, ha="center", va="top", size=size, color=color)
         if names:
-            handles = [Line2D([], [], **line) for _, line in legend]
-            self._legend(self.figure, handles, names, columns, "upper center", (0.5, 1 - top / self.height))
+            self._legend(self.figure, legend, names, columns, "upper center", (0.5, 1 - top / self.height))
 
-    def _legend(self, owner: Any, handles: Any, names: List[str], columns: int, where: str, anchor: Any) -> None:
-        em = SMALL / 72 / MM
+    def _legend(self, owner: Any, legend: Legend, names: List[str], columns: int, where: str, anchor: Any) -> None:
+        em, handles = SMALL / 72 / MM, [Line2D([], [], **line) for _, line in legend]
         owner.legend(
             handles, names, ncol=columns, loc=where, bbox_to_anchor=anchor, frameon=False, borderpad=0,
             borderaxespad=0, handlelength=self._LINE / em, handletextpad=self._PAD / em, columnspacing=self._GAP / em,
@@ -210,6 +209,5 @@ class Sheet:
         if legend:
             room = width - width_of(heading, TEXT) - len(legend) * (self._SAMPLE + self._GAP)
             names = _cut_all([name for name, _ in legend], room)
-            handles = [Line2D([], [], **line) for _, line in legend]
-            self._legend(axes, handles, names, len(names), "lower right", (1, 1 + 1.2 / box.up))
+            self._legend(axes, legend, names, len(names), "lower right", (1, 1 + 1.2 / box.up))
         return axes

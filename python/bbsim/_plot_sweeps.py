@@ -16,7 +16,7 @@ from ._plot_axes import (
     CLOSE, Unit, Units, better_by_log, choose_scale, covered, fitted, is_wide, linear, linear_limits, ticks, width,
 )  # fmt: skip
 from ._plot_sheet import ORANGE, SMALL, Box, Sheet, Stroke, cut, mark, number, stroke
-from ._scenario import fault
+from ._scenario import counted, fault
 
 _MOST_GROUPS = 5  # more values make a map instead of a line for each
 _MOST_BANDS = 3  # more would hide each other
@@ -367,7 +367,7 @@ def draw_sweep(stored: _bbsim.Stored, asked: Sequence[str], over: Sequence[str],
     rows = -(-len(measures) // columns)
     title, subtitle = (stored.title, stored.shown_file) if stored.title else (stored.shown_file, "")
     cases = f"{stored.rows} cases{_taken_over(sweep.table, form)}"
-    others = [(f"{word}: {n} case{'s' if n > 1 else ''}", sweep.mark(word)) for word, n in sweep.table.others]
+    others = [(f"{word}: {counted(n, 'case')}", sweep.mark(word)) for word, n in sweep.table.others]
     none = sum(not np.isfinite(sweep.stored.numbers(name)[sweep.done]).all() for name in measures)
     if is_map and none:
         others.append(("no value", _NO_VALUE))

@@ -157,6 +157,10 @@ def overrides(settings: Settings) -> List[str]:
     return [f"{key}={as_yaml(value)}" for key, value in (settings or {}).items()]
 
 
+def counted(count: int, what: str) -> str:
+    return f"{count} {what}" + ("" if count == 1 else "s")
+
+
 def listed(texts: Any) -> List[str]:
     """Texts of an option: one text or path, or several. A dict has what follows KEY=: a text, a tuple of two bounds,
     other values, or None for the key alone."""

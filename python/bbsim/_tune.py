@@ -13,7 +13,7 @@ from typing import Any, Dict, List, Tuple
 import numpy as np
 
 from . import _bbsim
-from ._scenario import Array, InputError, Scenario, Settings, fault, given, listed
+from ._scenario import Array, InputError, Scenario, Settings, counted, fault, given, listed
 from ._simulate import simulate
 from ._task import (
     Bar, Progress, aligned, as_json, declare, print_report, read_free_key, refuse_free, refuse_twice, silent,
@@ -192,7 +192,7 @@ class _Tuning:
         for i, name in enumerate([self.measures[0], *(goal.text for goal in self.goals)]):
             unit, (value, good, lacking) = self.goals[i - 1].unit if i else self.unit, self.worst(found.after, i)
             holds = ("yes" if i else "-") if good else "no"
-            holds += f": no value on {lacking} rig{'s' * (lacking > 1)}" if lacking else ""
+            holds += f": no value on {counted(lacking, 'rig')}" if lacking else ""
             measures.append([name, f"{self.worst(found.before, i)[0]:.3g}", f"{value:.3g}", unit or "1", holds])
             fails = " (does not hold)" if i and not good else ""
             comments += f"#   {name}{fails}: {short(value)} {unit}".rstrip() + "\n"
