@@ -265,6 +265,9 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
     fit.residuals(search.u)
     made.before_rms, made.residual_rms = before, _rms(fit)
     notes = _describe(made, search)
+    if fit.kinked and fit.jumps and not made.white:
+        search.doubts.append("the residuals jump, as with a dead band, and are correlated: the fit may be held between two "
+                             "jumps, for which no deviation accounts; try starting values nearby, or --starts")  # fmt: skip
     made.series = _series(fit, False) if series else []
     ideal = _ideal(task.logs[0].given)
     if ideal is not None and not any(_bbsim.lacks(ideal, name)[0] for name in task.columns):

@@ -20,7 +20,7 @@ _HUBER = 1.345  # standard deviations; costs 5 % of the efficiency for Gaussian 
 _KINKED_STARTS = 3
 _UNTOLD = 1e-4  # of the largest singular value; smaller ones are errors of differences
 _WIDEST = 0.3  # of the steps of a key's number
-_HOPS, _DRAWS, _WIDER = 8, 20, (0.3, 1, 3, 10, 30)  # over jumps: the most; draws for each multiple of the deviations
+_HOPS, _DRAWS, _WIDER = 40, 20, (0.3, 1, 3, 10, 30)  # over jumps: the most; draws for each multiple of the deviations
 
 
 class _Done(Exception):
@@ -206,13 +206,16 @@ class Search:
                 return
             self._try_starts(_KINKED_STARTS, [(self.cost(), self.u, windows.point.starts)])
             self._reweigh_often()
-        random, in_vain = np.random.default_rng(1), 0
-        for _ in range(_HOPS):
+        random, in_vain, first = np.random.default_rng(1), 0, windows.key_steps
+        for turn in range(_HOPS):
+            # Wide steps see where many jumps lead, small ones where none is.
+            windows.key_steps = np.full(len(self.u), _WIDEST / 3.0 ** (turn % 4))
             in_vain = 0 if self._hop(random) else in_vain + 1
-            if in_vain == 2:
+            if in_vain == 4:
                 break
             if not in_vain:
                 self._reweigh_often()
+        windows.key_steps = first
         for _ in range(3):  # the slopes that count are those over the deviations that they give
             windows.key_steps = np.sqrt(windows.key_steps * np.clip(self._sizes(), KEY_STEP, _WIDEST))
 
