@@ -108,12 +108,9 @@ def main(name: str, words: Optional[List[str]] = None) -> int:
         return _INPUT_AT_FAULT
     except BrokenPipeError:  # the reader has seen enough
         return _OUTPUT_FAILED
-    except OutputError as error:
+    except (OutputError, ControllerError) as error:
         _say(str(error))
-        return _OUTPUT_FAILED
-    except ControllerError as error:
-        _say(str(error))
-        return _ENDED_EARLY
+        return _OUTPUT_FAILED if isinstance(error, OutputError) else _ENDED_EARLY
     except MemoryError:
         _say("out of memory: ask for fewer output rows, or end other programs")
         return _ENDED_EARLY

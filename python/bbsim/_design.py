@@ -17,7 +17,7 @@ from scipy.optimize import minimize
 
 from . import _bbsim
 from ._experiment import Experiment, Motions
-from ._scenario import Array, InputError, Scenario, Settings, fault, given, listed, refuse
+from ._scenario import Array, InputError, Scenario, Settings, counted, fault, given, listed, refuse
 from ._task import Bar, Progress, aligned, as_json, declare, print_report, read_free_keys, silent
 
 Size = Union[float, str, None]
@@ -438,7 +438,7 @@ def design(
     better = circle and merits(slopes[0])[0] < merits(slopes[1])[0]
     circling = f"; the best circle has {frequency / _TURN:.3g} Hz" if circle else ""
     logged = ", ".join(f"{name} {size:.3g} {units[name]}".strip() for name, size in deviations_of_log.items())
-    windows = f"{experiment.windows} window{'s' * (experiment.windows != 1)}"
+    windows = counted(experiment.windows, "window")
     by_key = [[key.name, short(key.value(0)), *its, key.unit or "1"] for key, its in zip(keys, shown)]
     percent = {kind: f"{_bbsim.rounded(100 * share, 3)} %" for kind, share in used.items()}
     by_limit = [[name, size, percent[kind], source] for kind, name, size, source, _ in limits]

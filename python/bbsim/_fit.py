@@ -15,9 +15,10 @@ import numpy as np
 from . import _bbsim, _fit_text
 from ._fit_search import Search
 from ._fit_windows import Log, LogKey, Windows, WindowsFit, cut, start_coordinates
-from ._scenario import Array, InputError, Scenario, Settings, fault, given as given_of, listed, log_choice, refuse
+from ._logs import as_files, log_choice, without_folders
+from ._scenario import Array, InputError, Scenario, Settings, counted, fault, given as given_of, listed, refuse
 from ._task import (
-    Bar, FreeKey, Progress, declare, print_report, read_bounds, read_free_key, read_free_keys, refuse_free, silent,
+    Bar, FreeKey, Progress, declare, print_report, read_bounds, read_free_key, read_free_keys, refuse_free, refuse_twice, silent,
     usual_scale, write_found,
 )  # fmt: skip
 
@@ -134,9 +135,9 @@ def _closes_a_loop(given: _bbsim.Given) -> bool:
 class _Task:
     """What is asked for, checked, and the logs, read."""
 
-    def __init__(self, given: _bbsim.Given, logs: Any, free: Any, map: Any, header: Any, period: Any, time_offset: Any,
+    def __init__(self, given: _bbsim.Given, logs: List[str], free: Any, map: Any, header: Any, period: Any, time_offset: Any,
                  missing: Any, window: Any, hold_out: Any, loss: Optional[str], starts: Any, threads: Any) -> None:  # fmt: skip
-        self.given, self.files, self.notes = given, listed(logs), []  # type: ignore[var-annotated]
+        self.given, self.files, self.notes = given, logs, []  # type: ignore[var-annotated]
         self.share, self.starts, self.threads, self.robust = hold_out or 0, starts, threads or 0, loss == "huber"
         self.length = None if window is None else _bbsim.value_in(str(window), "s")
         free = listed(free)
@@ -164,16 +165,14 @@ class _Task:
         tables = self._tables_of_logs()
         for file in self.files:
             stored, notes = _bbsim.read_log(file, choice)
-            self.warnings += notes
+            self.warnings += [without_folders(note) for note in notes]
             self.columns = self.columns or _compared(given, maps, stored, self.warnings)
             its = [(key, f"'{os.path.abspath(file)}'") for key in tables if len(self.files) > 1]
             self.logs.append(_log(run.changed(its), stored, self.columns, self.warnings))
         known = {column[0]: column[2] for column in _bbsim.known_columns("rad")}
         self.units: List[str] = [known[name] for name in self.columns]
         self.keys += [_log_key(text, self.columns, self.units) for text in free if text.strip().startswith("log.")]
-        names = [key.name for key in self.keys]
-        if len(set(names)) < len(names):
-            refuse_free(f"{max(names, key=names.count)} is given twice")
+        refuse_twice([key.name for key in self.keys])
 
     def _without_noise(self, given: _bbsim.Given) -> _bbsim.Given:
         """Leaves out the noise in a loop, which differs in the log, and the steps that this noise smooths."""
@@ -246,9 +245,10 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
     windows, held, free, length = task.cut()
     fit = WindowsFit(task.logs, task.columns, windows, task.keys, free, task.threads)
     search, before = Search(fit, task.robust, progress), None
-    made = SimpleNamespace(interrupted=False, logs=task.files, windows=len(windows), held=len(held), numbers=fit.size,
-                           window=length, units=dict(zip(task.columns, task.units)), suggestion=None,
-                           hold_out_before_rms={}, hold_out_rms={}, ideal_rms={}, hold_out_ideal_rms={})  # fmt: skip
+    made = SimpleNamespace(interrupted=False, logs=[without_folders(file) for file in task.files], windows=len(windows),
+                           held=len(held), numbers=fit.size, window=length, suggestion=None,
+                           units=dict(zip(task.columns, task.units)), hold_out_before_rms={},
+                           hold_out_rms={}, ideal_rms={}, hold_out_ideal_rms={})  # fmt: skip
     try:
         fit.residuals(search.u)
         w = int(np.argmin(fit.point.runs))
@@ -265,6 +265,9 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
     fit.residuals(search.u)
     made.before_rms, made.residual_rms = before, _rms(fit)
     notes = _describe(made, search)
+    if fit.kinked and fit.jumps and not made.white:
+        search.doubts.append("the residuals jump, as with a dead band, and are correlated: the fit may be held between two "
+                             "jumps, for which no deviation accounts; try starting values nearby, or --starts")  # fmt: skip
     made.series = _series(fit, False) if series else []
     ideal = _ideal(task.logs[0].given)
     if ideal is not None and not any(_bbsim.lacks(ideal, name)[0] for name in task.columns):
@@ -279,8 +282,7 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
         made.hold_out_ideal_rms = _rms(_other(search, held, search.u, True)) if made.ideal_rms else {}
     notes = _estimate(made, search) + notes
     if made.interrupted:
-        count = search.iterations
-        notes.append(f"interrupted after {count} iteration{'s' * (count != 1)}: these are the best values so far")
+        notes.append(f"interrupted after {counted(search.iterations, 'iteration')}: these are the best values so far")
     if not made.white:
         notes.append(f"neighboring residuals are correlated ({made.correlated}); the model is incomplete and the "
                      "intervals are too short")  # fmt: skip
@@ -352,7 +354,7 @@ def fit(
 ) -> Any:  # fmt: skip
     """Finds the values of a scenario's keys at which its runs are closest to logs of a rig.
 
-    logs      files, as `bbsim fit` reads them
+    logs      files, as `bbsim fit` reads them, or dicts of arrays or DataFrames with such columns
     free      the keys to fit, "KEY" or "KEY=FROM:TO", or a dict {KEY: (FROM, TO)}; also log.x.scale, log.x.offset
               and log.delay
     others    the options of `bbsim fit`; output, json and report are files to write
@@ -362,7 +364,8 @@ def fit(
     interrupted fit gives the best values so far, or raises KeyboardInterrupt if there are none.
     """
     options = dict(locals())
-    made = _carry_out(given_of(options.pop("scenario"), options.pop("set")), options, silent, lambda text: None)
+    with as_files(options["logs"]) as options["logs"]:
+        made = _carry_out(given_of(options.pop("scenario"), options.pop("set")), options, silent, lambda text: None)
     if made is None:
         raise KeyboardInterrupt
     return made

@@ -12,13 +12,15 @@ from scipy.optimize import least_squares, lsq_linear
 from scipy.special import stdtrit
 
 from . import _bbsim
-from ._fit_windows import LogKey, WindowsFit
+from ._fit_windows import KEY_STEP, WIDE, LogKey, WindowsFit
 from ._scenario import Array
 from ._task import FreeKey, Progress, refuse_free, silent
 
 _HUBER = 1.345  # standard deviations; costs 5 % of the efficiency for Gaussian noise
 _KINKED_STARTS = 3
 _UNTOLD = 1e-4  # of the largest singular value; smaller ones are errors of differences
+_WIDEST = 0.3  # of the steps of a key's number
+_HOPS, _DRAWS, _WIDER = 40, 20, (0.3, 1, 3, 10, 30)  # over jumps: the most; draws for each multiple of the deviations
 
 
 class _Done(Exception):
@@ -41,9 +43,8 @@ class Search:
     def degrees_of_freedom(self) -> float:
         return max(1.0, float(self.windows.size - self.windows.starts_rank() - len(self.keys)))
 
-    def bounds(self) -> Tuple[Array, Array]:
-        low = [-np.inf if key.logarithmic and key.lower <= 0 else key.number(key.lower) for key in self.keys]
-        return np.array(low), np.array([key.number(key.upper) for key in self.keys])
+    def bounds(self) -> Array:
+        return np.array([key.ends() for key in self.keys]).T
 
     def scale_keys(self) -> Array:
         """Reduces the scale of each key that changes the logs by more than ten times the noise: such differences would
@@ -151,14 +152,14 @@ class Search:
         if count > 1:
             self._try_starts(count)
 
-    def _try_starts(self, count: int) -> None:
-        """Continues from the best of several starts; the first is the scenario's."""
+    def _try_starts(self, count: int, ends: Sequence[Tuple[float, Array, Array]] = ()) -> None:
+        """Continues from the best of several starts, or of what is known; the first start is the present one."""
         low, high = self.bounds()
         # Without bounds: a factor of two, or the key's scale.
         reach = np.array([math.log(2) if key.logarithmic else 1.0 for key in self.keys])
         bounded = np.isfinite(high - low)
         low, high = np.where(bounded, low, self.u - reach), np.where(bounded, high, self.u + reach)
-        random, first, ends = np.random.default_rng(1), self.u, []
+        random, first, ends = np.random.default_rng(1), self.u, list(ends)
         for start in range(count):
             self.u = low + (high - low) * random.uniform(size=len(first)) if start else first
             self.windows.restart()
@@ -194,6 +195,51 @@ class Search:
 
     def settle(self) -> None:
         """Finds the keys with weights that follow the residuals."""
+        windows = self.windows
+        self._reweigh_often()
+        if not windows.jumps:
+            return
+        if not windows.kinked:
+            # The start may lie between two jumps, and the end at one.
+            windows.find_kinks(self.u, np.clip(self._sizes(), WIDE * KEY_STEP, _WIDEST))
+            if not windows.kinked:
+                return
+            self._try_starts(_KINKED_STARTS, [(self.cost(), self.u, windows.point.starts)])
+            self._reweigh_often()
+        random, in_vain, first = np.random.default_rng(1), 0, windows.key_steps
+        for turn in range(_HOPS):
+            # Wide steps see where many jumps lead, small ones where none is.
+            windows.key_steps = np.full(len(self.u), _WIDEST / 3.0 ** (turn % 4))
+            in_vain = 0 if self._hop(random) else in_vain + 1
+            if in_vain == 4:
+                break
+            if not in_vain:
+                self._reweigh_often()
+        windows.key_steps = first
+        for _ in range(3):  # the slopes that count are those over the deviations that they give
+            windows.key_steps = np.sqrt(windows.key_steps * np.clip(self._sizes(), KEY_STEP, _WIDEST))
+
+    def _sizes(self) -> Array:
+        """The deviations of the keys' numbers; infinite if the logs do not determine them."""
+        linear = self.linear()
+        return np.where(linear.told, np.sqrt(np.diag(linear.covariance) * self.scatter()), np.inf)
+
+    def _hop(self, random: np.random.Generator) -> bool:
+        """Moves u over jumps, which end a descent, to a better point, if there is one among draws from the estimates'
+        distribution and from wider ones."""
+        linear = self.linear()
+        covariance = np.where(np.outer(linear.told, linear.told), linear.covariance * self.scatter(), 0.0)
+        covariance += np.diag(np.where(linear.told, 0.0, self.windows.key_steps**2))
+        draws = random.multivariate_normal(np.zeros(len(self.u)), covariance, _DRAWS * len(_WIDER), method="eigh")
+        draws *= np.repeat(_WIDER, _DRAWS)[:, None]
+        u, starts, cost = self.windows.best_of(np.clip(self.u + draws, *self.bounds()))
+        if not cost < self.cost() * (1 - 1e-4):
+            return False
+        self.u = u
+        self.windows.at(u, starts, True)
+        return True
+
+    def _reweigh_often(self) -> None:
         change = 1.0
         for _ in range(4 if self.windows.kinked else 40 if self.robust else 12):
             if self.windows.kinked:
@@ -276,6 +322,8 @@ class Search:
         _, values, directions = np.linalg.svd(slopes / sizes, full_matrices=False)
         known = values > max(_UNTOLD * values[0], 1e-6)
         covariance = (directions[known].T / values[known] ** 2) @ directions[known] / np.outer(sizes, sizes)
+        grown = self.windows.base.least / np.sqrt(np.diag(covariance) * self.scatter())
+        covariance *= np.outer(np.fmax(grown, 1), np.fmax(grown, 1))
         told = ~(np.abs(directions[~known]) > 0.02).any(0)
         untold = [self._words(one / sizes, np.abs(one) > 0.02) for one in directions[~known]]
         deviations = np.where(told, np.sqrt(np.diag(covariance)), np.nan)

@@ -14,7 +14,7 @@ from typing import Any, Dict, List, Sequence
 import numpy as np
 
 from . import _bbsim
-from ._scenario import Array
+from ._scenario import Array, counted
 from ._task import aligned, as_json
 
 _MOST_ROWS = 40000  # of a page
@@ -51,9 +51,6 @@ def _residuals(fitted: Any) -> List[List[str]]:
 
 
 def remarks(fitted: Any) -> str:
-    def counted(count: int, what: str) -> str:
-        return f"{count} {what}" + ("" if count == 1 else "s")
-
     text = f"{fitted.numbers} numbers in {counted(fitted.windows, 'window')}"
     text += f" of {number(fitted.window)} s" if math.isfinite(fitted.window) else ""
     text += f", {fitted.held} more held out" if fitted.held else ""

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import dataclass, field, replace
 from typing import Any, List, NamedTuple, Optional, Sequence, Tuple
 
@@ -18,8 +19,12 @@ from ._task import FreeKey
 
 FAR = 1e6  # the residual of a window that does not run, in standard deviations
 # Central differences: the error of a run over the step and the square of the step are both small.
-_KEY_STEP = 1e-3
-_WIDE = 20.0  # times these steps: to find kinks, and over them
+KEY_STEP = 1e-3
+WIDE = 20.0  # times these steps: to find kinks, and over them
+# Parts of a step, in order. Residuals jump where a servo ignores one command more: the median of the slopes between
+# neighbors leaves out a slope across a jump, which has no limit for small steps.
+_BESIDE = np.array([-1, -0.5, 0.5, 1])
+_ONLY_JUMPS = 1e-4  # if the median has less than this part of the mean's size, a key acts by jumps alone
 _START_STEPS = np.array([1e-3] * 8 + [0.1])  # m, m/s, rad, rad/s; the spin has little effect
 _LEAST_EFFECT = 1e-9  # directions of a start with less effect than this part stay fixed
 _LONGEST_PAUSE = 60.0  # s; within a window that has no length
@@ -121,6 +126,7 @@ class _Point:
     why: List[str]
     by_key: Array = field(default_factory=lambda: np.empty(0))  # windows x numbers x keys
     by_start: Array = field(default_factory=lambda: np.empty(0))
+    least: Array = field(default_factory=lambda: np.empty(0))  # deviations of keys: the steps, where they act by jumps alone
 
 
 class WindowsFit:
@@ -141,7 +147,10 @@ class WindowsFit:
         self.point: Any = None  # the last one
         self._solvers: Optional[Tuple[Array, Array]] = None
         self.kinked = False
-        self.key_steps, self.start_steps = np.full(len(keys), _KEY_STEP), _START_STEPS.copy()
+        given = logs[0].given
+        self.jumps = bool(_bbsim.key_facts(given, "", "controller.sampling.resolution").value) or any(
+            _bbsim.key_facts(given, "", f"gimbal.servo{axis}.dead_band").value for axis in ("", ".phi", ".theta"))
+        self.key_steps, self.start_steps = np.full(len(keys), KEY_STEP), _START_STEPS.copy()
 
     def over_noise(self) -> Array:
         """The factor of each difference; 0 where the log has no number."""
@@ -214,26 +223,49 @@ class WindowsFit:
     def linearize(self, u: Array, starts: Array) -> None:
         """Makes the base at u with these starts, by one call for all differences."""
         keys, count = len(u), len(self.windows)
-        steps = np.zeros((keys + len(self.free), keys + starts.shape[1]))
-        steps[:keys, :keys] = np.diag(self.key_steps)
-        steps[np.arange(keys, len(steps)), [keys + place for place in self.free]] = self.start_steps[self.free]
-        moves = np.concatenate([np.zeros((1, steps.shape[1])), steps, -steps])
+        several = self.kinked and self.jumps
+        beside = _BESIDE if several else _BESIDE[[0, -1]]
+        steps = np.concatenate([self.key_steps, self.start_steps[self.free]])
+        places = [*range(keys), *(keys + place for place in self.free)]
+        at = np.outer(beside, steps)
+        for k, key in enumerate(self.keys if several else []):
+            at[:, k] = np.clip(u[k] + at[:, k], *key.ends()) - u[k]
+        moves = np.zeros((len(beside), len(steps), keys + starts.shape[1]))
+        moves[:, np.arange(len(steps)), places] = at
+        moves = np.concatenate([np.zeros((1, moves.shape[2])), moves.reshape(-1, moves.shape[2])])
         all_u = np.repeat(u + moves[:, :keys], count, axis=0)
         all_starts = (starts + moves[:, None, keys:]).reshape(-1, starts.shape[1])
         made, runs, why = self._run(np.tile(np.arange(count), len(moves)), all_u, all_starts)
         made, runs = made.reshape(len(moves), count, -1), runs.reshape(len(moves), count)
         # A value at its bound has a neighbor on one side only.
-        ends = (u + self.key_steps, u - self.key_steps)
-        alike = [[key.value(a) == key.value(b) for key, a, b in zip(self.keys, end, u)] for end in ends]
-        middle, sides = made[0], np.stack(np.split(made[1:], 2))
-        moved = np.stack(np.split(runs[1:], 2)) & runs[0]
-        moved[:, :keys] &= ~np.array(alike, bool).reshape(2, keys, 1)
-        up, down = np.where(moved[..., None], sides, middle)
-        widths = moved.sum(0) * np.concatenate([self.key_steps, self.start_steps[self.free]])[:, None]
-        slopes = np.moveaxis((up - down) / np.where(widths == 0, np.inf, widths)[..., None], 0, -1)
-        slopes = np.nan_to_num(slopes)
-        self.base = _Point(u, starts, middle, runs[0], why[:count], slopes[..., :keys], slopes[..., keys:])
+        moved = (runs[1:] & runs[0]).reshape(len(beside), len(steps), count)
+        for k, key in enumerate(self.keys):
+            moved[:, k] &= (key.value(u[k] + at[:, k]) != key.value(u[k]))[:, None]
+        sides = np.where(moved[..., None], made[1:].reshape(*moved.shape, -1), made[0])
+        by_all, jumps = self._slopes(sides, made[0], np.where(moved, at[..., None], 0.0))
+        least = np.where(jumps[:keys], steps[:keys], 0.0)
+        self.base = _Point(u, starts, made[0], runs[0], why[:count], by_all[..., :keys], by_all[..., keys:], least)
         self._solvers = None
+
+    def _slopes(self, sides: Array, middle: Array, at: Array) -> Tuple[Array, Array]:
+        """Windows x numbers x steps, from values at places beside the middle; whether they are of jumps alone."""
+
+        def between(low: int, high: int) -> Array:
+            widths = at[high] - at[low]
+            return (sides[high] - sides[low]) / np.where(widths == 0, np.nan, widths)[..., None]
+
+        slopes, jumps = between(0, -1), np.zeros(len(sides[0]), bool)
+        if len(at) > 2:
+            half = len(at) // 2
+            sides, at = np.insert(sides, half, middle, 0), np.insert(at, half, 0, 0)
+            parts = [between(i, i + 1) for i in range(len(at) - 1)]
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # numpy's, on windows that do not run
+                median = np.nanmedian(parts, 0)
+            sizes = [np.nansum((one * self.over_noise()) ** 2, (1, 2)) for one in (median, slopes)]
+            jumps = sizes[0] < _ONLY_JUMPS**2 * sizes[1]
+            slopes = np.where(jumps[:, None, None], slopes, median)
+        return np.nan_to_num(np.moveaxis(slopes, 0, -1)), jumps
 
     def _solve(self) -> Tuple[Array, Array]:
         """For each window, the derivatives by its start over the noise, and their pseudoinverse."""
@@ -313,30 +345,34 @@ class WindowsFit:
         made = hstack([csr_matrix((self.base.by_key * factors[..., None])[self.there]), block_diag(blocks)], "csr")
         return made if made.shape[1] > 300 else made.toarray()
 
-    def find_kinks(self, u: Array) -> None:
-        """Whether the residuals near u have kinks or flat stretches, as with dry friction: slopes over larger steps
-        then differ, and replace those over small ones."""
+    def find_kinks(self, u: Array, wide: Any = WIDE * KEY_STEP) -> None:
+        """Whether the residuals near u have kinks, jumps or flat stretches, as with dry friction or dead bands: slopes
+        over `wide` steps then differ, and replace those over small ones."""
         self.residuals(u)
-        smooth, factors = self.base, self.over_noise()[..., None]
+        smooth, factors, (slopes, inverse) = self.base, self.over_noise()[..., None], self._solve()
         before = self.key_steps, self.start_steps
-        self.key_steps, self.start_steps = (_WIDE * steps for steps in before)
+        self.key_steps, self.start_steps = np.broadcast_to(wide, u.shape), WIDE * before[1]
         self.linearize(u, self.base.starts)
         small, large = (np.concatenate([one.by_key, one.by_start], -1) * factors for one in (smooth, self.base))
         change, size = (np.sqrt((one**2).sum(1)) for one in (small - large, large))  # windows x numbers
         widths = np.concatenate([self.key_steps, self.start_steps[self.free]])
         seen = size * widths > 1e-3
         kinked = np.mean((change > 0.2 * size) & seen, 0) > np.maximum(0.3 * np.mean(seen, 0), 1e-9)
+        if self.jumps:  # in one window, with more effect than all that the starts cannot undo
+            alone = [one - slopes @ (inverse @ one) for one in (small - large, large)]
+            change, size = (np.sqrt((one**2).sum((0, 1))) for one in alone)
+            kinked |= seen.any(0) & (change > 0.5 * size)
         self.key_steps = np.where(kinked[: len(u)], self.key_steps, before[0])
         self.start_steps = before[1].copy()
-        self.start_steps[self.free] *= np.where(kinked[len(u) :], _WIDE, 1)
-        if kinked.any():
+        self.start_steps[self.free] *= np.where(kinked[len(u) :], WIDE, 1)
+        self.kinked = bool(kinked.any())
+        if self.kinked:
             # Such runs take long, and larger steps allow larger errors.
             loose = [("solver.rtol", "1e-7"), ("solver.atol", "1e-9")]
             self.logs = [replace(log, given=log.given.changed(loose)) for log in self.logs]
             self.linearize(u, self.base.starts)
         else:
             self.base, self._solvers = smooth, None
-        self.kinked = bool(kinked.any())
 
     def derivatives(self, u: Array, near: bool = True) -> Tuple[Array, Array]:
         """Of residuals by u: what the starts cannot undo, and the norms of the columns with fixed starts. `near`: those
@@ -352,6 +388,26 @@ class WindowsFit:
             slopes, inverse = self._solve()
         by_key = self.base.by_key * factors[..., None]
         return (by_key - slopes @ (inverse @ by_key))[self.there], np.sqrt((by_key**2).sum((0, 1)))
+
+    @np.errstate(over="ignore", invalid="ignore")  # far away
+    def best_of(self, many: Array) -> Tuple[Array, Array, float]:
+        """The best of many values u near the base, after a step of Gauss and Newton from each: these values, their
+        starts, and the sum of squares."""
+        (slopes, inverse), factors, count = self._solve(), self.over_noise(), len(self.windows)
+        by_key = self.base.by_key * factors[..., None]
+        by_key = np.linalg.pinv((by_key - slopes @ (inverse @ by_key)).reshape(-1, by_key.shape[2]))
+        ends, starts = np.array([key.ends() for key in self.keys]).T, np.tile(self.base.starts, (len(many), 1))
+        for turn in range(2):
+            its = self._run(np.tile(np.arange(count), len(many)), np.repeat(many, count, 0), starts)[0]
+            rest = its.reshape(len(many), *factors.shape) * factors
+            step = _times(inverse, rest)
+            rest -= _times(slopes, step)  # the motion depends on its start almost linearly
+            starts.reshape(len(many), count, -1)[..., self.free] -= step
+            if not turn:
+                many = np.clip(many - np.nan_to_num(rest.reshape(len(many), -1)) @ by_key.T, *ends)
+        costs = np.nan_to_num(np.linalg.norm(rest, axis=(1, 2)), nan=np.inf)
+        best = int(costs.argmin())
+        return many[best], starts.reshape(len(many), count, -1)[best], float(costs[best] ** 2)
 
     def guess_velocities(self, u: Array) -> Array:
         """Starts: in each window, that which fits best of some with velocities over the first rows, and at rest."""

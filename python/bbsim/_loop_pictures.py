@@ -17,7 +17,7 @@ from matplotlib.ticker import MaxNLocator, MultipleLocator, NullFormatter
 from . import _loops
 from ._loops import AXES, Columns
 from ._plot_axes import covered, logarithmic
-from ._plot_sheet import MM, TEXT, Figure, Sheet, cut, mark, number, stroke, width_of
+from ._plot_sheet import MM, TEXT, Box, Figure, Sheet, cut, mark, number, stroke, width_of
 from ._scenario import Array, Scenario, Settings, fault
 
 Margins = Mapping[str, Mapping[str, Any]]
@@ -281,12 +281,11 @@ def draw_accuracy(text: str, title: str, wide: Optional[float]) -> Tuple[Any, in
     width = wide or 135.0
     height = 0.6 * (width - 19)
     sheet = Sheet(width, height + 14, title, "", list(looks.items()))
-    box = (15.0, 4.8, width - 4, 4.8 + height)
+    box = Box(15.0, 4.8, width - 4, 4.8 + height)
     axes = sheet.panel(box, "processor time of a run (µs)")
-    across = box[2] - box[0]
     every = [point for method in points.values() for point in method]
     label = "error: largest |Δx|, |Δy| over the output times (m)"
-    logarithmic(axes.xaxis, covered([error for error, _ in every]), across, label, air=0.04)
+    logarithmic(axes.xaxis, covered([error for error, _ in every]), box.across, label, air=0.04)
     logarithmic(axes.yaxis, covered([time for _, time in every]), height, air=0.06)
     for method, look in looks.items():
         axes.plot(*zip(*points[method]), **look)

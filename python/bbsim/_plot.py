@@ -15,14 +15,15 @@ import numpy as np
 
 from . import _bbsim
 from ._loop_pictures import KINDS, draw_accuracy, draw_loop
+from ._logs import Log, as_files, is_table, log_choice, tables_named, without_folders
 from ._plot_runs import draw_runs
 from ._plot_sheet import FONT, Figure, require_font, style
 from ._plot_sweeps import draw_sweep
 from ._result import Result
-from ._scenario import InputError, fault, given, listed, log_choice, overrides, refuse
+from ._scenario import InputError, counted, fault, given, listed, overrides, refuse
 
 File = Union[str, "os.PathLike[str]"]
-Drawn = Union[File, Result, "np.ndarray[Any, np.dtype[np.void]]"]
+Drawn = Union[Log, Result, "np.ndarray[Any, np.dtype[np.void]]"]
 Texts = Union[str, Sequence[str]]
 
 _FORMATS = ("svg", "png", "pdf")
@@ -59,7 +60,7 @@ def _in_memory(drawn: Any) -> _bbsim.Stored:
     if isinstance(drawn, Result):
         return drawn._stored()
     if not isinstance(drawn, np.ndarray) or not drawn.dtype.names:
-        allowed = "allowed: files, results of bbsim.run, arrays of bbsim.sweep"
+        allowed = "allowed: files, results of bbsim.run, arrays of bbsim.sweep, dicts of arrays"
         raise TypeError(f"found {type(drawn).__name__}; {allowed}")
     columns = []
     for name in drawn.dtype.names:
@@ -96,13 +97,14 @@ class _Options:
     def read(self, files: Sequence[Any], say: Any) -> List[_bbsim.Stored]:
         stored, beside = [], _bbsim.Beside(self.summary, self.scenario, overrides(self.set))
         for file in files:
-            if isinstance(file, (str, os.PathLike)):
-                one, notes = _bbsim.read_result(os.fspath(file), beside, self.log)
-                stored.append(one)
-                for note in notes:
-                    say(note)
-            else:
+            if isinstance(file, Result) or not (isinstance(file, (str, os.PathLike)) or is_table(file)):
                 stored.append(_in_memory(file))
+                continue
+            with as_files(file) as (name,):
+                one, notes = _bbsim.read_result(name, beside, self.log)
+            stored.append(one)
+            for note in notes:
+                say(without_folders(note))
         return stored
 
     def draw(self, results: Sequence[_bbsim.Stored]) -> Tuple[Figure, str]:
@@ -120,7 +122,7 @@ class _Options:
                     raise fault("overlay: found a sweep; allowed: runs, since a sweep has its own picture")
                 figure, panels = draw_sweep(results[0], _parts(self.columns, ","), self.over, self.width)
                 rows, what = results[0].rows, "cases"
-        return figure, f"{rows} {what}, {panels} panel{'s' if panels != 1 else ''}"
+        return figure, f"{rows} {what}, {counted(panels, 'panel')}"
 
     def draw_scenario(self, scenario: Any) -> Tuple[Figure, str]:
         with style(self.font):
@@ -151,8 +153,8 @@ def plot(
 ) -> Figure:  # fmt: skip
     """Draws runs, a sweep or a log; returns a matplotlib figure. The keywords are the options of ``bbsim plot``.
 
-    files    CSV or HDF5 files, results of ``bbsim.run``, or an array of ``bbsim.sweep``; several runs
-             are compared in one figure. With ``accuracy``, ``bode``, ``nyquist``, ``poles``, ``step`` or
+    files    CSV or HDF5 files, results of ``bbsim.run``, an array of ``bbsim.sweep``, or logs as dicts of
+             arrays or DataFrames; several runs are compared in one figure. With ``accuracy``, ``bode``, ``nyquist``, ``poles``, ``step`` or
              ``root_locus="KEY=FROM:TO"`` or ``(KEY, FROM, TO)``: a scenario
     columns  the panels: ``["path", "x,x_reference", "phi"]`` or ``["path", ["x", "x_reference"]]``; of a sweep,
              measures
@@ -171,7 +173,8 @@ def plot(
         all_files = files if isinstance(files, (list, tuple)) else [files]
         if not all_files:
             raise fault("files: found none; allowed: a file, a result, or a list of them")
-        figure, _ = options.draw(options.read(all_files, lambda note: None))
+        with tables_named():
+            figure, _ = options.draw(options.read(all_files, lambda note: None))
     if output is not None:
         _save(figure, os.fspath(output), chosen)
     return figure

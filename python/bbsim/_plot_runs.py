@@ -72,7 +72,6 @@ def _lone(x: Any, y: Any) -> Tuple[Any, Any]:
 def _time_panel(
     sheet: Sheet, box: Box, runs: Runs, planned: Panel, abscissa: _Abscissa, marks: _Marks, lowest: bool
 ) -> None:
-    across, up = box[2] - box[0], box[3] - box[1]
     range_ = covered(*(runs.range(line.column) or [] for line in planned.lines))
     demanded = any(line.column == "friction_demand" for line in planned.lines)
     limits = sorted({run.friction for run in runs.runs if run.friction is not None}) if demanded else []
@@ -99,8 +98,8 @@ def _time_panel(
         legend.append((names, edge))
     axes = sheet.panel(box, scale.heading(planned.name), legend)
     label = abscissa.scale.heading("t" if abscissa.is_time else "row")
-    linear(axes.xaxis, *abscissa.limits, across, label, numbered=lowest)
-    linear(axes.yaxis, *linear_limits(scale.of(shown)), up)
+    linear(axes.xaxis, *abscissa.limits, box.across, label, numbered=lowest)
+    linear(axes.yaxis, *linear_limits(scale.of(shown)), box.up)
 
     # References and measurements are bands below the thin lines of commands and the motion.
     order = [REFERENCE, MEASURED, COMMAND, MAIN]
@@ -183,17 +182,16 @@ class _Path:
 
     def draw(self, sheet: Sheet, box: Box, marks: _Marks) -> None:
         runs = self._runs
-        across, up = box[2] - box[0], box[3] - box[1]
         x_scale, y_scale = choose_scales(runs.unit("x"), self._x, self._y)
         x, y = x_scale.of(self._x) or (0.0, 1.0), y_scale.of(self._y) or (0.0, 1.0)
         # Widens the shorter range until both axes have the same scale.
-        wide, most = max(width(x), width(y) * across / up), max(largest(x), largest(y))
+        wide, most = max(width(x), width(y) * box.across / box.up), max(largest(x), largest(y))
         half = 0.54 * (wide if wide > 1e-9 * most else most or 1.0)
         axes = sheet.panel(box, y_scale.heading("y"))
         middle = x[0] / 2 + x[1] / 2
-        step = linear(axes.xaxis, middle - half, middle + half, across, x_scale.heading("x"))
-        middle, tall = y[0] / 2 + y[1] / 2, half * up / across
-        linear(axes.yaxis, middle - tall, middle + tall, up, step=step)
+        step = linear(axes.xaxis, middle - half, middle + half, box.across, x_scale.heading("x"))
+        middle, tall = y[0] / 2 + y[1] / 2, half * box.up / box.across
+        linear(axes.yaxis, middle - tall, middle + tall, box.up, step=step)
 
         def line(points: Array, look: Stroke) -> None:
             drawn = x_scale(points[0]), y_scale(points[1])
@@ -304,14 +302,14 @@ def draw_runs(results: Sequence[_bbsim.Stored], asked: Sequence[Sequence[str]], 
     tallest = max(sum(heights) + (top if i == 0 else 0.0) for i, heights in enumerate(columns))
     sheet = Sheet(sheet_width, tallest + _UNDER, title, subtitle, legend)
     if with_path:
-        path.draw(sheet, (_LEFT, _ABOVE, _LEFT + part, path_room - _BELOW), marks)
+        path.draw(sheet, Box(_LEFT, _ABOVE, _LEFT + part, path_room - _BELOW), marks)
     # With a path, panels fill the right column first.
     order = sorted(range(len(columns)), reverse=with_path)
     waiting = iter(panels)
     for column in order:
         at = top if column == 0 else 0.0
         for i, height in enumerate(columns[column]):
-            box = (lefts[column], at + _ABOVE, lefts[column] + part, at + height - _BELOW)
+            box = Box(lefts[column], at + _ABOVE, lefts[column] + part, at + height - _BELOW)
             _time_panel(sheet, box, runs, next(waiting), abscissa, marks, i + 1 == len(columns[column]))
             at += height
     return sheet.figure, len(panels) + with_path

@@ -9,7 +9,7 @@ import functools
 import math
 import re
 import warnings
-from typing import Any, Dict, Iterator, List, Sequence, Tuple
+from typing import Any, Dict, Iterator, List, NamedTuple, Sequence, Tuple
 
 import matplotlib
 from matplotlib import font_manager, ft2font
@@ -25,7 +25,24 @@ FONT = "DejaVu Sans"  # comes with matplotlib, and has Greek letters, superscrip
 
 Stroke = Dict[str, Any]  # of Line2D
 Legend = Sequence[Tuple[str, Stroke]]
-Box = Tuple[float, float, float, float]  # left, top, right, bottom: mm from the left, and from below the heading
+
+
+class Box(NamedTuple):
+    """mm from the left, and from below the heading."""
+
+    left: float
+    top: float
+    right: float
+    bottom: float
+
+    @property
+    def across(self) -> float:
+        return self.right - self.left
+
+    @property
+    def up(self) -> float:
+        return self.bottom - self.top
+
 
 _STYLE = {
     "text.parse_math": False,  # texts are the user's
@@ -170,11 +187,10 @@ class Sheet:
         for at, text, size, color in lines:
             self.figure.text(0.5, 1 - at / self.height, text, ha="center", va="top", size=size, color=color)
         if names:
-            handles = [Line2D([], [], **line) for _, line in legend]
-            self._legend(self.figure, handles, names, columns, "upper center", (0.5, 1 - top / self.height))
+            self._legend(self.figure, legend, names, columns, "upper center", (0.5, 1 - top / self.height))
 
-    def _legend(self, owner: Any, handles: Any, names: List[str], columns: int, where: str, anchor: Any) -> None:
-        em = SMALL / 72 / MM
+    def _legend(self, owner: Any, legend: Legend, names: List[str], columns: int, where: str, anchor: Any) -> None:
+        em, handles = SMALL / 72 / MM, [Line2D([], [], **line) for _, line in legend]
         owner.legend(
             handles, names, ncol=columns, loc=where, bbox_to_anchor=anchor, frameon=False, borderpad=0,
             borderaxespad=0, handlelength=self._LINE / em, handletextpad=self._PAD / em, columnspacing=self._GAP / em,
@@ -182,22 +198,16 @@ class Sheet:
         )  # fmt: skip
 
     def axes(self, box: Box) -> Axes:
-        left, top, right, bottom = box
-        return self.figure.add_axes(
-            [left / self.width, 1 - (self._heading + bottom) / self.height,
-             (right - left) / self.width, (bottom - top) / self.height]
-        )  # fmt: skip
+        corner = box.left / self.width, 1 - (self._heading + box.bottom) / self.height
+        return self.figure.add_axes([*corner, box.across / self.width, box.up / self.height])
 
     def panel(self, box: Box, heading: str, legend: Legend = ()) -> Axes:
         """Axes with a heading above their left corner, and a legend in one row beside it."""
-        axes = self.axes(box)
-        width = box[2] - box[0]
+        axes, width = self.axes(box), box.across
         heading = cut(heading, width * (0.55 if legend else 1), TEXT)
-        offset = 1 + 1.4 / (box[3] - box[1])
-        axes.text(-0.5 / width, offset, heading, transform=axes.transAxes, size=TEXT, va="baseline", ha="left")
+        axes.text(-0.5 / width, 1 + 1.4 / box.up, heading, transform=axes.transAxes, size=TEXT, va="baseline", ha="left")
         if legend:
             room = width - width_of(heading, TEXT) - len(legend) * (self._SAMPLE + self._GAP)
             names = _cut_all([name for name, _ in legend], room)
-            handles = [Line2D([], [], **line) for _, line in legend]
-            self._legend(axes, handles, names, len(names), "lower right", (1, 1 + 1.2 / (box[3] - box[1])))
+            self._legend(axes, legend, names, len(names), "lower right", (1, 1 + 1.2 / box.up))
         return axes

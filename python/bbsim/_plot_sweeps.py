@@ -16,7 +16,7 @@ from ._plot_axes import (
     CLOSE, Unit, Units, better_by_log, choose_scale, covered, fitted, is_wide, linear, linear_limits, ticks, width,
 )  # fmt: skip
 from ._plot_sheet import ORANGE, SMALL, Box, Sheet, Stroke, cut, mark, number, stroke
-from ._scenario import fault
+from ._scenario import counted, fault
 
 _MOST_GROUPS = 5  # more values make a map instead of a line for each
 _MOST_BANDS = 3  # more would hide each other
@@ -96,22 +96,7 @@ class _Key:
         ticks(axis, range(count), [cut(label, room, SMALL) for label in self.key.labels])
 
 
-# Panels
-
-@dataclass
-class _Place:
-    sheet: Sheet
-    box: Box
-    lowest: bool  # of its column: the others have no labels below
-
-    @property
-    def across(self) -> float:
-        return self.box[2] - self.box[0]
-
-    @property
-    def up(self) -> float:
-        return self.box[3] - self.box[1]
-
+# Panels; `lowest` of its column: the others have no labels below
 
 def _group_stroke(group: int) -> Stroke:
     marker = mark(("o", "^", "s", "D", " o")[group % 5], stroke(group)["color"], 3)
@@ -125,12 +110,13 @@ def _bundles(places: Any, values: Any) -> Tuple[Any, List[Any]]:
     return at, np.split(values[order], first[1:]) if len(at) else []
 
 
-def _lines(sweep: _Sweep, name: str, over: _bbsim.SweepKey, group: Optional[_bbsim.SweepKey], place: _Place) -> None:
+def _lines(sweep: _Sweep, name: str, over: _bbsim.SweepKey, group: Optional[_bbsim.SweepKey],
+           sheet: Sheet, box: Box, lowest: bool) -> None:  # fmt: skip
     """A curve for each value of `group` through the medians, with a band that holds nine of ten cases."""
     along, up = _Key(sweep, over), _Measure(sweep, name)
-    axes = place.sheet.panel(place.box, up.heading)
-    along.set(axes.xaxis, place.across, cells=False, numbered=place.lowest)
-    up.set(axes.yaxis, place.up, 0.08)
+    axes = sheet.panel(box, up.heading)
+    along.set(axes.xaxis, box.across, cells=False, numbered=lowest)
+    up.set(axes.yaxis, box.up, 0.08)
     groups = [0.0] if group is None else list(group.distinct)
     chosen = np.arange(len(over.values)) % (len(over.values) // _MOST_POINTS + 1 if over.drawn else 1) == 0
     for g, value in enumerate(groups):
@@ -167,23 +153,22 @@ def _shared(key: _Key) -> Tuple[Any, Any]:
     return edges, np.where(np.isnan(values), -1, np.minimum(found, cells - 1))
 
 
-def _map(sweep: _Sweep, name: str, over: _bbsim.SweepKey, against: _bbsim.SweepKey, place: _Place) -> None:
+def _map(sweep: _Sweep, name: str, over: _bbsim.SweepKey, against: _bbsim.SweepKey, sheet: Sheet, box: Box,
+         lowest: bool) -> None:  # fmt: skip
     """A map of medians, with a color scale on its right, logarithmic over more than two decades."""
-    scale_room = 16.0
-    left, top, right, bottom = place.box
-    place = _Place(place.sheet, (left, top, right - scale_room, bottom), place.lowest)
+    box = box._replace(right=box.right - 16)
     along, up, colors = _Key(sweep, over), _Key(sweep, against), _Measure(sweep, name, close=1e-2, decades=2)
-    axes = place.sheet.panel(place.box, colors.heading)
+    axes = sheet.panel(box, colors.heading)
     axes.grid(False)
     axes.spines[:].set_visible(True)
     scattered = over.drawn or against.drawn  # each value is another case's
-    along.set(axes.xaxis, place.across, cells=not scattered, numbered=place.lowest)
-    up.set(axes.yaxis, place.up, cells=not scattered)
+    along.set(axes.xaxis, box.across, cells=not scattered, numbered=lowest)
+    up.set(axes.yaxis, box.up, cells=not scattered)
     norm: Any = None
     if colors.range is not None:
         low, high = colors.range if is_wide(colors.range) else linear_limits(colors.range, 0)
         norm = (LogNorm if colors.log else Normalize)(low, high)
-        _color_scale(place.sheet.axes((right - scale_room + 2.5, top, right - scale_room + 5, bottom)), colors, norm, place.up)
+        _color_scale(sheet.axes(box._replace(left=box.right + 2.5, right=box.right + 5)), colors, norm, box.up)
     if scattered:
         _points(sweep, axes, colors, norm, along, up)
         return
@@ -204,13 +189,13 @@ def _map(sweep: _Sweep, name: str, over: _bbsim.SweepKey, against: _bbsim.SweepK
     if norm is not None:
         drawn = np.ma.masked_invalid(medians)
         axes.pcolormesh(x_edges, y_edges, drawn, cmap="viridis", norm=norm, rasterized=many)
-        if place.across / shape[1] >= 7 and place.up / shape[0] >= 3.2:
+        if box.across / shape[1] >= 7 and box.up / shape[0] >= 3.2:
             for (row, column), value in np.ndenumerate(medians):
                 if np.isfinite(value):
                     color = "#ffffff" if norm(value) < 0.55 else "#000000"  # readable on both halves of the colors
                     shown = number(value, 3)
                     axes.text(x[column], y[row], shown, size=6, ha="center", va="center_baseline", color=color)
-    _mark_cells(sweep, axes, cells, x, y, min(place.across / shape[1], place.up / shape[0]))
+    _mark_cells(sweep, axes, cells, x, y, min(box.across / shape[1], box.up / shape[0]))
 
 
 def _color_scale(axes: Any, colors: _Measure, norm: Any, up: float) -> None:
@@ -253,7 +238,7 @@ def _mark_cells(sweep: _Sweep, axes: Any, cells: Any, x: Any, y: Any, size: floa
         axes.plot(x[np.array(of) % len(x)], y[np.array(of) // len(x)], rasterized=len(of) > 2500, **look)
 
 
-def _histogram(sweep: _Sweep, name: str, place: _Place) -> None:
+def _histogram(sweep: _Sweep, name: str, sheet: Sheet, box: Box) -> None:
     along = _Measure(sweep, name)
     good = along.values[sweep.done & np.isfinite(along.values)]
     values = np.sort(np.log(along.scale(good)) if along.log else along.scale(good))
@@ -274,9 +259,9 @@ def _histogram(sweep: _Sweep, name: str, place: _Place) -> None:
         else:
             tails = f"5, 95 %: {number(at[0], digits)}, {number(at[2], digits)}"
             legend = [(f"median {number(at[1], digits)}", median), (tails, tail)]
-    axes = place.sheet.panel(place.box, "", legend)
-    along.set(axes.xaxis, place.across, 0.03, along.heading)
-    linear(axes.yaxis, 0, 1.05 * counts.max(), place.up, "cases", least=1)
+    axes = sheet.panel(box, "", legend)
+    along.set(axes.xaxis, box.across, 0.03, along.heading)
+    linear(axes.yaxis, 0, 1.05 * counts.max(), box.up, "cases", least=1)
     if len(edges):
         axes.stairs(counts, np.exp(edges) if along.log else edges, fill=True, color="#7fb8d8")
     for value in at:
@@ -382,7 +367,7 @@ def draw_sweep(stored: _bbsim.Stored, asked: Sequence[str], over: Sequence[str],
     rows = -(-len(measures) // columns)
     title, subtitle = (stored.title, stored.shown_file) if stored.title else (stored.shown_file, "")
     cases = f"{stored.rows} cases{_taken_over(sweep.table, form)}"
-    others = [(f"{word}: {n} case{'s' if n > 1 else ''}", sweep.mark(word)) for word, n in sweep.table.others]
+    others = [(f"{word}: {counted(n, 'case')}", sweep.mark(word)) for word, n in sweep.table.others]
     none = sum(not np.isfinite(sweep.stored.numbers(name)[sweep.done]).all() for name in measures)
     if is_map and none:
         others.append(("no value", _NO_VALUE))
@@ -394,12 +379,12 @@ def draw_sweep(stored: _bbsim.Stored, asked: Sequence[str], over: Sequence[str],
     sheet = Sheet(sheet_width, pitch * rows + (1 if histogram else 8.5), title, subtitle, legend + others)
     for m, name in enumerate(measures):
         x, y = left + (m % columns) * (part + between), pitch * (m // columns)
-        box = (x, y + 5.0, x + part, y + pitch - (9.5 if histogram else 1.5))
-        place = _Place(sheet, box, m + columns >= len(measures))
+        box = Box(x, y + 5.0, x + part, y + pitch - (9.5 if histogram else 1.5))
+        lowest = m + columns >= len(measures)
         if form.over is None:
-            _histogram(sweep, name, place)
+            _histogram(sweep, name, sheet, box)
         elif form.against is not None:
-            _map(sweep, name, form.over, form.against, place)
+            _map(sweep, name, form.over, form.against, sheet, box, lowest)
         else:
-            _lines(sweep, name, form.over, form.group, place)
+            _lines(sweep, name, form.over, form.group, sheet, box, lowest)
     return sheet.figure, len(measures)

@@ -12,45 +12,43 @@ from functools import cached_property
 from numbers import Real
 from pathlib import Path
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _bbsim
-from ._scenario import Array, Settings, fault, listed, log_choice, overrides, refuse
+from ._logs import Log, as_files, log_choice, without_folders
+from ._scenario import Array, Columns, Settings, fault, listed, overrides, refuse
 
 if TYPE_CHECKING:
     import matplotlib.figure
     import pandas
 
-
-
 File = Union[str, "os.PathLike[str]"]
 Texts = Union[str, Sequence[str]]
 
 
-class Result:
+class Result(Columns):
     """The rows of a run, by column, and how the run ended.
 
     ``result["x"]`` is a numpy array that shares the memory of the run, in SI units and radians.
     """
 
     def __init__(self, run: Any) -> None:
+        super().__init__(run.rows)
         self._run = run
-
-    @cached_property
-    def _rows(self) -> Dict[str, Array]:
-        return self._run.rows
-
-    @cached_property
-    def columns(self) -> List[str]:
-        """The names of the columns, in the order of ``output.columns``."""
-        return self._run.columns
-
-    @cached_property
-    def units(self) -> Dict[str, str]:
+        self.units: Dict[str, str] = dict(zip(run.columns, run.units))
         """The unit of each column, such as ``"m"``; ``"1"`` for a number without a unit."""
-        return dict(zip(self.columns, self._run.units))
+        self.measures: Dict[str, float] = dict(run.measures)
+        """The measures that were asked for, or the usual ones."""
+        self.status: str = run.status
+        """``done``, ``stopped`` by an event, or ``failed``."""
+        self.reason: str = run.reason
+        """Why the run ended early; empty if it did not."""
+        self.warnings: List[str] = run.warnings
+        """What may not be as you meant it."""
+        self.unmet: List[str] = run.unmet
+        """The conditions of ``expect`` that do not hold."""
 
     @cached_property
     def summary(self) -> Dict[str, Any]:
@@ -61,43 +59,6 @@ class Result:
     def events(self) -> List[Dict[str, Any]]:
         """The events that occurred, with the state at each."""
         return self.summary["events"]
-
-    @cached_property
-    def measures(self) -> Dict[str, float]:
-        """The measures that were asked for, or the usual ones."""
-        return dict(self._run.measures)
-
-    @property
-    def status(self) -> str:
-        """``done``, ``stopped`` by an event, or ``failed``."""
-        return self._run.status
-
-    @property
-    def reason(self) -> str:
-        """Why the run ended early; empty if it did not."""
-        return self._run.reason
-
-    @property
-    def warnings(self) -> List[str]:
-        """What may not be as you meant it."""
-        return self._run.warnings
-
-    @property
-    def unmet(self) -> List[str]:
-        """The conditions of ``expect`` that do not hold."""
-        return self._run.unmet
-
-    def __getitem__(self, column: str) -> Array:
-        try:
-            return self._rows[column]
-        except KeyError:
-            raise KeyError(f"there is no column {column!r}; there are {', '.join(self.columns)}") from None
-
-    def __contains__(self, column: object) -> bool:
-        return column in self.columns
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.columns)
 
     def __reduce__(self) -> "tuple[type, tuple[Any]]":
         names = ("columns", "units", "unmet", "measures", "warnings", "title", "status", "reason", "summary", "rows")
@@ -314,7 +275,7 @@ class Compared:
 
 
 def replay(
-    *files: Union[File, Result], output: Optional[File] = None, data: Texts = (), map: Texts = (), header: Texts = (),
+    *files: Union[File, Result], output: Optional[File] = None, data: Union[Log, Sequence[Log]] = (), map: Texts = (), header: Texts = (),
     period: str = "", time_offset: str = "", missing: Any = None, title: str = "", summary: File = "",
     scenario: File = "", set: Settings = None,
 ) -> Page:  # fmt: skip
@@ -322,6 +283,7 @@ def replay(
 
     files     files, or results of ``bbsim.run``
     output    also writes the page to this file, NAME.html
+    data      logs to show beside a scenario: files, dicts of arrays or DataFrames
     """
     shown = [file._stored() if isinstance(file, Result) else os.fspath(file) for file in files]
     log = log_choice(map, header, period, time_offset, missing)
@@ -329,24 +291,30 @@ def replay(
     target = "" if output is None else os.fspath(output)
     if target and not target.lower().endswith(".html"):
         raise refuse("output", target, "a name that ends in .html")
-    made = _bbsim.replay(shown, listed(data), log, beside, title, target)
+    with as_files(data) as logs:
+        made = _bbsim.replay(shown, logs, log, beside, title, target)
     if target:
         _bbsim.write_file(target, made[0])
-    return Page(*made)
+    return Page(made[0], made[1], [without_folders(note) for note in made[2]])
 
 
 def compare(
-    a: File, b: File, *, rtol: Optional[float] = None, atol: Optional[float] = None, columns: Texts = (),
+    a: Log, b: Log, *, rtol: Optional[float] = None, atol: Optional[float] = None, columns: Texts = (),
     map: Texts = (), header: Texts = (), period: str = "", time_offset: str = "", missing: Any = None,
     set: Settings = None,
 ) -> Compared:  # fmt: skip
-    """Compares two files of results, or a log with a run or a scenario. The keywords are the options of ``bbsim compare``."""
+    """Compares two files of results, or a log with a run or a scenario. The keywords are the options of ``bbsim compare``.
+
+    a, b      files; a log may be a dict of arrays or a DataFrame
+    """
     log = log_choice(map, header, period, time_offset, missing)
     for name, found in (("rtol", rtol), ("atol", atol)):
         if not (found is None or isinstance(found, Real)):
             raise refuse(name, repr(found), "a number, in SI units")
-    made = _bbsim.compare(os.fspath(a), os.fspath(b), overrides(set), rtol, atol, listed(columns), log)
-    return Compared(made.alike, made.text, made.reason, made.warnings)
+    with as_files([a, b]) as (one, other):
+        made = _bbsim.compare(one, other, overrides(set), rtol, atol, listed(columns), log)
+    notes = [without_folders(text) for text in made.warnings]
+    return Compared(made.alike, without_folders(made.text), made.reason, notes)
 
 
 def examples() -> Dict[str, Path]:

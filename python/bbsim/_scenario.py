@@ -8,7 +8,7 @@ import json
 import math
 import os
 from dataclasses import dataclass
-from typing import Any, Callable, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -81,7 +81,29 @@ class ControllerError(Error, RuntimeError):
     """The scenario's controller failed; its exception is the cause (``__cause__``)."""
 
 
-def _whole(text: str) -> str:
+class Columns:
+    """Arrays by name."""
+
+    columns: List[str]
+    """The names, in order."""
+
+    def __init__(self, arrays: Mapping[str, Array]) -> None:
+        self._arrays, self.columns = arrays, list(arrays)
+
+    def __getitem__(self, column: str) -> Array:
+        try:
+            return self._arrays[column]
+        except KeyError:
+            raise KeyError(f"there is no column {column!r}; there are {', '.join(self.columns)}") from None
+
+    def __contains__(self, column: object) -> bool:
+        return column in self._arrays
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.columns)
+
+
+def whole(text: str) -> str:
     try:
         text.encode()
     except UnicodeEncodeError:
@@ -94,7 +116,7 @@ def _text(value: Any) -> str:
     if isinstance(value, (np.generic, np.ndarray)):
         value = value.tolist()
     if isinstance(value, (str, os.PathLike)):
-        return json.dumps(_whole(os.fspath(value)), ensure_ascii=False)
+        return json.dumps(whole(os.fspath(value)), ensure_ascii=False)
     if isinstance(value, float) and not math.isfinite(value):  # the reader refuses these words and names the key
         return ".nan" if math.isnan(value) else ".inf" if value > 0 else "-.inf"
     if isinstance(value, (bool, int, float)) or value is None:
@@ -109,7 +131,7 @@ def _text(value: Any) -> str:
 
 def as_yaml(value: Any) -> str:
     """The value as written after ``KEY=``: texts unchanged, everything else in YAML's flow style."""
-    return _whole(value) if isinstance(value, str) else _text(value)
+    return whole(value) if isinstance(value, str) else _text(value)
 
 
 def _without_callable(scenario: Mapping[str, Any]) -> Tuple[Mapping[str, Any], Optional[Callable[..., Any]]]:
@@ -135,6 +157,10 @@ def overrides(settings: Settings) -> List[str]:
     return [f"{key}={as_yaml(value)}" for key, value in (settings or {}).items()]
 
 
+def counted(count: int, what: str) -> str:
+    return f"{count} {what}" + ("" if count == 1 else "s")
+
+
 def listed(texts: Any) -> List[str]:
     """Texts of an option: one text or path, or several. A dict has what follows KEY=: a text, a tuple of two bounds,
     other values, or None for the key alone."""
@@ -153,12 +179,6 @@ def listed(texts: Any) -> List[str]:
     return [str(key) if one is None else f"{key}={written(one)}" for key, one in texts.items()]
 
 
-def log_choice(map: Any, header: Any, period: Any, time_offset: Any, missing: Any) -> _bbsim.LogChoice:
-    """How to read a log; None and "" leave an option out."""
-    gone = "" if missing is None else str(missing)
-    return _bbsim.LogChoice(listed(map), listed(header), str(period or ""), str(time_offset or ""), gone)
-
-
 def given(scenario: Union[Scenario, _bbsim.Given], settings: Settings = None, error: Any = None) -> _bbsim.Given:
     """The scenario with settings. One that is already given stays as it is, and simulate() reads it only once."""
     if isinstance(scenario, _bbsim.Given):
@@ -173,7 +193,7 @@ def given(scenario: Union[Scenario, _bbsim.Given], settings: Settings = None, er
     if not isinstance(name, str):
         raise TypeError(f"found a scenario of type {type(scenario).__name__}; allowed: a path, YAML text or a dict")
     if isinstance(scenario, str) and ("\n" in name or name.lstrip().startswith("{")):
-        return _bbsim.Given("<text>", _whole(name), texts, None)
+        return _bbsim.Given("<text>", whole(name), texts, None)
     return _bbsim.Given(name, None, texts, None)
 
 

@@ -4,41 +4,25 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _bbsim
-from ._scenario import Array, Scenario, Settings, as_yaml, given, listed, refuse
+from ._scenario import Array, Columns, Scenario, Settings, as_yaml, given, listed, refuse
 
 Cases = Union[Mapping[str, Any], Sequence[Mapping[str, Any]]]
 Names = Union[str, Sequence[str]]
 
 
-class Simulated:
+class Simulated(Columns):
     """The columns, measures and status of each case; ``made["x"]`` has a row for each case."""
 
     def __init__(self, made: Any, columns: Sequence[str], measures: Sequence[str]) -> None:
-        self._columns: Dict[str, Array] = dict(zip(columns, made[0]))
+        super().__init__(dict(zip(columns, made[0])))
         self.measures: Dict[str, Array] = dict(zip(measures, made[1]))
         self.status: "np.ndarray[Any, np.dtype[np.str_]]" = np.array(made[2], dtype=np.str_)
         self.reason: List[str] = made[3]
-
-    @property
-    def columns(self) -> List[str]:
-        return list(self._columns)
-
-    def __getitem__(self, column: str) -> Array:
-        try:
-            return self._columns[column]
-        except KeyError:
-            raise KeyError(f"there is no column {column!r}; there are {', '.join(self._columns)}") from None
-
-    def __contains__(self, column: object) -> bool:
-        return column in self._columns
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._columns)
 
     def __len__(self) -> int:
         """The number of cases."""
@@ -47,7 +31,7 @@ class Simulated:
     def __repr__(self) -> str:
         words, counts = np.unique(self.status, return_counts=True)
         ends = ", ".join(f"{count} {word}" for word, count in zip(words, counts))
-        return f"<bbsim.Simulated {len(self)} cases ({ends}): {', '.join([*self._columns, *self.measures])}>"
+        return f"<bbsim.Simulated {len(self)} cases ({ends}): {', '.join([*self.columns, *self.measures])}>"
 
 
 def _numbers(what: str, values: Any) -> Array:

@@ -13,7 +13,7 @@ import shutil
 import sys
 import time
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, List, NoReturn, Optional, Sequence
+from typing import Any, Callable, Dict, List, NoReturn, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -27,6 +27,12 @@ _ROUNDING = 1e-12
 
 def refuse_free(what: str) -> NoReturn:
     raise fault(f"--free: {what}")
+
+
+def refuse_twice(names: Sequence[str]) -> None:
+    for i, name in enumerate(names):
+        if name in names[:i]:
+            refuse_free(f"{name} is given twice")
 
 
 def usual_scale(start: float, unit: str) -> float:
@@ -57,6 +63,11 @@ class FreeKey:
 
     def number(self, value: float) -> float:
         return math.log(value / self.start) if self.logarithmic else (value - self.start) / self.scale
+
+    def ends(self) -> Tuple[float, float]:
+        """The numbers of the bounds."""
+        low = -math.inf if self.logarithmic and self.lower <= 0 else self.number(self.lower)
+        return low, self.number(self.upper)
 
     def slope(self, u: float) -> float:
         """The derivative of the value by u."""
@@ -116,8 +127,7 @@ def read_free_keys(texts: Sequence[str], given: _bbsim.Given) -> List[FreeKey]:
         if name.startswith(("ball.position", "ball.velocity")):
             allowed = "any other key that is a number"
             refuse_free(f"{name}: each window's start is fitted anyway; allowed: {allowed}")
-        if any(key.name == name for key in keys):
-            refuse_free(f"{name} is given twice")
+        refuse_twice([*(key.name for key in keys), name])
         keys.append(read_free_key(text, given))
     return keys
 

@@ -13,10 +13,11 @@ from typing import Any, Dict, List, Tuple
 import numpy as np
 
 from . import _bbsim
-from ._scenario import Array, InputError, Scenario, Settings, fault, given, listed
+from ._scenario import Array, InputError, Scenario, Settings, counted, fault, given, listed
 from ._simulate import simulate
 from ._task import (
-    Bar, Progress, aligned, as_json, declare, print_report, read_free_key, refuse_free, silent, write_found,
+    Bar, Progress, aligned, as_json, declare, print_report, read_free_key, refuse_free, refuse_twice, silent,
+    write_found,
 )  # fmt: skip
 from ._worst_case import Search, merit_of, worst_of
 
@@ -43,9 +44,7 @@ class _Tuning:
         self.keys: List[Tuple[str, str, float, int]] = []  # name, unit, factor, place of its number
         free = np.array([self._read(text, place) for place, text in enumerate(options["free"])]).T
         self.bounds, self.start, names = free[:2], free[2], [key[0] for key in self.keys]
-        for i, name in enumerate(names):
-            if name in names[:i]:
-                refuse_free(f"{name} is given twice")
+        refuse_twice(names)
         self.logarithmic = (free[0] > 0) & (free[1] > 10 * free[0])  # positive numbers over more than a decade
         _bbsim.remarks(base.changed(self.settings(self.start)))  # reads these values together
         self.goals = [_bbsim.expectation(base, "--require", text) for text in options["require"]]
@@ -193,7 +192,7 @@ class _Tuning:
         for i, name in enumerate([self.measures[0], *(goal.text for goal in self.goals)]):
             unit, (value, good, lacking) = self.goals[i - 1].unit if i else self.unit, self.worst(found.after, i)
             holds = ("yes" if i else "-") if good else "no"
-            holds += f": no value on {lacking} rig{'s' * (lacking > 1)}" if lacking else ""
+            holds += f": no value on {counted(lacking, 'rig')}" if lacking else ""
             measures.append([name, f"{self.worst(found.before, i)[0]:.3g}", f"{value:.3g}", unit or "1", holds])
             fails = " (does not hold)" if i and not good else ""
             comments += f"#   {name}{fails}: {short(value)} {unit}".rstrip() + "\n"

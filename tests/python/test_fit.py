@@ -242,6 +242,68 @@ class Estimates(Case):
         self.assertAlmostEqual(self.fit(THETA + "delay=-1:1", starts=12).parameters[0].estimate, 0, delta=2e-3)
 
 
+class Frame:
+    """What bbsim needs of a pandas DataFrame."""
+
+    def __init__(self, columns):
+        self._columns, self.columns = columns, list(columns)
+
+    def __getitem__(self, name):
+        return self._columns[name]
+
+
+class Tables(Case):
+    def test_a_log_in_memory_is_that_of_a_file(self):
+        rows = rows_of(sd=5e-4)
+        rows["x"][3] = np.nan
+        self.put(rows)
+        for log in (rows, Frame(rows), {name: its.tolist() for name, its in rows.items()}):
+            files = [{"logs": its, "json": f"{i}.json", "output": f"{i}.yaml"} for i, its in enumerate((log, ["log.csv"]))]
+            ours, theirs = (self.fit("ball.inertia_factor", **one) for one in files)
+            self.assertEqual(ours.report, theirs.report)
+            self.assertEqual(Path("0.json").read_text(), Path("1.json").read_text())
+        self.assertIn("#   log-1.csv\n", Path("0.yaml").read_text())
+        two = self.fit("ball.inertia_factor", logs=[rows, "log.csv"])
+        self.assertEqual((two.logs, two.windows), (["log-1.csv", "log.csv"], 20))
+
+    def test_clocks_and_units(self):
+        rows = rows_of(sd=5e-4)
+        self.put(rows)
+        expected = self.fit("ball.inertia_factor")
+        hour = np.datetime64("2026-03-01T12:00:00", "ns")
+        clock = hour + np.round(1e9 * rows["t"]).astype("timedelta64[ns]")
+        for t, made in (("datetime", clock), ("seconds", clock - hour)):
+            found = self.fit("ball.inertia_factor", logs={t: made, "px": 100 * rows["x"] + 5, "y": rows["y"]},
+                             map=["x=0.01*px-0.05", "y=y"])  # fmt: skip
+            self.assertAlmostEqual(found.parameters[0].estimate, expected.parameters[0].estimate, delta=1e-6)
+
+    def test_what_is_refused(self):
+        self.put(rows_of())
+        for log, message in (
+            ({"t": [0, 1], "x": [1]}, "column x: found 1 values; allowed: 2, as in t"),
+            ({"t": [0, 1], "x": [[1, 2], [3, 4]]}, "column x: found an array of shape (2, 2)"),
+            ({"t": [0, 1], "x": [[1], [3, 4]]}, "column x: found rows of different lengths"),
+            ({"t": [0, 1], "x": ["\ud800", "b"]}, "a part of a character"),
+            ({"t": [0, 1, 1.5], "phi": [1, 2, 3]}, "log-1.csv: has no column to compare"),
+            ({"t": [0, 1, 1.5], "x": ["a", "b", "c"]}, "log-1.csv: column x: found texts"),
+        ):  # fmt: skip
+            self.assertIn(message, self.refused("ball.inertia_factor", logs=log))
+        with self.assertRaisesRegex(bbsim.InputError, "^log-1.csv: nothing to draw"):
+            bbsim.plot({"t": [0, 1], "x": [None, None]})
+
+    def test_pictures_comparisons_and_pages(self):
+        rows = rows_of()
+        self.put(rows)
+        figures = [bbsim.plot(log, map="x=x,y=y") for log in (rows, "log.csv")]
+        lines = [[line.get_xydata().tolist() for axes in one.axes for line in axes.lines] for one in figures]
+        self.assertEqual(*lines)
+        made = bbsim.compare(rows, "log.csv", atol=0)
+        self.assertTrue(made and "bbsim-" not in made.text, made.text)
+        page = bbsim.replay("rig.yaml", data=[rows])
+        self.assertIn("log-1.csv", page.html)
+        self.assertNotIn("bbsim-logs-", page.html + "".join(page.notes))
+
+
 class Intervals(Case):
     def test_growth_at_the_ends(self):
         # The inertia correlates with the sensor's scale. It may be held at its bound, which it leaves again.
@@ -302,6 +364,31 @@ class Intervals(Case):
             white += made.white
         self.assertTrue((holds >= 7).all(), holds)
         self.assertGreaterEqual(white, 9)
+
+    def test_coverage_with_a_dead_band(self):
+        # Which commands a servo follows changes in steps with their scale. A step of the residuals divided by a small
+        # difference is no slope: the deviation of the scale was down to a thousandth of its scatter.
+        truth = {"gimbal.servo.time_constant": 0.06, "controller.sampling.delay": 0.008,
+                 "gimbal.mounting.phi_offset": np.radians(0.3), "controller.commands.phi.table.scale": 1}  # fmt: skip
+        rig = ("ball: {{radius: 2 cm, position: [4 cm, 0]}}\n"
+               "gimbal: {{servo: {{time_constant: {} ms, dead_band: 1 deg}}, mounting: {{phi_offset: {} deg}}}}\n"
+               "controller: {{drives: angle, sampling: {{period: 20 ms, delay: {} ms}}, {}}}\n"
+               "time: {{end: 5, step: 10 ms}}\noutput: {{columns: [t, x, y, phi_command, theta_command]}}\n")  # fmt: skip
+        law = ("gravity_compensation: {{kp: 8, kv: 4}}, reference: {{circle: {{radius: 4 cm, rate: -2.5}}}}, "
+               "sensor: {{noise: 0.3 mm, seed: {}}}")  # fmt: skip
+        table = "commands: {phi: {table: {file: log.csv, time: t, value: u}}, theta: {table: {file: log.csv, time: t, value: v}}}"
+        sums = np.zeros(len(truth))
+        for seed in range(20):
+            run, random = bbsim.run(rig.format(60, 0.3, 8, law.format(seed))), np.random.default_rng(seed)
+            # The firmware logs each command when it computes it, half a sample before the next one.
+            rows = {"t": run["t"][:-1:2], "u": run["phi_command"][1::2], "v": run["theta_command"][1::2]}
+            rows.update((name, run[name][:-1:2] + 3e-4 * random.normal(size=250)) for name in ("x", "y"))
+            self.put(rows, rig.format(45, 0, 12, table).replace("end: 5", "end: 4.98"))
+            free = [f"{key}=0:60 ms" if key.endswith("delay") else key for key in truth]
+            made = self.fit(free, window="5 s")
+            sums += [((one.estimate - value) / one.sd) ** 2 for one, value in zip(made.parameters, truth.values())]
+        # Chi-square with 20 degrees of freedom: 99.9 % below 45.3, and 99.9 % above 5.9.
+        self.assertTrue(((sums > 5.9) & (sums < 45.3)).all(), sums)
 
 
 class Residuals(Case):
