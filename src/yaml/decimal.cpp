@@ -35,7 +35,9 @@ Decimal leading_decimal(std::string_view text) {
   if (error == std::errc::invalid_argument) return {};
   const char* const last = std::from_chars(begin, end, value).ptr;
 
-  Decimal decimal{{begin, static_cast<std::size_t>(point - begin)}, 0, static_cast<std::size_t>(last - text.data())};
+  Decimal decimal{{begin, static_cast<std::size_t>(point - begin)},
+                  0,
+                  static_cast<std::size_t>(last - text.data())};
   if (last == point) return decimal;
   const char* const exponent = point + (point[1] == '+' ? 2 : 1);
   if (std::from_chars(exponent, last, decimal.exponent).ec != std::errc{}) {

@@ -67,6 +67,7 @@ bbsim.makeLive = (container) => {
       offered = live;
       fillSliders();
     }
+    if (document.activeElement !== editor) editor.value = yaml;
     showFaults(answer.warnings.map((message) => ({place: '', message})));
     showNumbers(answer.tasks);
   }
@@ -132,19 +133,15 @@ bbsim.makeLive = (container) => {
   const quietly = (promise) => promise.catch(() => {});  // its fault is on the page
 
   function setKey(key, value) {
-    const words = typeof value === 'number' ? String(value) : String(value);
-    set.delete(key);
-    set.set(key, words);
+    set.delete(key);  // settings apply in their order
+    set.set(key, String(value));
     return run();
   }
 
   function restore(state) {
-    const other = state.base !== base;
     ({base} = state);
     set = new Map(state.set);
-    editor.value = base;
     quietly(run({keys: true}));
-    if (other) showEditor();
     showButtons();
   }
   const undo = () => { if (history.length > 0) restore(history.pop()); };
@@ -234,13 +231,6 @@ bbsim.makeLive = (container) => {
       quietly(run({keys: true}));
     }, 300);
   });
-  editing.addEventListener('toggle', () => {
-    if (!editing.open || document.activeElement === editor) return;
-    editor.value = yaml;
-  });
-  function showEditor() {
-    editor.value = base;
-  }
   function goToLine(line) {
     editing.open = true;
     const lines = editor.value.split('\n'), from = lines.slice(0, line - 1).join('\n').length + (line > 1 ? 1 : 0);
@@ -343,7 +333,7 @@ bbsim.makeLive = (container) => {
     // Replaces the whole text. Fulfilled when the run is drawn.
     edit(words) {
       remember();
-      base = words;
+      base = editor.value = words;
       set = new Map();
       return run({keys: true});
     },
