@@ -109,7 +109,7 @@ void report_sampled_loop(Report& report, const Scenario& scenario, const model::
   const bool steppers = gimbal.servo && (gimbal.servo_of(0).stepper || gimbal.servo_of(1).stepper);
   report.push_back(
       {"", std::string("without noise, dropouts, rounding, limits, dead band and backlash") +
-               (steppers ? "; steppers are at their targets at once" : "")});
+               (steppers ? "; steppers' ramps are over at once" : "")});
   if (!model::why_not_linear(scenario).empty()) return;
   if (cycle.samples > 1) {
     report.push_back(

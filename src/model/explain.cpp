@@ -114,6 +114,10 @@ std::string limits_of(const Servo& servo) {
       list.add("loses steps beyond " + short_number(*motor.torque / (*motor.inertia * motor.gear)) +
                " rad/s^2");
     }
+    if (motor.natural_frequency) {
+      list.add("rings at " + short_number(*motor.natural_frequency) + " rad/s, damping " +
+               short_number(motor.damping));
+    }
   }
   if (servo.angle_limit) list.add("stops at " + degrees(*servo.angle_limit));
   if (servo.rate_limit) list.add("at most " + degrees(*servo.rate_limit) + "/s");

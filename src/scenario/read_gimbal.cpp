@@ -159,6 +159,15 @@ void read_stepper(yaml::Keys& keys, StepperMotor& stepper) {
                 stepper.inertia);
   const yaml::Number speed{yaml::Dimension::angular_rate, {.above = 0}};
   keys.optional("corner_speed", speed, stepper.corner_speed);
+  constexpr double one_hertz = 2 * std::numbers::pi, any = std::numeric_limits<double>::max();
+  const yaml::Number frequency{yaml::Dimension::angular_rate, {.at_least = 1}};
+  keys.optional("natural_frequency", yaml::Usual{frequency, "Hz", any, one_hertz},
+                stepper.natural_frequency);
+  keys.optional("damping", yaml::Number{yaml::Dimension::number, {.at_least = 0}}, stepper.damping);
+  const auto damping = keys.find("damping");
+  if (damping && !stepper.natural_frequency) {
+    damping->report("found without natural_frequency; allowed: only with it");
+  }
 }
 
 // Reads the keys into `servo`, over its existing values. Does not report missing keys.

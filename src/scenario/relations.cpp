@@ -73,6 +73,8 @@ constexpr KeyRelation table[] = {
     {"gimbal.servo.stepper.torque", needs, "gimbal.servo.stepper.inertia"},
     {"gimbal.servo.stepper.inertia", needs, "gimbal.servo.stepper.torque"},
     {"gimbal.servo.stepper.corner_speed", needs, "gimbal.servo.stepper.torque"},
+    {"gimbal.servo.stepper.damping", needs, "gimbal.servo.stepper.natural_frequency"},
+    {"gimbal.servo.stepper.natural_frequency", excludes, "gimbal.servo.backlash>0"},
     {"gimbal.servo.stepper.torque", excludes,
      "gimbal.servo.backlash>0 or controller.library.wiring"},
     {"events.steps_lost", needs, "gimbal.servo.stepper.torque"},

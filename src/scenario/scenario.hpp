@@ -129,6 +129,10 @@ struct StepperMotor {
   // that it turns, its own and that of the plate behind the gear, at the motor, kg m^2.
   std::optional<double> torque{}, inertia{};
   std::optional<double> corner_speed{};  // of the motor: beyond, torque falls as 1/speed, rad/s
+  // Of the shaft's swings about the driver's angle: rad/s, and the damping ratio. Without a
+  // frequency, the shaft is at that angle.
+  std::optional<double> natural_frequency{};
+  double damping = 0.1;
 
   [[nodiscard]] double microstep() const {  // of the shaft, rad
     return 2 * std::numbers::pi / (steps * microsteps * gear);

@@ -40,11 +40,14 @@ function law(name, size, n, i, rows) {
 
 function stepper_keys() {
   loses = chance(0.3)
+  rings = chance(0.3)
   return "stepper: {microsteps: " (chance(0.5) ? 16 : 1) ", gear: " by_factors(0.5, 20) \
     (loses ? ", torque: " by_factors(0.05, 2) ", inertia: " by_factors(1e-5, 1e-2) : "") \
-    (loses && chance(0.5) ? ", corner_speed: " by_factors(1, 100) : "") "}, rate_limit: " \
+    (loses && chance(0.5) ? ", corner_speed: " by_factors(1, 100) : "") \
+    (rings ? ", natural_frequency: " by_factors(10, 1000) : "") \
+    (rings && chance(0.5) ? ", damping: " between(0, 1.5) : "") "}, rate_limit: " \
     by_factors(0.5, 20) ", acceleration_limit: " by_factors(5, 500) \
-    (!loses && chance(0.2) && !slides ? ", backlash: " radians(by_factors(1e-4, 0.01)) : "")
+    (!loses && !rings && chance(0.2) && !slides ? ", backlash: " radians(by_factors(1e-4, 0.01)) : "")
 }
 function servo_keys(words) {
   words = first_order ? "time_constant: " seconds(by_factors(0.01, 0.3)) \

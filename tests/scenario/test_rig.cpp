@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Keys of real rigs: their values, and refused combinations with reasons.
+#include <numbers>
+
 #include "catch.hpp"
 #include "support/reading.hpp"
 
@@ -282,6 +284,26 @@ TEST_CASE("a stepper's torque goes with its inertia, without backlash") {
                     Catch::Matchers::Contains("beside backlash"));
   CHECK_THROWS_WITH(parse(fault("stepper: {}", "events: {steps_lost: note}\n")),
                     Catch::Matchers::Contains("no stepper loses steps"));
+}
+
+TEST_CASE("a stepper's swings have a natural frequency, and no backlash") {
+  const auto servo = [](const std::string& keys) {
+    return parse("ball: {radius: 0.02}\ngimbal: {servo: {rate_limit: 5, acceleration_limit: 60, " +
+                 keys +
+                 "}}\ncontroller: {gravity_compensation: {kp: 5, kv: 5}, drives: angle, reference: "
+                 "{point: [0, 0]}, sampling: {period: 0.02}}\ntime: {end: 1, step: 0.1}\n")
+        .gimbal.servo->stepper;
+  };
+  CHECK_FALSE(servo("stepper: {}")->natural_frequency);
+  const auto rings = servo("stepper: {natural_frequency: 40 Hz}");
+  CHECK(*rings->natural_frequency == Approx(80 * std::numbers::pi).epsilon(1e-15));
+  CHECK(rings->damping == 0.1);
+  CHECK_THROWS_WITH(servo("stepper: {damping: 0.1}"),
+                    Catch::Matchers::Contains("damping: found without natural_frequency"));
+  CHECK_THROWS_WITH(servo("stepper: {natural_frequency: 0.9}"),
+                    Catch::Matchers::Contains("natural_frequency: found 0.9"));
+  CHECK_THROWS_WITH(servo("stepper: {natural_frequency: 90}, backlash: 0.01"),
+                    Catch::Matchers::Contains("beside backlash"));
 }
 
 }  // namespace bbsim_test::test_rig

@@ -65,6 +65,17 @@ class SwitchedModel {
         model_.system);
   }
 
+  // The angle and rate that the firmware knows of a servo: of a shaft that rings, those that its
+  // driver counts.
+  struct Turned {
+    double angle, rate;
+  };
+  [[nodiscard]] Turned counted(std::size_t servo, double t, const double* z) const {
+    const StepperDriver& driver = mode_->axis[servo].driver;
+    if (!driver.rings) return {z[angle + servo], z[rate_ + servo]};
+    const Jet<double> counted = driver.counted(t);
+    return {counted.value, counted.rate};
+  }
   [[nodiscard]] Demands demands(double t, const double* z) const;
   [[nodiscard]] CommandRates command_rates(double t, const double* z) const;
   // The forces of a coupled scene.

@@ -20,8 +20,26 @@ double horn_of(const PieceAxis& axis, double servo) {
 
 // How far a servo's angle has moved at the end of the piece, its rate or its acceleration.
 double end_of(const PieceAxis& axis, MotionTable::Row row) {
-  return axis.table->by_rate[row][nodes - 1] * axis.rate +
-         axis.table->by_acceleration[row][nodes - 1] * axis.acceleration;
+  const double moved = axis.table->by_rate[row][nodes - 1] * axis.rate +
+                       axis.table->by_acceleration[row][nodes - 1] * axis.acceleration;
+  if (!axis.drifts()) return moved;
+  const double turned = axis.drift_acceleration * axis.length;
+  switch (row) {
+    case MotionTable::angle:
+      return moved + axis.length * (axis.drift_rate + turned / 2);
+    case MotionTable::rate:
+      return moved + axis.drift_rate + turned;
+    default:
+      return moved + axis.drift_acceleration;
+  }
+}
+
+// The same at the start.
+double start_rate(const PieceAxis& axis) {
+  return axis.ratio * (axis.rate + axis.drift_rate);
+}
+double start_acceleration(const PieceAxis& axis) {
+  return axis.ratio * (axis.acceleration + axis.drift_acceleration);
 }
 
 }  // namespace
@@ -48,11 +66,11 @@ HeldPlate::HeldPlate(const model::Model& model)
   }
 }
 
-model::HeldMotions HeldPlate::motions(const double* z) const {
+model::HeldMotions HeldPlate::motions(double t, const double* z) const {
   model::HeldMotions motions{};
   for (std::size_t i = 0; i < servos_; ++i) {
     motions[i] = model::held_motion(response_.of[i], mode_->axis[i], mode_->command[i],
-                                    z[angle + i], z[angle + servos_ + i]);
+                                    z[angle + i], z[angle + servos_ + i], t);
   }
   return motions;
 }
@@ -65,7 +83,9 @@ void HeldPlate::prepare(const model::HeldMotions& motions, double length, Motion
     const MotionTable* const table =
         i > 0 && servo.law == motions[0].law ? motion.axis[0].table : &tables.of(servo.law, length);
     const model::AxisMode& mode = mode_->axis[i];
-    motion.axis[i] = {table, servo.angle, servo.rate, servo.acceleration, mode.ratio, mode.offset};
+    motion.axis[i] = {table,      servo.angle, servo.rate,       servo.acceleration,
+                      mode.ratio, mode.offset, servo.drift_rate, servo.drift_acceleration,
+                      length};
   }
   motion.linkages = linkages_;
   motion.three = three_;
@@ -82,7 +102,7 @@ void HeldPlate::start_plate(const model::Linkages& link, PlateMotion& motion) co
   motion.gain = 0;
   for (int i = 0; i < 2; ++i) {
     const PieceAxis& of = motion.axis[i];
-    const double rate = of.ratio * of.rate, acting = of.ratio * of.acceleration;
+    const double rate = start_rate(of), acting = start_acceleration(of);
     // The rate for a unit rate of the horn.
     const model::Turn<double> turn = link.of[i].turn(horn_of(of, of.angle));
     motion.plane_start[i] = {turn.sin, turn.cos, turn.slope * rate,
@@ -98,8 +118,8 @@ void HeldPlate::start_plate(const model::ThreeServos& link, PlateMotion& motion)
   for (int i = 0; i < 3; ++i) {
     const PieceAxis& of = motion.axis[i];
     horn[i] = horn_of(of, of.angle);
-    rate[i] = of.ratio * of.rate;
-    acting[i] = of.ratio * of.acceleration;
+    rate[i] = start_rate(of);
+    acting[i] = start_acceleration(of);
   }
   if (!known_.has_plate || !std::equal(horn, horn + 3, known_.horn) ||
       !std::equal(rate, rate + 3, known_.rate)) {

@@ -25,8 +25,8 @@ class HeldPlate {
   [[nodiscard]] const model::RigMode& mode() const { return *mode_; }
   [[nodiscard]] const model::ServoResponses& response() const { return response_; }
 
-  // The servos' motions from states z, in the present mode.
-  [[nodiscard]] model::HeldMotions motions(const double* z) const;
+  // The servos' motions from states z at t, in the present mode.
+  [[nodiscard]] model::HeldMotions motions(double t, const double* z) const;
 
   // Sets the servos of a piece of `length` s in the present mode, and the plate at its start if it
   // is behind a mechanism. The tables must live as long as the motion is used.

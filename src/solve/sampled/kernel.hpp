@@ -39,8 +39,12 @@ struct alignas(64) MotionTable {
 // the horn that moves it.
 struct PieceAxis {
   const MotionTable* table;
-  double angle, rate, acceleration;
+  double angle, rate, acceleration;  // without the drift's
   double ratio, offset;
+  double drift_rate, drift_acceleration;  // model::HeldMotion
+  double length;                          // of the piece, s
+
+  [[nodiscard]] bool drifts() const { return drift_rate != 0 || drift_acceleration != 0; }
 };
 
 // The motion of the plate over a piece. The servos determine it.

@@ -89,7 +89,7 @@ void HeldStepper::start(double t, const double* z) {
   time_ = t;
   std::copy_n(z, reached_.size(), reached_.begin());
   if (counts_work_) work_beyond_energy_ = reached_.back() - model::rig_energy(model_->system, z);
-  servo_ = plate_.motions(z);
+  servo_ = plate_.motions(t, z);
   settle();
 }
 
@@ -101,9 +101,14 @@ void HeldStepper::settle() {
       const model::HeldMotion& was = servo_[i];
       const MotionTable& table = *piece_.plate.axis[i].table;
       constexpr auto row = MotionTable::acceleration;
-      servo_[i] = {was.law, reached_[angle + i], reached_[rate_ + i],
+      const double drift = was.drift_rate + was.drift_acceleration * piece_.length;
+      servo_[i] = {was.law,
+                   reached_[angle + i],
+                   reached_[rate_ + i] - drift,
                    table.by_rate[row][nodes - 1] * was.rate +
-                       table.by_acceleration[row][nodes - 1] * was.acceleration};
+                       table.by_acceleration[row][nodes - 1] * was.acceleration,
+                   drift,
+                   was.drift_acceleration};
     }
   }
   attempted_ = false;
@@ -241,8 +246,8 @@ void HeldStepper::evaluate_some(const double* times, std::size_t count, double* 
     const model::ImpulseAnswer of_first = instants_.answer(first, time_, after[i]);
     for (std::size_t k = 0; k < servos_; ++k) {
       const model::HeldMotion& servo = servo_[k];
-      const model::HeldMotion::Instant at =
-          servo.after(servo.law == first ? of_first : instants_.answer(servo.law, time_, after[i]));
+      const model::HeldMotion::Instant at = servo.after(
+          servo.law == first ? of_first : instants_.answer(servo.law, time_, after[i]), after[i]);
       row[angle + k] = at.angle;
       row[rate_ + k] = at.rate;
     }
