@@ -201,7 +201,7 @@ AssembledRig<integrates, Link> assemble_rig(const Scenario& scene, SignalPair re
   Link link;
   take_link(rig, link);
   RigMode mode;
-  for (int i = 0; i < rig.servos; ++i) mode.axis[i].driver.rings = rig.servo[i].rings;
+  for (int i = 0; i < rig.servos; ++i) mode.driver[i].rings = rig.servo[i].rings;
   for (int i = 0; i < 2; ++i) {
     if (!Link::direct) rig.servo[i].offset = 0;  // the link includes it
     mode.axis[i].offset = rig.servo[i].offset;

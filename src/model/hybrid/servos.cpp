@@ -19,12 +19,11 @@ Servos::Servos(SwitchedModel& model) : model_(model) {
     // With backlash, the plane starts at rest in the middle of the gap.
     if (rig.servo[i].backlash > 0) model.mode().axis[i].ratio = 0;
     switches = switches || rig.servo[i].switches();
-    if (rig.servo[i].rings) {
-      StepperDriver& driver = model.mode().axis[i].driver;
-      model.mode().rings = true;
-      driver.angle = model.get().initial[SwitchedModel::angle + i];
-      driver.rate = model.get().initial[model.rate() + i];
-    }
+    RigMode& mode = model.mode();
+    mode.rings = mode.rings || rig.servo[i].rings;
+    mode.lags = mode.rings || mode.lags || rig.servo[i].torque_limit < unlimited;
+    mode.driver[i].angle = model.get().initial[SwitchedModel::angle + i];
+    mode.driver[i].rate = model.get().initial[model.rate() + i];
     axes_.emplace_back(rig.servo[i], responses.of[i]);
   }
   if (switches) guards_ = axes_.size() * ServoAxis::guards;
@@ -66,10 +65,7 @@ bool Servos::reset(double t, double* z) {
     AxisState axis = state(i, t, demands, z);
     AxisMode& mode = model_.mode().axis[i];
     axes_[i].settle(axis, mode);
-    if (mode.driver.rings) {
-      ring(mode, axis, t);
-      continue;
-    }
+    if (model_.mode().lags && lags(i, axis, t)) continue;
     double& angle = z[SwitchedModel::angle + i];
     double& rate = z[model_.rate() + i];
     jumped = jumped || axis.angle != angle || axis.rate != rate;
@@ -88,13 +84,20 @@ bool Servos::reset(double t, double* z) {
   return true;
 }
 
-// The driver goes on from `axis`; the shaft is free, and does not jump.
-void Servos::ring(AxisMode& mode, const AxisState& axis, double t) {
-  mode.driver.since = t;
-  mode.driver.angle = axis.angle;
-  mode.driver.rate = axis.rate;
-  mode.driver.acceleration = std::exchange(mode.set_acceleration, 0);
+// Sets the driver of a stepper, which goes on from `axis`. Returns whether the shaft rings: it is
+// then free, and does not jump.
+bool Servos::lags(std::size_t i, const AxisState& axis, double t) {
+  StepperDriver& driver = model_.mode().driver[i];
+  driver.ratio = axes_[i].field().ratio;
+  driver.offset = axes_[i].field().offset;
+  if (!driver.rings) return false;
+  AxisMode& mode = model_.mode().axis[i];
+  driver.since = t;
+  driver.angle = axis.angle;
+  driver.rate = axis.rate;
+  driver.acceleration = std::exchange(mode.set_acceleration, 0);
   mode.demand_factor = 1;
+  return true;
 }
 
 // The ball's velocity jumps with the rates of the plane.
@@ -133,8 +136,8 @@ HeldMotions Servos::held_motions(double t, const double* z) const {
   return model_.with_loop([&](const auto& loop) {
     HeldMotions motions;
     for (std::size_t i = 0; i < axes_.size(); ++i) {
-      motions[i] = held_motion(loop.servo().of[i], loop.mode.axis[i], loop.mode.command[i],
-                               z[SwitchedModel::angle + i], z[model_.rate() + i], t);
+      motions[i] = held_motion(loop.servo().of[i], loop.mode, i, z[SwitchedModel::angle + i],
+                               z[model_.rate() + i], t);
     }
     return motions;
   });
@@ -144,14 +147,15 @@ Crossing Servos::next_crossing(double t, const HeldMotions& motions, double end)
   Crossing first;
   if (guards_ == 0) return first;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const StepperDriver& driver = model_.mode().axis[i].driver;
-    HeldMotion motion = motions[i];
+    const StepperDriver& driver = model_.mode().driver[i];
+    HeldMotion of_driver;
     if (driver.rings) {
       const Jet<double> counted = driver.counted(t);
-      motion = {{}, counted.value, counted.rate, counted.acceleration};
+      of_driver = {{}, counted.value, counted.rate, counted.acceleration};
     }
-    const ServoAxis::Crossing next = axes_[i].first_crossing(
-        motion, model_.mode().command[i], t, std::min(end, first.time) - t, answers_);
+    const ServoAxis::Crossing next =
+        axes_[i].first_crossing(driver.rings ? of_driver : motions[i], model_.mode().command[i], t,
+                                std::min(end, first.time) - t, answers_);
     // Rounds up, so that the guard has crossed at that time even if the step is below the rounding
     // of t.
     double at = t + next.after;

@@ -54,7 +54,7 @@ class Servos : public Part {
     return {at.angle, at.rate, demands.demand[i], demands.servo_command[i]};
   }
   [[nodiscard]] bool stay_free(const double* z) const;
-  static void ring(AxisMode& mode, const AxisState& axis, double t);
+  bool lags(std::size_t i, const AxisState& axis, double t);
   void kick_ball(double* z, const double* before, const RigExtras& plane_before,
                  const RigExtras& plane);
 

@@ -71,9 +71,8 @@ class SwitchedModel {
     double angle, rate;
   };
   [[nodiscard]] Turned counted(std::size_t servo, double t, const double* z) const {
-    const StepperDriver& driver = mode_->axis[servo].driver;
-    if (!driver.rings) return {z[angle + servo], z[rate_ + servo]};
-    const Jet<double> counted = driver.counted(t);
+    if (!mode_->rings || !mode_->driver[servo].rings) return {z[angle + servo], z[rate_ + servo]};
+    const Jet<double> counted = mode_->driver[servo].counted(t);
     return {counted.value, counted.rate};
   }
   [[nodiscard]] Demands demands(double t, const double* z) const;

@@ -118,10 +118,11 @@ HeldMotion ringing_motion(const ServoResponse& servo, const StepperDriver& drive
 
 }  // namespace
 
-HeldMotion held_motion(const ServoResponse& servo, const AxisMode& mode, double command,
-                       double angle, double rate, double t) {
-  if (mode.driver.rings) return ringing_motion(servo, mode.driver, angle, rate, t);
-  const double free = mode.demand_factor;
+HeldMotion held_motion(const ServoResponse& servo, const RigMode& of, std::size_t i, double angle,
+                       double rate, double t) {
+  if (of.rings && of.driver[i].rings) return ringing_motion(servo, of.driver[i], angle, rate, t);
+  const AxisMode& mode = of.axis[i];
+  const double free = mode.demand_factor, command = of.command[i];
   HeldMotion motion{{free * servo.from_angle, free * servo.from_rate}, angle, rate, 0};
   motion.acceleration =
       free * (servo.from_command * command - servo.from_angle * angle - servo.from_rate * rate) +

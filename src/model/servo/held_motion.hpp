@@ -69,9 +69,9 @@ struct HeldMotion {
 // Of the servos of a gimbal. A gimbal with two servos leaves the third at rest.
 using HeldMotions = std::array<HeldMotion, most_servos>;
 
-// The motion in the given mode from an angle (rad) and a rate (rad/s) at time t, s.
-[[nodiscard]] HeldMotion held_motion(const ServoResponse& servo, const AxisMode& mode,
-                                     double command, double angle, double rate, double t);
+// The motion of servo i in the given mode from an angle (rad) and a rate (rad/s) at time t, s.
+[[nodiscard]] HeldMotion held_motion(const ServoResponse& servo, const RigMode& of, std::size_t i,
+                                     double angle, double rate, double t);
 
 // A linear function of the motion: constant + by_angle q + by_rate q'.
 struct MotionLine {

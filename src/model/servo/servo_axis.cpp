@@ -152,11 +152,10 @@ void ServoAxis::settle_stall(const AxisState& state, AxisMode& mode) {
     catches_ = forward * (last - done) > 0 ? forward : 0;
     caught_at_ = stalled_at_ + last * period;
   }
-  mode.driver.ratio = stalls_ ? 0 : 1;
-  mode.driver.offset = stalls_ ? stalled_at_ - lost_ : -lost_;
+  field_ = {stalls_ ? 0.0 : 1.0, stalls_ ? stalled_at_ - lost_ : -lost_};
   if (servo_.rings) return;
-  mode.ratio = mode.driver.ratio;
-  mode.offset += mode.driver.offset;
+  mode.ratio = field_.ratio;
+  mode.offset += field_.offset;
 }
 
 void ServoAxis::settle(AxisState& state, AxisMode& mode) {

@@ -48,14 +48,15 @@ struct AxisMode {
   double integrate = 1;  // 0: the command's integral part waits at the limit
   double side = 0;       // 1 or -1: the command is at its upper or lower limit
   double along = 0;      // 1: the command moves along the limit (control/integral_limit.hpp)
-  StepperDriver driver{};
 };
 
 struct RigMode {
   AxisMode axis[most_servos];            // phi, theta; or each of three servos
   double command[most_servos]{0, 0, 0};  // held by a sampled controller, rad or rad/s^2
   double wanted[2]{0, 0};  // the command before its conversion for linkages or three servos, rad
-  bool rings = false;      // whether the shaft of any stepper rings, and moves in time
+  StepperDriver driver[most_servos];
+  bool lags = false;   // whether the shaft of any stepper may be behind its driver's count
+  bool rings = false;  // whether the shaft of any stepper rings, and moves in time
 };
 
 // Servo acceleration in free motion: from_command u - from_angle q - from_rate q'.
@@ -299,8 +300,8 @@ class RigLoop {
 
   // Writes how far the steppers' shafts are behind the angles that their drivers count.
   void put_lags(double t, const double* z, RigExtras& extras) const {
-    for (int i = 0; i < servos; ++i) {
-      const StepperDriver& of = mode.axis[i].driver;
+    for (int i = 0; mode.lags && i < servos; ++i) {
+      const StepperDriver& of = mode.driver[i];
       const double angle = z[Layout::angle + i];
       extras.lag[i] = of.rings ? of.counted(t).value - angle : (1 - of.ratio) * angle - of.offset;
     }
@@ -361,7 +362,7 @@ class RigLoop {
     for (int i = 0; i < servos; ++i) {
       const auto place = static_cast<std::size_t>(i);
       const double angle = z[Layout::angle + i];
-      const bool rings = mode.axis[i].driver.rings;
+      const bool rings = mode.driver[i].rings;
       sample.servo[place] = rings ? angle : angle - with.lag[i];
       sample.counted[place] = rings ? angle + with.lag[i] : angle;
     }
@@ -391,7 +392,7 @@ class RigLoop {
   template <class Time, class Real>
   void follow_drivers(const Time& t, const Real* z, Real (&demand)[servos]) const {
     for (int i = 0; i < servos; ++i) {
-      const StepperDriver& of = mode.axis[i].driver;
+      const StepperDriver& of = mode.driver[i];
       if (!of.rings) continue;
       const ServoResponse& servo = servo_.of[i];
       const Time field = of.ratio * of.counted(t).value + Time(of.offset);

@@ -59,16 +59,8 @@ struct Kernel {
   // How far a servo's angle has moved since the start, its rate or its acceleration, at the nodes
   // of a pack.
   BBSIM_INLINE static P motion_at(const PieceAxis& axis, MotionTable::Row row, int p) {
-    const P moved = P::load(axis.table->by_rate[row] + p * lanes) * P(axis.rate) +
-                    P::load(axis.table->by_acceleration[row] + p * lanes) * P(axis.acceleration);
-    return axis.drifts() ? moved + drift_at(axis, row, p) : moved;
-  }
-  // The share of the drift.
-  BBSIM_INLINE static P drift_at(const PieceAxis& axis, MotionTable::Row row, int p) {
-    if (row == MotionTable::acceleration) return P(axis.drift_acceleration);
-    const P time = P(axis.length) * Layout::column(table.c, p);
-    const P rate(axis.drift_rate), turned = P(axis.drift_acceleration) * time;
-    return row == MotionTable::rate ? rate + turned : time * (rate + P(0.5) * turned);
+    return P::load(axis.table->by_rate[row] + p * lanes) * P(axis.rate) +
+           P::load(axis.table->by_acceleration[row] + p * lanes) * P(axis.acceleration);
   }
 
   // The plate's axis at the nodes of a pack.
@@ -87,10 +79,8 @@ struct Kernel {
   }
   // A bound of how far the plate or the horn turns from its start to any node, rad.
   BBSIM_INLINE static double motion_of(const PieceAxis& axis) {
-    const double drift = size_of(axis.drift_rate) + size_of(axis.drift_acceleration) * axis.length;
-    return size_of(axis.ratio) *
-           (axis.table->most_by_rate * size_of(axis.rate) +
-            axis.table->most_by_acceleration * size_of(axis.acceleration) + axis.length * drift);
+    return size_of(axis.ratio) * (axis.table->most_by_rate * size_of(axis.rate) +
+                                  axis.table->most_by_acceleration * size_of(axis.acceleration));
   }
 
   // A pose near that for these angles of the horns, which move by less than 0.25 rad in a part.
@@ -236,8 +226,8 @@ struct Kernel {
 #pragma GCC unroll 2
       for (int i = 0; i < 2; ++i) {
         const PieceAxis& of = piece.plate.axis[i];
-        plane_start[i] = {waves.sin[i], waves.cos[i], of.ratio * (of.rate + of.drift_rate),
-                          of.ratio * (of.acceleration + of.drift_acceleration)};
+        plane_start[i] = {waves.sin[i], waves.cos[i], of.ratio * of.start_rate,
+                          of.ratio * of.start_acceleration};
       }
     } else {
       plane_start[0] = piece.plate.plane_start[0];
