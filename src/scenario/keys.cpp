@@ -107,6 +107,9 @@ constexpr KeyText servos[] = {
      .meaning = "$\\zeta$ of a second-order servo",
      .standard = "required without `time_constant`, `stepper` and `model`"},
     {"servo.time_constant", "T of a first-order servo, instead of the two keys above"},
+    {"servo.stepper.model",
+     "values for `steps`, `torque` and `inertia`; a key that is given "
+     "replaces its value"},
     {.keys = "servo.stepper.steps .microsteps",
      .meaning = "full steps in a turn of a [stepper motor](#stepper-motors), and microsteps in a "
                 "step; instead of the keys above",

@@ -147,7 +147,27 @@ struct DeadBand {
   }
 };
 
+// Sets the keys of common motors (docs/reference/scenario.md, "Stepper motors"): half of their
+// holding torque, and the inertia of their rotors.
+void set_model(StepperMotor& stepper, StepperModel model) {
+  struct Motor {
+    double torque, inertia;  // N m, kg m^2
+  };
+  constexpr Motor motors[] = {{0.07, 1.3e-6}, {0.2, 5.4e-6}, {0.63, 3e-5}};
+  const Motor& motor = motors[static_cast<std::size_t>(model)];
+  stepper.steps = 200;
+  stepper.torque = motor.torque;
+  stepper.inertia = motor.inertia;
+}
+
 void read_stepper(yaml::Keys& keys, StepperMotor& stepper) {
+  const yaml::NameOf<StepperModel> models{{{StepperModel::nema14, "nema14"},
+                                           {StepperModel::nema17, "nema17"},
+                                           {StepperModel::nema23, "nema23"}}};
+  if (const auto given = keys.find("model", models)) {
+    StepperModel model = StepperModel::nema17;
+    if (models.read(*given, model)) set_model(stepper, model);
+  }
   const yaml::Whole count{1, "200"};
   keys.optional("steps", count, stepper.steps);
   keys.optional("microsteps", count, stepper.microsteps);

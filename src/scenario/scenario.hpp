@@ -122,6 +122,9 @@ struct GimbalStart {
 };
 
 // A stepper motor and its driver.
+// Stepper motors by the size of their flange.
+enum class StepperModel { nema14, nema17, nema23 };
+
 struct StepperMotor {
   double steps = 200, microsteps = 16;  // in a turn of the motor, and in a step
   double gear = 1;                      // turns of the motor in a turn of the shaft

@@ -293,6 +293,26 @@ TEST_CASE("a stepper's swings have a natural frequency, and no backlash") {
                  "}}\ncontroller: {gravity_compensation: {kp: 5, kv: 5}, drives: angle, reference: "
                  "{point: [0, 0]}, sampling: {period: 0.02}}\ntime: {end: 1, step: 0.1}\n")
         .gimbal.servo->stepper;
+TEST_CASE("a stepper's class stands for its torque, inertia and steps") {
+  const auto servo = [](const std::string& keys) {
+    return parse("ball: {radius: 0.02}\ngimbal: {servo: {rate_limit: 5, acceleration_limit: 60, " +
+                 keys +
+                 "}}\ncontroller: {gravity_compensation: {kp: 5, kv: 5}, drives: angle, reference: "
+                 "{point: [0, 0]}, sampling: {period: 0.02}}\nevents: {steps_lost: stop}\n"
+                 "time: {end: 1, step: 0.1}\n")
+        .gimbal.servo->stepper;
+  };
+  const auto motor = servo("stepper: {model: nema17, inertia: 2e-4}");
+  CHECK(motor->steps == 200);
+  CHECK(motor->torque == 0.2);
+  CHECK(motor->inertia == 2e-4);
+  CHECK(*servo("stepper: {model: nema23}")->torque > *servo("stepper: {model: nema14}")->torque);
+  CHECK_THROWS_WITH(servo("stepper: {model: nema18}"),
+                    Catch::Matchers::Contains("stepper.model: found nema18"));
+  CHECK_THROWS_WITH(servo("stepper: {model: nema17}, backlash: 0.01"),
+                    Catch::Matchers::Contains("beside backlash"));
+}
+
   };
   CHECK_FALSE(servo("stepper: {}")->natural_frequency);
   const auto rings = servo("stepper: {natural_frequency: 40 Hz}");
