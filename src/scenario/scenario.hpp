@@ -265,11 +265,20 @@ struct Gimbal {
     }
     return axis == 1 && theta_servo ? *theta_servo : *servo;
   }
+  [[nodiscard]] bool has_steppers() const {
+    return any_stepper([](const StepperMotor& /*motor*/) { return true; });
+  }
   // Whether a stepper has a torque, beyond which it loses steps.
   [[nodiscard]] bool loses_steps() const {
+    return any_stepper([](const StepperMotor& motor) { return motor.torque.has_value(); });
+  }
+
+ private:
+  template <class Is>
+  [[nodiscard]] bool any_stepper(Is is) const {
     bool any = false;
     for (std::size_t i = 0; servo && i < (three_servos ? 3U : 2U); ++i) {
-      any = any || (servo_of(i).stepper && servo_of(i).stepper->torque);
+      any = any || (servo_of(i).stepper && is(*servo_of(i).stepper));
     }
     return any;
   }
