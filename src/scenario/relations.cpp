@@ -143,10 +143,12 @@ constexpr KeyRelation table[] = {
      "found, but no controller.sampling; allowed: only with it, since the controller reads the "
      "sensor at its samples; a continuous law knows the ball exactly"},
     {"controller.sensor.seed", needs,
-     "controller.sensor.noise or controller.sensor.dropout or controller.sampling.jitter or "
-     "controller.library.wiring",
-     "found, but nothing here is random; allowed: only with sensor.noise, sensor.dropout or "
-     "sampling.jitter, or a sketch"},
+     "controller.sensor.noise or controller.sensor.dropout or controller.sensor.stuck or "
+     "controller.sensor.burst or controller.sampling.jitter or controller.library.wiring",
+     "found, but nothing here is random; allowed: only with sensor.noise, .dropout, .stuck or "
+     ".burst, with sampling.jitter, or a sketch"},
+    {"controller.sensor.burst", needs, "controller.sensor.period",
+     "found without sensor.period; allowed: only with it, since it holds up a camera's frames"},
     {"controller.sensor.contact_force>0", needs, "ball.mass",
      "found, but no ball.mass, and a lighter ball presses less; allowed: only with ball.mass"},
     {"controller.sensor.on_miss=edge", needs, "controller.sensor.area",

@@ -397,13 +397,20 @@ struct Sampling {
 // -area/2.
 enum class OnMiss { none, last, edge };
 
+// A fault that begins by chance at a reading, and lasts.
+struct SensorFault {
+  double probability = 0, duration = 0;  // > 0; s
+};
+
 struct Sensor {
-  double resolution = 0;       // quantization, m; 0: none
-  double noise = 0;            // standard deviation of each coordinate, m
-  unsigned long seed = 1;      // for noise, dropouts and the jitter of the sampling
-  double delay = 0;            // from the measurement to the sample, s
-  double dropout = 0;          // probability that a sample has no measurement
-  std::optional<Pair> area{};  // sides of the field of view, a rectangle, m
+  double resolution = 0;   // quantization, m; 0: none
+  double noise = 0;        // standard deviation of each coordinate, m
+  unsigned long seed = 1;  // for noise, dropouts, faults and the jitter of the sampling
+  double delay = 0;        // from the measurement to the sample, s
+  double dropout = 0;      // probability that a sample has no measurement
+  // Readings repeat the first one; frames wait, and arrive together at the end.
+  std::optional<SensorFault> stuck{}, burst{};
+  std::optional<Pair> area{};                       // sides of the field of view, a rectangle, m
   std::vector<std::array<double, 4>> dead_zones{};  // corners x0, y0, x1, y1 of blind rectangles, m
   double contact_force = 0;                         // a touch screen misses a lesser force, N
   OnMiss on_miss = OnMiss::none;
@@ -417,6 +424,7 @@ struct Sensor {
   std::optional<double> period{};  // s, > 0
   double phase = 0;                // s
 
+  [[nodiscard]] bool is_random() const { return noise > 0 || dropout > 0 || stuck || burst; }
   [[nodiscard]] bool is_aligned() const {
     return rotation == 0 && scale == Pair{1, 1} && offset == Pair{0, 0};
   }

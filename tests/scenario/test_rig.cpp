@@ -259,6 +259,13 @@ TEST_CASE("a sensor's dead zones, contact force and misses are checked") {
   CHECK_THAT(heavy[0], Catch::Matchers::Contains("exceeds the ball's weight of 0.98"));
   CHECK_THROWS_WITH(read("{contact_force: 0.9}", ""),
                     Catch::Matchers::Contains("found, but no ball.mass"));
+  CHECK_NOTHROW(read("{contact_force: 20 mN, seed: 2, stuck: {probability: 0.1, duration: 1}}"));
+  CHECK_THROWS_WITH(read("{burst: {probability: 0.1, duration: 50 ms}}"),
+                    Catch::Matchers::Contains("found without sensor.period"));
+  CHECK_THROWS_WITH(read("{stuck: {probability: 0.1}}"),
+                    Catch::Matchers::Contains("sensor.stuck.duration: missing"));
+  CHECK_THROWS_WITH(read("{stuck: {probability: 1.1, duration: 50 ms}}"),
+                    Catch::Matchers::Contains("stuck.probability: found 1.1"));
   CHECK_THROWS_WITH(read("{on_miss: edge}"),
                     Catch::Matchers::Contains("found without sensor.area"));
   CHECK_THROWS_WITH(read("{dead_zones: [[0.1, 0, 0, 0.1]]}"),
@@ -286,13 +293,6 @@ TEST_CASE("a stepper's torque goes with its inertia, without backlash") {
                     Catch::Matchers::Contains("no stepper loses steps"));
 }
 
-TEST_CASE("a stepper's swings have a natural frequency, and no backlash") {
-  const auto servo = [](const std::string& keys) {
-    return parse("ball: {radius: 0.02}\ngimbal: {servo: {rate_limit: 5, acceleration_limit: 60, " +
-                 keys +
-                 "}}\ncontroller: {gravity_compensation: {kp: 5, kv: 5}, drives: angle, reference: "
-                 "{point: [0, 0]}, sampling: {period: 0.02}}\ntime: {end: 1, step: 0.1}\n")
-        .gimbal.servo->stepper;
 TEST_CASE("a stepper's class stands for its torque, inertia and steps") {
   const auto servo = [](const std::string& keys) {
     return parse("ball: {radius: 0.02}\ngimbal: {servo: {rate_limit: 5, acceleration_limit: 60, " +
@@ -313,6 +313,13 @@ TEST_CASE("a stepper's class stands for its torque, inertia and steps") {
                     Catch::Matchers::Contains("beside backlash"));
 }
 
+TEST_CASE("a stepper's swings have a natural frequency, and no backlash") {
+  const auto servo = [](const std::string& keys) {
+    return parse("ball: {radius: 0.02}\ngimbal: {servo: {rate_limit: 5, acceleration_limit: 60, " +
+                 keys +
+                 "}}\ncontroller: {gravity_compensation: {kp: 5, kv: 5}, drives: angle, reference: "
+                 "{point: [0, 0]}, sampling: {period: 0.02}}\ntime: {end: 1, step: 0.1}\n")
+        .gimbal.servo->stepper;
   };
   CHECK_FALSE(servo("stepper: {}")->natural_frequency);
   const auto rings = servo("stepper: {natural_frequency: 40 Hz}");
