@@ -121,10 +121,10 @@ struct GimbalStart {
   double phi_rate = 0, theta_rate = 0;  // rad/s
 };
 
-// A stepper motor and its driver.
 // Stepper motors by the size of their flange.
 enum class StepperModel { nema14, nema17, nema23 };
 
+// A stepper motor and its driver.
 struct StepperMotor {
   double steps = 200, microsteps = 16;  // in a turn of the motor, and in a step
   double gear = 1;                      // turns of the motor in a turn of the shaft
@@ -392,7 +392,6 @@ struct Sampling {
   [[nodiscard]] bool is_even() const { return jitter == 0 && periods.empty(); }
 };
 
-// The controller's measurement of the ball.
 // What a sensor that does not see the ball reads: nothing, its last reading, or its corner at
 // -area/2.
 enum class OnMiss { none, last, edge };
@@ -402,6 +401,7 @@ struct SensorFault {
   double probability = 0, duration = 0;  // > 0; s
 };
 
+// The controller's measurement of the ball.
 struct Sensor {
   double resolution = 0;   // quantization, m; 0: none
   double noise = 0;        // standard deviation of each coordinate, m

@@ -14,14 +14,22 @@ namespace {
 
 // The servos' angles and rates as the firmware knows them.
 struct KnownServos {
-  KnownServos(const SwitchedModel& model, double t, const double* z) {
+  KnownServos(const SwitchedModel& model, double t, const double* z)
+      : angle(z + SwitchedModel::angle), rate(z + model.rate()) {
+    if (!model.mode().rings) return;
     for (std::size_t i = 0; i < static_cast<std::size_t>(model.rig().servos); ++i) {
       const SwitchedModel::Turned of = model.counted(i, t, z);
-      angle[i] = of.angle;
-      rate[i] = of.rate;
+      counted[0][i] = of.angle;
+      counted[1][i] = of.rate;
     }
+    angle = counted[0];
+    rate = counted[1];
   }
-  double angle[most_servos] = {}, rate[most_servos] = {};
+  KnownServos(const KnownServos&) = delete;  // points into itself
+  KnownServos& operator=(const KnownServos&) = delete;
+
+  const double *angle, *rate;
+  double counted[2][most_servos];
 };
 
 }  // namespace

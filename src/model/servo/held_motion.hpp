@@ -58,11 +58,12 @@ struct HeldMotion {
   [[nodiscard]] Instant after(double time) const { return after(answer(law, time), time); }
   [[nodiscard]] Instant after(const ImpulseAnswer& at, double time) const {
     const double turned = drift_acceleration * time;
-    return {
-        angle + ((at.value + law.damping * at.integral) * rate + at.integral * acceleration) +
-            time * (drift_rate + turned / 2),
-        (at.slope + law.damping * at.value) * rate + at.value * acceleration + drift_rate + turned,
-        at.slope * acceleration - law.stiffness * at.value * rate + drift_acceleration};
+    const double drift = time * (drift_rate + turned / 2);
+    return {(angle + drift) +
+                ((at.value + law.damping * at.integral) * rate + at.integral * acceleration),
+            (at.slope + law.damping * at.value) * rate +
+                (at.value * acceleration + (drift_rate + turned)),
+            (at.slope * acceleration + drift_acceleration) - law.stiffness * at.value * rate};
   }
 };
 
