@@ -383,6 +383,7 @@ Probed estimated_loop(const Scenario& scenario, const model::Model& model, Bench
   const auto none = [](const std::string& why) {
     return Probed{{{"", "margins: no estimate: " + why}}, {}, why};
   };
+  if (answers.ramps) return none("the sketch's pulses make ramps, which are not linear");
   double size = std::numeric_limits<double>::infinity();
   for (const auto& near : answers.near) size = std::min(size, near ? near->distance / 10 : size);
   try {
