@@ -134,8 +134,10 @@ void add_new(Command& command, const Options& options) {
       .option("--actuator", rig.actuator, "for a rig: servo (default), or stepper: stepper motors")
       .takes_one_of({"servo", "stepper"});
   command
-      .option("--servo", rig.servo,
-              "for a rig: hobby-standard (default), hobby-micro or smart-serial")
+      .option(
+          "--servo", rig.servo,
+          "for a rig: hobby-standard (default), hobby-micro or smart-serial; of stepper motors: "
+          "nema14, nema17 or nema23")
       .takes_one_of(servo_classes());
   const Option camera =
       command.option("--camera", rig.camera, "for a rig: frames per second; default: \"30 Hz\"")

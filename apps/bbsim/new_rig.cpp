@@ -130,10 +130,14 @@ double read_rate(const std::string& option, const std::string& text) {
   throw refused(option, text, "a rate from 15 Hz to 200 Hz, such as \"30 Hz\"");
 }
 
+bool is_motor_class(const std::string& name) {
+  return name.starts_with("nema");
+}
+
 struct Rig {
   Plate plate;
   Ball ball;
-  std::string servo;
+  std::string servo;  // class of the servos or motors; empty for any stepper motor
   double rate = 0;
   bool touch = false, three_legs = false, stepper = false;
 };
@@ -147,10 +151,14 @@ Rig read_rig(const RigWords& words) {
   rig.plate = read_plate(or_default(words.plate, "300 mm x 200 mm"));
   rig.ball = read_ball(or_default(words.ball, "ping-pong"), rig.plate);
   rig.stepper = words.actuator == "stepper";
-  if (rig.stepper && !words.servo.empty()) {
-    throw refused("--servo", words.servo, "only with --actuator servo");
+  if (!words.servo.empty() && is_motor_class(words.servo) != rig.stepper) {
+    throw refused("--servo", words.servo,
+                  rig.stepper
+                      ? "nema14, nema17, nema23 with --actuator stepper"
+                      : "hobby-standard, hobby-micro, smart-serial; motor classes only with "
+                        "--actuator stepper");
   }
-  rig.servo = or_default(words.servo, "hobby-standard");
+  rig.servo = rig.stepper ? words.servo : or_default(words.servo, "hobby-standard");
   rig.touch = !words.touch.empty();
   rig.rate = rig.touch ? read_rate("--touch", words.touch)
                        : read_rate("--camera", or_default(words.camera, "30 Hz"));
@@ -217,6 +225,7 @@ Values values_of(const Rig& rig, const std::string& file) {
       {"step", whole_mm(std::min(plate.x / 6, 50 * mm))},
       {"circle", whole_mm(size / 6)},
       {"servo", rig.servo},
+      {"motor", rig.servo},
       {"stop", rig.three_legs ? "50 deg" : "60 deg"},
       {"horn", in_mm(horn)},
       {"arm", in_mm(arm)},
@@ -295,7 +304,8 @@ constexpr std::array questions = {
                words.ball = answer;
              }},
     Question{
-        "Servos: hobby-standard, hobby-micro, smart-serial, or stepper motors [hobby-standard]",
+        "Servos: hobby-standard, hobby-micro, smart-serial; or stepper motors: stepper, nema14, "
+        "nema17, nema23 [hobby-standard]",
         [](RigWords& words, const std::string& answer) {
           if (answer.starts_with("stepper")) {
             words.actuator = "stepper";
@@ -303,8 +313,11 @@ constexpr std::array questions = {
           }
           const std::vector<std::string> known = servo_classes();
           if (std::ranges::find(known, answer) == known.end()) {
-            throw refused("--servo", answer, "hobby-standard, hobby-micro, smart-serial, stepper");
+            throw refused("--servo", answer,
+                          "hobby-standard, hobby-micro, smart-serial, stepper, nema14, nema17, "
+                          "nema23");
           }
+          if (is_motor_class(answer)) words.actuator = "stepper";
           words.servo = answer;
         }},
     Question{"Sensor, such as camera 30 Hz or touch 50 Hz [camera 30 Hz]",
@@ -328,7 +341,7 @@ constexpr std::array questions = {
 }  // namespace
 
 std::vector<std::string> servo_classes() {
-  return {"hobby-standard", "hobby-micro", "smart-serial"};
+  return {"hobby-standard", "hobby-micro", "smart-serial", "nema14", "nema17", "nema23"};
 }
 
 std::string RigWords::first_given() const {
@@ -364,8 +377,11 @@ void ask(RigWords& words) {
 std::string rig_scenario(const RigWords& words, const std::string& file) {
   const Rig rig = read_rig(words);
   const Values values = values_of(rig, file);
-  const std::array<std::string_view, 4> kept = {
+  const std::array<std::string_view, 5> kept = {
       rig.touch ? "touch" : "camera", rig.stepper ? "stepper" : "servo",
+      rig.servo.empty() ? "any motor"
+      : rig.stepper     ? "motor class"
+                        : "",
       rig.three_legs ? "3 legs" : "2 legs", rig.plate.disc ? "disc" : "rectangle"};
   constexpr std::string_view condition = "@if ", ends = "@ ";
   std::string text;

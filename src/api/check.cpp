@@ -106,10 +106,9 @@ void report_sampled_loop(Report& report, const Scenario& scenario, const model::
                             ", with a time constant of " + rounded(-period / std::log(size), 3) +
                             " s"});
   const Gimbal& gimbal = scenario.gimbal;
-  const bool steppers = gimbal.servo && (gimbal.servo_of(0).stepper || gimbal.servo_of(1).stepper);
   report.push_back(
       {"", std::string("without noise, dropouts, rounding, limits, dead band and backlash") +
-               (steppers ? "; steppers are at their targets at once" : "")});
+               (gimbal.has_steppers() ? "; steppers' ramps are over at once" : "")});
   if (!model::why_not_linear(scenario).empty()) return;
   if (cycle.samples > 1) {
     report.push_back(

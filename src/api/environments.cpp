@@ -34,7 +34,7 @@ constexpr std::array<ObservationColumn, 11> its_columns{{
 // Whether anything in the scene draws random numbers from controller.sensor.seed.
 bool draws(const Scenario& scenario) {
   const Controller& controller = *scenario.controller;
-  return (controller.sensor && (controller.sensor->noise > 0 || controller.sensor->dropout > 0)) ||
+  return (controller.sensor && controller.sensor->is_random()) ||
          (controller.sampling && controller.sampling->jitter > 0);
 }
 

@@ -147,6 +147,8 @@ struct Sides {
 // Answers along x and y.
 struct Answers {
   std::size_t count;  // of samples
+  // Whether the commands come to their values on ramps, as those of a sketch that pulses steppers.
+  bool ramps;
   std::array<std::optional<Sides>, 2> near, far;
 
   // The first sample at which a command depends on the ball's position.
@@ -160,6 +162,8 @@ struct Answers {
     }
     return {};
   }
+  // The sample whose commands show the gains, if `first` is the first with an answer.
+  [[nodiscard]] std::size_t telling(std::size_t first) const { return ramps ? count - 1 : first; }
   // Whether a command keeps one value at all samples and wherever the ball is.
   [[nodiscard]] bool stands(std::size_t command) const {
     std::optional<double> value;
@@ -187,10 +191,14 @@ struct Answers {
   }
 };
 
+bool has_ramps(const Scenario& scenario) {
+  return scenario.controller->is_sketch() && scenario.gimbal.has_steppers();
+}
+
 Answers ask(Bench& bench, const Scenario& scenario, const std::vector<int>& axes,
             std::size_t count) {
   const auto reference = bench.reference_at(0);
-  Answers answers{count, {}, {}};
+  Answers answers{count, has_ramps(scenario), {}, {}};
   for (const int one : axes) {
     const auto axis = static_cast<std::size_t>(one);
     const auto at = [&](double distance) {
@@ -249,7 +257,7 @@ Line line_of(const Answers& answers, std::size_t command, const std::string& wit
   const std::size_t axis = std::abs(effect[0]) >= std::abs(effect[1]) ? 0 : 1, other = 1 - axis;
   const std::optional<std::size_t> first = answers.first(command);
   if (!first) return {warning, name + "does not depend on where the ball is, " + within};
-  const std::size_t sample = *first;
+  const std::size_t sample = answers.telling(*first);
   const double gain = answers.gain(sample, command, axis);
   const double cross = answers.gain(sample, command, other);
   // The rest on its own axis may be rounding, or a sensor that is turned slightly.
@@ -375,6 +383,7 @@ Probed estimated_loop(const Scenario& scenario, const model::Model& model, Bench
   const auto none = [](const std::string& why) {
     return Probed{{{"", "margins: no estimate: " + why}}, {}, why};
   };
+  if (answers.ramps) return none("the sketch's pulses make ramps, which are not linear");
   double size = std::numeric_limits<double>::infinity();
   for (const auto& near : answers.near) size = std::min(size, near ? near->distance / 10 : size);
   try {
@@ -414,8 +423,10 @@ Probed probe(const Scenario& scenario, const model::Model& model) {
   const auto depend = [](const Answers& answers, int axis) {
     return answers.first(static_cast<std::size_t>(axis)).has_value();
   };
-  Answers answers = ask(bench, scenario, axes, few_samples);
-  if (!std::ranges::all_of(axes, [&](int axis) { return depend(answers, axis); })) {
+  const bool ramps = has_ramps(scenario);
+  Answers answers =
+      ask(bench, scenario, axes, ramps ? samples_to_act(scenario, bench, axes) : few_samples);
+  if (!ramps && !std::ranges::all_of(axes, [&](int axis) { return depend(answers, axis); })) {
     answers = ask(bench, scenario, axes, samples_to_act(scenario, bench, axes));
   }
   const std::string within =
@@ -457,7 +468,8 @@ Probed probe(const Scenario& scenario, const model::Model& model) {
     report.push_back(line_of(answers, command, within, effect.col(one), unit, legs));
   }
   if (legs && axes.size() == 2) {
-    if (const auto line = turn_of(answers, sample, effect)) report.push_back(*line);
+    if (const auto line = turn_of(answers, answers.telling(sample), effect))
+      report.push_back(*line);
   }
   Probed found = estimated_loop(scenario, model, bench, driven, answers, sample);
   found.report.insert(found.report.begin(), report.begin(), report.end());

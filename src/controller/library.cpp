@@ -268,7 +268,7 @@ model::Commands Library::command(const model::ControllerSample& sample, double* 
                             : ""));
   }
   for (std::size_t i = 0; i < setup_.columns.size(); ++i) {
-    if (std::isfinite(own[i])) continue;
+    if (std::isfinite(own[i]) || !is_printed(i)) continue;
     throw fail("its column " + shown(setup_.columns[i]) + " is " + number_text(own[i]) +
                "; allowed: a finite number");
   }
@@ -290,10 +290,14 @@ void Library::pass_on_prints() {
   printed_.clear();
 }
 
+bool Library::is_printed(std::size_t column) const {
+  return functions_->printed == nullptr || functions_->printed(controller_, column) != 0;
+}
+
 void Library::require_columns() const {
-  if (functions_->printed == nullptr || controller_ == nullptr) return;
+  if (controller_ == nullptr) return;
   for (std::size_t i = 0; i < setup_.columns.size(); ++i) {
-    if (functions_->printed(controller_, i) != 0) continue;
+    if (is_printed(i)) continue;
     const std::string name = shown(setup_.columns[i]);
     throw KeyError("output.columns", "found " + name +
                                          ", which the sketch never printed; allowed: "

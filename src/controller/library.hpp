@@ -54,6 +54,8 @@ class Library : public model::ExternalController {
   void destroy();
   [[nodiscard]] std::string last_error() const;
   void pass_on_prints();
+  // Whether a sketch has printed a column; true of other libraries.
+  [[nodiscard]] bool is_printed(std::size_t column) const;
 
   std::string path_, wiring_path_;
   Setup setup_;

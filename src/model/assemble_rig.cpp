@@ -17,13 +17,15 @@ namespace bbsim::model {
 namespace {
 
 // A stepper's ramp is no linear response. Linear analysis takes it for one that is over within a
-// small part of a period.
+// small part of a period, but for the shaft's swings.
 constexpr double stepper_frequency = 100;  // times the period
 
 ServoResponse response_of(const Servo& servo, const Scenario& scene) {
   if (servo.stepper) {
-    const double w = stepper_frequency / scene.controller->sampling->period;
-    return {w * w, w * w, 2 * w};
+    const StepperMotor& motor = *servo.stepper;
+    const double w =
+        motor.natural_frequency.value_or(stepper_frequency / scene.controller->sampling->period);
+    return {w * w, w * w, 2 * (motor.natural_frequency ? motor.damping : 1) * w};
   }
   if (servo.time_constant) return {0, 0, 1 / *servo.time_constant};
   const double w = servo.natural_frequency;
@@ -98,6 +100,7 @@ RigServo rig_servo(const Servo& servo, const Controller& controller) {
     if (motor.torque) rig.torque_limit = *motor.torque / (*motor.inertia * motor.gear);
     if (motor.corner_speed) rig.corner_rate = *motor.corner_speed / motor.gear;
     rig.field_period = 4 * motor.microsteps * rig.step;
+    rig.rings = motor.natural_frequency.has_value();
     if (controller.is_sketch()) rig.pulse_time = controller.sampling->period;
   }
   return rig;
@@ -198,6 +201,7 @@ AssembledRig<integrates, Link> assemble_rig(const Scenario& scene, SignalPair re
   Link link;
   take_link(rig, link);
   RigMode mode;
+  for (int i = 0; i < rig.servos; ++i) mode.driver[i].rings = rig.servo[i].rings;
   for (int i = 0; i < 2; ++i) {
     if (!Link::direct) rig.servo[i].offset = 0;  // the link includes it
     mode.axis[i].offset = rig.servo[i].offset;

@@ -114,6 +114,10 @@ std::string limits_of(const Servo& servo) {
       list.add("loses steps beyond " + short_number(*motor.torque / (*motor.inertia * motor.gear)) +
                " rad/s^2");
     }
+    if (motor.natural_frequency) {
+      list.add("rings at " + short_number(*motor.natural_frequency) + " rad/s, damping " +
+               short_number(motor.damping));
+    }
   }
   if (servo.angle_limit) list.add("stops at " + degrees(*servo.angle_limit));
   if (servo.rate_limit) list.add("at most " + degrees(*servo.rate_limit) + "/s");
@@ -360,6 +364,13 @@ std::string sensor_note(const Sensor& sensor) {
               "noise " + millimetres(sensor.noise) + " (seed " + std::to_string(sensor.seed) + ")");
   list.add_if(sensor.delay > 0, milliseconds(sensor.delay) + " late");
   list.add_if(sensor.dropout > 0, "misses " + short_number(100 * sensor.dropout) + " %");
+  const auto fault = [&](const std::optional<SensorFault>& of, const char* what) {
+    if (!of) return;
+    list.add(what + milliseconds(of->duration) + " from " + short_number(100 * of->probability) +
+             " % of them on");
+  };
+  fault(sensor.stuck, "readings that stay the same for ");
+  fault(sensor.burst, "frames that wait for ");
   if (sensor.area) {
     list.add("sees " + short_number((*sensor.area)[0]) + " m by " +
              short_number((*sensor.area)[1]) + " m");

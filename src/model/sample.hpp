@@ -54,7 +54,8 @@ struct Sample {
   Pair measured{0, 0};   // the controller's last measurement of the ball, m
   // Servo angles, rad: of phi and theta, or of three servos; 0 without servos.
   std::array<double, 3> servo{0, 0, 0};
-  Pair push{0, 0};  // on the ball's center, along the plane's axes, N
+  std::array<double, 3> counted{0, 0, 0};  // of steppers: what their drivers have counted, rad
+  Pair push{0, 0};                         // on the ball's center, along the plane's axes, N
   // Distance of the linkage from the end of its range; negative beyond it.
   double to_dead_point = std::numeric_limits<double>::infinity();
   std::optional<CoupledMotion> coupled{};

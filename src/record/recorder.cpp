@@ -139,8 +139,10 @@ void Recorder::take_rows(std::size_t count, const double* values) {
   table_->append(block_, count);
 }
 
+// A number of a controller may be missing: a sketch has not printed it yet.
 void Recorder::look_for_gaps(std::size_t count) {
   for (std::size_t c = 0; c < gaps_.size(); ++c) {
+    if (asked_.columns[c]->needs == scenario::Needs::own) continue;
     for (std::size_t i = 0; i < count; ++i) {
       if (std::isfinite(rows_[c][i])) continue;
       if (gaps_[c].rows++ == 0) gaps_[c].from = times_[i];

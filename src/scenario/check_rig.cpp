@@ -302,6 +302,9 @@ class Checks {
     if (motor.torque && servo.backlash > 0) {
       return "with torque, beside backlash; allowed: one of the two";
     }
+    if (motor.natural_frequency && servo.backlash > 0) {
+      return "with natural_frequency, beside backlash; allowed: one of the two";
+    }
     return servo.angle_limit
                ? "beside angle_limit; allowed: controller.limit, which keeps commands within bounds"
                : nullptr;

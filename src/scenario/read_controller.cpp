@@ -295,6 +295,14 @@ struct Zone {
   }
 };
 
+void read_fault(yaml::Keys& keys, SensorFault& fault) {
+  const yaml::Range chance{.above = 0, .at_most = 1};
+  keys.required("probability", yaml::Number{yaml::Dimension::number, chance, "0.01"},
+                fault.probability);
+  const yaml::Number duration{yaml::Dimension::time, {.above = 0}};
+  keys.required("duration", yaml::Usual{duration, "ms", 10}, fault.duration);
+}
+
 void read_sensor(yaml::Keys& keys, Sensor& sensor) {
   const yaml::Number length{yaml::Dimension::length, {.at_least = 0}};
   const yaml::Usual fine{length, "mm", 0.05};
@@ -309,11 +317,14 @@ void read_sensor(yaml::Keys& keys, Sensor& sensor) {
   keys.optional("dropout",
                 yaml::Number{yaml::Dimension::number, {.at_least = 0, .at_most = 1}, "0.05"},
                 sensor.dropout);
+  const yaml::MappingOf fault(read_fault);
+  keys.optional("stuck", fault, sensor.stuck);
+  keys.optional("burst", fault, sensor.burst);
   keys.optional("area", yaml::SidesOf{}, sensor.area);
   keys.optional("dead_zones",
                 yaml::ListOf<Zone, std::array<double, 4>>{{}, 1, 100, "zones [x0, y0, x1, y1]"},
                 sensor.dead_zones);
-  keys.optional("contact_force", yaml::Number{yaml::Dimension::number, {.at_least = 0}, "0.3"},
+  keys.optional("contact_force", yaml::Number{yaml::Dimension::force, {.at_least = 0}},
                 sensor.contact_force);
   keys.optional("on_miss",
                 yaml::NameOf<OnMiss>{

@@ -147,7 +147,27 @@ struct DeadBand {
   }
 };
 
+// Sets the keys of common motors (docs/reference/scenario.md, "Stepper motors"): half of their
+// holding torque, and the inertia of their rotors.
+void set_model(StepperMotor& stepper, StepperModel model) {
+  struct Motor {
+    double torque, inertia;  // N m, kg m^2
+  };
+  constexpr Motor motors[] = {{0.07, 1.3e-6}, {0.2, 5.4e-6}, {0.63, 3e-5}};
+  const Motor& motor = motors[static_cast<std::size_t>(model)];
+  stepper.steps = 200;
+  stepper.torque = motor.torque;
+  stepper.inertia = motor.inertia;
+}
+
 void read_stepper(yaml::Keys& keys, StepperMotor& stepper) {
+  const yaml::NameOf<StepperModel> models{{{StepperModel::nema14, "nema14"},
+                                           {StepperModel::nema17, "nema17"},
+                                           {StepperModel::nema23, "nema23"}}};
+  if (const auto given = keys.find("model", models)) {
+    StepperModel model = StepperModel::nema17;
+    if (models.read(*given, model)) set_model(stepper, model);
+  }
   const yaml::Whole count{1, "200"};
   keys.optional("steps", count, stepper.steps);
   keys.optional("microsteps", count, stepper.microsteps);
@@ -159,6 +179,15 @@ void read_stepper(yaml::Keys& keys, StepperMotor& stepper) {
                 stepper.inertia);
   const yaml::Number speed{yaml::Dimension::angular_rate, {.above = 0}};
   keys.optional("corner_speed", speed, stepper.corner_speed);
+  constexpr double one_hertz = 2 * std::numbers::pi, any = std::numeric_limits<double>::max();
+  const yaml::Number frequency{yaml::Dimension::angular_rate, {.at_least = 1}};
+  keys.optional("natural_frequency", yaml::Usual{frequency, "Hz", any, one_hertz},
+                stepper.natural_frequency);
+  keys.optional("damping", yaml::Number{yaml::Dimension::number, {.at_least = 0}}, stepper.damping);
+  const auto damping = keys.find("damping");
+  if (damping && !stepper.natural_frequency) {
+    damping->report("found without natural_frequency; allowed: only with it");
+  }
 }
 
 // Reads the keys into `servo`, over its existing values. Does not report missing keys.

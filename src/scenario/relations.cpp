@@ -70,12 +70,19 @@ constexpr KeyRelation table[] = {
      "controller.library.wiring and gimbal.servo.rate_limit or "
      "controller.library.wiring and gimbal.servo.speed or "
      "controller.library.wiring and gimbal.servo.acceleration_limit"},
-    {"gimbal.servo.stepper.torque", needs, "gimbal.servo.stepper.inertia"},
-    {"gimbal.servo.stepper.inertia", needs, "gimbal.servo.stepper.torque"},
-    {"gimbal.servo.stepper.corner_speed", needs, "gimbal.servo.stepper.torque"},
+    {"gimbal.servo.stepper.torque", needs,
+     "gimbal.servo.stepper.inertia or gimbal.servo.stepper.model"},
+    {"gimbal.servo.stepper.inertia", needs,
+     "gimbal.servo.stepper.torque or gimbal.servo.stepper.model"},
+    {"gimbal.servo.stepper.corner_speed", needs,
+     "gimbal.servo.stepper.torque or gimbal.servo.stepper.model"},
+    {"gimbal.servo.stepper.model", excludes,
+     "gimbal.servo.backlash>0 or controller.library.wiring"},
+    {"gimbal.servo.stepper.damping", needs, "gimbal.servo.stepper.natural_frequency"},
+    {"gimbal.servo.stepper.natural_frequency", excludes, "gimbal.servo.backlash>0"},
     {"gimbal.servo.stepper.torque", excludes,
      "gimbal.servo.backlash>0 or controller.library.wiring"},
-    {"events.steps_lost", needs, "gimbal.servo.stepper.torque"},
+    {"events.steps_lost", needs, "gimbal.servo.stepper.torque or gimbal.servo.stepper.model"},
     {"gimbal.servo.stepper", excludes, "gimbal.servo.angle_limit or gimbal.servo.model"},
     {"gimbal.servo.dead_band>0", needs, "controller.sampling"},
     {"controller.assumes", needs, "gimbal.linkage or gimbal.three_servos",
@@ -136,10 +143,12 @@ constexpr KeyRelation table[] = {
      "found, but no controller.sampling; allowed: only with it, since the controller reads the "
      "sensor at its samples; a continuous law knows the ball exactly"},
     {"controller.sensor.seed", needs,
-     "controller.sensor.noise or controller.sensor.dropout or controller.sampling.jitter or "
-     "controller.library.wiring",
-     "found, but nothing here is random; allowed: only with sensor.noise, sensor.dropout or "
-     "sampling.jitter, or a sketch"},
+     "controller.sensor.noise or controller.sensor.dropout or controller.sensor.stuck or "
+     "controller.sensor.burst or controller.sampling.jitter or controller.library.wiring",
+     "found, but nothing here is random; allowed: only with sensor.noise, .dropout, .stuck or "
+     ".burst, with sampling.jitter, or a sketch"},
+    {"controller.sensor.burst", needs, "controller.sensor.period",
+     "found without sensor.period; allowed: only with it, since it holds up a camera's frames"},
     {"controller.sensor.contact_force>0", needs, "ball.mass",
      "found, but no ball.mass, and a lighter ball presses less; allowed: only with ball.mass"},
     {"controller.sensor.on_miss=edge", needs, "controller.sensor.area",

@@ -122,6 +122,9 @@ struct GimbalStart {
   double phi_rate = 0, theta_rate = 0;  // rad/s
 };
 
+// Stepper motors by the size of their flange.
+enum class StepperModel { nema14, nema17, nema23 };
+
 // A stepper motor and its driver.
 struct StepperMotor {
   double steps = 200, microsteps = 16;  // in a turn of the motor, and in a step
@@ -130,6 +133,10 @@ struct StepperMotor {
   // that it turns, its own and that of the plate behind the gear, at the motor, kg m^2.
   std::optional<double> torque{}, inertia{};
   std::optional<double> corner_speed{};  // of the motor: beyond, torque falls as 1/speed, rad/s
+  // Of the shaft's swings about the driver's angle: rad/s, and the damping ratio. Without a
+  // frequency, the shaft is at that angle.
+  std::optional<double> natural_frequency{};
+  double damping = 0.1;
 
   [[nodiscard]] double microstep() const {  // of the shaft, rad
     return 2 * std::numbers::pi / (steps * microsteps * gear);
@@ -259,11 +266,20 @@ struct Gimbal {
     }
     return axis == 1 && theta_servo ? *theta_servo : *servo;
   }
+  [[nodiscard]] bool has_steppers() const {
+    return any_stepper([](const StepperMotor& /*motor*/) { return true; });
+  }
   // Whether a stepper has a torque, beyond which it loses steps.
   [[nodiscard]] bool loses_steps() const {
+    return any_stepper([](const StepperMotor& motor) { return motor.torque.has_value(); });
+  }
+
+ private:
+  template <class Is>
+  [[nodiscard]] bool any_stepper(Is is) const {
     bool any = false;
     for (std::size_t i = 0; servo && i < (three_servos ? 3U : 2U); ++i) {
-      any = any || (servo_of(i).stepper && servo_of(i).stepper->torque);
+      any = any || (servo_of(i).stepper && is(*servo_of(i).stepper));
     }
     return any;
   }
@@ -377,18 +393,25 @@ struct Sampling {
   [[nodiscard]] bool is_even() const { return jitter == 0 && periods.empty(); }
 };
 
-// The controller's measurement of the ball.
 // What a sensor that does not see the ball reads: nothing, its last reading, or its corner at
 // -area/2.
 enum class OnMiss { none, last, edge };
 
+// A fault that begins by chance at a reading, and lasts.
+struct SensorFault {
+  double probability = 0, duration = 0;  // > 0; s
+};
+
+// The controller's measurement of the ball.
 struct Sensor {
-  double resolution = 0;       // quantization, m; 0: none
-  double noise = 0;            // standard deviation of each coordinate, m
-  std::uint64_t seed = 1;      // for noise, dropouts and the jitter of the sampling
-  double delay = 0;            // from the measurement to the sample, s
-  double dropout = 0;          // probability that a sample has no measurement
-  std::optional<Pair> area{};  // sides of the field of view, a rectangle, m
+  double resolution = 0;   // quantization, m; 0: none
+  double noise = 0;        // standard deviation of each coordinate, m
+  std::uint64_t seed = 1;  // for noise, dropouts, faults and the jitter of the sampling
+  double delay = 0;        // from the measurement to the sample, s
+  double dropout = 0;      // probability that a sample has no measurement
+  // Readings repeat the first one; frames wait, and arrive together at the end.
+  std::optional<SensorFault> stuck{}, burst{};
+  std::optional<Pair> area{};                       // sides of the field of view, a rectangle, m
   std::vector<std::array<double, 4>> dead_zones{};  // corners x0, y0, x1, y1 of blind rectangles, m
   double contact_force = 0;                         // a touch screen misses a lesser force, N
   OnMiss on_miss = OnMiss::none;
@@ -402,6 +425,7 @@ struct Sensor {
   std::optional<double> period{};  // s, > 0
   double phase = 0;                // s
 
+  [[nodiscard]] bool is_random() const { return noise > 0 || dropout > 0 || stuck || burst; }
   [[nodiscard]] bool is_aligned() const {
     return rotation == 0 && scale == Pair{1, 1} && offset == Pair{0, 0};
   }

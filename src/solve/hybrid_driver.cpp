@@ -238,7 +238,7 @@ class HybridIntegration {
     if (run_.first_monitor() > 0) {
       model::Servos& servos = *run_.servos();
       crossing_ = servos.next_crossing(
-          t, switched ? *stepper_->servos() : servos.held_motions(z_.data()), predicted_to_);
+          t, switched ? *stepper_->servos() : servos.held_motions(t, z_.data()), predicted_to_);
     }
     if (switched) {
       guards_.after_switch();

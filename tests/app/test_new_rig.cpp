@@ -72,9 +72,15 @@ TEST_CASE("rigs with stepper motors balance their ball") {
           0);
   CHECK_THAT(folder.read("my-rig.yaml"), Contains("stepper:") && !Contains("model:"));
   check_balances(folder, "2 mm");
+  REQUIRE(new_rig(folder, {"--actuator", "stepper", "--legs", legs, "--ball", ball, "--servo",
+                           "nema17", "--force"})
+              .exit_code == 0);
+  CHECK_THAT(folder.read("my-rig.yaml"), Contains("model: nema17"));
+  check_balances(folder, "2 mm");
   const Result both = new_rig(folder, {"--actuator", "stepper", "--servo", "hobby-micro"});
   CHECK(both.exit_code == 2);
-  CHECK_THAT(both.err, Contains("--servo: found hobby-micro; allowed: only with --actuator servo"));
+  CHECK_THAT(both.err, Contains("--servo: found hobby-micro; allowed: nema14"));
+  CHECK(new_rig(folder, {"--servo", "nema17"}).exit_code == 2);
 }
 
 TEST_CASE("rigs have margins of at least 6 dB and 30 degrees") {

@@ -38,13 +38,19 @@ function law(name, size, n, i, rows) {
   return "{kv: " by_factors(0.5, 10) ", kp: " by_factors(0.5, 20) "}"
 }
 
+function fault() {
+  return "{probability: " by_factors(1e-3, 0.3) ", duration: " seconds(by_factors(0.01, 0.5)) "}"
+}
 function stepper_keys() {
   loses = chance(0.3)
+  rings = chance(0.3)
   return "stepper: {microsteps: " (chance(0.5) ? 16 : 1) ", gear: " by_factors(0.5, 20) \
     (loses ? ", torque: " by_factors(0.05, 2) ", inertia: " by_factors(1e-5, 1e-2) : "") \
-    (loses && chance(0.5) ? ", corner_speed: " by_factors(1, 100) : "") "}, rate_limit: " \
+    (loses && chance(0.5) ? ", corner_speed: " by_factors(1, 100) : "") \
+    (rings ? ", natural_frequency: " by_factors(10, 1000) : "") \
+    (rings && chance(0.5) ? ", damping: " between(0, 1.5) : "") "}, rate_limit: " \
     by_factors(0.5, 20) ", acceleration_limit: " by_factors(5, 500) \
-    (!loses && chance(0.2) && !slides ? ", backlash: " radians(by_factors(1e-4, 0.01)) : "")
+    (!loses && !rings && chance(0.2) && !slides ? ", backlash: " radians(by_factors(1e-4, 0.01)) : "")
 }
 function servo_keys(words) {
   words = first_order ? "time_constant: " seconds(by_factors(0.01, 0.3)) \
@@ -117,6 +123,7 @@ function sampling(drives, period) {
   if (noise || jitter) line("    seed: " int(rand() * 1000))
   if (chance(0.3)) line("    delay: " seconds(by_factors(0.001, 0.1)))
   if (chance(0.3)) line("    dropout: " between(0, 0.5))
+  if (chance(0.15)) line("    stuck: " fault())
   if (chance(0.2)) line("    rotation: " radians(between(-0.3, 0.3)))
   if (chance(0.2)) line("    scale: " (chance(0.5) ? between(0.8, 1.2) : "[" between(0.8, 1.2) ", 1]"))
   if (chance(0.2)) line("    offset: " point(0.01))
@@ -127,6 +134,7 @@ function sampling(drives, period) {
   if (chance(0.3)) {
     period = chance(0.3) ? period * pick("0.5|1.5|2|3") : by_factors(0.003, 0.1)
     line("    period: " sprintf("%.6g", period))
+    if (chance(0.3)) line("    burst: " fault())
     if (chance(0.5)) line("    phase: " sprintf("%.6g", period * between(0, 0.99)))
   }
 }

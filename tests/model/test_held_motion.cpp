@@ -79,11 +79,17 @@ TEST_CASE("the impulse response of a held servo, for any spring and damper") {
 
 TEST_CASE("a held servo follows its equation in every mode") {
   const ServoResponse servo{986.96, 986.96, 50.27};
+  const auto in = [](const AxisMode& mode) {
+    RigMode all;
+    all.axis[0] = mode;
+    all.command[0] = 0.2;
+    return all;
+  };
   AxisMode free, pushed, at_rate;
   pushed.demand_factor = at_rate.demand_factor = 0;
   pushed.set_acceleration = -12;
   for (const AxisMode& mode : {free, pushed, at_rate}) {
-    const HeldMotion motion = held_motion(servo, mode, 0.2, 0.05, -1.3);
+    const HeldMotion motion = held_motion(servo, in(mode), 0, 0.05, -1.3, 0);
     for (const double t : {0.0, 0.004, 0.02, 0.11}) {
       const HeldMotion::Instant at = motion.after(t);
       const double demand = 986.96 * (0.2 - at.angle) - 50.27 * at.rate;
@@ -92,8 +98,28 @@ TEST_CASE("a held servo follows its equation in every mode") {
     }
   }
   // A ramp and a parabola.
-  CHECK(held_motion(servo, at_rate, 0.2, 0.05, -1.3).after(0.1).angle == Approx(-0.08));
-  CHECK(held_motion(servo, pushed, 0.2, 0.05, -1.3).after(0.1).angle == Approx(-0.14));
+  CHECK(held_motion(servo, in(at_rate), 0, 0.05, -1.3, 0).after(0.1).angle == Approx(-0.08));
+  CHECK(held_motion(servo, in(pushed), 0, 0.05, -1.3, 0).after(0.1).angle == Approx(-0.14));
+}
+
+TEST_CASE("a shaft that rings follows its equation about a field in motion") {
+  const ServoResponse servo{1600, 1600, 12};
+  RigMode mode;
+  mode.rings = mode.driver[1].rings = true;
+  mode.driver[1] = {true, 0.3, 0.1, -0.4, 7, 1, -0.02};
+  const HeldMotion motion = held_motion(servo, mode, 1, 0.05, -1.3, 0.35);
+  for (const double t : {0.0, 0.004, 0.02, 0.11, 3.0}) {
+    const HeldMotion::Instant at = motion.after(t);
+    const double s = t + 0.05, field = 0.1 - 0.02 + s * (-0.4 + 3.5 * s);
+    CHECK(at.acceleration == Approx(1600 * (field - at.angle) - 12 * at.rate).margin(1e-9));
+    // The rate is the angle's slope, and the bounds hold.
+    const double h = 1e-6,
+                 slope = (motion.after(t + h).angle - motion.after(t - h).angle) / (2 * h);
+    CHECK(at.rate == Approx(slope).margin(1e-7));
+    const MotionReach most = reach(motion, t);
+    CHECK(std::abs(at.angle - most.centre) <= most.angle_most * (1 + 1e-12));
+    CHECK(std::abs(at.rate) <= most.rate_most * (1 + 1e-12));
+  }
 }
 
 TEST_CASE("the first fall of a linear function in a held motion is found") {

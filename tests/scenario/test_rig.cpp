@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Keys of real rigs: their values, and refused combinations with reasons.
+#include <numbers>
+
 #include "catch.hpp"
 #include "support/reading.hpp"
 
@@ -257,6 +259,13 @@ TEST_CASE("a sensor's dead zones, contact force and misses are checked") {
   CHECK_THAT(heavy[0], Catch::Matchers::Contains("exceeds the ball's weight of 0.98"));
   CHECK_THROWS_WITH(read("{contact_force: 0.9}", ""),
                     Catch::Matchers::Contains("found, but no ball.mass"));
+  CHECK_NOTHROW(read("{contact_force: 20 mN, seed: 2, stuck: {probability: 0.1, duration: 1}}"));
+  CHECK_THROWS_WITH(read("{burst: {probability: 0.1, duration: 50 ms}}"),
+                    Catch::Matchers::Contains("found without sensor.period"));
+  CHECK_THROWS_WITH(read("{stuck: {probability: 0.1}}"),
+                    Catch::Matchers::Contains("sensor.stuck.duration: missing"));
+  CHECK_THROWS_WITH(read("{stuck: {probability: 1.1, duration: 50 ms}}"),
+                    Catch::Matchers::Contains("stuck.probability: found 1.1"));
   CHECK_THROWS_WITH(read("{on_miss: edge}"),
                     Catch::Matchers::Contains("found without sensor.area"));
   CHECK_THROWS_WITH(read("{dead_zones: [[0.1, 0, 0, 0.1]]}"),
@@ -282,6 +291,46 @@ TEST_CASE("a stepper's torque goes with its inertia, without backlash") {
                     Catch::Matchers::Contains("beside backlash"));
   CHECK_THROWS_WITH(parse(fault("stepper: {}", "events: {steps_lost: note}\n")),
                     Catch::Matchers::Contains("no stepper loses steps"));
+}
+
+TEST_CASE("a stepper's class stands for its torque, inertia and steps") {
+  const auto servo = [](const std::string& keys) {
+    return parse("ball: {radius: 0.02}\ngimbal: {servo: {rate_limit: 5, acceleration_limit: 60, " +
+                 keys +
+                 "}}\ncontroller: {gravity_compensation: {kp: 5, kv: 5}, drives: angle, reference: "
+                 "{point: [0, 0]}, sampling: {period: 0.02}}\nevents: {steps_lost: stop}\n"
+                 "time: {end: 1, step: 0.1}\n")
+        .gimbal.servo->stepper;
+  };
+  const auto motor = servo("stepper: {model: nema17, inertia: 2e-4}");
+  CHECK(motor->steps == 200);
+  CHECK(motor->torque == 0.2);
+  CHECK(motor->inertia == 2e-4);
+  CHECK(*servo("stepper: {model: nema23}")->torque > *servo("stepper: {model: nema14}")->torque);
+  CHECK_THROWS_WITH(servo("stepper: {model: nema18}"),
+                    Catch::Matchers::Contains("stepper.model: found nema18"));
+  CHECK_THROWS_WITH(servo("stepper: {model: nema17}, backlash: 0.01"),
+                    Catch::Matchers::Contains("beside backlash"));
+}
+
+TEST_CASE("a stepper's swings have a natural frequency, and no backlash") {
+  const auto servo = [](const std::string& keys) {
+    return parse("ball: {radius: 0.02}\ngimbal: {servo: {rate_limit: 5, acceleration_limit: 60, " +
+                 keys +
+                 "}}\ncontroller: {gravity_compensation: {kp: 5, kv: 5}, drives: angle, reference: "
+                 "{point: [0, 0]}, sampling: {period: 0.02}}\ntime: {end: 1, step: 0.1}\n")
+        .gimbal.servo->stepper;
+  };
+  CHECK_FALSE(servo("stepper: {}")->natural_frequency);
+  const auto rings = servo("stepper: {natural_frequency: 40 Hz}");
+  CHECK(*rings->natural_frequency == Approx(80 * std::numbers::pi).epsilon(1e-15));
+  CHECK(rings->damping == 0.1);
+  CHECK_THROWS_WITH(servo("stepper: {damping: 0.1}"),
+                    Catch::Matchers::Contains("damping: found without natural_frequency"));
+  CHECK_THROWS_WITH(servo("stepper: {natural_frequency: 0.9}"),
+                    Catch::Matchers::Contains("natural_frequency: found 0.9"));
+  CHECK_THROWS_WITH(servo("stepper: {natural_frequency: 90}, backlash: 0.01"),
+                    Catch::Matchers::Contains("beside backlash"));
 }
 
 }  // namespace bbsim_test::test_rig

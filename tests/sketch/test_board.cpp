@@ -233,6 +233,21 @@ TEST_CASE("a number that a sketch prints for a column and that is not finite end
   CHECK(run("v").exit_code == 2);  // text, not a number: the column is never printed
 }
 
+TEST_CASE("a column is nan before the sketch prints its first number") {
+  const Sketch sketch(
+      "void setup() { SerialUSB.begin(115200); }\nvoid loop() {\n  delay(50);\n"
+      "  SerialUSB.println(\"u:7\");\n}\n",
+      plain_wiring);
+  CAPTURE(sketch.made.err);
+  REQUIRE(sketch.made.exit_code == 0);
+  const Result run = bbsim(sketch.words("run", {"--set", "output.columns=[t, u]", "--set",
+                                                "time={end: 0.08, step: 20 ms}", "-o", "-"}));
+  CAPTURE(run.err);
+  CHECK(run.exit_code == 0);
+  CHECK(contains(run.out, "t,u\n0,nan\n0.02,nan\n"));
+  CHECK(contains(run.out, "\n0.08,7\n"));
+}
+
 TEST_CASE("a missing board feature is a compiler error with a hint") {
   const Sketch sketch(
       "#include <Wire.h>\n#include <SPI.h>\nvoid tick() {}\nvoid setup() {\n"

@@ -118,6 +118,23 @@ TEST_CASE("pulses turn a stepper by microsteps, at a constant rate from sample t
   CHECK(std::abs(rows[200][1] - 81 * step) < 1e-12);
 }
 
+TEST_CASE("check finds the gains of a sketch that pulses steppers after its ramp") {
+  const Sketch sketch("steppers");
+  CAPTURE(sketch.made.err);
+  REQUIRE(sketch.made.exit_code == 0);
+  const Result check = bbsim(sketch.words("check", stepper_rig));
+  CAPTURE(check.out, check.err);
+  REQUIRE(check.exit_code == 0);
+  for (const std::string command : {"phi", "theta"}) {
+    const std::string before = command + ": pushes the ball towards the reference; gain ";
+    const std::size_t at = check.out.find(before);
+    REQUIRE(at != std::string::npos);
+    // 0.6 degrees for each cm, in whole microsteps of 0.11 degrees.
+    const double gain = std::abs(std::strtod(check.out.c_str() + at + before.size(), nullptr));
+    CHECK(std::abs(gain - 1.047) < 0.1);
+  }
+}
+
 TEST_CASE("a wiring and a scenario agree on what is a stepper") {
   const std::string text = "void setup() {}\nvoid loop() {}\n";
   const Sketch steppers(text, "steppers: {phi: {step: 2, dir: 3}}\n");

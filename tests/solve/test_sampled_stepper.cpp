@@ -4,6 +4,7 @@
 // Sampled rigs piece by piece between instants, compared with radau's steps with guards.
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 
 #include "catch.hpp"
@@ -145,6 +146,26 @@ const Case cases[] = {
      "{servo: {natural_frequency: 31.4, damping: 0.8, rate_limit: 0.4}, "
      "three_servos: {radius_base: 0.06, radius_plate: 0.09, horn: 0.04, rod: 0.1, height: 0.11}}",
      "gravity_compensation: {kp: 6, kv: 5}, drives: angle, limit: 0.2"},
+    {"steppers that ring",
+     "{servo: {stepper: {gear: 2, natural_frequency: 90, damping: 0.08}, rate_limit: 0.8, "
+     "acceleration_limit: 12}}",
+     "lqr: {position: 20, velocity: 1, angle: 1, rate: 0.01, command: 1}, drives: angle, limit: "
+     "0.2"},
+    {"steppers that ring and lose steps",
+     "{servo: {stepper: {steps: 2000, torque: 0.2, inertia: 1e-2, corner_speed: 0.3, "
+     "natural_frequency: 90}, rate_limit: 0.8, acceleration_limit: 12}}",
+     "gravity_compensation: {kp: 10, kv: 8}, drives: angle, limit: 0.2"},
+    {"three legs with steppers, of which two ring",
+     "{servo: {stepper: {natural_frequency: 200}, rate_limit: 2, acceleration_limit: 40}, "
+     "three_servos: {radius_base: 0.06, radius_plate: 0.09, horn: 0.04, rod: 0.1, height: 0.11, "
+     "legs: [{}, {servo: {stepper: {natural_frequency: 120, damping: 0}}}, {servo: {stepper: "
+     "{}}}]}}",
+     "gravity_compensation: {kp: 6, kv: 5}, drives: angle, limit: 0.2"},
+    {"steppers that ring behind push rods",
+     "{servo: {stepper: {natural_frequency: 90}, rate_limit: 1.5, acceleration_limit: 20}, "
+     "mounting: {height: 0.02, phi_offset: 0.01}, linkage: {horn: 0.024, arm: 0.06, offset: "
+     "[-0.016, 0.07]}}",
+     "gravity_compensation: {kp: 8, kv: 6}, drives: angle, limit: 0.2"},
 };
 
 std::string text_of(const Case& one, const std::string& sampling, const std::string& columns) {
@@ -213,6 +234,9 @@ TEST_CASE("integrate() solves sampled rigs by pieces, and no others") {
   CHECK(solve::sampled::knows(model::assemble(linked, false)));
   CHECK_FALSE(solve::sampled::moves(model::assemble(linked, false)));
   CHECK(solve::sampled::moves(model::assemble(linked, without_work)));
+  const Scenario rings = scene_of(text_of(*std::prev(std::end(cases)), sampling, "t, x"));
+  CHECK(solve::sampled::knows(model::assemble(rings, without_work)));
+  CHECK_FALSE(solve::sampled::moves(model::assemble(rings, without_work)));
   linked.ball.losses.viscous = 1e-6;
   CHECK_FALSE(solve::sampled::knows(model::assemble(linked, without_work)));
 }

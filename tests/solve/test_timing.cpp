@@ -6,6 +6,8 @@
 
 #include "catch.hpp"
 #include "model/control/sample_times.hpp"
+#include "model/control/sampled_controller.hpp"
+#include "model/control/sensor_faults.hpp"
 #include "support/run_in_memory.hpp"
 #include "support/scenes.hpp"
 
@@ -122,6 +124,66 @@ TEST_CASE("a sample sees the last camera frame that has arrived") {
     const double frame = 0.005 + 0.033 * std::floor((sampled - 0.012 - 0.005) / 0.033 + 1e-9);
     CHECK(std::abs(now.measured[0] - 0.1 * std::max(frame, 0.0)) < 1e-12);
   }
+}
+
+TEST_CASE("a sensor that sticks repeats its reading for the duration") {
+  Scenario scene = onlooker();
+  const auto [duration, readings] = GENERATE(table<double, int>({{0.11, 6}, {0.1, 5}}));
+  scene.controller->sensor->stuck = SensorFault{1, duration};
+  for (const model::Sample& now : run_of(scene).samples) {
+    const double stuck_at = 0.02 * readings * std::floor(now.t / (0.02 * readings) + 1e-9);
+    CHECK(std::abs(now.measured[0] - 0.1 * stuck_at) < 1e-12);
+  }
+}
+
+TEST_CASE("frames that wait arrive together") {
+  Scenario scene = onlooker();
+  scene.controller->sensor->period = 0.033;
+  scene.controller->sensor->phase = 0.005;
+  scene.controller->sensor->delay = 0.012;
+  scene.controller->sensor->burst = SensorFault{1, 0.1};
+  for (const model::Sample& now : run_of(scene).samples) {
+    const double sampled = 0.02 * std::floor(now.t / 0.02 + 1e-9);
+    double seen = 0, until = -1;
+    for (int i = -2; 0.033 * i + 0.017 < sampled + 0.1; ++i) {
+      const double arrives = 0.033 * i + 0.017;
+      if (arrives >= until) until = arrives + 0.1;
+      if (until <= sampled) seen = std::max(0.0, 0.033 * i + 0.005);
+    }
+    CHECK(std::abs(now.measured[0] - 0.1 * seen) < 1e-12);
+  }
+}
+
+TEST_CASE("faults leave the noise of other readings, and come with their probability") {
+  Sensor sensor;
+  sensor.noise = 1e-3;
+  sensor.stuck = SensorFault{0.05, 0.1};
+  const int readings = 20000;
+  struct Reading {
+    Pair position;
+    bool sees;
+  };
+  model::BallSensor ball(sensor), same(sensor);
+  model::SensorFaults faults(sensor);
+  int stuck = 0;
+  Pair before{};
+  for (int i = 0; i < readings; ++i) {
+    Reading now{{}, true};
+    now.sees = ball.read(0, 0, now.position);
+    const Pair drawn = now.position;
+    faults.stick(0.02 * i, now);
+    if (now.position != drawn) {
+      ++stuck;
+      CHECK(now.position == before);
+    }
+    before = now.position;
+    Pair other;
+    CHECK(same.read(0, 0, other));
+    CHECK(other == drawn);
+  }
+  // Four of five readings of a fault repeat the first; 19 on average are between faults.
+  const double share = 4.0 / 24;
+  CHECK(std::abs(stuck - share * readings) < 5 * std::sqrt(readings * share * 5));
 }
 
 TEST_CASE("frames at the samples equal the samples bit for bit") {

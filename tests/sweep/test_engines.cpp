@@ -594,13 +594,15 @@ TEST_CASE("rigs in lanes are those of single runs") {
                           loop_measures));
   }
   SECTION("missed balls, and cameras that see them late") {
-    const std::string sensor =
-        GENERATE("{noise: 0.2 mm, dropout: 0.2, seed: 1}",
-                 "{noise: 0.2 mm, period: 33 ms, phase: 5 ms, delay: 21 ms, seed: 1}",
-                 "{resolution: 1 mm, area: [9 cm, 9 cm], delay: 35 ms}",
-                 "{noise: 0.2 mm, dropout: 0.1, dead_zones: [[1 cm, -9 cm, 2 cm, 9 cm]], on_miss: "
-                 "last}",
-                 "{contact_force: 0.32, area: [9 cm, 9 cm], on_miss: edge}");
+    const std::string sensor = GENERATE(
+        "{noise: 0.2 mm, dropout: 0.2, seed: 1}",
+        "{noise: 0.2 mm, period: 33 ms, phase: 5 ms, delay: 21 ms, seed: 1}",
+        "{resolution: 1 mm, area: [9 cm, 9 cm], delay: 35 ms}",
+        "{noise: 0.2 mm, dropout: 0.1, dead_zones: [[1 cm, -9 cm, 2 cm, 9 cm]], on_miss: "
+        "last}",
+        "{contact_force: 0.32, area: [9 cm, 9 cm], on_miss: edge}",
+        "{period: 33 ms, stuck: {probability: 0.03, duration: 70 ms}, burst: {probability: "
+        "0.05, duration: 90 ms}}");
     CAPTURE(sensor);
     check_rig_lanes(Setup("configs/rig.yaml",
                           {{"controller.gravity_compensation.kp", "uniform:6:14"}},

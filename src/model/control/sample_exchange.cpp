@@ -20,6 +20,7 @@ SampleExchange::SampleExchange(const SampledLoop& loop)
       frames_(loop.sensor.period),
       sensor_(loop.sensor),
       times_(loop.sampling, loop.sensor.seed) {
+  if (loop.sensor.stuck || loop.sensor.burst) faults_.emplace(loop.sensor);
   // Start from the last frame that has arrived at t = 0, or the one before.
   if (frames_) expose_.number = std::floor((-sensor_delay_ - expose_.shift) / *frames_) - 2;
   if (since_ > 0) skip_past();
@@ -43,8 +44,12 @@ void SampleExchange::go_on_exposing() {
 
 void SampleExchange::expose(double x, double y, bool firm) {
   Seen& now = seen_.push();
-  now.at = expose_.next;
+  now.arrives = expose_.next + sensor_delay_;
   now.sees = sensor_.read(x, y, now.position, firm);
+  if (faults_) {
+    faults_->stick(expose_.next, now);
+    now.arrives = faults_->arrival(now.arrives);
+  }
   go_on_exposing();
 }
 

@@ -12,6 +12,7 @@
 #include "base/queue.hpp"
 #include "model/control/sample_times.hpp"
 #include "model/control/sampled_controller.hpp"
+#include "model/control/sensor_faults.hpp"
 
 namespace bbsim::model {
 
@@ -55,7 +56,7 @@ class SampleExchange {
   [[nodiscard]] std::optional<Pair> begin_sample(double now) {
     go_on(sample_);
     if (!frames_) return seen_.pop().what();
-    while (!seen_.empty() && seen_.front().at + sensor_delay_ <= now) frame_ = seen_.pop().what();
+    while (!seen_.empty() && seen_.front().arrives <= now) frame_ = seen_.pop().what();
     return frame_;
   }
   void end_sample(double phi, double theta) { commands_.push() = {phi, theta}; }
@@ -77,7 +78,7 @@ class SampleExchange {
     double next = 0;  // s
   };
   struct Seen {
-    double at = 0;  // of the exposure, s
+    double arrives = 0;  // s
     Pair position{};
     bool sees = false;
 
@@ -108,6 +109,7 @@ class SampleExchange {
   Queue<double> thirds_;          // with three servos
   BallSensor sensor_;
   SampleTimes times_;
+  std::optional<SensorFaults> faults_;
 };
 
 }  // namespace bbsim::model

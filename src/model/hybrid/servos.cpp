@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "model/hybrid/rig_energy.hpp"
 
@@ -18,6 +19,11 @@ Servos::Servos(SwitchedModel& model) : model_(model) {
     // With backlash, the plane starts at rest in the middle of the gap.
     if (rig.servo[i].backlash > 0) model.mode().axis[i].ratio = 0;
     switches = switches || rig.servo[i].switches();
+    RigMode& mode = model.mode();
+    mode.rings = mode.rings || rig.servo[i].rings;
+    mode.lags = mode.rings || mode.lags || rig.servo[i].torque_limit < unlimited;
+    mode.driver[i].angle = model.get().initial[SwitchedModel::angle + i];
+    mode.driver[i].rate = model.get().initial[model.rate() + i];
     axes_.emplace_back(rig.servo[i], responses.of[i]);
   }
   if (switches) guards_ = axes_.size() * ServoAxis::guards;
@@ -34,7 +40,7 @@ void Servos::append_scales(std::vector<double>& scales) const {
 void Servos::evaluate(const GuardContext& now, double* values) const {
   if (guards_ == 0) return;
   for (std::size_t i = 0; i < axes_.size(); ++i, values += ServoAxis::guards) {
-    axes_[i].evaluate(state(i, now.demands(), now.z), values);
+    axes_[i].evaluate(state(i, now.t, now.demands(), now.z), values);
   }
 }
 
@@ -56,9 +62,10 @@ bool Servos::reset(double t, double* z) {
   std::copy_n(z, model_.get().size(), z_before.begin());
   bool jumped = false, moved = false;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    AxisState axis = state(i, demands, z);
+    AxisState axis = state(i, t, demands, z);
     AxisMode& mode = model_.mode().axis[i];
     axes_[i].settle(axis, mode);
+    if (model_.mode().lags && lags(i, axis, t)) continue;
     double& angle = z[SwitchedModel::angle + i];
     double& rate = z[model_.rate() + i];
     jumped = jumped || axis.angle != angle || axis.rate != rate;
@@ -74,6 +81,22 @@ bool Servos::reset(double t, double* z) {
   std::swap(model_.mode(), mode_before);
   if (now.rate[0] == before.rate[0] && now.rate[1] == before.rate[1]) return jumped;
   kick_ball(z, z_before.data(), before, now);
+  return true;
+}
+
+// Sets the driver of a stepper, which goes on from `axis`. Returns whether the shaft rings: it is
+// then free, and does not jump.
+bool Servos::lags(std::size_t i, const AxisState& axis, double t) {
+  StepperDriver& driver = model_.mode().driver[i];
+  driver.ratio = axes_[i].field().ratio;
+  driver.offset = axes_[i].field().offset;
+  if (!driver.rings) return false;
+  AxisMode& mode = model_.mode().axis[i];
+  driver.since = t;
+  driver.angle = axis.angle;
+  driver.rate = axis.rate;
+  driver.acceleration = std::exchange(mode.set_acceleration, 0);
+  mode.demand_factor = 1;
   return true;
 }
 
@@ -109,12 +132,12 @@ std::array<bool, most_servos> Servos::follow(const std::array<double, most_servo
   return jumps;
 }
 
-HeldMotions Servos::held_motions(const double* z) const {
+HeldMotions Servos::held_motions(double t, const double* z) const {
   return model_.with_loop([&](const auto& loop) {
     HeldMotions motions;
     for (std::size_t i = 0; i < axes_.size(); ++i) {
-      motions[i] = held_motion(loop.servo().of[i], loop.mode.axis[i], loop.mode.command[i],
-                               z[SwitchedModel::angle + i], z[model_.rate() + i]);
+      motions[i] = held_motion(loop.servo().of[i], loop.mode, i, z[SwitchedModel::angle + i],
+                               z[model_.rate() + i], t);
     }
     return motions;
   });
@@ -124,8 +147,15 @@ Crossing Servos::next_crossing(double t, const HeldMotions& motions, double end)
   Crossing first;
   if (guards_ == 0) return first;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const ServoAxis::Crossing next = axes_[i].first_crossing(
-        motions[i], model_.mode().command[i], t, std::min(end, first.time) - t, answers_);
+    const StepperDriver& driver = model_.mode().driver[i];
+    HeldMotion of_driver;
+    if (driver.rings) {
+      const Jet<double> counted = driver.counted(t);
+      of_driver = {{}, counted.value, counted.rate, counted.acceleration};
+    }
+    const ServoAxis::Crossing next =
+        axes_[i].first_crossing(driver.rings ? of_driver : motions[i], model_.mode().command[i], t,
+                                std::min(end, first.time) - t, answers_);
     // Rounds up, so that the guard has crossed at that time even if the step is below the rounding
     // of t.
     double at = t + next.after;

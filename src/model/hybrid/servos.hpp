@@ -33,9 +33,9 @@ class Servos : public Part {
   // Whether the last reset() may have changed a mode.
   [[nodiscard]] bool chose() const { return chose_; }
 
-  // The motions of the servos from the states z, in the present mode, while their commands are
+  // The motions of the servos from the states z at t, in the present mode, while their commands are
   // held.
-  [[nodiscard]] HeldMotions held_motions(const double* z) const;
+  [[nodiscard]] HeldMotions held_motions(double t, const double* z) const;
   // The first crossing within (t, end], for servos with these motions from t.
   [[nodiscard]] Crossing next_crossing(double t, const HeldMotions& motions, double end);
   // Whether a stepper has begun to lose steps since the last call.
@@ -47,11 +47,14 @@ class Servos : public Part {
   [[nodiscard]] const ServoAxis& axis(std::size_t i) const { return axes_[i]; }
 
  private:
-  [[nodiscard]] AxisState state(std::size_t i, const Demands& demands, const double* z) const {
-    return {z[SwitchedModel::angle + i], z[model_.rate() + i], demands.demand[i],
-            demands.servo_command[i]};
+  // Of a shaft that rings, its driver's state: that one switches.
+  [[nodiscard]] AxisState state(std::size_t i, double t, const Demands& demands,
+                                const double* z) const {
+    const SwitchedModel::Turned at = model_.counted(i, t, z);
+    return {at.angle, at.rate, demands.demand[i], demands.servo_command[i]};
   }
   [[nodiscard]] bool stay_free(const double* z) const;
+  bool lags(std::size_t i, const AxisState& axis, double t);
   void kick_ball(double* z, const double* before, const RigExtras& plane_before,
                  const RigExtras& plane);
 

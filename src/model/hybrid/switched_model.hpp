@@ -65,6 +65,16 @@ class SwitchedModel {
         model_.system);
   }
 
+  // The angle and rate that the firmware knows of a servo: of a shaft that rings, those that its
+  // driver counts.
+  struct Turned {
+    double angle, rate;
+  };
+  [[nodiscard]] Turned counted(std::size_t servo, double t, const double* z) const {
+    if (!mode_->rings || !mode_->driver[servo].rings) return {z[angle + servo], z[rate_ + servo]};
+    const Jet<double> counted = mode_->driver[servo].counted(t);
+    return {counted.value, counted.rate};
+  }
   [[nodiscard]] Demands demands(double t, const double* z) const;
   [[nodiscard]] CommandRates command_rates(double t, const double* z) const;
   // The forces of a coupled scene.

@@ -101,9 +101,28 @@ ImpulseAnswer KnownAnswers::at(const HeldLaw& law, double t) {
   return std::isfinite(sum.slope) ? sum : answer(law, t);
 }
 
-HeldMotion held_motion(const ServoResponse& servo, const AxisMode& mode, double command,
-                       double angle, double rate) {
-  const double free = mode.demand_factor;
+namespace {
+
+HeldMotion ringing_motion(const ServoResponse& servo, const StepperDriver& driver, double angle,
+                          double rate, double t) {
+  const Jet<double> counted = driver.counted(t);
+  const double k = servo.from_angle, c = servo.from_rate;
+  const double field = driver.ratio * counted.value + driver.offset;
+  HeldMotion motion{{k, c}, angle, 0, 0};
+  motion.drift_acceleration = driver.ratio * counted.acceleration;
+  motion.drift_rate = driver.ratio * counted.rate - c / k * motion.drift_acceleration;
+  motion.rate = rate - motion.drift_rate;
+  motion.acceleration = k * (field - angle) - c * rate - motion.drift_acceleration;
+  return motion;
+}
+
+}  // namespace
+
+HeldMotion held_motion(const ServoResponse& servo, const RigMode& of, std::size_t i, double angle,
+                       double rate, double t) {
+  if (of.rings && of.driver[i].rings) return ringing_motion(servo, of.driver[i], angle, rate, t);
+  const AxisMode& mode = of.axis[i];
+  const double free = mode.demand_factor, command = of.command[i];
   HeldMotion motion{{free * servo.from_angle, free * servo.from_rate}, angle, rate, 0};
   motion.acceleration =
       free * (servo.from_command * command - servo.from_angle * angle - servo.from_rate * rate) +
@@ -118,7 +137,9 @@ MotionReach reach(const HeldMotion& motion, double end) {
   if (k > 0) {
     const double spring = (motion.acceleration + motion.law.damping * motion.rate) / k;
     const double rate_most = std::sqrt(spring * spring * k + motion.rate * motion.rate);
-    return {motion.angle + spring, rate_most / std::sqrt(k), rate_most};
+    const double turned = std::abs(motion.drift_acceleration) * end;
+    const double drift = std::abs(motion.drift_rate) + turned;
+    return {motion.angle + spring, rate_most / std::sqrt(k) + end * drift, rate_most + drift};
   }
   const double rate_most = std::abs(motion.rate) + std::abs(motion.acceleration) * end;
   return {motion.angle, end * rate_most, rate_most};
@@ -261,7 +282,7 @@ double first_crossing(const MotionLine& line, const HeldMotion& motion, double c
                      line.by_angle * at.rate + line.by_rate * at.acceleration};
   };
   const auto local = [&](double t) {
-    const HeldMotion::Instant at = motion.after(answers.at(motion.law, t));
+    const HeldMotion::Instant at = motion.after(answers.at(motion.law, t), t);
     const double third = -motion.law.damping * at.acceleration - motion.law.stiffness * at.rate;
     const double fourth = -motion.law.damping * third - motion.law.stiffness * at.acceleration;
     return Local{line.at(at.angle, at.rate) - threshold,
@@ -277,7 +298,7 @@ double first_crossing(const MotionLine& line, const HeldMotion& motion, double c
   } else if (turns_once(motion.law, end)) {
     // The common case: by the slopes at its ends, the line has no dip in between.
     const ImpulseAnswer& at_end = answers.at_end(motion.law, end);
-    const LineValue last = value_at(motion.after(at_end));
+    const LineValue last = value_at(motion.after(at_end, end));
     if (last.value > 0 && (now.slope >= 0 || falls_clearly(line, motion, at_end, last.slope))) {
       return never;
     }
@@ -292,7 +313,7 @@ double first_crossing(const MotionLine& line, const HeldMotion& motion, double c
     const double to = std::min(turns.next(), end);
     turns.pass();
     if (to <= from) continue;
-    const HeldMotion::Instant at = motion.after(answers.at(motion.law, to));
+    const HeldMotion::Instant at = motion.after(answers.at(motion.law, to), to);
     const LineValue reached = value_at(at);
     if (!(reached.value > 0)) {
       if (!std::isfinite(reached.value)) return never;

@@ -12,6 +12,10 @@
 //     q'  = (h' + damping h) q'(0) + h a
 //     q'' = -stiffness h q'(0) + h' a
 // These hold in all modes, and stay accurate as damping or stiffness vanish.
+//
+// The shaft of a stepper that rings about a field with the acceleration b has stiffness times a
+// quadratic in time added to its push. A parabola with the acceleration b solves this equation: the
+// drift. What is left of the motion obeys the formulas above.
 #pragma once
 
 #include <array>
@@ -45,25 +49,30 @@ struct ImpulseAnswer {
 // The motion of one servo from a given instant on.
 struct HeldMotion {
   HeldLaw law;
-  double angle = 0, rate = 0, acceleration = 0;  // at the start
+  double angle = 0, rate = 0, acceleration = 0;   // at the start, without the drift's
+  double drift_rate = 0, drift_acceleration = 0;  // rad/s at the start, rad/s^2
 
   struct Instant {
     double angle, rate, acceleration;
   };
-  [[nodiscard]] Instant after(double time) const { return after(answer(law, time)); }
-  [[nodiscard]] Instant after(const ImpulseAnswer& at) const {
-    return {angle + ((at.value + law.damping * at.integral) * rate + at.integral * acceleration),
-            (at.slope + law.damping * at.value) * rate + at.value * acceleration,
-            at.slope * acceleration - law.stiffness * at.value * rate};
+  [[nodiscard]] Instant after(double time) const { return after(answer(law, time), time); }
+  [[nodiscard]] Instant after(const ImpulseAnswer& at, double time) const {
+    const double turned = drift_acceleration * time;
+    const double drift = time * (drift_rate + turned / 2);
+    return {(angle + drift) +
+                ((at.value + law.damping * at.integral) * rate + at.integral * acceleration),
+            (at.slope + law.damping * at.value) * rate +
+                (at.value * acceleration + (drift_rate + turned)),
+            (at.slope * acceleration + drift_acceleration) - law.stiffness * at.value * rate};
   }
 };
 
 // Of the servos of a gimbal. A gimbal with two servos leaves the third at rest.
 using HeldMotions = std::array<HeldMotion, most_servos>;
 
-// The motion in the given mode from an angle (rad) and a rate (rad/s).
-[[nodiscard]] HeldMotion held_motion(const ServoResponse& servo, const AxisMode& mode,
-                                     double command, double angle, double rate);
+// The motion of servo i in the given mode from an angle (rad) and a rate (rad/s) at time t, s.
+[[nodiscard]] HeldMotion held_motion(const ServoResponse& servo, const RigMode& of, std::size_t i,
+                                     double angle, double rate, double t);
 
 // A linear function of the motion: constant + by_angle q + by_rate q'.
 struct MotionLine {

@@ -151,11 +151,11 @@ void ServoAxis::settle_stall(const AxisState& state, AxisMode& mode) {
     const double last = forward * std::floor(forward * way);
     catches_ = forward * (last - done) > 0 ? forward : 0;
     caught_at_ = stalled_at_ + last * period;
-    mode.ratio = 0;
-    mode.offset += stalled_at_ - lost_;
-  } else {
-    mode.offset -= lost_;
   }
+  field_ = {stalls_ ? 0.0 : 1.0, stalls_ ? stalled_at_ - lost_ : -lost_};
+  if (servo_.rings) return;
+  mode.ratio = field_.ratio;
+  mode.offset += field_.offset;
 }
 
 void ServoAxis::settle(AxisState& state, AxisMode& mode) {

@@ -79,6 +79,12 @@ class ServoAxis {
   // servo takes it from its command.
   void settle(AxisState& state, AxisMode& mode);
 
+  // The angle of a stepper's field: ratio * the driver's count + offset, rad.
+  struct Field {
+    double ratio = 1, offset = 0;
+  };
+  [[nodiscard]] Field field() const { return field_; }
+
   // Whether settle() has found since the last call that a stepper's torque is too small: its shaft
   // stalls while the driver's field runs on.
   [[nodiscard]] bool takes_loss() { return std::exchange(loses_, false); }
@@ -165,7 +171,8 @@ class ServoAxis {
   // the direction in which the driver comes there; 0: not before the next target.
   bool stalls_ = false, may_stall_ = false, loses_ = false;
   double stalled_at_ = 0, caught_at_ = 0, catches_ = 0;
-  double lost_ = 0;  // the driver's angle less the shaft's while it follows, rad
+  double lost_ = 0;  // the driver's angle less the field's while the shaft follows, rad
+  Field field_;
   Play play_ = Play::none;
   bool started_ = false;
   double plane_ = 0;  // angle in the gap, rad

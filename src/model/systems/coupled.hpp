@@ -404,6 +404,7 @@ class CoupledLoop {
     const Balance<double> now = balance(all_inputs(t), z, command);
     CoupledExtras extras{};
     loop.put(z, now.axis, extras.rig);
+    loop.put_lags(t, z, extras.rig);
     for (int i = 0; i < 2; ++i) {
       extras.rig.command[i] = by == GimbalBy::given_torques ? 0 : command[i];
     }
@@ -443,6 +444,7 @@ class CoupledLoop {
  private:
   // The inputs with the reference, which loop.inputs() omits while the command is held.
   [[nodiscard]] auto all_inputs(double t) const {
+    if (loop.mode.rings) return inputs(t);
     if constexpr (pushes) {
       return push.with(loop.reference().at(t), t);
     } else {

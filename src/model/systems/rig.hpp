@@ -43,6 +43,7 @@ struct RigServo {
   std::optional<double> time_constant;    // of a first-order servo, s
   double offset = 0;                      // angle of the plane at the servo's zero, rad
   double step = 0;                        // of a stepper: its microstep, rad; 0: not a stepper
+  bool rings = false;                     // a stepper whose shaft rings about its driver's field
   double pulse_time = 0;  // of a stepper under a sketch's pulses: it takes this to a target, s
   // The greatest acceleration that a stepper's torque gives its shaft, rad/s^2; the rate beyond
   // which it falls as 1/rate, rad/s; and the period of its field, four full steps, rad.
@@ -64,6 +65,11 @@ struct Rig {
   std::optional<SampledLoop> sampled;
   OnEvent steps_lost = OnEvent::note;
 
+  [[nodiscard]] bool rings() const {
+    bool any = false;
+    for (const RigServo& one : servo) any = any || one.rings;
+    return any;
+  }
   [[nodiscard]] bool limits_commands() const {
     return command_limit[0].binds() || command_limit[1].binds();
   }

@@ -19,6 +19,24 @@
 
 namespace bbsim::model {
 
+// The driver of a stepper between two switches: the angle that it counts, and the field that it
+// turns. The shaft is at the field's angle, or rings about it.
+struct StepperDriver {
+  bool rings = false;
+  double since = 0;                              // s; for a shaft that rings:
+  double angle = 0, rate = 0, acceleration = 0;  // counted, at `since`
+  double ratio = 1, offset = 0;                  // of the field's angle to the counted one
+
+  // The counted angle.
+  template <class Time>
+  [[nodiscard]] Jet<Time> counted(const Time& t) const {
+    const Time after = t - Time(since);
+    const Time turned = acceleration * after;
+    return {Time(angle) + after * (Time(rate) + 0.5 * turned), Time(rate) + turned,
+            Time(acceleration)};
+  }
+};
+
 // The mode of one axis or servo between two switches.
 struct AxisMode {
   // Servo acceleration = demand_factor * demand + set_acceleration, rad/s^2.
@@ -36,6 +54,9 @@ struct RigMode {
   AxisMode axis[most_servos];            // phi, theta; or each of three servos
   double command[most_servos]{0, 0, 0};  // held by a sampled controller, rad or rad/s^2
   double wanted[2]{0, 0};  // the command before its conversion for linkages or three servos, rad
+  StepperDriver driver[most_servos];
+  bool lags = false;   // whether the shaft of any stepper may be behind its driver's count
+  bool rings = false;  // whether the shaft of any stepper rings, and moves in time
 };
 
 // Servo acceleration in free motion: from_command u - from_angle q - from_rate q'.
@@ -73,11 +94,12 @@ struct ServoLayout : BallLayout<Shape::full> {
 using RigLayout = ServoLayout<2>;
 
 // The part of an output row that depends on the mode: the plane's motion (phi, theta), the
-// commands, and in a sampled loop the last measurement of the ball.
+// commands, in a sampled loop the last measurement of the ball, and the steppers' lags.
 struct RigExtras {
   double angle[2], rate[2], acceleration[2], command[2], measured[2];
+  double lag[most_servos];  // of a stepper's shaft behind the angle that its driver counts, rad
 
-  static constexpr int size = 10;
+  static constexpr int size = 10 + most_servos;
   [[nodiscard]] static RigExtras unpack(const double* numbers) {
     RigExtras extras;
     std::memcpy(&extras, numbers, sizeof extras);
@@ -126,9 +148,11 @@ class RigLoop {
   RigMode mode;
   [[no_unique_address]] Link link;
 
-  // The reference. Zero if the command is held, because the right-hand side does not use it.
+  // The reference. Zero if the command is held, because the right-hand side does not use it; in its
+  // place, shafts that ring need the time.
   template <class Time>
   [[nodiscard]] std::array<Jet<Time>, 2> inputs(const Time& t) const {
+    if (mode.rings) return {Jet<Time>{t, Time(1.0), Time(0.0)}, {}};
     if constexpr (!integrates) {
       if (law_.kind == LawKind::held) {
         const Jet<Time> nothing{Time(0.0), Time(0.0), Time(0.0)};
@@ -194,6 +218,7 @@ class RigLoop {
                        servo.from_angle * z[Layout::angle + i] -
                        servo.from_rate * z[Layout::rate + i];
     }
+    if (mode.rings) follow_drivers(reference[0].value, z, loop.demand);
     return loop;
   }
 
@@ -269,7 +294,17 @@ class RigLoop {
     }
     fill(z, acceleration, extras);
     for (int i = 0; i < 2; ++i) extras.command[i] = shown(loop, i);
+    put_lags(t, z, extras);
     return extras;
+  }
+
+  // Writes how far the steppers' shafts are behind the angles that their drivers count.
+  void put_lags(double t, const double* z, RigExtras& extras) const {
+    for (int i = 0; mode.lags && i < servos; ++i) {
+      const StepperDriver& of = mode.driver[i];
+      const double angle = z[Layout::angle + i];
+      extras.lag[i] = of.rings ? of.counted(t).value - angle : (1 - of.ratio) * angle - of.offset;
+    }
   }
 
   // Computes the plane's motion from the servos' accelerations.
@@ -325,7 +360,11 @@ class RigLoop {
     sample.gimbal = {with.angle[0], with.angle[1],        with.rate[0],
                      with.rate[1],  with.acceleration[0], with.acceleration[1]};
     for (int i = 0; i < servos; ++i) {
-      sample.servo[static_cast<std::size_t>(i)] = z[Layout::angle + i];
+      const auto place = static_cast<std::size_t>(i);
+      const double angle = z[Layout::angle + i];
+      const bool rings = mode.driver[i].rings;
+      sample.servo[place] = rings ? angle : angle - with.lag[i];
+      sample.counted[place] = rings ? angle + with.lag[i] : angle;
     }
     if (detail < Detail::loop) return sample;
     sample.command = {with.command[0], with.command[1]};
@@ -349,6 +388,19 @@ class RigLoop {
   [[nodiscard]] double gravity() const { return g_; }
 
  private:
+  // Sets the demands of shafts that ring about their drivers' fields.
+  template <class Time, class Real>
+  void follow_drivers(const Time& t, const Real* z, Real (&demand)[servos]) const {
+    for (int i = 0; i < servos; ++i) {
+      const StepperDriver& of = mode.driver[i];
+      if (!of.rings) continue;
+      const ServoResponse& servo = servo_.of[i];
+      const Time field = of.ratio * of.counted(t).value + Time(of.offset);
+      demand[i] = servo.from_angle * (Real(field) - z[Layout::angle + i]) -
+                  servo.from_rate * z[Layout::rate + i];
+    }
+  }
+
   // The ball's accelerations at zero gimbal acceleration, and their derivatives with respect to it.
   template <class Real>
   struct Inertial {

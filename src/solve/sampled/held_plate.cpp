@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solve/collocation/radau_table.hpp"
 #include "solve/sampled/monitor_ranges.hpp"
 
 namespace bbsim::solve::sampled {
@@ -24,10 +25,37 @@ double end_of(const PieceAxis& axis, MotionTable::Row row) {
          axis.table->by_acceleration[row][nodes - 1] * axis.acceleration;
 }
 
+// The table of a motion with drift, from that of its law.
+void add_drift(const model::HeldMotion& servo, double length, const MotionTable& of_law,
+               MotionTable& table) {
+  const auto both = [&](double by_rate, double by_acceleration) {
+    return by_rate * servo.rate + by_acceleration * servo.acceleration;
+  };
+  table = {};
+  for (int n = 0; n < nodes; ++n) {
+    const double time = radau::radau_table<radau::Shared, nodes>.c[n] * length;
+    const double turned = servo.drift_acceleration * time;
+    const double drift[MotionTable::rows] = {time * (servo.drift_rate + turned / 2),
+                                             servo.drift_rate + turned, servo.drift_acceleration};
+    for (int row = 0; row < MotionTable::rows; ++row) {
+      table.by_rate[row][n] =
+          both(of_law.by_rate[row][n], of_law.by_acceleration[row][n]) + drift[row];
+    }
+    table.most_by_rate =
+        std::max(table.most_by_rate, std::abs(table.by_rate[MotionTable::angle][n]));
+  }
+  // Nodes resolve a drift exactly.
+  table.missed_by_rate = both(of_law.missed_by_rate, of_law.missed_by_acceleration);
+  table.lost = of_law.lost;
+  table.lost_rate_by_rate = both(of_law.lost_rate_by_rate, of_law.lost_rate_by_acceleration);
+  table.lost_angle_by_rate = both(of_law.lost_angle_by_rate, of_law.lost_angle_by_acceleration);
+}
+
 }  // namespace
 
 HeldPlate::HeldPlate(const model::Model& model)
-    : servos_(static_cast<std::size_t>(model.rig->servos)) {
+    : servos_(static_cast<std::size_t>(model.rig->servos)),
+      drifting_(model.rig->rings() ? servos_ : 0) {
   with_given_plate(model.system, [this](const auto& loop) {
     using Link = std::decay_t<decltype(loop.link)>;
     mode_ = &loop.mode;
@@ -48,24 +76,34 @@ HeldPlate::HeldPlate(const model::Model& model)
   }
 }
 
-model::HeldMotions HeldPlate::motions(const double* z) const {
-  model::HeldMotions motions{};
+void HeldPlate::set_motions(double t, const double* z, model::HeldMotions& motions) const {
   for (std::size_t i = 0; i < servos_; ++i) {
-    motions[i] = model::held_motion(response_.of[i], mode_->axis[i], mode_->command[i],
-                                    z[angle + i], z[angle + servos_ + i]);
+    motions[i] =
+        model::held_motion(response_.of[i], *mode_, i, z[angle + i], z[angle + servos_ + i], t);
   }
-  return motions;
 }
 
 void HeldPlate::prepare(const model::HeldMotions& motions, double length, MotionTables& tables,
                         PlateMotion& motion) {
+  const MotionTable* first = nullptr;
   for (std::size_t i = 0; i < servos_; ++i) {
     const model::HeldMotion& servo = motions[i];
     // The servos usually have the same law.
     const MotionTable* const table =
-        i > 0 && servo.law == motions[0].law ? motion.axis[0].table : &tables.of(servo.law, length);
+        i > 0 && servo.law == motions[0].law ? first : &tables.of(servo.law, length);
+    if (i == 0) first = table;
     const model::AxisMode& mode = mode_->axis[i];
-    motion.axis[i] = {table, servo.angle, servo.rate, servo.acceleration, mode.ratio, mode.offset};
+    motion.axis[i] = {table,      servo.angle, servo.rate, servo.acceleration,
+                      mode.ratio, mode.offset, servo.rate, servo.acceleration};
+    if (mode_->rings && mode_->driver[i].rings) {
+      add_drift(servo, length, *table, drifting_[i]);
+      PieceAxis& axis = motion.axis[i];
+      axis.table = &drifting_[i];
+      axis.rate = 1;
+      axis.acceleration = 0;
+      axis.start_rate += servo.drift_rate;
+      axis.start_acceleration += servo.drift_acceleration;
+    }
   }
   motion.linkages = linkages_;
   motion.three = three_;
@@ -82,7 +120,7 @@ void HeldPlate::start_plate(const model::Linkages& link, PlateMotion& motion) co
   motion.gain = 0;
   for (int i = 0; i < 2; ++i) {
     const PieceAxis& of = motion.axis[i];
-    const double rate = of.ratio * of.rate, acting = of.ratio * of.acceleration;
+    const double rate = of.ratio * of.start_rate, acting = of.ratio * of.start_acceleration;
     // The rate for a unit rate of the horn.
     const model::Turn<double> turn = link.of[i].turn(horn_of(of, of.angle));
     motion.plane_start[i] = {turn.sin, turn.cos, turn.slope * rate,
@@ -98,8 +136,8 @@ void HeldPlate::start_plate(const model::ThreeServos& link, PlateMotion& motion)
   for (int i = 0; i < 3; ++i) {
     const PieceAxis& of = motion.axis[i];
     horn[i] = horn_of(of, of.angle);
-    rate[i] = of.ratio * of.rate;
-    acting[i] = of.ratio * of.acceleration;
+    rate[i] = of.ratio * of.start_rate;
+    acting[i] = of.ratio * of.start_acceleration;
   }
   if (!known_.has_plate || !std::equal(horn, horn + 3, known_.horn) ||
       !std::equal(rate, rate + 3, known_.rate)) {

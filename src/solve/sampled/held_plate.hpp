@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "model/model.hpp"
 #include "model/servo/held_motion.hpp"
@@ -25,11 +26,11 @@ class HeldPlate {
   [[nodiscard]] const model::RigMode& mode() const { return *mode_; }
   [[nodiscard]] const model::ServoResponses& response() const { return response_; }
 
-  // The servos' motions from states z, in the present mode.
-  [[nodiscard]] model::HeldMotions motions(const double* z) const;
+  // Sets the servos' motions from states z at t, in the present mode.
+  void set_motions(double t, const double* z, model::HeldMotions& motions) const;
 
   // Sets the servos of a piece of `length` s in the present mode, and the plate at its start if it
-  // is behind a mechanism. The tables must live as long as the motion is used.
+  // is behind a mechanism. The tables and this object must live as long as the motion is used.
   void prepare(const model::HeldMotions& motions, double length, MotionTables& tables,
                PlateMotion& motion);
   // Writes the servos' angles and rates at the end of the piece into states z.
@@ -58,7 +59,8 @@ class HeldPlate {
     double edges[model::ThreeServos::edge_count];
     bool has_plate;
   } known_{};
-  double gain_ = 1;  // of three servos, at home (PlateMotion::gain)
+  std::vector<MotionTable> drifting_;  // of steppers that ring, over the last piece
+  double gain_ = 1;                    // of three servos, at home (PlateMotion::gain)
 };
 
 }  // namespace bbsim::solve::sampled

@@ -36,11 +36,12 @@ struct alignas(64) MotionTable {
 };
 
 // One servo at the start of the piece, and the linear map from its angle to that of the plate or of
-// the horn that moves it.
+// the horn that moves it. A motion with drift has a table of its own, for a rate of 1.
 struct PieceAxis {
   const MotionTable* table;
-  double angle, rate, acceleration;
+  double angle, rate, acceleration;  // factors of the table's rows: those at the start, or 1 and 0
   double ratio, offset;
+  double start_rate, start_acceleration;
 };
 
 // The motion of the plate over a piece. The servos determine it.

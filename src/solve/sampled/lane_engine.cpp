@@ -47,7 +47,8 @@ const LaneKernels& choose_lane_kernels() {
 }
 
 bool moves(const model::Model& model) {
-  return knows(model) && !model.gamma && !counts_work(model) && !model.rig->sampled->legs;
+  return knows(model) && !model.gamma && !counts_work(model) && !model.rig->sampled->legs &&
+         !model.rig->rings();
 }
 
 LaneEngine::LaneEngine(Tolerances tolerances)
@@ -373,7 +374,7 @@ void LaneEngine::state_at(std::size_t l, double t, const double (*ball)[group], 
     } else {
       const model::HeldMotion servo = step_.servo(l, i);
       const model::HeldMotion::Instant at =
-          servo.after(lane.instants->answer(servo.law, lane.until, t - lane.time));
+          servo.after(lane.instants->answer(servo.law, lane.until, t - lane.time), t - lane.time);
       angle = at.angle;
       rate = at.rate;
     }

@@ -25,7 +25,7 @@
 namespace bbsim::solve::sampled {
 
 // Whether lanes can move the model: it passes knows(), has no gamma, does not count the servos'
-// work, and its commands are not angles of three servos.
+// work, no stepper rings, and its commands are not angles of three servos.
 [[nodiscard]] bool moves(const model::Model& model);
 
 // Each rig keeps its HybridSystem with its own sensor, servos and limits. The balls are computed

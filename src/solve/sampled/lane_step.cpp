@@ -65,7 +65,7 @@ void LaneStep::evaluate(std::size_t lane, const double* times, std::size_t count
       for (std::size_t k = 0; k < servo_count; ++k) {
         const bool alike = moves[k].law == moves[0].law;
         const model::HeldMotion::Instant now =
-            alike ? moves[k].after(answer) : moves[k].after(after[i]);
+            alike ? moves[k].after(answer, after[i]) : moves[k].after(after[i]);
         row[angle_state + k] = now.angle;
         row[angle_state + servo_count + k] = now.rate;
       }

@@ -74,8 +74,8 @@ void fill(MotionTable& table, const Kernels& kernels, const model::HeldLaw& law,
   table.most_by_rate = table.most_by_acceleration = 0;
   for (int i = 0; i < nodes; ++i) {
     const model::ImpulseAnswer at{answers.integral[i], answers.value[i], answers.slope[i]};
-    put(table.by_rate, i, by_rate.after(at));
-    put(table.by_acceleration, i, by_acceleration.after(at));
+    put(table.by_rate, i, by_rate.after(at, rule.c[i] * length));
+    put(table.by_acceleration, i, by_acceleration.after(at, rule.c[i] * length));
     table.most_by_rate =
         std::max(table.most_by_rate, std::abs(table.by_rate[MotionTable::angle][i]));
     table.most_by_acceleration = std::max(table.most_by_acceleration,

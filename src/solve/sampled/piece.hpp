@@ -226,8 +226,8 @@ struct Kernel {
 #pragma GCC unroll 2
       for (int i = 0; i < 2; ++i) {
         const PieceAxis& of = piece.plate.axis[i];
-        plane_start[i] = {waves.sin[i], waves.cos[i], of.ratio * of.rate,
-                          of.ratio * of.acceleration};
+        plane_start[i] = {waves.sin[i], waves.cos[i], of.ratio * of.start_rate,
+                          of.ratio * of.start_acceleration};
       }
     } else {
       plane_start[0] = piece.plate.plane_start[0];

@@ -89,7 +89,7 @@ void HeldStepper::start(double t, const double* z) {
   time_ = t;
   std::copy_n(z, reached_.size(), reached_.begin());
   if (counts_work_) work_beyond_energy_ = reached_.back() - model::rig_energy(model_->system, z);
-  servo_ = plate_.motions(z);
+  plate_.set_motions(t, z, servo_);
   settle();
 }
 
@@ -99,11 +99,17 @@ void HeldStepper::settle() {
     for (int i = 0; i < 3; ++i) piece_.guess[i] = piece_.acceleration_at[i][nodes - 1];
     for (std::size_t i = 0; i < servos_; ++i) {
       const model::HeldMotion& was = servo_[i];
-      const MotionTable& table = *piece_.plate.axis[i].table;
+      const PieceAxis& axis = piece_.plate.axis[i];
       constexpr auto row = MotionTable::acceleration;
-      servo_[i] = {was.law, reached_[angle + i], reached_[rate_ + i],
-                   table.by_rate[row][nodes - 1] * was.rate +
-                       table.by_acceleration[row][nodes - 1] * was.acceleration};
+      const double acceleration = axis.table->by_rate[row][nodes - 1] * axis.rate +
+                                  axis.table->by_acceleration[row][nodes - 1] * axis.acceleration;
+      const double drift = was.drift_rate + was.drift_acceleration * piece_.length;
+      servo_[i] = {was.law,
+                   reached_[angle + i],
+                   reached_[rate_ + i] - drift,
+                   acceleration - was.drift_acceleration,
+                   drift,
+                   was.drift_acceleration};
     }
   }
   attempted_ = false;
@@ -241,8 +247,8 @@ void HeldStepper::evaluate_some(const double* times, std::size_t count, double* 
     const model::ImpulseAnswer of_first = instants_.answer(first, time_, after[i]);
     for (std::size_t k = 0; k < servos_; ++k) {
       const model::HeldMotion& servo = servo_[k];
-      const model::HeldMotion::Instant at =
-          servo.after(servo.law == first ? of_first : instants_.answer(servo.law, time_, after[i]));
+      const model::HeldMotion::Instant at = servo.after(
+          servo.law == first ? of_first : instants_.answer(servo.law, time_, after[i]), after[i]);
       row[angle + k] = at.angle;
       row[rate_ + k] = at.rate;
     }

@@ -118,7 +118,7 @@ void over_spi(int bytes);
 
 // serial.cpp: sends the camera's frames up to now.
 void send_frames();
-// column(i) is the last number that was printed after names[i] and a colon.
+// column(i) is the last number that was printed after names[i] and a colon, NaN before the first.
 void watch_columns(const char* const* names, size_t count);
 double column(size_t index);
 bool was_printed(size_t index);

@@ -118,7 +118,7 @@ void watch_columns(const char* const* names, size_t count) {
 }
 
 double column(size_t index) {
-  return watched[index].value;
+  return watched[index].printed ? watched[index].value : NAN;
 }
 
 bool was_printed(size_t index) {
