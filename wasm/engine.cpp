@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The engine of a live page, for src/replay/page/engine.js, which calls it in a worker. It takes
-// {text, name, set, controlled, measures, checked, keys}: the text of a scenario, its name,
+// {text, name, set, controlled, checked, keys}: the text of a scenario, its name,
 // settings as after --set, whether the page's controller replaces the law, and what to tell beside
 // the run.
 #include <emscripten/emscripten.h>
@@ -17,15 +17,14 @@
 #include <vector>
 
 #include "api/fault.hpp"
+#include "api/live.hpp"
 #include "api/outside_commands.hpp"
 #include "api/replay.hpp"
 #include "api/run.hpp"
 #include "base/json.hpp"
 #include "replay/page.hpp"
 #include "scenario/edit_text.hpp"
-#include "scenario/exercise.hpp"
 #include "scenario/family.hpp"
-#include "scenario/measures.hpp"
 
 namespace bbsim {
 namespace {
@@ -138,17 +137,20 @@ Json columns_json(const api::RunResult& result, std::vector<std::vector<double>>
   return columns;
 }
 
-// The text with the settings, comments kept; the text alone if one of them cannot be set in it.
-std::string edited(const Json& request) {
-  const std::vector<ScenarioFamily::Setting> settings = settings_of(request);
-  try {
-    return settings.empty() ? request["text"] : Json(edited_text(request["text"], settings));
-  } catch (const InputError&) {
-    return request["text"];
+// The text with the settings, comments kept. Adds warnings about those that cannot be set in it.
+std::string edited(const Json& request, Json& warnings) {
+  std::string text = request["text"];
+  for (const ScenarioFamily::Setting& setting : settings_of(request)) {
+    try {
+      text = edited_text(text, {setting});
+    } catch (const InputError&) {
+      warnings.push_back("the text and its file leave out " + setting.key + ": " + setting.value);
+    }
   }
+  return text;
 }
 
-// A run: what a page shows of it, its columns, measures, and which tasks of its exercise hold.
+// A run: what a page shows of it, and its columns.
 Json run(const Json& request, std::vector<std::vector<double>>& arrays) {
   const Source source = source_of(request);
   const ScenarioFamily family(source);
@@ -156,40 +158,20 @@ Json run(const Json& request, std::vector<std::vector<double>>& arrays) {
   wanted.scenario = family.read({});
   wanted.scenario.source = source;
   if (request["controlled"]) wanted.scenario = with_controller_of_page(wanted.scenario);
-  wanted.pictured = true;
   wanted.checked = request["checked"];
-  for (const auto& name : request["measures"]) wanted.measures.push_back(name);
-  if (wanted.measures.empty()) {
-    wanted.measures = scenario::default_measures(wanted.scenario.controller &&
-                                                 commands_of(wanted.scenario) == nullptr);
-  }
-  const std::optional<scenario::Exercise> exercise = scenario::checked_exercise(wanted.scenario);
-  if (exercise) {
-    for (const scenario::Exercise::Task& task : exercise->tasks)
-      wanted.expect.push_back(task.expect);
-  }
+  const api::LiveRun live(wanted);
   api::Watch nobody;
   api::RunResult result = api::run(wanted, nobody);
   // As when a controller fails at once.
   if (replay::row_count(*result.pictured) == 0) throw InputError(result.summary.reason);
   Json json;
-  Json& measures = json["measures"] = Json::object();
-  for (const auto& [name, value] : result.summary.measures) {
-    measures[name] = {{"value", value}, {"unit", scenario::find_measure(name)->unit()}};
-  }
-  Json& tasks = json["tasks"] = Json::array();
-  for (std::size_t i = 0; i < wanted.expect.size(); ++i) {
-    tasks.push_back({{"text", exercise->tasks[i].text},
-                     {"expect", wanted.expect[i]},
-                     {"value", result.summary.expectations[i].value},
-                     {"holds", result.summary.expectations[i].holds}});
-  }
   json["warnings"] = result.summary.warnings;
   json["columns"] = columns_json(result, arrays);
+  const replay::Live shown = live.of(result, request["keys"]);
   replay::Scene scene = api::scene_of(std::move(*result.pictured));
-  if (request["keys"]) scene.live = replay::live_of(wanted.scenario);
+  scene.live = shown;
   json["scene"] = parse_json(replay::scene_json(scene, arrays));
-  json["text"] = edited(request);
+  json["text"] = edited(request, json["warnings"]);
   return json;
 }
 

@@ -15,7 +15,6 @@
 #include "progress.hpp"
 #include "replay/page.hpp"
 #include "replay_file.hpp"
-#include "scenario/reader.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -24,7 +23,7 @@ namespace {
 struct ReplayArguments {
   std::vector<std::string> files;
   std::string output;
-  bool force = false, live = false;
+  bool force = false;
   api::ReplayRequest request{};
 };
 
@@ -43,8 +42,8 @@ ExitCode replay_files(const ReplayArguments& arguments, const Options& options) 
   if (!arguments.output.empty()) require_replay_ending(arguments.output, "--output");
   const std::string output = output_of(arguments);
   const results::Beside& beside = arguments.request.beside;
-  if (arguments.live && (arguments.files.size() != 1 || !arguments.request.logs.empty() ||
-                         !api::is_scenario(arguments.files.front()))) {
+  if (arguments.request.live && (arguments.files.size() != 1 || !arguments.request.logs.empty() ||
+                                 !api::is_scenario(arguments.files.front()))) {
     throw InputError("--live: allowed with one scenario, FILE.yaml, and no logs");
   }
   file::Outputs outputs;
@@ -62,13 +61,10 @@ ExitCode replay_files(const ReplayArguments& arguments, const Options& options) 
     if (arguments.output.empty() && !arguments.force) {
       file::require_like(output, {.what = "a replay of bbsim's", .mark = replay::page_mark});
     }
-    file.emplace(output, arguments.live);
+    file.emplace(output, request.live);
   };
   Progress progress(output, options.quiet);
-  api::ReplayMade made = api::replay(request, outputs, progress);
-  if (arguments.live) {
-    made.scene.live = replay::live_of(read_scenario(arguments.files.front(), beside.overrides));
-  }
+  const api::ReplayMade made = api::replay(request, outputs, progress);
   progress.end();
   for (const api::RunResult& run : made.runs) tell(run, options.quiet);
   file->write(made.scene, options.quiet);
@@ -102,7 +98,7 @@ void add_replay(Command& command, const Options& options) {
           "write FILE.html, or - for standard output; default: the first file's name with .html")
       .takes("FILE");
   add_force(command, arguments->force);
-  command.flag("--live", arguments->live,
+  command.flag("--live", arguments->request.live,
                "a page that changes the scenario and runs it again, in the browser");
   command
       .option("--data", arguments->request.logs,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "api/inputs.hpp"
+#include "api/live.hpp"
 #include "api/picture.hpp"
 #include "api/place_log.hpp"
 #include "api/version.hpp"
@@ -173,8 +174,15 @@ ReplayMade replay(const ReplayRequest& request, file::Outputs& outputs, Watch& w
       RunRequest run;
       run.scenario = std::move(*source.scenario);
       run.pictured = true;
+      const auto live = request.live ? std::optional<LiveRun>(run) : std::nullopt;
       made.runs.push_back(api::run(run, watch));
       RunResult& result = made.runs.back();
+      if (live) {
+        made.scene.live = live->of(result, true);
+        // Open tasks are for the page's reader.
+        result.unmet.clear();
+        if (result.summary.status == "done") result.code = ExitCode::done;
+      }
       if (made.code == ExitCode::done || result.code == ExitCode::interrupted) {
         made.code = result.code;
       }

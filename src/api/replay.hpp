@@ -30,6 +30,7 @@ struct ReplayRequest {
   results::LogChoice log{};       // its maps: one for all logs, or one for each
   results::Beside beside{};       // its overrides also apply to scenarios
   std::string title{};            // empty: the scenario's
+  bool live = false;              // with what a live page shows; of one scenario
   std::function<void(const std::string& file)> before_reading{};
   std::function<void()> before_running{};  // all files are read
 };

@@ -292,12 +292,17 @@ Json live_json(const Live& live) {
                     {"value", key.value},
                     {"least", bound(key.least)},
                     {"most", bound(key.most)},
+                    {"open", key.open},
                     {"whole", key.whole}});
   }
-  for (const auto& task : live.exercise.tasks) {
-    tasks.push_back({{"text", task.text}, {"expect", task.expect}});
+  for (const Live::Task& task : live.tasks) {
+    tasks.push_back({{"text", task.text}, {"expect", task.expect}, {"holds", task.holds}});
   }
-  return {{"keys", keys}, {"free", live.exercise.free}, {"tasks", tasks}};
+  Json measures = Json::object();
+  for (const Live::Measure& one : live.measures) {
+    measures[one.name] = {{"value", one.value}, {"unit", one.unit}};
+  }
+  return {{"keys", keys}, {"free", live.free}, {"tasks", tasks}, {"measures", measures}};
 }
 
 Json json_of(const Scene& scene, const Numbers& numbers) {

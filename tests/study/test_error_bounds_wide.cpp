@@ -15,6 +15,7 @@
 
 #include "catch.hpp"
 #include "solve/check_run.hpp"
+#include "study/checks.hpp"
 #include "study/error_control.hpp"
 #include "study/reference.hpp"
 #include "support/run_in_memory.hpp"

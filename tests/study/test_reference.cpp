@@ -13,6 +13,7 @@
 #include "reference_table.hpp"
 #include "scenario/reader.hpp"
 #include "solve/integrate.hpp"
+#include "study/checks.hpp"
 #include "study/reference.hpp"
 
 namespace bbsim_test::test_reference {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -17,7 +18,7 @@ namespace bbsim::model {
 // A fault that begins by chance at a reading, and then lasts.
 class LastingFault {
  public:
-  LastingFault(const SensorFault& fault, unsigned long seed) : fault_(fault), chance_(seed) {}
+  LastingFault(const SensorFault& fault, std::uint64_t seed) : fault_(fault), chance_(seed) {}
 
   // Whether the fault is on at t, s; calls come in the order of time. Draws at each call, so that
   // faults do not move the draws of later readings. `begins` tells whether it begins at t.

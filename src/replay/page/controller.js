@@ -3,22 +3,31 @@
 
 'use strict';
 // The viewer's own controller in a live page: a script with step(sample), as in
-// docs/reference/controllers.md, and three to begin from.
+// docs/reference/controllers.md. `use(script)` lets it control, and use('') the scenario's law.
 bbsim.makeControllerCard = (use) => {
   const {element} = bbsim.text;
-  const script = element('textarea', {class: 'editor', spellcheck: 'false', rows: '14', 'aria-label': 'The controller, JavaScript'});
-  const choice = element('select', {'aria-label': 'Begin from', onchange: () => { script.value = bbsim.examples[choice.value]; }},
-                         ...Object.keys(bbsim.examples).map((name) => element('option', {value: name}, name)));
-  script.value = bbsim.examples.PD;
-  const off = element('button', {type: 'button', disabled: true, onclick: () => {
-    off.disabled = true;
-    use('');
-  }}, 'Use the scenario\'s law');
-  const on = element('button', {type: 'button', onclick: () => {
-    off.disabled = false;
-    use(script.value);
-  }}, 'Use this controller');
-  return element('details', {class: 'card'}, element('summary', {}, element('h3', {}, 'Your controller')),
-                 element('p', {class: 'buttons'}, choice, on, off), script,
-                 element('p', {class: 'fine'}, 'step(sample) gets {sample, t, ball, reference, reference_rate, reference_acceleration, servo, servo_rate, period} in SI units, once a sampling period, and returns [phi, theta]. It runs in this page alone, without network.'));
+  const {examples} = bbsim;
+  const area = element('textarea', {class: 'editor', spellcheck: 'false', rows: '14', 'aria-label': 'The controller, JavaScript'});
+  area.value = examples.PD;
+  let mine = null;  // what the viewer wrote, while an example is shown
+  const own = element('option', {value: '', hidden: true}, 'Yours');
+  const choice = element('select', {'aria-label': 'Begin from'}, ...Object.keys(examples).map((name) => element('option', {value: name}, name)), own);
+  choice.addEventListener('change', () => {
+    if (!Object.values(examples).includes(area.value)) mine = area.value;
+    own.hidden = mine === null;
+    area.value = choice.value === '' ? mine : examples[choice.value];
+  });
+  const off = element('button', {type: 'button', 'aria-disabled': 'true', onclick: () => { if (off.getAttribute('aria-disabled') !== 'true') use(''); }}, 'Use the scenario\'s law');
+  const on = element('button', {type: 'button', onclick: () => use(area.value)}, 'Use this controller');
+  const root = element('details', {class: 'card'}, element('summary', {}, element('h3', {}, 'Your controller')),
+                       element('p', {class: 'buttons'}, choice, on, off), area,
+                       element('p', {class: 'fine'}, 'step(sample) gets {sample, t, ball, reference, reference_rate, reference_acceleration, servo, servo_rate, period} in SI units, once a sampling period, and returns [phi, theta]. It runs in this page alone, without network.'));
+  return {
+    root,
+    // The script that controls now.
+    show(script) {
+      off.setAttribute('aria-disabled', String(script === ''));
+      if (script !== '') area.value = script;
+    },
+  };
 };

@@ -88,7 +88,7 @@ bbsim.makeDetails = (container) => {
                        element('pre', {tabindex: '0', 'aria-label': 'The scenario'}, bbsim.highlight(scenario.text)))));
     }
     if (scenario.overrides.length > 0) {
-      root.append(card('Set on the command line', element('pre', {}, scenario.overrides.join('\n'))));
+      root.append(card('Set beside the text', element('pre', {}, scenario.overrides.join('\n'))));
     }
     if (run.events.length > 0) root.append(eventsOf(run));
     if (run.poles && run.poles.values.length > 0) {

@@ -8,27 +8,34 @@ bbsim.makeEngine = () => {
   const textOf = (id) => document.getElementById(id).textContent;
 
   // The worker's own code, after the script that loads the module.
-  function work() {
+  // `lines`: of the viewer's controller, which comes before it.
+  function work(lines) {
     const begin = async (packed) => {
       const bytes = Uint8Array.from(atob(packed), (c) => c.charCodeAt(0));
       const unpacked = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
       return bbsimEngine({wasmBinary: await new Response(unpacked).arrayBuffer()});
     };
+    // A fault of the viewer's controller, at its line.
+    function faultOf(error) {
+      const at = /blob:[^)\s]*?:(\d+):\d+/.exec(error && error.stack || ''), line = at ? Number(at[1]) : Infinity;
+      return `the controller of this page${line <= lines ? `, line ${line}` : ''}: ${error && error.message || error}`;
+    }
+    const shown = (value) => (Array.isArray(value) ? `[${value.map(shown).join(', ')}]` : typeof value === 'object' ? JSON.stringify(value) : String(value));
     // Calls step(sample) of the viewer's controller for wasm/engine.cpp, whose numbers these are.
     function command(its, n, commands) {
       try {
+        if (n[0] === 0 && typeof reset === 'function') reset();
         const pair = (i) => [n[i], n[i + 1]];
         const given = step({sample: n[0], t: n[1], ball: n[2] ? pair(3) : null, reference: pair(5), reference_rate: pair(7),
                             reference_acceleration: pair(9), servo: pair(11), servo_rate: pair(13), period: n[15]});
         const pairOf = Array.isArray(given) ? given : given && given.command;
         if (!Array.isArray(pairOf) || pairOf.length !== 2 || !pairOf.every(Number.isFinite)) {
-          throw new Error(`step() returned ${JSON.stringify(given)}; allowed: [phi, theta], two finite numbers`);
+          throw new Error(`step() returned ${shown(given)}; allowed: [phi, theta], two finite numbers`);
         }
         commands.set(pairOf);
         return 0;
       } catch (error) {
-        const [, line] = /blob:[^)\s]*?:(\d+):\d+/.exec(error && error.stack || '') || [];
-        its.fault = `the controller of this page${line && error.name !== 'Error' ? `, line ${line}` : ''}: ${error && error.message || error}`;
+        its.fault = faultOf(error);
         return 1;
       }
     }
@@ -41,7 +48,6 @@ bbsim.makeEngine = () => {
       try {
         const its = await engine;
         its.command = (sample, commands) => command(its, sample, commands);
-        if (request.controlled && typeof reset === 'function') reset();
         const words = new TextEncoder().encode(`${JSON.stringify(request)}\0`), at = its._malloc(words.length);
         its.HEAPU8.set(words, at);
         const answer = its.UTF8ToString(its._bbsim_answer(at));
@@ -52,7 +58,8 @@ bbsim.makeEngine = () => {
         });
         postMessage({id, answer, arrays}, arrays.map((one) => one.buffer));
       } catch (error) {
-        postMessage({id, fault: String(error && error.message || error)});
+        const words = String(error && error.message || error);
+        postMessage({id, fault: /bad_alloc|memory|WebAssembly\.Exception/.test(words) ? 'there is not enough memory: ask for fewer rows or a shorter run' : words});
       }
     };
   }
@@ -61,16 +68,25 @@ bbsim.makeEngine = () => {
   const waiting = new Map();
   function start() {
     // The controller comes first, so that its lines have their numbers.
-    const url = URL.createObjectURL(new Blob([controller, '\n', textOf('bbsim-engine-loader'), `\n(${work})();`], {type: 'text/javascript'}));
-    const lines = controller.split('\n').length;
+    const lines = controller ? controller.split('\n').length : 0;
+    const url = URL.createObjectURL(new Blob([controller, '\n', textOf('bbsim-engine-loader'), `\n(${work})(${lines});`], {type: 'text/javascript'}));
     worker = new Worker(url);
     worker.onmessage = ({data: {id, answer, arrays, fault}}) => {
       const {resolve, reject} = waiting.get(id);
       waiting.delete(id);
-      if (fault) reject(new Error(fault));
-      else resolve({answer: JSON.parse(answer), arrays});
+      URL.revokeObjectURL(url);
+      if (fault) {
+        reject(new Error(fault));
+        stop(fault);  // nobody knows what state it is in
+        return;
+      }
+      try {
+        resolve({answer: JSON.parse(answer), arrays});
+      } catch (error) {
+        reject(error);
+      }
     };
-    worker.onerror = (event) => stop(controller && event.lineno <= lines
+    worker.onerror = (event) => stop(event.lineno > 0 && event.lineno <= lines
         ? `the controller of this page, line ${event.lineno}: ${event.message.replace(/^Uncaught /, '')}`
         : event.message || 'this browser does not run the engine');
     worker.postMessage({packed: textOf('bbsim-engine')});

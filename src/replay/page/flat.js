@@ -348,6 +348,11 @@ bbsim.makeFlat = (canvas) => {
       visible[name] = on;
       invalidate();
     },
+    // The point [x, y] of the plate at a point of the window, CSS pixels.
+    plateAt(left, top) {
+      const box = canvas.getBoundingClientRect();
+      return [((left - box.left) / box.width * width - width / 2) / scale, (height / 2 - (top - box.top) / box.height * height) / scale];
+    },
     // The center of the leading ball in the window, CSS pixels.
     ballOnScreen() {
       if (width === 0) size_();

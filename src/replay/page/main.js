@@ -9,8 +9,11 @@
   const get = (id) => document.getElementById(id);
   const hasRuns = runs.length > 0;
 
-  document.title = text.visible(scene.title || 'bbsim replay');
-  get('title').textContent = text.visible(scene.title || 'bbsim replay');
+  function entitle() {
+    document.title = text.visible(scene.title || 'bbsim replay');
+    get('title').textContent = document.title;
+  }
+  entitle();
   get('made-by').textContent = text.visible(`Made by bbsim ${scene.version}. It holds all that it shows.`);
   get('help').addEventListener('click', () => get('keys').showModal());
   get('licences').addEventListener('click', () => get('licence-texts').showModal());
@@ -135,13 +138,15 @@
     const [lead] = runs;
     get('subtitle').replaceChildren(describe(lead));
     findFactors();
-    get('shown').replaceChildren();
-    chip('trail', 'trail', 'line');
-    if (lead.path.length > 0 || lead.hasReference) chip('reference', 'reference', 'dashed');
-    if (lead.isMeasured) chip('sensor', 'sensor', 'cross');
-    if (lead.events.length > 0) chip('events', 'events', 'diamond');
-    chip('axes', 'axes', 'axes');
-    if (picture) chip('gimbal', 'gimbal', 'frame');
+    const chips = [['trail', 'line', true], ['reference', 'dashed', lead.path.length > 0 || lead.hasReference], ['sensor', 'cross', lead.isMeasured],
+                   ['events', 'diamond', lead.events.length > 0], ['axes', 'axes', true], ['gimbal', 'frame', picture !== null]].filter(([, , has]) => has);
+    // The same chips stay, with their focus.
+    const names = chips.map(([name]) => name).join();
+    if (names !== get('shown').dataset.names) {
+      get('shown').dataset.names = names;
+      get('shown').replaceChildren();
+      for (const [name, sign] of chips) chip(name, name, sign);
+    }
     const spacing = bbsim.gimbal.gridSpacing(), shown = text.shownIn(lead.unitsKnown ? 'm' : '', spacing);
     const grid = `grid ${text.number(spacing * shown.factor)} ${shown.unit}`.trim();
     get('canvas').setAttribute('aria-label', text.visible(
@@ -154,6 +159,7 @@
   }
   renew();
   data.onChange(() => {
+    entitle();
     const factor = picture ? picture.factor : 1;
     renew();
     if (!factors.includes(factor)) setFactor(factor);

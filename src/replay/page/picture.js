@@ -421,6 +421,15 @@ bbsim.makePicture = (canvas, left) => {
       visible[name] = on;
       invalidate();
     },
+    // The point [x, y] of the plate at a point of the window, CSS pixels; null if there is none.
+    plateAt(left, top) {
+      const box = canvas.getBoundingClientRect(), ray = new THREE.Raycaster();
+      ray.setFromCamera(new THREE.Vector2((left - box.left) / box.width * 2 - 1, 1 - (top - box.top) / box.height * 2), eyes.camera);
+      const into = new THREE.Matrix4().getInverse(rig.plane.matrixWorld);
+      const from = ray.ray.origin.clone().applyMatrix4(into), to = ray.ray.origin.clone().add(ray.ray.direction).applyMatrix4(into);
+      const part = (lead.mounting.height - from.z) / (to.z - from.z);
+      return part > 0 && Number.isFinite(part) ? [from.x + part * (to.x - from.x), from.y + part * (to.y - from.y)] : null;
+    },
     // The center of the leading ball in the window, CSS pixels.
     ballOnScreen() {
       pose(bbsim.clock.now);

@@ -142,6 +142,29 @@ class Page(Live):
         self.assertAlmostEqual(max(self.js("[...bbsim.data.runs[0].path]")), 0.08, 3)
         self.assertIn("x before", self.js("document.getElementById('plots').textContent"))
 
+    def test_a_poke_moves_the_ball(self):
+        """towards the point, by the speed that would take it there in half a second"""
+        self.open(page("configs/rig.yaml", "--set", "controller.sensor.noise=0"))
+        self.js("bbsim.seek(20)")
+        at = self.js("bbsim.data.runs[0].placeAt(20)")
+        self.run_js("await bbsim.live.poke([args[0][0], args[0][1] + 0.05])", at)
+        runs = "[20.1, 20].map((t) => ['x', 'y'].map((name) => bbsim.data.%s.at(t, name)))"
+        poked, free = (self.js(runs % which) for which in ["runs[0]", "before"])
+        for a, b in zip(poked[1], free[1]):
+            self.assertAlmostEqual(a, b, 7)  # the page's first run has floats
+        # Half of the impulse's way: the force is symmetric in its 0.1 s.
+        self.assertAlmostEqual(poked[0][1] - free[0][1], 0.05 / 0.5 * 0.1 / 2, delta=1e-3)
+        self.assertAlmostEqual(poked[0][0], free[0][0], delta=1e-4)
+        # A click on the plate pokes it, too.
+        for flat in ["true", "false"]:
+            self.js("bbsim.screen.setFlat(arguments[0] === 'true')", flat)
+            self.js("[...document.querySelectorAll('.live button')].find((one) => one.textContent === 'Poke').setAttribute('aria-pressed', 'true')")
+            place = self.js("bbsim.ballOnScreen()")
+            found = self.js("bbsim.screen.shown.plateAt(arguments[0], arguments[1])", *place)
+            wanted = self.js("bbsim.data.runs[0].placeAt(bbsim.clock.now)")
+            for a, b in zip(found, wanted):
+                self.assertAlmostEqual(a, b, 2)  # the ball's center is above the plate
+
     def test_undo_and_back_to_the_file(self):
         self.open(page("configs/fig2b.yaml", "--set", "gravity=9.7"))
         x = self.js("bbsim.data.runs[0].values('x')[500]")

@@ -1,0 +1,59 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+
+"""How fast live pages answer: python3 bench/live.py BBSIM
+
+Moves a slider of shipped scenarios thirty times in a headless Chromium, flat, and prints medians in ms: from the move
+to the new columns, from there to the picture, and of the program's own run (processor time).
+"""
+
+import json
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+
+SOURCE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, os.path.join(SOURCE, "tests", "replay", "browser"))
+from webdriver import Browser  # noqa: E402: its folder is not a package
+
+BBSIM = os.path.abspath(sys.argv[1])
+KEYS = {"fig2a": "gravity", "fig2b": "controller.reference.circle.radius", "step": "ball.radius",
+        "rig": "controller.gravity_compensation.kp", "pushrod": "controller.gravity_compensation.kp",
+        "three-servos": "ball.radius"}
+MOVES = """
+const done = arguments[arguments.length - 1], [key] = arguments;
+(async () => {
+  const {value} = bbsim.data.scene.live.keys.find((one) => one.key === key), times = [];
+  let computed = 0;
+  bbsim.data.onChange(() => { computed = computed || performance.now(); });
+  for (let i = 0; i < 31; ++i) {
+    const begun = performance.now();
+    computed = 0;
+    await bbsim.live.set(key, value * (1 + 0.002 * i));
+    times.push([computed - begun, performance.now() - computed]);
+  }
+  return times.slice(1);
+})().then(done, (error) => done(error.message));
+"""
+
+with tempfile.TemporaryDirectory() as folder, Browser(1280, 900) as browser:
+    print(f"{'scenario':14}{'columns':>10}{'picture':>10}{'program':>10}")
+    for name, key in KEYS.items():
+        scenario, page, summary = (os.path.join(*path) for path in [
+            (SOURCE, "configs", name + ".yaml"), (folder, name + ".html"), (folder, name + ".json")])
+        subprocess.run([BBSIM, "replay", scenario, "--live", "-o", page, "-q"], check=True)
+        own = []
+        for _ in range(9):
+            subprocess.run([BBSIM, "run", scenario, "-o", os.path.join(folder, "rows.csv"), "--summary", summary, "-q"],
+                           check=True)
+            with open(summary, encoding="utf-8") as file:
+                own.append(1e3 * json.load(file)["statistics"]["cpu_seconds"])
+        browser.open("file://" + page)
+        browser.run("bbsim.screen.setFlat(true)")
+        times = browser.call("POST", "/execute/async", {"script": MOVES, "args": [key]})
+        if isinstance(times, str):
+            sys.exit(f"{name}: {times}")
+        columns, picture = (statistics.median(column) for column in zip(*times))
+        print(f"{name:14}{columns:10.1f}{picture:10.1f}{statistics.median(own):10.2f}")
