@@ -159,6 +159,7 @@ class Page(Live):
         for flat in ["true", "false"]:
             self.js("bbsim.screen.setFlat(arguments[0] === 'true')", flat)
             self.js("[...document.querySelectorAll('.live button')].find((one) => one.textContent === 'Poke').setAttribute('aria-pressed', 'true')")
+            self.js("bbsim.picture.eyes.go('above', true)")
             place = self.js("bbsim.ballOnScreen()")
             found = self.js("bbsim.screen.shown.plateAt(arguments[0], arguments[1])", *place)
             wanted = self.js("bbsim.data.runs[0].placeAt(bbsim.clock.now)")
