@@ -26,12 +26,12 @@ bbsim.makeLive = (container) => {
 
   const status = element('p', {class: 'live-status'});
   const stop = element('button', {type: 'button', hidden: true, onclick: () => {
-    if (waiting) waiting.reject(new Error('stopped'));
-    waiting = null;
+    for (const {reject} of waiting) reject(new Error('stopped'));
+    waiting = [];
     engine.stop('stopped');
   }}, 'Stop');
   const faults = element('ul', {class: 'faults', role: 'alert'});
-  let computing = false, waiting = null, keysDue = false, calm = 0;
+  let computing = false, waiting = [], keysDue = false, calm = 0;
 
   const ask = (state, more) => engine.ask({text: state.text, name, set: Object.fromEntries(state.set), controlled: state.script !== '', checked: false, keys: false, ...more});
 
@@ -62,19 +62,18 @@ bbsim.makeLive = (container) => {
     showNumbers();
   }
 
-  // Runs what is wanted now. Fulfilled when it is drawn; rejected if it cannot run, or if a newer
-  // wish took its place.
+  // Runs what is wanted now. Fulfilled when this, or what replaced it meanwhile, is drawn; rejected if
+  // it cannot run.
   function run() {
     return new Promise((resolve, reject) => {
-      if (waiting) waiting.reject(new Error('a newer change took its place'));
-      waiting = {resolve, reject};
+      waiting.push({resolve, reject});
       next();
     });
   }
   async function next() {
-    if (computing || !waiting) return;
-    const {resolve, reject} = waiting, state = wanted, begun = performance.now();
-    waiting = null;
+    if (computing || waiting.length === 0) return;
+    const asked = waiting, state = wanted, begun = performance.now();
+    waiting = [];
     computing = true;
     clearTimeout(calm);
     let told = false;
@@ -92,14 +91,14 @@ bbsim.makeLive = (container) => {
       }
       status.textContent = `computed in ${text.number(performance.now() - begun, 3)} ms`;
       show(state, result);
-      // A hidden page is not drawn.
-      if (document.hidden) resolve();
-      else requestAnimationFrame(() => setTimeout(resolve, 0));
+      const drawn = () => { for (const {resolve} of asked) resolve(); };
+      if (document.hidden) drawn();  // no frame comes
+      else requestAnimationFrame(() => setTimeout(drawn, 0));
       calm = setTimeout(() => describe(state), 500);
     } catch (error) {
       status.textContent = error.message === 'stopped' ? 'stopped' : 'not run';
       if (!told) showFaults([{place: '', message: error.message}]);
-      reject(error);
+      for (const {reject} of asked) reject(error);
     } finally {
       clearInterval(late);
       stop.hidden = true;

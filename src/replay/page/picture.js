@@ -106,7 +106,8 @@ bbsim.makePicture = (canvas, left) => {
       const links = leads ? rig : run.hasAngles ? bbsim.gimbal.buildGhost(run, edge) : null;
       if (links && !leads) world.add(links.base);
       const plane = links ? links.plane : rig.plane;
-      const ball = bbsim.ball.build(run.ball.radius, !leads, !run.turns);
+      // Balls at the same place must not flicker: the leading one covers the others.
+      const ball = bbsim.ball.build(run.ball.radius * (1 - 0.003 * run.index), !leads, !run.turns);
       ball.mesh.renderOrder = 10;
       plane.add(ball.mesh);
       const xs = run.values('x'), ys = run.values('y');

@@ -166,6 +166,12 @@ class Page(Live):
             for a, b in zip(found, wanted):
                 self.assertAlmostEqual(a, b, 2)  # the ball's center is above the plate
 
+    def test_the_newest_of_many_changes_wins(self):
+        self.open(page("configs/fig2b.yaml"))
+        self.run_js("await Promise.all(Array.from({length: 30}, (_, i) => bbsim.live.set('gravity', 5 + i / 10)))")
+        self.assertIn("gravity: 7.9", self.js("bbsim.live.yaml"))
+        self.assertEqual(self.js("bbsim.data.runs[0].scenario.overrides"), ["gravity=7.9"])
+
     def test_undo_and_back_to_the_file(self):
         self.open(page("configs/fig2b.yaml", "--set", "gravity=9.7"))
         x = self.js("bbsim.data.runs[0].values('x')[500]")
