@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a page cannot have: programs and libraries of the user, and CVODE. Each says so in place of
-// the sources that cmake/wasm.cmake leaves out.
+// What a page cannot have: programs and libraries of the user, and CVODE; and what it does not ask
+// for: derivatives by keys, which need the engines of sweeps, an eighth of the program. These take
+// the place of the sources that cmake/wasm.cmake leaves out.
 #include <string>
 
+#include "api/run_sensitivity.hpp"
 #include "base/error.hpp"
 #include "controller/host.hpp"
 #include "controller/program.hpp"
@@ -47,6 +49,21 @@ std::vector<std::string> files_of(const Scenario& /*scenario*/) {
 }
 
 }  // namespace controller
+
+namespace api {
+
+Sensitivity::Sensitivity(const RunRequest& request,
+                         const std::vector<const scenario::Column*>& /*columns*/,
+                         std::vector<scenario::Measure> /*measures*/)
+    : grid_(request.scenario.time) {}
+
+void Sensitivity::add_headers(std::vector<file::ColumnHeader>& /*headers*/) const {}
+
+std::vector<std::vector<double>> Sensitivity::find(RunResult& /*run*/, Watch& /*watch*/) const {
+  return {};
+}
+
+}  // namespace api
 
 namespace solve {
 

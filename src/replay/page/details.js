@@ -99,8 +99,12 @@ bbsim.makeDetails = (container) => {
     }
     if (run.check.length > 0) root.append(card('Model', element('pre', {class: 'wrap'}, run.check.join('\n'))));
     if (summary) {
-      const {statistics, events, model_notes, motors, ...rest} = summary;
+      const {statistics, events, model_notes, motors, measures, expectations, ...rest} = summary;
       root.append(card('Summary', rowsOf(rest)));
+      if (measures && Object.keys(measures).length > 0) root.append(card('Measures', rowsOf(measures)));
+      if (expectations && expectations.length > 0) {
+        root.append(card('Expectations', element('pre', {class: 'wrap'}, expectations.map(({text: words, holds}) => `${holds ? '✓' : '✗'} ${words}`).join('\n'))));
+      }
       if (motors && typeof motors === 'object') root.append(card('Motors', motorsOf(motors)));
       if (statistics) root.append(card('Statistics', rowsOf(statistics)));
     }
