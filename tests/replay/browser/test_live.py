@@ -276,6 +276,25 @@ class Hostile(Live):
                             "await new Promise((resolve) => setTimeout(resolve, 300))", words)
                 self.assertIsNone(self.js("window.broken || null"))
 
+    def test_no_title_of_two_hundred_runs_as_code(self):
+        ends = ["", "\">", "'>", "-->", "</style>", "</title>", "]]>", "*/", "`", "\\"]
+        texts = [end + words + more for words in self.SCRIPTS for end in ends for more in ["", "<!--"]]
+        self.assertEqual(len(texts), 200)
+        self.open(page("configs/fig2a.yaml"))
+        self.js("bbsim.plots.end()")  # they show no title, and take long to draw
+        shown = []
+        for first in range(0, 200, 10):
+            shown += self.run_js("const text = bbsim.live.yaml.replace(/^title:.*$/m, ''), shown = [];"
+                                 "for (const words of args[0]) {"
+                                 "  const quoted = words.replaceAll(\"'\", \"''\").replaceAll('\\u2028', ' ');"
+                                 "  await bbsim.live.edit(`title: '${quoted}'\\n${text}`);"
+                                 "  shown.push(document.getElementById('title').textContent);"
+                                 "}"
+                                 "return shown", texts[first:first + 10])
+        self.assertEqual(len(shown), 200)
+        self.assertIn("<script>window.broken = 1</script>", shown[0])
+        self.assertIsNone(self.js("window.broken || null"))
+
 
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
