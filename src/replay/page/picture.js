@@ -370,7 +370,18 @@ bbsim.makePicture = (canvas, left) => {
     eyes.refit();
     if (begun) draw();
   }
+  // Takes the runs' new content. A picture that is not on the screen waits with it.
+  let stale = false;
+  function renew() {
+    stale = false;
+    last = runs.map(() => [0, 0]);
+    furnish();
+    rig.reach(factor);
+    recolour();
+    eyes.refit();
+  }
   function resize() {
+    if (picture.active && stale) renew();
     const [w, h] = sizeOf();
     if (picture.active && !(begun && w === width && h === height)) setSize(w, h);
   }
@@ -453,11 +464,8 @@ bbsim.makePicture = (canvas, left) => {
   bbsim.clock.onTime(() => picture.active && ask(false));
   palette.onChange(recolour);
   bbsim.data.onChange(() => {
-    last = runs.map(() => [0, 0]);
-    furnish();
-    rig.reach(factor);
-    recolour();
-    eyes.refit();
+    stale = true;
+    if (picture.active) renew();
   });
   return picture;
 };
