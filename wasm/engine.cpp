@@ -151,7 +151,7 @@ std::string edited(const Json& request, Json& warnings) {
 }
 
 // A run: what a page shows of it, and its columns.
-Json run(const Json& request, std::vector<std::vector<double>>& arrays) {
+std::string run(const Json& request, std::vector<std::vector<double>>& arrays) {
   const Source source = source_of(request);
   const ScenarioFamily family(source);
   api::RunRequest wanted;
@@ -170,18 +170,20 @@ Json run(const Json& request, std::vector<std::vector<double>>& arrays) {
   const replay::Live shown = live.of(result, request["keys"]);
   replay::Scene scene = api::scene_of(std::move(*result.pictured));
   scene.live = shown;
-  json["scene"] = parse_json(replay::scene_json(scene, arrays));
+  const std::string scene_text = replay::scene_json(scene, arrays);
   json["text"] = edited(request, json["warnings"]);
-  return json;
+  std::string text = json_text(json);
+  text.back() = ',';
+  return text + "\"scene\":" + scene_text + '}';
 }
 
-Json answered(const Json& request, std::vector<std::vector<double>>& arrays) {
+std::string answered(const Json& request, std::vector<std::vector<double>>& arrays) {
   try {
     return run(request, arrays);
   } catch (const InputError& error) {
-    return problems_json(error);
+    return json_text(problems_json(error));
   } catch (const std::exception& error) {
-    return {{"faults", {{{"place", ""}, {"message", error.what()}, {"key", ""}, {"hint", ""}}}}};
+    return json_text(problems_json(InputError(error.what())));
   }
 }
 
@@ -194,7 +196,7 @@ extern "C" {
 EMSCRIPTEN_KEEPALIVE const char* bbsim_answer(const char* request) {
   using bbsim::answer;
   answer.arrays.clear();
-  answer.text = bbsim::json_text(bbsim::answered(bbsim::parse_json(request), answer.arrays));
+  answer.text = bbsim::answered(bbsim::parse_json(request), answer.arrays);
   return answer.text.c_str();
 }
 
