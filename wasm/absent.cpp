@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a page cannot have: programs and libraries of the user, and CVODE; and what it does not ask
-// for: derivatives by keys, which need the engines of sweeps, an eighth of the program. These take
-// the place of the sources that cmake/wasm.cmake leaves out.
+// In place of the sources that cmake/wasm.cmake leaves out. A page cannot have the user's programs
+// and libraries, or CVODE. It asks for no derivatives by keys, which need the engines of sweeps.
 #include <string>
 
 #include "api/run_sensitivity.hpp"

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The engine of a live page, for src/replay/page/engine.js, which calls it in a worker. It takes
-// {text, name, set, controlled, checked, keys}: the text of a scenario, its name,
-// settings as after --set, whether the page's controller replaces the law, and what to tell beside
-// the run.
+// {text, name, set, controlled, checked, keys}: the text of a scenario, its name, settings as after
+// --set, whether the page's controller replaces the law, and what to tell beside the run.
 #include <emscripten/emscripten.h>
 
 #include <cstdlib>
@@ -16,7 +15,6 @@
 #include <string_view>
 #include <vector>
 
-#include "api/fault.hpp"
 #include "api/live.hpp"
 #include "api/outside_commands.hpp"
 #include "api/replay.hpp"
@@ -47,19 +45,16 @@ std::vector<ScenarioFamily::Setting> settings_of(const Json& request) {
 
 Source source_of(const Json& request) {
   Source source{request["name"], request["text"], {}};
-  for (const auto& [key, value] : settings_of(request))
+  for (const auto& [key, value] : settings_of(request)) {
     source.overrides.push_back(key + '=' + value);
+  }
   return source;
 }
 
 Json problems_json(const InputError& error) {
   Json faults = Json::array();
   for (const Problem& problem : error.problems()) {
-    const api::KeyAndHint found = api::key_and_hint(problem.message);
-    faults.push_back({{"place", problem.where},
-                      {"message", problem.message},
-                      {"key", found.key},
-                      {"hint", found.hint}});
+    faults.push_back({{"place", problem.where}, {"message", problem.message}});
   }
   return {{"faults", faults}};
 }
@@ -167,9 +162,8 @@ std::string run(const Json& request, std::vector<std::vector<double>>& arrays) {
   Json json;
   json["warnings"] = result.summary.warnings;
   json["columns"] = columns_json(result, arrays);
-  const replay::Live shown = live.of(result, request["keys"]);
   replay::Scene scene = api::scene_of(std::move(*result.pictured));
-  scene.live = shown;
+  scene.live = live.of(result, request["keys"]);
   const std::string scene_text = replay::scene_json(scene, arrays);
   json["text"] = edited(request, json["warnings"]);
   std::string text = json_text(json);

@@ -44,6 +44,7 @@ void require_replay_ending(const std::string& file, const std::string& option) {
 
 void declare_replay(file::Outputs& outputs, const std::string& file, const std::string& what) {
   outputs.reads(replay::template_file(), "the template of pages");
+  outputs.reads(replay::engine_file(), "the engine of live pages");
   outputs.writes(file, what);
 }
 

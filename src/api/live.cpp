@@ -36,10 +36,8 @@ std::vector<replay::LiveKey> keys_of(const ScenarioFamily& family) {
 LiveRun::LiveRun(RunRequest& request) : source_(request.scenario.source) {
   const Scenario& scenario = request.scenario;
   request.pictured = true;
-  if (request.measures.empty()) {
-    const bool closed_loop = scenario.controller && commands_of(scenario) == nullptr;
-    request.measures = scenario::default_measures(closed_loop);
-  }
+  const bool closed_loop = scenario.controller && commands_of(scenario) == nullptr;
+  request.measures = scenario::default_measures(closed_loop);
   if (auto exercise = scenario::checked_exercise(scenario)) exercise_ = std::move(*exercise);
   for (const auto& task : exercise_.tasks) request.expect.push_back(task.expect);
 }

@@ -12,9 +12,8 @@ namespace bbsim::api {
 
 class LiveRun {
  public:
-  // Adds to the request, whose scenario is complete, what a live page shows: the default measures,
-  // unless it asks for others, and the bounds of the exercise. Throws InputError for a mistaken
-  // exercise.
+  // Asks for what a live page shows of the request's scenario: the default measures and the bounds
+  // of its exercise. Throws InputError for a mistaken exercise.
   explicit LiveRun(RunRequest& request);
 
   // What the page shows beside that run. Finding the keys takes longer than a short run.

@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* template_name = "replay.html";
+constexpr const char *template_name = "replay.html", *engine_name = "engine.html";
 constexpr std::size_t most_rows = 20000;
 constexpr std::size_t most_bytes = 2'400'000;
 constexpr std::size_t most_cases = 40000;
@@ -380,8 +380,12 @@ std::string page_template() {
 }
 
 std::string read_engine() {
-  return read_template("engine.html",
+  return read_template(engine_name,
                        "`scripts/setup --wasm && scripts/build wasm` makes it in bbsim's sources");
+}
+
+std::string engine_file() {
+  return file_of_template(engine_name);
 }
 
 std::string template_file() {

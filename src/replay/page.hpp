@@ -41,8 +41,9 @@ namespace bbsim::replay {
 // Identifies a page of bbsim; found at the beginning of the template.
 inline constexpr const char* page_mark = "A replay made by bbsim";
 
-// The file that page_template() reads; empty if it is not there.
+// The files that page_template() and read_engine() read; empty if they are not there.
 [[nodiscard]] std::string template_file();
+[[nodiscard]] std::string engine_file();
 
 // The most rows that each run of a page may keep.
 [[nodiscard]] std::size_t rows_allowed(const Scene& scene);

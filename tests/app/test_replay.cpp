@@ -185,6 +185,59 @@ TEST_CASE("a missing page template is reported before the run") {
   CHECK(folder.files().empty());
 }
 
+TEST_CASE("a live page has the engine, keys, measures and tasks") {
+  const Folder folder;
+  folder.write("replay.html",
+               "<!--still-->strict<!--/still--><!--live-->@BBSIM_ENGINE@<!--/live-->@BBSIM_TITLE@"
+               "<script type=\"application/json\" id=\"bbsim-data\">@BBSIM_DATA@</script>");
+  folder.write("tasks.yaml", R"(
+title: tasks
+ball: {radius: 1 cm, velocity: [0.2, 0]}
+gimbal: {motion: {phi: 1 deg, theta: 0}}
+time: {end: 1, step: 0.1}
+exercise:
+  tasks:
+    - {text: Stay., expect: max_distance < 1 m}
+    - {text: Stay still., expect: max_distance < 1 mm}
+  free: [ball.radius]
+)");
+  const auto replay = [&](std::vector<std::string> more) {
+    Launch launch;
+    launch.arguments = {"replay", "tasks.yaml", "--live"};
+    launch.arguments.insert(launch.arguments.end(), more.begin(), more.end());
+    launch.folder = folder.path();
+    launch.prepare = [] { setenv("BBSIM_SHARE_PATH", ".", 1); };
+    return bbsim(launch);
+  };
+  const Result without = replay({"-o", "a.html"});
+  CHECK(without.exit_code == 3);
+  CHECK_THAT(without.err, Contains("engine.html is not in .; `scripts/setup --wasm"));
+  folder.write("engine.html", "THE ENGINE");
+  CHECK(replay({"tasks.yaml", "-o", "a.html"}).exit_code == 2);
+  const Result over = replay({"-o", "engine.html"});
+  CHECK(over.exit_code == 2);
+  CHECK_THAT(over.err, Contains("the engine of live pages"));
+  CHECK(folder.read("engine.html") == "THE ENGINE");
+
+  // An open task is no failure of the page.
+  const Result made = replay({"-o", "a.html"});
+  CHECK(made.exit_code == 0);
+  const std::string page = folder.read("a.html");
+  CHECK_THAT(page, Contains("THE ENGINE") && !Contains("strict"));
+  const auto live = data_of(page).at("live");
+  CHECK(live.at("free") == std::vector<std::string>{"ball.radius"});
+  CHECK(live.at("tasks").at(0).at("holds") == true);
+  CHECK(live.at("tasks").at(1).at("holds") == false);
+  CHECK(live.at("measures").at("max_distance").at("value") > 0.2);
+  const auto& keys = live.at("keys");
+  const auto radius = std::ranges::find_if(
+      keys, [](const nlohmann::json& key) { return key.at("key") == "ball.radius"; });
+  REQUIRE(radius != keys.end());
+  CHECK(radius->at("value") == 0.01);
+  CHECK(radius->at("least") == 0);
+  CHECK(radius->at("open") == true);
+}
+
 TEST_CASE("an interrupted run is shown as far as it got") {
   const Folder folder;
   Launch launch;

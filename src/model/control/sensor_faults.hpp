@@ -41,8 +41,8 @@ class SensorFaults {
  public:
   explicit SensorFaults(const Sensor& sensor) {
     // The seed of noise and dropouts (sampled_controller.cpp), but other sequences.
-    if (sensor.stuck) stuck_.emplace(*sensor.stuck, sensor.seed + 0xbb67ae8584caa73bUL);
-    if (sensor.burst) burst_.emplace(*sensor.burst, sensor.seed + 0xa54ff53a5f1d36f1UL);
+    if (sensor.stuck) stuck_.emplace(*sensor.stuck, sensor.seed + 0xbb67ae8584caa73bU);
+    if (sensor.burst) burst_.emplace(*sensor.burst, sensor.seed + 0xa54ff53a5f1d36f1U);
   }
 
   // Replaces a reading at t by the one at which the sensor stuck.
