@@ -24,25 +24,22 @@ double root(double low, double high, Function f) {
   }
 }
 
-// The greatest rounding error of a value of a piece, in two parts. The polynomial's error is at
-// most (6 n + 6) u times the Lebesgue constant and the largest value at the n + 1 points (Higham,
-// IMA J. Numer. Anal. 24:547, 2004). A switch at the end of a piece has a rounded time, during
-// which the value changes at most at its steepest slope.
-double rounding_of_piece(double from, double to, const ChebyshevPoints& points,
-                         const double* values, const double* slopes) {
-  const std::size_t count = points.size();
-  double size = 0, steepest = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    size = std::max(size, std::abs(values[i]));
-    steepest = std::max(steepest, std::abs(slopes[i]));
-  }
-  constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
+constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
+
+// The rounding error of a polynomial through values of this size: at most (6 n + 6) u times the
+// Lebesgue constant and the largest value at the n + 1 points (Higham, IMA J. Numer. Anal. 24:547,
+// 2004).
+double rounding_of_polynomial(const ChebyshevPoints& points, double size) {
   const double lebesgue = 1 + 2 * points.overshoot();
-  const double of_polynomial = 6 * static_cast<double>(count) * unit_roundoff * lebesgue * size;
-  const auto [least, most] = std::minmax_element(values, values + count);
+  return 6 * static_cast<double>(points.size()) * unit_roundoff * lebesgue * size;
+}
+
+// A switch at the end of a piece has a rounded time, during which the value changes at most at its
+// steepest slope.
+double rounding_of_switch(double from, double to, double steepest, double range) {
   // A piece as short as the rounding of its time changes by no more than its range.
   const double part = to - from > rounding_of(to) ? rounding_of(to) / (to - from) : 1;
-  return of_polynomial + std::min(part * steepest, *most - *least);
+  return std::min(part * steepest, range);
 }
 
 }  // namespace
@@ -50,7 +47,7 @@ double rounding_of_piece(double from, double to, const ChebyshevPoints& points,
 void Curve::clear() {
   pieces_.clear();
   values_.clear();
-  arcs_.clear();
+  first_ = last_ = none;
 }
 
 double Curve::value(std::size_t piece, double part) const {
@@ -74,42 +71,80 @@ Curve::Place Curve::place(std::size_t piece, double part) const {
   return {part == 1 ? of.to : of.from + (of.to - of.from) * part, piece, part};
 }
 
+void Curve::add(const Piece& piece, const double* values, std::size_t count) {
+  const std::size_t number = pieces_.size();
+  pieces_.push_back(piece);
+  values_.insert(values_.end(), values, values + count);
+  Piece& of = pieces_.back();
+  of.least = of.most = values[0];
+  bool finite = true;
+  for (std::size_t i = 0; i < count; ++i) {
+    finite = finite && std::isfinite(values[i]);
+    of.least = std::min(of.least, values[i]);
+    of.most = std::max(of.most, values[i]);
+  }
+  if (!finite) {
+    of.least = of.most = std::numeric_limits<double>::quiet_NaN();
+    return;
+  }
+  if (of.points != nullptr) {
+    const double range = of.most - of.least, beyond = of.points->overshoot() * range;
+    of.rounding = rounding_of_polynomial(*of.points, std::max(-of.least, of.most)) + range;
+    of.least -= beyond;
+    of.most += beyond;
+  }
+  if (first_ == none) first_ = number;
+  last_ = number;
+}
+
 void Curve::add_line(double from, double to, double from_value, double to_value) {
   add_line(from, to, from_value, to_value, 0);
 }
 
 void Curve::end_at(double t, double value) {
   if (empty()) return add_line(t, t, value, value);
-  add_line(t, t, end_value(), value, pieces_[arcs_.back().to.piece].rounding);
+  add_line(t, t, end_value(), value, arcs_of(last_).rounding);
 }
 
 void Curve::add_line(double from, double to, double from_value, double to_value, double rounding) {
-  const std::size_t number = pieces_.size();
-  pieces_.push_back({from, to, nullptr, values_.size(), rounding});
-  values_.insert(values_.end(), {from_value, to_value});
-  if (!std::isfinite(from_value) || !std::isfinite(to_value)) return;
-  arcs_.push_back({place(number, 0), place(number, 1), from_value, to_value});
+  const double values[] = {from_value, to_value};
+  add({from, to, nullptr, values_.size(), 0, 0, rounding}, values, 2);
 }
 
 void Curve::add_piece(double from, double to, const ChebyshevPoints& points, const double* values) {
-  const std::size_t number = pieces_.size(), count = points.size();
-  pieces_.push_back({from, to, &points, values_.size(), 0});
-  values_.insert(values_.end(), values, values + count);
-  if (!std::all_of(values, values + count, [](double value) { return std::isfinite(value); })) {
-    return;
+  add({from, to, &points, values_.size(), 0, 0, 0}, values, points.size());
+}
+
+Curve::Arcs Curve::arcs_of(std::size_t number) const {
+  const Piece& of = pieces_[number];
+  const double* const values = &values_[of.first];
+  Arcs found;
+  if (of.points == nullptr) {
+    found.rounding = of.rounding;
+    found.arcs.push_back({place(number, 0), place(number, 1), values[0], values[1]});
+    return found;
   }
-  slopes_.resize(count);
-  points.slopes(values, slopes_.data());
-  pieces_.back().rounding = rounding_of_piece(from, to, points, values, slopes_.data());
+  const ChebyshevPoints& points = *of.points;
+  const std::size_t count = points.size();
+  std::vector<double> slopes(count);
+  points.slopes(values, slopes.data());
+  double size = 0, steepest = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    size = std::max(size, std::abs(values[i]));
+    steepest = std::max(steepest, std::abs(slopes[i]));
+  }
+  const auto [least, most] = std::minmax_element(values, values + count);
+  found.rounding = rounding_of_polynomial(points, size) +
+                   rounding_of_switch(of.from, of.to, steepest, *most - *least);
   Arc arc{place(number, 0), {}, values[0], 0};
   const auto end_arc = [&](double part, double value) {
     arc.to = place(number, part);
     arc.to_value = value;
-    arcs_.push_back(arc);
+    found.arcs.push_back(arc);
     arc.from = arc.to;
     arc.from_value = value;
   };
-  const auto slope = [&](double part) { return points.at(slopes_.data(), part); };
+  const auto slope = [&](double part) { return points.at(slopes.data(), part); };
   const auto look_between = [&](double low, double low_slope, double high, double high_slope) {
     if (low_slope * high_slope >= 0) return;
     const double turn = root(low, high, slope);
@@ -119,51 +154,58 @@ void Curve::add_piece(double from, double to, const ChebyshevPoints& points, con
   for (std::size_t i = 0; i + 1 < count; ++i) {
     const double middle = points[i] + (points[i + 1] - points[i]) / 2;
     const double middle_slope = slope(middle);
-    look_between(points[i], slopes_[i], middle, middle_slope);
-    look_between(middle, middle_slope, points[i + 1], slopes_[i + 1]);
+    look_between(points[i], slopes[i], middle, middle_slope);
+    look_between(middle, middle_slope, points[i + 1], slopes[i + 1]);
     // A turn exactly at a point.
-    if (i + 2 < count && slopes_[i + 1] == 0) end_arc(points[i + 1], values[i + 1]);
+    if (i + 2 < count && slopes[i + 1] == 0) end_arc(points[i + 1], values[i + 1]);
   }
   end_arc(1, values[count - 1]);
+  return found;
 }
 
-int Curve::side(double value, double level, std::size_t piece) const {
-  if (std::abs(value - level) <= pieces_[piece].rounding) return 0;
+int Curve::Arcs::side(double value, double level) const {
+  if (std::abs(value - level) <= rounding) return 0;
   return value > level ? 1 : value < level ? -1 : 0;
 }
 
-Curve::Place Curve::at_level(const Arc& arc, double level) const {
+bool Curve::may_reach(const Piece& piece, double sign, double level) const {
+  return (sign > 0 ? piece.most : -piece.least) + piece.rounding >= level;
+}
+
+Curve::Place Curve::at_level(const Arcs& of, const Arc& arc, double level) const {
   const std::size_t piece = arc.from.piece;
-  if (side(arc.from_value, level, piece) == 0) return arc.from;
-  if (side(arc.to_value, level, piece) == 0 || arc.from.part == arc.to.part) return arc.to;
+  if (of.side(arc.from_value, level) == 0) return arc.from;
+  if (of.side(arc.to_value, level) == 0 || arc.from.part == arc.to.part) return arc.to;
   return place(piece, root(arc.from.part, arc.to.part,
                            [&](double part) { return value(piece, part) - level; }));
 }
 
 std::optional<Curve::Place> Curve::first_at_least(double sign, double level) const {
-  for (const Arc& arc : arcs_) {
-    const auto is_below = [&](double value) {
-      return side(sign * value, level, arc.from.piece) < 0;
-    };
-    if (!is_below(arc.from_value)) return arc.from;
-    if (!is_below(arc.to_value)) return at_level(arc, sign * level);
+  for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
+    if (!may_reach(pieces_[piece], sign, level)) continue;
+    const Arcs of = arcs_of(piece);
+    for (const Arc& arc : of.arcs) {
+      if (of.side(sign * arc.from_value, level) >= 0) return arc.from;
+      if (of.side(sign * arc.to_value, level) >= 0) return at_level(of, arc, sign * level);
+    }
   }
   return {};
 }
 
 std::optional<Curve::Place> Curve::last_at_least(double sign, double level) const {
-  for (auto arc = arcs_.rbegin(); arc != arcs_.rend(); ++arc) {
-    const auto is_below = [&](double value) {
-      return side(sign * value, level, arc->from.piece) < 0;
-    };
-    if (!is_below(arc->to_value)) return arc->to;
-    if (!is_below(arc->from_value)) return at_level(*arc, sign * level);
+  for (std::size_t piece = pieces_.size(); piece-- > 0;) {
+    if (!may_reach(pieces_[piece], sign, level)) continue;
+    const Arcs of = arcs_of(piece);
+    for (auto arc = of.arcs.rbegin(); arc != of.arcs.rend(); ++arc) {
+      if (of.side(sign * arc->to_value, level) >= 0) return arc->to;
+      if (of.side(sign * arc->from_value, level) >= 0) return at_level(of, *arc, sign * level);
+    }
   }
   return {};
 }
 
 bool Curve::ends_at_least(double sign, double level) const {
-  return side(sign * end_value(), level, arcs_.back().to.piece) >= 0;
+  return arcs_of(last_).side(sign * end_value(), level) >= 0;
 }
 
 std::optional<Curve::Place> Curve::crossing(double level, scenario::Instant::Way way,
@@ -184,30 +226,44 @@ std::optional<Curve::Place> Curve::crossing(double level, scenario::Instant::Way
     reached.reset();
     return counts && ++found == number;
   };
-  for (const Arc& arc : arcs_) {
-    const int from = side(arc.from_value, level, arc.from.piece);
-    const int to = side(arc.to_value, level, arc.from.piece);
-    if (look(from, arc.from)) return last;
-    if (look(to, from * to < 0 ? at_level(arc, level) : arc.to)) return last;
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    const Piece& piece = pieces_[i];
+    const bool above = may_reach(piece, 1, level), below = may_reach(piece, -1, -level);
+    if (!above && !below) continue;  // not finite
+    if (above != below) {            // all of it is on one side
+      if (look(above ? 1 : -1, place(i, 0))) return last;
+      continue;
+    }
+    const Arcs of = arcs_of(i);
+    for (const Arc& arc : of.arcs) {
+      const int from = of.side(arc.from_value, level), to = of.side(arc.to_value, level);
+      if (look(from, arc.from)) return last;
+      if (look(to, from * to < 0 ? at_level(of, arc, level) : arc.to)) return last;
+    }
   }
   return number == 0 ? last : std::nullopt;
 }
 
 Curve::Extreme Curve::greatest(double sign, const std::optional<Place>& from) const {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  Extreme best{none, none};
+  constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+  Extreme best{no_number, no_number};
   const auto take = [&](double value, double t) {
     if (!(sign * value <= sign * best.value)) best = {value, t};
   };
   if (from) take(value(*from), from->t);
-  for (const Arc& arc : arcs_) {
-    if (from &&
-        (arc.to.piece < from->piece || (arc.to.piece == from->piece && arc.to.part < from->part))) {
+  for (std::size_t piece = from ? from->piece : 0; piece < pieces_.size(); ++piece) {
+    const Piece& of = pieces_[piece];
+    // No value is greater, or one is not finite.
+    if (!((sign > 0 ? of.most : -of.least) > sign * best.value) &&
+        (!std::isnan(best.value) || std::isnan(of.most))) {
       continue;
     }
-    const bool within = from && arc.from.piece == from->piece && arc.from.part < from->part;
-    if (!within) take(arc.from_value, arc.from.t);
-    take(arc.to_value, arc.to.t);
+    for (const Arc& arc : arcs_of(piece).arcs) {
+      const bool begins_before = from && piece == from->piece && arc.from.part < from->part;
+      if (begins_before && arc.to.part < from->part) continue;
+      if (!begins_before) take(arc.from_value, arc.from.t);
+      take(arc.to_value, arc.to.t);
+    }
   }
   return best;
 }

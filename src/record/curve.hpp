@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A number of a run over time, cut into monotone arcs. Finds crossings of levels and extremes.
+// A number of a run over time. Finds crossings of levels and extremes.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,8 @@
 namespace bbsim::record {
 
 // Consists of pieces in order of time, possibly with jumps between them. A piece is a polynomial
-// through values at Chebyshev points, a straight line between rows of a file, or an instant.
+// through values at Chebyshev points, a straight line between rows of a file, or an instant. A
+// query cuts the pieces into monotone arcs whose bounds do not answer it.
 class Curve {
  public:
   // An instant on one of the pieces. Curves of one run have the same pieces.
@@ -35,10 +36,10 @@ class Curve {
   // Sets the value at the very end, after a switch there.
   void end_at(double t, double value);
 
-  [[nodiscard]] bool empty() const { return arcs_.empty(); }
-  [[nodiscard]] double start() const { return arcs_.front().from.t; }
-  [[nodiscard]] double start_value() const { return arcs_.front().from_value; }
-  [[nodiscard]] double end_value() const { return arcs_.back().to_value; }
+  [[nodiscard]] bool empty() const { return first_ == none; }
+  [[nodiscard]] double start() const { return pieces_[first_].from; }
+  [[nodiscard]] double start_value() const { return values_[pieces_[first_].first]; }
+  [[nodiscard]] double end_value() const { return value(last_, 1); }
   // The value at the end of the last piece, even if it is not finite; NaN if there is no piece.
   [[nodiscard]] double last_value() const;
 
@@ -67,23 +68,35 @@ class Curve {
     double from, to;                // s
     const ChebyshevPoints* points;  // null for a straight line
     std::size_t first;              // index of its first value
-    double rounding;                // greatest rounding error of a value within it
+    // Bounds of its values, and of their rounding errors. Not numbers if a value is not finite.
+    double least, most, rounding;
   };
   struct Arc {
     Place from, to;
     double from_value, to_value;
   };
+  // The monotone arcs of a piece, and the greatest rounding error of a value within it.
+  struct Arcs {
+    std::vector<Arc> arcs{};
+    double rounding = 0;
+    // The side of the level on which a value is: 1, -1, or 0 if it is at the level.
+    [[nodiscard]] int side(double value, double level) const;
+  };
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+  void add(const Piece& piece, const double* values, std::size_t count);
+  void add_line(double from, double to, double from_value, double to_value, double rounding);
   [[nodiscard]] double value(std::size_t piece, double part) const;
   [[nodiscard]] Place place(std::size_t piece, double part) const;
-  // The side of the level on which a value of a piece is: 1, -1, or 0 if it is at the level.
-  [[nodiscard]] int side(double value, double level, std::size_t piece) const;
+  [[nodiscard]] Arcs arcs_of(std::size_t piece) const;
+  // Whether sign * value may reach the level within a piece; false if a value is not finite.
+  [[nodiscard]] bool may_reach(const Piece& piece, double sign, double level) const;
   // Where the arc is at the level. At most one of its ends is at the level.
-  [[nodiscard]] Place at_level(const Arc& arc, double level) const;
-  void add_line(double from, double to, double from_value, double to_value, double rounding);
+  [[nodiscard]] Place at_level(const Arcs& of, const Arc& arc, double level) const;
 
   std::vector<Piece> pieces_;
-  std::vector<double> values_, slopes_;  // slopes_: of the piece being added
-  std::vector<Arc> arcs_;
+  std::vector<double> values_;
+  std::size_t first_ = none, last_ = none;  // pieces whose values are finite
 };
 
 }  // namespace bbsim::record

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
+#include <utility>
 
 #include "base/maxima.hpp"
 
@@ -26,10 +28,24 @@ std::vector<const scenario::Column*> columns_of(const std::vector<Extremes::Soug
   return columns;
 }
 
-std::optional<solve::Load> load_of(const scenario::Column& column) {
-  if (column.name == "motor_torque_phi") return solve::Load::motor_torque_phi;
-  if (column.name == "motor_torque_theta") return solve::Load::motor_torque_theta;
-  if (column.name == "motor_power") return solve::Load::motor_power;
+std::optional<solve::Bounded> bounded(std::string_view column) {
+  using solve::Bounded;
+  constexpr std::pair<std::string_view, Bounded> known[] = {
+      {"x", Bounded::x},
+      {"y", Bounded::y},
+      {"vx", Bounded::vx},
+      {"vy", Bounded::vy},
+      {"distance", Bounded::distance},
+      {"tilt", Bounded::tilt},
+      {"tilt_rate", Bounded::tilt_rate},
+      {"tracking_error", Bounded::tracking_error},
+      {"motor_torque_phi", Bounded::motor_torque_phi},
+      {"motor_torque_theta", Bounded::motor_torque_theta},
+      {"motor_power", Bounded::motor_power},
+  };
+  for (const auto& [name, one] : known) {
+    if (name == column) return one;
+  }
   return {};
 }
 
@@ -39,15 +55,12 @@ Extremes::Extremes(std::vector<Sought> sought)
     : columns_(columns_of(sought)), greatest_(sought.size()) {
   for (const Sought& one : sought) {
     signs_.push_back(one.least ? -1 : 1);
-    loads_.push_back(load_of(*one.column));
+    bounded_.push_back(bounded(one.column->name));
   }
-  loads_alone_ =
-      std::all_of(loads_.begin(), loads_.end(), [](const auto& load) { return load.has_value(); });
   begin_run();
 }
 
 void Extremes::begin(const model::Model& model, const model::BallConstants& constants) {
-  model_ = &model;
   constants_ = &constants;
   columns_.begin(model, constants);
   begin_run();
@@ -76,16 +89,14 @@ void Extremes::note(const model::Sample& sample) {
 }
 
 void Extremes::sample(const solve::Piece& piece, const ChebyshevPoints& points) {
-  const std::size_t count = points.size(), row_size = model_->row_size();
+  const std::size_t count = points.size();
   times_.resize(count);
-  rows_.resize(count * row_size);
   values_.resize(count * size());
   for (std::size_t p = 0; p < count; ++p) {
     times_[p] = piece.from() + (piece.to() - piece.from()) * points[p];
   }
   times_.back() = piece.to();
-  piece.evaluate(times_.data(), count, rows_.data());
-  columns_.evaluate(times_.data(), rows_.data(), count);
+  columns_.evaluate(piece, times_.data(), count);
   for (std::size_t i = 0; i < size(); ++i) {
     for (std::size_t p = 0; p < count; ++p) {
       values_[i * count + p] = signs_[i] * columns_[i][p];
@@ -119,8 +130,7 @@ void Extremes::climb_within(std::size_t i, const solve::Piece& piece,
   for (std::size_t p = 0; p < points.size(); ++p) take(i, values[p], times_[p]);
   const auto value_at = [&](double s) {
     const double t = std::min(piece.from() + length * s, piece.to());
-    piece.evaluate(&t, 1, rows_.data());
-    columns_.evaluate(&t, rows_.data(), 1);
+    columns_.evaluate(piece, &t, 1);
     return signs_[i] * columns_[i][0];
   };
   const auto climb_there = [&](Bracket bracket) {
@@ -146,28 +156,29 @@ bool Extremes::may_exceed(std::size_t i, const std::optional<solve::Bounds>& bou
   return !(std::max(signs_[i] * bounds->least, signs_[i] * bounds->most) <= greatest_[i].value);
 }
 
-// Whether no value in the piece exceeds the greatest so far, by bounds of the integrator that need
-// no rows.
-bool Extremes::matters_not(const solve::Piece& piece) const {
-  if (!loads_alone_) return false;
-  // The greatest and the least value of one load are neighbors and share the bounds.
+// Finds the columns whose bounds over the piece, which need no rows, do not exclude a value greater
+// than the greatest so far.
+void Extremes::find_open(const solve::Piece& piece) {
+  open_.clear();
+  // The greatest and the least value of one column are neighbors and share the bounds.
   std::optional<solve::Bounds> bounds;
   bool close = false;
   for (std::size_t i = 0; i < size(); ++i) {
     const auto exceeds = [&](bool closely) {
-      bounds = piece.bounds(*loads_[i], *constants_, closely);
+      bounds.reset();
+      if (bounded_[i]) bounds = piece.bounds(*bounded_[i], *constants_, closely);
       close = closely;
       return may_exceed(i, bounds);
     };
-    const bool known = i > 0 && loads_[i] == loads_[i - 1];
+    const bool known = i > 0 && bounded_[i] == bounded_[i - 1];
     if (!(known ? may_exceed(i, bounds) : exceeds(false))) continue;
-    if (!bounds || close || exceeds(true)) return false;
+    if (!bounds || close || exceeds(true)) open_.push_back(i);
   }
-  return true;
 }
 
 void Extremes::accept(const solve::Piece& piece) {
-  if (matters_not(piece)) return;
+  find_open(piece);
+  if (open_.empty()) return;
   // Half of the points that may be needed usually resolve all columns.
   const std::size_t enough = piece.parts();
   std::size_t parts = std::max(fewest_parts, (enough + 1) / 2);
@@ -177,7 +188,7 @@ void Extremes::accept(const solve::Piece& piece) {
     const bool few = parts < enough;
     bool all_shown = true;
     matter_.clear();
-    for (std::size_t i = 0; i < size(); ++i) {
+    for (const std::size_t i : open_) {
       const bool matters = may_matter(i, points);
       if (matters) matter_.push_back(i);
       if (matters || few) all_shown = all_shown && is_shown(i, points);

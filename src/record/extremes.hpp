@@ -16,9 +16,10 @@
 
 namespace bbsim::record {
 
-// Evaluates each piece of a run at as many points as the integrator's polynomial has detail there.
-// Both ends are included, hence both sides of every switch. If a value between two points may
-// exceed the greatest so far, a search on the polynomial finds it.
+// Passes over a piece whose bounds exclude a greater value. Evaluates each other piece at as many
+// points as the integrator's polynomial has detail there. Both ends are included, hence both sides
+// of every switch. If a value between two points may exceed the greatest so far, a search on the
+// polynomial finds it.
 class Extremes : public solve::PieceSink {
  public:
   struct Sought {
@@ -52,23 +53,22 @@ class Extremes : public solve::PieceSink {
  private:
   void sample(const solve::Piece& piece, const ChebyshevPoints& points);
   [[nodiscard]] bool may_exceed(std::size_t i, const std::optional<solve::Bounds>& bounds) const;
-  [[nodiscard]] bool matters_not(const solve::Piece& piece) const;
+  void find_open(const solve::Piece& piece);
   [[nodiscard]] bool may_matter(std::size_t i, const ChebyshevPoints& points) const;
   [[nodiscard]] bool is_shown(std::size_t i, const ChebyshevPoints& points) const;
   void take(std::size_t i, double value, double t);
   void climb_within(std::size_t i, const solve::Piece& piece, const ChebyshevPoints& points);
 
   Rows columns_;
-  std::vector<std::optional<solve::Load>> loads_;  // for each column, if it is a load
-  bool loads_alone_ = false;                       // all columns are loads
+  std::vector<std::optional<solve::Bounded>> bounded_;  // for each column, if it may be
   std::vector<double> signs_;  // -1 to seek the least value: the greatest of the negated column
-  const model::Model* model_ = nullptr;
   const model::BallConstants* constants_ = nullptr;
   std::vector<Extreme> greatest_;
   ChebyshevTables tables_;
-  std::vector<double> times_, rows_;
+  std::vector<double> times_;
   std::vector<double> values_, finer_;  // for each column, its values at the points
-  std::vector<std::size_t> matter_;  // columns that may exceed their greatest value in this piece
+  // Columns that may exceed their greatest value in this piece: by bounds, and by its points.
+  std::vector<std::size_t> open_, matter_;
 };
 
 }  // namespace bbsim::record

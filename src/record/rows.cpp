@@ -51,6 +51,8 @@ Rows::Rows(std::vector<const scenario::Column*> columns) : columns_(std::move(co
   }
   needs_dynamics_ = scenario::need_dynamics(columns_);
   needs_orientation_ = any_needs(columns_, Needs::orientation);
+  needs_ball_only_ =
+      detail_ == Detail::ball && !needs_dynamics_ && !any_needs(columns_, Needs::own);
 }
 
 void Rows::begin(const model::Model& model, const model::BallConstants& constants) {
@@ -74,6 +76,16 @@ void Rows::evaluate(const double* times, const double* rows, std::size_t count) 
     }
     fill(first);
   }
+}
+
+void Rows::evaluate(const solve::Piece& piece, const double* times, std::size_t count) {
+  rows_.resize(count * model_->row_size());
+  if (needs_ball_only_) {
+    piece.evaluate_ball(times, count, rows_.data());
+  } else {
+    piece.evaluate(times, count, rows_.data());
+  }
+  evaluate(times, rows_.data(), count);
 }
 
 void Rows::evaluate(const model::Sample& sample) {

@@ -11,6 +11,7 @@
 #include "model/model.hpp"
 #include "record/ball_turn.hpp"
 #include "record/column_values.hpp"
+#include "solve/piece.hpp"
 
 namespace bbsim::record {
 
@@ -31,6 +32,8 @@ class Rows {
 
   [[nodiscard]] const std::vector<const scenario::Column*>& columns() const { return columns_; }
   [[nodiscard]] bool need_dynamics() const { return needs_dynamics_; }
+  // Evaluates a piece of the motion at times (s).
+  void evaluate(const solve::Piece& piece, const double* times, std::size_t count);
   // A column of the rows evaluated last.
   [[nodiscard]] const double* operator[](std::size_t column) const {
     return numbers_.data() + column * count_;
@@ -48,7 +51,7 @@ class Rows {
   std::vector<const scenario::Column*> columns_;
   std::vector<FillColumn> fills_;
   model::Detail detail_ = model::Detail::ball;
-  bool needs_dynamics_ = false, needs_orientation_ = false;
+  bool needs_dynamics_ = false, needs_orientation_ = false, needs_ball_only_ = false;
   const model::Model* model_ = nullptr;
   const model::BallConstants* constants_ = nullptr;
   std::optional<BallTurn> turn_;
@@ -58,6 +61,7 @@ class Rows {
   std::vector<model::Dynamics> dynamics_;
   std::vector<Quaternion> orientations_;
   std::vector<double> numbers_;  // column after column
+  std::vector<double> rows_;     // of a piece
 };
 
 }  // namespace bbsim::record

@@ -20,28 +20,29 @@ namespace bbsim::record {
 // where they are not smooth.
 class Traces : public solve::PieceSink {
  public:
-  // No column may need orientations, which depend on the rows before.
-  explicit Traces(std::vector<const scenario::Column*> columns);
+  // Of the columns `ends`, keeps only the last value. No column may need orientations, which depend
+  // on the rows before.
+  Traces(std::vector<const scenario::Column*> columns, std::vector<const scenario::Column*> ends);
 
   // Begins a run. Both arguments must outlive it.
   void begin(const model::Model& model, const model::BallConstants& constants);
   void begin_run() override;
   void accept(const solve::Piece& piece) override;
-  // Ends the run at `t` (s), where the columns have these values. If the run ended before its first
-  // step, the curves have only this point.
-  void finish(double t, const Rows& last);
+  // Ends the run at `t` (s) with this sample. If the run ended before its first step, the curves
+  // have only this point.
+  void finish(double t, const model::Sample& last);
 
-  [[nodiscard]] const std::vector<const scenario::Column*>& columns() const {
-    return columns_.columns();
-  }
+  [[nodiscard]] bool empty() const { return columns_.columns().empty(); }
   [[nodiscard]] const Curve& of(const scenario::Column& column) const;
 
  private:
-  Rows columns_;
-  const model::Model* model_ = nullptr;
+  void sample(const solve::Piece& piece, const ChebyshevPoints& points, std::size_t stride);
+
+  Rows columns_, ends_;
   ChebyshevTables tables_;
-  std::vector<Curve> curves_;
-  std::vector<double> times_, rows_;
+  std::vector<Curve> curves_, last_;
+  std::vector<std::vector<double>> values_;  // of each column at the points of a piece
+  std::vector<double> times_;
 };
 
 }  // namespace bbsim::record

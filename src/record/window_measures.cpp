@@ -46,11 +46,26 @@ std::vector<const Column*> traced_by(const std::vector<Measure>& measures) {
   std::vector<const Column*> columns;
   for (const Measure& measure : measures) {
     if (!is_of_curves(measure) && !(measure.kind == Kind::end && measure.window.to)) continue;
-    for (const Column* column : {measure.column, measure.instant.column, measure.reference}) {
+    for (const Column* column : {measure.column, measure.instant.column}) {
       if (column != nullptr && std::ranges::find(columns, column) == columns.end()) {
         columns.push_back(column);
       }
     }
+  }
+  return columns;
+}
+
+// The references of steps, of which only the last value counts.
+std::vector<const Column*> references_of(const std::vector<Measure>& measures) {
+  const std::vector<const Column*> traced = traced_by(measures);
+  std::vector<const Column*> columns;
+  for (const Measure& measure : measures) {
+    if (measure.reference == nullptr ||
+        std::ranges::find(traced, measure.reference) != traced.end() ||
+        std::ranges::find(columns, measure.reference) != columns.end()) {
+      continue;
+    }
+    columns.push_back(measure.reference);
   }
   return columns;
 }
@@ -79,8 +94,7 @@ WindowMeasures::WindowMeasures(const std::vector<Measure>& measures, std::vector
       of_curves_(those(measures_, [](const Measure& one) { return is_of_curves(one); })),
       end_(columns_of(measures_, at_end_)),
       extremes_(sought_by(measures_, of_motion_)),
-      traces_(traced_by(measures_)),
-      traces_end_(traces_.columns()),
+      traces_(traced_by(measures_), references_of(measures_)),
       extreme_pieces_(window_, extremes_),
       trace_pieces_(window_, traces_) {}
 
@@ -88,11 +102,11 @@ void WindowMeasures::begin(const model::Model& model, const model::BallConstants
                            PieceFan& fan) {
   model_ = &model;
   sums_.assign(of_rows_.size(), {});
-  for (Rows* const rows : {&end_, &traces_end_}) rows->begin(model, constants);
+  end_.begin(model, constants);
   extremes_.begin(model, constants);
   traces_.begin(model, constants);
   if (!of_motion_.empty()) fan.add(extreme_pieces_);
-  if (!traces_.columns().empty()) fan.add(trace_pieces_);
+  if (!traces_.empty()) fan.add(trace_pieces_);
 }
 
 std::vector<const Column*> WindowMeasures::row_columns() const {
@@ -126,11 +140,11 @@ void WindowMeasures::finish(const RunEnd& end, double* results, scenario::Whys& 
   const bool before = end.t < window_.begin() && !window_.holds(end.t);
   const bool within = window_.holds(end.t);
   const char* const none = before ? "the run ends before its window" : "there is no finite value";
-  for (Rows* const rows : {&end_, &traces_end_}) rows->evaluate(end.sample);
+  end_.evaluate(end.sample);
   if (within) {
     // The last piece does not include a switch at its end.
     if (!of_motion_.empty() && model_->hybrid()) extremes_.note(end.sample);
-    if (!traces_.columns().empty()) traces_.finish(end.t, traces_end_);
+    if (!traces_.empty()) traces_.finish(end.t, end.sample);
   }
   for (std::size_t k = 0; k < at_end_.size(); ++k) {
     const Measure& measure = measures_[at_end_[k]];

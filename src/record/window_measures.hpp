@@ -72,7 +72,6 @@ class WindowMeasures {
   Rows end_;
   Extremes extremes_;
   Traces traces_;
-  Rows traces_end_;
   WindowPieces extreme_pieces_, trace_pieces_;
   std::vector<Sum> sums_;  // for each of of_rows_
   const model::Model* model_ = nullptr;

@@ -18,11 +18,14 @@ class PiecePart : public solve::Piece {
   void evaluate(const double* times, std::size_t count, double* rows) const override {
     whole_.evaluate(times, count, rows);
   }
+  void evaluate_ball(const double* times, std::size_t count, double* rows) const override {
+    whole_.evaluate_ball(times, count, rows);
+  }
   // Bounds of the whole piece hold for its part.
-  [[nodiscard]] std::optional<solve::Bounds> bounds(solve::Load load,
+  [[nodiscard]] std::optional<solve::Bounds> bounds(solve::Bounded column,
                                                     const model::BallConstants& constants,
                                                     bool closely) const override {
-    return whole_.bounds(load, constants, closely);
+    return whole_.bounds(column, constants, closely);
   }
 
  private:

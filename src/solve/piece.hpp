@@ -11,8 +11,20 @@
 
 namespace bbsim::solve {
 
-// Loads of the motors, named like their output columns.
-enum class Load { motor_torque_phi, motor_torque_theta, motor_power };
+// Columns that an integrator may bound, named like them.
+enum class Bounded {
+  x,
+  y,
+  vx,
+  vy,
+  distance,
+  tilt,
+  tilt_rate,
+  tracking_error,
+  motor_torque_phi,
+  motor_torque_theta,
+  motor_power
+};
 
 struct Bounds {
   double least, most;
@@ -33,9 +45,13 @@ class Piece {
   [[nodiscard]] std::size_t parts() const { return parts_; }
   // Evaluates rows, as a StateSink receives them, at times within the piece, ends included.
   virtual void evaluate(const double* times, std::size_t count, double* rows) const = 0;
-  // Quick bounds of a load over the piece. They may be wider than its true range; `closely` narrows
-  // them and takes a little longer. Empty if only rows can show the range.
-  [[nodiscard]] virtual std::optional<Bounds> bounds(Load /*load*/,
+  // The same, but only the ball's states need be right.
+  virtual void evaluate_ball(const double* times, std::size_t count, double* rows) const {
+    evaluate(times, count, rows);
+  }
+  // Quick bounds of a column over the piece. They may be wider than its true range; `closely`
+  // narrows them and takes a little longer. Empty if only rows can show the range.
+  [[nodiscard]] virtual std::optional<Bounds> bounds(Bounded /*column*/,
                                                      const model::BallConstants& /*constants*/,
                                                      bool /*closely*/) const {
     return {};

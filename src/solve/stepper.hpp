@@ -33,6 +33,10 @@ class Stepper {
   // Evaluates the states at times within the last step, ends included, on the step's polynomial.
   // Writes `count` rows without gaps. Call it before the next step.
   virtual void evaluate(const double* times, std::size_t count, double* rows) = 0;
+  // The same, but only the ball's states need be right.
+  virtual void evaluate_ball(const double* times, std::size_t count, double* rows) {
+    evaluate(times, count, rows);
+  }
 
   // Announces that the input or one of its derivatives jumps at the end of the last step. The
   // step's states are those just before the jump.
@@ -59,7 +63,7 @@ class Stepper {
     return false;
   }
   // Bounds over the last step, as Piece::bounds().
-  [[nodiscard]] virtual std::optional<Bounds> bounds(Load /*load*/,
+  [[nodiscard]] virtual std::optional<Bounds> bounds(Bounded /*column*/,
                                                      const model::BallConstants& /*constants*/,
                                                      bool /*closely*/) {
     return {};

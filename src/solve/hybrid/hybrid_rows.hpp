@@ -69,17 +69,28 @@ class HybridRows {
     void evaluate(const double* times, std::size_t count, double* rows) const override {
       of_.plain_rows_.resize(count * of_.plain_size_);
       of_.stepper_.evaluate(times, count, of_.plain_rows_.data());
-      for (std::size_t i = 0; i < count; ++i, rows += of_.row_size_) {
-        std::copy_n(&of_.plain_rows_[i * of_.plain_size_], of_.plain_size_, rows);
-        of_.finish(times[i], rows);
-      }
+      spread(count, rows);
+      for (std::size_t i = 0; i < count; ++i) of_.finish(times[i], rows + i * of_.row_size_);
     }
-    [[nodiscard]] std::optional<Bounds> bounds(Load load, const model::BallConstants& constants,
+    void evaluate_ball(const double* times, std::size_t count, double* rows) const override {
+      of_.plain_rows_.resize(count * of_.plain_size_);
+      of_.stepper_.evaluate_ball(times, count, of_.plain_rows_.data());
+      spread(count, rows);
+    }
+    [[nodiscard]] std::optional<Bounds> bounds(Bounded column,
+                                               const model::BallConstants& constants,
                                                bool closely) const override {
-      return of_.stepper_.bounds(load, constants, closely);
+      return of_.stepper_.bounds(column, constants, closely);
     }
 
    private:
+    void spread(std::size_t count, double* rows) const {
+      for (std::size_t i = 0; i < count; ++i) {
+        std::copy_n(&of_.plain_rows_[i * of_.plain_size_], of_.plain_size_,
+                    rows + i * of_.row_size_);
+      }
+    }
+
     HybridRows& of_;
   };
 

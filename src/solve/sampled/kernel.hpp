@@ -72,9 +72,9 @@ struct Scene {
   model::GeneralRolling rolling;
   model::Turned turned;
   double rtol, atol;
-  bool gamma;         // whether the integral of u is under error control too
-  double friction;    // friction coefficient up to which the ball rolls; 0: not monitored
-  bool force, loads;  // whether forces and the motors' torques are wanted
+  bool gamma;                // whether the integral of u is under error control too
+  double friction;           // friction coefficient up to which the ball rolls; 0: not monitored
+  bool force, sizes, loads;  // whether forces, the sizes of motions, and motors' loads are wanted
 };
 
 // All numbers of the last piece. The ball's velocities are x', y' and u = r gamma'; its positions
@@ -85,9 +85,10 @@ struct alignas(64) Piece {
   double series[3][nodes];
   double position[3], velocity[3];          // at the start
   double position_end[3], velocity_end[3];  // at the end
-  double guess[3];     // of the accelerations: those at the end of the last piece
-  double contraction;  // of the last pieces' iterations
-  double length;       // s
+  double guess[3];                // of the accelerations: those at the end of the last piece
+  double reference_at[2][nodes];  // x and y at the start and at all nodes but the first, if wanted
+  double contraction;             // of the last pieces' iterations
+  double length;                  // s
   PlateMotion plate;
 };
 
@@ -98,17 +99,21 @@ struct Attempt {
   int iterations;
 };
 
-// Quantities that are evaluated for events and loads. They are smooth: squares instead of roots.
+// Quantities that are evaluated for events and bounds. They are smooth: squares instead of roots.
 enum Quantity : int {
   x,
   y,
   distance_squared,
-  up,            // the upward component of the plate's normal
-  normal,        // force over mass, m/s^2
-  grip,          // (friction N)^2 - F_t^2, both per mass
-  torque_phi,    // of the motors, N m
-  torque_theta,  // N m
-  power,         // W
+  up,      // the upward component of the plate's normal
+  normal,  // force over mass, m/s^2
+  grip,    // (friction N)^2 - F_t^2, both per mass
+  vx,
+  vy,
+  rate_squared,   // of the plate's angular velocity, rad^2/s^2
+  error_squared,  // of the distance from the reference, m^2
+  torque_phi,     // of the motors, N m
+  torque_theta,   // N m
+  power,          // W
   quantity_count
 };
 
@@ -121,9 +126,9 @@ struct Range {
 // (L - 1) / 2, where L = 3.5806 is the points' Lebesgue constant.
 inline constexpr double overshoot = 1.2904;
 
-// The motors' loads at the start and at all nodes but the first.
-struct alignas(64) Loads {
-  double at[3][nodes];  // torque_phi, torque_theta, power
+// Each quantity at the start and at all nodes but the first; only if sizes or loads are wanted.
+struct alignas(64) QuantityValues {
+  double at[quantity_count][nodes];
 };
 
 // A polynomial of degree 7 may exceed its range at 32 Chebyshev points by this fraction of it:
@@ -144,12 +149,12 @@ struct Kernels {
     void (*attempt)(Piece& piece, const Scene& scene, Attempt& result);
     // Computes the ranges over the start and nodes. Leaves ranges that are not wanted unchanged.
     void (*evaluate_quantities)(const Piece& piece, const Scene& scene, Range* ranges,
-                                Loads& loads);
+                                QuantityValues& values);
   } papers, general, linked, three;
   // Computes responses by power series, which the length must suit (model::suits_series()).
   void (*answers)(double damping, double stiffness, double length, NodeAnswers& answers);
-  // The ranges of the three loads over the Chebyshev points.
-  void (*narrow)(const Loads& loads, Range* ranges);
+  // The range over the Chebyshev points of a quantity with these values.
+  Range (*narrow)(const double (&values)[nodes]);
   // Evaluates the ball at `count` times (s) after the start of the piece, on its polynomial: x, y,
   // x', y', u and the integral of u.
   void (*evaluate)(const Piece& piece, const double* times, std::size_t count, double (*ball)[6]);

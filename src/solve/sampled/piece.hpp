@@ -200,11 +200,11 @@ struct Kernel {
 
   template <bool papers, class Link>
   [[gnu::flatten]] static void evaluate_quantities(const Piece& piece, const Scene& scene,
-                                                   Range* ranges, Loads& loads) {
+                                                   Range* ranges, QuantityValues& values) {
     P least[quantity_count], most[quantity_count];
 #pragma GCC unroll 16
     for (int i = 0; i < quantity_count; ++i) least[i] = most[i] = P(0.0);
-    const bool force = scene.force || scene.loads;
+    const bool force = scene.force || scene.loads, keep = scene.sizes || scene.loads;
     // Values at the start, from the polynomial of the accelerations and from the servos.
     double started[2];
 #pragma GCC unroll 2
@@ -239,6 +239,7 @@ struct Kernel {
       const auto take = [&](int i, P value) __attribute__((always_inline)) {
         least[i] = p == 0 ? value : smaller_of(least[i], value);
         most[i] = p == 0 ? value : larger_of(most[i], value);
+        if (keep) value.store(values.at[i] + p * lanes);
       };
       // The start replaces the first node.
       const auto at = [&](const double* values, double start) __attribute__((always_inline)) {
@@ -262,6 +263,15 @@ struct Kernel {
       }
       const model::MovingPlane<P> plane = model::moving_plane(rolling, axis[0], axis[1]);
       take(Quantity::up, plane.up.z);
+      if (scene.sizes) {
+        take(Quantity::vx, ball.x_dot);
+        take(Quantity::vy, ball.y_dot);
+        const auto& turn = plane.omega;
+        take(Quantity::rate_squared, turn.x * turn.x + turn.y * turn.y + turn.z * turn.z);
+        const P x = ball.x - P::load(piece.reference_at[0] + p * lanes);
+        const P y = ball.y - P::load(piece.reference_at[1] + p * lanes);
+        take(Quantity::error_squared, x * x + y * y);
+      }
       if (!force) return;
       const model::Vector3<P> by_mass = model::force_by_mass(
           plane, ball, at(piece.acceleration_at[0], started[0]),
@@ -278,13 +288,12 @@ struct Kernel {
       const P theta = P(scene.mass) * of_ball.theta + of_plate.theta;
       take(Quantity::torque_phi, phi);
       take(Quantity::torque_theta, theta);
-      const P power = phi * axis[0].rate + theta * axis[1].rate;
-      take(Quantity::power, power);
-      phi.store(loads.at[0] + p * lanes);
-      theta.store(loads.at[1] + p * lanes);
-      power.store(loads.at[2] + p * lanes);
+      take(Quantity::power, phi * axis[0].rate + theta * axis[1].rate);
     });
-    const int asked = scene.loads ? quantity_count : force ? Quantity::grip + 1 : Quantity::up + 1;
+    const int asked = scene.loads   ? quantity_count
+                      : scene.sizes ? Quantity::error_squared + 1
+                      : force       ? Quantity::grip + 1
+                                    : Quantity::up + 1;
 #pragma GCC unroll 16
     for (int i = 0; i < quantity_count; ++i) {
       if (i >= asked) break;
@@ -306,10 +315,8 @@ struct Kernel {
     return {Layout::reduced(least, Smaller{}), Layout::reduced(most, Larger{})};
   }
 
-  static void narrow(const Loads& loads, Range* ranges) {
-    for (int i = 0; i < 3; ++i) {
-      ranges[i] = close_range([&](int j) __attribute__((always_inline)) { return loads.at[i][j]; });
-    }
+  static Range narrow(const double (&values)[nodes]) {
+    return close_range([&](int j) __attribute__((always_inline)) { return values[j]; });
   }
 
   // The series of model::answer(), for all nodes together.

@@ -11,6 +11,7 @@
 #include "base/instant.hpp"
 #include "model/hybrid/rig_energy.hpp"
 #include "simd/instruction_set.hpp"
+#include "solve/collocation/radau_table.hpp"
 #include "solve/collocation/step_length.hpp"
 #include "solve/sampled/monitor_ranges.hpp"
 
@@ -79,7 +80,7 @@ void HeldStepper::start(double t, const double* z) {
   if (attempted_) {
     if (model_->gamma && t != time_) {
       double row[model::CoupledLayout<model::most_servos>::states + 1];
-      evaluate(&t, 1, row);
+      evaluate(&t, 1, row, false);
       turned_ = row[reached_.size()];
     }
     for (int i = 0; i < 3; ++i) piece_.guess[i] = piece_.acceleration_at[i][nodes - 1];
@@ -147,6 +148,10 @@ std::optional<Failure> HeldStepper::step(double limit) {
     }
     time_ = arrives ? limit : time_ + step;
     last_error_ = attempt.error;
+    loses_motion_ = false;
+    for (std::size_t i = 0; i < servos_; ++i) {
+      loses_motion_ = loses_motion_ || piece_.plate.axis[i].table->lost;
+    }
     ++statistics_.steps;
     constexpr double most_growth = 8;
     // A step that the limit cut short says little about the length of the next.
@@ -171,11 +176,11 @@ void HeldStepper::finish() {
   plate_.pass(piece_.plate);
 }
 
-void HeldStepper::evaluate(const double* times, std::size_t count, double* rows) {
+void HeldStepper::evaluate(const double* times, std::size_t count, double* rows, bool servos) {
   constexpr std::size_t together = 16;
   const std::size_t row = reached_.size() + (model_->gamma ? 1 : 0);
   for (std::size_t first = 0; first < count; first += together) {
-    evaluate_some(times + first, std::min(together, count - first), rows + first * row);
+    evaluate_some(times + first, std::min(together, count - first), rows + first * row, servos);
   }
 }
 
@@ -217,7 +222,7 @@ const HeldStepper::Shares* HeldStepper::shares(double after) {
   return &made;
 }
 
-void HeldStepper::evaluate_some(const double* times, std::size_t count, double* rows) {
+void HeldStepper::evaluate_some(const double* times, std::size_t count, double* rows, bool servos) {
   double after[16], ball[16][6];
   const Shares* known[16] = {};
   bool others = false;
@@ -243,6 +248,7 @@ void HeldStepper::evaluate_some(const double* times, std::size_t count, double* 
     if (known[i] != nullptr) known[i]->evaluate(piece_, ball[i]);
     std::copy_n(ball[i], 5, row);
     if (model_->gamma) row[size] = ball[i][5];
+    if (!servos) continue;
     const model::HeldLaw& first = servo_[0].law;  // usually that of all servos
     const model::ImpulseAnswer of_first = instants_.answer(first, time_, after[i]);
     for (std::size_t k = 0; k < servos_; ++k) {
@@ -278,6 +284,7 @@ std::size_t HeldStepper::parts() const {
 }
 
 const Range& HeldStepper::range(Quantity of) {
+  if (!evaluated_ && scene_.sizes) take_reference();
   if (!evaluated_) kernel_.evaluate_quantities(piece_, scene_, ranges_.data(), at_points_);
   evaluated_ = true;
   return ranges_[static_cast<std::size_t>(of)];
@@ -301,24 +308,83 @@ bool HeldStepper::no_monitor_changes(const std::vector<char>& occurring) {
   return true;
 }
 
-std::optional<Bounds> HeldStepper::bounds(Load load, const model::BallConstants& constants,
+// The reference at the start and at all nodes but the first. Where it jumps at the end of the step,
+// it counts as before the jump.
+void HeldStepper::take_reference() {
+  const double last = model_->jumps_at(time_) ? model_->just_before(time_) : time_;
+  with_given_plate(model_->system, [&](const auto& loop) {
+    for (int n = 0; n < nodes; ++n) {
+      const double t =
+          n == 0 ? began_
+                 : std::min(began_ + radau::radau_table<radau::Shared, nodes>.c[n] * piece_.length,
+                            last);
+      const auto at = loop.reference().at(t);
+      for (int i = 0; i < 2; ++i) piece_.reference_at[i][n] = at[i].value;
+    }
+  });
+}
+
+std::optional<Bounds> HeldStepper::bounds(Bounded column, const model::BallConstants& constants,
                                           bool closely) {
   if (!attempted_) return {};
-  if (loads_of_ != &constants) {
+  const bool is_load = column >= Bounded::motor_torque_phi;
+  if (is_load && loads_of_ != &constants) {
     loads_of_ = &constants;
     scene_.loads = true;
     scene_.mass = constants.mass;
     scene_.turned = model::turned_by_motors(constants);
     evaluated_ = false;
+  } else if (!is_load && !scene_.sizes) {
+    scene_.sizes = true;
+    evaluated_ = false;
   }
-  const auto place = static_cast<std::size_t>(load);
-  const Range wide = widened(range(static_cast<Quantity>(Quantity::torque_phi + place)));
-  if (!closely) return Bounds{wide.least, wide.most};
-  if (closely_ != began_) kernels_.narrow(at_points_, close_.data());
-  closely_ = began_;
-  const Range& close = close_[place];
-  const double beyond = close_overshoot * (close.most - close.least);
-  return Bounds{close.least - beyond, close.most + beyond};
+  // A value between the nodes exceeds the bounds by no more than the tolerance, unless a servo
+  // moves there unseen.
+  if (!is_load && loses_motion_) return {};
+  const auto range_of = [&](Quantity quantity) {
+    if (!closely) return widened(range(quantity));
+    range(quantity);
+    const Range close = kernels_.narrow(at_points_.at[quantity]);
+    const double beyond = close_overshoot * (close.most - close.least);
+    return Range{close.least - beyond, close.most + beyond};
+  };
+  const auto same = [&](Quantity quantity) {
+    const Range of = range_of(quantity);
+    return Bounds{of.least, of.most};
+  };
+  const auto root = [&](Quantity squared) {
+    const Range of = range_of(squared);
+    return Bounds{std::sqrt(std::max(of.least, 0.0)), std::sqrt(std::max(of.most, 0.0))};
+  };
+  switch (column) {
+    case Bounded::x:
+      return same(Quantity::x);
+    case Bounded::y:
+      return same(Quantity::y);
+    case Bounded::vx:
+      return same(Quantity::vx);
+    case Bounded::vy:
+      return same(Quantity::vy);
+    case Bounded::distance:
+      return root(Quantity::distance_squared);
+    case Bounded::tracking_error:
+      return root(Quantity::error_squared);
+    case Bounded::tilt_rate:
+      return root(Quantity::rate_squared);
+    case Bounded::tilt: {
+      constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+      const Range up = range_of(Quantity::up);
+      const auto angle = [](double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); };
+      return Bounds{angle(up.most + rounding), angle(up.least - rounding)};
+    }
+    case Bounded::motor_torque_phi:
+      return same(Quantity::torque_phi);
+    case Bounded::motor_torque_theta:
+      return same(Quantity::torque_theta);
+    case Bounded::motor_power:
+      return same(Quantity::power);
+  }
+  return {};
 }
 
 }  // namespace bbsim::solve::sampled

@@ -40,7 +40,12 @@ class HeldStepper : public Stepper {
 
   void start(double t, const double* z) override;
   [[nodiscard]] std::optional<Failure> step(double limit) override;
-  void evaluate(const double* times, std::size_t count, double* rows) override;
+  void evaluate(const double* times, std::size_t count, double* rows) override {
+    evaluate(times, count, rows, true);
+  }
+  void evaluate_ball(const double* times, std::size_t count, double* rows) override {
+    evaluate(times, count, rows, counts_work_);
+  }
   void jump() override {}
   [[nodiscard]] double time() const override { return time_; }
   [[nodiscard]] std::vector<double> state() const override;
@@ -51,7 +56,7 @@ class HeldStepper : public Stepper {
 
   [[nodiscard]] const model::HeldMotions* servos() const override { return &servo_; }
   [[nodiscard]] bool no_monitor_changes(const std::vector<char>& occurring) override;
-  [[nodiscard]] std::optional<Bounds> bounds(Load load, const model::BallConstants& constants,
+  [[nodiscard]] std::optional<Bounds> bounds(Bounded column, const model::BallConstants& constants,
                                              bool closely) override;
 
  private:
@@ -67,9 +72,12 @@ class HeldStepper : public Stepper {
   void settle();
   void finish();
   void put_work(double* z) const;
-  void evaluate_some(const double* times, std::size_t count, double* rows);
+  void evaluate(const double* times, std::size_t count, double* rows, bool servos);
+  void evaluate_some(const double* times, std::size_t count, double* rows, bool servos);
   [[nodiscard]] const Shares* shares(double after);
   const Range& range(Quantity of);
+  [[nodiscard]] Range closer_range(Quantity of);
+  void take_reference();
 
   const model::Model* model_;
   const Kernels& kernels_;
@@ -87,17 +95,16 @@ class HeldStepper : public Stepper {
   model::HeldMotions servo_{};                  // from the start of the last step
   std::vector<double> reached_;                 // states at its end
   std::array<Range, quantity_count> ranges_{};  // of the last step
-  Loads at_points_{};
-  std::array<Range, 3> close_{};
-  double closely_ = -1;  // start of the step whose loads were evaluated closely, s
+  QuantityValues at_points_{};
   bool evaluated_ = false;
   const model::BallConstants* loads_of_ = nullptr;
   double began_ = 0, time_ = 0;                                 // the last step, s
   double next_step_ = std::numeric_limits<double>::infinity();  // s
   double last_error_ = 0;
-  double tempo_ = 0;        // of the reference, rad/s
-  bool attempted_ = false;  // a step was made that is not yet the present state
-  double turned_ = 0;       // integral of u at the step's end, m
+  bool loses_motion_ = false;  // a servo moved between two nodes of the last step
+  double tempo_ = 0;           // of the reference, rad/s
+  bool attempted_ = false;     // a step was made that is not yet the present state
+  double turned_ = 0;          // integral of u at the step's end, m
   std::size_t worst_state_ = 0;
   Statistics statistics_;
 };
