@@ -472,6 +472,16 @@ constexpr KeyText own_controller[] = {
     {"controller.library.parameters", "names and numbers that bbsim passes to the library"},
     {"controller.library.wiring",
      "for a sketch: the [wiring](wiring.md) of its board, relative to the scenario"},
+    {.keys = "controller.library.serial.command .parameters .timeout .start_timeout",
+     .meaning = "[a program at the sketch's `Serial`](#a-program-and-a-sketch); as of "
+                "`controller.program`",
+     .standard = "-"},
+    {.keys = "controller.library.serial.period",
+     .meaning = "time between samples of that program, such as its camera's frames",
+     .standard = "`sampling.period`",
+     .range = "≥ `sampling.period`"},
+    {"controller.library.serial.delay",
+     "time from a sample to the first byte that the program sends, such as its computation"},
 };
 
 constexpr KeyTable tables[] = {
