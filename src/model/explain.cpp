@@ -330,7 +330,9 @@ std::string law_note(const Controller& controller) {
   if (phi != theta) {
     text += "; command of phi within " + shown(phi) + ", of theta within " + shown(theta);
   } else if (phi) {
-    text += "; command within " + shown(phi);
+    text += (controller.drives == Drives::legs ? "; command of each servo within "
+                                               : "; command within ") +
+            shown(phi);
   }
   return text;
 }

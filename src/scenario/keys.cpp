@@ -152,7 +152,8 @@ constexpr KeyText servos[] = {
 constexpr KeyText linkages[] = {
     {"linkage.horn .arm", "length of the bar on the servo, and of the bar on the plate"},
     {"linkage.offset",
-     "$[d_x, d_z]$, the gimbal's axis from the servo's; both bars lie along +x at home"},
+     "$[d_x, d_z]$, the gimbal's axis from the servo's; both bars lie along +x at home. The rod is "
+     "upright there if $d_x$ is horn − arm"},
     {.keys = "linkage.rod",
      .meaning = "length of the push rod; the default is the length that fits at home. With another "
                 "length, the plate is tilted when the servo is at zero",
