@@ -138,6 +138,26 @@ BBSIM_CONTROLLER_EXPORT int bbsim_sketch_printed(const void* controller, size_t 
  * more. */
 BBSIM_CONTROLLER_EXPORT int bbsim_sketch_unheard(const void* controller, size_t n);
 
+/* A program at the other end of Serial (controller.library.serial). This opens the line, also with
+ * no bytes. They follow each other at the speed that the sketch has passed to begin(), from `delay`
+ * (s) after the next step's sample on. */
+BBSIM_CONTROLLER_EXPORT void bbsim_sketch_send(void* controller, const char* bytes, size_t size,
+                                               double delay);
+
+/* Takes bytes that the sketch has printed on Serial and that have arrived by the next sample, at
+ * most `room`. Returns their number. */
+BBSIM_CONTROLLER_EXPORT size_t bbsim_sketch_receive(void* controller, char* bytes, size_t room);
+
+/* The state of that line. */
+typedef struct bbsim_line {
+  double baud;    /* that the sketch has passed to begin(); 0: none */
+  size_t unbegun; /* bytes that were lost before begin() */
+  size_t overrun; /* bytes that were lost because the sketch did not read earlier ones */
+  size_t read;    /* bytes that the sketch has read */
+} bbsim_line;
+
+BBSIM_CONTROLLER_EXPORT bbsim_line bbsim_sketch_line(const void* controller);
+
 #ifdef __cplusplus
 }
 #endif

@@ -226,6 +226,9 @@ void report_controller(Report& report, const Scenario& scenario, Watch& watch) {
     host.require_printed();
     const std::string unheard = host.unheard();
     if (!unheard.empty()) throw KeyError("controller.library.wiring", unheard);
+    if (const std::string remark = host.line_remark(); !remark.empty()) {
+      answers.insert(answers.begin(), {"WARNING", remark});
+    }
     return answers;
   });
   report.insert(report.end(), found.begin(), found.end());

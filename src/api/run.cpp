@@ -153,6 +153,10 @@ RunResult run(const RunRequest& request, Watch& watch) {
   if (const std::string unheard = host.unheard(); !unheard.empty()) {
     summary.warnings.push_back("warning: " + unheard);
   }
+  const std::string remark = host.line_remark();
+  if (!remark.empty() && result.code == ExitCode::done) {
+    summary.warnings.push_back("warning: " + remark);
+  }
   for (std::size_t m = 0; m < printed.size(); ++m) {
     summary.measures.emplace_back(printed[m].name, made.measures[m]);
   }

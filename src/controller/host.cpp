@@ -11,6 +11,7 @@
 #include "base/quoted.hpp"
 #include "controller/library.hpp"
 #include "controller/program.hpp"
+#include "controller/serial_line.hpp"
 #include "scenario/columns.hpp"
 #include "yaml/nearest.hpp"
 
@@ -39,23 +40,32 @@ void Host::attach(const Scenario& scenario, model::Model& model) {
     place = factory->make(scenario);
     return;
   }
-  if (std::holds_alternative<ControllerLibrary>(own.by)) {
-    if (library_ && library_->is(own)) {
-      library_->renew(setup);
-    } else {
-      library_ = std::make_shared<Library>(own, setup, report_);
-    }
+  if (serial_program(own) != nullptr) {
+    const Setup its = serial_setup_of(scenario);
+    start_program(own, its);
+    line_ = std::make_shared<SerialLine>(program_, its);
+    open_library(own, line_->without_columns(setup));
+    line_->connect(library_);
+    place = line_;
+  } else if (std::holds_alternative<ControllerLibrary>(own.by)) {
+    open_library(own, setup);
     place = library_;
-    return;
-  }
-  if (program_ && program_->is(own)) {
-    program_->renew(setup);
   } else {
-    if (program_) program_->finish();
-    program_ = std::make_shared<Program>(own, setup, report_, stop_);
+    start_program(own, setup);
+    require_columns(setup.columns);
+    place = program_;
   }
-  require_columns(setup.columns);
-  place = program_;
+}
+
+void Host::start_program(const OwnController& own, const Setup& setup) {
+  if (program_ && program_->is(own)) return program_->renew(setup);
+  if (program_) program_->finish();
+  program_ = std::make_shared<Program>(own, setup, report_, stop_);
+}
+
+void Host::open_library(const OwnController& own, const Setup& setup) {
+  if (library_ && library_->is(own)) return library_->renew(setup);
+  library_ = std::make_shared<Library>(own, setup, report_);
 }
 
 void Host::require_columns(const std::vector<std::string>& asked) const {
@@ -91,16 +101,21 @@ void Host::require_printed() const {
   if (library_) library_->require_columns();
 }
 
+std::string Host::line_remark() const {
+  return line_ ? line_->remark() : "";
+}
+
 std::string Host::unheard() const {
   return library_ ? library_->unheard() : "";
 }
 
 std::vector<std::string> Host::describe() const {
-  if (library_) return {"the library opens, and makes a controller for this scenario"};
-  if (!program_) return {};
+  std::vector<std::string> lines;
+  if (library_) lines.emplace_back("the library opens, and makes a controller for this scenario");
+  if (!program_) return lines;
   if (program_->fault()) throw model::ControllerFault(*program_->fault());
   const Ready& ready = program_->ready();
-  std::vector<std::string> lines{"the program starts, and answers"};
+  lines.emplace_back("the program starts, and answers");
   lines.emplace_back(ready.reset ? "it can reset: a sweep starts one per thread"
                                  : "it does not declare a reset: a sweep starts one per case");
   std::string columns;
@@ -109,7 +124,10 @@ std::vector<std::string> Host::describe() const {
       columns += (columns.empty() ? "" : ", ") + shown(name) + " (" + shown(unit) + ")";
     }
   }
-  if (!columns.empty()) lines.push_back("besides its commands it gives " + columns);
+  if (!columns.empty()) {
+    lines.push_back((line_ ? "besides its bytes it gives " : "besides its commands it gives ") +
+                    columns);
+  }
   return lines;
 }
 
@@ -117,9 +135,15 @@ std::vector<std::string> files_of(const Scenario& scenario) {
   if (!scenario.controller || !scenario.controller->own) return {};
   const OwnController& own = *scenario.controller->own;
   if (std::holds_alternative<ControllerFactory>(own.by)) return {};
-  if (std::holds_alternative<ControllerLibrary>(own.by)) return Library::files_of(own);
   std::vector<std::string> files;
-  for (const std::string& word : std::get<ControllerProgram>(own.by).command) {
+  std::vector<std::string> words;
+  if (std::holds_alternative<ControllerLibrary>(own.by)) {
+    files = Library::files_of(own);
+    if (const SerialProgram* const serial = serial_program(own)) words = serial->program.command;
+  } else {
+    words = std::get<ControllerProgram>(own.by).command;
+  }
+  for (const std::string& word : words) {
     const std::filesystem::path path = std::filesystem::path(own.folder) / word;
     std::error_code error;
     if (std::filesystem::is_regular_file(path, error)) files.push_back(path.string());

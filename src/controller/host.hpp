@@ -11,12 +11,14 @@
 #include <vector>
 
 #include "controller/child.hpp"
+#include "controller/setup.hpp"
 #include "model/model.hpp"
 
 namespace bbsim::controller {
 
 class Library;
 class Program;
+class SerialLine;
 
 // For consecutive runs on one thread. A controller that can reset serves all of them.
 class Host {
@@ -42,6 +44,9 @@ class Host {
 
   // After samples: throws KeyError if a column of the scenario is none that a sketch printed.
   void require_printed() const;
+  // After samples: what is wrong with the serial line between a program and a sketch, as a
+  // sentence; may be empty.
+  [[nodiscard]] std::string line_remark() const;
   // What a sketch drives although nothing is wired to it, as a sentence; may be empty.
   [[nodiscard]] std::string unheard() const;
 
@@ -49,12 +54,15 @@ class Host {
   void finish();
 
  private:
+  void start_program(const OwnController& own, const Setup& setup);
+  void open_library(const OwnController& own, const Setup& setup);
   void require_columns(const std::vector<std::string>& asked) const;
 
   Report report_;
   const std::atomic<bool>* stop_;
   std::shared_ptr<Program> program_;
   std::shared_ptr<Library> library_;
+  std::shared_ptr<SerialLine> line_;
 };
 
 // The files of your own controller, as far as its scenario tells: the library and its wiring, or

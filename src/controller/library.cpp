@@ -31,6 +31,9 @@ struct LibraryFunctions {
   // Only sketches have these.
   decltype(&bbsim_sketch_printed) printed = nullptr;
   decltype(&bbsim_sketch_unheard) unheard = nullptr;
+  decltype(&bbsim_sketch_send) send = nullptr;
+  decltype(&bbsim_sketch_receive) receive = nullptr;
+  decltype(&bbsim_sketch_line) line = nullptr;
 };
 
 namespace {
@@ -74,6 +77,9 @@ std::shared_ptr<const LibraryFunctions> open(const std::string& path) {
   static_cast<void>(find(library, "bbsim_controller_reset", functions->reset));
   static_cast<void>(find(library, "bbsim_sketch_printed", functions->printed));
   static_cast<void>(find(library, "bbsim_sketch_unheard", functions->unheard));
+  static_cast<void>(find(library, "bbsim_sketch_send", functions->send));
+  static_cast<void>(find(library, "bbsim_sketch_receive", functions->receive));
+  static_cast<void>(find(library, "bbsim_sketch_line", functions->line));
   return functions;
 }
 
@@ -221,6 +227,38 @@ void Library::renew(const Setup& setup) {
     fresh_ = functions_->reset(controller_, its.get()) == 0;
   }
   if (!fresh_) create();
+}
+
+void Library::require_line() const {
+  if (functions_->send == nullptr || functions_->receive == nullptr ||
+      functions_->line == nullptr) {
+    throw KeyError("controller.library.file",
+                   "found " + shown(path_, uncut) +
+                       ", which an earlier bbsim sketch made, without a serial line; allowed: "
+                       "compile it again");
+  }
+  if (wiring_->get()->camera.port >= 0) {
+    throw KeyError("controller.library.serial",
+                   "found beside the camera of " + shown(wiring_path_, uncut) +
+                       "; allowed: one of the two, since the program gives the ball's place");
+  }
+}
+
+void Library::send(std::string_view bytes, double delay) {
+  functions_->send(controller_, bytes.data(), bytes.size(), delay);
+}
+
+void Library::receive(std::string& bytes) {
+  char some[4096];
+  for (;;) {
+    const std::size_t size = functions_->receive(controller_, some, sizeof some);
+    bytes.append(some, size);
+    if (size < sizeof some) return;
+  }
+}
+
+bbsim_line Library::line() const {
+  return controller_ == nullptr ? bbsim_line{} : functions_->line(controller_);
 }
 
 void Library::begin() {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "controller/child.hpp"
@@ -39,6 +40,13 @@ class Library : public model::ExternalController {
   }
   // The library and the files of its wiring. Throws InputError.
   [[nodiscard]] static std::vector<std::string> files_of(const OwnController& own);
+
+  // The serial line of a sketch, for a program (bbsim/wiring.h). Throws KeyError if the sketch has
+  // none, or a camera there.
+  void require_line() const;
+  void send(std::string_view bytes, double delay);
+  void receive(std::string& bytes);
+  [[nodiscard]] bbsim_line line() const;
 
   // After samples: throws KeyError if a column of the scenario is none that the sketch printed.
   void require_columns() const;

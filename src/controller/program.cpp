@@ -19,6 +19,11 @@ std::string shown_words(const std::vector<std::string>& words) {
   return shown(text);
 }
 
+const ControllerProgram& program_of(const OwnController& own) {
+  const SerialProgram* const serial = serial_program(own);
+  return serial != nullptr ? serial->program : std::get<ControllerProgram>(own.by);
+}
+
 std::string at_sample(const model::ControllerSample& sample) {
   return "at sample " + std::to_string(sample.number) + " (t = " + number_text(sample.t) + " s)";
 }
@@ -27,7 +32,7 @@ std::string at_sample(const model::ControllerSample& sample) {
 
 Program::Program(const OwnController& own, const Setup& setup, Report report,
                  const std::atomic<bool>* stop)
-    : program_(std::get<ControllerProgram>(own.by)),
+    : program_(program_of(own)),
       folder_(own.folder),
       setup_(setup),
       report_(std::move(report)),
@@ -36,14 +41,15 @@ Program::Program(const OwnController& own, const Setup& setup, Report report,
 }
 
 bool Program::is(const OwnController& own) const {
-  const auto* const other = std::get_if<ControllerProgram>(&own.by);
-  return other != nullptr && other->command == program_.command && own.folder == folder_ &&
-         other->timeout == program_.timeout && other->start_timeout == program_.start_timeout;
+  const ControllerProgram& other = program_of(own);
+  return other.command == program_.command && own.folder == folder_ &&
+         other.timeout == program_.timeout && other.start_timeout == program_.start_timeout;
 }
 
 model::ControllerFault Program::fault_of(const std::string& when, const ChildFault& fault) const {
-  return model::ControllerFault("the controller (" + shown_words(program_.command) + ") failed " +
-                                when + ": " + fault.what());
+  return model::ControllerFault(
+      (setup_.serial ? "the program at the serial line (" : "the controller (") +
+      shown_words(program_.command) + ") failed " + when + ": " + fault.what());
 }
 
 void Program::start() {
@@ -51,10 +57,11 @@ void Program::start() {
     child_.reset();
     child_ = std::make_unique<Child>(program_.command, folder_, report_, stop_);
   } catch (const std::system_error& error) {
-    throw KeyError("controller.program.command",
-                   "found " + bbsim::quoted(program_.command[0], uncut) +
-                       ", which cannot be started: " + file::error_text(error.code().value()) +
-                       "; allowed: a program, by its name or its path");
+    throw KeyError(
+        setup_.serial ? "controller.library.serial.command" : "controller.program.command",
+        "found " + bbsim::quoted(program_.command[0], uncut) +
+            ", which cannot be started: " + file::error_text(error.code().value()) +
+            "; allowed: a program, by its name or its path");
   }
   say_hello();
 }
@@ -118,6 +125,27 @@ model::Commands Program::command(const model::ControllerSample& sample, double* 
                            sample.number == 0);
       });
   return command;
+}
+
+SerialAnswer Program::exchange(const model::ControllerSample& sample, std::string_view arrived,
+                               std::span<const std::string> names, double* own) {
+  char line[longest_sample];
+  const std::size_t size = write_sample(sample, ready_.fields, line);
+  SerialAnswer result;
+  ask(
+      with_serial({line, size}, arrived), [&] { return at_sample(sample); },
+      [&](std::string_view answer) {
+        result = read_serial_answer(answer, names, own);
+        return result.fault;
+      });
+  return result;
+}
+
+model::ControllerFault Program::refuse(const model::ControllerSample& sample,
+                                       const std::string& why) {
+  const model::ControllerFault fault = fault_of(at_sample(sample), child_->refuse(why));
+  child_.reset();
+  return fault;
 }
 
 void Program::finish() {

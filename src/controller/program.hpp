@@ -6,10 +6,12 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "controller/child.hpp"
 #include "controller/protocol.hpp"
+#include "controller/serial_protocol.hpp"
 
 namespace bbsim::controller {
 
@@ -22,6 +24,13 @@ class Program : public model::ExternalController {
 
   void begin() override;
   model::Commands command(const model::ControllerSample& sample, double* own) override;
+  // For a program at a sketch's serial line: gives it a sample with the bytes that arrived.
+  // Throws ControllerFault.
+  SerialAnswer exchange(const model::ControllerSample& sample, std::string_view arrived,
+                        std::span<const std::string> names, double* own);
+  // A fault at a sample. Ends the program.
+  [[nodiscard]] model::ControllerFault refuse(const model::ControllerSample& sample,
+                                              const std::string& why);
 
   // Prepares for a run with this setup, in a new process unless this one can reset.
   void renew(const Setup& setup);

@@ -117,13 +117,6 @@ std::string not_understood(std::string_view line, const std::string& why) {
   return "its answer was " + bbsim::quoted(line, longest_saying) + ": " + why;
 }
 
-// " (did you mean command?)" if another one of the names is near; otherwise empty.
-std::string hint(std::string_view found, std::span<const std::string_view> names) {
-  const std::string_view nearest = yaml::nearest_name(found, names);
-  if (nearest.empty() || nearest == found) return "";
-  return " (did you mean " + shown(nearest) + "?)";
-}
-
 // For an answer that lacks a name, a similar name in the answer: ", but "comand" (did you mean
 // command?)". Empty if there is none.
 std::string misspelt(std::string_view line, const std::string& lacks) {
@@ -151,13 +144,19 @@ std::optional<std::string> error_of(std::string_view line) {
   return error->get<std::string>();
 }
 
+}  // namespace
+
+std::string hint(std::string_view found, std::span<const std::string_view> names) {
+  const std::string_view nearest = yaml::nearest_name(found, names);
+  if (nearest.empty() || nearest == found) return "";
+  return " (did you mean " + shown(nearest) + "?)";
+}
+
 std::string refusal(std::string_view line, const std::string& why) {
   if (const auto error = error_of(line))
     return "it gave up: " + bbsim::quoted(*error, longest_saying);
   return not_understood(line, advice_on_text(line) + why);
 }
-
-}  // namespace
 
 std::string advice_on_text(std::string_view line) {
   if (Reader(line).take('{')) return "";
@@ -183,7 +182,11 @@ std::string hello_line(const Setup& setup) {
   hello["fields"] = Json::object();
   hello["fields"]["sample"] = "1";
   for (const Field& field : fields) hello["fields"][std::string(field.name)] = field.unit;
-  hello["command"] = command_unit(setup.drives);
+  if (setup.serial) {
+    hello["serial"] = true;
+  } else {
+    hello["command"] = command_unit(setup.drives);
+  }
   return json_text(hello) + '\n';
 }
 

@@ -67,6 +67,12 @@ inline constexpr std::size_t longest_sample = 1024;
 [[nodiscard]] std::size_t write_sample(const model::ControllerSample& sample, Fields wanted,
                                        char (&line)[longest_sample]);
 
+// " (did you mean command?)" if another one of the names is near; otherwise empty.
+[[nodiscard]] std::string hint(std::string_view found, std::span<const std::string_view> names);
+
+// What is wrong with an answer: `why`, or the reason with which the controller gave up.
+[[nodiscard]] std::string refusal(std::string_view line, const std::string& why);
+
 // For a line that is not a JSON object, where to print other text; else empty.
 [[nodiscard]] std::string advice_on_text(std::string_view line);
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <variant>
 
 #include "scenario/columns.hpp"
 
@@ -33,6 +34,21 @@ Setup setup_of(const Scenario& scenario) {
   setup.end = scenario.time.end;
   setup.parameters = controller.own->parameters;
   setup.columns = scenario::own_columns(scenario);
+  return setup;
+}
+
+const SerialProgram* serial_program(const OwnController& own) {
+  const auto* const library = std::get_if<ControllerLibrary>(&own.by);
+  return library != nullptr && library->serial ? &*library->serial : nullptr;
+}
+
+Setup serial_setup_of(const Scenario& scenario) {
+  const SerialProgram& serial = *serial_program(*scenario.controller->own);
+  Setup setup = setup_of(scenario);
+  setup.serial = true;
+  if (serial.period > 0) setup.period = serial.period;
+  setup.delay = serial.delay;
+  setup.parameters = serial.parameters;
   return setup;
 }
 

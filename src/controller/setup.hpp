@@ -26,9 +26,16 @@ struct Setup {
   std::uint64_t seed = 1;             // of random parts beside the controller's sensor
   std::array<double, 3> microstep{};  // of each axis or leg, rad; 0: not a stepper
   std::vector<std::string> columns;   // names of the numbers that bbsim wants from it
+  bool serial = false;                // a program at a sketch's serial line
 };
 
 // Requires a scene with your own controller.
 [[nodiscard]] Setup setup_of(const Scenario& scenario);
+
+// The program at a sketch's serial line; null without one.
+[[nodiscard]] const SerialProgram* serial_program(const OwnController& own);
+
+// That of such a program, which the scene must have.
+[[nodiscard]] Setup serial_setup_of(const Scenario& scenario);
 
 }  // namespace bbsim::controller

@@ -272,6 +272,13 @@ std::string own_law(const OwnController& own) {
     for (const std::string& word : program->command) text += ' ' + word;
   } else if (const auto* library = std::get_if<ControllerLibrary>(&own.by)) {
     text = "your own, a library: " + library->file;
+    if (library->serial) {
+      text += "; at its serial line a program:";
+      for (const std::string& word : library->serial->program.command) text += ' ' + word;
+      const double period = library->serial->period, delay = library->serial->delay;
+      text += period > 0 ? ", every " + short_number(period) + " s" : ", at each sample";
+      if (delay > 0) text += ", which sends " + short_number(delay) + " s later";
+    }
   } else {
     text = "your own, " + std::get<ControllerFactory>(own.by).name;
   }
@@ -323,7 +330,9 @@ std::string law_note(const Controller& controller) {
   if (phi != theta) {
     text += "; command of phi within " + shown(phi) + ", of theta within " + shown(theta);
   } else if (phi) {
-    text += "; command within " + shown(phi);
+    text += (controller.drives == Drives::legs ? "; command of each servo within "
+                                               : "; command within ") +
+            shown(phi);
   }
   return text;
 }

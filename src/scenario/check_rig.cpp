@@ -79,6 +79,7 @@ class Checks {
     if (!scene_.controller) return;
     const Controller& controller = *scene_.controller;
     frames(controller);
+    serial_program(controller);
     contact_force();
     if (controller.law == Law::own && !controller.sampling) {
       for (const char* key : {"program", "library"}) {
@@ -201,6 +202,18 @@ class Checks {
     if (const auto at = find_at(keys_, {"controller", "sensor", "contact_force"})) {
       at->warn("exceeds the ball's weight of " + short_number(weight) +
                " N, so the screen misses a ball that lies on it");
+    }
+  }
+
+  // Checks the samples of a program at a sketch's serial line.
+  void serial_program(const Controller& controller) {
+    const auto* const library =
+        controller.own ? std::get_if<ControllerLibrary>(&controller.own->by) : nullptr;
+    if (library == nullptr || !library->serial || library->serial->period == 0) return;
+    if (library->serial->period < controller.sampling->period) {
+      refuse({"controller", "library", "serial", "period"},
+             "found a shorter time than controller.sampling.period, at whose samples bbsim asks "
+             "the program; allowed: at least that");
     }
   }
 

@@ -152,7 +152,8 @@ constexpr KeyText servos[] = {
 constexpr KeyText linkages[] = {
     {"linkage.horn .arm", "length of the bar on the servo, and of the bar on the plate"},
     {"linkage.offset",
-     "$[d_x, d_z]$, the gimbal's axis from the servo's; both bars lie along +x at home"},
+     "$[d_x, d_z]$, the gimbal's axis from the servo's; both bars lie along +x at home. The rod is "
+     "upright there if $d_x$ is horn − arm"},
     {.keys = "linkage.rod",
      .meaning = "length of the push rod; the default is the length that fits at home. With another "
                 "length, the plate is tilted when the servo is at zero",
@@ -472,6 +473,16 @@ constexpr KeyText own_controller[] = {
     {"controller.library.parameters", "names and numbers that bbsim passes to the library"},
     {"controller.library.wiring",
      "for a sketch: the [wiring](wiring.md) of its board, relative to the scenario"},
+    {.keys = "controller.library.serial.command .parameters .timeout .start_timeout",
+     .meaning = "[a program at the sketch's `Serial`](#a-program-and-a-sketch); as of "
+                "`controller.program`",
+     .standard = "-"},
+    {.keys = "controller.library.serial.period",
+     .meaning = "time between samples of that program, such as its camera's frames",
+     .standard = "`sampling.period`",
+     .range = "≥ `sampling.period`"},
+    {"controller.library.serial.delay",
+     "time from a sample to the first byte that the program sends, such as its computation"},
 };
 
 constexpr KeyTable tables[] = {

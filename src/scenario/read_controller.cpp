@@ -8,11 +8,10 @@
 #include <numeric>
 #include <utility>
 
-#include "scenario/columns.hpp"
+#include "scenario/period.hpp"
 #include "scenario/profile.hpp"
 #include "scenario/sections.hpp"
 #include "scenario/table_rows.hpp"
-#include "yaml/quantity.hpp"
 #include "yaml/rules.hpp"
 
 namespace bbsim::scenario {
@@ -42,70 +41,6 @@ void read_lqr(yaml::Keys& keys, Controller& controller) {
   keys.optional("rate", weight, weights.rate);
   keys.required("command", yaml::Number{yaml::Dimension::number, {.above = 0}, "0.1"},
                 weights.command);
-}
-
-// Parameters of an external controller: names with numbers.
-struct Parameters {
-  [[nodiscard]] static std::string allowed() {
-    return "a mapping of names to numbers, such as {kp: 0.7}";
-  }
-
-  [[nodiscard]] static yaml::Declared declared() {
-    yaml::Declared value(yaml::Declared::Kind::names);
-    value.parts.push_back(yaml::Declared::number(yaml::Dimension::number));
-    return value;
-  }
-  static bool read(const yaml::Value& value, std::vector<Parameter>& into) {
-    if (value.node->kind != yaml::Node::Kind::mapping) return value.refuse("", allowed());
-    yaml::Keys keys(value);
-    bool fine = true;
-    for (const yaml::Entry& entry : value.node->entries) {
-      const std::optional<yaml::Value> found = keys.find(entry.key);
-      if (!found) continue;  // an override removed it
-      const yaml::Value& number = *found;
-      if (!is_own_name(entry.key)) {
-        fine = number.report(
-            "found a name with characters other than letters, digits and underscores, or more than "
-            "60; allowed: a name such as kp");
-      } else if (yaml::Number{yaml::Dimension::number, {}, "0.7"}.read(
-                     number, into.emplace_back(Parameter{entry.key, 0}).value)) {
-        continue;
-      }
-      fine = false;
-    }
-    keys.finish();
-    return fine;
-  }
-};
-
-constexpr yaml::Range some_time{.above = 0, .at_most = 86400};
-
-void read_program(yaml::Keys& keys, Controller& controller) {
-  OwnController& own = controller.own.emplace();
-  ControllerProgram program;
-  const yaml::ListOf<yaml::Text, std::string> words{
-      {"a word"}, 1, 1000, "words, such as [python3, pid.py]"};
-  keys.required("command", words, program.command);
-  keys.optional("parameters", Parameters{}, own.parameters);
-  const yaml::Number time{yaml::Dimension::time, some_time};
-  keys.optional("timeout", time, program.timeout);
-  program.start_timeout = std::max(program.start_timeout, program.timeout);
-  keys.optional("start_timeout", time, program.start_timeout);
-  own.by = std::move(program);
-  own.folder = keys.context().folder.string();
-  keys.context().own_controller = true;
-}
-
-void read_library(yaml::Keys& keys, Controller& controller) {
-  OwnController& own = controller.own.emplace();
-  ControllerLibrary library;
-  keys.required("file", yaml::Text{"the name of a shared library"}, library.file);
-  keys.optional("wiring", yaml::Text{"the name of a file that says what a sketch is wired to"},
-                library.wiring);
-  keys.optional("parameters", Parameters{}, own.parameters);
-  own.by = std::move(library);
-  own.folder = keys.context().folder.string();
-  keys.context().own_controller = true;
 }
 
 void read_commands(yaml::Keys& keys, Controller& controller) {
@@ -205,34 +140,6 @@ struct Jitter {
     }
     if (value.node->kind != yaml::Node::Kind::scalar) return value.refuse("", allowed());
     return number().read(value, into.jitter);
-  }
-};
-
-constexpr std::string_view period_example = "0.02, \"20 ms\" or \"30 Hz\"";
-
-// A period, or a number per second: "30 Hz".
-struct Period {
-  yaml::Usual time;
-
-  [[nodiscard]] std::string allowed() const { return time.allowed(); }
-  [[nodiscard]] yaml::Declared declared() const {
-    return yaml::Declared::any(
-        {time.declared(), yaml::Declared::number(yaml::Dimension::angular_rate, {.above = 0})});
-  }
-  bool read(const yaml::Value& value, double& into) const {
-    if (value.node->kind != yaml::Node::Kind::scalar) return time.read(value, into);
-    std::string_view text = value.node->text;
-    if (!text.ends_with("Hz")) return time.read(value, into);
-    text.remove_suffix(2);
-    const bool kilo = text.ends_with('k');
-    if (kilo) text.remove_suffix(1);
-    while (text.ends_with(' ')) text.remove_suffix(1);
-    const double rate = yaml::read_quantity(text, false, yaml::Dimension::number).value.value_or(0);
-    if (!(rate > 0 && rate < std::numeric_limits<double>::infinity())) {
-      return value.refuse("", allowed());
-    }
-    into = 1 / (kilo ? 1e3 * rate : rate);
-    return true;
   }
 };
 

@@ -153,7 +153,7 @@ void set_model(StepperMotor& stepper, StepperModel model) {
   struct Motor {
     double torque, inertia;  // N m, kg m^2
   };
-  constexpr Motor motors[] = {{0.07, 1.3e-6}, {0.2, 5.4e-6}, {0.63, 3e-5}};
+  constexpr Motor motors[] = {{0.09, 1.4e-6}, {0.175, 5.4e-6}, {0.63, 3e-5}};
   const Motor& motor = motors[static_cast<std::size_t>(model)];
   stepper.steps = 200;
   stepper.torque = motor.torque;

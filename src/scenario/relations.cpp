@@ -135,6 +135,8 @@ constexpr KeyRelation table[] = {
      "found beside commands, which no measurement changes; allowed: without it"},
     {"controller.program", needs, "controller.sampling"},
     {"controller.library", needs, "controller.sampling"},
+    {"controller.library.serial", needs, "controller.library.wiring",
+     "found without wiring; allowed: only with it, since the line is that of a sketch's board"},
     {"controller.feedback_linearization", excludes, "controller.sampling"},
     {"controller.feedback_linearization", needs, "controller.drives=acceleration|"},
     {"controller.gravity_compensation", needs, "controller.drives=angle"},

@@ -445,10 +445,19 @@ struct ControllerProgram {
   double start_timeout = 5;          // s, > 0: for the first answer, including the program's start
 };
 
+// A program at the other end of a sketch's serial line.
+struct SerialProgram {
+  ControllerProgram program;
+  std::vector<Parameter> parameters;  // in the file's order
+  double period = 0;                  // s: between its samples; at least the sampling's
+  double delay = 0;                   // s: from a sample to the first byte that it sends
+};
+
 // A shared library with a function for each sample (bbsim/controller.h).
 struct ControllerLibrary {
-  std::string file;    // as in the scenario
-  std::string wiring;  // wiring file of a sketch's pins; empty without a sketch
+  std::string file;                       // as in the scenario
+  std::string wiring;                     // wiring file of a sketch's pins; empty without a sketch
+  std::optional<SerialProgram> serial{};  // only with a wiring
 };
 
 // A controller in the process that uses bbsim as a library. ScenarioFamily::give_controller() sets

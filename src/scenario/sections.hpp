@@ -23,6 +23,8 @@ struct ThreeServos {
 };
 void read_three_servos(yaml::Keys& keys, ThreeServos& of);
 void read_controller(yaml::Keys& keys, Controller& controller);
+void read_program(yaml::Keys& keys, Controller& controller);
+void read_library(yaml::Keys& keys, Controller& controller);
 void read_reference(yaml::Keys& keys, Reference& reference);
 void read_solver(yaml::Keys& keys, Solver& solver);
 void read_output(yaml::Keys& keys, Output& output);

@@ -61,6 +61,18 @@ TEST_CASE("a program and a library are read, with their parameters") {
   CHECK(with_library.controller->own->folder == "some/folder");
 }
 
+TEST_CASE("a program at a sketch's serial line is read") {
+  const Scenario scenario = parse(
+      scene("library: {file: a.so, wiring: w.yaml, serial: {command: [pc], period: \"30 Hz\", "
+            "delay: \"5 ms\", parameters: {kp: 2}}}"),
+      {"controller.library.serial.parameters.kp=3"});
+  const SerialProgram& serial = *std::get<ControllerLibrary>(scenario.controller->own->by).serial;
+  CHECK(serial.program.command == std::vector<std::string>{"pc"});
+  CHECK(serial.period == Approx(1 / 30.0));
+  CHECK(serial.delay == 0.005);
+  CHECK(serial.parameters.at(0).value == 3);
+}
+
 TEST_CASE("unknown columns belong to the controller if it is your own") {
   const Scenario own = parse(scene(program, "output: {columns: [t, u_integral, x, V2]}"));
   CHECK(scenario::own_columns(own) == std::vector<std::string>{"u_integral", "V2"});
@@ -93,6 +105,11 @@ TEST_CASE("invalid settings of your own controller are refused at their keys") {
        "controller.program.parameters.kp: found high"},
       {"program: {command: [a], parameters: {kp: 1, kp: 2}}", "controller.program.parameters.kp"},
       {"program: {command: [a], parameters: {\"k p\": 1}}", "letters, digits and underscores"},
+      {"library: {file: a, serial: {command: [b]}}",
+       "controller.library.serial: found without wiring"},
+      {"library: {file: a, wiring: w, serial: {}}", "controller.library.serial.command: missing"},
+      {"library: {file: a, wiring: w, serial: {command: [b], period: \"1 ms\"}}",
+       "controller.library.serial.period: found a shorter time"},
       {"library: {}", "controller.library.file: missing"},
       {"program: {command: [a]}\n  pd: {kv: 0, kp: 0}", "allowed: one law"},
       {"program: {command: [a]}\n  library: {file: b}", "allowed: one law"},

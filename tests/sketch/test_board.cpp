@@ -316,6 +316,19 @@ TEST_CASE("a sketch that uses something not in its wiring ends the run, with the
   }
 }
 
+TEST_CASE("a screen's pins in another order than the wiring's are refused") {
+  const Sketch sketch(
+      "#include <TouchScreen.h>\nTouchScreen ts(A0, A2, A1, A3, 300);\nvoid setup() {}\n"
+      "void loop() { ts.getPoint(); delay(5); }\n",
+      "servos: {phi: {pin: 9}}\nscreen:\n  four_wire: {x_plus: A0, x_minus: A2, y_plus: A1, "
+      "y_minus: A3}\n  x: {counts: [0, 1000], position: [-0.1, 0.1]}\n  y: {counts: [0, 1000], "
+      "position: [-0.1, 0.1]}\n");
+  const Result result = bbsim(sketch.words("run", {"-o", "-"}));
+  CAPTURE(result.err);
+  CHECK(result.exit_code == 2);
+  CHECK(contains(result.err, "allowed: TouchScreen(x_plus, y_plus, x_minus, y_minus)"));
+}
+
 TEST_CASE("a sketch that waits forever is detected", "[slow]") {
   const Sketch sketch("void setup() {}\nvoid loop() { if (millis() > 100) while (1); }\n",
                       plain_wiring);

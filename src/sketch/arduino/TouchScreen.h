@@ -53,6 +53,7 @@ class TouchScreen {
  private:
   // Drives one plate and reads the other.
   static int along(int plus, int minus, int other_plus, int other_minus, int read) {
+    bbsim_board::require_plate(plus, minus);
     pinMode(other_plus, INPUT);
     pinMode(other_minus, INPUT);
     pinMode(plus, OUTPUT);

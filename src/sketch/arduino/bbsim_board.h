@@ -15,6 +15,9 @@ long long now();  // ns
 // Ends the run with this reason. Does not return, except to the constructor of a global variable.
 __attribute__((format(printf, 1, 2))) void fail(const char* format, ...);
 
+// Ends the run if these two pins are electrodes of different plates of the wiring's screen.
+void require_plate(int plus, int minus);
+
 template <class...>
 inline constexpr bool never = false;
 

@@ -76,6 +76,10 @@ struct Functions {
   void (*end)();
   bool (*printed)(size_t column);  // see was_printed()
   int (*unheard)(size_t n);        // see unheard_pin()
+  // See keep_for_program(), take_printed() and line_counts().
+  void (*send)(const char* bytes, size_t size, double delay);
+  size_t (*receive)(char* bytes, size_t room);
+  bbsim_line (*line)();
 };
 extern const Functions functions;
 constexpr int patience = 5;  // limit of processor time for a step, s
@@ -118,6 +122,12 @@ void over_spi(int bytes);
 
 // serial.cpp: sends the camera's frames up to now.
 void send_frames();
+// Keeps what a program sends to Serial, and sends it at the time of a sample.
+void keep_for_program(const char* bytes, size_t size, double delay);
+void send_pending(Nanoseconds sample);
+// Takes what has arrived at the program by the horizon.
+size_t take_printed(char* bytes, size_t room);
+bbsim_line line_counts();
 // column(i) is the last number that was printed after names[i] and a colon, NaN before the first.
 void watch_columns(const char* const* names, size_t count);
 double column(size_t index);

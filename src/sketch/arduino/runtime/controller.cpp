@@ -84,9 +84,10 @@ int step(const bbsim_sample* sample, double* command, double* columns) {
   if (board.said[0] == '\0' && sample->number == 0 && board.wiring.setup_before != 0) set_up();
   if (board.said[0] == '\0' && sample->number == 0) place_steppers();
   if (board.said[0] == '\0') {
-    const double next = static_cast<double>(sample->number + 1) * period;  // s
-    board.horizon = switched_on_before + nanoseconds(next);
+    const double number = static_cast<double>(sample->number);
+    board.horizon = switched_on_before + nanoseconds((number + 1) * period);
     send_frames();
+    send_pending(switched_on_before + nanoseconds(number * period));
     if (board.now < board.horizon) run_sketch();
   }
   if (board.said[0] != '\0') return board.misfit ? BBSIM_WIRING_AT_FAULT : 1;
@@ -127,7 +128,8 @@ void crashed(int signal, const void* address) {
 
 }  // namespace
 
-const Functions functions{create,          step,       said,        crashed,
-                          destroy_globals, end_sketch, was_printed, unheard_pin};
+const Functions functions{create,           step,         said,        crashed,
+                          destroy_globals,  end_sketch,   was_printed, unheard_pin,
+                          keep_for_program, take_printed, line_counts};
 
 }  // namespace bbsim_board

@@ -249,6 +249,18 @@ int bbsim_sketch_unheard(const void* controller, size_t n) {
   return static_cast<const Copy*>(controller)->functions->unheard(n);
 }
 
+void bbsim_sketch_send(void* controller, const char* bytes, size_t size, double delay) {
+  static_cast<Copy*>(controller)->functions->send(bytes, size, delay);
+}
+
+size_t bbsim_sketch_receive(void* controller, char* bytes, size_t room) {
+  return static_cast<Copy*>(controller)->functions->receive(bytes, room);
+}
+
+bbsim_line bbsim_sketch_line(const void* controller) {
+  return static_cast<const Copy*>(controller)->functions->line();
+}
+
 const char* bbsim_controller_last_error(const void* controller) {
   return controller == nullptr ? this_thread().why_not
                                : static_cast<const Copy*>(controller)->functions->why();

@@ -94,6 +94,25 @@ double five_wires(const bbsim_wired_screen& screen, int pin) {
 
 }  // namespace
 
+void require_plate(int plus, int minus) {
+  const bbsim_wired_screen& screen = board.wiring.screen;
+  if (screen.kind != bbsim_four_wires) return;
+  int plates[2] = {-1, -1};  // of the two pins
+  for (int i = 0; i < 4; ++i) {
+    if (screen.pins[i] == plus) plates[0] = i / 2;
+    if (screen.pins[i] == minus) plates[1] = i / 2;
+  }
+  if (plates[0] == plates[1] || plates[0] < 0 || plates[1] < 0) return;
+  board.misfit = true;
+  char first[16] = "";
+  snprintf(first, sizeof first, "%s", pin_name(plus));
+  fail(
+      "screen.four_wire: TouchScreen takes pins %s and %s for one plate of the screen, and the "
+      "wiring connects them to both; allowed: TouchScreen(x_plus, y_plus, x_minus, y_minus), in "
+      "this order",
+      first, pin_name(minus));
+}
+
 double counts_at(const bbsim_count_map& map, double position) {
   return map.counts[0] + (position - map.position[0]) * (map.counts[1] - map.counts[0]) /
                              (map.position[1] - map.position[0]);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Serial ports: the text that the sketch prints, and the frames of a camera.
+// Serial ports: the text that the sketch prints, the frames of a camera, and a program on the line.
 #include "Arduino.h"
 #include "runtime/board.hpp"
 
@@ -48,21 +48,48 @@ void read_numbers(const char* line) {
   }
 }
 
-// Bytes that have been sent to the board, with their times of arrival.
-struct Byte {
-  Nanoseconds arrives;
-  char value;
-};
+// Bytes under way in one direction, with their times of arrival.
 constexpr int most_bytes = 4096;
-Byte sent[most_bytes];
-int first_sent = 0, sent_count = 0;
-Nanoseconds line_is_free = 0;
+struct Bytes {
+  struct {
+    Nanoseconds arrives;
+    char value;
+  } bytes[most_bytes];
+  int first, count;
+
+  // False: there is no room.
+  bool put(char value, Nanoseconds arrives) {
+    if (count == most_bytes) return false;
+    bytes[(first + count++) % most_bytes] = {arrives, value};
+    return true;
+  }
+  // The next byte that has arrived by this time; false: there is none.
+  bool take(Nanoseconds time, char& value) {
+    if (count == 0 || bytes[first].arrives > time) return false;
+    value = bytes[first].value;
+    first = (first + 1) % most_bytes;
+    --count;
+    return true;
+  }
+};
+Bytes to_board, from_board;
+Nanoseconds line_is_free = 0;  // to the board
 long long next_frame = 0;
 
+// What a program sends to Serial, which begins at the next sample.
+bool has_program = false;
+char pending[most_bytes];
+size_t pending_size = 0;
+Nanoseconds pending_delay = 0;
+bbsim_line counted = {};
+
 void send(char value, Nanoseconds earliest, Nanoseconds per_byte) {
-  if (sent_count == most_bytes) return;  // the sketch does not read
-  line_is_free = (earliest > line_is_free ? earliest : line_is_free) + per_byte;
-  sent[(first_sent + sent_count++) % most_bytes] = {line_is_free, value};
+  const Nanoseconds from = earliest > line_is_free ? earliest : line_is_free;
+  if (to_board.put(value, from + per_byte)) {
+    line_is_free = from + per_byte;
+  } else {
+    ++counted.overrun;  // the sketch does not read
+  }
 }
 
 void send_frame(const char* frame, Nanoseconds from, Nanoseconds per_byte) {
@@ -91,6 +118,11 @@ HardwareSerial* camera_port() {
   return port < 0 ? nullptr : ports[port];
 }
 
+// The port at which bytes arrive. A board has a camera or a program, not both.
+HardwareSerial* receiving_port() {
+  return has_program ? &Serial : camera_port();
+}
+
 // The time of the next frame.
 Nanoseconds frame_time() {
   return next_frame * nanoseconds(board.wiring.camera.period);
@@ -107,6 +139,35 @@ void send_frames() {
     const char* const frame = board.sample.seen != 0 ? camera.frame : camera.lost;
     send_frame(frame, frame_time() + nanoseconds(camera.delay), port->per_byte());
   }
+}
+
+void keep_for_program(const char* bytes, size_t size, double delay) {
+  has_program = true;
+  const size_t room = sizeof pending - pending_size, kept = size < room ? size : room;
+  memcpy(pending + pending_size, bytes, kept);
+  pending_size += kept;
+  counted.overrun += size - kept;
+  pending_delay = nanoseconds(delay);
+}
+
+void send_pending(Nanoseconds sample) {
+  const bool begun = static_cast<bool>(Serial);
+  if (!begun) counted.unbegun += pending_size;
+  for (size_t i = 0; begun && i < pending_size; ++i) {
+    send(pending[i], sample + pending_delay, Serial.per_byte());
+  }
+  pending_size = 0;
+}
+
+size_t take_printed(char* bytes, size_t room) {
+  size_t size = 0;
+  while (size < room && from_board.take(board.horizon, bytes[size])) ++size;
+  return size;
+}
+
+bbsim_line line_counts() {
+  counted.baud = Serial ? 1e10 / static_cast<double>(Serial.per_byte()) : 0;
+  return counted;
 }
 
 void watch_columns(const char* const* names, size_t count) {
@@ -145,14 +206,14 @@ void HardwareSerial::end() {
 
 // Moves bytes that have arrived into the buffer. Bytes that do not fit are lost.
 void HardwareSerial::receive() {
-  if (camera_port() != this) return;
+  if (receiving_port() != this) return;
   send_frames();
-  while (sent_count > 0 && sent[first_sent].arrives <= board.now) {
+  for (char value = 0; to_board.take(board.now, value);) {
     if (count_ < static_cast<int>(sizeof buffer_)) {
-      buffer_[(first_ + count_++) % static_cast<int>(sizeof buffer_)] = sent[first_sent].value;
+      buffer_[(first_ + count_++) % static_cast<int>(sizeof buffer_)] = value;
+    } else {
+      ++counted.overrun;
     }
-    first_sent = (first_sent + 1) % most_bytes;
-    --sent_count;
   }
 }
 
@@ -173,6 +234,7 @@ int HardwareSerial::read() {
   if (letter < 0) return letter;
   first_ = (first_ + 1) % static_cast<int>(sizeof buffer_);
   --count_;
+  ++counted.read;
   return letter;
 }
 
@@ -194,6 +256,7 @@ size_t HardwareSerial::write(uint8_t letter) {
   add_to_line(static_cast<char>(letter));
   if (line_is_free_ < board.now) line_is_free_ = board.now;
   line_is_free_ += per_byte_;
+  if (has_program && this == &Serial) from_board.put(static_cast<char>(letter), line_is_free_);
   const long long wait = line_is_free_ - board.now - 64 * per_byte_;
   if (wait > 0) spend(wait);
   return 1;
