@@ -258,6 +258,7 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
         before = _rms(fit)
         search.begin(task.starts)
         search.settle()
+        search.compare_delays()
     except KeyboardInterrupt:
         if before is None:
             return None
@@ -267,7 +268,8 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
     notes = _describe(made, search)
     if fit.kinked and fit.jumps and not made.white:
         search.doubts.append("the residuals jump, as with a dead band, and are correlated: the fit may be held between two "
-                             "jumps, for which no deviation accounts; try starting values nearby, or --starts")  # fmt: skip
+                             "jumps, for which no deviation accounts; try starting values nearby, --starts, or a "
+                             "longer --window, since windows forget which command a servo followed last")  # fmt: skip
     made.series = _series(fit, False) if series else []
     ideal = _ideal(task.logs[0].given)
     if ideal is not None and not any(_bbsim.lacks(ideal, name)[0] for name in task.columns):
@@ -336,6 +338,11 @@ def _estimate(made: Any, search: Search) -> List[str]:
         made.parameters.append(one)
     made.identifiable = not linear.untold and not search.doubts
     notes = [f"not identifiable: {words}" for words in linear.untold]
+    deaf = search.windows.deaf
+    if deaf.any():
+        unheard = ", ".join(key.name for key, its in zip(search.keys, deaf.T) if its.any())
+        notes.append(f"{deaf.any(1).sum()} of {counted(len(deaf), 'window')} tell nothing of {unheard}: no command passes "
+                     "the dead band in them")  # fmt: skip
     notes += [f"{one.key} is at a bound of its range" for one in made.parameters if one.at_bound]
     most = np.abs(np.nan_to_num(linear.correlations) * (1 - np.eye(len(u)))).max(0)
     names = [key.name for key, one in zip(search.keys, most) if one > 0.95]
