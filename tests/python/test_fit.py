@@ -613,7 +613,7 @@ class Command(Case):
         with mock.patch.object(_fit_windows, "simulate", side_effect=KeyboardInterrupt):
             code, out, err = self.run_command(*words)
         self.assertEqual((code, out), (130, ""))
-        self.assertIn("interrupted before the first iteration; nothing is written", err)
+        self.assertIn("interrupted before the first result; nothing is written", err)
 
     def test_standard_output(self):
         rig = self.recorded()
