@@ -78,7 +78,7 @@ def bode(columns: Columns, margins: Margins, width: float = 135.0) -> Figure:
         axes.margins(x=0)
     labels: Labels = {above: [], below: []}
     for axis, _, _ in curves:
-        its, color = margins.get(axis, {}), COLORS[axis]
+        its, color = margins.get(f"{axis}_command", {}), COLORS[axis]
         for name in ("gain", "gain_reduction", "phase"):
             margin, where = its.get(name), its.get(f"{name}_frequency")
             if margin is None or not where:
@@ -251,20 +251,17 @@ def draw_loop(kind: str, scenario: Scenario, set: Settings, locus: str, wide: Op
     width: Dict[str, Any] = {"width": wide} if wide else {}
     if kind == "root_locus":
         key, _, between = locus.partition("=")
-        low, _, high = between.partition(":")
-        if not (key and low and high):
+        bounds = between.partition(":")[::2]
+        if not all((key, *bounds)):
             raise fault(f"root-locus: found {locus}; allowed: KEY=FROM:TO, such as controller.pd.kv.0.0=0.2:2")
-        values = _loops.values_between(scenario, key, low, high, _VALUES, set)
-        columns = _loops.root_locus(scenario, key, list(values), set)
+        columns = _loops.root_locus(scenario, set, key, bounds, _VALUES)
         figure = root_locus(columns, _loops.linearized(scenario, set).dt, key, **width)
         return _csv(columns), figure, f"the poles at {_VALUES} values of {key}"
-    columns = getattr(_loops, kind)(scenario, set)
-    if kind == "poles":
-        figure = poles(columns, _loops.linearized(scenario, set).dt, **width)
-    elif kind == "bode":
-        figure = bode(columns, _loops.margins(scenario, set), **width)
-    else:
-        figure = {"nyquist": nyquist, "step": step}[kind](columns, **width)
+    loop = _loops.linearized(scenario, set)
+    columns = getattr(_loops, kind)(loop)
+    also: Dict[str, Dict[str, Any]] = {"poles": {"dt": loop.dt}, "bode": {"margins": loop.margins}}
+    pictures: Dict[str, Any] = {"bode": bode, "nyquist": nyquist, "poles": poles, "step": step}
+    figure = pictures[kind](columns, **also.get(kind, {}), **width)
     rows, what = len(next(iter(columns.values()))), {"poles": "poles", "step": "times"}.get(kind, "frequencies")
     return _csv(columns), figure, f"{rows} {what}"
 
