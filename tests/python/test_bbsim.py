@@ -1071,7 +1071,7 @@ class OpenLoops(unittest.TestCase):
         with self.assertRaises(bbsim.InputError):
             bbsim.linearize(CONFIGS / "rig.yaml").open_loop("x")
         with self.assertRaises(bbsim.InputError):
-            _loops.values_between(CONFIGS / "rig.yaml", "ball.position", 1, 2, 3)
+            _loops.root_locus(CONFIGS / "rig.yaml", None, "ball.position", ("1", "2"), 3)
 
 
 class Simulations(unittest.TestCase):
