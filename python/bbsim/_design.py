@@ -18,7 +18,7 @@ from scipy.optimize import minimize
 from . import _bbsim
 from ._experiment import Experiment, Motions
 from ._scenario import Array, InputError, Scenario, Settings, counted, fault, given, listed, refuse
-from ._task import Bar, Progress, aligned, as_json, declare, print_report, read_free_keys, silent
+from ._task import Progress, aligned, as_json, carry_out, files_of, read_free_keys, silent
 
 Size = Union[float, str, None]
 
@@ -325,14 +325,14 @@ def design(
     The result has the names of the JSON as attributes, and ``report``. Raises InputError and OutputError.
     """
     rig, short = given(scenario, set), _bbsim.short_number
-    output, table, json, sketch = (one and os.fspath(one) for one in (output, table, json, sketch))
+    output, table = (one and os.fspath(one) for one in (output, table))
     if table and table != "-" and not table.lower().endswith(".csv"):
         raise refuse("table", table, "FILE.csv, or - for standard output")
     if output and (table == "-" or (not table and output == "-")):
         raise fault("table: found no file, and the scenario of -o must name one; allowed: FILE.csv")
     table = table or (os.path.splitext(output)[0] + "-motion.csv" if output else None)  # a run writes FILE.csv
-    files = {"table": table, "output": output, "sketch": sketch, "json": json}  # the scenario refers to the table
-    declare(files, {rig.name: "the scenario"}, "table", "sketch")
+    named = {"table": table, "output": output, "sketch": sketch, "json": json}
+    files = files_of(named, rig, {}, "table", "output", "sketch", "json")  # the scenario refers to the table
     section = section_of(rig, sketch)
     tilts = section != "controller.reference"
     asked = zip(_SIZES, (rate, length, window, max_tilt, max_tilt_rate, margin))
@@ -454,16 +454,12 @@ def design(
     return made
 
 
-def command(options: Dict[str, Any], say: Any) -> int:
-    """`bbsim design`; `say` prints a message unless -q is given."""
-    rig, quiet = _bbsim.Given(options.pop("scenario"), None, options.pop("set"), None), options.pop("quiet")
+def _carry_out(rig: _bbsim.Given, options: Dict[str, Any], progress: Progress, say: Any) -> SimpleNamespace:
     for remark in _bbsim.remarks(rig):
         say(remark)
-    try:
-        with Bar(rig.name, quiet) as progress:
-            made = design(rig, **options, progress=progress)
-    except KeyboardInterrupt:
-        say("design: interrupted; nothing is written")
-        return 130
-    print_report(made.report, options, "table", "sketch")
-    return 0
+    return design(rig, **options, progress=progress)
+
+
+def command(options: Dict[str, Any], say: Any) -> int:
+    """`bbsim design`; `say` prints a message unless -q is given."""
+    return 130 if carry_out("design", _carry_out, options, say) is None else 0

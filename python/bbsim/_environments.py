@@ -34,19 +34,16 @@ except ImportError:
         """The parts of gymnasium.spaces.Box that an environment needs."""
 
         def __init__(self, low: Any, high: Any, shape: Optional[Tuple[int, ...]] = None, dtype: Any = np.float64) -> None:
-            self.dtype = np.dtype(dtype)
-            ends = (np.asarray(end, dtype) for end in (low, high))
-            self.low, self.high = (np.broadcast_to(end, shape or np.shape(low)).copy() for end in ends)
-            self.shape = self.low.shape
+            self.low, self.high = (np.full(shape or np.shape(low), end, dtype) for end in (low, high))
+            self.shape, self.dtype = self.low.shape, self.low.dtype
             self.seed()
 
         def seed(self, seed: Optional[int] = None) -> None:
             self._random = np.random.default_rng(seed)
 
         def sample(self) -> Any:
-            low = np.where(np.isfinite(self.low), self.low, -1.0)
-            high = np.where(np.isfinite(self.high), self.high, 1.0)
-            return self._random.uniform(low, high).astype(self.dtype)
+            ends = (np.nan_to_num(end, neginf=-1, posinf=1) for end in (self.low, self.high))
+            return self._random.uniform(*ends).astype(self.dtype)
 
         def contains(self, value: Any) -> bool:
             array = np.asarray(value)

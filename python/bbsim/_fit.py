@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import math
 import os
-import sys
 from types import SimpleNamespace
 from typing import Any, Dict, List, Optional, Sequence, Tuple
 
@@ -18,8 +17,8 @@ from ._fit_windows import Log, LogKey, Windows, WindowsFit, cut, start_coordinat
 from ._logs import as_files, log_choice, without_folders
 from ._scenario import Array, InputError, Scenario, Settings, counted, fault, given as given_of, listed, refuse
 from ._task import (
-    Bar, FreeKey, Progress, declare, print_report, read_bounds, read_free_key, read_free_keys, refuse_free, refuse_twice, silent,
-    usual_scale, write_found,
+    FreeKey, Progress, carry_out, files_of, read_bounds, read_free_key, read_free_keys, refuse_free, refuse_twice, silent,
+    usual_scale, write_all,
 )  # fmt: skip
 
 _USUAL_WINDOW = 2.0  # s; short, because a plate makes the ball a double integrator
@@ -241,7 +240,7 @@ def _series(fit: WindowsFit, held: bool) -> List[Any]:
 
 
 def _fit(task: _Task, progress: Progress, series: bool) -> Any:
-    """A result without a text; None if it is interrupted before there is one."""
+    """A result without a text."""
     windows, held, free, length = task.cut()
     fit = WindowsFit(task.logs, task.columns, windows, task.keys, free, task.threads)
     search, before = Search(fit, task.robust, progress), None
@@ -258,16 +257,18 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
         before = _rms(fit)
         search.begin(task.starts)
         search.settle()
+        search.compare_delays()
     except KeyboardInterrupt:
         if before is None:
-            return None
+            raise
         made.interrupted = True
     fit.residuals(search.u)
     made.before_rms, made.residual_rms = before, _rms(fit)
     notes = _describe(made, search)
     if fit.kinked and fit.jumps and not made.white:
         search.doubts.append("the residuals jump, as with a dead band, and are correlated: the fit may be held between two "
-                             "jumps, for which no deviation accounts; try starting values nearby, or --starts")  # fmt: skip
+                             "jumps, for which no deviation accounts; try starting values nearby, --starts, or a "
+                             "longer --window, since windows forget which command a servo followed last")  # fmt: skip
     made.series = _series(fit, False) if series else []
     ideal = _ideal(task.logs[0].given)
     if ideal is not None and not any(_bbsim.lacks(ideal, name)[0] for name in task.columns):
@@ -336,6 +337,11 @@ def _estimate(made: Any, search: Search) -> List[str]:
         made.parameters.append(one)
     made.identifiable = not linear.untold and not search.doubts
     notes = [f"not identifiable: {words}" for words in linear.untold]
+    deaf = search.windows.deaf
+    if deaf.any():
+        unheard = ", ".join(key.name for key, its in zip(search.keys, deaf.T) if its.any())
+        notes.append(f"{deaf.any(1).sum()} of {counted(len(deaf), 'window')} tell nothing of {unheard}: no command passes "
+                     "the dead band in them")  # fmt: skip
     notes += [f"{one.key} is at a bound of its range" for one in made.parameters if one.at_bound]
     most = np.abs(np.nan_to_num(linear.correlations) * (1 - np.eye(len(u)))).max(0)
     names = [key.name for key, one in zip(search.keys, most) if one > 0.95]
@@ -365,20 +371,16 @@ def fit(
     """
     options = dict(locals())
     with as_files(options["logs"]) as options["logs"]:
-        made = _carry_out(given_of(options.pop("scenario"), options.pop("set")), options, silent, lambda text: None)
-    if made is None:
-        raise KeyboardInterrupt
-    return made
+        return _carry_out(given_of(options.pop("scenario"), options.pop("set")), options, silent, lambda text: None)
 
 
 def _carry_out(given: _bbsim.Given, options: Dict[str, Any], progress: Progress, say: Any) -> Any:
-    """Fits, and writes the files that the options ask for. None if it is interrupted before there is a result."""
-    files = {name: str(options.pop(name) or "") for name in ("output", "json", "report")}
-    task = _Task(given, **options)
-    reads = {given.name: "the scenario"} if os.path.exists(given.name) else {}
-    if files["report"]:
+    """Fits, and writes the files that the options ask for."""
+    reads = dict.fromkeys(options["logs"], "the log")
+    if options["report"]:
         reads[_bbsim.file_of_template("fit.html")] = "the template of pages"
-    declare(files, {**reads, **{file: "the log" for file in task.files}}, "report")
+    files = files_of(options, given, reads, "report", "output", "json")
+    task = _Task(given, **options)
     if files["output"]:  # fails before the work if the text cannot be written
         keys = [key for key in task.keys if not isinstance(key, LogKey)]
         _bbsim.edited(given, [(key.name, key.text(key.start)) for key in keys], "")
@@ -387,26 +389,15 @@ def _carry_out(given: _bbsim.Given, options: Dict[str, Any], progress: Progress,
     for text in task.warnings:
         say(text)
     made = _fit(task, progress, bool(files["report"]))
-    if made is None:
-        return None
     progress(1, "")
     made.report = _fit_text.report(made)
-    if files["report"]:
-        _bbsim.write_file(files["report"], _fit_text.page(made, given))
-    text = _fit_text.scenario(made, given) if files["output"] else ""
-    write_found(given, files, text, _fit_text.as_document(made), say)
+    texts = {"json": _fit_text.as_document, "output": _fit_text.scenario, "report": _fit_text.page}
+    write_all(given, files, {name: its(made, given) for name, its in texts.items() if files[name]}, say)
     return made
 
 
 def command(options: Dict[str, Any], say: Any) -> int:
     """`bbsim fit`; `say` prints a message unless -q is given."""
-    given = _bbsim.Given(options.pop("scenario"), None, options.pop("set"), None)
     options["logs"] = options.pop("log")
-    files = {name: options[name] for name in ("output", "json", "report")}
-    with Bar(given.name, options.pop("quiet")) as progress:
-        made = _carry_out(given, options, progress, say)
-    if made is None:
-        sys.stderr.write("fit: interrupted before the first iteration; nothing is written\n")
-    else:
-        print_report(made.report, files, "report")
+    made = carry_out("fit", _carry_out, options, say)
     return 130 if made is None or made.interrupted else 0

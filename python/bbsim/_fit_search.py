@@ -20,6 +20,7 @@ _HUBER = 1.345  # standard deviations; costs 5 % of the efficiency for Gaussian 
 _KINKED_STARTS = 3
 _UNTOLD = 1e-4  # of the largest singular value; smaller ones are errors of differences
 _WIDEST = 0.3  # of the steps of a key's number
+_SCANNED, _DELAYS = 201, 0.2  # delays in a scan, and how far it goes without bounds (s)
 _HOPS, _DRAWS, _WIDER = 40, 20, (0.3, 1, 3, 10, 30)  # over jumps: the most; draws for each multiple of the deviations
 
 
@@ -38,6 +39,9 @@ class Search:
         self.spreads = np.array([max(float(np.std(its)), 1e-9) if its.size else 1.0 for its in values])
         self.doubts: List[str] = []  # why the estimates may be wrong
         self.rivals = np.empty((0, len(self.u)))
+        # Of commands that a servo with a dead band follows, or that are rounded.
+        self.delays = [k for k, key in enumerate(self.keys) if windows.jumps and not windows.deaf[:, k].all()
+                       and key.name.startswith("controller.commands") and key.name.endswith("delay")]  # fmt: skip
         windows.reweigh(self.spreads)
 
     def degrees_of_freedom(self) -> float:
@@ -132,11 +136,12 @@ class Search:
     def begin(self, starts: Optional[int]) -> None:
         """Chooses where to start."""
         changes = self.scale_keys()
+        acts = self._begin_at_delays() | self.windows.deaf.all(0)
         self.windows.find_kinks(self.u)
         if self.windows.kinked:
             changes = self.windows.derivatives(self.u)[1]
-        for key, change in zip(self.keys, changes):
-            if not change > 1e-7:
+        for key, change, known in zip(self.keys, changes, acts):
+            if not (change > 1e-7 or known):
                 columns = ", ".join(self.windows.columns)
                 refuse_free(f"{key.name}: has no effect on {columns}; allowed: keys that the compared columns depend on")
         # Mirrors the scale of a sensor if that fits better: between 1 and -1 it would pass 0, where the log determines
@@ -159,6 +164,7 @@ class Search:
         reach = np.array([math.log(2) if key.logarithmic else 1.0 for key in self.keys])
         bounded = np.isfinite(high - low)
         low, high = np.where(bounded, low, self.u - reach), np.where(bounded, high, self.u + reach)
+        low, high = np.where(self.windows.deaf.all(0), self.u, [low, high])
         random, first, ends = np.random.default_rng(1), self.u, list(ends)
         for start in range(count):
             self.u = low + (high - low) * random.uniform(size=len(first)) if start else first
@@ -187,6 +193,8 @@ class Search:
             values = key.value(self.rivals[:, k])
             low, high = (_bbsim.short_number(float(end)) for end in (values.min(), values.max()))
             if len(near) == 1:
+                if k in self.delays:  # the scan has compared all of its values
+                    continue
                 others = ", ".join(_bbsim.short_number(float(key.value(u[k]))) for _, u, _ in ends[1:])
                 self.doubts.append(f"{key.name}: other starts end at {others}, with larger residuals; the residuals "
                                    "have kinks, and a better fit may exist")  # fmt: skip
@@ -231,13 +239,49 @@ class Search:
         covariance = np.where(np.outer(linear.told, linear.told), linear.covariance * self.scatter(), 0.0)
         covariance += np.diag(np.where(linear.told, 0.0, self.windows.key_steps**2))
         draws = random.multivariate_normal(np.zeros(len(self.u)), covariance, _DRAWS * len(_WIDER), method="eigh")
-        draws *= np.repeat(_WIDER, _DRAWS)[:, None]
-        u, starts, cost = self.windows.best_of(np.clip(self.u + draws, *self.bounds()))
-        if not cost < self.cost() * (1 - 1e-4):
+        draws *= np.repeat(_WIDER, _DRAWS)[:, None] * ~self.windows.deaf.all(0)
+        many, starts, costs = self.windows.tried(np.clip(self.u + draws, *self.bounds()), True)
+        best = int(costs.argmin())
+        if not costs[best] < self.cost() * (1 - 1e-4):
             return False
-        self.u = u
-        self.windows.at(u, starts, True)
+        self.u = many[best]
+        self.windows.at(self.u, starts[best], True)
         return True
+
+    def _scan(self, k: int) -> Tuple[Array, Array]:
+        """Numbers of a delay of commands within its bounds, with the other keys as they are, and sums of squares."""
+        limits = float(self.keys[k].value(self.u[k])) + np.array([-_DELAYS, _DELAYS])
+        ends = np.where(np.isfinite(self.bounds()[:, k]), self.bounds()[:, k], [*map(self.keys[k].number, limits)])
+        many = np.tile(self.u, (_SCANNED, 1))
+        many[:, k] = np.linspace(ends[0], ends[1], _SCANNED)
+        return many[:, k], self.windows.tried(many, False)[2]
+
+    def _begin_at_delays(self) -> Array:
+        """Moves each delay of commands to the best one of a scan: which commands a servo follows, or how they are
+        rounded, changes in steps with the delay. Residuals have a valley for each period of the samples, or are flat
+        between two steps. Returns which keys have an effect in the scan."""
+        acts = np.zeros(len(self.u), bool)
+        for k in self.delays * 2 if len(self.delays) > 1 else self.delays:
+            at, costs = self._scan(k)
+            acts[k] = np.ptp(costs) > 1e-7 * costs.min()
+            if costs.min() < self.cost() * (1 - 1e-4):
+                self.u = np.where(np.arange(len(self.u)) == k, at[costs.argmin()], self.u)
+                self.windows.restart()
+                self.windows.residuals(self.u)
+        return acts
+
+    def compare_delays(self) -> None:
+        """Finds other delays of commands that fit as well."""
+        for k in self.delays:
+            at, costs = self._scan(k)
+            near = at[costs <= self.cost() * (1 + 4 / self.degrees_of_freedom())]
+            others = np.tile(self.u, (len(near), 1))
+            others[:, k] = near
+            self.rivals = np.concatenate([self.rivals, others])
+            if len(near) > 1:
+                low, high = (_bbsim.short_number(float(self.keys[k].value(end))) for end in near[[0, -1]])
+                self.doubts.append(f"{self.keys[k].name}: values from {low} to {high} fit equally well: between them, "
+                                   "the servos follow the same commands")  # fmt: skip
 
     def _reweigh_often(self) -> None:
         change = 1.0
@@ -334,7 +378,9 @@ class Search:
         keys = [(key, by) for key, by, is_in in zip(self.keys, change, members) if is_in]
         names = [key.name for key, _ in keys]
         if len(keys) == 1:
-            return f"{names[0]} is not determined by the log: other starts of the windows have the same effect"
+            deaf = self.windows.deaf[:, self.keys.index(keys[0][0])].all()
+            why = "no command passes a dead band" if deaf else "other starts of the windows have the same effect"
+            return f"{names[0]} is not determined by the log: {why}"
         # The first key's change is 1 %, or a hundredth of its scale.
         changes = []
         for key, by in keys:

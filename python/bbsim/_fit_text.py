@@ -64,7 +64,7 @@ def report(fitted: Any) -> str:
     return aligned(_parameters(fitted)) + "\n" + aligned(_residuals(fitted)) + "\n" + remarks(fitted)
 
 
-def as_document(fitted: Any) -> str:
+def as_document(fitted: Any, _: Any) -> str:
     """The JSON."""
     keys = ("key", "estimate", "sd", "interval", "at_bound")
     made: Dict[str, Any] = {"parameters": [{key: getattr(one, key) for key in keys} for one in fitted.parameters]}

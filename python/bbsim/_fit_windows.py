@@ -13,6 +13,7 @@ import numpy as np
 from scipy.sparse import block_diag, csr_matrix, hstack
 
 from . import _bbsim
+from ._fit_servos import deaf_windows
 from ._scenario import Array, InputError
 from ._simulate import simulate
 from ._task import FreeKey
@@ -150,6 +151,7 @@ class WindowsFit:
         given = logs[0].given
         self.jumps = bool(_bbsim.key_facts(given, "", "controller.sampling.resolution").value) or any(
             _bbsim.key_facts(given, "", f"gimbal.servo{axis}.dead_band").value for axis in ("", ".phi", ".theta"))
+        self.deaf = deaf_windows(logs, windows, [key.name for key in keys])
         self.key_steps, self.start_steps = np.full(len(keys), KEY_STEP), _START_STEPS.copy()
 
     def over_noise(self) -> Array:
@@ -243,6 +245,7 @@ class WindowsFit:
             moved[:, k] &= (key.value(u[k] + at[:, k]) != key.value(u[k]))[:, None]
         sides = np.where(moved[..., None], made[1:].reshape(*moved.shape, -1), made[0])
         by_all, jumps = self._slopes(sides, made[0], np.where(moved, at[..., None], 0.0))
+        by_all[..., :keys] *= ~self.deaf[:, None]
         least = np.where(jumps[:keys], steps[:keys], 0.0)
         self.base = _Point(u, starts, made[0], runs[0], why[:count], by_all[..., :keys], by_all[..., keys:], least)
         self._solvers = None
@@ -390,9 +393,9 @@ class WindowsFit:
         return (by_key - slopes @ (inverse @ by_key))[self.there], np.sqrt((by_key**2).sum((0, 1)))
 
     @np.errstate(over="ignore", invalid="ignore")  # far away
-    def best_of(self, many: Array) -> Tuple[Array, Array, float]:
-        """The best of many values u near the base, after a step of Gauss and Newton from each: these values, their
-        starts, and the sum of squares."""
+    def tried(self, many: Array, moves: bool) -> Tuple[Array, Array, Array]:
+        """Many values u, after a step of Gauss and Newton from each if they are near the base and `moves`: these
+        values, their starts, and the sums of squares."""
         (slopes, inverse), factors, count = self._solve(), self.over_noise(), len(self.windows)
         by_key = self.base.by_key * factors[..., None]
         by_key = np.linalg.pinv((by_key - slopes @ (inverse @ by_key)).reshape(-1, by_key.shape[2]))
@@ -403,11 +406,10 @@ class WindowsFit:
             step = _times(inverse, rest)
             rest -= _times(slopes, step)  # the motion depends on its start almost linearly
             starts.reshape(len(many), count, -1)[..., self.free] -= step
-            if not turn:
+            if moves and not turn:
                 many = np.clip(many - np.nan_to_num(rest.reshape(len(many), -1)) @ by_key.T, *ends)
         costs = np.nan_to_num(np.linalg.norm(rest, axis=(1, 2)), nan=np.inf)
-        best = int(costs.argmin())
-        return many[best], starts.reshape(len(many), count, -1)[best], float(costs[best] ** 2)
+        return many, starts.reshape(len(many), count, -1), costs**2
 
     def guess_velocities(self, u: Array) -> Array:
         """Starts: in each window, that which fits best of some with velocities over the first rows, and at rest."""

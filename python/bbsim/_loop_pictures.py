@@ -26,8 +26,7 @@ Labels = Dict[Axes, List[Label]]
 
 KINDS = ("bode", "nyquist", "poles", "step", "root_locus")
 NAMES = {"phi": "φ", "theta": "θ"}
-COLORS = {"phi": "#0072b2", "theta": "#d55e00"}
-DASHES = {"phi": "-", "theta": (0, (4, 1.5))}
+LOOKS: Dict[str, Any] = {"phi": {"color": "#0072b2", "ls": "-"}, "theta": {"color": "#d55e00", "ls": (0, (4, 1.5))}}
 QUIET = {"color": "#909090", "lw": 0.6}
 GRID = {"color": "#d0d0d0", "lw": 0.5, "zorder": 0}
 DAMPINGS = (0.1, 0.3, 0.5, 0.7, 0.9)
@@ -63,8 +62,8 @@ def bode(columns: Columns, margins: Margins, width: float = 135.0) -> Figure:
     at, curves = columns["frequency"], _curves(columns, "gain")
     phases = {axis: np.degrees(columns[f"{axis}_phase"]) for axis, _, _ in curves}
     for axis, label, gain in curves:
-        above.semilogx(at, _decibels(gain), color=COLORS[axis], ls=DASHES[axis], label=label)
-        below.semilogx(at, phases[axis], color=COLORS[axis], ls=DASHES[axis])
+        above.semilogx(at, _decibels(gain), **LOOKS[axis], label=label)
+        below.semilogx(at, phases[axis], **LOOKS[axis])
     above.axhline(0, **QUIET)
     above.set_ylabel("gain (dB)")
     _legend(above)
@@ -78,7 +77,7 @@ def bode(columns: Columns, margins: Margins, width: float = 135.0) -> Figure:
         axes.margins(x=0)
     labels: Labels = {above: [], below: []}
     for axis, _, _ in curves:
-        its, color = margins.get(axis, {}), COLORS[axis]
+        its, color = margins.get(f"{axis}_command", {}), LOOKS[axis]["color"]
         for name in ("gain", "gain_reduction", "phase"):
             margin, where = its.get(name), its.get(f"{name}_frequency")
             if margin is None or not where:
@@ -125,8 +124,8 @@ def nyquist(columns: Columns, width: float = 100.0) -> Figure:
     axes.plot(np.cos(turn), np.sin(turn), **QUIET)
     for axis, label, real in _curves(columns, "real"):
         imag = columns[f"{axis}_imag"]
-        axes.plot(real, imag, color=COLORS[axis], ls=DASHES[axis], label=label)
-        axes.plot(real, -imag, color=COLORS[axis], ls=(0, (1, 1.2)), lw=0.8)
+        axes.plot(real, imag, **LOOKS[axis], label=label)
+        axes.plot(real, -imag, color=LOOKS[axis]["color"], ls=(0, (1, 1.2)), lw=0.8)
     axes.plot([-1], [0], "k+", ms=8)
     far = 2.5  # integrators go to infinity
     axes.set(xlim=(-far, far), ylim=(-far, far), aspect="equal", xlabel="real part", ylabel="imaginary part")
@@ -184,7 +183,7 @@ def _plane(columns: Columns, dt: Optional[float], width: float, height: float = 
 def poles(columns: Columns, dt: Optional[float], width: float = 100.0) -> Figure:
     """The closed loop's poles: of s, or with a period ``dt`` (s) of z."""
     figure, axes = _plane(columns, dt, width)
-    axes.plot(columns["real"], columns["imag"], "x", color=COLORS["phi"], ms=6)
+    axes.plot(columns["real"], columns["imag"], "x", color=LOOKS["phi"]["color"], ms=6)
     return figure
 
 
@@ -227,11 +226,10 @@ def step(columns: Columns, width: float = 135.0) -> Figure:
     figure = _figure(width, 0.55 * width)
     axes = figure.subplots()
     axes.axhline(1, **QUIET)
-    looks: Dict[str, str] = {"x": "phi", "y": "theta"}
     same = np.allclose(columns["x"], columns["y"], rtol=1e-6, atol=1e-9)
-    for name, axis in looks.items():
+    for name, axis in zip("xy", AXES):
         if np.isfinite(columns[name]).any() and not (same and name == "y"):
-            axes.plot(columns["t"], columns[name], color=COLORS[axis], ls=DASHES[axis], label="x, y" if same else name)
+            axes.plot(columns["t"], columns[name], **LOOKS[axis], label="x, y" if same else name)
     axes.set(xlabel="t (s)", ylabel="step response")
     axes.margins(x=0)
     _legend(axes)
@@ -251,20 +249,17 @@ def draw_loop(kind: str, scenario: Scenario, set: Settings, locus: str, wide: Op
     width: Dict[str, Any] = {"width": wide} if wide else {}
     if kind == "root_locus":
         key, _, between = locus.partition("=")
-        low, _, high = between.partition(":")
-        if not (key and low and high):
+        bounds = between.partition(":")[::2]
+        if not all((key, *bounds)):
             raise fault(f"root-locus: found {locus}; allowed: KEY=FROM:TO, such as controller.pd.kv.0.0=0.2:2")
-        values = _loops.values_between(scenario, key, low, high, _VALUES, set)
-        columns = _loops.root_locus(scenario, key, list(values), set)
+        columns = _loops.root_locus(scenario, set, key, bounds, _VALUES)
         figure = root_locus(columns, _loops.linearized(scenario, set).dt, key, **width)
         return _csv(columns), figure, f"the poles at {_VALUES} values of {key}"
-    columns = getattr(_loops, kind)(scenario, set)
-    if kind == "poles":
-        figure = poles(columns, _loops.linearized(scenario, set).dt, **width)
-    elif kind == "bode":
-        figure = bode(columns, _loops.margins(scenario, set), **width)
-    else:
-        figure = {"nyquist": nyquist, "step": step}[kind](columns, **width)
+    loop = _loops.linearized(scenario, set)
+    columns = getattr(_loops, kind)(loop)
+    also: Dict[str, Dict[str, Any]] = {"poles": {"dt": loop.dt}, "bode": {"margins": loop.margins}}
+    pictures: Dict[str, Any] = {"bode": bode, "nyquist": nyquist, "poles": poles, "step": step}
+    figure = pictures[kind](columns, **also.get(kind, {}), **width)
     rows, what = len(next(iter(columns.values()))), {"poles": "poles", "step": "times"}.get(kind, "frequencies")
     return _csv(columns), figure, f"{rows} {what}"
 

@@ -5,13 +5,13 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Callable, Dict, Optional, Sequence, Union
+from typing import Callable, Dict, Optional, Sequence
 
 import numpy as np
 
 from . import _bbsim
 from ._result import Linearization, OpenLoop
-from ._scenario import Array, Scenario, Settings, as_yaml, fault, given
+from ._scenario import Array, Scenario, Settings, fault, given
 
 Complex = np.ndarray
 Columns = Dict[str, Array]
@@ -22,11 +22,6 @@ AXES = ("phi", "theta")
 def linearized(scenario: Scenario, set: Settings = None) -> Linearization:
     """The closed loop about home. Raises InputError for a scenario without one."""
     return Linearization(_bbsim.linearize(given(scenario, set), "loop", "home"))
-
-
-def open_loops(loop: Linearization) -> Dict[str, OpenLoop]:
-    """The open loops of the axes that have one."""
-    return {axis: loop.open_loop(axis) for axis in AXES if f"{axis}_command" in loop.margins}
 
 
 def rates(poles: Complex, dt: Optional[float]) -> Complex:
@@ -52,9 +47,9 @@ def frequencies(loops: Dict[str, OpenLoop]) -> Array:
     return points[(points >= sizes.min() / far) & (points <= max(sizes.max() * far, points[-1] if dt else 0))]
 
 
-def _responses(scenario: Scenario, set: Settings, parts: Dict[str, Callable[[Complex], Array]]) -> Columns:
+def _responses(loop: Linearization, parts: Dict[str, Callable[[Complex], Array]]) -> Columns:
     """Frequencies, and parts of the open-loop response of each axis; nan for an axis without a loop."""
-    loops = open_loops(linearized(scenario, set))
+    loops = {axis: loop.open_loop(axis) for axis in AXES if f"{axis}_command" in loop.margins}
     if not loops:
         raise fault("found a scenario in which no command closes a loop; allowed: a controller that feeds back")
     at = frequencies(loops)
@@ -65,36 +60,28 @@ def _responses(scenario: Scenario, set: Settings, parts: Dict[str, Callable[[Com
 def phase_of(response: Complex) -> Array:
     """The phase without jumps, rad; at the lowest frequency between -7/4 pi and pi/4."""
     phase = np.unwrap(np.angle(response))
-    first = phase[0] if len(phase) > 0 else 0.0
-    return phase - 2 * math.pi * np.round((first + 0.75 * math.pi) / (2 * math.pi))
+    return phase - 2 * math.pi * np.round((phase[:1] + 0.75 * math.pi) / (2 * math.pi))
 
 
-def bode(scenario: Scenario, set: Settings = None) -> Columns:
+def bode(loop: Linearization) -> Columns:
     """frequency (rad/s), phi_gain, phi_phase (rad), theta_gain, theta_phase of the open loops.
 
     Each loop is broken at its command, with the other one closed, and with the sign for which -1 is the
     critical point. Raises InputError for a scenario without a loop.
     """
-    return _responses(scenario, set, {"gain": np.abs, "phase": phase_of})
+    return _responses(loop, {"gain": np.abs, "phase": phase_of})
 
 
-def nyquist(scenario: Scenario, set: Settings = None) -> Columns:
+def nyquist(loop: Linearization) -> Columns:
     """frequency (rad/s), phi_real, phi_imag, theta_real, theta_imag of the open loops, as in bode()."""
-    return _responses(scenario, set, {"real": np.real, "imag": np.imag})
+    return _responses(loop, {"real": np.real, "imag": np.imag})
 
 
-def margins(scenario: Scenario, set: Settings = None) -> Dict[str, Dict[str, Any]]:
-    """The margins of each axis's loop, as ``bbsim check`` prints them: gain, phase, delay."""
-    found = linearized(scenario, set).margins
-    return {axis: found[f"{axis}_command"] for axis in AXES if f"{axis}_command" in found}
-
-
-def poles(scenario: Scenario, set: Settings = None) -> Columns:
+def poles(loop: Linearization) -> Columns:
     """real, imag, damping, frequency (rad/s) of the closed loop's poles.
 
     Those of a sampled loop are z; damping and frequency are those of s, with z = exp(s period).
     """
-    loop = linearized(scenario, set)
     at = rates(loop.poles, loop.dt)
     size = np.abs(at)
     with np.errstate(invalid="ignore"):
@@ -102,45 +89,33 @@ def poles(scenario: Scenario, set: Settings = None) -> Columns:
     return {"real": loop.poles.real, "imag": loop.poles.imag, "damping": damping, "frequency": size}
 
 
-def values_between(
-    scenario: Scenario, key: str, low: Union[str, float], high: Union[str, float], count: int, set: Settings = None
-) -> Array:
-    """Evenly spaced values of a key (SI); the bounds may be texts such as "2 cm"."""
-    ends = []
-    for bound in (low, high):
-        number = _bbsim.number_at(given(scenario, set), key, as_yaml(bound))
-        if number is None:
-            raise fault(f"{key}: found {bound}; allowed: the bounds of a key that holds one number")
-        ends.append(number)
-    return np.linspace(ends[0], ends[1], count)
-
-
-def root_locus(scenario: Scenario, key: str, values: Sequence[float], set: Settings = None) -> Columns:
-    """value, real, imag: a row for each pole of the closed loop at each value of the key (SI)."""
+def root_locus(scenario: Scenario, set: Settings, key: str, bounds: Sequence[str], count: int) -> Columns:
+    """value, real, imag: a row for each pole of the closed loop at evenly spaced values of the key (SI). The bounds are
+    texts such as "2 cm"."""
+    ends = [_bbsim.number_at(given(scenario, set), key, bound) for bound in bounds]
+    if None in ends:
+        raise fault(f"{key}: found {bounds[ends.index(None)]}; allowed: the bounds of a key that holds one number")
+    values = np.linspace(ends[0], ends[1], count)
     found = [linearized(scenario, {**(set or {}), key: float(value)}).poles for value in values]
     every = np.concatenate(found)
-    return {"value": np.repeat(np.asarray(values, float), [len(poles) for poles in found]), "real": every.real,
-            "imag": every.imag}  # fmt: skip
+    return {"value": np.repeat(values, [len(poles) for poles in found]), "real": every.real, "imag": every.imag}
 
 
-def step(scenario: Scenario, set: Settings = None, end: Optional[float] = None) -> Columns:
+def step(loop: Linearization) -> Columns:
     """t (s), x and y: the linear responses to a unit step of x_reference and of y_reference.
 
-    ``end`` (s) is by default when the slowest mode has decayed to 0.1 %, or has grown tenfold. A sampled
-    loop has a row for each sample. nan for an axis that the loop leaves out.
+    They end when the slowest mode has decayed to 0.1 %, or has grown tenfold. A sampled loop has a row for each
+    sample. nan for an axis that the loop leaves out.
     """
     from scipy.signal import cont2discrete  # takes long to import
 
-    loop = linearized(scenario, set)
     if not loop.inputs:
         raise fault("found a controller of your own, whose answer to a reference is not known; allowed: a law of bbsim")
     decay = rates(loop.poles, loop.dt).real
     decay = decay[np.isfinite(decay) & (np.abs(decay) > 1e-6 * np.abs(decay[np.isfinite(decay)]).max())]
-    if end is None:
-        growth = decay.max()
-        end = math.log(1000) / -growth if growth < 0 else math.log(10) / growth
-    most = 20000
-    count = min(int(round(end / loop.dt)), most) if loop.dt else 500
+    growth = decay.max()
+    end = math.log(1000) / -growth if growth < 0 else math.log(10) / growth
+    count = min(int(round(end / loop.dt)), 20000) if loop.dt else 500
     period = loop.dt or end / count
     system = (loop.A, loop.B, loop.C, loop.D)
     advance, push = system[:2] if loop.dt else cont2discrete(system, period)[:2]

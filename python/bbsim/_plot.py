@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import io
 import os
-import re
 import sys
 from pathlib import Path
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
@@ -49,8 +48,7 @@ def _millimeters(width: Union[float, str, None]) -> Optional[float]:
     """A length in mm: meters as a number, or a text such as "88 mm"."""
     if width is None:
         return None
-    found = re.fullmatch(r"\s*([0-9.]+(?:e-?[0-9]+)?)\s*(mm|cm|m|)\s*", str(width))
-    size = float(found[1]) * {"mm": 1, "cm": 10}.get(found[2], 1000) if found and found[1].count(".") < 2 else 0.0
+    size = 1000 * (_bbsim.value_in(str(width), "m") or 0.0)
     if not 50 <= size <= 600:
         raise fault(f'width: found {width}; allowed: a length from 50 mm to 600 mm, such as "88 mm"')
     return size

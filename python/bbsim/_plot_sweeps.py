@@ -273,9 +273,7 @@ def _bars(values: Any, wide: bool, along: _Measure) -> Tuple[Any, Any]:
     if not wide:  # one bar, no wider than others would be
         thick = 0.05 if along.log else width(linear_limits(along.range, 0.03)) / 40
         return np.array([len(values)]), np.array([values[0] - thick / 2, values[0] + thick / 2])
-    bin_ = 2 * (np.quantile(values, 0.75) - np.quantile(values, 0.25)) / np.cbrt(len(values))
-    count = (values[-1] - values[0]) / bin_ if bin_ > 0 else 10
-    return np.histogram(values, int(min(max(math.ceil(count), 5), 60)))
+    return np.histogram(values, min(max(len(np.histogram_bin_edges(values, "fd")) - 1, 5), 60))
 
 
 # What is drawn over what

@@ -112,22 +112,19 @@ class Result(Columns):
 
     def _path(self) -> str:
         """The ball's path from above, as SVG; empty without the columns x and y."""
-        if "x" not in self or "y" not in self or len(self) == 0:
+        if "x" not in self or "y" not in self:
             return ""
-        step = max(1, len(self) // 500)
-        x, y = self["x"][::step], self["y"][::step]
-        finite = np.isfinite(x) & np.isfinite(y)
-        x, y = x[finite], -y[finite]  # SVG's y points down
-        if len(x) == 0:
+        points = np.column_stack([self["x"], -self["y"]])[:: max(1, len(self) // 500)]  # SVG's y points down
+        points = points[np.isfinite(points).all(1)]
+        if not len(points):
             return ""
-        size = max(float(np.ptp(x)), float(np.ptp(y)), 1e-9) * 1.1
-        left, top = float(x.min() + x.max()) / 2 - size / 2, float(y.min() + y.max()) / 2 - size / 2
-        scale = 200 / size
-        points = " ".join(f"{(a - left) * scale:.1f},{(b - top) * scale:.1f}" for a, b in zip(x, y))
-        start = points.split(" ", 1)[0].split(",")
+        low, high = points.min(0), points.max(0)
+        points = (points - (low + high) / 2) * 200 / (1.1 * max((high - low).max(), 1e-9)) + 100
+        start = [f"{one:.1f}" for one in points[0]]
+        shown = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
         return (
             "<svg width='200' height='200' viewBox='0 0 200 200' role='img' aria-label='path of the ball'>"
-            f"<polyline points='{points}' fill='none' stroke='currentColor' stroke-width='1.5'/>"
+            f"<polyline points='{shown}' fill='none' stroke='currentColor' stroke-width='1.5'/>"
             f"<circle cx='{start[0]}' cy='{start[1]}' r='3' fill='currentColor'/></svg>"
         )
 

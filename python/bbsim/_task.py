@@ -154,41 +154,45 @@ def as_json(value: Dict[str, Any]) -> str:
     return json.dumps(_plain(value), indent=2, ensure_ascii=False) + "\n"
 
 
-def reports(options: Dict[str, Any], *others: str) -> bool:
-    """Whether the report goes to standard output: no file does."""
-    return "-" not in [options[name] for name in ("output", "json", *others)]
-
-
-def declare(options: Dict[str, Any], reads: Dict[str, str], *others: str) -> None:
-    """Refuses files that would overwrite each other or an input. `others`: more options that name a file."""
-    outputs = _bbsim.Outputs()
+def files_of(options: Dict[str, Any], given: _bbsim.Given, reads: Dict[str, str], *names: str) -> Dict[str, str]:
+    """The files to write, by option. Refuses those that would overwrite each other or an input."""
+    files, outputs = {name: os.fspath(options.pop(name) or "") for name in names}, _bbsim.Outputs()
+    if os.path.exists(given.name):
+        reads = {given.name: "the scenario", **reads}
     for file, what in reads.items():
         outputs.reads(file, what)
-    for name in ("output", "json", *others):
-        if options[name]:
-            outputs.writes(options[name], "-o" if name == "output" else f"--{name}")
-    if reports(options, *others):
+    for name, file in files.items():
+        if file:
+            outputs.writes(file, "-o" if name == "output" else f"--{name}")
+    if "-" not in files.values():
         outputs.writes("-", "the report")
+    return files
 
 
-def write_found(given: _bbsim.Given, options: Dict[str, Any], scenario: str, json_text: str, say: Any) -> None:
-    """Writes the files that the options ask for."""
-    output = options["output"]
-    if output:
-        _bbsim.write_file(output, scenario)
-        folders: List[str] = [os.path.dirname(os.path.abspath(file)) for file in (output, given.name)]
-        if output != "-" and folders[0] != folders[1] and _bbsim.tables(given):
-            say(f"note: {output} is not in the scenario's folder, from which its tables are read; move it there to "
-                "run it")  # fmt: skip
-    if options["json"]:
-        _bbsim.write_file(options["json"], json_text)
+def write_all(given: _bbsim.Given, files: Dict[str, str], texts: Dict[str, str], say: Any) -> None:
+    for name, file in files.items():
+        if file:
+            _bbsim.write_file(file, texts[name])
+    output = files["output"] or "-"
+    folders = {os.path.dirname(os.path.abspath(file)) for file in (output, given.name)}
+    if output != "-" and len(folders) > 1 and _bbsim.tables(given):
+        say(f"note: {output} is not in the scenario's folder, from which its tables are read; move it there to run it")
 
 
-def print_report(report: str, options: Dict[str, Any], *others: str) -> None:
-    """Unless a file goes to standard output."""
-    if reports(options, *others):
-        sys.stdout.write(report)
-        sys.stdout.flush()
+def carry_out(name: str, task: Any, options: Dict[str, Any], say: Any) -> Any:
+    """The result of a command, `task(given, options, progress, say)`, after its report if no file goes to standard
+    output; None if it is interrupted before there is one."""
+    given = _bbsim.Given(options.pop("scenario"), None, options.pop("set"), None).changed([])  # reads standard input once
+    to_files = "-" in [options.get(name) for name in ("output", "json", "report", "table", "sketch")]
+    try:
+        with Bar(given.name, options.pop("quiet")) as progress:
+            made = task(given, options, progress, say)
+    except KeyboardInterrupt:
+        sys.stderr.write(f"{name}: interrupted before the first result; nothing is written\n")
+        return None
+    sys.stdout.write("" if to_files else made.report)
+    sys.stdout.flush()
+    return made
 
 
 Progress = Callable[[float, str], None]  # the fraction done, and a detail for people

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 import sys
 from types import SimpleNamespace
@@ -16,8 +15,7 @@ from . import _bbsim
 from ._scenario import Array, InputError, Scenario, Settings, counted, fault, given, listed
 from ._simulate import simulate
 from ._task import (
-    Bar, Progress, aligned, as_json, declare, print_report, read_free_key, refuse_free, refuse_twice, silent,
-    write_found,
+    Progress, aligned, as_json, carry_out, files_of, read_free_key, refuse_free, refuse_twice, silent, write_all,
 )  # fmt: skip
 from ._worst_case import Search, merit_of, worst_of
 
@@ -62,8 +60,7 @@ class _Tuning:
                 raise fault(f"--vary: {name}: found among the free keys, too; allowed: one of the two")
         self.quick = _bbsim.without_notes(base, [*names, *self.rigs], [measure, *(goal.measure for goal in self.goals)])
         self.end = _bbsim.key_facts(base, "", "time.end").value or 1.0
-        if options["output"]:
-            self.scenario("", self.start)  # fails before the work if the text cannot be written
+        self.scenario("", self.start)  # fails before the work if the text cannot be written
 
     def _read(self, text: str, place: int) -> Tuple[float, float, float]:
         names, equals, bounds = (part.strip() for part in text.partition("="))
@@ -253,32 +250,24 @@ def tune(
     """
     options = dict(locals())
     options.update((name, listed(options[name])) for name in ("free", "require", "vary"))
-    files = {name: str(options.pop(name) or "") for name in ("output", "json")}
-    return _carry_out(given(scenario, set), {**options, **files}, silent, lambda text: None)
+    return _carry_out(given(scenario, set), options, silent, lambda text: None)
 
 
 def _carry_out(base: _bbsim.Given, options: Dict[str, Any], progress: Progress, say: Any) -> Any:
     """Tunes, and writes the files that the options ask for."""
-    declare(options, {base.name: "the scenario"} if os.path.exists(base.name) else {})
+    files = files_of(options, base, {}, "output", "json")
     tuning = _Tuning(base, options)
     for remark in _bbsim.remarks(base):
         say(remark)
     made = tuning.result(tuning.find(progress))
     progress(1, "")
-    write_found(base, options, made.scenario, _json(made), say)
+    write_all(base, files, {"output": made.scenario, "json": _json(made)}, say)
     return made
 
 
 def command(options: Dict[str, Any], say: Any) -> int:
     """`bbsim tune`; `say` prints a message unless -q is given."""
-    base = _bbsim.Given(options["scenario"], None, options["set"], None).changed([])  # reads standard input once
     options["quantile"] = 1 if options["quantile"] is None else options["quantile"]
-    try:
-        with Bar(base.name, options["quiet"]) as progress:
-            made = _carry_out(base, options, progress, say)
-    except KeyboardInterrupt:
-        sys.stderr.write("tune: interrupted before the first result; nothing is written\n")
-        return 130
-    print_report(made.report, options)
-    sys.stderr.write(made.reason + "\n" * (made.reason != ""))
-    return 130 if made.interrupted else 0 if made.met else 1
+    made = carry_out("tune", _carry_out, options, say)
+    sys.stderr.write(made.reason + "\n" if made and made.reason else "")
+    return 130 if not made or made.interrupted else 0 if made.met else 1

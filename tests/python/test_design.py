@@ -294,7 +294,7 @@ class Command(Case):
     def test_interrupted(self):
         with mock.patch.object(_simulate._bbsim, "simulate", side_effect=KeyboardInterrupt):
             _, said = self.design("rig.yaml", "--free", INERTIA, "--table", "a.csv", code=130)
-        self.assertEqual(said, "design: interrupted; nothing is written\n")
+        self.assertEqual(said, "design: interrupted before the first result; nothing is written\n")
         self.assertEqual(os.listdir(self.folder), ["rig.yaml"])
 
     def test_sketch_on_the_board(self):

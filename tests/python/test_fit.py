@@ -391,6 +391,55 @@ class Intervals(Case):
         self.assertTrue(((sums > 5.9) & (sums < 45.3)).all(), sums)
 
 
+class DeadBands(Case):
+    """Servos that ignore changes of less than a degree, driven by a table of commands; whole logs without `window`."""
+
+    DELAY, LAG = "controller.commands.phi.table.delay", "gimbal.servo.time_constant"
+
+    def fit_of(self, t, u, v, free, end=8, window="20 s", delay=33, **believed):
+        table = "{{table: {{file: u.csv, time: t, value: {}{}}}}}"
+        rig = ("ball: {radius: 2 cm, position: [4 cm, 0]}\ngimbal: {servo: {time_constant: 60 ms, dead_band: 1 deg}}\n"
+               "controller: {drives: angle, sampling: {period: 20 ms}, commands: {phi: "
+               f"{table.format('u', f', delay: {delay} ms')}, theta: {table.format('v', '')}}}}}\n"
+               f"time: {{end: {end}, step: 20 ms}}\noutput: {{columns: [t, x, y]}}\n")  # fmt: skip
+        self.put({"t": t, "u": np.radians(u), "v": np.radians(v)}, file="u.csv")
+        run, random = bbsim.run(rig), np.random.default_rng(1)
+        self.put({"t": run["t"], **{name: run[name] + 3e-4 * random.normal(size=run["t"].size) for name in "xy"}}, rig)
+        return self.fit(free, set=believed, window=window)
+
+    def test_a_delay_in_another_valley(self):
+        # The residuals have a valley for each period of 20 ms.
+        t = 0.02 * np.arange(-50, 450)
+        for u, v in ((3 * np.cos(5.3 * t), 3 * np.cos(4.1 * t)), (3 * np.sign(np.cos(5.3 * t)), 3 * np.sign(np.cos(4.1 * t)))):
+            made = self.fit_of(t, u, v, self.DELAY + "=0:200 ms", delay=93, **{self.DELAY: 0})
+            self.assertTrue(made.parameters[0].interval[0] <= 0.093 <= made.parameters[0].interval[1], made.report)
+            self.assertLess(made.parameters[0].sd, 2e-4)
+            self.assertTrue(made.identifiable, made.notes)
+
+    def test_a_delay_that_no_sample_sees(self):
+        # Commands that change every 100 ms: all delays between two samples give the same motion.
+        t = 1e-3 * np.arange(-1000, 9000)
+        steps = np.floor(t / 0.1 + 1e-6) * 0.1
+        made = self.fit_of(t, 3 * np.cos(5.3 * steps), 3 * np.cos(4.1 * steps), self.DELAY + "=0:60 ms", **{self.DELAY: 0.01})
+        one = made.parameters[0]
+        self.assertTrue(0.02 <= one.interval[0] < 0.025 and 0.035 < one.interval[1] <= 0.04, one)
+        self.assertFalse(made.identifiable)
+        self.assertTrue(any("fit equally well: between them, the servos follow" in note for note in made.notes), made.notes)
+
+    def test_windows_without_a_followed_command(self):
+        t = 0.02 * np.arange(-50, 650)
+        still = t > 6
+        u, v = np.where(still, 0, 3 * np.cos(5.3 * t)), np.where(still, 0, 3 * np.cos(4.1 * t))
+        made = self.fit_of(t, u, v, self.LAG + "=20:300 ms", 12, "4 s", **{self.LAG: 0.08})
+        self.assertIn(f"note: 1 of 3 windows tell nothing of {self.LAG}: no command passes the dead band", made.report)
+        self.assertTrue(made.parameters[0].told)
+        made = self.fit_of(t, u / 4, v / 4, [self.LAG, self.DELAY], 12, "4 s", **{self.LAG: 0.08})
+        self.assertFalse(made.identifiable)
+        self.assertEqual([one.told for one in made.parameters], [False, False])
+        np.testing.assert_allclose([one.estimate for one in made.parameters], [0.08, 0.033], rtol=1e-9)
+        self.assertIn(f"not identifiable: {self.LAG} is not determined by the log: no command passes", made.report)
+
+
 class Residuals(Case):
     def test_hold_out(self):
         self.put(rows_of(sd=5e-4))
@@ -564,7 +613,7 @@ class Command(Case):
         with mock.patch.object(_fit_windows, "simulate", side_effect=KeyboardInterrupt):
             code, out, err = self.run_command(*words)
         self.assertEqual((code, out), (130, ""))
-        self.assertIn("interrupted before the first iteration; nothing is written", err)
+        self.assertIn("interrupted before the first result; nothing is written", err)
 
     def test_standard_output(self):
         rig = self.recorded()
