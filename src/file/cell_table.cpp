@@ -33,6 +33,9 @@ void CellColumn::shorten(std::size_t count) {
   if (is_text.empty()) return;
   is_text.resize(count);
   texts.resize(count);
+  if (std::ranges::find(is_text, true) != is_text.end()) return;
+  is_text.clear();
+  texts.clear();
 }
 
 CellTable read_hdf5_cells(const std::string& file) {

@@ -386,8 +386,11 @@ class Parser {
       }
       double number = 0;
       if (read_number(name, number) != Reading::no_number) {
+        // As Arduino's serial monitor writes it: "12:00:01.250 -> 1.2,3.4".
+        const bool stamped = text_.find(" -> ") != std::string_view::npos;
         fail(name, "found the number " + quoted(name, longest_name) +
-                       "; the first row names the columns, or --header NAME,... does");
+                       "; the first row names the columns, or --header NAME,... does" +
+                       (stamped ? ", once a comma takes the place of \" -> \" in each line" : ""));
       }
       if (!name.empty() && !seen.emplace(name).second) {
         fail(name, "column " + quoted(name, longest_name) + " appears twice");
@@ -480,16 +483,21 @@ class Parser {
     return true;
   }
 
-  // A logger that is switched on or off within a row cuts the first or the last one. Refuses other
-  // rows with too few fields.
+  // A logger that is switched on or off within a row cuts the first or the last one. A board prints
+  // lines of words between its rows. Refuses other rows with too few fields.
   void leave_out_cut_row() {
     const std::size_t number = number_;
+    const bool words = !labelled_ && std::ranges::none_of(*fields_of(text_, delimiter_), is_number);
     std::string found = count_text(labelled_ ? 0 : fields_of(text_, delimiter_)->size());
     for (CellColumn& column : cells_.columns) {
       column.shorten(cells_.rows);
       for (Place* const place : {&column.first_gap, &column.first_text}) {
         if (place->line == number) *place = {};
       }
+    }
+    if (words) {
+      if (lines_of_words_++ == 0) first_words_ = number;
+      return;
     }
     const bool first = cells_.rows == 0 && !cut_first_;
     cut_first_ = cut_first_ || first;
@@ -540,6 +548,10 @@ class Parser {
       cells_.notes.push_back("warning: " + first_beyond_ + "; the fields beyond are left out" +
                              more(rows_beyond_));
     }
+    if (lines_of_words_ > 0) {
+      cells_.notes.push_back("warning: " + lines_.name() + ':' + std::to_string(first_words_) +
+                             ": found words between the rows; left out" + more(lines_of_words_));
+    }
     if (headers_again_ > 0) {
       cells_.notes.push_back("note: " + lines_.name() + ": the header is repeated in " +
                              std::to_string(headers_again_) +
@@ -577,6 +589,7 @@ class Parser {
   bool cut_first_ = false;           // the first row had too few fields
   bool beyond_ = false;              // the row has a field beyond the columns
   std::size_t rows_beyond_ = 0, headers_again_ = 0;
+  std::size_t lines_of_words_ = 0, first_words_ = 0;
   std::string first_beyond_;
 };
 

@@ -32,7 +32,8 @@ StoredRun::StoredRun(file::TableData table, const std::string& name)
   }
   const Column* const t = find("t");
   if (t == nullptr) {
-    throw InputError(name_ + ": found no column t; allowed: the result of a run, with its times");
+    throw InputError(
+        name_ + ": found no column t; allowed: the result of a run, or a log with --map t=COLUMN");
   }
   times_ = &values_of(*t);
   if (times_->empty()) throw InputError(name_ + ": has no rows; allowed: at least one");

@@ -31,7 +31,9 @@ void check_times(const Run& run, const std::vector<double>& times) {
 
 void check_run(const Run& run) {
   if (find_series(run, "t") == nullptr) {
-    refuse_run(run.name, "it has no column t; a replay needs t, x and y");
+    refuse_run(
+        run.name,
+        "it has no column t; a replay needs t, x and y: --map t=COLUMN names those of a log");
   }
   if (find_series(run, "x") == nullptr && find_series(run, "y") == nullptr) {
     refuse_run(run.name, "it has neither a column x nor y; a replay needs t, x and y");

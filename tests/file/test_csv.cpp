@@ -16,6 +16,8 @@
 #include "base/error.hpp"
 #include "catch.hpp"
 #include "file/atomic_file.hpp"
+#include "file/cell_table.hpp"
+#include "file/formats.hpp"
 #include "file/table_writer.hpp"
 #include "support/folder.hpp"
 #include "support/tables.hpp"
@@ -173,6 +175,17 @@ TEST_CASE("ragged rows are refused") {
       refusal("t,x\n1,2,3,4\n") ==
       "a.csv:2:1: found 4 numbers; the header names 2 columns; name the others; or, if commas mark "
       "decimals, separate the columns by semicolons or tabs");
+}
+
+TEST_CASE("words that a board prints between rows are left out, with a warning") {
+  const Folder folder;
+  folder.put("a.csv", "t,x\n0,1\nBall balancer ready\nt,x\n1,2\nbye\n");
+  const bbsim::file::CellTable table = bbsim::file::read_csv_cells(folder / "a.csv", {});
+  REQUIRE(table.rows == 2);
+  CHECK(table.columns[1].numbers == std::vector<double>{1, 2});
+  CHECK(table.columns[0].texts.empty());
+  REQUIRE(table.notes.size() == 2);
+  CHECK(table.notes[0].find("a.csv:3") != std::string::npos);
 }
 
 TEST_CASE("fields that are no numbers are refused") {

@@ -252,8 +252,8 @@ TEST_CASE("only the named columns are parsed") {
 }
 
 TEST_CASE("a file that is not a table is refused with its place") {
-  CHECK_THAT(message_of<InputError>([&] { (void)cells("a,b\n1,2\nx\n3,4\n"); }),
-             Contains("a.csv:3:1: found 1 field; the header names 2 columns"));
+  CHECK_THAT(message_of<InputError>([&] { (void)cells("a,b\n1,2\n3\n3,4\n"); }),
+             Contains("a.csv:3:1: found 1 number; the header names 2 columns"));
   CHECK_THAT(message_of<InputError>([&] { (void)cells("a,b\n1,\"x\n"); }),
              Contains("a.csv:2:1: found a quotation mark without its closing one"));
   const CellTable more = cells("a,b\n1,x,3\n");
