@@ -14,7 +14,7 @@ import numpy as np
 
 from . import _bbsim
 from ._result import Result
-from ._scenario import Array, Scenario, Settings, as_yaml, fault, given
+from ._scenario import Array, Scenario, Settings, as_yaml, fault, given, refuse
 
 try:
     import gymnasium
@@ -88,13 +88,12 @@ def minus_squared_distance(observations: Array, actions: Array, terminated: Arra
 
 def _require_range(key: str, found: Any) -> None:
     try:
-        low, high = (float(bound) for bound in found)
-        if -math.inf < low <= high < math.inf:
-            return
+        low, high = map(float, found)
     except (TypeError, ValueError):
-        pass
-    allowed = "allowed: (low, high), two numbers in SI units with low <= high, or a function of a numpy Generator"
-    raise fault(f"{key}: found {found!r} in randomize; {allowed}")
+        low = high = math.nan
+    if not -math.inf < low <= high < math.inf:
+        allowed = "(low, high), two numbers in SI units with low <= high, or a function of a numpy Generator"
+        raise refuse(key, f"{found!r} in randomize", allowed)
 
 
 class VectorEnv(_VectorBase):

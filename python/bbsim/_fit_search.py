@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Iterator, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 from scipy.optimize import least_squares, lsq_linear
@@ -135,13 +135,19 @@ class Search:
 
     def begin(self, starts: Optional[int]) -> None:
         """Chooses where to start."""
-        changes = self.scale_keys()
-        acts = self._begin_at_delays() | self.windows.deaf.all(0)
+        changes, known = self.scale_keys(), self.windows.deaf.all(0)
+        for _ in self.delays:  # once more for each other delay
+            for k, at, costs in self._scans():
+                known[k] |= np.ptp(costs) > 1e-7 * costs.min()
+                if costs.min() < self.cost() * (1 - 1e-4):
+                    self.u = np.where(np.arange(len(self.u)) == k, at[costs.argmin()], self.u)
+                    self.windows.restart()
+                    self.windows.residuals(self.u)
         self.windows.find_kinks(self.u)
         if self.windows.kinked:
             changes = self.windows.derivatives(self.u)[1]
-        for key, change, known in zip(self.keys, changes, acts):
-            if not (change > 1e-7 or known):
+        for key, change, acts in zip(self.keys, changes, known):
+            if not (change > 1e-7 or acts):
                 columns = ", ".join(self.windows.columns)
                 refuse_free(f"{key.name}: has no effect on {columns}; allowed: keys that the compared columns depend on")
         # Mirrors the scale of a sensor if that fits better: between 1 and -1 it would pass 0, where the log determines
@@ -248,32 +254,20 @@ class Search:
         self.windows.at(self.u, starts[best], True)
         return True
 
-    def _scan(self, k: int) -> Tuple[Array, Array]:
-        """Numbers of a delay of commands within its bounds, with the other keys as they are, and sums of squares."""
-        limits = float(self.keys[k].value(self.u[k])) + np.array([-_DELAYS, _DELAYS])
-        ends = np.where(np.isfinite(self.bounds()[:, k]), self.bounds()[:, k], [*map(self.keys[k].number, limits)])
-        many = np.tile(self.u, (_SCANNED, 1))
-        many[:, k] = np.linspace(ends[0], ends[1], _SCANNED)
-        return many[:, k], self.windows.tried(many, False)[2]
-
-    def _begin_at_delays(self) -> Array:
-        """Moves each delay of commands to the best one of a scan: which commands a servo follows, or how they are
-        rounded, changes in steps with the delay. Residuals have a valley for each period of the samples, or are flat
-        between two steps. Returns which keys have an effect in the scan."""
-        acts = np.zeros(len(self.u), bool)
-        for k in self.delays * 2 if len(self.delays) > 1 else self.delays:
-            at, costs = self._scan(k)
-            acts[k] = np.ptp(costs) > 1e-7 * costs.min()
-            if costs.min() < self.cost() * (1 - 1e-4):
-                self.u = np.where(np.arange(len(self.u)) == k, at[costs.argmin()], self.u)
-                self.windows.restart()
-                self.windows.residuals(self.u)
-        return acts
+    def _scans(self) -> Iterator[Tuple[int, Array, Array]]:
+        """For each delay of commands, numbers within its bounds, and sums of squares there with the other keys as they
+        are. Which commands a servo follows, or how they are rounded, changes in steps with the delay: residuals have a
+        valley for each period of the samples, or are flat between two steps."""
+        for k in self.delays:
+            limits = float(self.keys[k].value(self.u[k])) + np.array([-_DELAYS, _DELAYS])
+            ends = np.where(np.isfinite(self.bounds()[:, k]), self.bounds()[:, k], [*map(self.keys[k].number, limits)])
+            many = np.tile(self.u, (_SCANNED, 1))
+            many[:, k] = np.linspace(ends[0], ends[1], _SCANNED)
+            yield k, many[:, k], self.windows.tried(many, False)[2]
 
     def compare_delays(self) -> None:
         """Finds other delays of commands that fit as well."""
-        for k in self.delays:
-            at, costs = self._scan(k)
+        for k, at, costs in self._scans():
             near = at[costs <= self.cost() * (1 + 4 / self.degrees_of_freedom())]
             others = np.tile(self.u, (len(near), 1))
             others[:, k] = near

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any, List, Sequence
 
 import numpy as np
@@ -15,38 +16,33 @@ from ._simulate import simulate
 _FORGET = 1.0  # s; a servo comes to rest in less
 
 
-def _followed(commands: Array, dead_band: float) -> Array:
-    """Whether a servo follows each command."""
-    follows, last = np.zeros(len(commands), bool), 0.0
-    for i, command in enumerate(commands):
-        if abs(command - last) > dead_band:
-            follows[i], last = True, command
-    return follows
-
-
 def _quiet(log: Any, begins: Array, ends: Array) -> Array:
     """Of each window and axis: whether the servo follows no command that could still move it."""
-    given, number = log.given, lambda key: _bbsim.key_facts(log.given, "", key).value
+    number = lambda key: _bbsim.key_facts(log.given, "", key).value
     quiet = np.zeros((len(begins), 2), bool)
-    usual, period = number("gimbal.servo.dead_band"), number("controller.sampling.period")
-    times = np.arange(max(log.times[0], 0.0), log.times[-1], period)
-    made = simulate(given, {}, ["phi_command", "theta_command"], times, begin=times[:1], end=times[-1:], events=False)
+    times = np.arange(max(log.times[0], 0.0), log.times[-1], number("controller.sampling.period"))
+    columns = ["phi_command", "theta_command"]
+    made = simulate(log.given, {}, columns, times, begin=times[:1], end=times[-1:], events=False)
     for axis, name in enumerate(("phi", "theta")):
-        own = number(f"gimbal.servo.{name}.dead_band")
-        at = times[_followed(made[f"{name}_command"][0], own if own is not None else usual or 0.0)]
-        quiet[:, axis] = np.searchsorted(at, ends) == np.searchsorted(at, begins - _FORGET)
+        own, followed, last = number(f"gimbal.servo.{name}.dead_band"), [], 0.0
+        dead_band = number("gimbal.servo.dead_band") if own is None else own
+        for t, command in zip(times, made[columns[axis]][0]):
+            if abs(command - last) > (dead_band or 0.0):
+                last = command
+                followed.append(t)
+        quiet[:, axis] = np.searchsorted(followed, ends) == np.searchsorted(followed, begins - _FORGET)
     return quiet & (made.status == "done").all()
 
 
 def deaf_windows(logs: Sequence[Any], windows: Any, keys: List[str]) -> Array:
     """Of each window and key: whether the key acts only through servos that follow no command there."""
     deaf, given = np.zeros((len(windows), len(keys)), bool), logs[0].given
-    dead_bands = [f"gimbal.servo{axis}.dead_band" for axis in ("", ".phi", ".theta")]
-    servos = [key.startswith("gimbal.servo") or key.startswith("controller.commands") and key.endswith("delay") for key in keys]
-    plain = _bbsim.has(given, "controller.commands") and not _bbsim.has(given, "gimbal.linkage")
-    # A band that is free may be narrower, and the commands of three legs are not phi and theta.
-    if not any(servos) or not plain or _bbsim.has(given, "gimbal.three_servos") or set(dead_bands) & set(keys) \
-            or not any(_bbsim.key_facts(given, "", one).value for one in dead_bands):
+    bands = [f"gimbal.servo{axis}.dead_band" for axis in ("", ".phi", ".theta")]
+    servos = [bool(re.match(r"gimbal\.servo|controller\.commands.*\.delay$", key)) for key in keys]
+    # A band that is free may be narrower; behind a linkage, commands to servos are not phi and theta.
+    has = [_bbsim.has(given, key) for key in ("controller.commands", "gimbal.linkage", "gimbal.three_servos")]
+    banded = any(_bbsim.key_facts(given, "", one).value for one in bands) and not set(bands) & set(keys)
+    if not (any(servos) and banded and has == [True, False, False]):
         return deaf
     for number in np.unique(windows.log):
         its = windows.log == number

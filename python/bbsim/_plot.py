@@ -18,12 +18,10 @@ from ._logs import Log, as_files, is_table, log_choice, tables_named, without_fo
 from ._plot_runs import draw_runs
 from ._plot_sheet import FONT, Figure, require_font, style
 from ._plot_sweeps import draw_sweep
-from ._result import Result
+from ._result import File, Result, Texts
 from ._scenario import InputError, counted, fault, given, listed, overrides, refuse
 
-File = Union[str, "os.PathLike[str]"]
 Drawn = Union[Log, Result, "np.ndarray[Any, np.dtype[np.void]]"]
-Texts = Union[str, Sequence[str]]
 
 _FORMATS = ("svg", "png", "pdf")
 _MARK = "drawn by bbsim plot"  # identifies pictures of bbsim

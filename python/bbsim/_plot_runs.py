@@ -62,11 +62,13 @@ class _Marks:
         return entries
 
 
-def _lone(x: Any, y: Any) -> Tuple[Any, Any]:
-    """The points between two gaps, through which no line goes."""
-    drawn = np.isfinite(x) & np.isfinite(y)
-    beside = np.concatenate([[False], drawn[:-1]]) | np.concatenate([drawn[1:], [False]])
-    return x[drawn & ~beside], y[drawn & ~beside]
+def _line(axes: Any, x: Any, y: Any, **look: Any) -> None:
+    """A line, and dots at points between two gaps, through which it does not go."""
+    axes.plot(x, y, **look)
+    drawn = np.pad(np.isfinite(x) & np.isfinite(y), 1)
+    lone = drawn[1:-1] & ~drawn[:-2] & ~drawn[2:]
+    if lone.any():
+        axes.plot(x[lone], y[lone], **mark("o", look["color"], 2.0))
 
 
 def _time_panel(
@@ -107,10 +109,7 @@ def _time_panel(
         x, y = abscissa.of(run), scale(run.numbers(line.column))
         # A sampled controller holds each command until the next one; a sensor holds its value.
         held = line.role == MEASURED or (line.role == COMMAND and run.sampled is not False)
-        axes.plot(x, y, drawstyle="steps-post" if held else "default", **look)
-        dots = _lone(x, y)
-        if len(dots[0]):
-            axes.plot(*dots, **mark("o", look["color"], 2.0))
+        _line(axes, x, y, drawstyle="steps-post" if held else "default", **look)
     if in_sight:
         for value in limits:
             axes.axhline(float(scale(value)), **edge)
@@ -137,10 +136,6 @@ def _points(run: _bbsim.Stored, suffix: str = "") -> Array:
     return np.where(np.isfinite(points).all(0), points, np.nan)
 
 
-def _stands_still(points: Array) -> bool:
-    return not any(is_wide(covered(part)) for part in points)
-
-
 def _plates(runs: Sequence[_bbsim.Stored]) -> List[Array]:
     """The edges of the known plates, m."""
     turn = np.linspace(0, 2 * math.pi, 181)
@@ -155,6 +150,8 @@ class _Path:
     def __init__(self, runs: Runs) -> None:
         self._runs = runs
         paths = [_points(run, suffix) for run in runs.runs for suffix in ("", "_reference")]
+        self._references = [(its, BAND if any(is_wide(covered(part)) for part in its) else mark("x", "#009e73", 5))
+                            for its in paths[1::2] if covered(its[0]) is not None]  # fmt: skip
         self.exists = any(covered(_points(run)[0]) for run in runs.runs)
         spots = np.array([(event.x, event.y) for run in runs.runs for event in run.events]).reshape(-1, 2).T
 
@@ -172,10 +169,7 @@ class _Path:
 
     def legend(self) -> Legend:
         entries: Dict[str, Stroke] = {"path": stroke(0)} if self._runs.one else {}
-        for run in self._runs.runs:
-            reference = _points(run, "_reference")
-            if covered(reference[0]) is not None:
-                entries["reference"] = mark("x", "#009e73", 5) if _stands_still(reference) else BAND
+        entries.update(("reference", look) for _, look in self._references)
         if self._edges:
             entries["plate's edge"] = {"color": "#404040", "lw": 0.9}
         return [*entries.items(), ("start", mark(" o")), ("end", mark("o", size=4))]
@@ -194,26 +188,23 @@ class _Path:
         linear(axes.yaxis, middle - tall, middle + tall, box.up, step=step)
 
         def line(points: Array, look: Stroke) -> None:
-            drawn = x_scale(points[0]), y_scale(points[1])
-            axes.plot(*drawn, **look)
-            axes.plot(*_lone(*drawn), **mark("o", look["color"], 2.0))
+            _line(axes, x_scale(points[0]), y_scale(points[1]), **look)
 
         def spot(points: Array, at: int, look: Stroke) -> None:
             finite = np.flatnonzero(np.isfinite(points[0]))
             if len(finite):
                 axes.plot(x_scale(points[0][finite[at]]), y_scale(points[1][finite[at]]), **look)
 
-        references = [_points(run, "_reference") for run in runs.runs]
-        for reference in references:
-            if not _stands_still(reference):
-                line(reference, BAND)
+        for reference, look in self._references:
+            if look is BAND:
+                line(reference, look)
         for edge in self._edges:
             line(edge, {"color": "#404040", "lw": 0.9})
         for run in runs.runs:
             line(_points(run), runs.stroke(run))
-        for reference in references:
-            if _stands_still(reference):
-                spot(reference, 0, mark("x", "#009e73", 5))
+        for reference, look in self._references:
+            if look is not BAND:
+                spot(reference, 0, look)
         for run in runs.runs:
             color = "#000000" if runs.one else runs.stroke(run)["color"]
             spot(_points(run), 0, mark(" o", color))

@@ -30,7 +30,8 @@ class _Sweep:
     def __init__(self, stored: _bbsim.Stored) -> None:
         self.stored = stored
         self.table = _bbsim.sweep_table(stored)
-        self.done = np.array(self.table.status) == "done"
+        self.status = np.array(self.table.status)
+        self.done = self.status == "done"
         self.units = Units(stored.scenario_text)
 
     def mark(self, status: str) -> Stroke:
@@ -138,9 +139,8 @@ def _lines(sweep: _Sweep, name: str, over: _bbsim.SweepKey, group: Optional[_bbs
         if any(len(bundle) > 1 for bundle in bundles) and len(groups) <= _MOST_BANDS:
             axes.fill_between(x, low, high, color=look["color"], alpha=0.25, lw=0)
         axes.plot(x, middle, **look)
-    status = np.array(sweep.table.status)
     for other, _ in sweep.table.others:  # at the foot
-        x = along.place(np.unique(over.values[chosen & (status == other)]))
+        x = along.place(np.unique(over.values[chosen & (sweep.status == other)]))
         axes.plot(x, np.zeros(len(x)), transform=axes.get_xaxis_transform(), clip_on=False, **sweep.mark(other))
 
 
@@ -212,14 +212,14 @@ def _color_scale(axes: Any, colors: _Measure, norm: Any, up: float) -> None:
 
 def _points(sweep: _Sweep, axes: Any, colors: _Measure, norm: Any, along: _Key, up: _Key) -> None:
     """A point for each case."""
-    x, y, status = along.place(along.key.values), up.place(up.key.values), np.array(sweep.table.status)
+    x, y = along.place(along.key.values), up.place(up.key.values)
     good = sweep.done & np.isfinite(colors.values)
     many, size = len(x) > _MANY_POINTS, 3 if len(x) > _MANY_POINTS else 14
     axes.scatter(x[good], y[good], size, colors.scale(colors.values[good]), cmap="viridis", norm=norm, lw=0, rasterized=many)
     none = sweep.done & ~good
     axes.scatter(x[none], y[none], size, _NO_VALUE["color"], lw=0, rasterized=many)
     for other, _ in sweep.table.others:
-        axes.plot(x[status == other], y[status == other], **sweep.mark(other))
+        axes.plot(x[sweep.status == other], y[sweep.status == other], **sweep.mark(other))
 
 
 def _middles(edges: Any, log: bool) -> Any:
