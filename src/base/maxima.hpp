@@ -88,9 +88,9 @@ void for_each_bracket(const ChebyshevPoints& points, const double* values, const
     const std::size_t inner = i == 0 ? 1 : last - 1, next = i == 0 ? 2 : last - 2;
     const double width = std::abs(points[inner] - points[i]);
     const double change = here - values[inner];
-    const Peak end{points[i], here}, other{points[inner], values[inner]};
+    const Peak end{points[i], here}, neighbor{points[inner], values[inner]};
     const auto look_within = [&](double way) {
-      use(Bracket{i == 0 ? end : other, end, i == 0 ? other : end,
+      use(Bracket{i == 0 ? end : neighbor, end, i == 0 ? neighbor : end,
                   points[i] + (i == 0 ? way : -way)});
     };
     if (between == Between::kinks) {

@@ -27,12 +27,12 @@ class Queue {
   }
   // The queue must not be empty.
   T pop() {
-    T one = all_[first_++];
+    T element = all_[first_++];
     if (empty()) {
       all_.clear();
       first_ = 0;
     }
-    return one;
+    return element;
   }
 
  private:

@@ -68,8 +68,9 @@ void AtomicFile::open_temporary() {
   descriptor_ = above_standard_streams(
       open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, any_permissions));
   const int error = descriptor_.is_open() ? 0 : errno;
-  const int other = error == 0 && target_.found ? take_after(descriptor_.get(), *target_.found) : 0;
-  if (error == 0 && other == 0) return;
+  const int mode_error =
+      error == 0 && target_.found ? take_after(descriptor_.get(), *target_.found) : 0;
+  if (error == 0 && mode_error == 0) return;
   remove_temporary();  // no destructor runs for a constructor that throws
   if (error == ENOENT) {
     throw OutputError("cannot write " + target_.name + ": there is no folder " + target_.folder() +
@@ -80,7 +81,7 @@ void AtomicFile::open_temporary() {
                       target_.folder() +
                       "; write to another folder, or change the permissions of this one");
   }
-  fail(error != 0 ? error : other);
+  fail(error != 0 ? error : mode_error);
 }
 
 void AtomicFile::write(std::string_view bytes) {

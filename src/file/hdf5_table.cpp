@@ -106,7 +106,8 @@ Hdf5TableWriter::Hdf5TableWriter(const std::string& target, const std::vector<Hd
   // Takes the numbers of closed standard streams: HDF5's file would have one, and messages would go
   // into it.
   std::array<Descriptor, 3> taken;
-  for (Descriptor& one : taken) one = Descriptor(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+  for (Descriptor& descriptor : taken)
+    descriptor = Descriptor(::open("/dev/null", O_RDONLY | O_CLOEXEC));
   check(module_to_write(target).create(file_.temporary(), columns, axes, writer_));
 }
 

@@ -37,13 +37,13 @@ void Outputs::writes(const std::string& file, const std::string& what) {
   const auto shown = [](const std::string& name, const char* stream) {
     return name == "-" ? std::string(stream) : name;
   };
-  for (const File& other : files_) {
-    if (other.place != *place) continue;
+  for (const File& earlier : files_) {
+    if (earlier.place != *place) continue;
     throw InputError("cannot write " + shown(file, "standard output") + " (" + what +
                      "): it is the same file as " +
-                     shown(other.name, other.read ? "standard input" : "standard output") + " (" +
-                     other.what + "), which is " +
-                     (other.read ? "read here" : "written here, too") +
+                     shown(earlier.name, earlier.read ? "standard input" : "standard output") +
+                     " (" + earlier.what + "), which is " +
+                     (earlier.read ? "read here" : "written here, too") +
                      "; allowed: a file of its own");
   }
   files_.push_back({file, what, false, *place});

@@ -56,9 +56,9 @@ Descriptor open_existing(const std::string& name, int how) {
 OwnFile open_own_file(const std::string& name) {
   constexpr int most_attempts = 100;  // in case other processes keep creating and removing it
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    Descriptor made = above_standard_streams(
+    Descriptor created = above_standard_streams(
         open(name.c_str(), O_RDWR | O_APPEND | O_CREAT | O_EXCL | always, any_permissions));
-    if (made.is_open()) return {std::move(made), true};
+    if (created.is_open()) return {std::move(created), true};
     if (errno != EEXIST) fail_to_write(name, errno);
     Descriptor found = open_existing(name, O_RDWR | O_APPEND);
     if (found.is_open()) return {std::move(found), false};

@@ -19,8 +19,8 @@ std::vector<std::string> folders_of_prefix(const char* name, const char* install
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
   const std::filesystem::path prefix = program.parent_path().parent_path();
   std::vector<std::string> folders{prefix / name / "bbsim"};
-  const std::string other = prefix / installed / "bbsim";
-  if (other != folders.front()) folders.push_back(other);
+  const std::string as_built = prefix / installed / "bbsim";
+  if (as_built != folders.front()) folders.push_back(as_built);
   return folders;
 }
 

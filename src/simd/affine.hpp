@@ -24,9 +24,9 @@ struct Affine {
   }
   // Variable i.
   BBSIM_INLINE static Affine variable(int i) {
-    Affine one(P(0.0));
-    one.by[i] = P(1.0);
-    return one;
+    Affine result(P(0.0));
+    result.by[i] = P(1.0);
+    return result;
   }
 
   // The value at these variables.

@@ -75,7 +75,8 @@ InstructionSet chosen_instruction_set() {
     throw InputError("environment variable BBSIM_SIMD: found '" + std::string(asked) +
                      "'; allowed: " + names());
   }
-  return std::ranges::find_if(candidates, [](const Candidate& one) { return one.runs_here(); })
+  return std::ranges::find_if(candidates,
+                              [](const Candidate& candidate) { return candidate.runs_here(); })
       ->set;
 }
 

@@ -46,8 +46,8 @@ void SteppedLanes::ask(std::size_t l) {
   const double* const angles = lane.z.data() + model::RigLayout::angle;
   const double* const rates = angles + lane.plate->servos();
   double servo[4] = {angles[0], angles[1], rates[0], rates[1]};
-  const model::Between& between = lane.run->model().rig->between;
-  if (between.three) between.believed(angles, rates, servo);
+  const model::Mechanism& mechanism = lane.run->model().rig->mechanism;
+  if (mechanism.three) mechanism.believed(angles, rates, servo);
   now.servo = {servo[0], servo[1]};
   now.servo_rate = {servo[2], servo[3]};
   lane.waits = true;
@@ -148,9 +148,9 @@ void SteppedLanes::search(std::size_t l) {
 
 // Handles exposures and commands, each at its time, up to samples or the ends of the pieces.
 void SteppedLanes::pass_instants() {
-  const auto other = [this](std::size_t l) { return lanes_[l].end; };
-  Instant next;
-  while (find_instants(other, next)) {
+  const auto end_time = [this](std::size_t l) { return lanes_[l].end; };
+  NextInstants next;
+  while (find_instants(end_time, next)) {
     for (std::size_t l = 0; l < group; ++l) {
       Lane& lane = lanes_[l];
       if (!lane.moved || lane.settled) continue;
