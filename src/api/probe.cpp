@@ -87,7 +87,7 @@ class Bench {
       const model::Commands asked = loop.external->command(
           {i, t, seen, std::span(at).first(servos), std::span(still).first(servos), reference},
           own_.data());
-      commands.push_back(loop.legs ? model_.rig().between.tilt(asked) : Pair{asked[0], asked[1]});
+      commands.push_back(loop.legs ? model_.rig().mechanism.tilt(asked) : Pair{asked[0], asked[1]});
     }
     return commands;
   }

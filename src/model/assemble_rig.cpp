@@ -109,8 +109,8 @@ RigServo rig_servo(const Servo& servo, const Controller& controller) {
 Rig build_rig(const Scenario& scene, const ControlLaw& law) {
   const Controller& controller = *scene.controller;
   Rig rig;
-  rig.between = between_of(scene);
-  if (rig.between.three) rig.servos = 3;
+  rig.mechanism = mechanism_of(scene);
+  if (rig.mechanism.three) rig.servos = 3;
   rig.steps_lost = scene.events.steps_lost.value_or(OnEvent::note);
   const Mounting& mounting = scene.gimbal.mounting;
   for (int i = 0; i < rig.servos; ++i) {
@@ -118,11 +118,11 @@ Rig build_rig(const Scenario& scene, const ControlLaw& law) {
     if (scene.gimbal.servo)
       servo = rig_servo(scene.gimbal.servo_of(static_cast<std::size_t>(i)), controller);
     // A linkage includes the plane's offset.
-    if (rig.between.none()) servo.offset = i == 0 ? mounting.phi_offset : mounting.theta_offset;
+    if (rig.mechanism.none()) servo.offset = i == 0 ? mounting.phi_offset : mounting.theta_offset;
   }
   CommandRange limits[2];
   for (int i = 0; i < 2; ++i) {
-    const CommandRange reach = rig.between.reach(i);
+    const CommandRange reach = rig.mechanism.reach(i);
     limits[i] = CommandRange::within(
         command_limit(controller, static_cast<std::size_t>(i)).value_or(unlimited));
     limits[i] = {std::max(limits[i].low, reach.low), std::min(limits[i].high, reach.high)};
@@ -134,7 +134,7 @@ Rig build_rig(const Scenario& scene, const ControlLaw& law) {
                                     controller.sensor.value_or(Sensor{}),
                                     law,
                                     {limits[0], limits[1]},
-                                    rig.between,
+                                    rig.mechanism,
                                     {},
                                     controller.drives == Drives::legs});
     if (rig.sampled->sensor.contact_force > 0) rig.sampled->pressing = constants_of(scene);
@@ -175,14 +175,14 @@ namespace {
 // Takes the mechanism from the rig, including servos that turn the plane directly.
 void take_link(const Rig&, Direct&) {}
 void take_link(const Rig& rig, Linkages& link) {
-  link = rig.between.at_home();
+  link = rig.mechanism.at_home();
   // A direct drive has only the plane's offset.
-  for (int i = 0; rig.between.none() && i < 2; ++i) {
+  for (int i = 0; rig.mechanism.none() && i < 2; ++i) {
     link.of[i].set_offsets(rig.servo[i].offset, 0);
   }
 }
 void take_link(const Rig& rig, ThreeServos& link) {
-  link = *rig.between.three;
+  link = *rig.mechanism.three;
 }
 
 }  // namespace

@@ -50,10 +50,10 @@ VectorXd Elimination::solve(const VectorXd& b) const {
 
 SingularValues singular_values(const MatrixXd& a, unsigned wanted) {
   const Eigen::JacobiSVD<MatrixXd> svd(a, wanted);
-  SingularValues made{svd.singularValues(), {}, {}};
-  if (svd.computeU()) made.u = svd.matrixU();
-  if (svd.computeV()) made.v = svd.matrixV();
-  return made;
+  SingularValues result{svd.singularValues(), {}, {}};
+  if (svd.computeU()) result.u = svd.matrixU();
+  if (svd.computeV()) result.v = svd.matrixV();
+  return result;
 }
 
 MatrixXd exponential(const MatrixXd& a) {

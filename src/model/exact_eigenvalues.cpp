@@ -31,7 +31,7 @@ class QuadMatrix {
   // and maps `vector` to a multiple of (1, 0, ...).
   void reflect(std::vector<Quad> vector, int first, int low, int high) {
     Quad square(0.0);
-    for (const Quad& one : vector) square += one * one;
+    for (const Quad& component : vector) square += component * component;
     const Quad length = root_along(square, vector[0]);
     if (length == Quad(0.0)) return;
     vector[0] += length;

@@ -160,8 +160,8 @@ std::string limits_note(const Gimbal& gimbal) {
 
 // The plate's tilt when the controller commands it level.
 std::string believed_level(const Scenario& scene) {
-  const Between between = between_of(scene);
-  const Pair tilt = between.tilt(between.told({0, 0}));
+  const Mechanism mechanism = mechanism_of(scene);
+  const Pair tilt = mechanism.tilt(mechanism.commands_for({0, 0}));
   return "phi is " + degrees(tilt[0]) + " and theta " + degrees(tilt[1]);
 }
 
@@ -186,8 +186,8 @@ std::string beyond_note(const Linkage& linkage, const Servo& servo) {
 }
 
 // Notes for unequal legs and for controllers that command legs.
-std::string legs_note(const Scenario& scene, const Between& between) {
-  const ThreeServos& three = *between.three;
+std::string legs_note(const Scenario& scene, const Mechanism& mechanism) {
+  const ThreeServos& three = *mechanism.three;
   std::string text;
   if (!three.equal) {
     text += "; the legs twist the plate by at most " + degrees(greatest_twist(three, 0.1)) +
@@ -203,9 +203,9 @@ std::string legs_note(const Scenario& scene, const Between& between) {
 
 std::string linkage_note(const Scenario& scene) {
   if (!scenario::is_linked(scene)) return "";
-  const Between between = between_of(scene);
-  if (between.three) {
-    const ThreeServos& three = *between.three;
+  const Mechanism mechanism = mechanism_of(scene);
+  if (mechanism.three) {
+    const ThreeServos& three = *mechanism.three;
     const double tilt = greatest_tilt(three);
     double plate = 0;
     for (const ThreeServos::Leg& leg : three.leg) plate = std::max(plate, leg.plate);
@@ -213,11 +213,11 @@ std::string linkage_note(const Scenario& scene) {
            degrees(tilt) + "; the shift of the plate's center is neglected, at most " +
            short_number(1e3 * plate / 2 * (1 - std::cos(tilt))) + " mm there, and " +
            short_number(1e3 * plate / 2 * (1 - std::cos(0.1))) + " mm at 0.1 rad" +
-           legs_note(scene, between) + assumes_note(scene);
+           legs_note(scene, mechanism) + assumes_note(scene);
   }
   std::string text;
   for (std::size_t i = 0; i < 2; ++i) {
-    const Linkage& linkage = between.linkages[i];
+    const Linkage& linkage = mechanism.linkages[i];
     text += i == 0 ? "phi: " : "; theta: ";
     const bool as_servo = linkage.curve.kind == LinkCurve::Kind::ideal;
     if (as_servo && !linkage.reach.binds()) {

@@ -76,14 +76,14 @@ std::vector<std::string> Model::state_names() const {
           std::vector<std::string> loop{"x", "y", "vx", "vy", "r*spin"};
           if constexpr (Any::servos == 3) {
             for (const char* suffix : {"", "_rate"}) {
-              for (const char* one : {"servo_phi", "servo_theta", "servo_third"}) {
-                loop.push_back(std::string(one) + suffix);
+              for (const char* angle : {"servo_phi", "servo_theta", "servo_third"}) {
+                loop.push_back(std::string(angle) + suffix);
               }
             }
           } else {
-            const bool own = rig && !rig->between.none();  // servo angles, not the plane's
-            for (const char* one : {"phi", "theta", "phi_rate", "theta_rate"}) {
-              loop.push_back(std::string(own ? "servo_" : "") + one);
+            const bool own = rig && !rig->mechanism.none();  // servo angles, not the plane's
+            for (const char* state : {"phi", "theta", "phi_rate", "theta_rate"}) {
+              loop.push_back(std::string(own ? "servo_" : "") + state);
             }
           }
           loop.insert(loop.end(),

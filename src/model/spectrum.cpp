@@ -48,15 +48,15 @@ RoundedValues rounded_values(const Eigen::MatrixXd& matrix, double rounding,
   known.moved.assign(known.values.size(),
                      exact_rounding(matrix.rows()) * balanced(matrix).cwiseAbs().maxCoeff());
   for (const int way : {1, 2}) {
-    Eigen::MatrixXd other = matrix;
+    Eigen::MatrixXd perturbed = matrix;
     for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
       for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
         // Arbitrary, unrelated numbers between -1 and 1.
         const double part = std::sin(static_cast<double>(way * (1 + 37 * i + 101 * j)));
-        other(i, j) += matrix(i, j) * rounding * part;
+        perturbed(i, j) += matrix(i, j) * rounding * part;
       }
     }
-    Eigenvalues values = exact_eigenvalues(other);
+    Eigenvalues values = exact_eigenvalues(perturbed);
     if (values.size() != known.values.size()) return {};
     sort_by(values, measure);
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -76,7 +76,8 @@ Eigenvalues sorted_eigenvalues(const Eigen::MatrixXd& matrix) {
   if (values.empty()) return values;
   // Rounding splits a triple pole by its cube root.
   const double doubtful = 1e-5 * balanced(matrix).cwiseAbs().maxCoeff();
-  if (std::ranges::all_of(values, [&](const auto& one) { return std::abs(one.real()) > doubtful; }))
+  if (std::ranges::all_of(values,
+                          [&](const auto& value) { return std::abs(value.real()) > doubtful; }))
     return values;
   RoundedValues known = rounded_values(matrix, 4 * epsilon, real_part);
   if (known.values.empty()) return values;
@@ -95,7 +96,7 @@ Eigenvalues poles_of_period(const Eigen::MatrixXd& map) {
   // Rounding splits a double pole by its square root.
   const auto near = [&](double distance) {
     return std::ranges::any_of(
-        values, [&](const auto& one) { return std::abs(std::abs(one) - 1) < distance; });
+        values, [&](const auto& value) { return std::abs(std::abs(value) - 1) < distance; });
   };
   if (!near(1e-6)) return values;
   RoundedValues known{values, std::vector<double>(values.size(), 1e-9)};

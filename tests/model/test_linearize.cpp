@@ -652,9 +652,9 @@ TEST_CASE("B of torques and of three servos' commands agrees with differences") 
         command[j] += side;
         auto& mode = loop.loop.mode;
         if constexpr (decltype(loop)::servos == 3) {
-          double told[3];
-          loop.loop.link.told(command, told);
-          std::copy_n(told, 3, mode.command);
+          double commands[3];
+          loop.loop.link.commands_for(command, commands);
+          std::copy_n(commands, 3, mode.command);
         } else {
           std::copy_n(command, 2, mode.command);
         }

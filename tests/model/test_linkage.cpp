@@ -94,9 +94,9 @@ TEST_CASE("the inverse of a push rod is accurate to 1e-13") {
             1e-13 * std::max(1.0, 0.05 / std::abs(slope)));
       // The same for every number type.
       const simd::WithGradient<1> wanted(linkage.angle(servo), simd::WithGradient<1>::Gradient(1));
-      const auto told = linkage.curve.told(wanted);
-      CHECK(std::abs(told.value - servo) < 1e-13 * std::max(1.0, 0.05 / std::abs(slope)));
-      CHECK(told.gradient[0] * slope == Approx(1).epsilon(1e-9));
+      const auto command = linkage.curve.command_for(wanted);
+      CHECK(std::abs(command.value - servo) < 1e-13 * std::max(1.0, 0.05 / std::abs(slope)));
+      CHECK(command.gradient[0] * slope == Approx(1).epsilon(1e-9));
     }
   }
 }
@@ -115,7 +115,7 @@ TEST_CASE("the inverse of a push rod works for servos beyond half a turn") {
       const double bound = 1e-13 * std::max(1.0, 0.05 / std::abs(slope));
       CHECK(std::abs(linkage.servo_for(linkage.angle(servo)) - servo) < bound);
       const simd::WithGradient<1> wanted(linkage.angle(servo), simd::WithGradient<1>::Gradient(1));
-      CHECK(std::abs(curve.told(wanted).value - servo) < bound);
+      CHECK(std::abs(curve.command_for(wanted).value - servo) < bound);
     }
   }
   CHECK(beyond > 100);
@@ -313,7 +313,7 @@ TEST_CASE("a measured curve is smooth, has an exact inverse and approaches the m
       const std::size_t piece = curve.piece_at(0, servo, 1);
       at.piece = at.command_piece = curve.table->view().pieces[piece];
       CHECK(at.angle(servo) == curve.angle(servo));
-      CHECK(std::abs(at.told(curve.angle(servo)) - servo) < 1e-13);
+      CHECK(std::abs(at.command_for(curve.angle(servo)) - servo) < 1e-13);
       CHECK(std::abs(at.plain_turn(servo).slope - curve.table->at(servo).rate) < 1e-15);
     }
     if (last > 0) CHECK(worst < last / 8);  // fourth order, except half of it near the ends
@@ -454,7 +454,7 @@ TEST_CASE(
       const double wanted[2] = {0.099 * i * most, 0.099 * j * most};
       if (std::cos(wanted[0]) * std::cos(wanted[1]) < std::cos(0.98 * most)) continue;
       double servo[3], plane[2];
-      three.told(wanted, servo);
+      three.commands_for(wanted, servo);
       angles_of(three, servo, plane);
       ++poses;
       // Rounding, magnified by 1/sine of the knee angle if a leg is nearly stretched.
@@ -467,7 +467,7 @@ TEST_CASE(
   if (!three.equal) return;
   const double level[2] = {0, 0};
   double servo[3];
-  three.told(level, servo);
+  three.commands_for(level, servo);
   for (const double one : servo) CHECK(std::abs(one) < 1e-15);
 }
 
@@ -557,7 +557,7 @@ TEST_CASE("unequal legs: the closed chain agrees with the pose in quad precision
   // Level at home, where the offsets are compensated.
   const double level[2] = {0, 0};
   double servo[3], plane[2];
-  three.told(level, servo);
+  three.commands_for(level, servo);
   CHECK(servo[0] == Approx(-0.05));
   CHECK(servo[1] == Approx(0).margin(1e-15));
   CHECK(servo[2] == Approx(0.03));
@@ -602,24 +602,24 @@ TEST_CASE("firmware with wrong leg dimensions has a table that is not level") {
   legs[0].rod += 0.003;
   scene.controller.emplace().assumes = Assumes::exact;
   scene.controller->assumed_legs = hobby_plate();
-  const Between between = between_of(scene);
-  const std::array<double, 3> servo = between.told({0, 0});
+  const Mechanism mechanism = mechanism_of(scene);
+  const std::array<double, 3> servo = mechanism.commands_for({0, 0});
   // The horns are set for a level plate with the assumed legs.
   const ThreeServos taken = make_three_servos(hobby_plate(), Assumed::exact);
   for (std::size_t i = 0; i < 3; ++i) {
-    CHECK(between.three->leg[i].home + servo[i] == Approx(taken.leg[i].home).epsilon(1e-14));
+    CHECK(mechanism.three->leg[i].home + servo[i] == Approx(taken.leg[i].home).epsilon(1e-14));
   }
-  const Pair tilt = between.tilt(servo);
+  const Pair tilt = mechanism.tilt(servo);
   CHECK(std::abs(tilt[0]) > 0.01);  // a longer rod lifts its side
   CHECK(std::abs(tilt[1]) < 1e-12);
   // The firmware believes the plate to be level.
   const double resting[3] = {0, 0, 0};
   double into[4];
-  between.believed(servo.data(), resting, into);
+  mechanism.believed(servo.data(), resting, into);
   CHECK(std::abs(into[0]) < 1e-14);
   CHECK(std::abs(into[1]) < 1e-14);
   scene.controller->assumed_legs.reset();
-  CHECK(std::abs(between_of(scene).tilt(between_of(scene).told({0, 0}))[0]) < 1e-14);
+  CHECK(std::abs(mechanism_of(scene).tilt(mechanism_of(scene).commands_for({0, 0}))[0]) < 1e-14);
 }
 
 TEST_CASE("three servos: the workspace ends where a leg is stretched or folded") {
@@ -644,8 +644,8 @@ TEST_CASE("three servos: a ratio is the inverse's slope at home") {
   for (const auto& direction : {std::pair{1.0, 0.0}, std::pair{0.0, 1.0}, std::pair{0.6, -0.8}}) {
     const double wanted[2] = {h * direction.first, h * direction.second};
     double a[3], b[3], angle[2], rate[2];
-    exact.told(wanted, a);
-    ratio.told(wanted, b);
+    exact.commands_for(wanted, a);
+    ratio.commands_for(wanted, b);
     for (int i = 0; i < 3; ++i) CHECK(std::abs(a[i] - b[i]) < 100 * h * h);
     const double none[3] = {0, 0, 0};
     ratio.believed(b, none, angle, rate);

@@ -44,8 +44,8 @@ Vector3d packed(const Vector3<double>& a) {
 
 // The quantities from which forces, torques and energy follow. All vectors are in the plane's
 // frame.
-struct Instant {
-  Instant(const Sample& sample, const BallConstants& with)
+struct Kinematics {
+  Kinematics(const Sample& sample, const BallConstants& with)
       : constants(with),
         gimbal(sample.gimbal),
         ball(sample.ball),
@@ -114,11 +114,11 @@ struct Instant {
 }  // namespace
 
 Vector3d contact_force(const Sample& sample, const BallConstants& constants) {
-  return Instant(sample, constants).force();
+  return Kinematics(sample, constants).force();
 }
 
 Dynamics dynamics(const Sample& sample, const BallConstants& constants) {
-  const Instant now(sample, constants);
+  const Kinematics now(sample, constants);
   const double r = constants.radius, m = constants.mass, g = constants.gravity;
   const Vector3d& omega = now.omega;
   const Vector3d centre_velocity = now.velocity + omega.cross(now.centre);
@@ -162,16 +162,16 @@ Dynamics dynamics(const Sample& sample, const BallConstants& constants) {
 }
 
 double tilt(const Sample& sample, const BallConstants& constants) {
-  const Vector3d up = Instant(sample, constants).up;
+  const Vector3d up = Kinematics(sample, constants).up;
   return std::atan2(std::hypot(up.x(), up.y()), up.z());
 }
 
 double tilt_rate(const Sample& sample, const BallConstants& constants) {
-  return Instant(sample, constants).omega.norm();
+  return Kinematics(sample, constants).omega.norm();
 }
 
 double singularity_distance(const Sample& sample, const BallConstants& constants) {
-  const Instant now(sample, constants);
+  const Kinematics now(sample, constants);
   const auto at_rest = [](const GimbalAngle<double>& axis, double acceleration) {
     return GimbalAngle<double>{axis.sin, axis.cos, 0, acceleration};
   };

@@ -42,18 +42,18 @@ using LinkOf = std::decay_t<decltype(gimbal_of(std::declval<Loop&>()).link)>;
 
 // Offsets a linkage so that the plane is level at home, where a servo's own angle may not be 0.
 Linkages levelled(Linkages link) {
-  for (LinkCurve& one : link.of) {
-    const Turn<double> home = one.plain_turn(0.0);
-    one.set_offsets(0, std::atan2(home.sin, home.cos));
+  for (LinkCurve& curve : link.of) {
+    const Turn<double> home = curve.plain_turn(0.0);
+    curve.set_offsets(0, std::atan2(home.sin, home.cos));
   }
   return link;
 }
 
 // Linkages at home, with the pieces of measured curves that hold at a point.
-Linkages linkages_at(const Between& between, const LinearPoint& at) {
-  Linkages link = between.at_home();
-  for (std::size_t i = 0; i < between.linkages.size(); ++i) {
-    const Linkage& linkage = between.linkages[i];
+Linkages linkages_at(const Mechanism& mechanism, const LinearPoint& at) {
+  Linkages link = mechanism.at_home();
+  for (std::size_t i = 0; i < mechanism.linkages.size(); ++i) {
+    const Linkage& linkage = mechanism.linkages[i];
     if (!linkage.table) continue;
     const auto piece = [&](double servo) {
       return linkage.table->view().pieces[linkage.piece_at(0, servo, 1)];
@@ -74,7 +74,8 @@ Loop placed(Loop loop, const Model& model, const LinearPoint& at) {
   auto& gimbal = gimbal_of(loop);
   if (at.home) gimbal.mode = {};
   if constexpr (std::is_same_v<LinkOf<Loop>, Linkages>) {
-    if (model.rig && !model.rig->between.none()) gimbal.link = linkages_at(model.rig->between, at);
+    if (model.rig && !model.rig->mechanism.none())
+      gimbal.link = linkages_at(model.rig->mechanism, at);
     if (at.home) gimbal.link = levelled(gimbal.link);
   }
   if constexpr (std::is_same_v<LinkOf<Loop>, ThreeServos>) {
@@ -158,15 +159,15 @@ template <class Loop>
 Loop under(const Loop& of, const ControlLaw& law, const ServoResponses& servo,
            const LinkOf<Loop>& link) {
   const auto& gimbal = gimbal_of(of);
-  std::decay_t<decltype(gimbal)> other(gimbal.radius(), gimbal.gravity(), gimbal.rolling(), law,
-                                       servo, {}, gimbal.mode, link);
+  std::decay_t<decltype(gimbal)> under_law(gimbal.radius(), gimbal.gravity(), gimbal.rolling(), law,
+                                           servo, {}, gimbal.mode, link);
   if constexpr (is_coupled_loop<Loop>) {
     const GimbalBy by = of.by == GimbalBy::given_torques ? GimbalBy::torques : of.by;
-    Loop loop(of.parts, by, of.motor, other, of.push);
+    Loop loop(of.parts, by, of.motor, under_law, of.push);
     loop.integrate_error(law.integrates());
     return loop;
   } else {
-    return other;
+    return under_law;
   }
 }
 
@@ -180,7 +181,7 @@ Loop without_law(const Loop& loop) {
   const auto& gimbal = gimbal_of(loop);
   LinkOf<Loop> link = gimbal.link;
   if constexpr (std::is_same_v<LinkOf<Loop>, Linkages>) {
-    for (LinkCurve& one : link.of) one.assumed = Assumed::none;
+    for (LinkCurve& curve : link.of) curve.assumed = Assumed::none;
   }
   return under(loop, law, gimbal.servo(), link);
 }
@@ -228,7 +229,7 @@ void rates_under(const Loop& loop, const std::array<Jet<Number>, 2>& reference, 
 template <class Loop, class Axes>
 auto command_of(const Axes& axes, int i) {
   if constexpr (Loop::servos == 2) {
-    return std::decay_t<decltype(gimbal_of(std::declval<Loop&>()))>::told(axes, i);
+    return std::decay_t<decltype(gimbal_of(std::declval<Loop&>()))>::servo_command(axes, i);
   } else {
     return axes.command.value[i];
   }
@@ -308,14 +309,14 @@ void differentiate_link(const Loop& loop, const LinearPoint& at, PlantDerivative
                              Varied::variable(at.command[1], 1)};
   if constexpr (servos == 2) {
     // The command is in servo angles, so invert the map from these to the plane's angles.
-    for (LinkCurve& one : link.of) one.piece = one.command_piece;
+    for (LinkCurve& curve : link.of) curve.piece = curve.command_piece;
     const Varied resting[2];
     link.believed(command, resting, known, known_rate);
-    plant.told = inverse(simd::gradients(known, 0, 2));
+    plant.servo_commands = inverse(simd::gradients(known, 0, 2));
   } else {
-    Varied told[servos];
-    link.told(command, told);
-    plant.told = simd::gradients(told, 0, 2);
+    Varied commands[servos];
+    link.commands_for(command, commands);
+    plant.servo_commands = simd::gradients(commands, 0, 2);
   }
 }
 
@@ -339,9 +340,9 @@ Feedback<double> feedback_at(const Rig& rig, const StatePlaces& places, const Li
       fed.velocity[i] = velocity[i];
     }
   }
-  if (!at.home && !rig.between.none()) {
+  if (!at.home && !rig.mechanism.none()) {
     double known[4];
-    rig.between.believed(&z[angle], &z[rate], known);
+    rig.mechanism.believed(&z[angle], &z[rate], known);
     std::copy_n(known, 2, fed.angle);
     std::copy_n(known + 2, 2, fed.rate);
   }
@@ -364,7 +365,7 @@ PlantDerivatives plant_derivatives(const Model& model, const LinearPoint& at, He
     if (!model.rig) return plant;
     plant.fed = feedback_at(*model.rig, plant.places, at, plant.state);
     if constexpr (!LinkOf<Loop>::direct) {
-      if (!model.rig->between.none()) differentiate_link(loop, at, plant);
+      if (!model.rig->mechanism.none()) differentiate_link(loop, at, plant);
     }
     return plant;
   });
@@ -447,10 +448,10 @@ std::vector<LinearSignal> state_signals(const StatePlaces& places,
       signals.push_back({name + (rates ? "_rate" : ""), rates ? "rad/s" : "rad"});
     }
   }
-  for (const char* one : {"phi_command_integral", "theta_command_integral"}) {
-    signals.push_back({one, command_unit});
+  for (const char* name : {"phi_command_integral", "theta_command_integral"}) {
+    signals.push_back({name, command_unit});
   }
-  for (const char* one : {"phi_integral", "theta_integral"}) signals.push_back({one, "rad s"});
+  for (const char* name : {"phi_integral", "theta_integral"}) signals.push_back({name, "rad s"});
   return signals;
 }
 
@@ -635,7 +636,7 @@ class EquilibriumSearch {
       for (int k = 0; k < 2 && rest.commands; ++k) {
         point_.command[static_cast<std::size_t>(k)] += change[of_states + k];
       }
-      for (const double one : point_.state) size = std::hypot(size, one);
+      for (const double value : point_.state) size = std::hypot(size, value);
       // After this step of Newton's method only rounding is left.
       if (change.norm() > 1e-9 * (1 + size)) continue;
       if (under_law) point_.command = commands().first;

@@ -69,9 +69,9 @@ struct PlantDerivatives {
   // does. It kicks the ball.
   Eigen::MatrixXd kick;
   // For a controller that knows only servo angles. `believed`, 4 x n: its phi, theta and their
-  // rates. `told`, servos x 2: what servos receive of a law's command. Empty if servos turn the
-  // plane directly.
-  Eigen::MatrixXd believed, told;
+  // rates. `servo_commands`, servos x 2: what servos receive of a law's command. Empty if servos
+  // turn the plane directly.
+  Eigen::MatrixXd believed, servo_commands;
   // At the point, for a model with a controller: as its sensor and servos report it.
   Feedback<double> fed{};
 };

@@ -29,7 +29,7 @@ MatrixXd hankel(const PulseResponse& response, Index first, Index blocks) {
 
 double largest_number(const PulseResponse& response) {
   double largest = 0;
-  for (const MatrixXd& one : response) largest = std::max(largest, one.cwiseAbs().maxCoeff());
+  for (const MatrixXd& block : response) largest = std::max(largest, block.cwiseAbs().maxCoeff());
   return largest;
 }
 

@@ -116,14 +116,14 @@ Linearization plant_about(const Scenario& scene, const Model& model, const Linea
   const PlantDerivatives plant = plant_derivatives(model, at, heave_of(scene, at));
   const std::vector<int> states =
       linear_states(plant.places, plant.of_state, axes, SpinStands::after_velocities);
-  Linearization made;
-  LinearSystem& system = made.system;
+  Linearization linearization;
+  LinearSystem& system = linearization.system;
   system = system_of(signals_of(state_signals(plant.places, command_unit(scene)), states),
                      signals_of_commands(scene, axes), axes, plant.of_state(states, states),
                      plant.of_command(states, axes));
-  made.poles = sorted_eigenvalues(system.a);
-  made.zeros = transmission_zeros(system.a, system.b, system.c, system.d);
-  return made;
+  linearization.poles = sorted_eigenvalues(system.a);
+  linearization.zeros = transmission_zeros(system.a, system.b, system.c, system.d);
+  return linearization;
 }
 
 // Response of the ball's position to the reference, including the reference's derivatives.
@@ -165,8 +165,8 @@ double slowest_at(const PlantDerivatives& plant) {
                                                              largest(plant.state, angle)));
 }
 
-PlainLoop plain_loop(Linearization& made, double slowest, std::optional<int> idle = {}) {
-  const LinearSystem& system = made.system;
+PlainLoop plain_loop(Linearization& linearization, double slowest, std::optional<int> idle = {}) {
+  const LinearSystem& system = linearization.system;
   PlainLoop plain;
   plain.slowest = slowest;
   plain.states = states_without(system.states, idle);
@@ -174,17 +174,18 @@ PlainLoop plain_loop(Linearization& made, double slowest, std::optional<int> idl
     return system.states[static_cast<std::size_t>(i)].name == spin_name;
   });
   plain.a = system.a(plain.states, plain.states);
-  plain.poles = plain.states.size() == system.states.size() ? made.poles
+  plain.poles = plain.states.size() == system.states.size() ? linearization.poles
                 : system.period                             ? poles_of_period(plain.a)
                                                             : sorted_eigenvalues(plain.a);
-  made.stable = system.period ? stable_by_period(plain.poles) : stable(plain.poles);
+  linearization.stable = system.period ? stable_by_period(plain.poles) : stable(plain.poles);
   return plain;
 }
 
-void add_bandwidths(Linearization& made, const PlainLoop& plain, const std::vector<int>& columns,
-                    const std::vector<int>& axes, const LoopParts& parts, std::optional<int> idle) {
+void add_bandwidths(Linearization& linearization, const PlainLoop& plain,
+                    const std::vector<int>& columns, const std::vector<int>& axes,
+                    const LoopParts& parts, std::optional<int> idle) {
   if (!parts.bandwidths[0] && !parts.bandwidths[1]) return;
-  const LinearSystem& system = made.system;
+  const LinearSystem& system = linearization.system;
   const double period = system.period.value_or(0);
   const FrequencyResponse response(plain.a, system.b(plain.states, Eigen::all),
                                    system.c(Eigen::all, plain.states), system.d, period);
@@ -199,16 +200,16 @@ void add_bandwidths(Linearization& made, const PlainLoop& plain, const std::vect
       return bandwidth_of(tracking(response, of, axes, axis), frequencies);
     };
     const double whole = width(columns);
-    made.bandwidths.push_back(
+    linearization.bandwidths.push_back(
         {coordinate(axis), whole, fed_back.size() == columns.size() ? whole : width(fed_back)});
   }
 }
 
 // Adds the margins of one command's loop. A, B and C are those of the loop opened there.
-void add_margins(Linearization& made, const PlainLoop& plain, int axis, const std::string& unit,
-                 const MatrixXd& a, const VectorXd& b, const Eigen::RowVectorXd& c,
-                 MarginParts parts = {}) {
-  const LinearSystem& system = made.system;
+void add_margins(Linearization& linearization, const PlainLoop& plain, int axis,
+                 const std::string& unit, const MatrixXd& a, const VectorXd& b,
+                 const Eigen::RowVectorXd& c, MarginParts parts = {}) {
+  const LinearSystem& system = linearization.system;
   const double period = system.period.value_or(0);
   const std::vector<int>& of = plain.states;
   const std::string command = std::string(angle_name(axis)) + "_command";
@@ -219,7 +220,7 @@ void add_margins(Linearization& made, const PlainLoop& plain, int axis, const st
   const Margins margins =
       margins_of(response, frequencies_to_look_at(eigenvalues_of(open.a), plain.poles, period),
                  plain.slowest, parts);
-  made.margins.push_back({command, margins, std::move(open)});
+  linearization.margins.push_back({command, margins, std::move(open)});
 }
 
 // Whether any margin of an axis' command is asked for.
@@ -268,28 +269,29 @@ Linearization continuous_loop_about(const Scenario& scene, const Model& model,
   const std::vector<int> states = loop_states(loop, axes);
   std::vector<LinearSignal> inputs;
   const std::vector<int> columns = reference_inputs(loop.of_reference, axes, inputs);
-  Linearization made;
-  LinearSystem& system = made.system;
+  Linearization linearization;
+  LinearSystem& system = linearization.system;
   system = system_of(signals_of(state_signals(loop.places, command_unit(scene)), states),
                      std::move(inputs), axes, loop.of_state(states, states),
                      loop.of_reference(states, columns));
-  made.poles = sorted_eigenvalues(system.a);
+  linearization.poles = sorted_eigenvalues(system.a);
   if (parts.zeros) {
-    made.zeros = tracking_zeros(system.a, loop.of_reference(states, Eigen::all), system.c, axes);
+    linearization.zeros =
+        tracking_zeros(system.a, loop.of_reference(states, Eigen::all), system.c, axes);
   }
 
   const std::optional<int> idle =
       idle_axis(model, {system.states, system.a, loop.command_of_state(Eigen::all, states)});
-  const PlainLoop plain = plain_loop(made, slowest_at(plant), idle);
+  const PlainLoop plain = plain_loop(linearization, slowest_at(plant), idle);
   for (const int axis : axes) {
     if (axis == idle || !looks_for(parts, axis)) continue;
     const VectorXd b = plant.of_command(states, axis);
     const Eigen::RowVectorXd c = loop.command_of_state(axis, states);
-    add_margins(made, plain, axis, command_unit(scene), without(system.a, b * c), b, c,
+    add_margins(linearization, plain, axis, command_unit(scene), without(system.a, b * c), b, c,
                 parts.margins[static_cast<std::size_t>(axis)]);
   }
-  add_bandwidths(made, plain, columns, axes, parts, idle);
-  return made;
+  add_bandwidths(linearization, plain, columns, axes, parts, idle);
+  return linearization;
 }
 
 // The model from sample to sample: the plant, a cycle of one sample, and the states' names.
@@ -319,26 +321,26 @@ Linearization sampled_loop_about(const Scenario& scene, const Model& model, cons
   const SampledMap closed = cycle.map();
   std::vector<LinearSignal> inputs;
   const std::vector<int> columns = reference_inputs(closed.of_reference, axes, inputs);
-  Linearization made;
-  LinearSystem& system = made.system;
+  Linearization linearization;
+  LinearSystem& system = linearization.system;
   system = system_of(signals, std::move(inputs), axes, closed.a,
                      closed.of_reference(Eigen::all, columns));
   system.period = scene.controller->sampling->period;
-  made.poles = poles_of_period(system.a);
+  linearization.poles = poles_of_period(system.a);
   if (parts.zeros) {
-    made.zeros = transmission_zeros(system.a, closed.of_reference.leftCols(2), system.c,
-                                    MatrixXd::Zero(2, 2));
+    linearization.zeros = transmission_zeros(system.a, closed.of_reference.leftCols(2), system.c,
+                                             MatrixXd::Zero(2, 2));
   }
   const std::optional<int> idle = idle_axis(model, {system.states, system.a, closed.law});
-  const PlainLoop plain = plain_loop(made, slowest_at(plant), idle);
+  const PlainLoop plain = plain_loop(linearization, slowest_at(plant), idle);
   for (const int axis : axes) {
     if (axis == idle || !looks_for(parts, axis)) continue;
     const SampledMap open = cycle.map(axis == 0, axis == 1);
-    add_margins(made, plain, axis, command_unit(scene), open.a, open.of_command.col(axis),
+    add_margins(linearization, plain, axis, command_unit(scene), open.a, open.of_command.col(axis),
                 open.law.row(axis), parts.margins[static_cast<std::size_t>(axis)]);
   }
-  add_bandwidths(made, plain, columns, axes, parts, idle);
-  return made;
+  add_bandwidths(linearization, plain, columns, axes, parts, idle);
+  return linearization;
 }
 
 Linearization sampled_plant_about(const Scenario& scene, const Model& model,
@@ -357,8 +359,8 @@ Linearization sampled_plant_about(const Scenario& scene, const Model& model,
     if (i < first || i >= first + cycle.controller_size()) kept.push_back(i);
   }
   const SampledMap open = cycle.map(true, true);
-  Linearization made;
-  LinearSystem& system = made.system;
+  Linearization linearization;
+  LinearSystem& system = linearization.system;
   system = {signals_of(signals, kept),
             signals_of_commands(scene, {0, 1}),
             signals_of_positions({0, 1}, "_measured"),
@@ -367,9 +369,9 @@ Linearization sampled_plant_about(const Scenario& scene, const Model& model,
             open.seen(Eigen::all, kept),
             MatrixXd::Zero(2, 2),
             scene.controller->sampling->period};
-  made.poles = poles_of_period(system.a);
-  made.zeros = transmission_zeros(system.a, system.b, system.c, system.d);
-  return made;
+  linearization.poles = poles_of_period(system.a);
+  linearization.zeros = transmission_zeros(system.a, system.b, system.c, system.d);
+  return linearization;
 }
 
 }  // namespace
@@ -388,8 +390,8 @@ Linearization loop_with(const Linearization& plant, const LinearSystem& law,
     a.topRows(n) += product(of.b, given);
     return a;
   };
-  Linearization made;
-  LinearSystem& system = made.system;
+  Linearization linearization;
+  LinearSystem& system = linearization.system;
   system.states = of.states;
   for (Eigen::Index i = 0; i < m; ++i) {
     system.states.push_back({"law_" + std::to_string(i + 1), "1"});
@@ -398,22 +400,22 @@ Linearization loop_with(const Linearization& plant, const LinearSystem& law,
   system.b.resize(n + m, 0);
   system.c.resize(0, n + m);
   system.period = of.period;
-  made.poles = poles_of_period(system.a);
+  linearization.poles = poles_of_period(system.a);
   // An axis without a command is left out if it stands apart.
   std::optional<int> idle;
   if (axes.size() == 1 && stands_apart({system.states, system.a, commands}, 1 - axes[0])) {
     idle = 1 - axes[0];
   }
-  const PlainLoop plain = plain_loop(made, 0, idle);
+  const PlainLoop plain = plain_loop(linearization, 0, idle);
   for (const int axis : axes) {
     MatrixXd others = commands;
     others.row(axis).setZero();
     VectorXd b = VectorXd::Zero(n + m);
     b.head(n) = of.b.col(axis);
-    add_margins(made, plain, axis, of.inputs[static_cast<std::size_t>(axis)].unit, round(others), b,
-                commands.row(axis));
+    add_margins(linearization, plain, axis, of.inputs[static_cast<std::size_t>(axis)].unit,
+                round(others), b, commands.row(axis));
   }
-  return made;
+  return linearization;
 }
 
 LinearKind usual_kind(const Scenario& scene) {
@@ -469,17 +471,17 @@ void make_zeros_plain(Eigenvalues& values) {
 Linearization linearize(const Scenario& scene, const Model& model, LinearKind kind,
                         const LinearPoint& at, const LoopParts& parts) {
   require_linear(scene);
-  Linearization made = linearize_as(scene, model, kind, at, parts);
-  std::vector<LinearSystem*> all{&made.system};
-  for (LoopMargins& loop : made.margins) all.push_back(&loop.open);
+  Linearization linearization = linearize_as(scene, model, kind, at, parts);
+  std::vector<LinearSystem*> all{&linearization.system};
+  for (LoopMargins& loop : linearization.margins) all.push_back(&loop.open);
   for (LinearSystem* const one : all) {
     for (MatrixXd* const matrix : {&one->a, &one->b, &one->c, &one->d}) {
       *matrix = with_plain_zeros(*matrix);
     }
   }
-  make_zeros_plain(made.poles);
-  make_zeros_plain(made.zeros);
-  return made;
+  make_zeros_plain(linearization.poles);
+  make_zeros_plain(linearization.zeros);
+  return linearization;
 }
 
 }  // namespace bbsim::model

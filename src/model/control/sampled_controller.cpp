@@ -67,12 +67,14 @@ double inward(double limit, double step) {
 }  // namespace
 
 SampledController::SampledController(const SampledLoop& loop)
-    : period_(loop.sampling.period), resolution_(loop.sampling.resolution), between_(loop.between) {
+    : period_(loop.sampling.period),
+      resolution_(loop.sampling.resolution),
+      mechanism_(loop.mechanism) {
   law_.law = loop.law;
   law_.integrates = loop.law.integrates();
   law_.filter = loop.sampling.derivative_filter;
   // With a linkage, the servos' angles are rounded instead.
-  const double step = loop.between.none() || loop.legs ? loop.sampling.resolution : 0;
+  const double step = loop.mechanism.none() || loop.legs ? loop.sampling.resolution : 0;
   law_.resolution = step;
   for (std::size_t i = 0; i < 2; ++i) {
     const CommandRange& limit = loop.limit[i];
@@ -83,12 +85,12 @@ SampledController::SampledController(const SampledLoop& loop)
     }
     law_.reached[i] = {-inward(-limit.low, step), inward(limit.high, step)};
   }
-  if (loop.between.linkages.empty() || !(resolution_ > 0)) return;
+  if (loop.mechanism.linkages.empty() || !(resolution_ > 0)) return;
   for (std::size_t i = 0; i < 2; ++i) {
     // Limits of a servo's angle, which may fall as the plane rises.
     const CommandRange& limit = loop.limit[i];
     const auto of = [&](double angle) {
-      return std::isfinite(angle) ? loop.between.linkages[i].told(angle) : angle;
+      return std::isfinite(angle) ? loop.mechanism.linkages[i].command_for(angle) : angle;
     };
     const double a = of(limit.low), b = of(limit.high);
     if (!std::isfinite(a) || !std::isfinite(b)) continue;
@@ -116,10 +118,10 @@ Pair SampledController::within_limits(Pair command) const {
   return {u[0], u[1]};
 }
 
-std::array<double, 3> SampledController::told(Pair command) const {
-  if (between_.none()) return {command[0], command[1], 0};
-  std::array<double, 3> servo = between_.told(command);
-  for (double& one : servo) one = in_steps(one, resolution_);
+std::array<double, 3> SampledController::servo_commands(Pair command) const {
+  if (mechanism_.none()) return {command[0], command[1], 0};
+  std::array<double, 3> servo = mechanism_.commands_for(command);
+  for (double& angle : servo) angle = in_steps(angle, resolution_);
   for (std::size_t i = 0; i < 2; ++i)
     servo[i] = std::clamp(servo[i], servo_[i].low, servo_[i].high);
   return servo;

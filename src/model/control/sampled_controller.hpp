@@ -61,7 +61,7 @@ class SampledController {
   // What the servos receive for such a command: itself, or the linkage's servo angles in steps of
   // the resolution. Two stay within the limit; rounding of three may move the plane slightly beyond
   // it.
-  [[nodiscard]] std::array<double, 3> told(Pair command) const;
+  [[nodiscard]] std::array<double, 3> servo_commands(Pair command) const;
 
   // Last measured position; (0, 0) before the first sample.
   [[nodiscard]] Pair last_seen() const { return {memory_.position[0], memory_.position[1]}; }
@@ -74,7 +74,7 @@ class SampledController {
 
  private:
   double period_, resolution_;  // of samples, s, and of servo commands
-  Between between_;
+  Mechanism mechanism_;
   CommandRange servo_[2];  // with a linkage: multiples of the resolution within the limit, rad
   SampledLaw<double> law_;
   SampledMemory<double> memory_{};

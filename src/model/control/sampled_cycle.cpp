@@ -42,12 +42,12 @@ CycleParts cycle_parts(const PlantDerivatives& plant, const Rig& rig, const Line
   parts.of_feedback = law.of_feedback;
   parts.of_reference = law.of_reference;
   if (plant.believed.size() > 0) parts.fed = plant.believed(Eigen::all, states);
-  if (plant.told.size() > 0 && parts.servos == 2) {
+  if (plant.servo_commands.size() > 0 && parts.servos == 2) {
     // Commands in the queue are servo angles.
-    parts.of_feedback = product(plant.told, law.of_feedback);
-    parts.of_reference = product(plant.told, law.of_reference);
+    parts.of_feedback = product(plant.servo_commands, law.of_feedback);
+    parts.of_reference = product(plant.servo_commands, law.of_reference);
   } else {
-    parts.told = plant.told;
+    parts.servo_commands = plant.servo_commands;
   }
   parts.sampling = sampled.sampling;
   parts.sensor = sampled.sensor;
@@ -165,7 +165,7 @@ void SampledCycle::plan() {
     std::size_t way = 0;
     if (length > 1e-3 * near) {
       const auto known = std::ranges::find_if(
-          lengths, [&](double other) { return std::abs(other - length) <= 1e-3 * near; });
+          lengths, [&](double earlier) { return std::abs(earlier - length) <= 1e-3 * near; });
       way = static_cast<std::size_t>(known - lengths.begin());
       if (known == lengths.end()) {
         lengths.push_back(length);
@@ -255,11 +255,13 @@ void SampledCycle::expose(Parts& of) const {
 void SampledCycle::apply(Parts& of) const {
   of.held = of.commands.front();
   of.commands.pop_front();
-  const MatrixXd told = parts_.told.size() > 0 ? product(parts_.told, of.held) : MatrixXd(of.held);
+  const MatrixXd commands = parts_.servo_commands.size() > 0
+                                ? product(parts_.servo_commands, of.held)
+                                : MatrixXd(of.held);
   MatrixXd jump = MatrixXd::Zero(parts_.servos, of.plant.cols());
   for (int i = 0; i < parts_.servos; ++i) {
     if (!parts_.time_constant[i]) continue;
-    jump.row(i) = (told.row(i) - of.plant.row(4 + i)) / *parts_.time_constant[i] -
+    jump.row(i) = (commands.row(i) - of.plant.row(4 + i)) / *parts_.time_constant[i] -
                   of.plant.row(4 + parts_.servos + i);
   }
   if (!jump.isZero(0)) of.plant += product(parts_.jump, jump);

@@ -30,7 +30,7 @@ struct CycleParts {
   Eigen::MatrixXd jump;
   // With a mechanism between servos and plane: phi, theta and their rates as the controller infers
   // them from the plant's states; and what the servos receive of a command.
-  Eigen::MatrixXd fed{}, told{};
+  Eigen::MatrixXd fed{}, servo_commands{};
   // Derivatives of the law's commands: by the position, velocity, angles, rates and integrals fed
   // back, two each; and by the reference's values, rates and accelerations.
   Eigen::Matrix<double, 2, 10> of_feedback = Eigen::Matrix<double, 2, 10>::Zero();

@@ -16,16 +16,16 @@ namespace bbsim::model {
 // Constants of a run.
 template <class Scalar>
 struct SampledLaw {
-  struct Range {
+  struct Interval {
     Scalar low, high;
   };
 
   BasicControlLaw<Scalar> law;
   bool integrates = false;  // law.integrates()
-  Range limit[2];           // of the command of phi and of theta, rad, or rad/s^2
-  Range sine[2];            // of the limit, for gravity compensation
+  Interval limit[2];        // of the command of phi and of theta, rad, or rad/s^2
+  Interval sine[2];         // of the limit, for gravity compensation
   Scalar resolution;        // of the command; 0: none
-  Range reached[2];         // by multiples of the resolution within the limit
+  Interval reached[2];      // by multiples of the resolution within the limit
   Scalar filter;            // time constant of the velocity filter, s
 };
 

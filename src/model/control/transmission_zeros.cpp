@@ -75,9 +75,9 @@ std::optional<Place> largest_of(const Pencil& of, const std::vector<Index>& rows
   double largest = 0;
   for (const Index i : rows) {
     for (const Index j : columns) {
-      const Sum& one = of.at(i, j);
-      if (one.is_zero() || !(std::abs(one.value) > largest)) continue;
-      largest = std::abs(one.value);
+      const Sum& entry = of.at(i, j);
+      if (entry.is_zero() || !(std::abs(entry.value) > largest)) continue;
+      largest = std::abs(entry.value);
       place = Place{i, j};
     }
   }
@@ -165,13 +165,13 @@ Pencil reduced(Pencil of) {
 }
 
 Pencil transposed(const Pencil& of) {
-  Pencil other;
-  other.states = of.states;
+  Pencil result;
+  result.states = of.states;
   for (Index j = 0; j < of.column_count(); ++j) {
-    other.rows.emplace_back();
-    for (Index i = 0; i < of.row_count(); ++i) other.rows.back().push_back(of.at(i, j));
+    result.rows.emplace_back();
+    for (Index i = 0; i < of.row_count(); ++i) result.rows.back().push_back(of.at(i, j));
   }
-  return other;
+  return result;
 }
 
 // Changes units by powers of 2: of states, so that a row and its column are similar in size; of
@@ -239,8 +239,8 @@ std::vector<std::complex<double>> transmission_zeros(const MatrixXd& a, const Ma
   MatrixXd matrix(left, left);
   for (Index i = 0; i < left; ++i) {
     for (Index j = 0; j < left; ++j) {
-      const Sum& one = square.at(i, j);
-      matrix(i, j) = one.is_rounding() ? 0 : one.value;
+      const Sum& entry = square.at(i, j);
+      matrix(i, j) = entry.is_rounding() ? 0 : entry.value;
     }
   }
   std::vector<std::complex<double>> zeros =

@@ -32,7 +32,7 @@ class CurvePieces : public Part {
   };
 
   [[nodiscard]] const Linkage& linkage(std::size_t axis) const {
-    return model_.rig().between.linkages[axis];
+    return model_.rig().mechanism.linkages[axis];
   }
   // Whether the commands of a continuous law also go through the curve.
   [[nodiscard]] bool converts_commands(const Linkage& linkage) const {

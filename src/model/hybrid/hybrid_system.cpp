@@ -17,9 +17,9 @@ HybridSystem::HybridSystem(const Model& model, double resolution)
     const Rig& rig = *own.rig;
     if (rig.sampled) std::get<std::optional<Sampling>>(parts_).emplace(model_);
     if (rig.limits_commands()) std::get<std::optional<CommandLimits>>(parts_).emplace(model_);
-    if (rig.between.has_pieces()) std::get<std::optional<CurvePieces>>(parts_).emplace(model_);
+    if (rig.mechanism.has_pieces()) std::get<std::optional<CurvePieces>>(parts_).emplace(model_);
     std::get<std::optional<Servos>>(parts_).emplace(model_);
-    only_commands_change_ = rig.sampled && !own.dry && !rig.between.has_pieces() &&
+    only_commands_change_ = rig.sampled && !own.dry && !rig.mechanism.has_pieces() &&
                             with_given_plate(own.system, [](const auto& /*loop*/) {});
   }
   if (own.dry) {

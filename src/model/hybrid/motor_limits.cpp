@@ -38,7 +38,7 @@ void MotorLimits::evaluate(const GuardContext& now, double* values) const {
 
 void MotorLimits::evaluate_along(std::size_t i, const GuardContext& now, double* values) const {
   const MotorMode& motor = scene_.motors[i];
-  const Range range = this->range(i, now.z);
+  const TorqueRange range = this->range(i, now.z);
   const bool at_voltage = motor.by_rate != 0, at_torque = motor.factor == 0 && !at_voltage;
   const bool overrun = at_torque && motor.set * motor.side < 0;
   const OutwardRate outward = outward_rate(i, motor.side, now);
@@ -136,7 +136,7 @@ void MotorLimits::reset_at_limits(double t, const double* z) {
   for (std::size_t i = 0; i < 2; ++i) {
     double side = std::exchange(reached_[i], 0);
     if (side == 0) continue;
-    const Range range = this->range(i, z);
+    const TorqueRange range = this->range(i, z);
     const bool overrun = range.overruns();
     if (overrun) side = range.up < 0 ? 1 : -1;
     MotorMode& motor = scene_.motors[i];
@@ -145,13 +145,13 @@ void MotorLimits::reset_at_limits(double t, const double* z) {
     const bool by_voltage = range.is_by_voltage(side);
     const bool within = place == AtLimit::within && !overrun;
     // Beyond the other limit, which has the same value.
-    const bool other = place == AtLimit::within && overrun;
+    const bool at_other = place == AtLimit::within && overrun;
     motor.factor = within ? 1 : 0;
-    motor.side = within ? 0 : other ? -side : side;
+    motor.side = within ? 0 : at_other ? -side : side;
     motor.by_rate = !within && by_voltage ? -parts_.torque_by_rate : 0;
     motor.set = within ? 0 : by_voltage ? side * parts_.stall_torque : range.at(side);
     motor.along = place == AtLimit::along ? 1 : 0;
-    const double push = other ? -outward.push : outward.push;
+    const double push = at_other ? -outward.push : outward.push;
     motor.integrate = within || (motor.along == 0 && push < 0) ? 1 : 0;
   }
 }

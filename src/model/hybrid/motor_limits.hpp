@@ -44,7 +44,7 @@ class MotorLimits : public Part {
   };
 
   // The limits of a motor at a rate of its axis, N m.
-  struct Range {
+  struct TorqueRange {
     double up, down;  // by the voltage
     double torque;
 
@@ -62,7 +62,7 @@ class MotorLimits : public Part {
     // equal. The voltage limit is on the side that asks for less braking.
     [[nodiscard]] bool overruns() const { return up < -torque || down > torque; }
   };
-  [[nodiscard]] Range range(std::size_t i, const double* z) const {
+  [[nodiscard]] TorqueRange range(std::size_t i, const double* z) const {
     const double rate = z[scene_.rate + i];
     return {parts_.by_voltage(1, rate), parts_.by_voltage(-1, rate), parts_.torque_limit};
   }

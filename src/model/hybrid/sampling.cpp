@@ -18,7 +18,7 @@ struct KnownServos {
       : angle(z + SwitchedModel::angle), rate(z + model.rate()) {
     if (!model.mode().rings) return;
     for (std::size_t i = 0; i < static_cast<std::size_t>(model.rig().servos); ++i) {
-      const SwitchedModel::Turned of = model.counted(i, t, z);
+      const SwitchedModel::ServoReading of = model.counted(i, t, z);
       counted[0][i] = of.angle;
       counted[1][i] = of.rate;
     }
@@ -36,7 +36,7 @@ struct KnownServos {
 
 Sampling::Sampling(const SwitchedModel& model)
     : model_(model),
-      is_direct_(model.rig().between.none()),
+      is_direct_(model.rig().mechanism.none()),
       least_force_(model.rig().sampled->sensor.contact_force),
       exchange_(*model.rig().sampled),
       controller_(*model.rig().sampled),
@@ -49,7 +49,8 @@ Sampling::Sampling(const SwitchedModel& model)
   const SampleExchange::Numbers next = exchange_.numbers();
   for (double sample = next.command; sample < next.sample; ++sample) {
     const double t = exchange_.time_of(sample);
-    const auto reference = model_.with_loop([t](const auto& one) { return one.reference().at(t); });
+    const auto reference =
+        model_.with_loop([t](const auto& rig_loop) { return rig_loop.reference().at(t); });
     end(controller_.command(Pair{0, 0}, {0, 0, 0, 0}, reference), measured_);
   }
 }
@@ -77,7 +78,7 @@ void Sampling::take(double t, double end, const double* z) {
   const double* const rate = known.rate;
   double servo[4] = {angle[0], angle[1], rate[0], rate[1]};
   if (!is_direct_ && controller_.law().law.feeds_servos_back()) {
-    model_.rig().between.believed(angle, rate, servo);
+    model_.rig().mechanism.believed(angle, rate, servo);
   }
   const Pair command = controller_.command(seen, servo, reference_at(t));
   this->end(command, controller_.last_seen());
@@ -103,7 +104,7 @@ void Sampling::ask_external(double t, double number, const std::optional<Pair>& 
     return;
   }
   double servo[4] = {angle[0], angle[1], rate[0], rate[1]};
-  if (rig.between.three) rig.between.believed(angle, rate, servo);
+  if (rig.mechanism.three) rig.mechanism.believed(angle, rate, servo);
   const Commands asked = ask({servo, 2}, {servo + 2, 2});
   end(controller_.within_limits({asked[0], asked[1]}), measured);
 }
@@ -113,7 +114,7 @@ std::array<double, most_servos> Sampling::take_command(RigMode& mode) {
   if (model_.rig().sampled->legs) {
     const std::array<double, most_servos> legs{command[0], command[1], exchange_.take_third()};
     // The servos turn towards any angles. Those without a pose leave the tilt that is shown.
-    const Pair tilt = model_.rig().between.tilt(legs);
+    const Pair tilt = model_.rig().mechanism.tilt(legs);
     if (std::isfinite(tilt[0]) && std::isfinite(tilt[1])) {
       std::copy(tilt.begin(), tilt.end(), mode.wanted);
     }
@@ -121,7 +122,7 @@ std::array<double, most_servos> Sampling::take_command(RigMode& mode) {
   }
   for (std::size_t i = 0; i < 2; ++i) mode.wanted[i] = command[i];
   return is_direct_ ? std::array<double, most_servos>{command[0], command[1], 0}
-                    : controller_.told(command);
+                    : controller_.servo_commands(command);
 }
 
 }  // namespace bbsim::model

@@ -121,11 +121,11 @@ void Servos::kick_ball(double* z, const double* before, const RigExtras& plane_b
       model_.get().system);
 }
 
-std::array<bool, most_servos> Servos::follow(const std::array<double, most_servos>& told) {
+std::array<bool, most_servos> Servos::follow(const std::array<double, most_servos>& commands) {
   std::array<bool, most_servos> jumps{};
   RigMode& mode = model_.mode();
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const double follows = axes_[i].follow(told[i]);
+    const double follows = axes_[i].follow(commands[i]);
     jumps[i] = follows != mode.command[i];
     if (jumps[i]) mode.command[i] = follows;
   }

@@ -29,7 +29,8 @@ class Servos : public Part {
   [[nodiscard]] bool reset(double t, double* z);
 
   // Gives each servo its command. Returns for each whether the command that it follows jumps.
-  [[nodiscard]] std::array<bool, most_servos> follow(const std::array<double, most_servos>& told);
+  [[nodiscard]] std::array<bool, most_servos> follow(
+      const std::array<double, most_servos>& commands);
   // Whether the last reset() may have changed a mode.
   [[nodiscard]] bool chose() const { return chose_; }
 
@@ -50,7 +51,7 @@ class Servos : public Part {
   // Of a shaft that rings, its driver's state: that one switches.
   [[nodiscard]] AxisState state(std::size_t i, double t, const Demands& demands,
                                 const double* z) const {
-    const SwitchedModel::Turned at = model_.counted(i, t, z);
+    const SwitchedModel::ServoReading at = model_.counted(i, t, z);
     return {at.angle, at.rate, demands.demand[i], demands.servo_command[i]};
   }
   [[nodiscard]] bool stay_free(const double* z) const;

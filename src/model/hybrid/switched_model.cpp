@@ -29,7 +29,7 @@ Demands SwitchedModel::demands(double t, const double* z) const {
                     {},
                     {}};
     for (int i = 0; i < std::decay_t<decltype(loop)>::servos; ++i) {
-      demands.servo_command[i] = loop.told(all, i);
+      demands.servo_command[i] = loop.servo_command(all, i);
       demands.demand[i] = all.demand[i];
     }
     return demands;

@@ -67,10 +67,10 @@ class SwitchedModel {
 
   // The angle and rate that the firmware knows of a servo: of a shaft that rings, those that its
   // driver counts.
-  struct Turned {
+  struct ServoReading {
     double angle, rate;
   };
-  [[nodiscard]] Turned counted(std::size_t servo, double t, const double* z) const {
+  [[nodiscard]] ServoReading counted(std::size_t servo, double t, const double* z) const {
     if (!mode_->rings || !mode_->driver[servo].rings) return {z[angle + servo], z[rate_ + servo]};
     const Jet<double> counted = mode_->driver[servo].counted(t);
     return {counted.value, counted.rate};

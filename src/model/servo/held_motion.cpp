@@ -277,12 +277,12 @@ bool falls_clearly(const MotionLine& line, const HeldMotion& motion, const Impul
 double first_crossing(const MotionLine& line, const HeldMotion& motion, double clearly,
                       double start, double end, KnownAnswers& answers) {
   double threshold = 0;
-  const auto value_at = [&](const HeldMotion::Instant& at) {
+  const auto value_at = [&](const HeldMotion::ServoState& at) {
     return LineValue{line.at(at.angle, at.rate) - threshold,
                      line.by_angle * at.rate + line.by_rate * at.acceleration};
   };
   const auto local = [&](double t) {
-    const HeldMotion::Instant at = motion.after(answers.at(motion.law, t), t);
+    const HeldMotion::ServoState at = motion.after(answers.at(motion.law, t), t);
     const double third = -motion.law.damping * at.acceleration - motion.law.stiffness * at.rate;
     const double fourth = -motion.law.damping * third - motion.law.stiffness * at.acceleration;
     return Local{line.at(at.angle, at.rate) - threshold,
@@ -313,7 +313,7 @@ double first_crossing(const MotionLine& line, const HeldMotion& motion, double c
     const double to = std::min(turns.next(), end);
     turns.pass();
     if (to <= from) continue;
-    const HeldMotion::Instant at = motion.after(answers.at(motion.law, to), to);
+    const HeldMotion::ServoState at = motion.after(answers.at(motion.law, to), to);
     const LineValue reached = value_at(at);
     if (!(reached.value > 0)) {
       if (!std::isfinite(reached.value)) return never;

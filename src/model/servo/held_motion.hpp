@@ -52,11 +52,11 @@ struct HeldMotion {
   double angle = 0, rate = 0, acceleration = 0;   // at the start, without the drift's
   double drift_rate = 0, drift_acceleration = 0;  // rad/s at the start, rad/s^2
 
-  struct Instant {
+  struct ServoState {
     double angle, rate, acceleration;
   };
-  [[nodiscard]] Instant after(double time) const { return after(answer(law, time), time); }
-  [[nodiscard]] Instant after(const ImpulseAnswer& at, double time) const {
+  [[nodiscard]] ServoState after(double time) const { return after(answer(law, time), time); }
+  [[nodiscard]] ServoState after(const ImpulseAnswer& at, double time) const {
     const double turned = drift_acceleration * time;
     const double drift = time * (drift_rate + turned / 2);
     return {(angle + drift) +

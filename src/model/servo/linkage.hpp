@@ -214,7 +214,7 @@ struct LinkCurve {
 
   // The command to the servo for a plane angle that the controller wants.
   template <class Real>
-  [[nodiscard]] Real told(const Real& wanted) const {
+  [[nodiscard]] Real command_for(const Real& wanted) const {
     if (assumed == Assumed::none || kind == Kind::ideal) return wanted;
     if (assumed == Assumed::ratio) return (1 / slope) * wanted;
     const Real angle = wanted + Real(shift);
@@ -265,8 +265,8 @@ struct Linkages {
     for (int i = 0; i < 2; ++i) plane[i] = of[i].angle(horn[i]) + of[i].offset;
   }
   template <class Real>
-  void told(const Real (&wanted)[2], Real (&servo)[2]) const {
-    for (int i = 0; i < 2; ++i) servo[i] = of[i].told(wanted[i]);
+  void commands_for(const Real (&wanted)[2], Real (&servo)[2]) const {
+    for (int i = 0; i < 2; ++i) servo[i] = of[i].command_for(wanted[i]);
   }
   template <class Real>
   void believed(const Real* servo, const Real* rate, Real (&angle)[2],

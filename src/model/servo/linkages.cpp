@@ -327,8 +327,8 @@ double Linkage::servo_for(double angle) const {
   return servo;
 }
 
-double Linkage::told(double wanted) const {
-  return curve.assumed == Assumed::exact ? servo_for(wanted) : curve.told(wanted);
+double Linkage::command_for(double wanted) const {
+  return curve.assumed == Assumed::exact ? servo_for(wanted) : curve.command_for(wanted);
 }
 
 std::size_t Linkage::piece_at(std::size_t present, double servo, double direction) const {
@@ -374,24 +374,24 @@ CommandRange Linkage::command_piece_range(std::size_t piece) const {
   return {std::min(a, b), std::max(a, b)};
 }
 
-bool Between::has_pieces() const {
+bool Mechanism::has_pieces() const {
   return std::any_of(linkages.begin(), linkages.end(),
-                     [](const Linkage& one) { return one.table.has_value(); });
+                     [](const Linkage& linkage) { return linkage.table.has_value(); });
 }
 
-std::array<double, 3> Between::told(Pair wanted) const {
+std::array<double, 3> Mechanism::commands_for(Pair wanted) const {
   if (three) {
     const double of[2] = {wanted[0], wanted[1]};
     double servo[3];
-    mind().told(of, servo);
+    as_assumed().commands_for(of, servo);
     if (!assumed) return {servo[0], servo[1], servo[2]};
     return {servo[0] + zero[0], servo[1] + zero[1], servo[2] + zero[2]};
   }
   if (linkages.empty()) return {wanted[0], wanted[1], 0};
-  return {linkages[0].told(wanted[0]), linkages[1].told(wanted[1]), 0};
+  return {linkages[0].command_for(wanted[0]), linkages[1].command_for(wanted[1]), 0};
 }
 
-Pair Between::tilt(const std::array<double, 3>& servo) const {
+Pair Mechanism::tilt(const std::array<double, 3>& servo) const {
   const double at[3] = {servo[0], servo[1], servo[2]};
   if (!(three->margin(at) > 0)) return {no_number, no_number};
   const double none[3] = {};
@@ -401,11 +401,11 @@ Pair Between::tilt(const std::array<double, 3>& servo) const {
           std::atan2(axis[1].sin, axis[1].cos) - three->offset[1]};
 }
 
-void Between::believed(const double* servo, const double* rate, double (&into)[4]) const {
+void Mechanism::believed(const double* servo, const double* rate, double (&into)[4]) const {
   double angle[2] = {servo[0], servo[1]}, angle_rate[2] = {rate[0], rate[1]};
   if (three) {
     const double at[3] = {servo[0] - zero[0], servo[1] - zero[1], servo[2] - zero[2]};
-    mind().believed(at, rate, angle, angle_rate);
+    as_assumed().believed(at, rate, angle, angle_rate);
   }
   for (std::size_t i = 0; i < linkages.size(); ++i) {
     LinkCurve curve = linkages[i].curve;
@@ -420,10 +420,10 @@ void Between::believed(const double* servo, const double* rate, double (&into)[4
   }
 }
 
-CommandRange Between::reach(int axis) const {
+CommandRange Mechanism::reach(int axis) const {
   if (three && three->assumed == Assumed::exact) {
     // With both angles at this value, the tilt is the greatest tilt.
-    return CommandRange::within(std::acos(std::sqrt(std::cos(greatest_tilt(mind())))));
+    return CommandRange::within(std::acos(std::sqrt(std::cos(greatest_tilt(as_assumed())))));
   }
   if (linkages.empty()) return {};
   const Linkage& of = linkages[static_cast<std::size_t>(axis)];
@@ -431,7 +431,7 @@ CommandRange Between::reach(int axis) const {
   return {of.reach.low + inside - of.curve.shift, of.reach.high - inside - of.curve.shift};
 }
 
-Linkages Between::at_home() const {
+Linkages Mechanism::at_home() const {
   Linkages both;
   for (std::size_t i = 0; i < linkages.size(); ++i) both.of[i] = linkages[i].curve;
   return both;
@@ -442,9 +442,9 @@ Assumes assumes_of(const Scenario& scene) {
                                                                       : Assumes::ratio);
 }
 
-Between between_of(const Scenario& scene) {
-  Between between;
-  if (!scenario::is_linked(scene) || !scene.controller) return between;
+Mechanism mechanism_of(const Scenario& scene) {
+  Mechanism mechanism;
+  if (!scenario::is_linked(scene) || !scene.controller) return mechanism;
   const Controller& controller = *scene.controller;
   // Your own controller commands linked servos itself; three servos only if it drives legs.
   const bool itself =
@@ -461,25 +461,26 @@ Between between_of(const Scenario& scene) {
       three.cos_offset[i] = std::cos(offset[i]);
       three.sin_offset[i] = std::sin(offset[i]);
     }
-    between.three = three;
+    mechanism.three = three;
     if (controller.assumed_legs) {
-      between.assumed = make_three_servos(*controller.assumed_legs, assumed, "controller.assumes");
+      mechanism.assumed =
+          make_three_servos(*controller.assumed_legs, assumed, "controller.assumes");
       // Both mean the same elevation of a horn, but each counts from its own home.
       for (std::size_t i = 0; i < 3; ++i) {
-        const ThreeServos::Leg& leg = between.assumed->leg[i];
-        between.zero[i] = leg.turns * (leg.home - three.leg[i].home);
+        const ThreeServos::Leg& leg = mechanism.assumed->leg[i];
+        mechanism.zero[i] = leg.turns * (leg.home - three.leg[i].home);
       }
     }
-    return between;
+    return mechanism;
   }
   for (std::size_t i = 0; i < 2; ++i) {
-    Linkage& one = between.linkages.emplace_back();
+    Linkage& linkage = mechanism.linkages.emplace_back();
     if (const auto& given = scene.gimbal.linkage[i]) {
-      one = std::visit([&](const auto& of) { return make_linkage(of, assumed); }, *given);
+      linkage = std::visit([&](const auto& of) { return make_linkage(of, assumed); }, *given);
     }
-    one.curve.set_offsets(offset[i], 0);
+    linkage.curve.set_offsets(offset[i], 0);
   }
-  return between;
+  return mechanism;
 }
 
 namespace {
@@ -547,10 +548,11 @@ void set_planes(ThreeServos::Leg (&leg)[3], const std::string& key) {
                    "found legs whose planes let the plate slide or twist; allowed: other "
                    "angles, such as 0, 120 and 240 deg");
   }
-  for (ThreeServos::Leg& one : leg) {
+  for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       const double nx = -leg[j].ey, ny = leg[j].ex;
-      one.shift[j] = (one.ex * (yy * nx - xy * ny) + one.ey * (xx * ny - xy * nx)) / determinant;
+      leg[i].shift[j] =
+          (leg[i].ex * (yy * nx - xy * ny) + leg[i].ey * (xx * ny - xy * nx)) / determinant;
     }
   }
 }

@@ -40,7 +40,7 @@ struct Linkage {
   // The servo's angle for a plane angle; the nearest one for angles out of reach.
   [[nodiscard]] double servo_for(double angle) const;
   // The command to the servo for an angle that the controller wants.
-  [[nodiscard]] double told(double wanted) const;
+  [[nodiscard]] double command_for(double wanted) const;
 
   // The next piece of a measured curve after `present`: for a servo angle that moves in
   // `direction`, and for a commanded plane angle; and the range of each piece.
@@ -51,7 +51,7 @@ struct Linkage {
 };
 
 // The mechanism of a scene: none, two linkages, or three servos.
-struct Between {
+struct Mechanism {
   std::vector<Linkage> linkages{};  // empty, or two
   std::optional<ThreeServos> three{};
   // The controller's assumption about the three servos, and the servo angles that it takes for
@@ -59,11 +59,11 @@ struct Between {
   std::optional<ThreeServos> assumed{};
   std::array<double, 3> zero{};
 
-  [[nodiscard]] const ThreeServos& mind() const { return assumed ? *assumed : *three; }
+  [[nodiscard]] const ThreeServos& as_assumed() const { return assumed ? *assumed : *three; }
   [[nodiscard]] bool none() const { return linkages.empty() && !three; }
   [[nodiscard]] bool has_pieces() const;
   // The commands to two or three servos for the angles that a law wants.
-  [[nodiscard]] std::array<double, 3> told(Pair wanted) const;
+  [[nodiscard]] std::array<double, 3> commands_for(Pair wanted) const;
   // The tilt that three servos at these angles give the plate, without its offsets; NaN if no tilt
   // fits them.
   [[nodiscard]] Pair tilt(const std::array<double, 3>& servo) const;
@@ -88,7 +88,7 @@ struct Between {
 // servos, which need inverse kinematics.
 [[nodiscard]] Assumes assumes_of(const Scenario& scene);
 
-[[nodiscard]] Between between_of(const Scenario& scene);
+[[nodiscard]] Mechanism mechanism_of(const Scenario& scene);
 
 // The greatest twist about the normal that this tilt gives in any direction, rad; 0 for equal legs.
 [[nodiscard]] double greatest_twist(const ThreeServos& three, double tilt);

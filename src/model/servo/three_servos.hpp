@@ -222,7 +222,7 @@ struct ThreeServos : LegEquations {
 
   // The servo angles (from home) for these tilts at the height of home: (M60) and (M55).
   template <class Real>
-  void told(const Real (&wanted)[2], Real (&servo)[3]) const {
+  void commands_for(const Real (&wanted)[2], Real (&servo)[3]) const {
     if (assumed == Assumed::ratio) {
       for (int i = 0; i < 3; ++i) {
         servo[i] = leg[i].slope[0] * wanted[0] + leg[i].slope[1] * wanted[1];

@@ -90,17 +90,17 @@ double SignalPair::highest_frequency() const {
 
 double SignalPair::bandwidth(double from, double to) const {
   double rate = std::abs(rate_[0]) + std::abs(rate_[1]);
-  for (const Harmonic& one : harmonics_) {
+  for (const Harmonic& harmonic : harmonics_) {
     for (std::size_t i = 0; i < 2; ++i) {
-      rate += std::abs(one.frequency) * std::hypot(one.sine[i], one.cosine[i]);
+      rate += std::abs(harmonic.frequency) * std::hypot(harmonic.sine[i], harmonic.cosine[i]);
     }
   }
   const double of_sinusoids = 2 * highest_frequency() + rate;
   if (!view().shared.any()) return of_sinusoids;
   double most = 0;
   for (const double t : {from, (from + to) / 2, to}) {
-    const auto [one, other] = at(t);
-    most = std::max(most, std::abs(one.rate) + std::abs(other.rate));
+    const auto [first, second] = at(t);
+    most = std::max(most, std::abs(first.rate) + std::abs(second.rate));
   }
   constexpr double between = 1.5;  // covers the rate between these three times
   return of_sinusoids + between * most;

@@ -312,7 +312,7 @@ class CoupledLoop {
   static constexpr auto motions = [] {
     Motions<11 + servos> all{};
     int next = 0;
-    for (const Motion& one : {Motion{0, 2}, Motion{1, 3}}) all.of[next++] = one;
+    for (const Motion& motion : {Motion{0, 2}, Motion{1, 3}}) all.of[next++] = motion;
     for (int i = 0; i < servos; ++i) all.of[next++] = {Layout::angle + i, Layout::rate + i};
     all.of[next++] = {-1, 4};
     for (int i = Layout::integral; i < size; ++i) all.of[next++] = {-1, i};
@@ -490,7 +490,7 @@ class CoupledLoop {
     }
     const bool driven = by != GimbalBy::servos;
     if (driven) {
-      for (Real& one : demand) one = Real(0.0);
+      for (Real& acceleration : demand) acceleration = Real(0.0);
     }
 
     auto& axes = now.axis;

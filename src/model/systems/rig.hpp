@@ -25,7 +25,7 @@ struct SampledLoop {
   Sensor sensor;
   ControlLaw law;         // computed at each sample; `held` for an external controller
   CommandRange limit[2];  // phi, theta: limits of the law's commands
-  Between between;        // converts commands for the servos
+  Mechanism mechanism;    // converts commands for the servos
   std::optional<BallConstants> pressing{};  // what presses on a touch screen, if that matters
   bool legs = false;  // commands are angles of three servos and need no conversion
   // For a held law: the external controller (control/external_controller.hpp), which the caller
@@ -61,21 +61,21 @@ struct Rig {
   RigServo servo[most_servos];
   // Limits of a continuous law's command; for gravity compensation, of the command's sine.
   CommandRange command_limit[2];
-  Between between;
+  Mechanism mechanism;
   std::optional<SampledLoop> sampled;
   OnEvent steps_lost = OnEvent::note;
 
   [[nodiscard]] bool rings() const {
     bool any = false;
-    for (const RigServo& one : servo) any = any || one.rings;
+    for (const RigServo& axis : servo) any = any || axis.rings;
     return any;
   }
   [[nodiscard]] bool limits_commands() const {
     return command_limit[0].binds() || command_limit[1].binds();
   }
   [[nodiscard]] bool switches() const {
-    bool any = limits_commands() || between.has_pieces();
-    for (const RigServo& one : servo) any = any || one.switches();
+    bool any = limits_commands() || mechanism.has_pieces();
+    for (const RigServo& axis : servo) any = any || axis.switches();
     return any;
   }
 };

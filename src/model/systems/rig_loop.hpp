@@ -80,9 +80,9 @@ struct ServoResponses {
 
 template <class Real, int servos = 2>
 struct RigAxes {
-  Command<Real> command;  // of the law
-  Real told[servos];      // to the servos, if they drive a linkage, rad
-  Real demand[servos];    // servo acceleration in free motion, rad/s^2
+  Command<Real> command;       // of the law
+  Real servo_command[servos];  // to the servos, if they drive a linkage, rad
+  Real demand[servos];         // servo acceleration in free motion, rad/s^2
 };
 
 // The layout of a rig's states after the ball's five. phi and theta are adjacent.
@@ -125,7 +125,7 @@ class RigLoop {
   static constexpr auto motions = [] {
     Motions<3 + servos + (integrates ? 2 : 0)> all{};
     int next = 0;
-    for (const Motion& one : {Motion{0, 2}, Motion{1, 3}}) all.of[next++] = one;
+    for (const Motion& motion : {Motion{0, 2}, Motion{1, 3}}) all.of[next++] = motion;
     for (int i = 0; i < servos; ++i) all.of[next++] = {Layout::angle + i, Layout::rate + i};
     all.of[next++] = {-1, 4};
     for (int i = Layout::integral; i < size; ++i) all.of[next++] = {-1, i};
@@ -134,9 +134,9 @@ class RigLoop {
 
   RigLoop(double radius, double gravity, const GeneralRolling& rolling, const ControlLaw& law,
           const ServoResponses& servo, Signals reference, const RigMode& present = {},
-          const Link& between = {})
+          const Link& mechanism = {})
       : mode(present),
-        link(between),
+        link(mechanism),
         r_(radius),
         g_(gravity),
         rolling_(rolling),
@@ -201,7 +201,7 @@ class RigLoop {
         loop.command.raw[i] = loop.command.value[i] = Real(mode.command[i]);
       }
       if constexpr (!Link::direct) {
-        for (int i = 0; i < servos; ++i) loop.told[i] = Real(mode.command[i]);
+        for (int i = 0; i < servos; ++i) loop.servo_command[i] = Real(mode.command[i]);
       }
     } else {
       if (law_.kind == LawKind::feedback_linearisation) {
@@ -210,11 +210,11 @@ class RigLoop {
         loop.command = model::command(law_, feedback(z), reference,
                                       [this](int i, const Real& raw) { return limited(i, raw); });
       }
-      if constexpr (!Link::direct) link.told(loop.command.value, loop.told);
+      if constexpr (!Link::direct) link.commands_for(loop.command.value, loop.servo_command);
     }
     for (int i = 0; i < servos; ++i) {
       const ServoResponse& servo = servo_.of[i];
-      loop.demand[i] = servo.from_command * told(loop, i) -
+      loop.demand[i] = servo.from_command * servo_command(loop, i) -
                        servo.from_angle * z[Layout::angle + i] -
                        servo.from_rate * z[Layout::rate + i];
     }
@@ -224,11 +224,11 @@ class RigLoop {
 
   // The command to servo i.
   template <class Real>
-  [[nodiscard]] static const Real& told(const Axes<Real>& loop, int i) {
+  [[nodiscard]] static const Real& servo_command(const Axes<Real>& loop, int i) {
     if constexpr (Link::direct) {
       return loop.command.value[i];
     } else {
-      return loop.told[i];
+      return loop.servo_command[i];
     }
   }
 
@@ -346,7 +346,7 @@ class RigLoop {
   template <class Real>
   [[nodiscard]] Real shown(const Axes<Real>& loop, int i) const {
     if constexpr (servos == 2) {
-      return told(loop, i);
+      return servo_command(loop, i);
     } else {
       return law_.kind == LawKind::held ? Real(mode.wanted[i]) : loop.command.value[i];
     }
@@ -418,7 +418,7 @@ class RigLoop {
   template <class Real>
   [[nodiscard]] Inertial<Real> coefficients(const Real* z) const {
     Real none[servos];
-    for (Real& one : none) one = Real(0.0);
+    for (Real& acceleration : none) acceleration = Real(0.0);
     GimbalAngle<Real> axis[2];
     planes(z, none, axis);
     const auto under = [&](double phi, double theta) {

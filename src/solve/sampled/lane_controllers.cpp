@@ -27,8 +27,8 @@ void LaneControllers::take_over(std::size_t l, const model::SampledController& f
   to.law.filter.of[l] = law.filter;
   const Pair command = from.last_command();
   for (std::size_t i = 0; i < 2; ++i) {
-    const auto put = [l](model::SampledLaw<Lanes>::Range& range,
-                         const model::SampledLaw<double>::Range& of) {
+    const auto put = [l](model::SampledLaw<Lanes>::Interval& range,
+                         const model::SampledLaw<double>::Interval& of) {
       range.low.of[l] = of.low;
       range.high.of[l] = of.high;
     };
@@ -61,8 +61,8 @@ void LaneControllers::sample(std::size_t l, model::HybridSystem& run, double t, 
   const double* const angle = z + model::RigLayout::angle;
   const double* const rate = angle + rig.servos;
   double servo[4] = {angle[0], angle[1], rate[0], rate[1]};
-  if (!rig.between.none() && rig.sampled->law.feeds_servos_back()) {
-    rig.between.believed(angle, rate, servo);
+  if (!rig.mechanism.none() && rig.sampled->law.feeds_servos_back()) {
+    rig.mechanism.believed(angle, rate, servo);
   }
   const auto& reference = sampling.reference_at(t);
   for (std::size_t i = 0; i < 2; ++i) {

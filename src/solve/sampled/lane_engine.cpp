@@ -373,7 +373,7 @@ void LaneEngine::state_at(std::size_t l, double t, const double (*ball)[group], 
       rate = axis.rate_end[l];
     } else {
       const model::HeldMotion servo = step_.servo(l, i);
-      const model::HeldMotion::Instant at =
+      const model::HeldMotion::ServoState at =
           servo.after(lane.instants->answer(servo.law, lane.until, t - lane.time), t - lane.time);
       angle = at.angle;
       rate = at.rate;

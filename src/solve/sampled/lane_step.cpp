@@ -64,7 +64,7 @@ void LaneStep::evaluate(std::size_t lane, const double* times, std::size_t count
       const model::ImpulseAnswer answer = model::answer(moves[0].law, after[i]);
       for (std::size_t k = 0; k < servo_count; ++k) {
         const bool alike = moves[k].law == moves[0].law;
-        const model::HeldMotion::Instant now =
+        const model::HeldMotion::ServoState now =
             alike ? moves[k].after(answer, after[i]) : moves[k].after(after[i]);
         row[angle_state + k] = now.angle;
         row[angle_state + servo_count + k] = now.rate;

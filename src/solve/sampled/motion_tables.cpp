@@ -64,7 +64,7 @@ void find_lost(MotionTable& table, double h) {
 void fill(MotionTable& table, const Kernels& kernels, const model::HeldLaw& law, double length) {
   const model::HeldMotion by_rate{law, 0, 1, 0}, by_acceleration{law, 0, 0, 1};
   const auto put = [](double(&rows)[MotionTable::rows][nodes], int i,
-                      const model::HeldMotion::Instant& at) {
+                      const model::HeldMotion::ServoState& at) {
     rows[MotionTable::angle][i] = at.angle;
     rows[MotionTable::rate][i] = at.rate;
     rows[MotionTable::acceleration][i] = at.acceleration;

@@ -29,7 +29,7 @@ const Kernels& choose_kernels() {
 
 bool knows(const model::Model& model) {
   // A measured curve switches from piece to piece, which no closed form predicts.
-  if (!model.rig || !model.rig->sampled || model.dry || model.rig->between.has_pieces()) {
+  if (!model.rig || !model.rig->sampled || model.dry || model.rig->mechanism.has_pieces()) {
     return false;
   }
   return with_given_plate(model.system, [](const auto& /*loop*/) {});
@@ -253,7 +253,7 @@ void HeldStepper::evaluate_some(const double* times, std::size_t count, double* 
     const model::ImpulseAnswer of_first = instants_.answer(first, time_, after[i]);
     for (std::size_t k = 0; k < servos_; ++k) {
       const model::HeldMotion& servo = servo_[k];
-      const model::HeldMotion::Instant at = servo.after(
+      const model::HeldMotion::ServoState at = servo.after(
           servo.law == first ? of_first : instants_.answer(servo.law, time_, after[i]), after[i]);
       row[angle + k] = at.angle;
       row[rate_ + k] = at.rate;

@@ -46,8 +46,8 @@ void SteppedLanes::ask(std::size_t l) {
   const double* const angles = lane.z.data() + model::RigLayout::angle;
   const double* const rates = angles + lane.plate->servos();
   double servo[4] = {angles[0], angles[1], rates[0], rates[1]};
-  const model::Between& between = lane.run->model().rig->between;
-  if (between.three) between.believed(angles, rates, servo);
+  const model::Mechanism& mechanism = lane.run->model().rig->mechanism;
+  if (mechanism.three) mechanism.believed(angles, rates, servo);
   now.servo = {servo[0], servo[1]};
   now.servo_rate = {servo[2], servo[3]};
   lane.waits = true;
