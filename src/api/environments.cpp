@@ -120,7 +120,7 @@ std::optional<model::Model> Environments::model_for_lane(const Scenario& scenari
     scenario::Integrals integrals = false;  // rows come from single runs
     integrals.work = false;
     model::Model model = model::assemble(commanded, integrals);
-    if (!solve::sampled::moves(model)) return {};
+    if (!solve::sampled::fits_lanes(model)) return {};
     model.rig->sampled->external = std::make_shared<Unasked>();
     return model;
   } catch (const InputError&) {  // the single run reports it

@@ -38,7 +38,7 @@ std::unique_ptr<Stepper> make_stepper(const model::Model& model, Method method,
   tolerances = of_each_step(model, method, tolerances);
   switch (method) {
     case Method::radau:
-      if (sampled::knows(model)) {
+      if (sampled::can_step(model)) {
         return std::make_unique<sampled::HeldStepper>(model, sampled::choose_kernels(), tolerances);
       }
       return std::make_unique<radau::RadauStepper>(model, radau::choose_kernels(),

@@ -18,9 +18,9 @@
 namespace bbsim::solve {
 namespace {
 
-class Step : public Piece {
+class StepPiece : public Piece {
  public:
-  Step(Stepper& stepper, double from, double to)
+  StepPiece(Stepper& stepper, double from, double to)
       : Piece(from, to, stepper.parts()), stepper_(stepper) {}
   void evaluate(const double* times, std::size_t count, double* rows) const override {
     stepper_.evaluate(times, count, rows);
@@ -85,7 +85,7 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
     if (pieces != nullptr) {
       const bool at_stop = reached >= limit && reached < grid.end();
       const double to = std::min(at_stop ? model.just_before(reached) : reached, grid.end());
-      if (to > before) pieces->accept(Step(stepper, before, to));
+      if (to > before) pieces->accept(StepPiece(stepper, before, to));
     }
     const std::size_t rows_until = grid.rows_until(reached);
     if (!with_rows) next_row = std::max(next_row, rows_until);

@@ -25,7 +25,7 @@ namespace {
 
 bool is_carried(const Scenario& scenario, const model::Model& model) {
   return !scenario.solver.error && solve::choose_method(scenario.solver.method) == Method::radau &&
-         solve::sampled::carries(model);
+         solve::sampled::fits_sweep_lanes(model);
 }
 
 // The model of a case without gamma, which lanes lack.

@@ -199,7 +199,7 @@ TEST_CASE("a rig by pieces is the rig in general, whatever its servos, law and m
     INFO(one.what << ", " << sampling_of);
     const Scenario scene = scene_of(text_of(one, sampling_of, "t, x, gamma"));
     const model::Model model = model::assemble(scene, true);
-    REQUIRE(solve::sampled::knows(model));
+    REQUIRE(solve::sampled::can_step(model));
     const solve::OutputGrid grid(scene.time);
     const Both general = run_of(model, grid, generally(grid));
     const Both pieces = run_of(model, grid, by_pieces(grid));
@@ -226,19 +226,19 @@ TEST_CASE("integrate() solves sampled rigs by pieces, and no others") {
   Scenario continuous = scene;
   continuous.controller->sampling.reset();
   continuous.controller->sensor.reset();
-  CHECK_FALSE(solve::sampled::knows(model::assemble(continuous, false)));
+  CHECK_FALSE(solve::sampled::can_step(model::assemble(continuous, false)));
   // With a linkage, unless something else moves the ball. Lanes do not count the motors' work.
   Scenario linked = scene_of(text_of(cases[13], sampling, "t, x"));
   scenario::Integrals without_work(false);
   without_work.work = false;
-  CHECK(solve::sampled::knows(model::assemble(linked, false)));
-  CHECK_FALSE(solve::sampled::moves(model::assemble(linked, false)));
-  CHECK(solve::sampled::moves(model::assemble(linked, without_work)));
+  CHECK(solve::sampled::can_step(model::assemble(linked, false)));
+  CHECK_FALSE(solve::sampled::fits_lanes(model::assemble(linked, false)));
+  CHECK(solve::sampled::fits_lanes(model::assemble(linked, without_work)));
   const Scenario rings = scene_of(text_of(*std::prev(std::end(cases)), sampling, "t, x"));
-  CHECK(solve::sampled::knows(model::assemble(rings, without_work)));
-  CHECK_FALSE(solve::sampled::moves(model::assemble(rings, without_work)));
+  CHECK(solve::sampled::can_step(model::assemble(rings, without_work)));
+  CHECK_FALSE(solve::sampled::fits_lanes(model::assemble(rings, without_work)));
   linked.ball.losses.viscous = 1e-6;
-  CHECK_FALSE(solve::sampled::knows(model::assemble(linked, without_work)));
+  CHECK_FALSE(solve::sampled::can_step(model::assemble(linked, without_work)));
 }
 
 TEST_CASE("pieces too long for their tolerance are split") {

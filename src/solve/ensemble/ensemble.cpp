@@ -48,8 +48,8 @@ const Kernels& choose_kernels() {
 }
 
 const Kernel& kernel_of(const Kernels& kernels, Actuation actuation, int nodes) {
-  return *std::find_if(std::begin(kernels.of), std::end(kernels.of), [&](const Kernel& one) {
-    return one.actuation == actuation && one.nodes == nodes;
+  return *std::find_if(std::begin(kernels.of), std::end(kernels.of), [&](const Kernel& kernel) {
+    return kernel.actuation == actuation && kernel.nodes == nodes;
   });
 }
 
@@ -59,7 +59,7 @@ int choose_nodes(Actuation actuation, double rtol, double angle) {
     const double steps = std::max(1.0, std::ceil(angle / first_reach(actuation, nodes, rtol)));
     return steps * nodes * (nodes + 15.0);  // sums over nodes, and coefficients at each
   };
-  return std::min({8, 12, 16}, [&](int one, int other) { return cost(one) < cost(other); });
+  return std::min({8, 12, 16}, [&](int a, int b) { return cost(a) < cost(b); });
 }
 
 void Ensemble::Free::operator()(void* memory) const {
@@ -100,12 +100,12 @@ void Ensemble::begin(Study& study) {
   std::array<std::size_t, group> which;
   int count = 0;
   while (count < group && !exhausted_) {
-    Progress& one = begun_[static_cast<std::size_t>(count)];
-    if (const auto number = study.begin(one.of)) {
-      std::copy_n(one.of.initial, states, one.state);
-      std::fill_n(one.acceleration, velocities, 0.0);
-      one.last_step = 0;
-      kernel_->load(workspace_.get(), count, one);
+    Progress& progress = begun_[static_cast<std::size_t>(count)];
+    if (const auto number = study.begin(progress.of)) {
+      std::copy_n(progress.of.initial, states, progress.state);
+      std::fill_n(progress.acceleration, velocities, 0.0);
+      progress.last_step = 0;
+      kernel_->load(workspace_.get(), count, progress);
       which[static_cast<std::size_t>(count++)] = *number;
     } else {
       exhausted_ = true;
@@ -115,18 +115,18 @@ void Ensemble::begin(Study& study) {
   alignas(64) double rates[group];
   kernel_->rates(workspace_.get(), rates);
   for (int lane = 0; lane < count; ++lane) {
-    const Case& one = begun_[static_cast<std::size_t>(lane)].of;
+    const Case& begun = begun_[static_cast<std::size_t>(lane)].of;
     for (auto& greatest : greatest_.of) greatest[lane] = 0;
     ActiveCase& active = case_in(lane).emplace();
     active.number = which[static_cast<std::size_t>(lane)];
-    active.repeats_after = one.repeats_after;
+    active.repeats_after = begun.repeats_after;
     active.next = rates[lane] > 0 ? reach_ / rates[lane] : end_;
     // The rate is infinite. The case is given up later if none of its steps is finite.
     if (!(active.next > 0)) active.next = end_ * 1e-6;
     if (rows_ == 0) continue;
     take_columns(active);
-    active.x[0] = one.initial[0];
-    active.y[0] = one.initial[1];
+    active.x[0] = begun.initial[0];
+    active.y[0] = begun.initial[1];
   }
 }
 

@@ -46,7 +46,7 @@ class Study {
   virtual ~Study() = default;
   // Fills in the next case and returns its number; empty if there are no more. A few dozen cases
   // are in progress at a time.
-  virtual std::optional<std::size_t> begin(Case& one) = 0;
+  virtual std::optional<std::size_t> begin(Case& next) = 0;
   virtual void end(std::size_t number, const Result& run) = 0;
 };
 

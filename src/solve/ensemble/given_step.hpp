@@ -80,7 +80,7 @@ struct GivenStep : Base {
   BBSIM_INLINE static void improve(Pack& of, P h, Mask active, P (&change)[unknowns]) {
     constexpr int together = 2;
     static_assert(s % together == 0);
-    for (P& one : change) one = P(0.0);
+    for (P& greatest : change) greatest = P(0.0);
 #pragma GCC unroll 1
     for (int first = 0; first < s; first += together) {
       P q[together][with_position], v[together][unknowns];

@@ -28,8 +28,8 @@ Instants::Instants(const model::SampledLoop& loop, bool cut) {
 
 double Instants::nominal(double time, double length) const {
   const double rounding = 2 * rounding_of(time + length);
-  for (const double one : lengths_) {
-    if (std::abs(one - length) <= rounding && one > 0) return one;
+  for (const double nominal_length : lengths_) {
+    if (std::abs(nominal_length - length) <= rounding && nominal_length > 0) return nominal_length;
   }
   return length;
 }
@@ -37,19 +37,19 @@ double Instants::nominal(double time, double length) const {
 std::optional<double> Instants::recurring(double time, double after, double length) const {
   if (length != lengths_[0] && length != lengths_[1]) return {};
   const double rounding = 2 * rounding_of(time + after);
-  for (const Kept& one : samples_) {
-    if (std::abs(one.after - after) <= rounding) return one.after;
+  for (const CachedAnswer& sample : samples_) {
+    if (std::abs(sample.after - after) <= rounding) return sample.after;
   }
   return {};
 }
 
 const model::ImpulseAnswer& Instants::answer(const model::HeldLaw& law, double time, double after) {
   const double rounding = 2 * rounding_of(time + after);
-  for (Kept& one : samples_) {
-    if (std::abs(one.after - after) > rounding) continue;
-    if (!one.known || !(one.law == law))
-      one = {one.after, true, law, model::answer(law, one.after)};
-    return one.answer;
+  for (CachedAnswer& sample : samples_) {
+    if (std::abs(sample.after - after) > rounding) continue;
+    if (!sample.known || !(sample.law == law))
+      sample = {sample.after, true, law, model::answer(law, sample.after)};
+    return sample.answer;
   }
   if (!other_.known || other_.after != after || !(other_.law == law)) {
     other_ = {after, true, law, model::answer(law, after)};

@@ -34,7 +34,7 @@ class Instants {
                                                    double after);
 
  private:
-  struct Kept {
+  struct CachedAnswer {
     double after = -1;  // from the piece's start, s
     bool known = false;
     model::HeldLaw law{};
@@ -42,8 +42,8 @@ class Instants {
   };
   // Lengths (s) of pieces from command to command, from sample to command, and back to a sample.
   std::array<double, 3> lengths_;
-  std::array<Kept, 2> samples_;
-  Kept other_;
+  std::array<CachedAnswer, 2> samples_;
+  CachedAnswer other_;
 };
 
 }  // namespace bbsim::solve::sampled

@@ -18,16 +18,16 @@ template <class P>
 struct LoadLanes {
   int first;
 
-  BBSIM_INLINE P one(const Lanes& from) const { return P::load(from.of + first); }
+  BBSIM_INLINE P pack(const Lanes& from) const { return P::load(from.of + first); }
   template <class To, class From, std::size_t count>
   BBSIM_INLINE void each(To (&to)[count], const From (&from)[count]) const {
     for (std::size_t i = 0; i < count; ++i) {
       if constexpr (std::is_array_v<To>) {
         each(to[i], from[i]);
       } else if constexpr (std::is_same_v<To, P>) {
-        to[i] = one(from[i]);
+        to[i] = pack(from[i]);
       } else {
-        to[i] = {one(from[i].low), one(from[i].high)};
+        to[i] = {pack(from[i].low), pack(from[i].high)};
       }
     }
   }
@@ -36,13 +36,14 @@ struct LoadLanes {
     law.law.kind = from.law.kind;
     law.integrates = from.integrates;
     model::for_each_number(
-        law.law,
-        from.law, [this](P & to, const Lanes& of) __attribute__((always_inline)) { to = one(of); });
+        law.law, from.law, [this](P & to, const Lanes& of) __attribute__((always_inline)) {
+          to = pack(of);
+        });
     each(law.sine, from.sine);
     each(law.limit, from.limit);
-    law.resolution = one(from.resolution);
+    law.resolution = pack(from.resolution);
     each(law.reached, from.reached);
-    law.filter = one(from.filter);
+    law.filter = pack(from.filter);
     return law;
   }
 };
@@ -62,15 +63,15 @@ template <class P>
     std::array<model::Jet<P>, 2> reference;
     for (std::size_t i = 0; i < 2; ++i) {
       const Lanes* const at = control.reference[i];
-      reference[i] = {from.one(at[0]), from.one(at[1]), from.one(at[2])};
+      reference[i] = {from.pack(at[0]), from.pack(at[1]), from.pack(at[2])};
     }
-    model::take_sample(law, memory, seen, from.one(control.elapsed),
-                       simd::exceeds(from.one(control.is_first), P(0.5)), servo, reference,
+    model::take_sample(law, memory, seen, from.pack(control.elapsed),
+                       simd::exceeds(from.pack(control.is_first), P(0.5)), servo, reference,
                        command);
-    const auto sees = simd::exceeds(from.one(control.sees), P(0.5));
+    const auto sees = simd::exceeds(from.pack(control.sees), P(0.5));
     const auto keep = [&](Lanes(&to)[2], const P(&values)[2]) __attribute__((always_inline)) {
       for (int i = 0; i < 2; ++i) {
-        simd::choose(sees, values[i], from.one(to[i])).store(to[i].of + first);
+        simd::choose(sees, values[i], from.pack(to[i])).store(to[i].of + first);
       }
     };
     keep(control.memory.position, memory.position);

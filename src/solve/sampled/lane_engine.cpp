@@ -46,8 +46,8 @@ const LaneKernels& choose_lane_kernels() {
   return simd::kernels_by([](auto isa) -> const auto& { return lane_kernels<decltype(isa)>(); });
 }
 
-bool moves(const model::Model& model) {
-  return knows(model) && !model.gamma && !counts_work(model) && !model.rig->sampled->legs &&
+bool fits_lanes(const model::Model& model) {
+  return can_step(model) && !model.gamma && !counts_work(model) && !model.rig->sampled->legs &&
          !model.rig->rings();
 }
 
@@ -212,23 +212,24 @@ void LaneEngine::predict_crossing(std::size_t l) {
 void LaneEngine::load_tables(std::size_t i) {
   const LaneServo& servo = servos_->of[i];
   LaneAxis& axis = pieces_->axis[i];
-  std::size_t one = group;
+  std::size_t first = group;
   bool alike = true;
   for (std::size_t l = 0; l < group; ++l) {
     if (!(pieces_->length[l] > 0)) continue;
-    if (one == group) one = l;
-    alike = alike && pieces_->length[l] == pieces_->length[one] &&
-            servo.stiffness[l] == servo.stiffness[one] && servo.damping[l] == servo.damping[one];
+    if (first == group) first = l;
+    alike = alike && pieces_->length[l] == pieces_->length[first] &&
+            servo.stiffness[l] == servo.stiffness[first] &&
+            servo.damping[l] == servo.damping[first];
   }
-  if (one == group) return;
+  if (first == group) return;
   const auto asked_of = [&](std::size_t l) {
     return Loaded{{servo.stiffness[l], servo.damping[l]}, pieces_->length[l]};
   };
   if (alike) {
-    const Loaded asked = asked_of(one);
+    const Loaded asked = asked_of(first);
     if (axis.shared != nullptr && shared_[i] == asked) return;
     shared_[i] = asked;
-    shared_tables_[i] = lanes_[one].tables.of(asked.law, asked.length);
+    shared_tables_[i] = lanes_[first].tables.of(asked.law, asked.length);
     axis.shared = &shared_tables_[i];
     axis.lost = false;
     for (std::size_t l = 0; l < group; ++l) put(shared_tables_[i], axis, l);

@@ -24,9 +24,9 @@
 
 namespace bbsim::solve::sampled {
 
-// Whether lanes can move the model: it passes knows(), has no gamma, does not count the servos'
+// Whether lanes can move the model: it passes can_step(), has no gamma, does not count the servos'
 // work, no stepper rings, and its commands are not angles of three servos.
-[[nodiscard]] bool moves(const model::Model& model);
+[[nodiscard]] bool fits_lanes(const model::Model& model);
 
 // Each rig keeps its HybridSystem with its own sensor, servos and limits. The balls are computed
 // together between switches, each as in HeldStepper. A switch in one lane cuts only that lane's
@@ -77,15 +77,15 @@ class LaneEngine {
   void go_on(std::size_t lane);
 
   // The next instant of each lane within its piece, and the ball there: x, y, x', y', u.
-  struct alignas(64) Instant {
+  struct alignas(64) NextInstants {
     double after[group], ball[5][group];  // s after the start of the piece
     double when[group];                   // s
     bool is_event[group];                 // an event of the run; otherwise the caller's
   };
-  // Finds each lane's next instant: an event, or a time other(lane) of the caller, such as a row. A
-  // lane without one up to the end of its piece is settled. Returns false if all are.
-  template <class Other>
-  bool find_instants(const Other& other, Instant& next);
+  // Finds each lane's next instant: an event, or the caller's time_of(lane), such as a row. A lane
+  // without one up to the end of its piece is settled. Returns false if all are.
+  template <class TimeOf>
+  bool find_instants(const TimeOf& time_of, NextInstants& next);
 
   void take_commands(std::size_t lane);
   void take_mode(std::size_t lane);
@@ -161,16 +161,16 @@ bool LaneEngine::plan(const Limit& limit_of) {
   return any;
 }
 
-template <class Other>
-bool LaneEngine::find_instants(const Other& other, Instant& next) {
+template <class TimeOf>
+bool LaneEngine::find_instants(const TimeOf& time_of, NextInstants& next) {
   bool any = false, within = false;
   for (std::size_t l = 0; l < group; ++l) {
     Lane& lane = lanes_[l];
     next.after[l] = 0;
     if (!lane.moved || lane.settled) continue;
-    const double due = lane.run->next_time_event(), others = other(l);
-    const bool is_event = !(others < due - lane.run->rounding(due));
-    double when = is_event ? due : others;
+    const double due = lane.run->next_time_event(), asked = time_of(l);
+    const bool is_event = !(asked < due - lane.run->rounding(due));
+    double when = is_event ? due : asked;
     // A sample and a command at one instant may differ by rounding. The command's time counts.
     if (is_event && lane.run->changes_at(due)) when = lane.run->next_change();
     next.when[l] = when;

@@ -109,8 +109,8 @@ struct alignas(64) LaneQuantities {
 };
 // A reference (x, y) at the start and at all nodes but the first.
 struct alignas(64) LaneReference {
-  double one[2][nodes], at[2][nodes][group];
-  bool shared;  // whether all lanes use `one`; otherwise each has its own
+  double common[2][nodes], at[2][nodes][group];
+  bool shared;  // whether all lanes use `common`; otherwise each has its own
 };
 
 struct alignas(64) Lanes {

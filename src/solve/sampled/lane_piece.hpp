@@ -308,8 +308,8 @@ struct LaneKernel {
       if (scene.reference) {
         P x = ball.x, y = ball.y;
         if (reference.shared) {
-          x -= P(reference.one[0][n]);
-          y -= P(reference.one[1][n]);
+          x -= P(reference.common[0][n]);
+          y -= P(reference.common[1][n]);
         } else {
           x -= of(reference.at[0][n]);
           y -= of(reference.at[1][n]);

@@ -58,7 +58,7 @@ template <class RangeOf>
 [[nodiscard]] bool stays_in_range(const model::Monitor& monitor, const Plate& plate, bool occurring,
                                   RangeOf range) {
   bool within = true, beyond = false, presses = true;
-  const bool told =
+  const bool decidable =
       for_each_range(monitor, plate, [&](Quantity quantity, double least, double most) {
         const Range of = widened(range(quantity));
         within = within && of.least > least && of.most < most;
@@ -69,7 +69,7 @@ template <class RangeOf>
           beyond = beyond || of.most < least || of.least > most;
         }
       });
-  return told && (occurring ? beyond && presses : within);
+  return decidable && (occurring ? beyond && presses : within);
 }
 
 }  // namespace bbsim::solve::sampled

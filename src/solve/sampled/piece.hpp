@@ -333,8 +333,8 @@ struct Kernel {
         slope += P(n + 1.0) * next;
         integral += next * P(model::term_parts<P>.of[n + 2]);
         // Terms grow with the time. The last lane has the longest.
-        const double largest = next.v[lanes - 1], other = before.v[lanes - 1];
-        if (size_of(largest) + size_of(other) < 1e-18) break;
+        const double largest = next.v[lanes - 1], largest_before = before.v[lanes - 1];
+        if (size_of(largest) + size_of(largest_before) < 1e-18) break;
       }
       (t * t * integral).store(answers.integral + p * lanes);
       (t * value).store(answers.value + p * lanes);

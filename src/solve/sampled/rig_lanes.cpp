@@ -8,8 +8,8 @@
 
 namespace bbsim::solve::sampled {
 
-bool carries(const model::Model& model) {
-  if (!moves(model) || model.rig->sampled->external ||
+bool fits_sweep_lanes(const model::Model& model) {
+  if (!fits_lanes(model) || model.rig->sampled->external ||
       model.rig->sampled->law.kind == model::LawKind::held) {
     return false;
   }
@@ -21,10 +21,10 @@ bool carries(const model::Model& model) {
   return square;
 }
 
-bool go_together(const model::Model& one, const model::Model& other) {
-  const model::SampledLoop &a = *one.rig->sampled, &b = *other.rig->sampled;
-  return a.law.kind == b.law.kind && one.stops == other.stops &&
-         one.system.index() == other.system.index();
+bool go_together(const model::Model& first, const model::Model& second) {
+  const model::SampledLoop &a = *first.rig->sampled, &b = *second.rig->sampled;
+  return a.law.kind == b.law.kind && first.stops == second.stops &&
+         first.system.index() == second.system.index();
 }
 
 RigLanes::RigLanes(Tolerances tolerances, const OutputGrid& grid, const LaneAsked& asked)
@@ -55,7 +55,7 @@ void RigLanes::begin(std::size_t l, const model::Model& model, LaneSink& sink) {
 // Evaluates the reference at the start and all nodes but the first.
 void RigLanes::fill_reference() {
   LaneReference& reference = *reference_;
-  std::size_t last = group;  // the lane whose piece reference.one is for
+  std::size_t last = group;  // the lane whose piece reference.common is for
   reference.shared = true;
   for (std::size_t l = 0; l < group; ++l) {
     if (!step_.has_[l]) continue;
@@ -72,7 +72,7 @@ void RigLanes::fill_reference() {
     if (!step_.has_[l]) continue;
     take_reference(l);
     for (std::size_t i = 0; i < 2; ++i) {
-      for (std::size_t n = 0; n < nodes; ++n) reference.at[i][n][l] = reference.one[i][n];
+      for (std::size_t n = 0; n < nodes; ++n) reference.at[i][n][l] = reference.common[i][n];
     }
   }
 }
@@ -83,7 +83,7 @@ void RigLanes::take_reference(std::size_t l) {
   const bool jumps = model.jumps_at(lanes_[l].until);
   const double length = jumps ? step_.to_[l] - step_.from_[l] : pieces_->length[l];
   with_given_plate(model.system, [&](const auto& loop) {
-    kernels_.reference(loop.reference().view(), step_.from_[l], length, reference_->one);
+    kernels_.reference(loop.reference().view(), step_.from_[l], length, reference_->common);
   });
 }
 
@@ -115,9 +115,9 @@ void RigLanes::pass_row(std::size_t l, LaneSink& sink) {
 // Takes samples, applies commands and passes rows on, each at its time, up to the ends of the
 // pieces.
 void RigLanes::pass_instants(LaneSink& sink) {
-  const auto other = [this](std::size_t l) { return grid_[next_row_[l]]; };
-  Instant next;
-  while (find_instants(other, next)) {
+  const auto row_time = [this](std::size_t l) { return grid_[next_row_[l]]; };
+  NextInstants next;
+  while (find_instants(row_time, next)) {
     for (std::size_t l = 0; l < group; ++l) {
       Lane& lane = lanes_[l];
       if (!lane.moved || lane.settled) continue;

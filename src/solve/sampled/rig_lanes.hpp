@@ -16,13 +16,13 @@
 
 namespace bbsim::solve::sampled {
 
-// Whether RigLanes can integrate the model: it passes moves(), its law is built in, its axes are
-// square and its base is level.
-[[nodiscard]] bool carries(const model::Model& model);
+// Whether RigLanes can integrate the model: it passes fits_lanes(), its law is built in, its axes
+// are square and its base is level.
+[[nodiscard]] bool fits_sweep_lanes(const model::Model& model);
 
 // Whether two such rigs can share a group: the same kind of law, mechanism and stops. Their periods
 // and delays may differ. Their references must be the same, which is not checked.
-[[nodiscard]] bool go_together(const model::Model& one, const model::Model& other);
+[[nodiscard]] bool go_together(const model::Model& first, const model::Model& second);
 
 // Receives the motion of the rigs of a group. Data of a lane that is given up later mean nothing.
 class LaneSink {
@@ -52,9 +52,9 @@ class RigLanes : private LaneEngine {
  public:
   RigLanes(Tolerances tolerances, const OutputGrid& grid, const LaneAsked& asked);
 
-  // Integrates the first `count` models, 1 <= count <= group. carries() and go_together() must hold
-  // for them, and they must have the same reference. Returns for each whether it reached the end.
-  // Stops early once `stop` is true.
+  // Integrates the first `count` models, 1 <= count <= group. fits_sweep_lanes() and go_together()
+  // must hold for them, and they must have the same reference. Returns for each whether it reached
+  // the end. Stops early once `stop` is true.
   std::array<bool, group> integrate(const model::Model* const* models, std::size_t count,
                                     LaneSink& sink, const std::atomic<bool>& stop);
 

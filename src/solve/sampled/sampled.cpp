@@ -27,7 +27,7 @@ const Kernels& choose_kernels() {
       [](auto isa) -> const auto& { return kernels<decltype(isa)>(); });
 }
 
-bool knows(const model::Model& model) {
+bool can_step(const model::Model& model) {
   // A measured curve switches from piece to piece, which no closed form predicts.
   if (!model.rig || !model.rig->sampled || model.dry || model.rig->mechanism.has_pieces()) {
     return false;
@@ -200,26 +200,26 @@ void HeldStepper::Shares::evaluate(const Piece& piece, double (&ball)[6]) const 
 const HeldStepper::Shares* HeldStepper::shares(double after) {
   const std::optional<double> meant = instants_.recurring(time_, after, piece_.length);
   if (!meant) return nullptr;
-  for (const Shares& one : shares_) {
-    if (one.after == *meant && one.length == piece_.length) return &one;
+  for (const Shares& entry : shares_) {
+    if (entry.after == *meant && entry.length == piece_.length) return &entry;
   }
-  Shares& made = shares_[next_shares_];
+  Shares& entry = shares_[next_shares_];
   next_shares_ = (next_shares_ + 1) % shares_.size();
-  made.after = *meant;
-  made.length = piece_.length;
+  entry.after = *meant;
+  entry.length = piece_.length;
   for (int first = 0; first < nodes; first += 3) {
     const int count = std::min(3, nodes - first);
-    Piece one{};  // each series is a single polynomial
-    one.length = piece_.length;
-    for (int i = 0; i < count; ++i) one.series[i][first + i] = 1;
+    Piece unit{};  // each series is a single polynomial
+    unit.length = piece_.length;
+    for (int i = 0; i < count; ++i) unit.series[i][first + i] = 1;
     double ball[1][6];
-    kernels_.evaluate(one, &made.after, 1, ball);
+    kernels_.evaluate(unit, &entry.after, 1, ball);
     for (int i = 0; i < count; ++i) {
-      made.of_velocity[first + i] = ball[0][2 + i];
-      made.of_position[first + i] = ball[0][i < 2 ? i : 5];
+      entry.of_velocity[first + i] = ball[0][2 + i];
+      entry.of_position[first + i] = ball[0][i < 2 ? i : 5];
     }
   }
-  return &made;
+  return &entry;
 }
 
 void HeldStepper::evaluate_some(const double* times, std::size_t count, double* rows, bool servos) {

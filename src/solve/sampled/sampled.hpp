@@ -26,11 +26,11 @@ namespace bbsim::solve::sampled {
 
 // Whether HeldStepper can run the model: its command is held between samples, its servos move in
 // closed form in every mode, and nothing but their motion moves the plate and the ball.
-[[nodiscard]] bool knows(const model::Model& model);
+[[nodiscard]] bool can_step(const model::Model& model);
 // Whether such a model has the servos' work among its states, as the last one, and it is wanted.
 [[nodiscard]] bool counts_work(const model::Model& model);
 
-// A stepper for models that pass knows(). A step usually reaches its limit, because pieces are
+// A stepper for models that pass can_step(). A step usually reaches its limit, because pieces are
 // short. Steps get shorter if 8 nodes do not resolve the ball's motion, as after a jump of a stiff
 // servo. The stepper does not know when a servo switches: the caller must pass a limit no later
 // than the next switch. Once its tables are made it does not allocate.

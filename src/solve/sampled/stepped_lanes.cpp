@@ -148,9 +148,9 @@ void SteppedLanes::search(std::size_t l) {
 
 // Handles exposures and commands, each at its time, up to samples or the ends of the pieces.
 void SteppedLanes::pass_instants() {
-  const auto other = [this](std::size_t l) { return lanes_[l].end; };
-  Instant next;
-  while (find_instants(other, next)) {
+  const auto end_time = [this](std::size_t l) { return lanes_[l].end; };
+  NextInstants next;
+  while (find_instants(end_time, next)) {
     for (std::size_t l = 0; l < group; ++l) {
       Lane& lane = lanes_[l];
       if (!lane.moved || lane.settled) continue;

@@ -30,7 +30,7 @@ class SteppedLanes : private LaneEngine {
 
   explicit SteppedLanes(Tolerances tolerances);
 
-  // Begins a rig in a lane, up to `end` s. It then waits at t = 0. moves() must hold, and the
+  // Begins a rig in a lane, up to `end` s. It then waits at t = 0. fits_lanes() must hold, and the
   // controller must be external; it is not called.
   void begin(std::size_t lane, const model::Model& model, double end);
   void drop(std::size_t lane);
