@@ -96,13 +96,13 @@ std::array<solve::CheckRun, 4> Checks::kinds(const Track& run, double rtol) cons
 }
 
 void Checks::use(double rtol) {
-  if (rtol != rtol_) made_.clear();
+  if (rtol != rtol_) tracks_.clear();
   rtol_ = rtol;
 }
 
 const Track* Checks::check(solve::CheckRun how) {
-  for (const Made& made : made_) {
-    if (made.how.stages == how.stages && made.how.parts == how.parts) return made.track.get();
+  for (const CheckTrack& done : tracks_) {
+    if (done.how.stages == how.stages && done.how.parts == how.parts) return done.track.get();
   }
   auto track = std::make_unique<Track>();
   Tracker tracker(model_, track->positions);
@@ -111,8 +111,8 @@ const Track* Checks::check(solve::CheckRun how) {
   ++runs_;
   interrupted_ = interrupted_ || track->outcome.ending == solve::Ending::interrupted;
   if (!came_to_its_end(track->outcome)) track.reset();
-  made_.push_back({how, std::move(track)});
-  return made_.back().track.get();
+  tracks_.push_back({how, std::move(track)});
+  return tracks_.back().track.get();
 }
 
 // Empty if a check does not reach its end.
@@ -126,14 +126,14 @@ std::optional<double> Checks::distance_from(const Track& run,
   const Track* const second = check(kinds[1]);
   if (second == nullptr) return {};
   apart = std::max(apart, distance(run, *second));
-  double between = distance(*first, *second);
-  const auto in_noise = [&] { return safety_in_noise * std::max(apart, between); };
-  if (between <= noise * apart || in_noise() <= rounding(run)) return safety * apart;
+  double spread = distance(*first, *second);
+  const auto in_noise = [&] { return safety_in_noise * std::max(apart, spread); };
+  if (spread <= noise * apart || in_noise() <= rounding(run)) return safety * apart;
   for (const std::size_t more : {2, 3}) {
     const Track* const third = check(kinds[more]);
     if (third == nullptr) return {};
     apart = std::max(apart, distance(run, *third));
-    between = std::max({between, distance(*first, *third), distance(*second, *third)});
+    spread = std::max({spread, distance(*first, *third), distance(*second, *third)});
   }
   return in_noise();
 }
@@ -153,21 +153,21 @@ double Checks::estimate(const Track& run, double rtol, bool confirm) {
 std::vector<double> Checks::row_estimates(const Track& run, double estimate) const {
   const auto n = static_cast<std::size_t>(coordinates(model_));
   std::vector<double> rows(run.positions.size() / n, std::numeric_limits<double>::quiet_NaN());
-  for (const Made& made : made_) {
-    if (made.track == nullptr) continue;
-    const std::size_t common = std::min(run.positions.size(), made.track->positions.size());
+  for (const CheckTrack& done : tracks_) {
+    if (done.track == nullptr) continue;
+    const std::size_t common = std::min(run.positions.size(), done.track->positions.size());
     for (std::size_t i = 0; i < common; ++i) {
-      rows[i / n] = std::fmax(rows[i / n], std::abs(run.positions[i] - made.track->positions[i]));
+      rows[i / n] = std::fmax(rows[i / n], std::abs(run.positions[i] - done.track->positions[i]));
     }
   }
   double largest = 0;
-  for (const double one : rows) largest = std::fmax(largest, one);
+  for (const double error : rows) largest = std::fmax(largest, error);
   // Between rounding and the estimate of the whole run.
   const double factor =
       largest > 0 ? std::clamp(estimate / largest, safety, safety_in_noise) : safety;
   const double least = rounding(run);
-  for (double& one : rows) {
-    if (!std::isnan(one)) one = std::max(factor * one, least);
+  for (double& error : rows) {
+    if (!std::isnan(error)) error = std::max(factor * error, least);
   }
   return rows;
 }

@@ -79,11 +79,11 @@ class Checks {
   const solve::Watch& watch_;
   double rtol_ = 0;   // of the checks
   double least_ = 0;  // finer tolerances have failed
-  struct Made {
+  struct CheckTrack {
     solve::CheckRun how;
     std::unique_ptr<Track> track;  // null if it did not reach its end
   };
-  std::vector<Made> made_;
+  std::vector<CheckTrack> tracks_;
   bool interrupted_ = false;
   int runs_ = 0;
 };

@@ -31,17 +31,18 @@ ErrorControlled integrate_to_error(const model::Model& model, Method method, dou
   // `pieces` receives every run that may be chosen. If a later run was not chosen, the chosen one
   // is run again for it.
   solve::PieceSink* const pieces = sink.pieces();
-  double told = 0;  // the relative tolerance of the last run that it received
+  double received_rtol = 0;  // the relative tolerance of the last run that it received
   const auto run = [&](double rtol) {
-    Candidate made{rtol, {}, Trajectory(model.row_size(), pieces)};
-    Tracker tracker(model, made.track.positions, &made.rows);
-    told = rtol;
-    made.track.outcome = solve::integrate(model, method, tolerances_of(rtol), grid, tracker, watch);
+    Candidate tried{rtol, {}, Trajectory(model.row_size(), pieces)};
+    Tracker tracker(model, tried.track.positions, &tried.rows);
+    received_rtol = rtol;
+    tried.track.outcome =
+        solve::integrate(model, method, tolerances_of(rtol), grid, tracker, watch);
     ++result.runs;
-    return made;
+    return tried;
   };
   const auto deliver = [&](Candidate& chosen) {
-    if (pieces != nullptr && told != chosen.rtol) {
+    if (pieces != nullptr && received_rtol != chosen.rtol) {
       chosen.track.outcome.ending = run(chosen.rtol).track.outcome.ending;
     }
     if (chosen.rows.rows() > 0) sink.accept(0, chosen.rows.rows(), chosen.rows.row(0));

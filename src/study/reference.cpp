@@ -197,19 +197,19 @@ double difference(const ReferenceSolution& a, const ReferenceSolution& b, int co
 
 ReferenceSolution solve_reference(const model::Model& model, const solve::OutputGrid& grid,
                                   double tolerance, const solve::Watch& watch) {
-  static const RadauRule rule(24), other_rule(20);
+  static const RadauRule rule(24), coarser_rule(20);
   std::unique_ptr<Equation> equation = make_equation(model);
   const double finest = std::max(tolerance, 5e3 * Quad::epsilon());
   double done = 0;  // by both runs together
   const auto progress = [&](double time) {
     if (watch.progress) watch.progress(done + time / 2);
   };
-  const ReferenceSolution other =
-      Run(*equation, other_rule, 10 * finest, model, grid).solve(watch.stop, progress);
+  const ReferenceSolution coarser =
+      Run(*equation, coarser_rule, 10 * finest, model, grid).solve(watch.stop, progress);
   done = grid.end() / 2;
   ReferenceSolution solution =
       Run(*equation, rule, finest, model, grid).solve(watch.stop, progress);
-  solution.error_estimate = difference(solution, other, coordinates(model));
+  solution.error_estimate = difference(solution, coarser, coordinates(model));
   return solution;
 }
 
@@ -238,9 +238,9 @@ ReferenceSolution solve_by_cvode(const model::Model& model, const solve::OutputG
     }
     return solution;
   };
-  const ReferenceSolution other = solved(1e-12, 0);
+  const ReferenceSolution coarser = solved(1e-12, 0);
   ReferenceSolution solution = solved(1e-13, grid.end() / 2);
-  solution.error_estimate = difference(solution, other, coordinates(model));
+  solution.error_estimate = difference(solution, coarser, coordinates(model));
   return solution;
 }
 

@@ -21,7 +21,7 @@ namespace {
 // x, y and r gamma in m, r gamma' in m/s.
 using Values = std::array<double, 4>;
 
-struct Known {
+struct KnownMotion {
   const char* name;
   const char* scenario;  // YAML
   Values (*at)(const Scenario& scene, double t);
@@ -56,7 +56,7 @@ time: {end: 21, step: 0.1}
 
 // References are quad-precision solutions, by another program with another method: the last rows of
 // fig2a, fig2b, fast, spin and torque-loop of tests/data/reference.
-constexpr Known known[] = {
+constexpr KnownMotion known_motions[] = {
     {"fixed incline: closed form (M1)", R"yaml(
 ball: {radius: 0.01, position: [0.1, -0.2], velocity: [0.3, 0.4], spin: 20}
 gimbal: {motion: {phi: 0.2, theta: -0.3}}
@@ -178,9 +178,9 @@ time: {end: 10, step: 0.1}
 // Hence, for positions, r gamma and r gamma',
 //
 //     bound = steps (rtol size + atol) (1 + end / 1 s).
-Check compare(const Known& one, const solve::Watch& watch) {
+Check compare(const KnownMotion& known, const solve::Watch& watch) {
   constexpr solve::Tolerances tolerances{1e-12, 1e-14};
-  const Scenario scene = parse_scenario(one.scenario, one.name);
+  const Scenario scene = parse_scenario(known.scenario, known.name);
   const model::Model model = model::assemble(scene, true);
   const solve::OutputGrid grid(scene.time);
   solve::Trajectory rows(model.row_size());
@@ -196,13 +196,13 @@ Check compare(const Known& one, const solve::Watch& watch) {
     for (const double value : {ball.x, ball.y, ball.x_dot, ball.y_dot, r * ball.gamma_dot}) {
       size = larger(size, std::abs(value));
     }
-    if (one.only_at_end && i + 1 < grid.size()) continue;
-    const Values expected = one.at(scene, grid[i]);
+    if (known.only_at_end && i + 1 < grid.size()) continue;
+    const Values expected = known.at(scene, grid[i]);
     for (std::size_t k = 0; k < seen.size(); ++k) {
       error = larger(error, std::abs(seen[k] - expected[k]));
     }
   }
-  return {one.name, error,
+  return {known.name, error,
           static_cast<double>(outcome.statistics.steps) *
               (tolerances.rtol * size + tolerances.atol) * (1 + scene.time.end)};
 }
@@ -214,19 +214,19 @@ bool Verification::holds() const {
 }
 
 Verification verify(const solve::Watch& watch) {
-  Verification made;
-  for (const Known& one : known) {
-    Check result = compare(one, watch);
+  Verification verification;
+  for (const KnownMotion& motion : known_motions) {
+    Check result = compare(motion, watch);
     if (watch.stop != nullptr && watch.stop->load(std::memory_order_relaxed)) {
-      made.interrupted = true;
+      verification.interrupted = true;
       break;
     }
-    made.checks.push_back(std::move(result));
+    verification.checks.push_back(std::move(result));
     if (watch.progress) {
-      watch.progress(static_cast<double>(made.checks.size()) / std::size(known));
+      watch.progress(static_cast<double>(verification.checks.size()) / std::size(known_motions));
     }
   }
-  return made;
+  return verification;
 }
 
 std::vector<Scenario> paper_scenes(const std::vector<std::string>& overrides) {
