@@ -192,16 +192,16 @@ Status status_of(const std::string& word) {
                              : Status::interrupted;
 }
 
-Result result_of(api::RunResult made) {
+Result result_of(api::RunResult run) {
   Result result;
-  result.status = status_of(made.summary.status);
-  result.summary = record::to_json(made.summary);
-  result.reason = std::move(made.summary.reason);
-  result.columns = std::move(made.columns);
-  result.units = std::move(made.units);
-  result.values = std::move(made.rows.columns);
-  result.measures = std::move(made.summary.measures);
-  result.warnings = std::move(made.summary.warnings);
+  result.status = status_of(run.summary.status);
+  result.summary = record::to_json(run.summary);
+  result.reason = std::move(run.summary.reason);
+  result.columns = std::move(run.columns);
+  result.units = std::move(run.units);
+  result.values = std::move(run.rows.columns);
+  result.measures = std::move(run.summary.measures);
+  result.warnings = std::move(run.summary.warnings);
   return result;
 }
 
@@ -291,10 +291,10 @@ Table sweep(const Scenario& scenario, const SweepOptions& options) {
                               {}};
     request.threads = static_cast<double>(options.threads);
     Watch watch(options.goes_on);
-    api::SweepResult made = api::sweep(request, watch);
+    api::SweepResult sweep_result = api::sweep(request, watch);
     Table table;
-    table.complete = made.code == ExitCode::done;
-    for (api::SweepTable::Column& column : made.table.columns) {
+    table.complete = sweep_result.code == ExitCode::done;
+    for (api::SweepTable::Column& column : sweep_result.table.columns) {
       table.columns.push_back({std::move(column.name), std::move(column.unit),
                                std::move(column.numbers), std::move(column.texts)});
     }
@@ -327,9 +327,13 @@ Cases simulate(const Scenario& scenario, std::size_t count, const std::vector<Ca
     request.windows = {options.begin, options.end, options.start, options.events};
     request.threads = static_cast<double>(options.threads);
     Watch watch(options.goes_on);
-    api::CasesResult made = api::run_cases(request, watch);
-    Cases cases{made.times, std::move(made.columns), std::move(made.measures), {}, {}};
-    for (sweep::CaseStatus& status : made.status) {
+    api::CasesResult cases_result = api::run_cases(request, watch);
+    Cases cases{cases_result.times,
+                std::move(cases_result.columns),
+                std::move(cases_result.measures),
+                {},
+                {}};
+    for (sweep::CaseStatus& status : cases_result.status) {
       cases.status.push_back(status_of(status.word));
       cases.reason.push_back(std::move(status.reason));
     }
@@ -342,9 +346,9 @@ LinearSystem linearize(const Scenario& scenario, const std::string& kind, const 
     const ScenarioFamily family = scenario.state().family();
     api::LinearizeRequest request{Scenario::State::first(family), api::kind_named(kind), at};
     Watch watch({});
-    const api::Linearized made = api::linearize(request, watch);
-    if (!made.reason.empty()) refuse(made.reason);
-    const model::LinearSystem& its = made.linearisation.system;
+    const api::Linearized linearized = api::linearize(request, watch);
+    if (!linearized.reason.empty()) refuse(linearized.reason);
+    const model::LinearSystem& its = linearized.linearisation.system;
     const auto rows = [](const Eigen::MatrixXd& matrix) {
       std::vector<std::vector<double>> all;
       for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
@@ -360,7 +364,7 @@ LinearSystem linearize(const Scenario& scenario, const std::string& kind, const 
     };
     return LinearSystem{names(its.states), names(its.inputs), names(its.outputs),
                         rows(its.a),       rows(its.b),       rows(its.c),
-                        rows(its.d),       its.period,        api::file_text(made, ".json")};
+                        rows(its.d),       its.period,        api::file_text(linearized, ".json")};
   });
 }
 
