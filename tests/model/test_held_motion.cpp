@@ -91,7 +91,7 @@ TEST_CASE("a held servo follows its equation in every mode") {
   for (const AxisMode& mode : {free, pushed, at_rate}) {
     const HeldMotion motion = held_motion(servo, in(mode), 0, 0.05, -1.3, 0);
     for (const double t : {0.0, 0.004, 0.02, 0.11}) {
-      const HeldMotion::Instant at = motion.after(t);
+      const HeldMotion::ServoState at = motion.after(t);
       const double demand = 986.96 * (0.2 - at.angle) - 50.27 * at.rate;
       CHECK(at.acceleration ==
             Approx(mode.demand_factor * demand + mode.set_acceleration).margin(1e-10));
@@ -109,7 +109,7 @@ TEST_CASE("a shaft that rings follows its equation about a field in motion") {
   mode.driver[1] = {true, 0.3, 0.1, -0.4, 7, 1, -0.02};
   const HeldMotion motion = held_motion(servo, mode, 1, 0.05, -1.3, 0.35);
   for (const double t : {0.0, 0.004, 0.02, 0.11, 3.0}) {
-    const HeldMotion::Instant at = motion.after(t);
+    const HeldMotion::ServoState at = motion.after(t);
     const double s = t + 0.05, field = 0.1 - 0.02 + s * (-0.4 + 3.5 * s);
     CHECK(at.acceleration == Approx(1600 * (field - at.angle) - 12 * at.rate).margin(1e-9));
     // The rate is the angle's slope, and the bounds hold.
@@ -124,7 +124,7 @@ TEST_CASE("a shaft that rings follows its equation about a field in motion") {
 
 TEST_CASE("the first fall of a linear function in a held motion is found") {
   const auto value = [](const MotionLine& line, const HeldMotion& motion, double t) {
-    const HeldMotion::Instant at = motion.after(t);
+    const HeldMotion::ServoState at = motion.after(t);
     return line.at(at.angle, at.rate);
   };
   int falls = 0, dips = 0;
@@ -151,7 +151,7 @@ TEST_CASE("the first fall of a linear function in a held motion is found") {
           ++falls;
           CHECK(std::abs(value(line, motion, at)) <= 1e-9);
           // Up to rounding of the time and of the terms of the line.
-          const HeldMotion::Instant there = motion.after(at);
+          const HeldMotion::ServoState there = motion.after(at);
           const double slope = line.by_angle * there.rate + line.by_rate * there.acceleration;
           const double turns = 1 + std::sqrt(law.stiffness) * at;
           const double size =
