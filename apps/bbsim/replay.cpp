@@ -64,7 +64,7 @@ ExitCode replay_files(const ReplayArguments& arguments, const Options& options) 
     file.emplace(output, request.live);
   };
   Progress progress(output, options.quiet);
-  const api::ReplayMade made = api::replay(request, outputs, progress);
+  const api::ReplayResult made = api::replay(request, outputs, progress);
   progress.end();
   for (const api::RunResult& run : made.runs) tell(run, options.quiet);
   file->write(made.scene, options.quiet);

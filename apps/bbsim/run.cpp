@@ -54,7 +54,7 @@ std::string written_text(const api::RunResult& made) {
   const std::string output = name_of_output(summary.output);
   if (summary.rows == 0) return output + ": not written; there are no rows";
   std::string line = output + ": " + std::to_string(summary.rows) + " of " +
-                     std::to_string(made.rows_asked) + " rows, " + summary.method + ", " +
+                     std::to_string(made.rows_requested) + " rows, " + summary.method + ", " +
                      std::to_string(summary.statistics.steps) + " steps";
   if (!summary.error_estimate) return line;
   return line + ", error about " + short_number(*summary.error_estimate) + " m";
