@@ -39,19 +39,19 @@ struct Given {
 std::vector<std::string> words_of(const std::list<Given>& all, bool quiet) {
   std::vector<std::string> words, files;
   if (quiet) words.emplace_back("-q");
-  for (const Given& one : all) {
-    if (one.is_set) words.push_back(one.name);
-    for (const std::string& value : one.values) {
+  for (const Given& option : all) {
+    if (option.is_set) words.push_back(option.name);
+    for (const std::string& value : option.values) {
       const bool looks_like_option = value.size() > 1 && value.front() == '-';
-      if (!one.name.empty()) words.push_back(one.name + '=' + value);
-      if (one.name.empty()) files.push_back((looks_like_option ? "./" : "") + value);
+      if (!option.name.empty()) words.push_back(option.name + '=' + value);
+      if (option.name.empty()) files.push_back((looks_like_option ? "./" : "") + value);
     }
   }
   words.insert(words.end(), files.begin(), files.end());
   return words;
 }
 
-ExitCode become(const std::string& command, std::vector<std::string> words) {
+ExitCode execute(const std::string& command, std::vector<std::string> words) {
   const std::string name = "bbsim-" + command;
   words.insert(words.begin(), name);
   std::vector<char*> arguments;
@@ -99,7 +99,7 @@ void add_beside(Command& command, const Options& options) {
     }
   }
   command.does([name = command.name(), all, &options] {
-    return become(name, words_of(*all, options.quiet));
+    return execute(name, words_of(*all, options.quiet));
   });
 }
 

@@ -91,8 +91,8 @@ Option& Option::takes_one_of(const std::vector<std::string>& words) {
   return *this;
 }
 
-Option& Option::excludes(const Option& other) {
-  option_->excludes(other.option_);
+Option& Option::excludes(const Option& option) {
+  option_->excludes(option.option_);
   return *this;
 }
 

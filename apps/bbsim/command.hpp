@@ -44,7 +44,7 @@ class Option {
   // Takes one value, though it is stored as a list.
   Option& takes_one();
   Option& takes_one_of(const std::vector<std::string>& words);
-  Option& excludes(const Option& other);
+  Option& excludes(const Option& option);
 
  private:
   CLI::Option* option_;

@@ -198,13 +198,14 @@ void add_commands(CLI::App& app, std::span<char* const> words,
   };
   const auto first = std::ranges::find_if_not(
       words, [](std::string_view word) { return word == "-q" || word == "--quiet"; });
-  const bool names_one =
-      first != words.end() &&
-      std::ranges::any_of(commands, [&](const NamedCommand& one) { return calls(*first, one); });
-  if (!names_one) add_texts(app);
+  const bool names_command =
+      first != words.end() && std::ranges::any_of(commands, [&](const NamedCommand& command) {
+        return calls(*first, command);
+      });
+  if (!names_command) add_texts(app);
   for (const NamedCommand& command : commands) {
     const bool named = is_named(command);
-    if (names_one && !named) continue;
+    if (names_command && !named) continue;
     CLI::App* const added = app.add_subcommand(
         command.name,
         command.description != nullptr ? command.description : description_beside(command.name));
@@ -214,14 +215,14 @@ void add_commands(CLI::App& app, std::span<char* const> words,
     Command its(*added, chosen);
     command.add_options(its, options);
   }
-  if (!names_one || std::ranges::find(words, std::string_view("help")) != words.end()) {
+  if (!names_command || std::ranges::find(words, std::string_view("help")) != words.end()) {
     add_help(app, chosen);
   }
 }
 
 }  // namespace
 
-ExitCode obey(int argc, char** argv, std::span<const NamedCommand> commands) {
+ExitCode run_command(int argc, char** argv, std::span<const NamedCommand> commands) {
   CLI::App app(purpose, "bbsim");
   Options options;
   name_program(app, options);

@@ -19,6 +19,6 @@ struct NamedCommand {
 
 // Carries out the command line. Throws InputError for a mistake in it, with the word found and the
 // command or option nearest to it.
-ExitCode obey(int argc, char** argv, std::span<const NamedCommand> commands);
+ExitCode run_command(int argc, char** argv, std::span<const NamedCommand> commands);
 
 }  // namespace bbsim::app

@@ -85,12 +85,12 @@ void prints(file::Outputs& outputs) {
   outputs.writes("-", "what is printed");
 }
 
-void tell(const api::RunResult& made, bool quiet) {
-  if (!made.summary.reason.empty()) say(made.summary.reason);
-  for (const std::string& one : made.unmet) say(one);
+void say_outcome(const api::RunResult& result, bool quiet) {
+  if (!result.summary.reason.empty()) say(result.summary.reason);
+  for (const std::string& expectation : result.unmet) say(expectation);
   if (quiet) return;
-  for (const std::string& warning : made.summary.warnings) say(warning);
-  if (!made.noted.empty()) say(made.noted);
+  for (const std::string& warning : result.summary.warnings) say(warning);
+  if (!result.noted.empty()) say(result.noted);
 }
 
 void print_report(const api::Report& report) {

@@ -85,7 +85,7 @@ void prints(file::Outputs& outputs);
 
 // Prints why a run ended early and which expectations fail; unless `quiet`, also warnings and noted
 // events.
-void tell(const api::RunResult& made, bool quiet);
+void say_outcome(const api::RunResult& result, bool quiet);
 
 // Prints a report, on a terminal with lines that break between words.
 void print_report(const api::Report& report);

@@ -35,14 +35,14 @@ ExitCode compare(const CompareArguments& arguments, const Options& all) {
   }
   prints(outputs);
   Progress progress(request.b, all.quiet || !request.run);
-  const api::Compared made = api::compare(request, progress);
-  if (!made.reason.empty()) say(made.reason);
-  if (made.code == ExitCode::interrupted) return made.code;
-  print(made.text);
+  const api::Compared compared = api::compare(request, progress);
+  if (!compared.reason.empty()) say(compared.reason);
+  if (compared.code == ExitCode::interrupted) return compared.code;
+  print(compared.text);
   if (!all.quiet) {
-    for (const std::string& warning : made.warnings) say(warning);
+    for (const std::string& warning : compared.warnings) say(warning);
   }
-  return made.alike ? made.code : ExitCode::ended_early;
+  return compared.alike ? compared.code : ExitCode::ended_early;
 }
 
 }  // namespace

@@ -46,11 +46,11 @@ std::string first_sentence(std::string_view text) {
 ExitCode list() {
   constexpr std::size_t width = 16;
   std::string report;
-  for (const EmbeddedFile& one : example_files()) {
-    if (!one.name.ends_with(ending)) continue;
-    std::string name(one.name.substr(0, one.name.size() - ending.size()));
+  for (const EmbeddedFile& file : example_files()) {
+    if (!file.name.ends_with(ending)) continue;
+    std::string name(file.name.substr(0, file.name.size() - ending.size()));
     name.resize(std::max(width, name.size()), ' ');
-    report += name + ' ' + first_sentence(one.text) + '\n';
+    report += name + ' ' + first_sentence(file.text) + '\n';
   }
   print(report);
   return ExitCode::done;
@@ -59,12 +59,12 @@ ExitCode list() {
 // Finds a scenario, with or without its ending, or a table.
 const EmbeddedFile& example(const std::string& name) {
   const auto files = example_files();
-  const auto found = std::ranges::find_if(files, [&](const EmbeddedFile& one) {
-    return one.name == name || one.name == name + std::string(ending);
+  const auto found = std::ranges::find_if(files, [&](const EmbeddedFile& file) {
+    return file.name == name || file.name == name + std::string(ending);
   });
   if (found != files.end()) return *found;
   std::vector<std::string_view> known;
-  for (const EmbeddedFile& one : files) known.push_back(one.name.substr(0, one.name.find('.')));
+  for (const EmbeddedFile& file : files) known.push_back(file.name.substr(0, file.name.find('.')));
   const std::string near(yaml::nearest_name(name, known));
   throw InputError("unknown example " + name +
                    (near.empty() ? "; bbsim examples lists them" : "; did you mean " + near + "?"));
@@ -76,14 +76,14 @@ ExitCode copy(const ExampleArguments& arguments, const Options& options) {
   const std::string output = named ? arguments.output : std::string(scenario.name);
   std::vector<Copy> copies{{output, scenario.text}};
   std::string tables;
-  for (const EmbeddedFile& one : example_files()) {
-    if (one.name.ends_with(ending) || scenario.text.find(one.name) == std::string_view::npos) {
+  for (const EmbeddedFile& file : example_files()) {
+    if (file.name.ends_with(ending) || scenario.text.find(file.name) == std::string_view::npos) {
       continue;
     }
-    tables += (tables.empty() ? "" : ", ") + std::string(one.name);
+    tables += (tables.empty() ? "" : ", ") + std::string(file.name);
     if (output == "-") continue;
     const auto folder = std::filesystem::path(output).parent_path();
-    copies.push_back({(folder / one.name).string(), one.text});
+    copies.push_back({(folder / file.name).string(), file.text});
   }
   write_copies(copies, named, arguments.force);
   if (options.quiet) return ExitCode::done;

@@ -10,9 +10,9 @@ namespace bbsim::app {
 std::string licenses() {
   const std::string rule = '\n' + std::string(80, '-') + "\n\n";
   std::string texts;
-  for (const EmbeddedFile& one : license_files()) {
+  for (const EmbeddedFile& file : license_files()) {
     if (!texts.empty()) texts += rule;
-    texts += one.text;
+    texts += file.text;
   }
   texts.pop_back();  // the caller adds the line break when it prints
   return texts;

@@ -45,16 +45,16 @@ ExitCode linearize(const LinearizeArguments& arguments, const Options& options) 
   if (arguments.sampled) request.kind = api::LinearKind::sampled;
   request.at = arguments.at;
   Progress progress(request.scenario.source.file, options.quiet);
-  const api::Linearized made = api::linearize(request, progress);
-  if (made.code != ExitCode::done) {
-    say(made.reason);
-    return made.code;
+  const api::Linearized linearized = api::linearize(request, progress);
+  if (linearized.code != ExitCode::done) {
+    say(linearized.reason);
+    return linearized.code;
   }
-  if (!made.note.empty()) say("linearize: " + made.note + ".");
+  if (!linearized.note.empty()) say("linearize: " + linearized.note + ".");
   if (arguments.output.empty()) {
-    print_report(report_of(made));
+    print_report(report_of(linearized));
   } else {
-    file::write_file(arguments.output, file_text(made, arguments.output));
+    file::write_file(arguments.output, file_text(linearized, arguments.output));
   }
   return ExitCode::done;
 }

@@ -114,5 +114,5 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   bbsim::app::end_at_signals();
-  return code(run([&] { return bbsim::app::obey(argc, argv, commands); }));
+  return code(run([&] { return bbsim::app::run_command(argc, argv, commands); }));
 }

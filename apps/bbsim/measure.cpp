@@ -33,11 +33,12 @@ ExitCode measure(const MeasureArguments& arguments, const Options& options) {
   outputs.reads(arguments.file, "FILE");
   api::reads_with_result(outputs, result);
   prints(outputs);
-  const api::Measured made = api::measure(std::move(result), arguments.file, arguments.measures);
-  print(measure_text(made.values));
+  const api::Measured measured =
+      api::measure(std::move(result), arguments.file, arguments.measures);
+  print(measure_text(measured.values));
   if (options.quiet) return ExitCode::done;
   for (const std::string& note : notes) say(note);
-  for (const std::string& note : made.notes) say(note);
+  for (const std::string& note : measured.notes) say(note);
   return ExitCode::done;
 }
 

@@ -64,11 +64,11 @@ ExitCode replay_files(const ReplayArguments& arguments, const Options& options) 
     file.emplace(output, request.live);
   };
   Progress progress(output, options.quiet);
-  const api::ReplayMade made = api::replay(request, outputs, progress);
+  const api::ReplayResult replayed = api::replay(request, outputs, progress);
   progress.end();
-  for (const api::RunResult& run : made.runs) tell(run, options.quiet);
-  file->write(made.scene, options.quiet);
-  return made.code;
+  for (const api::RunResult& run : replayed.runs) say_outcome(run, options.quiet);
+  file->write(replayed.scene, options.quiet);
+  return replayed.code;
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ std::string size_text(std::size_t bytes) {
   return text;
 }
 
-std::string count_text(std::size_t count, const char* one, const char* many) {
-  return std::to_string(count) + ' ' + (count == 1 ? one : many);
+std::string count_text(std::size_t count, const char* singular, const char* plural) {
+  return std::to_string(count) + ' ' + (count == 1 ? singular : plural);
 }
 
 std::string content_text(const replay::Scene& scene) {

@@ -49,12 +49,12 @@ void declare_files(const RunArguments& arguments, const std::string& output,
 }
 
 // "run.csv: 101 of 101 rows, radau, 57 steps"
-std::string written_text(const api::RunResult& made) {
-  const auto& summary = made.summary;
+std::string written_text(const api::RunResult& result) {
+  const auto& summary = result.summary;
   const std::string output = name_of_output(summary.output);
   if (summary.rows == 0) return output + ": not written; there are no rows";
   std::string line = output + ": " + std::to_string(summary.rows) + " of " +
-                     std::to_string(made.rows_asked) + " rows, " + summary.method + ", " +
+                     std::to_string(result.rows_requested) + " rows, " + summary.method + ", " +
                      std::to_string(summary.statistics.steps) + " steps";
   if (!summary.error_estimate) return line;
   return line + ", error about " + short_number(*summary.error_estimate) + " m";
@@ -76,16 +76,16 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   if (request.pictured) request.ready = [&] { replay.emplace(arguments.replay); };
 
   Progress progress(request.scenario.source.file, options.quiet);
-  api::RunResult made = api::run(request, progress);
-  if (!arguments.request.measures.empty()) print(measure_text(made.summary.measures));
-  tell(made, options.quiet);
+  api::RunResult result = api::run(request, progress);
+  if (!arguments.request.measures.empty()) print(measure_text(result.summary.measures));
+  say_outcome(result, options.quiet);
   if (!options.quiet) {
-    say(written_text(made));
+    say(written_text(result));
   }
-  if (replay && made.summary.rows > 0) {
-    replay->write(api::scene_of(std::move(*made.pictured)), options.quiet);
+  if (replay && result.summary.rows > 0) {
+    replay->write(api::scene_of(std::move(*result.pictured)), options.quiet);
   }
-  return made.code;
+  return result.code;
 }
 
 }  // namespace

@@ -51,8 +51,8 @@ api::Shard read_shard(const std::string& text) {
 Sweep sweep_of(const SweepArguments& arguments, const Sweep& in_scenario) {
   api::SweepChoice choice{
       {}, arguments.combine, arguments.samples, arguments.seed, arguments.measure};
-  for (const std::string& one : arguments.vary) {
-    choice.vary.push_back(scenario::split_variation(one));
+  for (const std::string& variation : arguments.vary) {
+    choice.vary.push_back(scenario::split_variation(variation));
   }
   return api::with_choice(in_scenario, choice);
 }
@@ -70,17 +70,18 @@ std::string_view how(std::string_view engine) {
 }
 
 // "sweep.csv: 41 of 41 cases, eight at a time, 0.0123 s"
-std::string written_text(const api::SweepResult& made) {
-  std::string line = name_of_output(made.output) + ": " + std::to_string(made.rows) + " of " +
-                     std::to_string(made.cases) + " cases";
-  if (made.kept > 0) line += ", " + std::to_string(made.kept) + " of them from the earlier run";
-  if (const std::size_t early = made.statuses.early(); early > 0) {
+std::string written_text(const api::SweepResult& result) {
+  std::string line = name_of_output(result.output) + ": " + std::to_string(result.rows) + " of " +
+                     std::to_string(result.cases) + " cases";
+  if (result.kept > 0) line += ", " + std::to_string(result.kept) + " of them from the earlier run";
+  if (const std::size_t early = result.statuses.early(); early > 0) {
     line += ", " + std::to_string(early) + " ended early (see status)";
   }
-  if (made.statuses.not_finite > 0) {
-    line += ", " + std::to_string(made.statuses.not_finite) + " with no finite number (see reason)";
+  if (result.statuses.not_finite > 0) {
+    line +=
+        ", " + std::to_string(result.statuses.not_finite) + " with no finite number (see reason)";
   }
-  return line + ", " + std::string(how(made.engine)) + ", " + rounded(made.seconds, 3) + " s";
+  return line + ", " + std::string(how(result.engine)) + ", " + rounded(result.seconds, 3) + " s";
 }
 
 // The options of a sweep that each of its shards needs, as words for a shell.
@@ -143,15 +144,15 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   request.expect = arguments.expect;
   if (!arguments.slurm.empty()) return write_slurm(arguments, std::move(request), options);
   Progress progress(family.source().file, options.quiet, true);
-  const api::SweepResult made = api::sweep(request, progress);
-  if (!made.reason.empty()) {
-    say(made.reason);
+  const api::SweepResult result = api::sweep(request, progress);
+  if (!result.reason.empty()) {
+    say(result.reason);
   } else if (!options.quiet) {
-    say(written_text(made));
+    say(written_text(result));
   }
-  for (const std::string& one : made.unmet) say(one);
-  if (!options.quiet && !made.repeat.empty()) say(made.repeat);
-  return made.code;
+  for (const std::string& expectation : result.unmet) say(expectation);
+  if (!options.quiet && !result.repeat.empty()) say(result.repeat);
+  return result.code;
 }
 
 }  // namespace

@@ -29,8 +29,8 @@ void say(std::string_view message) {
 std::size_t columns_of(int descriptor) {
   if (isatty(descriptor) != 1) return 0;
   winsize size{};
-  const bool told = ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  return told ? std::size_t{size.ws_col} - 1 : 79;
+  const bool has_width = ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return has_width ? std::size_t{size.ws_col} - 1 : 79;
 }
 
 bool draws_on_terminal() {

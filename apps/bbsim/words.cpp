@@ -85,7 +85,8 @@ Names found(CLI::App& app, std::span<const std::string> words) {
   CLI::App* command = &app;
   for (const std::string& word : words.first(words.empty() ? 0 : words.size() - 1)) {
     const auto all = app.get_subcommands({});
-    const auto named = std::ranges::find_if(all, [&](auto* one) { return one->check_name(word); });
+    const auto named =
+        std::ranges::find_if(all, [&](auto* subcommand) { return subcommand->check_name(word); });
     if (named == all.end()) continue;
     command = *named;
     break;
@@ -98,8 +99,8 @@ Names found(CLI::App& app, std::span<const std::string> words) {
   Names names;
   CLI::Option* const its = command->get_option_no_throw(option);
   if (option.starts_with('-') && its != nullptr && its->get_type_size() != 0) {
-    for (const Known& one : known) {
-      if (its->check_name(std::string(one.option))) return dotted(text, one.names(), one.end);
+    for (const Known& entry : known) {
+      if (its->check_name(std::string(entry.option))) return dotted(text, entry.names(), entry.end);
     }
     names = words_of(*its);
   } else {

@@ -160,7 +160,7 @@ Page replay(const std::vector<Shown>& shown, const Texts& logs, const results::L
     request.before_running = [&] {
       if (!output.empty()) outputs.writes(output, "output");
     };
-    const api::ReplayMade made = api::replay(request, outputs, watch);
+    const api::ReplayResult made = api::replay(request, outputs, watch);
     std::string reason;
     Texts notes;
     for (const api::RunResult& run : made.runs) {

@@ -123,7 +123,7 @@ void check_columns(const std::vector<std::string>& names, const Scenario& first)
                                                 std::ranges::find(own, *name) != own.end());
     if (!is_known) {
       std::vector<std::string_view> all;
-      for (const scenario::Column& one : scenario::catalogue) all.push_back(one.name);
+      for (const scenario::Column& known : scenario::catalogue) all.push_back(known.name);
       const std::string_view nearest = yaml::nearest_name(*name, all);
       refuse("columns",
              found + (nearest.empty() ? "" : " (did you mean " + std::string(nearest) + "?)"),

@@ -57,10 +57,10 @@ void report_gain(Report& report, const Scenario& scenario, const model::Model& m
 
 // Margins mean nothing for an unstable loop.
 void report_margins(Report& report, const Scenario& scenario, const model::Model& model) {
-  const model::Linearization made =
+  const model::Linearization linearization =
       model::linearize(scenario, model, model::LinearKind::loop, model::home_point());
   report.push_back({"margins", "of each command's loop, the other one closed"});
-  for (const Report& lines : {margin_lines(made), margin_remarks(made)}) {
+  for (const Report& lines : {margin_lines(linearization), margin_remarks(linearization)}) {
     report.insert(report.end(), lines.begin(), lines.end());
   }
 }
@@ -209,9 +209,9 @@ void report_controller(Report& report, const Scenario& scenario, Watch& watch) {
   if (!scenario.controller || !scenario.controller->own) return;
   // The controller starts several times: pass each line on once, and at once, so that a signal that
   // ends bbsim loses none.
-  std::set<std::string, std::less<>> said;
+  std::set<std::string, std::less<>> seen_lines;
   controller::Host host([&](std::string_view line) {
-    if (said.emplace(line).second) watch.controller_says(line);
+    if (seen_lines.emplace(line).second) watch.controller_says(line);
   });
   const model::Model model =
       assemble(scenario, scenario::columns_named(scenario.output.columns), host);

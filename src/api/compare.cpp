@@ -45,23 +45,26 @@ void warn_of_units(const file::CellTable& table, const std::string& name,
     const file::CellColumn* const beside = other.find(table.names[c]);
     const std::vector<double>& numbers = table.columns[c].numbers;
     if (beside == nullptr || numbers.empty() || beside->numbers.empty()) continue;
-    const auto warn = [&](const scenario::Doubt& doubt, const char* does, double one, double two) {
+    const auto warn = [&](const scenario::Doubt& doubt, const char* does, double value,
+                          double other_value) {
       warnings.push_back("warning: " + name + ": " + shown(table.names[c]) + does +
-                         number_text(one) + ", and in " + other_name + " " + number_text(two) +
-                         ": it looks like " + std::string(doubt.looks_like));
+                         number_text(value) + ", and in " + other_name + " " +
+                         number_text(other_value) + ": it looks like " +
+                         std::string(doubt.looks_like));
     };
     if (table.names[c] == "t") {
       const double span = numbers.back() - numbers.front();
-      const double its = beside->numbers.back() - beside->numbers.front();
-      if (!(its > 0)) continue;
-      if (const auto doubt = scenario::doubt_of_span(span, its)) warn(*doubt, " spans ", span, its);
+      const double other_span = beside->numbers.back() - beside->numbers.front();
+      if (!(other_span > 0)) continue;
+      if (const auto doubt = scenario::doubt_of_span(span, other_span))
+        warn(*doubt, " spans ", span, other_span);
       continue;
     }
     const double largest = scenario::largest_size(numbers);
-    const double its = scenario::largest_size(beside->numbers);
+    const double other_largest = scenario::largest_size(beside->numbers);
     const auto doubt = scenario::doubt_of(largest, table.names[c]);
-    if (doubt && !scenario::doubt_of(its, table.names[c])) {
-      warn(*doubt, " goes up to ", largest, its);
+    if (doubt && !scenario::doubt_of(other_largest, table.names[c])) {
+      warn(*doubt, " goes up to ", largest, other_largest);
     }
   }
 }
@@ -91,7 +94,7 @@ void warn_of_looks(const file::TableData& log, const std::string& name,
 // Runs the scenario with the log's columns and the rates that interpolation uses, at the output
 // times and between them.
 file::TableData run_for(const Scenario& scenario, const file::TableData& log, Watch& watch,
-                        Compared& made) {
+                        Compared& compared) {
   constexpr double near = 2e-3;  // s, between rows
   constexpr double most_rows = 2e5;
   RunRequest request;
@@ -112,10 +115,10 @@ file::TableData run_for(const Scenario& scenario, const file::TableData& log, Wa
     columns.emplace_back(column.name);
   }
   RunResult result = run(request, watch);
-  made.code = result.code;
-  made.reason = result.summary.reason;
-  made.warnings.insert(made.warnings.end(), result.summary.warnings.begin(),
-                       result.summary.warnings.end());
+  compared.code = result.code;
+  compared.reason = result.summary.reason;
+  compared.warnings.insert(compared.warnings.end(), result.summary.warnings.begin(),
+                           result.summary.warnings.end());
   return std::move(result.rows);
 }
 
@@ -126,36 +129,36 @@ file::TableData rows_of_result(const std::string& file) {
 }
 
 Compared compare_log(const CompareRequest& request, Watch& watch) {
-  Compared made;
-  results::Result read = results::read_log(request.a, request.log, made.warnings);
+  Compared compared;
+  results::Result read = results::read_log(request.a, request.log, compared.warnings);
   if (const results::Column* const t = read.find("t"); t == nullptr || t->is_text()) {
     throw InputError(results::without_clock(read));
   }
   file::TableData log = numbers_of(std::move(read));
   const file::TableData run =
-      request.run ? run_for(*request.run, log, watch, made) : rows_of_result(request.b);
-  if (made.code == ExitCode::interrupted) return made;
+      request.run ? run_for(*request.run, log, watch, compared) : rows_of_result(request.b);
+  if (compared.code == ExitCode::interrupted) return compared;
   if (request.log.aligns()) {
     const double offset = record::time_offset(log, request.a, run, request.b, request.columns);
     const auto t = std::ranges::find(log.names, "t") - log.names.begin();
     for (double& time : log.columns[static_cast<std::size_t>(t)]) time += offset;
-    made.warnings.push_back(moved_text(request.a, offset));
+    compared.warnings.push_back(moved_text(request.a, offset));
   }
-  warn_of_looks(log, request.a, made.warnings);
+  warn_of_looks(log, request.a, compared.warnings);
   const record::LogDistance distance =
       record::log_distance(log, request.a, run, request.b, request.columns);
-  made.text = record::to_text(distance, request.a, request.b);
+  compared.text = record::to_text(distance, request.a, request.b);
   const bool judges = request.rtol || request.atol;
-  made.alike = true;
+  compared.alike = true;
   for (const record::ColumnDistance& column : distance.columns) {
     const double larger = std::max(std::abs(column.log), std::abs(column.run));
     const double allowed = request.atol.value_or(0) + request.rtol.value_or(0) * larger;
     if (!judges || column.greatest <= allowed) continue;
-    made.alike = false;
-    made.text +=
+    compared.alike = false;
+    compared.text +=
         "different: " + shown(column.name) + " is more than " + number_text(allowed) + " apart\n";
   }
-  return made;
+  return compared;
 }
 
 }  // namespace
@@ -173,15 +176,15 @@ Compared compare(const CompareRequest& request, Watch& watch) {
   const file::CellTable b = file::read_cells(request.b, {request.columns, {}});
   const record::Allowances allowances = allowances_of(request, a, b);
   const record::Comparison comparison = record::compare(a, b, allowances, request.columns);
-  Compared made;
-  made.alike = comparison.alike();
-  made.text = to_text(comparison, request.a, request.b, allowances);
+  Compared compared;
+  compared.alike = comparison.alike();
+  compared.text = to_text(comparison, request.a, request.b, allowances);
   for (const file::CellTable* table : {&a, &b}) {
-    made.warnings.insert(made.warnings.end(), table->notes.begin(), table->notes.end());
+    compared.warnings.insert(compared.warnings.end(), table->notes.begin(), table->notes.end());
   }
-  warn_of_units(a, request.a, b, request.b, made.warnings);
-  warn_of_units(b, request.b, a, request.a, made.warnings);
-  return made;
+  warn_of_units(a, request.a, b, request.b, compared.warnings);
+  warn_of_units(b, request.b, a, request.a, compared.warnings);
+  return compared;
 }
 
 std::string summarize(const SummarizeRequest& request) {

@@ -39,7 +39,7 @@ bool draws(const Scenario& scenario) {
 }
 
 // Placeholder that the model needs; a lane never asks it.
-class Unasked : public model::ExternalController {
+class ControllerPlaceholder : public model::ExternalController {
  public:
   void begin() override {}
   model::Commands command(const model::ControllerSample& /*sample*/, double* /*own*/) override {
@@ -50,7 +50,7 @@ class Unasked : public model::ExternalController {
 // Longer runs are stepped singly, without a record of their commands.
 constexpr double most_samples = 1e5;
 
-bool suits_lanes(const Scenario& scenario) {
+bool fits_lanes(const Scenario& scenario) {
   return !scenario.solver.error && solve::choose_method(scenario.solver.method) == Method::radau &&
          scenario.time.end <= most_samples * scenario.controller->sampling->period;
 }
@@ -112,7 +112,7 @@ Scenario Environments::scenario_of(const Beginning& beginning) const {
 std::optional<model::Model> Environments::model_for_lane(const Scenario& scenario) const {
   if (lanes_.empty()) return {};
   const Scenario commanded = with_outside_commands(scenario);
-  if (!suits_lanes(commanded) || commanded.solver.rtol != scenario_.solver.rtol ||
+  if (!fits_lanes(commanded) || commanded.solver.rtol != scenario_.solver.rtol ||
       commanded.solver.atol != scenario_.solver.atol) {
     return {};
   }
@@ -121,7 +121,7 @@ std::optional<model::Model> Environments::model_for_lane(const Scenario& scenari
     integrals.work = false;
     model::Model model = model::assemble(commanded, integrals);
     if (!solve::sampled::fits_lanes(model)) return {};
-    model.rig->sampled->external = std::make_shared<Unasked>();
+    model.rig->sampled->external = std::make_shared<ControllerPlaceholder>();
     return model;
   } catch (const InputError&) {  // the single run reports it
     return {};
@@ -157,28 +157,30 @@ void Environments::begin(std::span<const std::size_t> which, std::span<const Beg
 }
 
 void Environments::begin(std::span<const std::size_t> which, std::vector<Ready> ready) {
-  for (const std::size_t one : which) {
-    if (!lanes_.empty()) lanes_[one / group]->drop(one % group);
+  for (const std::size_t environment : which) {
+    if (!lanes_.empty()) lanes_[environment / group]->drop(environment % group);
   }
   for (std::size_t i = 0; i < which.size(); ++i) {
-    const std::size_t one = which[i];
-    runs_[one] = std::move(ready[i].run);
+    const std::size_t environment = which[i];
+    runs_[environment] = std::move(ready[i].run);
     if (ready[i].model) {
-      lanes_[one / group]->begin(one % group, *ready[i].model, runs_[one].end);
+      lanes_[environment / group]->begin(environment % group, *ready[i].model,
+                                         runs_[environment].end);
     }
-    std::fill_n(observations_.begin() + static_cast<std::ptrdiff_t>(one * its_columns.size()),
-                its_columns.size(), 0.0);
-    observe(one);
+    std::fill_n(
+        observations_.begin() + static_cast<std::ptrdiff_t>(environment * its_columns.size()),
+        its_columns.size(), 0.0);
+    observe(environment);
   }
 }
 
 std::unique_ptr<SteppedRun> Environments::repeat(const Run& run) const {
-  auto made = std::make_unique<SteppedRun>(scenario_of(run.beginning), RunRequest{});
+  auto repeated = std::make_unique<SteppedRun>(scenario_of(run.beginning), RunRequest{});
   for (const Pair& command : run.commands) {
-    if (made->is_over()) break;
-    made->step(command);
+    if (repeated->is_over()) break;
+    repeated->step(command);
   }
-  return made;
+  return repeated;
 }
 
 void Environments::step(std::span<const double> commands, std::span<const std::size_t> which,
@@ -186,7 +188,7 @@ void Environments::step(std::span<const double> commands, std::span<const std::s
   std::vector<char> moves(count());
   for (std::size_t i = 0; i < count(); ++i) moves[i] = is_over(i) ? 0 : 1;
   std::vector<Ready> ready = prepare(which, how);
-  for (const std::size_t one : which) moves[one] = 0;
+  for (const std::size_t environment : which) moves[environment] = 0;
   for (std::size_t i = 0; i < count(); ++i) {
     if (moves[i] != 0) require_finite({commands[2 * i], commands[2 * i + 1]});
   }
@@ -215,14 +217,14 @@ void Environments::end_at_last_sample(const Run& run, const Pair& command) {
 void Environments::step_lanes(std::size_t of_group, std::span<const double> commands,
                               std::span<const char> moves) {
   Lanes& lanes = *lanes_[of_group];
-  const std::size_t first = of_group * group, some = std::min(group, count() - first);
+  const std::size_t first = of_group * group, in_group = std::min(group, count() - first);
   const auto answer = [&](std::size_t l) {
     const Pair command{commands[2 * (first + l)], commands[2 * (first + l) + 1]};
     runs_[first + l].commands.push_back(command);
     lanes.answer(l, command);
   };
   const auto for_each_moving = [&](const auto& does) {
-    for (std::size_t l = 0; l < some; ++l) {
+    for (std::size_t l = 0; l < in_group; ++l) {
       if (moves[first + l] != 0 && !runs_[first + l].alone) does(l);
     }
   };

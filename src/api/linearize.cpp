@@ -75,20 +75,21 @@ double read_time(const std::string& text, const Scenario& scenario) {
   return *time.value;
 }
 
-// State of the run at that time; empty, with the reason in `made`, if the run does not get there.
+// State of the run at that time; empty, with the reason in `linearized`, if the run does not get
+// there.
 std::optional<model::LinearPoint> point_at(double time, const Scenario& scenario,
                                            const model::Model& model, Watch& watch,
-                                           Linearized& made) {
+                                           Linearized& linearized) {
   study::PointInTime found = study::point_in_time(scenario, model, time, {watch.stop(), {}});
   if (found.point) return std::move(found.point);
   const std::string reached = short_number(found.outcome.reached);
   if (found.outcome.ending == solve::Ending::interrupted) {
-    made.reason = "interrupted at t = " + reached + " s.";
-    made.code = ExitCode::interrupted;
+    linearized.reason = "interrupted at t = " + reached + " s.";
+    linearized.code = ExitCode::interrupted;
   } else {
-    made.reason = "the run does not reach t = " + short_number(time) +
-                  " s: it ends at t = " + reached + " s; `bbsim run` says why.";
-    made.code = ExitCode::ended_early;
+    linearized.reason = "the run does not reach t = " + short_number(time) +
+                        " s: it ends at t = " + reached + " s; `bbsim run` says why.";
+    linearized.code = ExitCode::ended_early;
   }
   return {};
 }
@@ -117,55 +118,56 @@ Linearized linearize(const LinearizeRequest& request, Watch& watch) {
   const Scenario& scenario = request.scenario;
   const model::Model model = assemble(scenario, {});
   const LinearKind kind = request.kind.value_or(model::usual_kind(scenario));
-  Linearized made;
-  made.scenario = scenario.source.file;
-  made.kind = kinds[static_cast<std::size_t>(kind)];
-  made.at = request.at;
+  Linearized linearized;
+  linearized.scenario = scenario.source.file;
+  linearized.kind = kinds[static_cast<std::size_t>(kind)];
+  linearized.at = request.at;
   const bool own = scenario.controller && scenario.controller->own;
   if (request.estimates && own && kind == LinearKind::loop && request.at == "home") {
-    made.linearisation = estimated_loop(scenario, watch);
-    made.note = "the law is an estimate from its answers to small pulses about the reference";
-    return made;
+    linearized.linearisation = estimated_loop(scenario, watch);
+    linearized.note = "the law is an estimate from its answers to small pulses about the reference";
+    return linearized;
   }
   model::LinearPoint point = model::home_point();
   if (request.at == "equilibrium") {
     point = model::equilibrium(scenario);
   } else if (request.at != "home") {
     const double time = read_time(request.at, scenario);
-    made.at = "t = " + number_text(time) + " s";
-    auto found = point_at(time, scenario, model, watch, made);
-    if (!found) return made;
+    linearized.at = "t = " + number_text(time) + " s";
+    auto found = point_at(time, scenario, model, watch, linearized);
+    if (!found) return linearized;
     point = std::move(*found);
   }
-  made.linearisation = model::linearize(scenario, model, kind, point);
-  if (made.linearisation.poles.empty()) {
-    made.reason =
-        "the " + made.kind + " about " + made.at + " has poles beyond the range of doubles.";
-    made.code = ExitCode::ended_early;
-  } else if (made.linearisation.system.period) {
-    made.note = without_frames(scenario, true);
+  linearized.linearisation = model::linearize(scenario, model, kind, point);
+  if (linearized.linearisation.poles.empty()) {
+    linearized.reason = "the " + linearized.kind + " about " + linearized.at +
+                        " has poles beyond the range of doubles.";
+    linearized.code = ExitCode::ended_early;
+  } else if (linearized.linearisation.system.period) {
+    linearized.note = without_frames(scenario, true);
   }
-  return made;
+  return linearized;
 }
 
-Report margin_lines(const model::Linearization& made) {
+Report margin_lines(const model::Linearization& linearization) {
   Report lines;
-  for (const model::LoopMargins& loop : made.margins) {
+  for (const model::LoopMargins& loop : linearization.margins) {
     lines.push_back({"  " + loop.command.substr(0, loop.command.find('_')), text_of(loop.margins)});
   }
-  const auto bandwidths = [&made](double model::Bandwidth::*of) {
+  const auto bandwidths = [&linearization](double model::Bandwidth::*of) {
     std::string text;
-    for (const model::Bandwidth& one : made.bandwidths) {
-      text += (text.empty() ? "" : ", ") + one.output + " " +
-              (std::isfinite(one.*of) ? three_digits(one.*of) + " rad/s" : "none");
+    for (const model::Bandwidth& bandwidth : linearization.bandwidths) {
+      text += (text.empty() ? "" : ", ") + bandwidth.output + " " +
+              (std::isfinite(bandwidth.*of) ? three_digits(bandwidth.*of) + " rad/s" : "none");
     }
     return text;
   };
-  const auto all_end = [&made](double model::Bandwidth::*of) {
-    return std::ranges::all_of(made.bandwidths,
-                               [of](const auto& one) { return std::isfinite(one.*of); });
+  const auto all_end = [&linearization](double model::Bandwidth::*of) {
+    return std::ranges::all_of(linearization.bandwidths, [of](const auto& bandwidth) {
+      return std::isfinite(bandwidth.*of);
+    });
   };
-  if (made.bandwidths.empty()) return lines;
+  if (linearization.bandwidths.empty()) return lines;
   if (all_end(&model::Bandwidth::value)) {
     lines.push_back({"  bandwidth", bandwidths(&model::Bandwidth::value)});
   } else if (all_end(&model::Bandwidth::of_feedback)) {
@@ -177,16 +179,16 @@ Report margin_lines(const model::Linearization& made) {
     lines.push_back(
         {"  bandwidth", bandwidths(&model::Bandwidth::value) +
                             ": the response does not fall to 1/sqrt(2)" +
-                            (made.system.period ? " up to half the sampling rate" : "")});
+                            (linearization.system.period ? " up to half the sampling rate" : "")});
   }
   return lines;
 }
 
-Report margin_remarks(const model::Linearization& made) {
+Report margin_remarks(const model::Linearization& linearization) {
   constexpr double least_gain = 6, least_phase = 30;  // dB, deg
   const auto decibels = [](double factor) { return 20 * std::log10(factor); };
   Report remarks;
-  for (const model::LoopMargins& loop : made.margins) {
+  for (const model::LoopMargins& loop : linearization.margins) {
     const model::Margins& margins = loop.margins;
     std::string small;
     const auto add = [&small](const char* name, double value, double least, const char* unit) {
@@ -207,8 +209,8 @@ Report margin_remarks(const model::Linearization& made) {
 }
 
 Report report_of(const Linearized& linearized) {
-  const Linearization& made = linearized.linearisation;
-  const model::LinearSystem& system = made.system;
+  const Linearization& linearization = linearized.linearisation;
+  const model::LinearSystem& system = linearization.system;
   Report report{
       {"linear", "the " + linearized.kind + (linearized.kind == "sampled" ? " plant" : "") +
                      " about " + linearized.at},
@@ -216,23 +218,24 @@ Report report_of(const Linearized& linearized) {
       {"inputs", names_line(system.inputs)},
       {"outputs", names_line(system.outputs)},
       {"period", system.period ? short_number(*system.period) + " s" : "continuous time"},
-      {"poles", values_line(made.poles)},
-      {"zeros", values_line(made.zeros)}};
-  if (!made.margins.empty()) {
+      {"poles", values_line(linearization.poles)},
+      {"zeros", values_line(linearization.zeros)}};
+  if (!linearization.margins.empty()) {
     report.push_back(
         {"margins",
          std::string("of each command's loop, the other one closed") +
-             (made.stable
+             (linearization.stable
                   ? ""
                   : "; the loop is not stable: these are where poles cross the stability limit")});
   }
-  const Report margins = margin_lines(made);
+  const Report margins = margin_lines(linearization);
   report.insert(report.end(), margins.begin(), margins.end());
   return report;
 }
 
-std::string file_text(const Linearized& made, const std::string& file) {
-  const record::LinearReport report{made.scenario, made.kind, made.at, made.linearisation};
+std::string file_text(const Linearized& linearized, const std::string& file) {
+  const record::LinearReport report{linearized.scenario, linearized.kind, linearized.at,
+                                    linearized.linearisation};
   if (file.ends_with(".m")) return record::to_matlab(report);
   if (file.ends_with(".py")) return record::to_python(report);
   if (file.ends_with(".csv")) return record::to_csv(report);

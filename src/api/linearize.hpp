@@ -42,15 +42,15 @@ struct Linearized {
 [[nodiscard]] Linearized linearize(const LinearizeRequest& request, Watch& watch);
 
 // Margins of each command's loop, and the bandwidths.
-[[nodiscard]] Report margin_lines(const Linearization& made);
+[[nodiscard]] Report margin_lines(const Linearization& linearization);
 
 // Remarks on gain margins under 6 dB and phase margins under 30 degrees of a stable loop.
-[[nodiscard]] Report margin_remarks(const model::Linearization& made);
+[[nodiscard]] Report margin_remarks(const model::Linearization& linearization);
 
 // Operating points, names and units, poles, zeros and margins.
-[[nodiscard]] Report report_of(const Linearized& made);
+[[nodiscard]] Report report_of(const Linearized& linearized);
 
 // Text of a file of that name; its ending selects the format: .m, .py, .csv, else JSON.
-[[nodiscard]] std::string file_text(const Linearized& made, const std::string& file);
+[[nodiscard]] std::string file_text(const Linearized& linearized, const std::string& file);
 
 }  // namespace bbsim::api

@@ -138,18 +138,18 @@ unsigned rows_with_wrong_signs(const Scenario& scenario, const model::Model& mod
 // feedback of the position, but not with a ball of almost no radius.
 bool feeds_back_the_turn(const Scenario& scenario, const model::Model& model) {
   if (!is_pd_or_pid(scenario) || scenario.controller->drives != Drives::angle) return false;
-  Scenario other = scenario;
-  other.controller->kp = other.controller->ki = {};
-  const model::Model damped = model::assemble(other, model.gamma);
+  Scenario variant = scenario;
+  variant.controller->kp = variant.controller->ki = {};
+  const model::Model damped = model::assemble(variant, model.gamma);
   const bool sampled = damped.rig && damped.rig->sampled;
   const int growing = sampled ? model::growing_by_period(model::sampled_poles(damped))
                               : model::growing(model::closed_loop_poles(damped));
   if (growing == 0) return false;
-  other = scenario;
+  variant = scenario;
   constexpr double almost_none = 1e-6;
-  other.ball.radius *= almost_none;
-  if (other.ball.groove) other.ball.groove->ball_radius *= almost_none;
-  return stable_as(other, model);
+  variant.ball.radius *= almost_none;
+  if (variant.ball.groove) variant.ball.groove->ball_radius *= almost_none;
+  return stable_as(variant, model);
 }
 
 }  // namespace

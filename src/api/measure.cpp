@@ -63,13 +63,14 @@ bool has_name(const std::string& text, const std::string& name) {
 
 // Throws a message about the first word in `t` or a requested column, else `error`.
 [[noreturn]] void refuse(const InputError& error, const std::string& file,
-                         const std::vector<std::string>& asked, const std::vector<Words>& others) {
+                         const std::vector<std::string>& requested,
+                         const std::vector<Words>& others) {
   for (const Words& words : others) {
-    const bool is_asked =
-        words.column == "t" || std::ranges::any_of(asked, [&](const std::string& measure) {
+    const bool is_requested =
+        words.column == "t" || std::ranges::any_of(requested, [&](const std::string& measure) {
           return has_name(measure, words.column);
         });
-    if (!is_asked) continue;
+    if (!is_requested) continue;
     throw InputError(file + ": column " + shown(words.column) + ", row " +
                      std::to_string(words.row) + ": found " + bbsim::quoted(words.first) +
                      "; allowed: a number");
@@ -80,11 +81,12 @@ bool has_name(const std::string& text, const std::string& name) {
 // Warns of a log's columns whose values suggest units other than bbsim's.
 void warn_of_units(const record::StoredRun& run, const std::vector<scenario::Measure>& measures,
                    const std::string& file, std::vector<std::string>& notes) {
-  std::vector<const scenario::Column*> told;
-  for (const scenario::Measure& one : measures) {
-    for (const scenario::Column* column : {one.column, one.instant.column, one.reference}) {
-      if (column == nullptr || std::ranges::find(told, column) != told.end()) continue;
-      told.push_back(column);
+  std::vector<const scenario::Column*> seen;
+  for (const scenario::Measure& measure : measures) {
+    for (const scenario::Column* column :
+         {measure.column, measure.instant.column, measure.reference}) {
+      if (column == nullptr || std::ranges::find(seen, column) != seen.end()) continue;
+      seen.push_back(column);
       const double largest = scenario::largest_size(run.values_of(*column));
       const auto doubt = scenario::doubt_of(largest, column->name);
       if (!doubt) continue;
@@ -98,13 +100,13 @@ void warn_of_units(const record::StoredRun& run, const std::vector<scenario::Mea
 // Notes which value step metrics refer to if there is no reference.
 void note_references(const record::StoredRun& run, const std::vector<scenario::Measure>& measures,
                      const std::string& file, std::vector<std::string>& notes) {
-  std::vector<std::string> told;
-  for (const scenario::Measure& one : measures) {
-    const std::string lacking = run.lacks_reference(one);
-    if (lacking.empty() || std::ranges::find(told, lacking) != told.end()) continue;
-    told.push_back(lacking);
+  std::vector<std::string> seen;
+  for (const scenario::Measure& measure : measures) {
+    const std::string lacking = run.lacks_reference(measure);
+    if (lacking.empty() || std::ranges::find(seen, lacking) != seen.end()) continue;
+    seen.push_back(lacking);
     notes.push_back("note: " + file + " has no column " + lacking + ": step metrics of " +
-                    std::string(one.column->name) + " refer to its own value at the end");
+                    std::string(measure.column->name) + " refer to its own value at the end");
   }
 }
 
@@ -112,19 +114,19 @@ void note_references(const record::StoredRun& run, const std::vector<scenario::M
 
 Measured measure(results::Result result, const std::string& file,
                  const std::vector<std::string>& lists) {
-  const std::vector<std::string> asked = scenario::split_measures(lists);
+  const std::vector<std::string> requested = scenario::split_measures(lists);
   std::vector<Words> others;
   const bool is_log = result.version.empty();
   file::TableData numbers = numbers_of(std::move(result), others);
   try {
     const record::StoredRun run(std::move(numbers), file);
-    const auto measures = run.measures_named(asked);
+    const auto measures = run.measures_named(requested);
     Measured measured;
     std::vector<double> values;
     scenario::Whys whys;
-    for (const scenario::Measure& one : measures) {
-      const record::Measured found = run.value_of(one);
-      measured.values.emplace_back(one.name, found.value);
+    for (const scenario::Measure& measure : measures) {
+      const record::Measured found = run.value_of(measure);
+      measured.values.emplace_back(measure.name, found.value);
       values.push_back(found.value);
       whys.push_back(found.why);
     }
@@ -134,7 +136,7 @@ Measured measure(results::Result result, const std::string& file,
     if (!not_measured.empty()) measured.notes.push_back("note: " + not_measured);
     return measured;
   } catch (const InputError& error) {
-    refuse(error, file, asked, others);
+    refuse(error, file, requested, others);
   }
 }
 

@@ -31,26 +31,27 @@ bool have_in_common(const replay::Run& log, const replay::Run& run) {
 
 std::vector<std::string> place_log(replay::Scene& scene, bool align) {
   replay::Run& log = scene.runs.back();
-  const replay::Run& lead = scene.runs.front();
-  std::vector<std::string> said;
-  file::TableData ours = table_of(log);
-  const file::TableData theirs = table_of(lead);
+  const replay::Run& first_run = scene.runs.front();
+  std::vector<std::string> notes;
+  file::TableData log_table = table_of(log);
+  const file::TableData run_table = table_of(first_run);
   const auto t = std::ranges::find(log.columns, "t", &replay::Series::name);
   if (align) {
-    const double offset = record::time_offset(ours, log.name, theirs, lead.name);
+    const double offset = record::time_offset(log_table, log.name, run_table, first_run.name);
     for (double& time : t->values) time += offset;
-    ours = table_of(log);
-    said.push_back(moved_text(log.name, offset));
+    log_table = table_of(log);
+    notes.push_back(moved_text(log.name, offset));
   }
-  if (t == log.columns.end() || !have_in_common(log, lead)) return said;
+  if (t == log.columns.end() || !have_in_common(log, first_run)) return notes;
   try {
-    said.push_back(record::to_text(record::log_distance(ours, log.name, theirs, lead.name),
-                                   log.name, lead.name));
-    said.back().pop_back();
+    notes.push_back(
+        record::to_text(record::log_distance(log_table, log.name, run_table, first_run.name),
+                        log.name, first_run.name));
+    notes.back().pop_back();
   } catch (const InputError& error) {  // no time in common; the log can still be shown
-    said.push_back("warning: " + std::string(error.what()));
+    notes.push_back("warning: " + std::string(error.what()));
   }
-  return said;
+  return notes;
 }
 
 }  // namespace bbsim::api

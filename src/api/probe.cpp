@@ -84,10 +84,11 @@ class Bench {
       const double t = static_cast<double>(i) * loop.sampling.period;
       const auto reference = reference_at(t);
       const std::optional<Pair> seen = see(i, {reference[0].value, reference[1].value});
-      const model::Commands asked = loop.external->command(
+      const model::Commands answer = loop.external->command(
           {i, t, seen, std::span(at).first(servos), std::span(still).first(servos), reference},
           own_.data());
-      commands.push_back(loop.legs ? model_.rig().mechanism.tilt(asked) : Pair{asked[0], asked[1]});
+      commands.push_back(loop.legs ? model_.rig().mechanism.tilt(answer)
+                                   : Pair{answer[0], answer[1]});
     }
     return commands;
   }
@@ -155,8 +156,8 @@ struct Answers {
   [[nodiscard]] std::optional<std::size_t> first(std::size_t command) const {
     for (std::size_t i = 0; i < count; ++i) {
       for (const auto* sides : {&near, &far}) {
-        for (const auto& one : *sides) {
-          if (one && one->up[i][command] != one->down[i][command]) return i;
+        for (const auto& axis_sides : *sides) {
+          if (axis_sides && axis_sides->up[i][command] != axis_sides->down[i][command]) return i;
         }
       }
     }
@@ -165,13 +166,13 @@ struct Answers {
   // The sample whose commands show the gains, if `first` is the first with an answer.
   [[nodiscard]] std::size_t telling(std::size_t first) const { return ramps ? count - 1 : first; }
   // Whether a command keeps one value at all samples and wherever the ball is.
-  [[nodiscard]] bool stands(std::size_t command) const {
+  [[nodiscard]] bool is_constant(std::size_t command) const {
     std::optional<double> value;
     for (const auto* sides : {&near, &far}) {
-      for (const auto& one : *sides) {
-        if (!one) continue;
-        for (const Commands* some : {&one->up, &one->down}) {
-          for (const Pair& commands : *some) {
+      for (const auto& axis_sides : *sides) {
+        if (!axis_sides) continue;
+        for (const Commands* side : {&axis_sides->up, &axis_sides->down}) {
+          for (const Pair& commands : *side) {
             if (value.value_or(commands[command]) != commands[command]) return false;
             value = commands[command];
           }
@@ -195,12 +196,12 @@ bool has_ramps(const Scenario& scenario) {
   return scenario.controller->is_sketch() && scenario.gimbal.has_steppers();
 }
 
-Answers ask(Bench& bench, const Scenario& scenario, const std::vector<int>& axes,
-            std::size_t count) {
+Answers probe_along(Bench& bench, const Scenario& scenario, const std::vector<int>& axes,
+                    std::size_t count) {
   const auto reference = bench.reference_at(0);
   Answers answers{count, has_ramps(scenario), {}, {}};
-  for (const int one : axes) {
-    const auto axis = static_cast<std::size_t>(one);
+  for (const int coordinate : axes) {
+    const auto axis = static_cast<std::size_t>(coordinate);
     const auto at = [&](double distance) {
       const auto commands = [&](double away) {
         Pair from{0, 0};
@@ -222,8 +223,8 @@ std::size_t samples_to_act(const Scenario& scenario, const Bench& bench,
                            const std::vector<int>& axes) {
   double distance = 0;
   const auto reference = bench.reference_at(0);
-  for (const int one : axes) {
-    const auto axis = static_cast<std::size_t>(one);
+  for (const int coordinate : axes) {
+    const auto axis = static_cast<std::size_t>(coordinate);
     distance = std::max(distance, greatest_distance(scenario, axis, reference[axis].value));
   }
   const double acceleration =
@@ -239,8 +240,8 @@ std::size_t samples_to_act(const Scenario& scenario, const Bench& bench,
 
 // Whether the scene has the ball move along an axis, by its start or its reference.
 bool moves_along(const Scenario& scenario, const Bench& bench, std::size_t axis) {
-  const auto led = bench.reference_at(0)[axis];
-  return led.value != 0 || led.rate != 0 || led.acceleration != 0 ||
+  const auto reference = bench.reference_at(0)[axis];
+  return reference.value != 0 || reference.rate != 0 || reference.acceleration != 0 ||
          scenario.ball.position[axis] != 0 || scenario.ball.velocity[axis] != 0;
 }
 
@@ -254,26 +255,26 @@ Line line_of(const Answers& answers, std::size_t command, const std::string& wit
              const Eigen::Vector2d& effect, const std::string& unit, bool legs) {
   constexpr const char* warning = "WARNING";
   const std::string name = std::string(angles[command]) + ": ";
-  const std::size_t axis = std::abs(effect[0]) >= std::abs(effect[1]) ? 0 : 1, other = 1 - axis;
+  const std::size_t axis = std::abs(effect[0]) >= std::abs(effect[1]) ? 0 : 1, across = 1 - axis;
   const std::optional<std::size_t> first = answers.first(command);
   if (!first) return {warning, name + "does not depend on where the ball is, " + within};
   const std::size_t sample = answers.telling(*first);
   const double gain = answers.gain(sample, command, axis);
-  const double cross = answers.gain(sample, command, other);
+  const double cross = answers.gain(sample, command, across);
   // The rest on its own axis may be rounding, or a sensor that is turned slightly.
   if (std::abs(gain) < 0.1 * std::abs(cross)) {
-    return {warning, name + "depends on " + coordinates[other] + ", but moves the ball along " +
+    return {warning, name + "depends on " + coordinates[across] + ", but moves the ball along " +
                          coordinates[axis] +
                          (legs ? "" : "; swap the commands, or the coordinates")};
   }
   std::string gains = "gain " + short_number(gain) + ' ' + unit + " per m of " + coordinates[axis];
   if (std::abs(cross) > 1e-3 * std::abs(gain)) {
-    gains += ", " + short_number(cross) + " per m of " + coordinates[other];
+    gains += ", " + short_number(cross) + " per m of " + coordinates[across];
   }
   const double far = answers.far[axis] ? answers.far[axis]->slope(sample, command) : 0;
-  const auto words = [&](double one) {
-    return one * effect[static_cast<Eigen::Index>(axis)] < 0 ? "towards the reference"
-                                                             : "away from the reference";
+  const auto words = [&](double slope) {
+    return slope * effect[static_cast<Eigen::Index>(axis)] < 0 ? "towards the reference"
+                                                               : "away from the reference";
   };
   if (far * gain < 0) {
     return {warning, name + "pushes the ball " + words(gain) + " at " +
@@ -349,20 +350,20 @@ Estimate law_about_reference(Bench& bench, std::size_t start, double size) {
   if (bench.answers_to_pulse(at, at, {0, 0}, 0) != bench.answers_to_pulse(at, at, {0, 0}, servo)) {
     return {{}, "the controller feeds back the servos' angles"};
   }
-  const model::PulseResponse one = response_to(bench, at, size),
-                             other = response_to(bench, at + 1, -size / 2);
+  const model::PulseResponse first = response_to(bench, at, size),
+                             second = response_to(bench, at + 1, -size / 2);
   double largest = 0, apart = 0;
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    largest = std::max(largest, one[i].cwiseAbs().maxCoeff());
-    apart = std::max(apart, (one[i] - other[i]).cwiseAbs().maxCoeff());
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    largest = std::max(largest, first[i].cwiseAbs().maxCoeff());
+    apart = std::max(apart, (first[i] - second[i]).cwiseAbs().maxCoeff());
   }
   const char* const not_linear = "the controller is not linear about the reference";
   if (!(largest > 0 && apart <= 0.02 * largest)) return {{}, not_linear};
-  Estimate estimate{model::law_of(one, apart), not_linear};
+  Estimate estimate{model::law_of(first, apart), not_linear};
   // Rounding must not connect an axis that the law leaves alone.
   for (const Eigen::Index k : {0, 1}) {
     const auto none = [&](const auto& part) {
-      return std::ranges::all_of(one, [&](const auto& sample) { return part(sample).isZero(0); });
+      return std::ranges::all_of(first, [&](const auto& sample) { return part(sample).isZero(0); });
     };
     if (!estimate.law) break;
     if (none([k](const auto& of) { return of.row(k); })) {
@@ -424,10 +425,10 @@ Probed probe(const Scenario& scenario, const model::Model& model) {
     return answers.first(static_cast<std::size_t>(axis)).has_value();
   };
   const bool ramps = has_ramps(scenario);
-  Answers answers =
-      ask(bench, scenario, axes, ramps ? samples_to_act(scenario, bench, axes) : few_samples);
+  Answers answers = probe_along(bench, scenario, axes,
+                                ramps ? samples_to_act(scenario, bench, axes) : few_samples);
   if (!ramps && !std::ranges::all_of(axes, [&](int axis) { return depend(answers, axis); })) {
-    answers = ask(bench, scenario, axes, samples_to_act(scenario, bench, axes));
+    answers = probe_along(bench, scenario, axes, samples_to_act(scenario, bench, axes));
   }
   const std::string within =
       "within " + short_number(static_cast<double>(answers.count) * bench.period()) + " s";
@@ -457,15 +458,15 @@ Probed probe(const Scenario& scenario, const model::Model& model) {
   const std::string unit = command_unit(scenario.controller->drives);
   const bool legs = model.rig->sampled->legs;
   std::vector<int> driven;
-  for (const int one : axes) {
-    const auto command = static_cast<std::size_t>(one);
-    if (!legs && answers.stands(command) && !moves_along(scenario, bench, command)) {
+  for (const int axis : axes) {
+    const auto command = static_cast<std::size_t>(axis);
+    if (!legs && answers.is_constant(command) && !moves_along(scenario, bench, command)) {
       report.push_back({"", std::string(angles[command]) + ": stays the same, and nothing moves " +
                                 "the ball along " + coordinates[command]});
       continue;
     }
-    driven.push_back(one);
-    report.push_back(line_of(answers, command, within, effect.col(one), unit, legs));
+    driven.push_back(axis);
+    report.push_back(line_of(answers, command, within, effect.col(axis), unit, legs));
   }
   if (legs && axes.size() == 2) {
     if (const auto line = turn_of(answers, answers.telling(sample), effect))

@@ -21,7 +21,7 @@ namespace bbsim::api {
 namespace {
 
 // One of the files after reading; a scenario is run later.
-struct Opened {
+struct SourceFile {
   std::string name;
   std::optional<Scenario> scenario{};
   std::optional<results::Result> result{};
@@ -82,21 +82,21 @@ void note_all(const std::vector<std::string>& notes, Watch& watch) {
   for (const std::string& note : notes) watch.note(note);
 }
 
-Opened read_log(const ReplayRequest& request, std::size_t log, const std::string& name,
-                Watch& watch) {
+SourceFile read_log(const ReplayRequest& request, std::size_t log, const std::string& name,
+                    Watch& watch) {
   results::LogChoice choice = request.log;
   if (request.logs.size() > 1 && choice.maps.size() > 1) choice.maps = {choice.maps[log]};
   std::vector<std::string> notes;
   results::Result read = results::read_csv_columns(request.logs[log], choice.header, notes);
-  Opened source{name};
+  SourceFile source{name};
   source.log = replay::run_of_log(std::move(read), choice, name, notes);
   note_all(notes, watch);
   return source;
 }
 
-Opened read_shown(const ReplayRequest& request, const ReplayRequest::Shown& shown,
-                  const std::string& name, file::Outputs& outputs, Watch& watch) {
-  Opened source{name};
+SourceFile read_shown(const ReplayRequest& request, const ReplayRequest::Shown& shown,
+                      const std::string& name, file::Outputs& outputs, Watch& watch) {
+  SourceFile source{name};
   if (shown.result) {
     source.result = shown.result;
   } else if (is_scenario(shown.file)) {
@@ -113,12 +113,13 @@ Opened read_shown(const ReplayRequest& request, const ReplayRequest::Shown& show
 }
 
 // Reads all files, and reports all their faults together.
-std::vector<Opened> read_all(const ReplayRequest& request, file::Outputs& outputs, Watch& watch) {
+std::vector<SourceFile> read_all(const ReplayRequest& request, file::Outputs& outputs,
+                                 Watch& watch) {
   std::vector<std::string> files;
   for (const ReplayRequest::Shown& shown : request.shown) files.push_back(shown.file);
   files.insert(files.end(), request.logs.begin(), request.logs.end());
   const std::vector<std::string> names = names_of(files);
-  std::vector<Opened> sources;
+  std::vector<SourceFile> sources;
   std::vector<Problem> problems;
   for (std::size_t i = 0; i < files.size(); ++i) {
     const std::size_t count = request.shown.size();
@@ -155,53 +156,55 @@ bool is_scenario(const std::string& file) {
   return ending == ".yaml" || ending == ".yml";
 }
 
-ReplayMade replay(const ReplayRequest& request, file::Outputs& outputs, Watch& watch) {
+ReplayResult replay(const ReplayRequest& request, file::Outputs& outputs, Watch& watch) {
   check_request(request);
-  std::vector<Opened> sources = read_all(request, outputs, watch);
-  const auto sweeps = static_cast<std::size_t>(std::ranges::count_if(sources, &Opened::is_sweep));
+  std::vector<SourceFile> sources = read_all(request, outputs, watch);
+  const auto sweeps =
+      static_cast<std::size_t>(std::ranges::count_if(sources, &SourceFile::is_sweep));
   if (sweeps > 0 && sweeps < sources.size()) {
-    throw InputError(std::ranges::find_if(sources, &Opened::is_sweep)->name +
+    throw InputError(std::ranges::find_if(sources, &SourceFile::is_sweep)->name +
                      ": is a sweep, among runs; allowed: a page of runs, or one of sweeps");
   }
-  for (const Opened& source : sources) {
+  for (const SourceFile& source : sources) {
     if (source.result && !source.result->left_out.empty()) watch.note(source.result->left_out);
   }
   if (request.before_running) request.before_running();
-  ReplayMade made;
-  made.scene.version = version();
-  for (Opened& source : sources) {
+  ReplayResult replayed;
+  replayed.scene.version = version();
+  for (SourceFile& source : sources) {
     if (source.scenario) {
       RunRequest run;
       run.scenario = std::move(*source.scenario);
       run.pictured = true;
       const auto live = request.live ? std::optional<LiveRun>(run) : std::nullopt;
-      made.runs.push_back(api::run(run, watch));
-      RunResult& result = made.runs.back();
+      replayed.runs.push_back(api::run(run, watch));
+      RunResult& result = replayed.runs.back();
       if (live) {
-        made.scene.live = live->of(result, true);
+        replayed.scene.live = live->of(result, true);
         // Open tasks are for the page's reader.
         result.unmet.clear();
         if (result.summary.status == "done") result.code = ExitCode::done;
       }
-      if (made.code == ExitCode::done || result.code == ExitCode::interrupted) {
-        made.code = result.code;
+      if (replayed.code == ExitCode::done || result.code == ExitCode::interrupted) {
+        replayed.code = result.code;
       }
       result.pictured->name = source.name;
-      made.scene.runs.push_back(std::move(*result.pictured));
-      if (made.code == ExitCode::interrupted) break;
+      replayed.scene.runs.push_back(std::move(*result.pictured));
+      if (replayed.code == ExitCode::interrupted) break;
     } else if (source.log) {
-      made.scene.runs.push_back(std::move(*source.log));
+      replayed.scene.runs.push_back(std::move(*source.log));
       if (!request.shown.empty()) {
-        note_all(place_log(made.scene, request.log.aligns()), watch);
+        note_all(place_log(replayed.scene, request.log.aligns()), watch);
       }
     } else if (source.is_sweep()) {
-      made.scene.sweeps.push_back(replay::sweep_of_result(std::move(*source.result), source.name));
+      replayed.scene.sweeps.push_back(
+          replay::sweep_of_result(std::move(*source.result), source.name));
     } else {
-      made.scene.runs.push_back(run_of(std::move(*source.result), source.name));
+      replayed.scene.runs.push_back(run_of(std::move(*source.result), source.name));
     }
   }
-  made.scene.title = request.title.empty() ? title_of(made.scene) : request.title;
-  return made;
+  replayed.scene.title = request.title.empty() ? title_of(replayed.scene) : request.title;
+  return replayed;
 }
 
 replay::Run run_of(results::Result result, const std::string& name) {

@@ -35,7 +35,7 @@ struct ReplayRequest {
   std::function<void()> before_running{};  // all files are read
 };
 
-struct ReplayMade {
+struct ReplayResult {
   ExitCode code = ExitCode::done;  // of the first run that did not end well
   replay::Scene scene;
   std::vector<RunResult> runs;  // without their rows
@@ -45,7 +45,8 @@ struct ReplayMade {
 [[nodiscard]] bool is_scenario(const std::string& file);
 
 // Throws InputError with the faults of all files; the watch gets notes on logs.
-[[nodiscard]] ReplayMade replay(const ReplayRequest& request, file::Outputs& outputs, Watch& watch);
+[[nodiscard]] ReplayResult replay(const ReplayRequest& request, file::Outputs& outputs,
+                                  Watch& watch);
 
 // Run of a result, described by its scenario: fully if the scenario and its tables can still be
 // read, else by the parts that can.

@@ -27,20 +27,21 @@ using Columns = std::vector<const scenario::Column*>;
 
 // Records in `result` which expectations hold; `places` has the place of each one's measure.
 void judge(const std::vector<scenario::Expectation>& expectations,
-           const std::vector<std::size_t>& places, const Simulation& made, RunResult& result) {
+           const std::vector<std::size_t>& places, const Simulation& simulation,
+           RunResult& result) {
   for (std::size_t i = 0; i < expectations.size(); ++i) {
-    const scenario::Expectation& one = expectations[i];
+    const scenario::Expectation& expectation = expectations[i];
     const std::size_t at = places[i];
-    const double value = made.measures[at];
-    const bool holds = one.holds(value);
-    result.summary.expectations.push_back({one.text, value, holds});
+    const double value = simulation.measures[at];
+    const bool holds = expectation.holds(value);
+    result.summary.expectations.push_back({expectation.text, value, holds});
     if (holds) continue;
-    const std::string unit = one.measure.unit();
-    const char* const why = made.whys[at];
-    result.unmet.push_back("not as expected: " + one.text + ": " + one.measure.name + " is " +
-                           (std::isnan(value)
-                                ? "not a number" + (why != nullptr ? std::string(": ") + why : "")
-                                : number_text(value) + (unit == "1" ? "" : ' ' + unit)));
+    const std::string unit = expectation.measure.unit();
+    const char* const why = simulation.whys[at];
+    result.unmet.push_back(
+        "not as expected: " + expectation.text + ": " + expectation.measure.name + " is " +
+        (std::isnan(value) ? "not a number" + (why != nullptr ? std::string(": ") + why : "")
+                           : number_text(value) + (unit == "1" ? "" : ' ' + unit)));
     if (result.code == ExitCode::done) result.code = ExitCode::ended_early;
   }
 }
@@ -70,25 +71,25 @@ void append(const file::TableData& table, std::size_t count,
             const std::vector<std::vector<double>>& others, file::TableWriter& writer) {
   std::vector<const double*> columns;
   for (std::size_t c = 0; c < count; ++c) columns.push_back(table.columns[c].data());
-  for (const std::vector<double>& other : others) columns.push_back(other.data());
+  for (const std::vector<double>& column : others) columns.push_back(column.data());
   writer.append(columns, table.columns.front().size());
 }
 
 // Passes rows to a callback and, if given, to a second table.
 class RowsTo : public file::TableWriter {
  public:
-  RowsTo(const RunRequest& request, std::size_t asked, file::TableWriter* next)
-      : request_(request), asked_(asked), next_(next) {}
+  RowsTo(const RunRequest& request, std::size_t requested, file::TableWriter* next)
+      : request_(request), requested_(requested), next_(next) {}
 
   void append(std::span<const double* const> columns, std::size_t rows) override {
-    if (request_.rows_to) request_.rows_to(columns.first(asked_), rows);
+    if (request_.rows_to) request_.rows_to(columns.first(requested_), rows);
     if (next_ != nullptr) next_->append(columns, rows);
   }
   void finish(const file::Attributes&) override {}
 
  private:
   const RunRequest& request_;
-  std::size_t asked_;
+  std::size_t requested_;
   file::TableWriter* next_;
 };
 
@@ -96,8 +97,8 @@ class RowsTo : public file::TableWriter {
 
 RunResult run(const RunRequest& request, Watch& watch) {
   const Scenario& scenario = request.scenario;
-  const Columns asked = scenario::columns_named(scenario.output.columns);
-  const Columns columns = request.pictured ? with_pictured(asked, scenario) : asked;
+  const Columns requested = scenario::columns_named(scenario.output.columns);
+  const Columns columns = request.pictured ? with_pictured(requested, scenario) : requested;
   const auto printed =
       scenario::measures_named(scenario::split_measures(request.measures), scenario);
   std::vector<scenario::Expectation> expectations;
@@ -106,10 +107,10 @@ RunResult run(const RunRequest& request, Watch& watch) {
   }
   auto measures = printed;
   const std::vector<std::size_t> expected = scenario::add_expected(measures, expectations);
-  const Sensitivity sensitivity(request, asked, printed);
+  const Sensitivity sensitivity(request, requested, printed);
 
   // Check names before a controller starts, and long before the file is opened.
-  std::vector<file::ColumnHeader> headers = headers_of(asked);
+  std::vector<file::ColumnHeader> headers = headers_of(requested);
   sensitivity.add_headers(headers);
   if (!request.output.empty()) file::require_table_name(request.output);
   if (request.replaces_its_like_only) {
@@ -119,9 +120,9 @@ RunResult run(const RunRequest& request, Watch& watch) {
   const model::Model model = assemble(scenario, needed_for(columns, measures), host);
   const solve::OutputGrid grid(scenario.time);
   std::deque<std::string> units;  // from the scene's own controller
-  for (std::size_t c = 0; c < asked.size(); ++c) {
-    if (asked[c]->needs != scenario::Needs::own) continue;
-    headers[c].unit = units.emplace_back(host.unit_of(asked[c]->name).value_or("1"));
+  for (std::size_t c = 0; c < requested.size(); ++c) {
+    if (requested[c]->needs != scenario::Needs::own) continue;
+    headers[c].unit = units.emplace_back(host.unit_of(requested[c]->name).value_or("1"));
   }
 
   request.ready();
@@ -137,17 +138,17 @@ RunResult run(const RunRequest& request, Watch& watch) {
   std::optional<file::MemoryTable> kept;
   if (request.pictured || request.keeps_rows || sensitivity.wanted() ||
       (!writer && !request.rows_to)) {
-    kept.emplace(scenario::names_of(columns), beside, asked.size());
+    kept.emplace(scenario::names_of(columns), beside, requested.size());
   }
-  RowsTo rows(request, asked.size(), kept ? &*kept : beside);
+  RowsTo rows(request, requested.size(), kept ? &*kept : beside);
 
-  Simulation made = with_places(scenario, [&] {
-    Simulation simulation =
-        simulate(scenario, model, grid, {columns, asked.size(), measures}, rows, watch);
-    if (simulation.result.code == ExitCode::done) host.require_printed();
-    return simulation;
+  Simulation simulation = with_places(scenario, [&] {
+    Simulation simulated =
+        simulate(scenario, model, grid, {columns, requested.size(), measures}, rows, watch);
+    if (simulated.result.code == ExitCode::done) host.require_printed();
+    return simulated;
   });
-  RunResult result = std::move(made.result);
+  RunResult result = std::move(simulation.result);
   record::RunSummary& summary = result.summary;
   summary.output = request.output;
   if (const std::string unheard = host.unheard(); !unheard.empty()) {
@@ -158,23 +159,23 @@ RunResult run(const RunRequest& request, Watch& watch) {
     summary.warnings.push_back("warning: " + remark);
   }
   for (std::size_t m = 0; m < printed.size(); ++m) {
-    summary.measures.emplace_back(printed[m].name, made.measures[m]);
+    summary.measures.emplace_back(printed[m].name, simulation.measures[m]);
   }
   file::TableData table;
   if (kept) table = kept->take();
   std::vector<std::vector<double>> derivatives;
   if (sensitivity.wanted()) {
     derivatives = sensitivity.find(result, watch);
-    if (writer) append(table, asked.size(), derivatives, *writer);
+    if (writer) append(table, requested.size(), derivatives, *writer);
   }
   for (const file::ColumnHeader& header : headers) {
     result.columns.emplace_back(header.name);
     result.units.emplace_back(header.unit);
   }
-  judge(expectations, expected, made, result);
-  result.rows_asked = grid.size();
+  judge(expectations, expected, simulation, result);
+  result.rows_requested = grid.size();
   if (writer && summary.error_estimate) {
-    writer->add_column(header_of(scenario::position_error), made.row_estimates);
+    writer->add_column(header_of(scenario::position_error), simulation.row_estimates);
   }
   // If the controller failed to begin, there are no rows, and the file of an earlier run stays.
   if (writer && summary.rows > 0) {
@@ -186,7 +187,8 @@ RunResult run(const RunRequest& request, Watch& watch) {
   }
   host.finish();
   if (request.pictured) {
-    result.pictured = run_of(scenario, std::move(table), summary, made.end_row, request.checked);
+    result.pictured =
+        run_of(scenario, std::move(table), summary, simulation.end_row, request.checked);
   } else if (kept) {
     result.rows = std::move(table);
     std::ranges::copy(sensitivity.names(), std::back_inserter(result.rows.names));

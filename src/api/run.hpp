@@ -52,7 +52,7 @@ struct RunResult {
   // How the run ended and why, measures, events, peaks, warnings, statistics. Without rows no file
   // is written.
   record::RunSummary summary;
-  std::size_t rows_asked = 0;
+  std::size_t rows_requested = 0;
   std::vector<std::string> unmet;           // expectations that fail
   file::TableData rows;                     // if the request keeps them or names no destination
   std::vector<std::string> columns, units;  // of output.columns

@@ -155,10 +155,10 @@ struct Sensitivity::Runs {
   // Why a neighbor of the key ends differently; empty if none does.
   [[nodiscard]] std::string trouble(std::size_t key) const {
     for (std::size_t i = 1; i <= offsets.size(); ++i) {
-      const sweep::CaseStatus& one = status[offsets.size() * key + i];
-      if (one.word == status[0].word) continue;
-      return "; a run at a neighboring value is " + one.word +
-             (one.reason.empty() ? "" : ": " + one.reason);
+      const sweep::CaseStatus& neighbor = status[offsets.size() * key + i];
+      if (neighbor.word == status[0].word) continue;
+      return "; a run at a neighboring value is " + neighbor.word +
+             (neighbor.reason.empty() ? "" : ": " + neighbor.reason);
     }
     return "";
   }
@@ -185,11 +185,12 @@ Sensitivity::Sensitivity(const RunRequest& request,
              {"solver.atol", model.hybrid() ? "1e-15" : "1e-18"}};
   family_ = std::make_unique<const ScenarioFamily>(request.scenario.source);
   for (const std::string& name : scenario::split_measures(request.sensitivity)) {
-    for (const SensitivityKey& other : keys_) {
-      const std::string one = yaml::american(name) + '.', two = yaml::american(other.name) + '.';
-      if (one == two) refuse(shown(name) + " is given twice");
-      if (!one.starts_with(two) && !two.starts_with(one)) continue;
-      refuse(shown(name) + ": found beside " + shown(other.name) +
+    for (const SensitivityKey& key : keys_) {
+      const std::string path = yaml::american(name) + '.',
+                        key_path = yaml::american(key.name) + '.';
+      if (path == key_path) refuse(shown(name) + " is given twice");
+      if (!path.starts_with(key_path) && !key_path.starts_with(path)) continue;
+      refuse(shown(name) + ": found beside " + shown(key.name) +
              "; allowed: keys that do not overlap");
     }
     keys_.push_back(read_key(name, *family_, model, grid_.end()));
@@ -293,21 +294,22 @@ std::vector<std::vector<double>> Sensitivity::find(RunResult& run, Watch& watch)
         largest = std::fmax(largest, std::abs(rows.back().value));  // not NaN
         size = std::fmax(size, std::abs(f[2]));
       }
-      const auto first = std::ranges::find_if(
-          rows, [&](const Derivative& one) { return !is_reliable(one, largest, size, step); });
+      const auto first = std::ranges::find_if(rows, [&](const Derivative& estimate) {
+        return !is_reliable(estimate, largest, size, step);
+      });
       if (first == rows.end()) continue;
       doubt(std::string(columns_[c]->name), grid_[static_cast<std::size_t>(first - rows.begin())]);
     }
     for (std::size_t m = 0; m < measures_.size(); ++m) {
       const Five f = Runs::around(runs.measures, measures_.size(), m, k);
-      const Derivative one = derivative(f, step);
+      const Derivative estimate = derivative(f, step);
       const bool all = std::ranges::all_of(f, [](double of) { return std::isfinite(of); });
       double largest = 0;  // slope; where it changes its sign, the derivative is no measure
       for (std::size_t i = 1; i < f.size(); ++i) {
         largest = std::max(largest, std::abs(f[i] - f[i - 1]) / step);
       }
-      const bool good = all && is_reliable(one, largest, std::abs(f[2]), step);
-      summary.gradients[m].second.emplace_back(key, good ? one.value : no_value);
+      const bool good = all && is_reliable(estimate, largest, std::abs(f[2]), step);
+      summary.gradients[m].second.emplace_back(key, good ? estimate.value : no_value);
       if (!good) doubt(measures_[m].name, no_value);
     }
     if (doubts.empty()) continue;

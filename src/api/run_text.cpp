@@ -134,8 +134,8 @@ std::string noted_text(const std::vector<model::Occurrence>& occurrences) {
   for (const model::Occurrence& first : occurrences) {
     if (first.stopped || std::find(names.begin(), names.end(), first.name) != names.end()) continue;
     names.push_back(first.name);
-    const auto same = [&](const model::Occurrence& other) {
-      return other.name == first.name && !other.stopped;
+    const auto same = [&](const model::Occurrence& occurrence) {
+      return occurrence.name == first.name && !occurrence.stopped;
     };
     const auto count = std::count_if(occurrences.begin(), occurrences.end(), same);
     if (!text.empty()) text += "\n";

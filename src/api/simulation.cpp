@@ -51,23 +51,24 @@ Integration integrate(const Scenario& scenario, const model::Model& model,
                       const solve::Watch& watch) {
   const CpuClock clock;
   const Solver& solver = scenario.solver;
-  Integration made;
+  Integration integration;
   if (solver.error) {
     study::ErrorControlled run =
         study::integrate_to_error(model, solver.method, *solver.error, grid, sink, watch);
-    made = {std::move(run.outcome), run.tolerances, {}, {}, true, 0};
-    if (made.outcome.ending == solve::Ending::done ||
-        made.outcome.ending == solve::Ending::stopped) {
-      made.error_estimate = run.estimate;
-      made.row_estimates = std::move(run.row_estimates);
-      made.within_error = run.met;
+    integration = {std::move(run.outcome), run.tolerances, {}, {}, true, 0};
+    if (integration.outcome.ending == solve::Ending::done ||
+        integration.outcome.ending == solve::Ending::stopped) {
+      integration.error_estimate = run.estimate;
+      integration.row_estimates = std::move(run.row_estimates);
+      integration.within_error = run.met;
     }
   } else {
-    made.tolerances = {solver.rtol, solver.atol};
-    made.outcome = solve::integrate(model, solver.method, made.tolerances, grid, sink, watch);
+    integration.tolerances = {solver.rtol, solver.atol};
+    integration.outcome =
+        solve::integrate(model, solver.method, integration.tolerances, grid, sink, watch);
   }
-  made.cpu_seconds = clock.seconds();
-  return made;
+  integration.cpu_seconds = clock.seconds();
+  return integration;
 }
 
 // Rounds up to two digits, so that the user can ask for the error shown.
@@ -78,30 +79,30 @@ double rounded_up(double error) {
 
 // Why the run falls short of the request; empty if it does not.
 std::string shortfall(const Scenario& scenario, const model::Model& model,
-                      const Integration& made) {
+                      const Integration& integration) {
   const double end = scenario.time.end;
-  switch (made.outcome.ending) {
+  switch (integration.outcome.ending) {
     case solve::Ending::failed:
-      return failure_text(scenario, model, made.outcome);
+      return failure_text(scenario, model, integration.outcome);
     case solve::Ending::interrupted:
-      return "interrupted at t = " + short_number(made.outcome.reached) + " s of " +
+      return "interrupted at t = " + short_number(integration.outcome.reached) + " s of " +
              short_number(end) + " s.";
     case solve::Ending::stopped:
-      return stopped_text(scenario, made.outcome);
+      return stopped_text(scenario, integration.outcome);
     case solve::Ending::done:
       break;
   }
-  if (made.within_error) return "";
+  if (integration.within_error) return "";
   return "an error of " + short_number(*scenario.solver.error) +
          " m is out of reach: the scenario amplifies rounding, and double precision gives about " +
-         short_number(rounded_up(*made.error_estimate)) +
+         short_number(rounded_up(*integration.error_estimate)) +
          " m.\n"
          "  Ask for that, or end the scenario earlier. The file has the rows of the best run.";
 }
 
 record::RunSummary summary_of(const Scenario& scenario, const model::Model& model,
-                              const Integration& made) {
-  const solve::Outcome& outcome = made.outcome;
+                              const Integration& integration) {
+  const solve::Outcome& outcome = integration.outcome;
   record::RunSummary summary;
   summary.version = version();
   summary.instruction_set = simd::name_of(simd::chosen_instruction_set());
@@ -117,10 +118,10 @@ record::RunSummary summary_of(const Scenario& scenario, const model::Model& mode
     summary.model_notes.push_back(note.part + ": " + note.reason);
   }
   summary.method = solve::method_name(outcome.method);
-  summary.rtol = made.tolerances.rtol;
-  summary.atol = made.tolerances.atol;
+  summary.rtol = integration.tolerances.rtol;
+  summary.atol = integration.tolerances.atol;
   summary.error_bound = scenario.solver.error;
-  summary.error_estimate = made.error_estimate;
+  summary.error_estimate = integration.error_estimate;
   for (const model::Occurrence& event : outcome.occurrences) {
     summary.events.push_back(record::event_record(event));
   }
@@ -129,11 +130,11 @@ record::RunSummary summary_of(const Scenario& scenario, const model::Model& mode
                         outcome.statistics.jacobian_evaluations,
                         outcome.statistics.nonlinear_iterations,
                         outcome.statistics.error_test_failures,
-                        made.cpu_seconds};
+                        integration.cpu_seconds};
   return summary;
 }
 
-solve::Watch looking_in(Watch& watch, double end) {
+solve::Watch watch_of_run(Watch& watch, double end) {
   return {watch.stop(), [&watch, end](double time) { watch.update(time / end, ""); },
           [&watch](double time, double pace, double steps) {
             watch.note("note: at t = " + short_number(time) + " s the run takes " +
@@ -182,18 +183,19 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
   solve::StateSink& sink = edge ? static_cast<solve::StateSink&>(*edge) : recorder;
 
   watch.start(0);
-  Integration made = integrate(scenario, model, grid, sink, looking_in(watch, grid.end()));
+  Integration integration = integrate(scenario, model, grid, sink, watch_of_run(watch, grid.end()));
   watch.end();
 
   Simulation simulation;
-  take_measures(scenario, model, wanted.measures, split, recorder, made.outcome, simulation);
-  simulation.end_row = recorder.end_row(made.outcome);
-  simulation.row_estimates = std::move(made.row_estimates);
+  take_measures(scenario, model, wanted.measures, split, recorder, integration.outcome, simulation);
+  simulation.end_row = recorder.end_row(integration.outcome);
+  simulation.row_estimates = std::move(integration.row_estimates);
 
   RunResult& result = simulation.result;
-  record::RunSummary& summary = result.summary = summary_of(scenario, model, made);
-  summary.reason = shortfall(scenario, model, made);
-  solve::Why why = made.within_error ? made.outcome.why : solve::Why::error_out_of_reach;
+  record::RunSummary& summary = result.summary = summary_of(scenario, model, integration);
+  summary.reason = shortfall(scenario, model, integration);
+  solve::Why why =
+      integration.within_error ? integration.outcome.why : solve::Why::error_out_of_reach;
   const std::string not_finite = recorder.why_not_finite(wanted.finite_columns);
   if (summary.reason.empty() && !not_finite.empty()) {
     summary.reason = "the motion was computed to its end, but " + not_finite +
@@ -201,15 +203,16 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
     why = solve::Why::not_finite;
   }
   summary.reason_code = solve::name_of(why);
-  summary.warnings = warnings_of(scenario, model, made.outcome.ending == solve::Ending::failed,
-                                 edge ? edge->left() : std::nullopt);
+  summary.warnings =
+      warnings_of(scenario, model, integration.outcome.ending == solve::Ending::failed,
+                  edge ? edge->left() : std::nullopt);
   const std::string not_measured =
       scenario::why_not_finite(wanted.measures, simulation.measures.data(), simulation.whys);
   if (!not_measured.empty()) summary.warnings.push_back("note: " + not_measured);
   summary.peaks = recorder.peaks();
-  result.noted = noted_text(made.outcome.occurrences);
-  result.code = how(made.outcome.ending).code;
-  const bool whole = made.within_error && not_finite.empty();
+  result.noted = noted_text(integration.outcome.occurrences);
+  result.code = how(integration.outcome.ending).code;
+  const bool whole = integration.within_error && not_finite.empty();
   if (result.code == ExitCode::done && !whole) result.code = ExitCode::ended_early;
   return simulation;
 }

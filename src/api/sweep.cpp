@@ -44,11 +44,12 @@ std::vector<scenario::Measure> measures_of(const Sweep& sweep, const ScenarioFam
 // Adds the expectations of `request`, and the measures that they need.
 void expect(sweep::SweepTask& task, const SweepRequest& request, const Scenario& first) {
   for (const std::string& text : request.expect) {
-    scenario::Expectation one = scenario::read_expectation("--expect", text, first);
-    if (std::ranges::count(task.expectations, one.text, &scenario::Expectation::text) > 0) {
-      throw InputError("--expect: found " + bbsim::quoted(one.text) + " twice; allowed: once");
+    scenario::Expectation expectation = scenario::read_expectation("--expect", text, first);
+    if (std::ranges::count(task.expectations, expectation.text, &scenario::Expectation::text) > 0) {
+      throw InputError("--expect: found " + bbsim::quoted(expectation.text) +
+                       " twice; allowed: once");
     }
-    task.expectations.push_back(std::move(one));
+    task.expectations.push_back(std::move(expectation));
   }
   task.expected = scenario::add_expected(task.measures, task.expectations);
 }
@@ -170,8 +171,8 @@ bool run_cases(const sweep::SweepTask& task, const sweep::Engine& engine, sweep:
 Sweep with_choice(Sweep sweep, const SweepChoice& choice) {
   if (!choice.vary.empty()) {
     sweep.vary = choice.vary;
-    const auto random = [](const Variation& one) {
-      return scenario::parse_variation(one).random();
+    const auto random = [](const Variation& variation) {
+      return scenario::parse_variation(variation).random();
     };
     // The scenario's number is for its own random keys, which are replaced.
     if (std::ranges::none_of(sweep.vary, random)) sweep.samples.reset();

@@ -72,7 +72,8 @@ Json plan_of(const SweepFacts& facts) {
   }
   for (const scenario::Measure& measure : task.measures) measures.push_back(measure.name);
   plan["measure"] = std::move(measures);
-  for (const scenario::Expectation& one : task.expectations) plan["expect"].push_back(one.text);
+  for (const scenario::Expectation& expectation : task.expectations)
+    plan["expect"].push_back(expectation.text);
   plan["trajectories"] = !task.series.empty();
   plan["cases"] = task.plan.cases();
   if (shard.of > 1) plan["shard"] = std::to_string(shard.number) + '/' + std::to_string(shard.of);
@@ -106,8 +107,8 @@ sweep::CaseFileLayout layout_of(const SweepFacts& facts, const sweep::Engine& en
     layout.columns.push_back({measure.name, measure.unit(), measure.meaning()});
   }
   layout.expectations = task.expectations.size();
-  for (const scenario::Expectation& one : task.expectations) {
-    layout.columns.push_back({"expect: " + one.text, "1", "1 if it holds, 0 if not"});
+  for (const scenario::Expectation& expectation : task.expectations) {
+    layout.columns.push_back({"expect: " + expectation.text, "1", "1 if it holds, 0 if not"});
   }
   if (task.series.empty()) return layout;
   const solve::OutputGrid grid(facts.first.time);
@@ -138,8 +139,9 @@ file::Attributes attributes_of(const SweepFacts& facts, const sweep::Engine& eng
     return all;
   };
   attributes.emplace_back("overrides", lines(source.overrides, [](const auto& o) { return o; }));
-  attributes.emplace_back(
-      "vary", lines(sweep.vary, [](const Variation& one) { return one.key + '=' + one.spec; }));
+  attributes.emplace_back("vary", lines(sweep.vary, [](const Variation& variation) {
+                            return variation.key + '=' + variation.spec;
+                          }));
   for (const auto& [name, value] : accuracy_of(facts)) {
     attributes.emplace_back(name, value);
   }
@@ -182,11 +184,11 @@ std::string summary_text(const SweepFacts& facts, const SweepResult& result) {
   Json& statuses = summary["statuses"] = Json::object();
   for (const auto& [word, count] : result.statuses.words) statuses[word] = count;
   Json& failed = summary["failed"] = Json::array();
-  for (const sweep::FailedCase& one : result.statuses.failed) {
-    failed.push_back({{"case", one.number},
-                      {"status", one.status},
-                      {"reason", one.reason},
-                      {"command", repeat_command(facts, one.number)}});
+  for (const sweep::FailedCase& failed_case : result.statuses.failed) {
+    failed.push_back({{"case", failed_case.number},
+                      {"status", failed_case.status},
+                      {"reason", failed_case.reason},
+                      {"command", repeat_command(facts, failed_case.number)}});
   }
   for (std::size_t i = 0; i < facts.task.expectations.size(); ++i) {
     const auto& unmet = result.statuses.unmet;

@@ -39,12 +39,11 @@ ValuePair compare_texts(const file::CellColumn& a, const file::CellColumn& b, st
   return pair;
 }
 
-bool is_worse(const ValuePair& one, const ValuePair& other) {
+bool is_worse(const ValuePair& a, const ValuePair& b) {
   // The excess may round to 1 from either side, so alike() decides first.
-  const bool one_differs = !one.alike();
-  const bool other_differs = !other.alike();
-  return std::tie(one_differs, one.excess, one.difference) >
-         std::tie(other_differs, other.excess, other.difference);
+  const bool a_differs = !a.alike();
+  const bool b_differs = !b.alike();
+  return std::tie(a_differs, a.excess, a.difference) > std::tie(b_differs, b.excess, b.difference);
 }
 
 std::string as_text(const file::CellColumn& column, std::size_t i) {

@@ -22,9 +22,9 @@ constexpr double shown = 1e-4;
 // Smaller relative differences are due to rounding.
 constexpr double rounding = 1e-14;
 
-std::vector<const scenario::Column*> columns_of(const std::vector<Extremes::Sought>& sought) {
+std::vector<const scenario::Column*> columns_of(const std::vector<Extremes::Query>& queries) {
   std::vector<const scenario::Column*> columns;
-  for (const Extremes::Sought& one : sought) columns.push_back(one.column);
+  for (const Extremes::Query& query : queries) columns.push_back(query.column);
   return columns;
 }
 
@@ -43,19 +43,19 @@ std::optional<solve::Bounded> bounded(std::string_view column) {
       {"motor_torque_theta", Bounded::motor_torque_theta},
       {"motor_power", Bounded::motor_power},
   };
-  for (const auto& [name, one] : known) {
-    if (name == column) return one;
+  for (const auto& [name, bound] : known) {
+    if (name == column) return bound;
   }
   return {};
 }
 
 }  // namespace
 
-Extremes::Extremes(std::vector<Sought> sought)
-    : columns_(columns_of(sought)), greatest_(sought.size()) {
-  for (const Sought& one : sought) {
-    signs_.push_back(one.least ? -1 : 1);
-    bounded_.push_back(bounded(one.column->name));
+Extremes::Extremes(std::vector<Query> queries)
+    : columns_(columns_of(queries)), greatest_(queries.size()) {
+  for (const Query& query : queries) {
+    signs_.push_back(query.least ? -1 : 1);
+    bounded_.push_back(bounded(query.column->name));
   }
   begin_run();
 }

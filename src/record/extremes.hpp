@@ -22,7 +22,7 @@ namespace bbsim::record {
 // polynomial finds it.
 class Extremes : public solve::PieceSink {
  public:
-  struct Sought {
+  struct Query {
     const scenario::Column* column;
     bool least = false;  // the greatest value otherwise
   };
@@ -32,7 +32,7 @@ class Extremes : public solve::PieceSink {
   };
 
   // Ignores NaN. No column may need orientations, which depend on the rows before.
-  explicit Extremes(std::vector<Sought> sought);
+  explicit Extremes(std::vector<Query> queries);
 
   // Begins a run. Both arguments must outlive it.
   void begin(const model::Model& model, const model::BallConstants& constants);

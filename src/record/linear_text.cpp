@@ -126,8 +126,8 @@ std::string definitions(const LinearReport& report, const Language& in) {
 }  // namespace
 
 std::string to_json(const LinearReport& report) {
-  const model::Linearization& made = report.linearization;
-  const LinearSystem& system = made.system;
+  const model::Linearization& linearization = report.linearization;
+  const LinearSystem& system = linearization.system;
   Json json = Json::object();
   json["scenario"] = report.scenario;
   json["kind"] = report.kind;
@@ -140,29 +140,29 @@ std::string to_json(const LinearReport& report) {
   json["output_units"] = list_of(system.outputs, &LinearSignal::unit);
   const auto matrices = matrices_of(system);
   for (std::size_t i = 0; i < matrices.size(); ++i) json[matrix_names[i]] = json_of(*matrices[i]);
-  json["poles"] = json_of(made.poles);
-  json["zeros"] = json_of(made.zeros);
+  json["poles"] = json_of(linearization.poles);
+  json["zeros"] = json_of(linearization.zeros);
   json["period"] = system.period ? Json(*system.period) : Json(nullptr);
-  if (!made.margins.empty()) {
+  if (!linearization.margins.empty()) {
     Json all = Json::object();
-    for (const model::LoopMargins& loop : made.margins) {
+    for (const model::LoopMargins& loop : linearization.margins) {
       const model::Margins& margins = loop.margins;
-      Json one = Json::object();
-      one["gain"] = number_or_null(margins.gain);
-      one["gain_frequency"] = number_or_null(margins.gain_at);
-      one["gain_reduction"] = margins.reduction > 0 ? Json(margins.reduction) : Json(nullptr);
-      one["gain_reduction_frequency"] = number_or_null(margins.reduction_at);
-      one["phase"] = number_or_null(margins.phase);
-      one["phase_frequency"] = number_or_null(margins.phase_at);
-      one["delay"] = number_or_null(margins.delay);
-      one["delay_frequency"] = number_or_null(margins.delay_at);
-      all[loop.command] = one;
+      Json entry = Json::object();
+      entry["gain"] = number_or_null(margins.gain);
+      entry["gain_frequency"] = number_or_null(margins.gain_at);
+      entry["gain_reduction"] = margins.reduction > 0 ? Json(margins.reduction) : Json(nullptr);
+      entry["gain_reduction_frequency"] = number_or_null(margins.reduction_at);
+      entry["phase"] = number_or_null(margins.phase);
+      entry["phase_frequency"] = number_or_null(margins.phase_at);
+      entry["delay"] = number_or_null(margins.delay);
+      entry["delay_frequency"] = number_or_null(margins.delay_at);
+      all[loop.command] = entry;
     }
     json["margins"] = all;
     Json bandwidths = Json::object(), of_feedback = Json::object();
-    for (const model::Bandwidth& one : made.bandwidths) {
-      bandwidths[one.output] = number_or_null(one.value);
-      of_feedback[one.output] = number_or_null(one.of_feedback);
+    for (const model::Bandwidth& bandwidth : linearization.bandwidths) {
+      bandwidths[bandwidth.output] = number_or_null(bandwidth.value);
+      of_feedback[bandwidth.output] = number_or_null(bandwidth.of_feedback);
     }
     json["bandwidth"] = bandwidths;
     json["feedback_bandwidth"] = of_feedback;

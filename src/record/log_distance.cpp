@@ -87,7 +87,8 @@ std::vector<Pair> pairs_of(const file::TableData& log, const std::string& log_na
                           const std::string& column) {
     if (const Numbers* const found = find(table, column)) return found;
     std::string known;
-    for (const std::string& one : table.names) known += (known.empty() ? "" : ", ") + shown(one);
+    for (const std::string& listed : table.names)
+      known += (known.empty() ? "" : ", ") + shown(listed);
     throw InputError(name + ": has no column " + shown(column) + "; it has " + known +
                      (column == "t" ? ". --map t=NAME:UNIT names the time" : ""));
   };
@@ -97,9 +98,9 @@ std::vector<Pair> pairs_of(const file::TableData& log, const std::string& log_na
   for (const std::string& name : columns.empty() ? log.names : columns) {
     if (name == "t") continue;
     if (columns.empty() && find(run, name) == nullptr) continue;
-    const Numbers& ours = *require(log, log_name, name);
-    const Numbers& theirs = *require(run, run_name, name);
-    pairs.push_back({name, {log_times, ours}, {run_times, theirs, rates_of(run, name)}});
+    const Numbers& log_values = *require(log, log_name, name);
+    const Numbers& run_values = *require(run, run_name, name);
+    pairs.push_back({name, {log_times, log_values}, {run_times, run_values, rates_of(run, name)}});
   }
   if (pairs.empty()) {
     throw InputError(log_name + " and " + run_name +
@@ -123,9 +124,9 @@ std::optional<double> correlation(const std::vector<Pair>& pairs, double offset,
     const Numbers& times = pair.log.times();
     const double b_about = pair.run.values().front(), a_about = pair.log.values().front();
     for (std::size_t i = 0; i < times.size(); ++i) {
-      const auto theirs = pair.run.at(times[i] + offset);
-      if (!theirs) continue;
-      const double a = pair.log.values()[i] - a_about, b = *theirs - b_about;
+      const auto run_value = pair.run.at(times[i] + offset);
+      if (!run_value) continue;
+      const double a = pair.log.values()[i] - a_about, b = *run_value - b_about;
       of.n += 1;
       of.a += a;
       of.b += b;
@@ -162,15 +163,15 @@ LogDistance log_distance(const file::TableData& log, const std::string& log_name
   const std::vector<Pair> pairs = pairs_of(log, log_name, run, run_name, columns);
   const Line log_clock(*find(log, "t"), *find(log, "t")),
       run_clock(*find(run, "t"), *find(run, "t"));
-  LogDistance made;
-  made.rows_of_log = log_clock.times().size();
+  LogDistance distance;
+  distance.rows_of_log = log_clock.times().size();
   bool any = false;
   for (const double t : log_clock.times()) {
     if (run_clock.empty() || t < run_clock.first() || t > run_clock.last()) continue;
-    if (!any) made.from = t;
+    if (!any) distance.from = t;
     any = true;
-    made.to = t;
-    ++made.rows;
+    distance.to = t;
+    ++distance.rows;
   }
   if (!any) {
     const auto span = [](const Line& line) {
@@ -192,22 +193,22 @@ LogDistance log_distance(const file::TableData& log, const std::string& log_name
     ColumnDistance column{pair.name};
     double squares = 0;
     for (std::size_t i = 0; i < pair.log.times().size(); ++i) {
-      const double t = pair.log.times()[i], ours = pair.log.values()[i];
-      const auto theirs = pair.run.at(t);
-      if (!theirs) continue;
-      const double apart = std::abs(ours - *theirs);
-      squares += apart * apart;
-      if (column.rows++ == 0 || apart > column.greatest) {
-        column.greatest = apart;
+      const double t = pair.log.times()[i], log_value = pair.log.values()[i];
+      const auto run_value = pair.run.at(t);
+      if (!run_value) continue;
+      const double difference = std::abs(log_value - *run_value);
+      squares += difference * difference;
+      if (column.rows++ == 0 || difference > column.greatest) {
+        column.greatest = difference;
         column.at = t;
-        column.log = ours;
-        column.run = *theirs;
+        column.log = log_value;
+        column.run = *run_value;
       }
     }
     if (column.rows > 0) column.rms = std::sqrt(squares / static_cast<double>(column.rows));
-    made.columns.push_back(column);
+    distance.columns.push_back(column);
   }
-  return made;
+  return distance;
 }
 
 double time_offset(const file::TableData& log, const std::string& log_name,

@@ -81,8 +81,8 @@ std::vector<Measure> StoredRun::measures_named(const std::vector<std::string>& n
 }
 
 std::string StoredRun::lacks_reference(const Measure& measure) const {
-  const bool has_one = measure.column->name == "x" || measure.column->name == "y";
-  if (measure.kind != Kind::step || measure.reference != nullptr || !has_one) return "";
+  const bool is_coordinate = measure.column->name == "x" || measure.column->name == "y";
+  if (measure.kind != Kind::step || measure.reference != nullptr || !is_coordinate) return "";
   return std::string(measure.column->name) + "_reference";
 }
 
@@ -93,11 +93,11 @@ StoredRun::Cut StoredRun::cut_of(const scenario::Window& window) const {
   while (cut.first < times.size() && is_before(times[cut.first])) ++cut.first;
   while (cut.last > cut.first && !window.holds(times[cut.last - 1])) --cut.last;
   const bool any = cut.first < cut.last;
-  const auto is = [](double t, double other) { return std::abs(t - other) <= rounding_of(other); };
-  if (window.from && cut.first > 0 && !(any && is(times[cut.first], *window.from))) {
+  const auto coincide = [](double a, double b) { return std::abs(a - b) <= rounding_of(b); };
+  if (window.from && cut.first > 0 && !(any && coincide(times[cut.first], *window.from))) {
     cut.before = window.from;
   }
-  if (window.to && cut.last < times.size() && !(any && is(times[cut.last - 1], *window.to))) {
+  if (window.to && cut.last < times.size() && !(any && coincide(times[cut.last - 1], *window.to))) {
     cut.after = window.to;
   }
   return cut;
@@ -110,12 +110,12 @@ std::vector<double> StoredRun::cut(const std::vector<double>& values, const Cut&
     const double part = (t - times[i - 1]) / (times[i] - times[i - 1]);
     return values[i - 1] + part * (values[i] - values[i - 1]);
   };
-  std::vector<double> some;
-  if (cut.before) some.push_back(between(cut.first, *cut.before));
+  std::vector<double> kept;
+  if (cut.before) kept.push_back(between(cut.first, *cut.before));
   const auto row = [&](std::size_t i) { return values.begin() + static_cast<std::ptrdiff_t>(i); };
-  some.insert(some.end(), row(cut.first), row(cut.last));
-  if (cut.after) some.push_back(between(cut.last, *cut.after));
-  return some;
+  kept.insert(kept.end(), row(cut.first), row(cut.last));
+  if (cut.after) kept.push_back(between(cut.last, *cut.after));
+  return kept;
 }
 
 Measured StoredRun::value_of(const Measure& measure) const {

@@ -9,14 +9,14 @@
 namespace bbsim::record {
 namespace {
 
-std::vector<Extremes::Sought> most_and_least_loads() {
-  std::vector<Extremes::Sought> sought;
+std::vector<Extremes::Query> most_and_least_loads() {
+  std::vector<Extremes::Query> queries;
   for (const char* name : {"motor_torque_phi", "motor_torque_theta", "motor_power"}) {
     const scenario::Column* const load = scenario::find_column(name);
-    sought.push_back({load});
-    sought.push_back({load, true});
+    queries.push_back({load});
+    queries.push_back({load, true});
   }
-  return sought;
+  return queries;
 }
 
 }  // namespace

@@ -55,19 +55,19 @@ std::vector<const scenario::Column*> with_columns_of(
 
 }  // namespace
 
-Recorder::Recorder(Asked asked)
-    : asked_(std::move(asked)),
-      windows_(by_window(asked_.measures)),
-      rows_(with_columns_of(asked_.columns, windows_)) {
-  std::size_t first = asked_.columns.size();
+Recorder::Recorder(RecordRequest request)
+    : request_(std::move(request)),
+      windows_(by_window(request_.measures)),
+      rows_(with_columns_of(request_.columns, windows_)) {
+  std::size_t first = request_.columns.size();
   for (const auto& window : windows_) {
     first_columns_.push_back(first);
     first += window->row_columns().size();
   }
-  if (!asked_.measures.empty() && are_track_measures(asked_.measures)) {
-    track_.emplace(asked_.measures);
+  if (!request_.measures.empty() && are_track_measures(request_.measures)) {
+    track_.emplace(request_.measures);
   }
-  if (asked_.peaks) loads_.emplace();
+  if (request_.peaks) loads_.emplace();
 }
 
 void Recorder::begin(const model::Model& model, const model::BallConstants& constants,
@@ -77,9 +77,10 @@ void Recorder::begin(const model::Model& model, const model::BallConstants& cons
   grid_ = &grid;
   table_ = table;
   quick_ = manner.quick && track_ && has_track(model);
-  with_loads_ = loads_ && (scenario::need_dynamics(asked_.columns) || has_plate_inertia(constants));
-  gaps_.assign(asked_.columns.size(), {});
-  if (!asked_.columns.empty() || !quick_) rows_.begin(model, constants);
+  with_loads_ =
+      loads_ && (scenario::need_dynamics(request_.columns) || has_plate_inertia(constants));
+  gaps_.assign(request_.columns.size(), {});
+  if (!request_.columns.empty() || !quick_) rows_.begin(model, constants);
   fan_.clear();
   if (with_loads_) {
     loads_->begin(model, constants);
@@ -97,11 +98,12 @@ void Recorder::begin(const model::Model& model, const model::BallConstants& cons
 }
 
 bool Recorder::wants_positions_only() const {
-  return quick_ && asked_.columns.empty() && !with_loads_ && track_->wants_positions_only(*model_);
+  return quick_ && request_.columns.empty() && !with_loads_ &&
+         track_->wants_positions_only(*model_);
 }
 
 bool Recorder::wants_rows() const {
-  return !quick_ || !asked_.columns.empty() || with_loads_ || track_->wants_rows();
+  return !quick_ || !request_.columns.empty() || with_loads_ || track_->wants_rows();
 }
 
 void Recorder::accept(std::size_t first, std::size_t count, const double* values) {
@@ -112,7 +114,7 @@ void Recorder::accept(std::size_t first, std::size_t count, const double* values
   if (first == 0 && with_loads_) loads_->extremes().note(times_[0], values);
   if (quick_) {
     track_->accept(first, count, values);
-    if (!asked_.columns.empty()) take_rows(count, values);
+    if (!request_.columns.empty()) take_rows(count, values);
     return;
   }
   if (first == 0) {
@@ -126,7 +128,7 @@ void Recorder::accept(std::size_t first, std::size_t count, const double* values
 
 void Recorder::take_rows(std::size_t count, const double* values) {
   rows_.evaluate(times_.data(), values, count);
-  const std::size_t columns = asked_.columns.size();
+  const std::size_t columns = request_.columns.size();
   if (!quick_) {
     for (std::size_t w = 0; w < windows_.size(); ++w) {
       windows_[w]->accept_rows(times_, [&](std::size_t k) { return rows_[first_columns_[w] + k]; });
@@ -142,7 +144,7 @@ void Recorder::take_rows(std::size_t count, const double* values) {
 // A number of a controller may be missing: a sketch has not printed it yet.
 void Recorder::look_for_gaps(std::size_t count) {
   for (std::size_t c = 0; c < gaps_.size(); ++c) {
-    if (asked_.columns[c]->needs == scenario::Needs::own) continue;
+    if (request_.columns[c]->needs == scenario::Needs::own) continue;
     for (std::size_t i = 0; i < count; ++i) {
       if (std::isfinite(rows_[c][i])) continue;
       if (gaps_[c].rows++ == 0) gaps_[c].from = times_[i];
@@ -151,12 +153,12 @@ void Recorder::look_for_gaps(std::size_t count) {
 }
 
 void Recorder::finish(const solve::Outcome& outcome, double* results) {
-  whys_.assign(asked_.measures.size(), nullptr);
+  whys_.assign(request_.measures.size(), nullptr);
   if (quick_) {
     track_->finish(results);
   } else if (outcome.rows == 0) {
-    std::fill_n(results, asked_.measures.size(), not_measured);
-    whys_.assign(asked_.measures.size(), "the run ended before it began");
+    std::fill_n(results, request_.measures.size(), not_measured);
+    whys_.assign(request_.measures.size(), "the run ended before it began");
   } else {
     finish_each(outcome, results);
   }
@@ -172,13 +174,13 @@ void Recorder::finish_each(const solve::Outcome& outcome, double* results) {
 }
 
 std::vector<double> Recorder::end_row(const solve::Outcome& outcome) {
-  if (outcome.ending != solve::Ending::stopped || asked_.columns.empty() || times_.empty() ||
+  if (outcome.ending != solve::Ending::stopped || request_.columns.empty() || times_.empty() ||
       !(outcome.occurrences.back().t > times_.back())) {
     return {};
   }
   rows_.evaluate(end_of(outcome));
   std::vector<double> row;
-  for (std::size_t c = 0; c < asked_.columns.size(); ++c) row.push_back(rows_[c][0]);
+  for (std::size_t c = 0; c < request_.columns.size(); ++c) row.push_back(rows_[c][0]);
   return row;
 }
 
@@ -189,7 +191,7 @@ std::string Recorder::why_not_finite(std::size_t columns) const {
     char line[120];
     std::snprintf(line, sizeof line, " is not a finite number in %zu rows, the first at t = %.6g s",
                   gaps_[c].rows, gaps_[c].from);
-    text += (text.empty() ? "" : "; ") + std::string(asked_.columns[c]->name) + line;
+    text += (text.empty() ? "" : "; ") + std::string(request_.columns[c]->name) + line;
   }
   return text;
 }

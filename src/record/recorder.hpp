@@ -26,7 +26,7 @@
 namespace bbsim::record {
 
 // The request for each run.
-struct Asked {
+struct RecordRequest {
   std::vector<const scenario::Column*> columns{};  // of its rows, for a table
   std::vector<scenario::Measure> measures{};
   // Peaks of the motors' loads; taken only if a column needs forces or the plate's inertia is
@@ -46,7 +46,7 @@ struct Manner {
 // NaN.
 class Recorder : public solve::StateSink {
  public:
-  explicit Recorder(Asked asked);
+  explicit Recorder(RecordRequest request);
   Recorder(const Recorder&) = delete;  // fan_ refers to members
   Recorder& operator=(const Recorder&) = delete;
 
@@ -88,7 +88,7 @@ class Recorder : public solve::StateSink {
   void look_for_gaps(std::size_t count);
   void finish_each(const solve::Outcome& outcome, double* results);
 
-  Asked asked_;
+  RecordRequest request_;
   // One for each window of the measures, and the index of its first column in rows_.
   std::vector<std::unique_ptr<WindowMeasures>> windows_;
   std::vector<std::size_t> first_columns_;

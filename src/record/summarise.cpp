@@ -147,15 +147,15 @@ std::string to_csv(const std::vector<Group>& groups, const std::vector<std::stri
       }
       front += ',';
     }
-    for (const GroupFigures& one : group.figures) {
-      text +=
-          front + one.measure + ',' + std::to_string(group.cases) + ',' + std::to_string(one.count);
+    for (const GroupFigures& figures : group.figures) {
+      text += front + figures.measure + ',' + std::to_string(group.cases) + ',' +
+              std::to_string(figures.count);
       const auto add = [&text](double value) { text += ',' + number_text(value); };
-      add(one.mean);
-      add(one.deviation);
-      add(one.least);
-      for (const double value : one.quantiles) add(value);
-      add(one.greatest);
+      add(figures.mean);
+      add(figures.deviation);
+      add(figures.least);
+      for (const double value : figures.quantiles) add(value);
+      add(figures.greatest);
       text += '\n';
     }
   }

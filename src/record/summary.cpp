@@ -126,20 +126,20 @@ std::string to_json(const RunSummary& summary) {
   }
   if (summary.unreliable) {
     nlohmann::ordered_json& all = json["unreliable"] = nlohmann::ordered_json::array();
-    for (const UnreliableRecord& one : *summary.unreliable) {
+    for (const UnreliableRecord& record : *summary.unreliable) {
       nlohmann::ordered_json& entry = all.emplace_back(nlohmann::ordered_json::object());
-      entry["key"] = one.key;
-      entry["column"] = one.column;
-      entry["time"] = one.time;
+      entry["key"] = record.key;
+      entry["column"] = record.column;
+      entry["time"] = record.time;
     }
   }
   if (!summary.expectations.empty()) {
     nlohmann::ordered_json& all = json["expectations"] = nlohmann::ordered_json::array();
-    for (const ExpectationRecord& one : summary.expectations) {
+    for (const ExpectationRecord& expectation : summary.expectations) {
       nlohmann::ordered_json& entry = all.emplace_back(nlohmann::ordered_json::object());
-      entry["text"] = one.text;
-      entry["value"] = one.value;
-      entry["holds"] = one.holds;
+      entry["text"] = expectation.text;
+      entry["value"] = expectation.value;
+      entry["holds"] = expectation.holds;
     }
   }
   nlohmann::ordered_json& events = json["events"] = nlohmann::ordered_json::array();
@@ -172,17 +172,18 @@ file::Attributes to_attributes(const RunSummary& summary, const std::string& sce
   }
   if (summary.unreliable) {
     std::vector<std::string> unreliable;
-    for (const UnreliableRecord& one : *summary.unreliable) {
-      unreliable.push_back("key=" + one.key + " column=" + one.column +
-                           " time=" + to_text(one.time));
+    for (const UnreliableRecord& record : *summary.unreliable) {
+      unreliable.push_back("key=" + record.key + " column=" + record.column +
+                           " time=" + to_text(record.time));
     }
     add("unreliable", unreliable);
   }
   if (!summary.expectations.empty()) {
     std::vector<std::string> expectations;
-    for (const ExpectationRecord& one : summary.expectations) {
-      expectations.push_back(one.text + (one.holds ? ": holds, " : ": does not hold, ") +
-                             to_text(one.value));
+    for (const ExpectationRecord& expectation : summary.expectations) {
+      expectations.push_back(expectation.text +
+                             (expectation.holds ? ": holds, " : ": does not hold, ") +
+                             to_text(expectation.value));
     }
     add("expectations", expectations);
   }

@@ -19,16 +19,16 @@ namespace {
 
 std::vector<Measure> picked(const std::vector<Measure>& measures,
                             const std::vector<std::size_t>& which) {
-  std::vector<Measure> some;
-  for (const std::size_t m : which) some.push_back(measures[m]);
-  return some;
+  std::vector<Measure> chosen;
+  for (const std::size_t m : which) chosen.push_back(measures[m]);
+  return chosen;
 }
 
-template <class Wanted>
-std::vector<std::size_t> those(const std::vector<Measure>& measures, Wanted wanted) {
+template <class Predicate>
+std::vector<std::size_t> those(const std::vector<Measure>& measures, Predicate predicate) {
   std::vector<std::size_t> found;
   for (std::size_t m = 0; m < measures.size(); ++m) {
-    if (wanted(measures[m])) found.push_back(m);
+    if (predicate(measures[m])) found.push_back(m);
   }
   return found;
 }
@@ -70,13 +70,13 @@ std::vector<const Column*> references_of(const std::vector<Measure>& measures) {
   return columns;
 }
 
-std::vector<Extremes::Sought> sought_by(const std::vector<Measure>& measures,
+std::vector<Extremes::Query> queries_of(const std::vector<Measure>& measures,
                                         const std::vector<std::size_t>& which) {
-  std::vector<Extremes::Sought> sought;
+  std::vector<Extremes::Query> queries;
   for (const std::size_t m : which) {
-    sought.push_back({measures[m].column, measures[m].kind == Kind::least});
+    queries.push_back({measures[m].column, measures[m].kind == Kind::least});
   }
-  return sought;
+  return queries;
 }
 
 }  // namespace
@@ -85,15 +85,15 @@ WindowMeasures::WindowMeasures(const std::vector<Measure>& measures, std::vector
     : measures_(picked(measures, which)),
       places_(std::move(which)),
       window_(measures_.front().window),
-      at_end_(those(measures_, [](const Measure& one) { return one.kind == Kind::end; })),
+      at_end_(those(measures_, [](const Measure& measure) { return measure.kind == Kind::end; })),
       of_motion_(those(measures_,
-                       [](const Measure& one) {
-                         return one.kind == Kind::greatest || one.kind == Kind::least;
+                       [](const Measure& measure) {
+                         return measure.kind == Kind::greatest || measure.kind == Kind::least;
                        })),
-      of_rows_(those(measures_, [](const Measure& one) { return one.kind == Kind::rms; })),
-      of_curves_(those(measures_, [](const Measure& one) { return is_of_curves(one); })),
+      of_rows_(those(measures_, [](const Measure& measure) { return measure.kind == Kind::rms; })),
+      of_curves_(those(measures_, [](const Measure& measure) { return is_of_curves(measure); })),
       end_(columns_of(measures_, at_end_)),
-      extremes_(sought_by(measures_, of_motion_)),
+      extremes_(queries_of(measures_, of_motion_)),
       traces_(traced_by(measures_), references_of(measures_)),
       extreme_pieces_(window_, extremes_),
       trace_pieces_(window_, traces_) {}

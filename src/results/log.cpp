@@ -41,9 +41,9 @@ yaml::UnitScale unit_of(std::string_view part, const scenario::Column& column,
   if (unit == column.unit) return {};
   const yaml::Dimension dimension = yaml::dimension_of(column.unit);
   if (const auto known = scenario::log_unit(unit, dimension)) return *known;
-  const yaml::Quantity one = yaml::read_quantity("1 " + std::string(unit), false, dimension);
+  const yaml::Quantity quantity = yaml::read_quantity("1 " + std::string(unit), false, dimension);
   refuse(part, ": " + std::string(column.name) + " is in " + std::string(column.unit) +
-                   "; allowed: no unit, or a unit of the same quantity" + one.fault);
+                   "; allowed: no unit, or a unit of the same quantity" + quantity.fault);
 }
 
 std::string near(std::string_view name, const std::vector<std::string_view>& names) {
@@ -67,7 +67,7 @@ std::optional<double> number_of(std::string_view text) {
 const scenario::Column& target_of(std::string_view part, std::string_view name) {
   if (const scenario::Column* const column = scenario::find_column(name)) return *column;
   std::vector<std::string_view> names;
-  for (const scenario::Column& one : scenario::catalogue) names.push_back(one.name);
+  for (const scenario::Column& column : scenario::catalogue) names.push_back(column.name);
   refuse(part, ": there is no column " + bbsim::quoted(name) + near(name, names) +
                    "; allowed: those of `bbsim columns`");
 }
@@ -86,24 +86,24 @@ class PartReader {
              "; allowed: COLUMN=NAME or COLUMN=NAME:UNIT, such as x=Ballx:mm, or "
              "COLUMN=FACTOR*NAME+OFFSET:UNIT");
     }
-    made_.column = &target_of(part_, trimmed(part_.substr(0, equals)));
-    dimension_ = yaml::dimension_of(made_.column->unit);
+    map_.column = &target_of(part_, trimmed(part_.substr(0, equals)));
+    dimension_ = yaml::dimension_of(map_.column->unit);
     std::string_view from = trimmed(part_.substr(equals + 1));
     if (!is_column(from)) {
       if (const std::size_t colon = from.rfind(':'); colon != std::string_view::npos) {
-        made_.unit = unit_of(part_, *made_.column, trimmed(from.substr(colon + 1)));
+        map_.unit = unit_of(part_, *map_.column, trimmed(from.substr(colon + 1)));
         from = trimmed(from.substr(0, colon));
       }
       read_sum(from);
     }
-    if (!made_.unit) made_.unit = scenario::unit_in_name(names_[made_.from], dimension_);
-    return made_;
+    if (!map_.unit) map_.unit = scenario::unit_in_name(names_[map_.from], dimension_);
+    return map_;
   }
 
  private:
   bool is_column(std::string_view name) {
     const auto found = scenario::find_log_column(names_, name, dimension_);
-    if (found) made_.from = *found;
+    if (found) map_.from = *found;
     return found.has_value();
   }
 
@@ -111,11 +111,11 @@ class PartReader {
     if (is_column(text)) return;
     if (const std::size_t star = text.find('*'); star != std::string_view::npos) {
       if (const auto factor = number_of(text.substr(0, star))) {
-        made_.factor = *factor;
+        map_.factor = *factor;
         text = trimmed(text.substr(star + 1));
       }
     } else if (text.starts_with('-')) {
-      made_.factor = -1;
+      map_.factor = -1;
       text = trimmed(text.substr(1));
     }
     if (is_column(text)) return;
@@ -125,7 +125,7 @@ class PartReader {
       const auto offset = number_of(text.substr(at));
       if (!offset) continue;
       rest = trimmed(text.substr(0, at));
-      made_.offset = *offset;
+      map_.offset = *offset;
       if (is_column(rest)) return;
     }
     std::vector<std::string_view> names(names_.begin(), names_.end());
@@ -139,7 +139,7 @@ class PartReader {
   const Result& log_;
   std::vector<std::string> names_;
   yaml::Dimension dimension_ = yaml::Dimension::number;
-  Mapped made_{};
+  Mapped map_{};
 };
 
 std::vector<Mapped> read_maps(const std::vector<std::string>& maps, const Result& log) {
@@ -202,7 +202,7 @@ std::optional<std::vector<double>> times_of_stamps(const Column& column) {
 }
 
 // Converts a column of the log to a column of bbsim.
-Column made_of(const Result& log, const Mapped& mapped, const Notes& note) {
+Column column_of(const Result& log, const Mapped& mapped, const Notes& note) {
   const Column& from = log.columns[mapped.from];
   if (mapped.column->name == "t" && from.is_text()) {
     if (auto times = times_of_stamps(from)) {
@@ -211,17 +211,17 @@ Column made_of(const Result& log, const Mapped& mapped, const Notes& note) {
     }
   }
   require_numbers(log, from);
-  Column made{std::string(mapped.column->name), from.numbers};
-  made.unit = mapped.column->unit;
-  if (made.name == "t") {
-    if (const auto done = scenario::unwrap(made.numbers)) note(*done);
+  Column column{std::string(mapped.column->name), from.numbers};
+  column.unit = mapped.column->unit;
+  if (column.name == "t") {
+    if (const auto done = scenario::unwrap(column.numbers)) note(*done);
   }
-  for (double& number : made.numbers) {
+  for (double& number : column.numbers) {
     if (mapped.factor != 1) number *= mapped.factor;
     if (mapped.offset != 0) number += mapped.offset;
     if (mapped.unit) number = mapped.unit->in_si(number);
   }
-  return made;
+  return column;
 }
 
 // Finds columns whose names are bbsim's with a unit beside them, and the clock.
@@ -327,13 +327,13 @@ std::vector<bool> missing_rows(const Result& log, const LogChoice& choice,
     }
   };
   const auto is_position = [](std::string_view unit) { return unit == "m"; };
-  for (const Mapped& one : mapped) {
-    if (is_position(one.column->unit)) look(log.columns[one.from]);
+  for (const Mapped& map : mapped) {
+    if (is_position(map.column->unit)) look(log.columns[map.from]);
   }
   for (const Column& column : log.columns) {
     const scenario::Column* const known = scenario::find_column(column.name);
     const bool is_mapped = std::ranges::any_of(
-        mapped, [&](const Mapped& one) { return one.column->name == column.name; });
+        mapped, [&](const Mapped& map) { return map.column->name == column.name; });
     if (known != nullptr && !is_mapped && is_position(known->unit)) look(column);
   }
   return rows;
@@ -401,27 +401,27 @@ void make_log(Result& log, const LogChoice& choice, bool only_mapped,
   const Notes note(log, notes);
   std::vector<Mapped> mapped = read_maps(choice.maps, log);
   const bool maps = !mapped.empty();
-  for (Mapped& one : by_their_names(log, mapped)) {
-    const bool is_time = one.column->name == "t";
+  for (Mapped& map : by_their_names(log, mapped)) {
+    const bool is_time = map.column->name == "t";
     if (is_time && !choice.period.empty()) continue;  // add_clock() refuses t
-    if (!only_mapped || !maps || is_time) mapped.push_back(one);
+    if (!only_mapped || !maps || is_time) mapped.push_back(map);
   }
-  const auto is_clock = [](const Mapped& one) { return one.column->name == "t"; };
+  const auto is_clock = [](const Mapped& map) { return map.column->name == "t"; };
   if (choice.period.empty() && std::ranges::none_of(mapped, is_clock)) {
     if (auto clock = usual_clock(log, notes)) mapped.push_back(*clock);
   }
   const std::vector<bool> missing = missing_rows(log, choice, mapped);
-  std::vector<Column> made;
-  for (const Mapped& one : mapped) {
-    made.push_back(made_of(log, one, note));
-    log.raw.push_back(log.columns[one.from].name);
+  std::vector<Column> columns;
+  for (const Mapped& map : mapped) {
+    columns.push_back(column_of(log, map, note));
+    log.raw.push_back(log.columns[map.from].name);
   }
   if (only_mapped && maps) log.columns.clear();
-  for (Column& column : made) {
+  for (Column& column : columns) {
     Column* const there = find_column(log, column.name);
     if (there != nullptr) {
-      const bool told = maps || !there->unit.empty();
-      if (!told) column.unit = there->unit;  // it may not be in SI units
+      const bool is_unit_known = maps || !there->unit.empty();
+      if (!is_unit_known) column.unit = there->unit;  // it may not be in SI units
       *there = std::move(column);
     } else {
       log.columns.push_back(std::move(column));

@@ -96,10 +96,10 @@ std::vector<Event> events_in(const Json& json) {
     std::ranges::copy_if(json["events"], std::back_inserter(all), &Json::is_object);
   }
   std::vector<Event> events;
-  for (const Json& one : all) {
-    events.push_back({text_in(one, "event"), text_in(one, "action") == "stop",
-                      member(one, "t", 0.0), member(one, "x", 0.0), member(one, "y", 0.0)});
-    for (const auto& [name, value] : one.items()) {
+  for (const Json& event : all) {
+    events.push_back({text_in(event, "event"), text_in(event, "action") == "stop",
+                      member(event, "t", 0.0), member(event, "x", 0.0), member(event, "y", 0.0)});
+    for (const auto& [name, value] : event.items()) {
       const bool column = value.is_number() && scenario::find_column(name) != nullptr;
       if (column) events.back().state[name] = value.get<double>();
     }
@@ -122,7 +122,7 @@ void take_summary(Result& result, const Json& json) {
   result.version = text_in(json, "version");
   if (json.contains("end_time")) result.end_time = member(json, "end_time", 0.0);
   result.events = events_in(json);
-  result.tells_drawn = json.contains("vary");
+  result.drawn_keys_known = json.contains("vary");
   for (const std::string& line : list_in(json, "vary")) {
     const Variation variation = scenario::split_variation(line);
     if (scenario::parse_variation(variation).random()) result.drawn_keys.push_back(variation.key);
@@ -153,12 +153,12 @@ void read_summary(Result& result, const std::string& file) {
 }
 
 // Whether a file is clearly newer than another. Copies made together differ by less.
-bool is_newer(const fs::path& one, const fs::path& other) {
+bool is_newer(const fs::path& a, const fs::path& b) {
   std::error_code error;
-  const fs::file_time_type first = fs::last_write_time(other, error);
+  const fs::file_time_type time_b = fs::last_write_time(b, error);
   if (error) return false;
-  const fs::file_time_type second = fs::last_write_time(one, error);
-  return !error && second - first > std::chrono::seconds(2);
+  const fs::file_time_type time_a = fs::last_write_time(a, error);
+  return !error && time_a - time_b > std::chrono::seconds(2);
 }
 
 // Takes NAME.json beside NAME.csv, if it describes that file. A run writes it last.
@@ -207,10 +207,10 @@ Result read_result(const std::string& file, const Beside& beside, const LogChoic
                      " -o run.h5 && bbsim plot run.h5");
   }
   std::vector<std::string> ignored;
-  std::vector<std::string>& told = notes == nullptr ? ignored : *notes;
+  std::vector<std::string>& messages = notes == nullptr ? ignored : *notes;
   file::CellTable cells = file::read_cells(file, {{}, log.header});
   const file::Attributes attributes = cells.attributes;
-  Result result = result_of(std::move(cells), file, told);
+  Result result = result_of(std::move(cells), file, messages);
   if (is_hdf5(file)) take_summary(result, summary_of(attributes));
   if (!beside.summary.empty()) {
     read_summary(result, beside.summary);
@@ -222,7 +222,7 @@ Result read_result(const std::string& file, const Beside& beside, const LogChoic
     result.units_known = true;
   }
   if (log.given() || (!result.units_known && result.version.empty())) {
-    make_log(result, log, false, told);
+    make_log(result, log, false, messages);
   }
   if (result.scenario && (result.title.empty() || !beside.scenario.empty())) {
     result.title = result.scenario->title;

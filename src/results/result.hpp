@@ -48,7 +48,7 @@ struct Result {
   std::vector<Event> events{};
   std::optional<Scenario> scenario{};
   std::vector<std::string> drawn_keys{};  // keys of a sweep with random values
-  bool tells_drawn = false;               // whether drawn_keys is known
+  bool drawn_keys_known = false;          // whether drawn_keys is known
   // Whether columns of `bbsim columns` have its units if the file gives none. False for tables that
   // nothing identifies as results of bbsim.
   bool units_known = true;

@@ -45,13 +45,13 @@ bool looks_drawn(const Key& key) {
 }
 
 // Whether the values of two keys correspond one to one.
-bool go_along(const Key& one, const Key& other) {
-  if (one.distinct.size() != other.distinct.size()) return false;
+bool correspond(const Key& a, const Key& b) {
+  if (a.distinct.size() != b.distinct.size()) return false;
   std::map<double, double> partners;
-  for (std::size_t i = 0; i < one.values.size(); ++i) {
-    if (std::isnan(one.values[i]) || std::isnan(other.values[i])) return false;
-    const auto [partner, added] = partners.emplace(one.values[i], other.values[i]);
-    if (!added && partner->second != other.values[i]) return false;
+  for (std::size_t i = 0; i < a.values.size(); ++i) {
+    if (std::isnan(a.values[i]) || std::isnan(b.values[i])) return false;
+    const auto [partner, added] = partners.emplace(a.values[i], b.values[i]);
+    if (!added && partner->second != b.values[i]) return false;
   }
   return true;
 }
@@ -66,8 +66,8 @@ std::string first_word(const std::string& text) {
 void end_a_case(SweepTable& table, const std::string& status) {
   table.status.push_back(status);
   if (status == "done") return;
-  for (auto& [other, cases] : table.others) {
-    if (other != status) continue;
+  for (auto& [word, cases] : table.others) {
+    if (word != status) continue;
     ++cases;
     return;
   }
@@ -100,7 +100,7 @@ SweepTable sweep_table(const Result& sweep) {
     }
     Key key = key_of(column);
     if (key.distinct.size() < 2) continue;
-    key.drawn = sweep.tells_drawn
+    key.drawn = sweep.drawn_keys_known
                     ? std::ranges::find(sweep.drawn_keys, key.name) != sweep.drawn_keys.end()
                     : looks_drawn(key);
     key.leader = table.keys.size();
@@ -109,9 +109,10 @@ SweepTable sweep_table(const Result& sweep) {
   for (std::size_t k = 0; k < table.keys.size(); ++k) {
     for (std::size_t earlier = 0; earlier < k; ++earlier) {
       Key& key = table.keys[k];
-      const Key& other = table.keys[earlier];
-      if (key.drawn || other.drawn || key.leader != k || !go_along(key, other)) continue;
-      key.leader = other.leader;
+      const Key& earlier_key = table.keys[earlier];
+      if (key.drawn || earlier_key.drawn || key.leader != k || !correspond(key, earlier_key))
+        continue;
+      key.leader = earlier_key.leader;
     }
   }
   std::erase_if(table.measures, [](const Column* column) {

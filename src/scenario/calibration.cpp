@@ -45,8 +45,8 @@ std::string degrees(double angle) {
   return short_number(angle * 180 / std::numbers::pi) + " deg";
 }
 
-std::string counted(std::size_t count, const char* one, const char* more) {
-  return std::to_string(count) + (count == 1 ? one : more);
+std::string counted(std::size_t count, const char* singular, const char* plural) {
+  return std::to_string(count) + (count == 1 ? singular : plural);
 }
 
 void add(std::string& done, const std::string& what) {
@@ -140,25 +140,27 @@ void cut_flat_end(const std::vector<Row>& rows, std::vector<Level>& levels, bool
 Calibration calibrate(CurveLinkage& curve) {
   const bool sorted = strictly_rises(curve.servo);
   if (sorted && (strictly_rises(curve.plate) || strictly_falls(curve.plate))) return {};
-  Calibration made;
+  Calibration calibration;
   std::size_t repeated = 0;
   const std::vector<Row> rows = sorted_rows(curve, repeated);
   if (std::ranges::adjacent_find(curve.servo, std::greater<>()) != curve.servo.end()) {
-    add(made.done, "rows sorted by the servo's angle");
+    add(calibration.done, "rows sorted by the servo's angle");
   }
   if (repeated > 0) {
-    add(made.done, counted(repeated, " repeated angle averaged", " repeated angles averaged"));
+    add(calibration.done,
+        counted(repeated, " repeated angle averaged", " repeated angles averaged"));
   }
   const auto put = [&curve](const auto& all) {
     curve.servo.clear();
     curve.plate.clear();
-    for (const auto& one : all) {
-      curve.servo.push_back(one.servo);
-      curve.plate.push_back(one.plate);
+    for (const auto& point : all) {
+      curve.servo.push_back(point.servo);
+      curve.plate.push_back(point.plate);
     }
   };
   put(rows);
-  if (rows.empty() || strictly_rises(curve.plate) || strictly_falls(curve.plate)) return made;
+  if (rows.empty() || strictly_rises(curve.plate) || strictly_falls(curve.plate))
+    return calibration;
 
   const double sign = rows.back().plate >= rows.front().plate ? 1 : -1;
   std::vector<Level> levels = pool(rows, sign);
@@ -172,17 +174,18 @@ Calibration calibrate(CurveLinkage& curve) {
     if (level.last > level.first) moved += level.last - level.first + 1;
     farthest = std::max(farthest, level.moved);
   }
-  if (farthest > most_noise * range) return made;
+  if (farthest > most_noise * range) return calibration;
   if (moved > 0) {
-    add(made.done, farthest > 0 ? std::to_string(moved) + " rows of noise smoothed by at most " +
-                                      degrees(farthest)
-                                : std::to_string(moved) + " rows at the same plate angle merged");
+    add(calibration.done,
+        farthest > 0
+            ? std::to_string(moved) + " rows of noise smoothed by at most " + degrees(farthest)
+            : std::to_string(moved) + " rows at the same plate angle merged");
   }
-  if (!cut.empty()) add(made.done, cut);
-  made.changes = true;
+  if (!cut.empty()) add(calibration.done, cut);
+  calibration.changes = true;
   put(levels);
   curve.smoothed = moved > 0;
-  return made;
+  return calibration;
 }
 
 }  // namespace bbsim::scenario

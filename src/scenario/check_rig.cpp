@@ -367,9 +367,9 @@ class Checks {
                         "once; allowed: only with natural_frequency and damping");
       }
       const GimbalStart& start = scene_.gimbal.start;
-      const bool other = scene_.gimbal.theta_servo.has_value();
+      const bool has_theta_servo = scene_.gimbal.theta_servo.has_value();
       const double rate = axis == 0 ? start.phi_rate : start.theta_rate;
-      if (other ? rate != 0 : start.phi_rate != 0 || start.theta_rate != 0) {
+      if (has_theta_servo ? rate != 0 : start.phi_rate != 0 || start.theta_rate != 0) {
         refuse({"gimbal", "start"},
                "found a rate, but a servo of first order (time_constant) has no rate state; "
                "allowed: phi and theta");

@@ -59,10 +59,10 @@ Expectation read_expectation(std::string_view where, std::string_view text,
 std::vector<std::size_t> add_expected(std::vector<Measure>& measures,
                                       const std::vector<Expectation>& expectations) {
   std::vector<std::size_t> places;
-  for (const Expectation& one : expectations) {
-    const auto found = std::ranges::find(measures, one.measure.name, &Measure::name);
+  for (const Expectation& expectation : expectations) {
+    const auto found = std::ranges::find(measures, expectation.measure.name, &Measure::name);
     places.push_back(static_cast<std::size_t>(found - measures.begin()));
-    if (found == measures.end()) measures.push_back(one.measure);
+    if (found == measures.end()) measures.push_back(expectation.measure);
   }
   return places;
 }

@@ -42,21 +42,21 @@ struct StaysAtZero {
 
 // Whether a continuous law also moves the other axis.
 bool couples(const Controller& controller, std::size_t own) {
-  const std::size_t other = 1 - own;
-  const auto& gain = controller.gain[other];
-  return controller.kp[other][own] != 0 || controller.kv[other][own] != 0 ||
-         controller.ki[other][own] != 0 || gain[own] != 0 || gain[2 + own] != 0 ||
+  const std::size_t across = 1 - own;
+  const auto& gain = controller.gain[across];
+  return controller.kp[across][own] != 0 || controller.kv[across][own] != 0 ||
+         controller.ki[across][own] != 0 || gain[own] != 0 || gain[2 + own] != 0 ||
          gain[4 + own] != 0 || gain[6 + own] != 0;
 }
 
 }  // namespace
 
 std::string why_not_along(int axis, const Scenario& scene) {
-  const auto own = static_cast<std::size_t>(axis), other = 1 - own;
+  const auto own = static_cast<std::size_t>(axis), across = 1 - own;
   const bool x = axis == 0;  // phi moves the ball along x, theta along y
   const Ball& ball = scene.ball;
-  if (ball.position[other] != 0) return "ball.position is not 0 across it";
-  if (ball.velocity[other] != 0) return "ball.velocity is not 0 across it";
+  if (ball.position[across] != 0) return "ball.position is not 0 across it";
+  if (ball.velocity[across] != 0) return "ball.velocity is not 0 across it";
   if (ball.spin != 0) return "ball.spin is not 0";
   if (ball.rotation) return "ball.rotation turns the ball by itself";
   if (ball.push && !is_zero(x ? ball.push->y : ball.push->x)) return "ball.push acts across it";
@@ -76,7 +76,7 @@ std::string why_not_along(int axis, const Scenario& scene) {
   }
   if (gimbal.three_servos) return "three servos tilt the plate in all directions";
   if (!scene.controller) return "";
-  if (!std::visit(StaysAtZero{other}, scene.controller->reference)) {
+  if (!std::visit(StaysAtZero{across}, scene.controller->reference)) {
     return "controller.reference is not 0 across it";
   }
   // A sampled controller's other command is left out.

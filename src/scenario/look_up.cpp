@@ -31,8 +31,8 @@ Found find(const Node* root, std::string_view path) {
     const std::string_view key = path.substr(0, dot);
     auto entry = std::ranges::find(entries, key, &Entry::key);
     if (entry == entries.end()) {
-      const std::optional<std::string> other = other_spelling(key);
-      if (other) entry = std::ranges::find(entries, *other, &Entry::key);
+      const std::optional<std::string> spelling = other_spelling(key);
+      if (spelling) entry = std::ranges::find(entries, *spelling, &Entry::key);
     }
     if (entry == entries.end()) return found;
     found = {entry->position, entry->value, false};

@@ -207,8 +207,8 @@ void read_servo_keys(yaml::Keys& keys, Servo& servo) {
   keys.optional("time_constant", time, servo.time_constant);
   if (keys.find("time_constant")) {
     servo.natural_frequency = servo.damping = 0;
-    for (const char* other : {"natural_frequency", "damping"}) {
-      if (const auto given = keys.find(other)) {
+    for (const char* key : {"natural_frequency", "damping"}) {
+      if (const auto given = keys.find(key)) {
         given->report(
             "given together with time_constant, of a servo of first order; allowed: "
             "natural_frequency and damping, or time_constant");
@@ -265,17 +265,17 @@ void read_servo(yaml::Keys& keys, BothServos& both) {
   }
   both.phi = common;
   if (phi || theta) both.theta = common;
-  const auto read_one = [&](const std::optional<yaml::Value>& one, Servo& servo) {
-    if (!one) return;
-    if (one->node->kind != yaml::Node::Kind::mapping) {
-      one->refuse("", axis.allowed());
+  const auto read_axis = [&](const std::optional<yaml::Value>& entry, Servo& servo) {
+    if (!entry) return;
+    if (entry->node->kind != yaml::Node::Kind::mapping) {
+      entry->refuse("", axis.allowed());
       return;
     }
-    yaml::Keys own(*one);
+    yaml::Keys own(*entry);
     read_servo_keys(own, servo);
-    const bool other = servo.time_constant || servo.stepper;
+    const bool is_first_order_or_stepper = servo.time_constant || servo.stepper;
     for (const char* key : {"natural_frequency", "damping"}) {
-      if (!other) {
+      if (!is_first_order_or_stepper) {
         require(own, key, [&](std::string_view of) {
           return own.find(of) || in_common(of) || in_common("model");
         });
@@ -283,8 +283,8 @@ void read_servo(yaml::Keys& keys, BothServos& both) {
     }
     own.finish();
   };
-  read_one(phi, both.phi);
-  if (both.theta) read_one(theta, *both.theta);
+  read_axis(phi, both.phi);
+  if (both.theta) read_axis(theta, *both.theta);
 }
 
 // Reads the (servo angle, plane angle) rows of a curve.
@@ -298,21 +298,21 @@ void read_curve(yaml::Keys& keys, CurveLinkage& curve) {
                  yaml::Dimension::angle, *doubt, "unit");
   }
   const std::size_t given = curve.servo.size();
-  const Calibration made = calibrate(curve);
+  const Calibration calibration = calibrate(curve);
   constexpr std::size_t fewest = 4;  // a C2 interpolant needs four without extra end conditions
   if (curve.servo.size() < fewest) {
-    const std::string left =
-        curve.servo.size() < given
-            ? ", of which " + std::to_string(curve.servo.size()) + " are left (" + made.done + ")"
-            : "";
+    const std::string left = curve.servo.size() < given
+                                 ? ", of which " + std::to_string(curve.servo.size()) +
+                                       " are left (" + calibration.done + ")"
+                                 : "";
     keys.mapping().report(yaml::shown(curve.file) + ": found " + std::to_string(given) + " rows" +
                           left + "; allowed: at least 4");
     curve = {};
     return;
   }
-  if (made.done.empty()) return;
-  const std::string text = yaml::shown(curve.file) + ": " + made.done;
-  made.changes ? keys.mapping().warn(text) : keys.mapping().mention(text);
+  if (calibration.done.empty()) return;
+  const std::string text = yaml::shown(curve.file) + ": " + calibration.done;
+  calibration.changes ? keys.mapping().warn(text) : keys.mapping().mention(text);
 }
 
 void read_rods(yaml::Keys& keys, RodLinkage& rods) {
@@ -383,8 +383,8 @@ void read_leg(yaml::Keys& keys, ServoLeg& leg) {
     leg.radius_plate = leg.radius_base;
   }
   keys.exclusive({{"radius"}, {"radius_base", "radius_plate"}});
-  for (const char* other : {"radius_base", "radius_plate"}) {
-    const auto given = keys.find("radius") ? keys.find(other) : std::nullopt;
+  for (const char* key : {"radius_base", "radius_plate"}) {
+    const auto given = keys.find("radius") ? keys.find(key) : std::nullopt;
     if (given) {
       given->report(
           "found beside radius, which is both radii; allowed: radius, or radius_base and "

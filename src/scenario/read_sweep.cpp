@@ -35,8 +35,8 @@ struct Variations {
       if (entry.value->absent) continue;
       const yaml::Value spec{entry.value, value.path + '.' + entry.key, entry.position,
                              value.context};
-      const auto same = [&](const Variation& other) {
-        return yaml::american(other.key) == yaml::american(entry.key);
+      const auto same = [&](const Variation& variation) {
+        return yaml::american(variation.key) == yaml::american(entry.key);
       };
       if (spec.node->kind != yaml::Node::Kind::scalar) {
         fine = spec.refuse("", "a text such as linear:0.005:0.02:16");

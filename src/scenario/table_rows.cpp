@@ -152,7 +152,7 @@ std::optional<Found> find_column(const yaml::Value& key, const std::string& name
     return Found{data.names[*c], &data.columns[*c]};
   }
   std::vector<std::string> names;  // the names in the file, safe for a terminal
-  for (const std::string& one : data.names) names.push_back(yaml::shown(one));
+  for (const std::string& column : data.names) names.push_back(yaml::shown(column));
   yaml::refuse_name(key, {names.begin(), names.end()});
   return {};
 }
@@ -298,9 +298,9 @@ struct ForEach {
       return yaml::ListOf<Rule, double>{rule, columns, columns, "numbers, one for each column"}
           .read(value, into);
     }
-    double one = 0;
-    if (!rule.read(value, one)) return false;
-    into.assign(columns, one);
+    double number = 0;
+    if (!rule.read(value, number)) return false;
+    into.assign(columns, number);
     return true;
   }
 };

@@ -84,8 +84,8 @@ VariationSpec parse_variation(const Variation& variation) {
   const std::size_t colon = text.find(':');
   const std::string_view name = trimmed(text.substr(0, colon));
   const Form* form = nullptr;
-  for (const Form& one : forms) {
-    if (one.name == name) form = &one;
+  for (const Form& known : forms) {
+    if (known.name == name) form = &known;
   }
   if (form == nullptr || colon == std::string_view::npos) {
     fail(variation, yaml::shown(text.empty() ? "nothing" : text), allowed);

@@ -42,7 +42,7 @@ class Csv : public CaseFile {
  public:
   Csv(const std::string& target, CaseFileLayout layout, const std::string& plan, bool resume)
       : layout_(std::move(layout)), part_(target, layout_, plan, resume) {
-    part_.take_up(std::numeric_limits<std::size_t>::max());
+    part_.resume(std::numeric_limits<std::size_t>::max());
   }
 
   [[nodiscard]] const KeptRows& kept() const override { return part_.kept(); }

@@ -32,7 +32,7 @@ class Hdf5Cases : public CaseFile {
                                              part_.file().descriptor());
       most = series_->count_kept();
     }
-    part_.take_up(most);
+    part_.resume(most);
     if (series_) series_->keep_only(part_.kept().rows);
   }
   ~Hdf5Cases() override {
@@ -70,9 +70,9 @@ class Hdf5Cases : public CaseFile {
     std::size_t written = 0;
     const std::size_t read = part_.read([&](const RowReader& row) {
       add_row(row, block);
-      if (++block.rows == at_once) written += hand_on(writer, block, written);
+      if (++block.rows == at_once) written += write_block(writer, block, written);
     });
-    if (block.rows > 0) written += hand_on(writer, block, written);
+    if (block.rows > 0) written += write_block(writer, block, written);
     part_.check_complete(read);
     part_.check_complete(written);
     writer.finish(attributes);
@@ -101,7 +101,8 @@ class Hdf5Cases : public CaseFile {
   }
 
   // Writes the block's rows; `first` is the index of the first one. Returns their number.
-  std::size_t hand_on(file::Hdf5TableWriter& writer, file::Hdf5Block& block, std::size_t first) {
+  std::size_t write_block(file::Hdf5TableWriter& writer, file::Hdf5Block& block,
+                          std::size_t first) {
     if (series_) {
       series_->read(first, block.rows, numbers_);
       std::size_t offset = 0;

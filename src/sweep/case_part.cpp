@@ -51,7 +51,7 @@ std::string CasePart::fault_of(std::string_view line, bool whole, std::size_t ro
          ")";
 }
 
-void CasePart::take_up(std::size_t most) {
+void CasePart::resume(std::size_t most) {
   const std::size_t status = status_field(layout_.columns);
   const auto series =
       std::ranges::count(layout_.columns, file::Hdf5Kind::series, &file::Hdf5Column::kind);

@@ -22,7 +22,7 @@ class CasePart {
 
   // Reads the rows of an earlier run. Keeps whole groups up to the first damaged row, and at most
   // the first `most` cases, whose trajectories are sound. Call it once, before append().
-  void take_up(std::size_t most);
+  void resume(std::size_t most);
   [[nodiscard]] const KeptRows& kept() const { return kept_; }
 
   [[nodiscard]] sweep::PartFile& file() { return file_; }

@@ -32,7 +32,7 @@ void shift_rows(Numbers& times, std::initializer_list<Numbers*> values, double b
     numbers.erase(numbers.begin() + outside, numbers.begin() + from);
   };
   keep(times);
-  for (Numbers* const one : values) keep(*one);
+  for (Numbers* const column : values) keep(*column);
   for (double& time : times) time -= begin;
 }
 

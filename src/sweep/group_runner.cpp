@@ -17,11 +17,11 @@ namespace {
 class GroupRunner : public CaseRunner {
  public:
   GroupRunner(const SweepTask& task, const Scenario& first, std::size_t group,
-              std::unique_ptr<GroupCarrier> carrier)
+              std::unique_ptr<LaneRunner> lanes)
       : task_(task),
         first_(first),
         group_(group),
-        carrier_(std::move(carrier)),
+        lanes_(std::move(lanes)),
         single_(single_runner(task)) {}
 
   std::size_t run(std::size_t first, std::size_t count, CaseResults& into,
@@ -49,26 +49,26 @@ class GroupRunner : public CaseRunner {
       cases_.push_back({into.first + i, values, &into.numbers[i * numbers] + 1, &into.series,
                         i * task_.series_rows});
     }
-    carrier_->carry(cases_, stop);
-    for (const GroupCase& one : cases_) {
-      const std::size_t at = one.number - into.first;
+    lanes_->run(cases_, stop);
+    for (const GroupCase& group_case : cases_) {
+      const std::size_t at = group_case.number - into.first;
       double* const results = &into.numbers[at * numbers];
       CaseStatus& status = into.status[at];
-      if (one.carried) {
-        results[0] = one.unbounded_at.value_or(first_.time.end);
-        if (one.unbounded_at) {
+      if (group_case.is_done) {
+        results[0] = group_case.unbounded_at.value_or(first_.time.end);
+        if (group_case.unbounded_at) {
           status = {"failed", solve::Shrinking::reason.text};
         } else {
-          judge_done(task_, one.measures, status);
+          judge_done(task_, group_case.measures, status);
         }
         continue;
       }
       // A case that the lanes left because of `stop` is not run singly either.
       if (stop.load(std::memory_order_relaxed)) return at - place;
-      if (single_->run(one.number, 1, alone_, stop) == 0) return at - place;
+      if (single_->run(group_case.number, 1, alone_, stop) == 0) return at - place;
       std::copy(alone_.numbers.begin(), alone_.numbers.end(), results);
       for (std::size_t c = 0; c < into.series.size(); ++c) {
-        std::ranges::copy(alone_.series[c], into.series[c].data() + one.place);
+        std::ranges::copy(alone_.series[c], into.series[c].data() + group_case.place);
       }
       status = alone_.status[0];
     }
@@ -78,7 +78,7 @@ class GroupRunner : public CaseRunner {
   const SweepTask& task_;
   const Scenario first_;
   std::size_t group_;
-  std::unique_ptr<GroupCarrier> carrier_;
+  std::unique_ptr<LaneRunner> lanes_;
   std::unique_ptr<CaseRunner> single_;
   std::vector<GroupCase> cases_;
   CaseResults alone_;
@@ -98,8 +98,8 @@ std::optional<TimedRows> timed_rows(const SweepTask& task, const Scenario& first
 }
 
 std::unique_ptr<CaseRunner> group_runner(const SweepTask& task, const Scenario& first,
-                                         std::size_t group, std::unique_ptr<GroupCarrier> carrier) {
-  return std::make_unique<GroupRunner>(task, first, group, std::move(carrier));
+                                         std::size_t group, std::unique_ptr<LaneRunner> lanes) {
+  return std::make_unique<GroupRunner>(task, first, group, std::move(lanes));
 }
 
 }  // namespace bbsim::sweep

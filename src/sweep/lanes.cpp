@@ -73,36 +73,36 @@ struct CaseSignals {
   }
   void add_sinusoid(int component, double amplitude, double frequency, double phase) {
     model::Harmonic* const end = to.harmonics + to.harmonic_count;
-    model::Harmonic* const one = std::find_if(
+    model::Harmonic* const term = std::find_if(
         to.harmonics, end, [&](const model::Harmonic& h) { return h.frequency == frequency; });
-    if (one == end) {
-      one->frequency = frequency;
+    if (term == end) {
+      term->frequency = frequency;
       ++to.harmonic_count;
     }
-    one->sine[component] += amplitude * std::cos(phase);
-    one->cosine[component] += amplitude * std::sin(phase);
+    term->sine[component] += amplitude * std::cos(phase);
+    term->cosine[component] += amplitude * std::sin(phase);
   }
 };
 
 // Converts a given motion to the numbers of a lane.
-void set_given(ensemble::Case& one, const Scenario& scenario, bool has_shared_terms) {
+void set_given(ensemble::Case& lane, const Scenario& scenario, bool has_shared_terms) {
   const Ball& ball = scenario.ball;
   const double initial[] = {ball.position[0], ball.position[1], ball.velocity[0], ball.velocity[1],
                             ball.radius * ball.spin};
-  std::copy(std::begin(initial), std::end(initial), one.initial);
+  std::copy(std::begin(initial), std::end(initial), lane.initial);
   const Gimbal& gimbal = scenario.gimbal;
-  CaseSignals signals{one};
+  CaseSignals signals{lane};
   const auto is_shared = [](const auto&) {};
   model::add_profile(gimbal.motion->phi, 0, signals, is_shared);
   model::add_profile(gimbal.motion->theta, 1, signals, is_shared);
   signals.add_constant(0, gimbal.mounting.phi_offset);
   signals.add_constant(1, gimbal.mounting.theta_offset);
   if (!has_shared_terms) {
-    one.repeats_after = record::repeats_after({{one.start[0], one.start[1]},
-                                               {one.rate[0], one.rate[1]},
-                                               one.harmonics,
-                                               static_cast<std::size_t>(one.harmonic_count),
-                                               {}});
+    lane.repeats_after = record::repeats_after({{lane.start[0], lane.start[1]},
+                                                {lane.rate[0], lane.rate[1]},
+                                                lane.harmonics,
+                                                static_cast<std::size_t>(lane.harmonic_count),
+                                                {}});
   }
 }
 
@@ -132,13 +132,13 @@ Known known(const scenario::Measure& measure) {
                                : unknown;
 }
 
-bool is_known(Known one) {
-  return one != unknown;
+bool is_known(Known measure) {
+  return measure != unknown;
 }
 
-class LaneCarrier : public GroupCarrier, private ensemble::Study {
+class EnsembleRunner : public LaneRunner, private ensemble::Study {
  public:
-  LaneCarrier(const SweepTask& task, const Scenario& first)
+  EnsembleRunner(const SweepTask& task, const Scenario& first)
       : scenario_(task),
         series_(task.series),
         timed_(timed_rows(task, first)),
@@ -159,7 +159,7 @@ class LaneCarrier : public GroupCarrier, private ensemble::Study {
     });
   }
 
-  void carry(std::span<GroupCase> cases, const std::atomic<bool>& stop) override {
+  void run(std::span<GroupCase> cases, const std::atomic<bool>& stop) override {
     cases_ = cases;
     begun_ = 0;
     models_.clear();
@@ -173,26 +173,26 @@ class LaneCarrier : public GroupCarrier, private ensemble::Study {
     model::BallConstants constants;
   };
 
-  std::optional<std::size_t> begin(ensemble::Case& one) override {
+  std::optional<std::size_t> begin(ensemble::Case& lane) override {
     if (begun_ == cases_.size()) return {};
     const GroupCase& from = cases_[begun_];
     const Scenario& scenario = scenario_.at(from.number, from.values);
-    one = {};
-    one.radius = scenario.ball.radius;
-    one.gravity = scenario.gravity;
+    lane = {};
+    lane.radius = scenario.ball.radius;
+    lane.gravity = scenario.gravity;
     if (needs_model_)
       models_[begun_].emplace(Scene{model_of(scenario), model::constants_of(scenario)});
     if (given_) {
-      set_given(one, scenario, motion_.view().shared.any());
+      set_given(lane, scenario, motion_.view().shared.any());
     } else {
-      set_loop(one, scenario, models_[begun_]->model);
+      set_loop(lane, scenario, models_[begun_]->model);
     }
     return begun_++;
   }
 
   void end(std::size_t number, const ensemble::Result& run) override {
     using ensemble::Ending;
-    GroupCase& one = cases_[number];
+    GroupCase& group_case = cases_[number];
     const auto greatest = extremes(run);
     const bool unbounded = run.ending == Ending::unbounded;
     // The last row before infinity has only x and y, and not even these under a given motion.
@@ -204,17 +204,18 @@ class LaneCarrier : public GroupCarrier, private ensemble::Study {
         const double values[] = {run.state[0], run.state[1], greatest->distance,
                                  record::tilt_of(greatest->versine),
                                  std::sqrt(greatest->rate_squared)};
-        for (std::size_t m = 0; m < known_.size(); ++m) one.measures[m] = values[known_[m]];
+        for (std::size_t m = 0; m < known_.size(); ++m) group_case.measures[m] = values[known_[m]];
       }
       if (!series_.empty()) {
         std::vector<const double*> columns;
         for (const scenario::Column* const column : series_) {
           columns.push_back(column->name == "x" ? run.x : run.y);
         }
-        SeriesWriter(*one.series, one.place, timed_ ? &*timed_ : nullptr).append(columns, run.rows);
+        SeriesWriter(*group_case.series, group_case.place, timed_ ? &*timed_ : nullptr)
+            .append(columns, run.rows);
       }
-      one.carried = true;
-      if (unbounded) one.unbounded_at = run.reached;
+      group_case.is_done = true;
+      if (unbounded) group_case.unbounded_at = run.reached;
     }
     if (needs_model_) models_[number].reset();
   }
@@ -261,7 +262,7 @@ class LaneCarrier : public GroupCarrier, private ensemble::Study {
 };
 
 // Conditions for any source of the gimbal's motion. All cases give the same answer.
-bool can_be_asked(const SweepTask& task) {
+bool meets_common_conditions(const SweepTask& task) {
   return can_share_rows(task) && record::are_track_measures(task.measures) &&
          task.plan.independent() &&
          std::ranges::all_of(task.series, [](const scenario::Column* column) {
@@ -275,8 +276,8 @@ bool is_by_collocation(const Scenario& scenario) {
 }  // namespace
 
 bool can_use_open_lanes(const SweepTask& task) {
-  if (task.plan.cases() < least_given || !can_be_asked(task)) return false;
-  // Planar cases are carried like the others.
+  if (task.plan.cases() < least_given || !meets_common_conditions(task)) return false;
+  // Planar cases are run like the others.
   const Scenario scenario = task.family.read(task.plan.first_settings());
   return scenario.gimbal.motion && is_by_collocation(scenario) &&
          sinusoids(scenario.gimbal.motion->phi) + sinusoids(scenario.gimbal.motion->theta) <=
@@ -286,8 +287,8 @@ bool can_use_open_lanes(const SweepTask& task) {
 }
 
 bool can_use_lanes(const SweepTask& task) {
-  if (!can_be_asked(task)) return false;
-  // Among others, planar cases are carried with all states. A sweep of only planar cases has fewer
+  if (!meets_common_conditions(task)) return false;
+  // Among others, planar cases are run with all states. A sweep of only planar cases has fewer
   // states and is run singly.
   const Scenario scenario = task.family.read(task.plan.general_settings());
   return scenario.controller && is_by_collocation(scenario) &&
@@ -301,7 +302,7 @@ std::size_t lane_group() {
 
 std::unique_ptr<CaseRunner> lane_runner(const SweepTask& task) {
   const Scenario first = task.family.read(task.plan.first_settings());
-  return group_runner(task, first, in_turn, std::make_unique<LaneCarrier>(task, first));
+  return group_runner(task, first, in_turn, std::make_unique<EnsembleRunner>(task, first));
 }
 
 }  // namespace bbsim::sweep

@@ -49,7 +49,7 @@ file::Descriptor open_part(const std::string& file, struct stat& status) {
                    " below the header; allowed: a file that bbsim sweep wrote");
 }
 
-CsvPart look_at(const std::string& file) {
+CsvPart inspect(const std::string& file) {
   struct stat status {};
   const file::Descriptor opened = open_part(file, status);
   PartLines lines(opened.get(), file, Blame::input);
@@ -88,32 +88,32 @@ std::optional<std::string> read_plan(const std::string& part) {
   return text;
 }
 
-struct Agreed {
+struct CommonPlan {
   std::optional<std::size_t> cases;  // of the whole sweep
   InstructionSets instruction_sets;
 };
 
 // Skips parts that have no plan.
-Agreed compare_plans_of(const std::vector<std::string>& files) {
-  Agreed agreed;
+CommonPlan compare_plans_of(const std::vector<std::string>& files) {
+  CommonPlan common;
   std::string first_file, first_plan;
   for (const std::string& file : files) {
     const std::optional<std::string> plan = read_plan(file);
     if (!plan) continue;
-    agreed.instruction_sets.add(instruction_set_in(*plan));
+    common.instruction_sets.add(instruction_set_in(*plan));
     if (first_file.empty()) {
       first_file = file;
       first_plan = *plan;
-      agreed.cases = cases_in(*plan);
+      common.cases = cases_in(*plan);
       continue;
     }
     const PlanDifference difference = compare_plans(first_plan, *plan, true);
-    if (difference.other.empty()) continue;
+    if (difference.keys.empty()) continue;
     throw InputError(file + ": is a part of another sweep than " + first_file +
-                     ": their plans differ in " + difference.other +
+                     ": their plans differ in " + difference.keys +
                      "; allowed: parts of one sweep");
   }
-  return agreed;
+  return common;
 }
 
 // Writes the rows of a part. Checks that their cases continue from `next`, and advances it. Returns
@@ -151,9 +151,9 @@ bool copy_rows(const CsvPart& part, file::AtomicFile& out, std::size_t& next,
 
 Merged merge_csv(const std::vector<std::string>& files, const std::string& target,
                  const std::atomic<bool>& stop) {
-  const Agreed agreed = compare_plans_of(files);
+  const CommonPlan common = compare_plans_of(files);
   std::vector<CsvPart> parts;
-  for (const std::string& file : files) parts.push_back(look_at(file));
+  for (const std::string& file : files) parts.push_back(inspect(file));
   for (const CsvPart& part : parts) {
     if (part.header == parts.front().header) continue;
     throw InputError(part.file + ": found other columns than in " + parts.front().file +
@@ -164,13 +164,13 @@ Merged merge_csv(const std::vector<std::string>& files, const std::string& targe
 
   file::AtomicFile out(target, file::Durable::yes);
   out.write(parts.front().header + '\n');
-  Merged merged{0, false, agreed.instruction_sets.note()};
+  Merged merged{0, false, common.instruction_sets.note()};
   for (const CsvPart& part : parts) {
     if (copy_rows(part, out, merged.cases, stop)) continue;
     merged.interrupted = true;
     return merged;
   }
-  if (agreed.cases) check_all_there(merged.cases, *agreed.cases);
+  if (common.cases) check_all_there(merged.cases, *common.cases);
   out.commit();
   return merged;
 }

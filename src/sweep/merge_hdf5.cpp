@@ -64,18 +64,18 @@ InstructionSets instruction_sets_of(const std::vector<Hdf5Part>& parts) {
 bool same_data(const file::TableData& a, const file::TableData& b) {
   return a.names == b.names &&
          std::equal(a.columns.begin(), a.columns.end(), b.columns.begin(), b.columns.end(),
-                    [](const std::vector<double>& one, const std::vector<double>& other) {
-                      return one.size() == other.size() &&
-                             std::memcmp(one.data(), other.data(), one.size() * sizeof(double)) ==
-                                 0;
+                    [](const std::vector<double>& first, const std::vector<double>& second) {
+                      return first.size() == second.size() &&
+                             std::memcmp(first.data(), second.data(),
+                                         first.size() * sizeof(double)) == 0;
                     });
 }
 
 // Whether the scenarios read the same tables.
 bool same_inputs(const std::vector<file::InputTable>& a, const std::vector<file::InputTable>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const file::InputTable& one, const file::InputTable& other) {
-                      return one.file == other.file && same_data(*one.data, *other.data);
+                    [](const file::InputTable& first, const file::InputTable& second) {
+                      return first.file == second.file && same_data(*first.data, *second.data);
                     });
 }
 

@@ -97,9 +97,9 @@ void PartFile::check_plan(bool resume) const {
   }
   if (found.text == plan_text_) return;
   const PlanDifference difference = compare_plans(found.text, plan_text_);
-  if (!difference.other.empty()) {
+  if (!difference.keys.empty()) {
     throw InputError(part_ + ": is of another sweep than this one: " + plan_ + " differs in its " +
-                     difference.other +
+                     difference.keys +
                      "; allowed with --resume: the same scenario, tables, keys, seed, measures and "
                      "shard, by the same version of bbsim");
   }

@@ -80,9 +80,9 @@ std::string value_text(const PlanAxis& axis, double value) {
                       : axis.texts[static_cast<std::size_t>(value)];
 }
 
-// Whether `path` is a key below `other`.
-bool within(const std::string& path, const std::string& other) {
-  return yaml::american(path).starts_with(yaml::american(other) + '.');
+// Whether `path` is a key below `ancestor`.
+bool within(const std::string& path, const std::string& ancestor) {
+  return yaml::american(path).starts_with(yaml::american(ancestor) + '.');
 }
 
 [[noreturn]] void fail(const std::string& key, const std::string& message) {
@@ -91,12 +91,12 @@ bool within(const std::string& path, const std::string& other) {
 
 // A key that varies must not be, contain or lie within another one.
 void check_apart(const std::string& key, const std::vector<Setting>& others) {
-  for (const Setting& other : others) {
-    if (yaml::american(other.key) == yaml::american(key)) {
+  for (const Setting& setting : others) {
+    if (yaml::american(setting.key) == yaml::american(key)) {
       fail(key, "found twice; allowed: each key once");
     }
-    if (within(other.key, key) || within(key, other.key)) {
-      fail(key, "found beside " + other.key + "; allowed: keys that do not overlap");
+    if (within(setting.key, key) || within(key, setting.key)) {
+      fail(key, "found beside " + setting.key + "; allowed: keys that do not overlap");
     }
   }
   if (key == "sweep" || within(key, "sweep")) {
@@ -116,21 +116,21 @@ void check_overrides(const std::string& key, const Source& source) {
 }
 
 // A variation, parsed.
-struct Varied {
+struct ParsedVariation {
   scenario::VariationSpec spec;
   std::vector<scenario::TiedKey> keys;
 };
 
-std::vector<Varied> varied(const Sweep& sweep, const Source& source) {
-  std::vector<Varied> all;
+std::vector<ParsedVariation> parse_variations(const Sweep& sweep, const Source& source) {
+  std::vector<ParsedVariation> all;
   std::vector<Setting> seen;
   for (const Variation& variation : sweep.vary) {
     all.push_back({scenario::parse_variation(variation), scenario::tied_keys(variation)});
-    const Varied& one = all.back();
-    for (const scenario::TiedKey& key : one.keys) {
+    const ParsedVariation& parsed = all.back();
+    for (const scenario::TiedKey& key : parsed.keys) {
       check_apart(key.path, seen);
       check_overrides(key.path, source);
-      for (const std::string& value : one.spec.values) {
+      for (const std::string& value : parsed.spec.values) {
         if (!scenario::scaled(value, key.factor).empty()) continue;
         fail(variation.key, "found the value " + yaml::shown(value) +
                                 ", which is not a number, so a factor cannot scale it; allowed: "
@@ -172,19 +172,19 @@ auto read_case(const ScenarioFamily& family, std::size_t number,
     return read();
   } catch (const InputError& error) {
     std::string values;
-    for (const Setting& one : settings) {
-      values += (values.empty() ? "" : ", ") + yaml::shown(one.key + '=' + one.value);
+    for (const Setting& setting : settings) {
+      values += (values.empty() ? "" : ", ") + yaml::shown(setting.key + '=' + setting.value);
     }
     const std::string name = "case " + std::to_string(number);
     const std::vector<Problem> own = own_problems(family);
     std::vector<Problem> problems = error.problems();
     for (Problem& problem : problems) {
-      const bool is_own = std::any_of(own.begin(), own.end(), [&](const Problem& other) {
-        return other.where == problem.where && other.message == problem.message;
+      const bool is_own = std::any_of(own.begin(), own.end(), [&](const Problem& own_problem) {
+        return own_problem.where == problem.where && own_problem.message == problem.message;
       });
       if (is_own) continue;
-      const bool tells_value = problem.where.starts_with("with ");
-      problem.where = name + (tells_value ? ", " : " (" + values + "), ") + problem.where;
+      const bool names_value = problem.where.starts_with("with ");
+      problem.where = name + (names_value ? ", " : " (" + values + "), ") + problem.where;
     }
     throw InputError(std::move(problems));
   }
@@ -193,14 +193,14 @@ auto read_case(const ScenarioFamily& family, std::size_t number,
 }  // namespace
 
 struct SweepPlan::Variations {
-  std::vector<Varied> all;
+  std::vector<ParsedVariation> all;
 
   // The first case in which variation `which` has its written value i. Empty if that value is a
   // parameter of a distribution.
   [[nodiscard]] std::optional<std::size_t> first_case(std::size_t which, std::size_t i,
                                                       const Sweep& sweep) const {
-    const auto count = [](const Varied& one) {
-      return one.spec.random() ? std::size_t{1} : one.spec.count;
+    const auto count = [](const ParsedVariation& variation) {
+      return variation.spec.random() ? std::size_t{1} : variation.spec.count;
     };
     const scenario::VariationSpec& spec = all[which].spec;
     if (spec.random()) return {};
@@ -216,13 +216,13 @@ struct SweepPlan::Variations {
   [[nodiscard]] std::vector<Setting> settings(std::size_t which, std::size_t i,
                                               Combine combine) const {
     std::vector<Setting> settings;
-    for (const Varied& one : all) {
-      const bool own = &one == &all[which];
-      const bool deviation = own && one.spec.kind == Way::normal && i == 1;
-      const std::size_t at = own ? i : beside(one.spec, all[which].spec, i, combine);
-      for (const scenario::TiedKey& key : one.keys) {
+    for (const ParsedVariation& variation : all) {
+      const bool own = &variation == &all[which];
+      const bool deviation = own && variation.spec.kind == Way::normal && i == 1;
+      const std::size_t at = own ? i : beside(variation.spec, all[which].spec, i, combine);
+      for (const scenario::TiedKey& key : variation.keys) {
         const double factor = deviation ? std::abs(key.factor) : key.factor;
-        settings.push_back({key.path, scenario::scaled(one.spec.values[at], factor)});
+        settings.push_back({key.path, scenario::scaled(variation.spec.values[at], factor)});
       }
     }
     return settings;
@@ -300,7 +300,7 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, const Sweep& sweep) : combine
     throw InputError(
         "found no key to vary; allowed: --vary KEY=SPEC, or a sweep block in the scenario");
   }
-  const Variations variations{varied(sweep, family.source())};
+  const Variations variations{parse_variations(sweep, family.source())};
   for (std::size_t i = 0; i < sweep.vary.size(); ++i) {
     add_axes(family, sweep, variations, i);
   }
@@ -356,15 +356,15 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, const std::vector<std::string
 SweepPlan::SweepPlan(const ScenarioFamily& family, std::vector<ListedKey> keys, std::size_t cases)
     : combine_(Combine::zip), cases_(cases) {
   std::vector<Setting> seen;
-  for (ListedKey& one : keys) {
-    check_apart(one.key, seen);
+  for (ListedKey& listed : keys) {
+    check_apart(listed.key, seen);
     PlanAxis& axis = axes_.emplace_back();
-    axis.key = std::move(one.key);
+    axis.key = std::move(listed.key);
     axis.lead = axes_.size() - 1;
-    axis.numeric = one.texts.empty();
+    axis.numeric = listed.texts.empty();
     axis.count = cases;
-    axis.numbers = std::move(one.numbers);
-    axis.texts = std::move(one.texts);
+    axis.numbers = std::move(listed.numbers);
+    axis.texts = std::move(listed.texts);
     seen.push_back({axis.key, ""});
   }
   if (cases == 0) return;
@@ -483,7 +483,7 @@ std::vector<Setting> SweepPlan::general_settings() const {
 
 bool SweepPlan::check(const ScenarioFamily& family, std::size_t first, std::size_t last,
                       const std::function<bool(double)>& goes_on) const {
-  const auto told = [&](std::size_t number, std::size_t every) {
+  const auto goes_on_at = [&](std::size_t number, std::size_t every) {
     return (number - first) % every != 0 ||
            goes_on(static_cast<double>(number - first) / static_cast<double>(last - first));
   };
@@ -493,7 +493,7 @@ bool SweepPlan::check(const ScenarioFamily& family, std::size_t first, std::size
   };
   if (!independent()) {
     for (std::size_t i = first; i < last; ++i) {
-      if (!told(i, 64)) return false;
+      if (!goes_on_at(i, 64)) return false;
       read(i);
     }
     return true;
@@ -506,7 +506,7 @@ bool SweepPlan::check(const ScenarioFamily& family, std::size_t first, std::size
     std::size_t least = first, greatest = first;
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (std::size_t i = first; i < last; ++i) {
-      if (!told(i, 65536)) return false;
+      if (!goes_on_at(i, 65536)) return false;
       const double value = drawn(axis, i);
       if (value < low) low = value, least = i;
       if (value > high) high = value, greatest = i;

@@ -20,15 +20,15 @@ std::string instruction_set_of(const Json& plan) {
 
 }  // namespace
 
-PlanDifference compare_plans(const std::string& one, const std::string& two, bool of_shards) {
-  const Json a = parse_json(one), b = parse_json(two);
+PlanDifference compare_plans(const std::string& first, const std::string& second, bool of_shards) {
+  const Json a = parse_json(first), b = parse_json(second);
   if (!a.is_object() || !b.is_object()) return {"text, which is not a plan of bbsim", {}};
   PlanDifference difference;
   const auto note = [&](const std::string& key) {
     if (key == "instruction_set") {
       difference.instruction_sets = {instruction_set_of(a), instruction_set_of(b)};
     } else if (key != "shard" || !of_shards) {
-      difference.other += (difference.other.empty() ? "" : ", ") + shown(key);
+      difference.keys += (difference.keys.empty() ? "" : ", ") + shown(key);
     }
   };
   for (const auto& [key, value] : a.items()) {

@@ -13,10 +13,10 @@ namespace bbsim::sweep {
 
 // How two plans differ. `of_shards` ignores the shard.
 struct PlanDifference {
-  std::string other;  // keys that differ, except the instruction set: "seed, vary"; empty if none
+  std::string keys;  // keys that differ, except the instruction set: "seed, vary"; empty if none
   std::array<std::string, 2> instruction_sets;  // of both plans, if they differ
 };
-[[nodiscard]] PlanDifference compare_plans(const std::string& one, const std::string& two,
+[[nodiscard]] PlanDifference compare_plans(const std::string& first, const std::string& second,
                                            bool of_shards = false);
 
 // The number of cases of the whole sweep; empty if the plan lacks it.

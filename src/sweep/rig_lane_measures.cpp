@@ -84,9 +84,9 @@ void RigLaneMeasures::accept(const LaneStep& step) {
       const Range range = step.at_nodes(size, lane);
       double& greatest = greatest_[i][lane];
       if (step.is_whole(lane)) greatest = larger(greatest, range.most);
-      const double promises = (1 + worth) * greatest;
-      if (solve::sampled::widened(range).most > promises &&
-          step.bounds(size, lane).most > promises) {
+      const double threshold = (1 + worth) * greatest;
+      if (solve::sampled::widened(range).most > threshold &&
+          step.bounds(size, lane).most > threshold) {
         look_closer(step, size, lane);
       }
     }

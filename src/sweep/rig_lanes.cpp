@@ -23,7 +23,7 @@
 namespace bbsim::sweep {
 namespace {
 
-bool is_carried(const Scenario& scenario, const model::Model& model) {
+bool fits_lanes(const Scenario& scenario, const model::Model& model) {
   return !scenario.solver.error && solve::choose_method(scenario.solver.method) == Method::radau &&
          solve::sampled::fits_sweep_lanes(model);
 }
@@ -56,9 +56,9 @@ bool is_in_rows(const scenario::Column* column) {
   return std::ranges::find(lacks, column->needs) == lacks.end();
 }
 
-class RigCarrier : public GroupCarrier {
+class RigLaneRunner : public LaneRunner {
  public:
-  RigCarrier(const SweepTask& task, const Scenario& first)
+  RigLaneRunner(const SweepTask& task, const Scenario& first)
       : task_(task),
         scenario_(task),
         timed_(timed_rows(task, first)),
@@ -67,19 +67,19 @@ class RigCarrier : public GroupCarrier {
         measures_(task.measures, task.series, grid_),
         lanes_(tolerances_, grid_, measures_.asks_for()) {}
 
-  void carry(std::span<GroupCase> cases, const std::atomic<bool>& stop) override {
+  void run(std::span<GroupCase> cases, const std::atomic<bool>& stop) override {
     rigs_.clear();
-    for (GroupCase& one : cases) take(one);
+    for (GroupCase& group_case : cases) take(group_case);
     if (rigs_.empty()) return;
     std::array<const model::Model*, solve::sampled::group> models{};
     for (std::size_t lane = 0; lane < rigs_.size(); ++lane) models[lane] = &rigs_[lane].model;
     measures_.begin(reference_of(rigs_.front().model));
-    const auto carried = lanes_.integrate(models.data(), rigs_.size(), measures_, stop);
+    const auto done = lanes_.integrate(models.data(), rigs_.size(), measures_, stop);
     for (std::size_t lane = 0; lane < rigs_.size(); ++lane) {
       const Rig& rig = rigs_[lane];
-      rig.of->carried =
-          carried[lane] && measures_.finish(lane, rig.model, rig.constants, rig.of->measures);
-      if (rig.of->carried && !task_.series.empty()) {
+      rig.of->is_done =
+          done[lane] && measures_.finish(lane, rig.model, rig.constants, rig.of->measures);
+      if (rig.of->is_done && !task_.series.empty()) {
         SeriesWriter writer(*rig.of->series, rig.of->place, timed_ ? &*timed_ : nullptr);
         measures_.write_series(lane, rig.model, rig.constants, writer);
       }
@@ -99,11 +99,11 @@ class RigCarrier : public GroupCarrier {
   }
 
   // Gives the case a lane if it fits into its group.
-  void take(GroupCase& one) {
+  void take(GroupCase& group_case) {
     try {
-      const Scenario& scenario = scenario_.at(one.number, one.values);
+      const Scenario& scenario = scenario_.at(group_case.number, group_case.values);
       model::Model model = model_of(scenario, task_);
-      if (!is_carried(scenario, model) || !has_rows(scenario.time) ||
+      if (!fits_lanes(scenario, model) || !has_rows(scenario.time) ||
           scenario.solver.rtol != tolerances_.rtol || scenario.solver.atol != tolerances_.atol ||
           (!rigs_.empty() && !solve::sampled::go_together(rigs_.front().model, model)) ||
           std::ranges::any_of(task_.measures,
@@ -115,7 +115,7 @@ class RigCarrier : public GroupCarrier {
           })) {
         return;
       }
-      rigs_.push_back({&one, std::move(model), model::constants_of(scenario)});
+      rigs_.push_back({&group_case, std::move(model), model::constants_of(scenario)});
     } catch (const InputError&) {  // the single run reports it
     }
   }
@@ -139,19 +139,19 @@ bool can_use_rig_lanes(const SweepTask& task) {
       !std::ranges::all_of(task.series, is_in_rows)) {
     return false;
   }
-  constexpr int looked_at = 16;
+  constexpr int samples = 16;
   int found = 0;
-  for (int i = 0; i < looked_at; ++i) {
+  for (int i = 0; i < samples; ++i) {
     try {
       const Scenario scenario =
           task.family.read(task.plan.settings(sample_case(i, task.plan.cases())));
       if (!scenario.controller) return false;
-      if (is_carried(scenario, model_of(scenario, task))) ++found;
+      if (fits_lanes(scenario, model_of(scenario, task))) ++found;
     } catch (const InputError&) {  // reported when the case is run
       continue;
     }
   }
-  return 2 * found > looked_at;
+  return 2 * found > samples;
 }
 
 std::size_t rig_group() {
@@ -161,7 +161,7 @@ std::size_t rig_group() {
 std::unique_ptr<CaseRunner> rig_lane_runner(const SweepTask& task) {
   const Scenario first = task.family.read(task.plan.first_settings());
   return group_runner(task, first, solve::sampled::group,
-                      std::make_unique<RigCarrier>(task, first));
+                      std::make_unique<RigLaneRunner>(task, first));
 }
 
 }  // namespace bbsim::sweep

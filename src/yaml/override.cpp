@@ -70,15 +70,15 @@ class Setter {
     };
     const std::string_view key = path_[level];
     if (is_there(key) || (level > 0 && path_[level - 1] == "parameters")) return std::string(key);
-    const std::optional<std::string> other = other_spelling(key);
-    return other && is_there(*other) ? *other : std::string(key);
+    const std::optional<std::string> spelling = other_spelling(key);
+    return spelling && is_there(*spelling) ? *spelling : std::string(key);
   }
 
   const Node* set_entry(Node& mapping, std::size_t level) const {
     const std::string key = key_in(mapping, level);
     auto entry = std::ranges::find(mapping.entries, key, &Entry::key);
     if (value_.absent && entry != mapping.entries.end() && level + 1 == path_.size()) {
-      std::erase_if(mapping.entries, [&](const Entry& one) { return one.key == key; });
+      std::erase_if(mapping.entries, [&](const Entry& existing) { return existing.key == key; });
       return &mapping;
     }
     if (entry == mapping.entries.end()) {

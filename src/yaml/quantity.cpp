@@ -149,8 +149,9 @@ bool is_infinite_or_nan(std::string_view text) {
 std::string unit_fault(std::string_view unit, Dimension dimension) {
   if (unit.front() == ',') return ", with a comma in place of the decimal point";
   const std::string name = plain_spelling(unit);
-  for (const Description& other : descriptions) {
-    if (find_unit(other.units, name) != nullptr) return std::string(", ").append(other.noun);
+  for (const Description& description : descriptions) {
+    if (find_unit(description.units, name) != nullptr)
+      return std::string(", ").append(description.noun);
   }
   if (dimension == Dimension::number) return "";
   const Description& wanted = description(dimension);
@@ -172,8 +173,9 @@ std::string_view si_unit(Dimension dimension) {
 }
 
 Dimension dimension_of(std::string_view unit) {
-  for (const Description& one : descriptions) {
-    if (!one.units.empty() && one.units.front().name == unit) return one.dimension;
+  for (const Description& description : descriptions) {
+    if (!description.units.empty() && description.units.front().name == unit)
+      return description.dimension;
   }
   return Dimension::number;
 }

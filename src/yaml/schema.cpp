@@ -73,8 +73,8 @@ std::optional<Value> Keys::find(std::string_view key) {
   const auto& entries = mapping_.node->entries;
   auto entry = std::ranges::find(entries, key, &Entry::key);
   if (entry == entries.end()) {
-    const std::optional<std::string> other = other_spelling(key);
-    if (other) entry = std::ranges::find(entries, *other, &Entry::key);
+    const std::optional<std::string> spelling = other_spelling(key);
+    if (spelling) entry = std::ranges::find(entries, *spelling, &Entry::key);
   }
   if (entry == entries.end() || entry->value->absent) return {};
   return Value{entry->value, mapping_.path_of(entry->key), entry->position, mapping_.context};
@@ -110,7 +110,8 @@ bool Keys::exactly_one(const std::vector<std::string_view>& keys) {
 void Keys::report_unknown(const Entry& entry) const {
   std::vector<std::string> others;
   for (const std::string_view key : known_) {
-    if (std::optional<std::string> other = other_spelling(key)) others.push_back(*std::move(other));
+    if (std::optional<std::string> spelling = other_spelling(key))
+      others.push_back(*std::move(spelling));
   }
   std::vector<std::string_view> names = known_;
   names.insert(names.end(), others.begin(), others.end());
@@ -130,8 +131,8 @@ void Keys::finish() const {
   for (const Entry& entry : mapping_.node->entries) {
     auto known = std::ranges::find(known_, entry.key);
     if (known == known_.end()) {
-      const std::optional<std::string> other = other_spelling(entry.key);
-      if (other) known = std::ranges::find(known_, *other);
+      const std::optional<std::string> spelling = other_spelling(entry.key);
+      if (spelling) known = std::ranges::find(known_, *spelling);
     }
     if (known == known_.end()) {
       report_unknown(entry);
