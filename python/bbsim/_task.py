@@ -13,6 +13,7 @@ import shutil
 import sys
 import time
 from dataclasses import dataclass
+from types import SimpleNamespace
 from typing import Any, Callable, Dict, List, NoReturn, Optional, Sequence, Tuple
 
 import numpy as np
@@ -143,6 +144,7 @@ def aligned(lines: Sequence[Sequence[str]]) -> str:
 
 def _plain(value: Any) -> Any:
     """JSON has no numbers that are not finite."""
+    value = vars(value) if isinstance(value, SimpleNamespace) else value
     if isinstance(value, dict):
         return {key: _plain(one) for key, one in value.items()}
     if isinstance(value, (list, tuple)):

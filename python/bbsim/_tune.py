@@ -223,12 +223,6 @@ def _count(rigs: Any) -> int:
     return len(next(iter(rigs.values()), [0]))
 
 
-def _json(made: Any) -> str:
-    names = "parameters", "objective", "requirements", "hold_out"
-    plain = lambda one: [vars(its) for its in one] if isinstance(one, list) else getattr(one, "__dict__", one)
-    return as_json({name: plain(getattr(made, name)) for name in names})
-
-
 def tune(
     scenario: Scenario, free: Any, minimize: str, require: Any = (), vary: Any = (), samples: Any = None,
     hold_out: Any = None, quantile: float = 1, *, set: Settings = None, output: Any = None, json: Any = None,
@@ -261,7 +255,8 @@ def _carry_out(base: _bbsim.Given, options: Dict[str, Any], progress: Progress, 
         say(remark)
     made = tuning.result(tuning.find(progress))
     progress(1, "")
-    write_all(base, files, {"output": made.scenario, "json": _json(made)}, say)
+    told = {name: getattr(made, name) for name in ("parameters", "objective", "requirements", "hold_out")}
+    write_all(base, files, {"output": made.scenario, "json": as_json(told)}, say)
     return made
 
 
