@@ -13,6 +13,7 @@ import numpy as np
 
 from . import _bbsim, _fit_text
 from ._fit_search import Search
+from ._fit_servos import compare_delays
 from ._fit_windows import Log, LogKey, Windows, WindowsFit, cut, start_coordinates
 from ._logs import as_files, log_choice, without_folders
 from ._scenario import Array, InputError, Scenario, Settings, counted, fault, given as given_of, listed, refuse
@@ -257,7 +258,7 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
         before = _rms(fit)
         search.begin(task.starts)
         search.settle()
-        search.compare_delays()
+        compare_delays(search)
     except KeyboardInterrupt:
         if before is None:
             raise

@@ -5,13 +5,13 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Iterator, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 from scipy.optimize import least_squares, lsq_linear
 from scipy.special import stdtrit
 
-from . import _bbsim
+from . import _bbsim, _fit_servos
 from ._fit_windows import KEY_STEP, WIDE, LogKey, WindowsFit
 from ._scenario import Array
 from ._task import FreeKey, Progress, refuse_free, silent
@@ -20,7 +20,6 @@ _HUBER = 1.345  # standard deviations; costs 5 % of the efficiency for Gaussian 
 _KINKED_STARTS = 3
 _UNTOLD = 1e-4  # of the largest singular value; smaller ones are errors of differences
 _WIDEST = 0.3  # of the steps of a key's number
-_SCANNED, _DELAYS = 201, 0.2  # delays in a scan, and how far it goes without bounds (s)
 _HOPS, _DRAWS, _WIDER = 40, 20, (0.3, 1, 3, 10, 30)  # over jumps: the most; draws for each multiple of the deviations
 
 
@@ -39,9 +38,7 @@ class Search:
         self.spreads = np.array([max(float(np.std(its)), 1e-9) if its.size else 1.0 for its in values])
         self.doubts: List[str] = []  # why the estimates may be wrong
         self.rivals = np.empty((0, len(self.u)))
-        # Of commands that a servo with a dead band follows, or that are rounded.
-        self.delays = [k for k, key in enumerate(self.keys) if windows.jumps and not windows.deaf[:, k].all()
-                       and key.name.startswith("controller.commands") and key.name.endswith("delay")]  # fmt: skip
+        self.delays = _fit_servos.delays_of(windows)
         windows.reweigh(self.spreads)
 
     def degrees_of_freedom(self) -> float:
@@ -136,13 +133,7 @@ class Search:
     def begin(self, starts: Optional[int]) -> None:
         """Chooses where to start."""
         changes, known = self.scale_keys(), self.windows.deaf.all(0)
-        for _ in self.delays:  # once more for each other delay
-            for k, at, costs in self._scans():
-                known[k] |= np.ptp(costs) > 1e-7 * costs.min()
-                if costs.min() < self.cost() * (1 - 1e-4):
-                    self.u = np.where(np.arange(len(self.u)) == k, at[costs.argmin()], self.u)
-                    self.windows.restart()
-                    self.windows.residuals(self.u)
+        known |= _fit_servos.begin_at_delays(self)
         self.windows.find_kinks(self.u)
         if self.windows.kinked:
             changes = self.windows.derivatives(self.u)[1]
@@ -253,29 +244,6 @@ class Search:
         self.u = many[best]
         self.windows.at(self.u, starts[best], True)
         return True
-
-    def _scans(self) -> Iterator[Tuple[int, Array, Array]]:
-        """For each delay of commands, numbers within its bounds, and sums of squares there with the other keys as they
-        are. Which commands a servo follows, or how they are rounded, changes in steps with the delay: residuals have a
-        valley for each period of the samples, or are flat between two steps."""
-        for k in self.delays:
-            limits = float(self.keys[k].value(self.u[k])) + np.array([-_DELAYS, _DELAYS])
-            ends = np.where(np.isfinite(self.bounds()[:, k]), self.bounds()[:, k], [*map(self.keys[k].number, limits)])
-            many = np.tile(self.u, (_SCANNED, 1))
-            many[:, k] = np.linspace(ends[0], ends[1], _SCANNED)
-            yield k, many[:, k], self.windows.tried(many, False)[2]
-
-    def compare_delays(self) -> None:
-        """Finds other delays of commands that fit as well."""
-        for k, at, costs in self._scans():
-            near = at[costs <= self.cost() * (1 + 4 / self.degrees_of_freedom())]
-            others = np.tile(self.u, (len(near), 1))
-            others[:, k] = near
-            self.rivals = np.concatenate([self.rivals, others])
-            if len(near) > 1:
-                low, high = (_bbsim.short_number(float(self.keys[k].value(end))) for end in near[[0, -1]])
-                self.doubts.append(f"{self.keys[k].name}: values from {low} to {high} fit equally well: between them, "
-                                   "the servos follow the same commands")  # fmt: skip
 
     def _reweigh_often(self) -> None:
         change = 1.0

@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Windows of logs in which servos with a dead band follow no command: they tell nothing of the servos."""
+"""Servos with a dead band in a fit: windows in which they follow no command, which tell nothing of them, and delays of
+their commands."""
 
 from __future__ import annotations
 
 import re
-from typing import Any, List, Sequence
+from typing import Any, Iterator, List, Sequence, Tuple
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from ._scenario import Array
 from ._simulate import simulate
 
 _FORGET = 1.0  # s; a servo comes to rest in less
+_SCANNED, _DELAYS = 201, 0.2  # delays in a scan, and how far it goes without bounds (s)
 
 
 def _quiet(log: Any, begins: Array, ends: Array) -> Array:
@@ -51,3 +53,48 @@ def deaf_windows(logs: Sequence[Any], windows: Any, keys: List[str]) -> Array:
             axes = [axis for axis, name in enumerate(("phi", "theta")) if f".{name}." in keys[k]] or [0, 1]
             deaf[its, k] = quiet[:, axes].all(1)
     return deaf
+
+
+def delays_of(windows: Any) -> List[int]:
+    """The keys that are delays of commands which a servo with a dead band follows, or which are rounded."""
+    return [k for k, key in enumerate(windows.keys) if windows.jumps and not windows.deaf[:, k].all()
+            and key.name.startswith("controller.commands") and key.name.endswith("delay")]  # fmt: skip
+
+
+def _scans(search: Any) -> Iterator[Tuple[int, Array, Array]]:
+    """For each delay, numbers within its bounds, and sums of squares there with the other keys as they are. Which
+    commands a servo follows, or how they are rounded, changes in steps with the delay: residuals have a valley for each
+    period of the samples, or are flat between two steps."""
+    for k in search.delays:
+        key, bounds = search.keys[k], search.bounds()[:, k]
+        limits = float(key.value(search.u[k])) + np.array([-_DELAYS, _DELAYS])
+        ends = np.where(np.isfinite(bounds), bounds, [*map(key.number, limits)])
+        many = np.tile(search.u, (_SCANNED, 1))
+        many[:, k] = np.linspace(ends[0], ends[1], _SCANNED)
+        yield k, many[:, k], search.windows.tried(many, False)[2]
+
+
+def begin_at_delays(search: Any) -> Array:
+    """Moves the search to the best delays of scans. Returns which keys have an effect in them."""
+    acts = np.zeros(len(search.u), bool)
+    for _ in search.delays:  # once more for each other delay
+        for k, at, costs in _scans(search):
+            acts[k] |= np.ptp(costs) > 1e-7 * costs.min()
+            if costs.min() < search.cost() * (1 - 1e-4):
+                search.u = np.where(np.arange(len(search.u)) == k, at[costs.argmin()], search.u)
+                search.windows.restart()
+                search.windows.residuals(search.u)
+    return acts
+
+
+def compare_delays(search: Any) -> None:
+    """Finds other delays that fit as well: they count for the intervals, and as doubts."""
+    for k, at, costs in _scans(search):
+        near = at[costs <= search.cost() * (1 + 4 / search.degrees_of_freedom())]
+        others = np.tile(search.u, (len(near), 1))
+        others[:, k] = near
+        search.rivals = np.concatenate([search.rivals, others])
+        if len(near) > 1:
+            low, high = (_bbsim.short_number(float(search.keys[k].value(end))) for end in near[[0, -1]])
+            search.doubts.append(f"{search.keys[k].name}: values from {low} to {high} fit equally well: between them, "
+                                 "the servos follow the same commands")  # fmt: skip
