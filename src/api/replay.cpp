@@ -179,6 +179,7 @@ ReplayMade replay(const ReplayRequest& request, file::Outputs& outputs, Watch& w
       RunResult& result = made.runs.back();
       if (live) {
         made.scene.live = live->of(result, true);
+        made.scene.live->loops = loops_of(run.scenario);
         // Open tasks are for the page's reader.
         result.unmet.clear();
         if (result.summary.status == "done") result.code = ExitCode::done;

@@ -123,6 +123,24 @@ std::string definitions(const LinearReport& report, const Language& in) {
   return text + "  " + in.comment + " s; 0 in continuous time\n";
 }
 
+Json json_of(const std::vector<model::LoopMargins>& loops) {
+  Json all = Json::object();
+  for (const model::LoopMargins& loop : loops) {
+    const model::Margins& margins = loop.margins;
+    Json one = Json::object();
+    one["gain"] = number_or_null(margins.gain);
+    one["gain_frequency"] = number_or_null(margins.gain_at);
+    one["gain_reduction"] = margins.reduction > 0 ? Json(margins.reduction) : Json(nullptr);
+    one["gain_reduction_frequency"] = number_or_null(margins.reduction_at);
+    one["phase"] = number_or_null(margins.phase);
+    one["phase_frequency"] = number_or_null(margins.phase_at);
+    one["delay"] = number_or_null(margins.delay);
+    one["delay_frequency"] = number_or_null(margins.delay_at);
+    all[loop.command] = one;
+  }
+  return all;
+}
+
 }  // namespace
 
 std::string to_json(const LinearReport& report) {
@@ -144,21 +162,7 @@ std::string to_json(const LinearReport& report) {
   json["zeros"] = json_of(made.zeros);
   json["period"] = system.period ? Json(*system.period) : Json(nullptr);
   if (!made.margins.empty()) {
-    Json all = Json::object();
-    for (const model::LoopMargins& loop : made.margins) {
-      const model::Margins& margins = loop.margins;
-      Json one = Json::object();
-      one["gain"] = number_or_null(margins.gain);
-      one["gain_frequency"] = number_or_null(margins.gain_at);
-      one["gain_reduction"] = margins.reduction > 0 ? Json(margins.reduction) : Json(nullptr);
-      one["gain_reduction_frequency"] = number_or_null(margins.reduction_at);
-      one["phase"] = number_or_null(margins.phase);
-      one["phase_frequency"] = number_or_null(margins.phase_at);
-      one["delay"] = number_or_null(margins.delay);
-      one["delay_frequency"] = number_or_null(margins.delay_at);
-      all[loop.command] = one;
-    }
-    json["margins"] = all;
+    json["margins"] = json_of(made.margins);
     Json bandwidths = Json::object(), of_feedback = Json::object();
     for (const model::Bandwidth& one : made.bandwidths) {
       bandwidths[one.output] = number_or_null(one.value);
@@ -168,6 +172,10 @@ std::string to_json(const LinearReport& report) {
     json["feedback_bandwidth"] = of_feedback;
   }
   return json_text(json, 1) + '\n';
+}
+
+std::string margins_json(const model::Linearization& made) {
+  return json_text(json_of(made.margins));
 }
 
 std::string to_matlab(const LinearReport& report) {
