@@ -9,6 +9,7 @@
 // - {loops: true}: its open loops;
 // - {hand: {from, to, seconds}}: a piece of a motion whose tilt someone leads by hand, from
 //   [x, y, vx, vy, phi, theta] to [phi, theta] (SI);
+// - {paths: true}: all keys that a scenario may have;
 // - {rigs: COUNT}: keys and values of rigs that differ by their tolerances.
 #include <emscripten/emscripten.h>
 
@@ -30,6 +31,7 @@
 #include "replay/page.hpp"
 #include "scenario/edit_text.hpp"
 #include "scenario/family.hpp"
+#include "scenario/key_paths.hpp"
 #include "sweep/window.hpp"
 
 namespace bbsim {
@@ -262,6 +264,11 @@ std::string answered(const Json& request, std::vector<std::vector<double>>& arra
     if (request.contains("loops")) {
       const Scenario scenario = ScenarioFamily(source_of(request)).read({});
       return replay::loops_json(api::loops_of(scenario), arrays);
+    }
+    if (request.contains("paths")) {
+      Json json;
+      json["paths"] = scenario::key_paths();
+      return json_text(json);
     }
     if (request.contains("hand")) return by_hand(request);
     if (request.contains("rigs")) return rigs(request, arrays);

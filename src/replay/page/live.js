@@ -171,9 +171,13 @@ bbsim.makeLive = (container) => {
   }
 
   const sliders = bbsim.makeSliders({remember, change: (key, words) => quietly(setKey(key, words)), valueOf: (key) => (wanted.set.find(([other]) => other === key) || [])[1]});
+  let known = null;
   const editing = bbsim.makeEditor({yaml, take(words) {
     remember();
     return quietly(change({text: words, set: [], pokes: []}));
+  }, paths() {
+    known = known || engine.ask({paths: true}).then(({answer}) => answer.paths);
+    return known.catch(() => (known = null) || []);
   }});
   const control = (script) => {
     remember();

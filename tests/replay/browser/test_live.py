@@ -340,6 +340,20 @@ class Hand(Live):
         self.assertEqual(self.browser.console(), [])
 
 
+class Editor(Live):
+    def test_offers_the_keys_that_fit(self):
+        self.open(page("configs/fig2b.yaml"))
+        self.run_js("const area = document.querySelector('.editor[aria-label*=YAML]'), at = area.value.length;"
+                    "area.closest('details').open = true; area.focus();"
+                    "area.setRangeText('\\nplate:\\n  si', at, at, 'end'); area.dispatchEvent(new Event('input'));"
+                    "while (!document.querySelector('.offers button')) await new Promise(requestAnimationFrame)")
+        self.assertEqual(self.js("[...document.querySelectorAll('.offers button')].map((one) => one.textContent)"), ["size"])
+        self.js("document.querySelector('.offers button').click()")
+        self.assertTrue(self.js("document.activeElement.value").endswith("plate:\n  size: "))
+        names = self.js("bbsim.completions('ball:\\n  radius: 1 cm\\n  ', 23, ['ball.mass', 'ball.radius', 'plate.size']).names")
+        self.assertEqual(names, ["mass", "radius"])
+
+
 class Legend(Live):
     def test_a_name_hides_its_curve(self):
         """also while the run changes"""
