@@ -2,8 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The engine of a live page, for src/replay/page/engine.js, which calls it in a worker. It takes
-// {text, name, set, controlled, checked, keys}: the text of a scenario, its name, settings as after
-// --set, whether the page's controller replaces the law, and what to tell beside the run.
+// {text, name, set}: the text of a scenario, its name and settings as after --set, with one of
+// - {controlled, checked, keys}: a run; whether the page's controller replaces the law, and
+//   what to tell beside it;
+// - {cases: {keys, columns, measures}}: many runs, each with a value (SI) of {key: [values]};
+// - {loops: true}: its open loops;
+// - {hand: {from, to, seconds}}: a piece of a motion whose tilt someone leads by hand, from
+//   [x, y, vx, vy, phi, theta] to [phi, theta] (SI);
+// - {paths: true}: all keys that a scenario may have;
+// - {rigs: COUNT}: keys and values of rigs that differ by their tolerances.
 #include <emscripten/emscripten.h>
 
 #include <cstdlib>
@@ -15,6 +22,7 @@
 #include <string_view>
 #include <vector>
 
+#include "api/cases.hpp"
 #include "api/live.hpp"
 #include "api/outside_commands.hpp"
 #include "api/replay.hpp"
@@ -23,6 +31,8 @@
 #include "replay/page.hpp"
 #include "scenario/edit_text.hpp"
 #include "scenario/family.hpp"
+#include "scenario/key_paths.hpp"
+#include "sweep/window.hpp"
 
 namespace bbsim {
 namespace {
@@ -120,29 +130,34 @@ Scenario with_controller_of_page(const Scenario& scenario) {
   return its;
 }
 
+std::size_t put(std::vector<double> values, std::vector<std::vector<double>>& arrays) {
+  arrays.push_back(std::move(values));
+  return arrays.size() - 1;
+}
+
 // The scenario's own columns, without the row at which an event stopped the run.
 Json columns_json(const api::RunResult& result, std::vector<std::vector<double>>& arrays) {
   Json columns = Json::object();
   const std::size_t rows = replay::rows_of_file(*result.pictured);
   for (const std::string& name : result.columns) {
     const std::vector<double>& all = replay::find_series(*result.pictured, name)->values;
-    columns[name] = arrays.size();
-    arrays.emplace_back(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(rows));
+    columns[name] = put({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(rows)}, arrays);
   }
   return columns;
 }
 
-// The text with the settings, comments kept. Adds warnings about those that cannot be set in it.
-std::string edited(const Json& request, Json& warnings) {
-  std::string text = request["text"];
+// The scenario with its settings in its text, comments kept, as far as they can be set there; the
+// others stay overrides.
+Source edited(const Json& request) {
+  Source source{request["name"], request["text"], {}};
   for (const ScenarioFamily::Setting& setting : settings_of(request)) {
     try {
-      text = edited_text(text, {setting});
+      source.text = edited_text(source.text, {setting});
     } catch (const InputError&) {
-      warnings.push_back("the text and its file leave out " + setting.key + ": " + setting.value);
+      source.overrides.push_back(setting.key + '=' + setting.value);
     }
   }
-  return text;
+  return source;
 }
 
 // A run: what a page shows of it, and its columns.
@@ -165,14 +180,98 @@ std::string run(const Json& request, std::vector<std::vector<double>>& arrays) {
   replay::Scene scene = api::scene_of(std::move(*result.pictured));
   scene.live = live.of(result, request["keys"]);
   const std::string scene_text = replay::scene_json(scene, arrays);
-  json["text"] = edited(request, json["warnings"]);
+  const Source in_text = edited(request);
+  json["text"] = in_text.text;
+  for (const std::string& left : in_text.overrides) {
+    json["warnings"].push_back("the text and its file leave out " + left);
+  }
   std::string text = json_text(json);
   text.back() = ',';
   return text + "\"scene\":" + scene_text + '}';
 }
 
+// Many runs: {status, columns, measures}, each of the latter an array of all cases.
+std::string many(const Json& request, std::vector<std::vector<double>>& arrays) {
+  const ScenarioFamily family(edited(request));  // a key that varies must not be an override
+  const Json& cases = request["cases"];
+  api::CasesRequest wanted{family, 0, {}, cases["columns"], cases["measures"]};
+  wanted.threads = 1;
+  for (const auto& [key, values] : cases["keys"].items()) {
+    wanted.keys.push_back({key, values, {}});
+    wanted.count = wanted.keys.back().numbers.size();
+  }
+  api::Watch nobody;
+  api::CasesResult result = api::run_cases(wanted, nobody);
+  Json json = {
+      {"status", Json::array()}, {"columns", Json::object()}, {"measures", Json::object()}};
+  for (const auto& [word, reason] : result.status) {
+    json["status"].push_back(reason.empty() ? word : word + ": " + reason);
+  }
+  for (std::size_t i = 0; i < wanted.columns.size(); ++i) {
+    json["columns"][wanted.columns[i]] = put(std::move(result.columns[i]), arrays);
+  }
+  for (std::size_t i = 0; i < wanted.measures.size(); ++i) {
+    json["measures"][wanted.measures[i]] = put(std::move(result.measures[i]), arrays);
+  }
+  return json_text(json);
+}
+
+// The state at the end of the piece. The ball, the plate and the mounting are the scenario's; the
+// tilt changes at constant rates, whatever moves it in the scenario.
+std::string by_hand(const Json& request) {
+  const Json& hand = request["hand"];
+  const std::vector<double> from = hand["from"], to = hand["to"];
+  const double seconds = hand["seconds"];
+  api::RunRequest piece;
+  Scenario& scenario = piece.scenario;
+  scenario = ScenarioFamily(source_of(request)).read({});
+  scenario.controller.reset();
+  const Mounting mounting = scenario.gimbal.mounting;
+  scenario.gimbal = Gimbal{};
+  scenario.gimbal.mounting = mounting;
+  const auto ramp = [&](std::size_t axis) -> Profile {
+    return {Ramp{from[4 + axis], (to[axis] - from[4 + axis]) / seconds}};
+  };
+  scenario.gimbal.motion = GimbalMotion{ramp(0), ramp(1)};
+  sweep::remove_events(scenario);
+  scenario.ball.position = {from[0], from[1]};
+  scenario.ball.velocity = {from[2], from[3]};
+  scenario.time = {seconds, seconds};
+  scenario.output.columns = {"t",     "x",       "y",       "vx",      "vy",     "phi",
+                             "theta", "ball_qw", "ball_qx", "ball_qy", "ball_qz"};
+  api::Watch nobody;
+  const api::RunResult result = api::run(piece, nobody);
+  if (result.code != ExitCode::done) throw InputError(result.summary.reason);
+  Json json;
+  for (std::size_t i = 0; i < result.columns.size(); ++i) {
+    json[result.columns[i]] = result.rows.columns[i].back();
+  }
+  return json_text(json);
+}
+
+std::string rigs(const Json& request, std::vector<std::vector<double>>& arrays) {
+  const ScenarioFamily family(edited(request));
+  Json json;
+  for (auto& [key, numbers, texts] : api::drawn_rigs(family, request["rigs"])) {
+    json["keys"][key] = put(std::move(numbers), arrays);
+  }
+  return json_text(json);
+}
+
 std::string answered(const Json& request, std::vector<std::vector<double>>& arrays) {
   try {
+    if (request.contains("cases")) return many(request, arrays);
+    if (request.contains("loops")) {
+      const Scenario scenario = ScenarioFamily(source_of(request)).read({});
+      return replay::loops_json(api::loops_of(scenario), arrays);
+    }
+    if (request.contains("paths")) {
+      Json json;
+      json["paths"] = scenario::key_paths();
+      return json_text(json);
+    }
+    if (request.contains("hand")) return by_hand(request);
+    if (request.contains("rigs")) return rigs(request, arrays);
     return run(request, arrays);
   } catch (const InputError& error) {
     return json_text(problems_json(error));

@@ -3,18 +3,31 @@
 
 #include "api/live.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string_view>
+#include <utility>
+
+#include "api/linearize.hpp"
+#include "base/error.hpp"
 #include "base/number_text.hpp"
+#include "model/control/open_loops.hpp"
+#include "record/linear_text.hpp"
 #include "scenario/exercise.hpp"
 #include "scenario/family.hpp"
 #include "scenario/key_paths.hpp"
 #include "scenario/key_value.hpp"
 #include "scenario/measures.hpp"
+#include "scenario/variation.hpp"
 
 namespace bbsim::api {
 namespace {
 
-std::vector<replay::LiveKey> keys_of(const ScenarioFamily& family) {
-  std::vector<replay::LiveKey> keys;
+using replay::LiveKey;
+
+std::vector<LiveKey> keys_of(const ScenarioFamily& family) {
+  std::vector<LiveKey> keys;
   for (const std::string& path : scenario::key_paths()) {
     const auto number = scenario::number_key(path);
     if (!number) continue;
@@ -22,13 +35,48 @@ std::vector<replay::LiveKey> keys_of(const ScenarioFamily& family) {
     if (!value) continue;
     const yaml::Range& range = number->range;
     std::string text = family.text_at(path);
+    const std::string unit{family.unit_of(path, {})};
     if (text.empty()) {  // an item of a list
-      text = number_text(*value) + ' ' + std::string(family.unit_of(path, {}));
+      text = number_text(*value) + ' ' + unit;
     }
-    keys.push_back({path, text, *value, range.at_least ? range.at_least : range.above,
+    keys.push_back({path, text, unit, *value, range.at_least ? range.at_least : range.above,
                     range.at_most, !range.at_least && range.above, number->whole});
   }
   return keys;
+}
+
+std::vector<Variation> drawn_keys(const Sweep& sweep) {
+  std::vector<Variation> drawn;
+  std::ranges::copy_if(sweep.vary, std::back_inserter(drawn), [](const Variation& one) {
+    return scenario::parse_variation(one).random();
+  });
+  return drawn;
+}
+
+bool is_of_rig(const LiveKey& key) {
+  constexpr std::string_view others[] = {
+      "time.", "output.", "solver.", "sweep.", "exercise.", "controller.reference.", "events."};
+  return !key.whole && key.value != 0 &&
+         std::ranges::none_of(others, [&](auto part) { return key.key.starts_with(part); });
+}
+
+// Draws each number within 10 % of its value, as far as it is allowed.
+std::vector<Variation> tolerances(const ScenarioFamily& family) {
+  const auto exercise = scenario::checked_exercise(family.read({}));
+  std::vector<Variation> vary;
+  for (const LiveKey& key : keys_of(family)) {
+    const bool is_free = !exercise || exercise->free.empty() ||
+                         std::ranges::find(exercise->free, key.key) != exercise->free.end();
+    if (!is_free || !is_of_rig(key)) continue;
+    const double away = 0.1 * std::abs(key.value);
+    const double low = std::max(key.value - away, key.least.value_or(-INFINITY));
+    const double high = std::min(key.value + away, key.most.value_or(INFINITY));
+    const auto text = [&](double value) {
+      return number_text(value) + (key.unit.empty() ? "" : ' ' + key.unit);
+    };
+    if (low < high) vary.push_back({key.key, "uniform:" + text(low) + ':' + text(high)});
+  }
+  return vary;
 }
 
 }  // namespace
@@ -54,6 +102,50 @@ replay::Live LiveRun::of(const RunResult& result, bool with_keys) const {
     live.measures.push_back({name, scenario::find_measure(name)->unit(), value});
   }
   return live;
+}
+
+std::optional<replay::Live::Loops> loops_of(const Scenario& scenario) {
+  Watch nobody;
+  try {
+    const Linearization made = linearize({scenario, LinearKind::loop}, nobody).linearisation;
+    if (made.margins.empty()) return {};
+    model::OpenLoops open = model::open_loops(made);
+    replay::Live::Loops loops{made.system.period,
+                              std::move(open.frequencies),
+                              {},
+                              record::margins_json(made),
+                              made.stable};
+    for (std::size_t i = 0; i < open.curves.size(); ++i) {
+      loops.curves.push_back({made.margins[i].command, std::move(open.curves[i].gain),
+                              std::move(open.curves[i].phase)});
+    }
+    return loops;
+  } catch (const InputError&) {  // an open loop, or one that is not linear
+    return {};
+  }
+}
+
+std::vector<sweep::SweepPlan::ListedKey> drawn_rigs(const ScenarioFamily& family,
+                                                    std::size_t count) {
+  const Sweep own = family.read_sweep();
+  Sweep sweep;
+  sweep.vary = drawn_keys(own);
+  if (sweep.vary.empty()) sweep.vary = tolerances(family);
+  if (sweep.vary.empty()) {
+    throw InputError("rigs: the scenario has no numbers to draw; allowed: keys with a number, or " +
+                     std::string("drawn keys in sweep.vary, such as uniform:1.8 cm:2.2 cm"));
+  }
+  sweep.samples = static_cast<double>(count);
+  sweep.seed = own.seed;
+  const sweep::SweepPlan plan(family, sweep);
+  std::vector<sweep::SweepPlan::ListedKey> rigs;
+  for (const sweep::PlanAxis& axis : plan.axes()) rigs.push_back({axis.key, {}, {}});
+  std::vector<double> values(rigs.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    plan.values(i, values.data());
+    for (std::size_t k = 0; k < rigs.size(); ++k) rigs[k].numbers.push_back(values[k]);
+  }
+  return rigs;
 }
 
 }  // namespace bbsim::api

@@ -181,6 +181,7 @@ ReplayResult replay(const ReplayRequest& request, file::Outputs& outputs, Watch&
       RunResult& result = replayed.runs.back();
       if (live) {
         replayed.scene.live = live->of(result, true);
+        replayed.scene.live->loops = loops_of(run.scenario);
         // Open tasks are for the page's reader.
         result.unmet.clear();
         if (result.summary.status == "done") result.code = ExitCode::done;

@@ -123,6 +123,24 @@ std::string definitions(const LinearReport& report, const Language& in) {
   return text + "  " + in.comment + " s; 0 in continuous time\n";
 }
 
+Json json_of(const std::vector<model::LoopMargins>& loops) {
+  Json all = Json::object();
+  for (const model::LoopMargins& loop : loops) {
+    const model::Margins& margins = loop.margins;
+    Json entry = Json::object();
+    entry["gain"] = number_or_null(margins.gain);
+    entry["gain_frequency"] = number_or_null(margins.gain_at);
+    entry["gain_reduction"] = margins.reduction > 0 ? Json(margins.reduction) : Json(nullptr);
+    entry["gain_reduction_frequency"] = number_or_null(margins.reduction_at);
+    entry["phase"] = number_or_null(margins.phase);
+    entry["phase_frequency"] = number_or_null(margins.phase_at);
+    entry["delay"] = number_or_null(margins.delay);
+    entry["delay_frequency"] = number_or_null(margins.delay_at);
+    all[loop.command] = entry;
+  }
+  return all;
+}
+
 }  // namespace
 
 std::string to_json(const LinearReport& report) {
@@ -144,21 +162,7 @@ std::string to_json(const LinearReport& report) {
   json["zeros"] = json_of(linearization.zeros);
   json["period"] = system.period ? Json(*system.period) : Json(nullptr);
   if (!linearization.margins.empty()) {
-    Json all = Json::object();
-    for (const model::LoopMargins& loop : linearization.margins) {
-      const model::Margins& margins = loop.margins;
-      Json entry = Json::object();
-      entry["gain"] = number_or_null(margins.gain);
-      entry["gain_frequency"] = number_or_null(margins.gain_at);
-      entry["gain_reduction"] = margins.reduction > 0 ? Json(margins.reduction) : Json(nullptr);
-      entry["gain_reduction_frequency"] = number_or_null(margins.reduction_at);
-      entry["phase"] = number_or_null(margins.phase);
-      entry["phase_frequency"] = number_or_null(margins.phase_at);
-      entry["delay"] = number_or_null(margins.delay);
-      entry["delay_frequency"] = number_or_null(margins.delay_at);
-      all[loop.command] = entry;
-    }
-    json["margins"] = all;
+    json["margins"] = json_of(linearization.margins);
     Json bandwidths = Json::object(), of_feedback = Json::object();
     for (const model::Bandwidth& bandwidth : linearization.bandwidths) {
       bandwidths[bandwidth.output] = number_or_null(bandwidth.value);
@@ -168,6 +172,10 @@ std::string to_json(const LinearReport& report) {
     json["feedback_bandwidth"] = of_feedback;
   }
   return json_text(json, 1) + '\n';
+}
+
+std::string margins_json(const model::Linearization& linearization) {
+  return json_text(json_of(linearization.margins));
 }
 
 std::string to_matlab(const LinearReport& report) {

@@ -21,6 +21,9 @@ struct LinearReport {
 // bit.
 [[nodiscard]] std::string to_json(const LinearReport& report);
 
+// The object `margins` of that.
+[[nodiscard]] std::string margins_json(const model::Linearization& made);
+
 // A script for MATLAB and Octave that sets A, B, C, D, the names and, if ss() is known, `sys`.
 [[nodiscard]] std::string to_matlab(const LinearReport& report);
 

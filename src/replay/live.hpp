@@ -13,6 +13,7 @@ namespace bbsim::replay {
 // A number that the text of a scenario has: its slider.
 struct LiveKey {
   std::string key, text;              // controller.pd.kp, and its value as the text has it
+  std::string unit;                   // of numbers in SI; may be empty
   double value = 0;                   // SI
   std::optional<double> least, most;  // the range of allowed values, SI; empty: unbounded
   bool open = false;                  // `least` itself is not allowed
@@ -28,10 +29,23 @@ struct Live {
     std::string name, unit;
     double value = 0;
   };
+  // The open loop of each command over the frequency, with the other one closed.
+  struct Loops {
+    struct Curve {
+      std::string command;
+      std::vector<double> gain, phase;  // rad
+    };
+    std::optional<double> period;  // s, of a sampled loop
+    std::vector<double> frequencies;
+    std::vector<Curve> curves;
+    std::string margins;  // JSON, as `bbsim linearize` writes it
+    bool stable = false;
+  };
   std::vector<LiveKey> keys;      // in the order of their names
   std::vector<std::string> free;  // keys that a learner may change; empty: all
   std::vector<Task> tasks;
   std::vector<Measure> measures;
+  std::optional<Loops> loops;  // of a loop that bbsim can linearize
 };
 
 }  // namespace bbsim::replay

@@ -281,7 +281,21 @@ Json sweep_json(const Sweep& sweep, std::size_t sweeps) {
   return json;
 }
 
-Json live_json(const Live& live) {
+Json loops_json(const std::optional<Live::Loops>& maybe, const Numbers& numbers) {
+  if (!maybe) return nullptr;
+  const Live::Loops& loops = *maybe;
+  Json curves = Json::object();
+  for (const auto& [command, gain, phase] : loops.curves) {
+    curves[command] = {{"gain", numbers.floats(gain)}, {"phase", numbers.floats(phase)}};
+  }
+  return {{"stable", loops.stable},
+          {"period", loops.period ? Json(*loops.period) : Json()},
+          {"frequencies", numbers.floats(loops.frequencies)},
+          {"curves", curves},
+          {"margins", parse_json(loops.margins)}};
+}
+
+Json live_json(const Live& live, const Numbers& numbers) {
   const auto bound = [](const std::optional<double>& value) {
     return value ? Json(*value) : Json();
   };
@@ -289,6 +303,7 @@ Json live_json(const Live& live) {
   for (const LiveKey& key : live.keys) {
     keys.push_back({{"key", key.key},
                     {"text", key.text},
+                    {"unit", key.unit},
                     {"value", key.value},
                     {"least", bound(key.least)},
                     {"most", bound(key.most)},
@@ -302,7 +317,11 @@ Json live_json(const Live& live) {
   for (const Live::Measure& one : live.measures) {
     measures[one.name] = {{"value", one.value}, {"unit", one.unit}};
   }
-  return {{"keys", keys}, {"free", live.free}, {"tasks", tasks}, {"measures", measures}};
+  return {{"keys", keys},
+          {"free", live.free},
+          {"tasks", tasks},
+          {"measures", measures},
+          {"loops", loops_json(live.loops, numbers)}};
 }
 
 Json json_of(const Scene& scene, const Numbers& numbers) {
@@ -323,7 +342,7 @@ Json json_of(const Scene& scene, const Numbers& numbers) {
   json["plots"] = plots_json();
   json["runs"] = std::move(runs);
   json["sweeps"] = std::move(sweeps);
-  if (scene.live) json["live"] = live_json(*scene.live);
+  if (scene.live) json["live"] = live_json(*scene.live, numbers);
   return json;
 }
 
@@ -361,7 +380,7 @@ std::string page(const Scene& scene, std::string_view whole_template, std::strin
   std::string needed = without(engine.empty() ? "live" : "still", whole_template);
   if (!engine.empty()) needed = with_engine(std::move(needed), engine);
   if (scene.runs.empty()) needed = without("runs", needed);
-  if (scene.sweeps.empty()) needed = without("sweeps", needed);
+  if (scene.sweeps.empty() && engine.empty()) needed = without("sweeps", needed);
   const Json json = json_of(scene, Numbers(nullptr));
   return filled(needed, scene.title, json_text(json));
 }
@@ -369,6 +388,11 @@ std::string page(const Scene& scene, std::string_view whole_template, std::strin
 std::string scene_json(const Scene& scene, std::vector<std::vector<double>>& arrays) {
   check_scene(scene);
   return json_text(json_of(scene, Numbers(&arrays)));
+}
+
+std::string loops_json(const std::optional<Live::Loops>& loops,
+                       std::vector<std::vector<double>>& arrays) {
+  return json_text(loops_json(loops, Numbers(&arrays)));
 }
 
 std::string page_template(const std::vector<std::string>& folders) {

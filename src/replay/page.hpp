@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,10 @@ namespace bbsim::replay {
 // The data of the same page, for one that is open already (wasm/engine.cpp): JSON in which each
 // list of numbers is the place of one of `arrays`. Throws InputError as check_scene() does.
 [[nodiscard]] std::string scene_json(const Scene& scene, std::vector<std::vector<double>>& arrays);
+
+// The same for the open loops of a live page; null if there are none.
+[[nodiscard]] std::string loops_json(const std::optional<Live::Loops>& loops,
+                                     std::vector<std::vector<double>>& arrays);
 
 // Reads the template, which CMake assembles, from share/bbsim beside the program or from
 // BBSIM_SHARE_PATH. Throws OutputError with advice if it is not there.

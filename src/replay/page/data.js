@@ -11,9 +11,9 @@ bbsim.data = (() => {
     for (let i = 0; i < raw.length; ++i) result[i] = raw.charCodeAt(i);
     return result;
   }
-  // Numbers are encoded as text or, in a live page, places of these arrays.
+  // Numbers are encoded as text or, in a live page, places of these arrays, or arrays.
   let arrays = [];
-  const decoded = (decode) => (given) => (typeof given === 'number' ? arrays[given] : decode(bytes(given).buffer));
+  const decoded = (decode) => (given) => (typeof given === 'number' ? arrays[given] : typeof given === 'string' ? decode(bytes(given).buffer) : given);
   const floats = decoded((buffer) => new Float32Array(buffer));
   const doubles = decoded((buffer) => new Float64Array(buffer));
   const parts = decoded((buffer) => Float32Array.from(new Int16Array(buffer), (part) => part / 32767));
@@ -42,6 +42,7 @@ bbsim.data = (() => {
       this.load(json);
     }
 
+    // `hand`: the state while someone tilts the plate by hand (hand.js).
     load(json) {
       delete this.legs;
       Object.assign(this, json);
@@ -93,6 +94,7 @@ bbsim.data = (() => {
 
     // The value of a column. `otherwise` if the run lacks the column or the number.
     at(t, name, otherwise = NaN) {
+      if (this.hand && name in this.hand) return this.hand[name];
       const values = this.values(name);
       const value = values ? this.between(t, values) : NaN;
       return Number.isFinite(value) ? value : otherwise;
@@ -112,6 +114,7 @@ bbsim.data = (() => {
     // The ball's place [x, y], or why there is none: 'missing' from the rows, or 'beyond' the range
     // that can be drawn.
     placeAt(t) {
+      if (this.hand) return [this.hand.x, this.hand.y];
       const row = this.row(t), between = t > this.t[row] && row + 1 < this.t.length;
       const far = ['x', 'y'].some((name) => {
         const values = this.values(name);
@@ -130,6 +133,7 @@ bbsim.data = (() => {
 
     // Writes the ball's orientation in the plane's frame to a THREE.Quaternion.
     orientationAt(t, into) {
+      if (this.hand) return into.copy(this.hand.turned);
       const q = this.quaternions, row = this.row(t), i = 4 * row;
       into.set(q[i + 1], q[i + 2], q[i + 3], q[i]).normalize();
       if (t > this.t[row] && row + 1 < this.t.length) {
@@ -146,6 +150,7 @@ bbsim.data = (() => {
   return {
     scene, runs, floats, doubles, extent,
     before: null,  // in a live page: the run to compare with
+    fan: null,     // in a live page: many rigs (fan.js)
     get start() { return Math.min(...runs.map((run) => run.start)); },
     get end() { return Math.max(...runs.map((run) => run.last)); },
     // Whether a coordinate can be drawn.

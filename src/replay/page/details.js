@@ -84,8 +84,8 @@ bbsim.makeDetails = (container) => {
     }
     const {scenario, summary} = run;
     if (scenario.text) {
-      root.append(card(scenario.file || 'scenario', element('div', {class: 'copyable'}, copyButton(scenario.text),
-                       element('pre', {tabindex: '0', 'aria-label': 'The scenario'}, bbsim.highlight(scenario.text)))));
+      root.append(Object.assign(card(scenario.file || 'scenario', element('div', {class: 'copyable'}, copyButton(scenario.text),
+                       element('pre', {tabindex: '0', 'aria-label': 'The scenario'}, bbsim.highlight(scenario.text)))), {className: 'card text'}));
     }
     if (scenario.overrides.length > 0) {
       root.append(card('Set beside the text', element('pre', {}, scenario.overrides.join('\n'))));
@@ -95,7 +95,7 @@ bbsim.makeDetails = (container) => {
       root.append(card(run.poles.period === null ? 'Poles about home' : `Poles of a period of ${text.number(run.poles.period * 1e3)} ms`,
                        element('figure', {}, bbsim.drawPoles(run.poles),
                                element('figcaption', {}, run.poles.period === null ? 'stable left of the line, 1/s'
-                                                                                   : 'stable within the circle'))));
+                                                                                   : 'stable within the circle')), bbsim.polesTable(run.poles)));
     }
     if (run.check.length > 0) root.append(card('Model', element('pre', {class: 'wrap'}, run.check.join('\n'))));
     if (summary) {

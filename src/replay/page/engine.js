@@ -11,7 +11,16 @@ bbsim.makeEngine = () => {
   // `lines`: of the viewer's controller, which comes before it.
   function work(lines) {
     const begin = async (packed) => {
-      const bytes = Uint8Array.from(atob(packed), (c) => c.charCodeAt(0));
+      // Base 85: five characters are four bytes (wasm/bundle.py).
+      const signs = '0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%/()*+-;,=.?@^_`{|}~';
+      const digits = new Uint8Array(128), bytes = new Uint8Array(Math.floor(packed.length * 4 / 5)), view = new DataView(new ArrayBuffer(4));
+      for (let i = 0; i < 85; ++i) digits[signs.charCodeAt(i)] = i;
+      for (let from = 0, to = 0; from < packed.length; from += 5, to += 4) {
+        let number = 0;
+        for (let i = from; i < from + 5; ++i) number = number * 85 + (i < packed.length ? digits[packed.charCodeAt(i)] : 84);
+        view.setUint32(0, number);
+        for (let i = 0; i < 4; ++i) bytes[to + i] = view.getUint8(i);
+      }
       const unpacked = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
       return bbsimEngine({wasmBinary: await new Response(unpacked).arrayBuffer()});
     };

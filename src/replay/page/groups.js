@@ -29,12 +29,14 @@ bbsim.groups = (() => {
   const ink = () => palette.now().reference, warm = () => palette.run(0), band = () => palette.now().band;
 
   // Curves of a plot never differ by color alone. The second of x and y or phi and theta is dashed,
-  // references are pale bands, commands thin and dotted, and measurements dots and crosses.
+  // references are pale bands, commands thin and dotted or steps, and measurements dots and crosses.
   const first = {colour: xColour, layer: 3}, second = {colour: yColour, pattern: [8, 4], layer: 3};
   const third = {colour: ink, pattern: [9, 3, 2, 3], layer: 3}, main = {colour: warm, width: 2.2, layer: 2};
   const firstBand = {colour: band, width: 6, layer: 0}, secondBand = {colour: band, width: 6, pattern: [16, 4], layer: 0};
   const firstCommand = {colour: xColour, pattern: [2, 2], width: 1.2, layer: 1};
   const secondCommand = {colour: yColour, pattern: [1, 3], width: 2, layer: 1};
+  // Steps of a sampled law are many: thin, pale, and without dots, which would tangle.
+  const firstSteps = {colour: () => `${xColour()}a0`, width: 1, layer: 1}, secondSteps = {colour: () => `${yColour()}a0`, pattern: [7, 2], width: 1, layer: 1};
   const dots = {colour: sensor, dots: 'circle', layer: 4}, crosses = {colour: sensor, dots: 'cross', layer: 4};
 
   // Styles a curve as one of several of a kind.
@@ -48,7 +50,7 @@ bbsim.groups = (() => {
     if (curve.role === 'command') {
       // One plot may have a law's command and the torque demanded of a motor.
       const again = curves.filter((other) => other.role === 'command' && other.axis === curve.axis).indexOf(curve) > 0;
-      return again ? one({...firstCommand, pattern: [6, 2]}, {...secondCommand, pattern: [6, 2, 1, 2]}) : one(firstCommand, secondCommand);
+      return curve.run.isMeasured && !again ? one(firstSteps, secondSteps) : again ? one({...firstCommand, pattern: [6, 2]}, {...secondCommand, pattern: [6, 2, 1, 2]}) : one(firstCommand, secondCommand);
     }
     const alike = curves.filter((other) => other.role === 'main' && other.axis === curve.axis).indexOf(curve);
     if (curve.axis > 0) return alike === 0 ? one(first, second) : one({...first, pattern: [2, 3]}, {...second, pattern: [9, 3, 2, 3]});

@@ -33,7 +33,8 @@ bbsim.makeLive = (container) => {
   const faults = element('ul', {class: 'faults', role: 'alert'});
   let computing = false, waiting = [], keysDue = false, calm = 0;
 
-  const ask = (state, more) => engine.ask({text: state.text, name, set: Object.fromEntries(state.set), controlled: state.script !== '', checked: false, keys: false, ...more});
+  const requestOf = (state) => ({text: state.text, name, set: Object.fromEntries(state.set)});
+  const ask = (state, more) => engine.ask({...requestOf(state), controlled: state.script !== '', checked: false, keys: false, ...more});
 
   function showFaults(list, warning = '') {
     faults.replaceChildren(...list.map(({place, message}) => {
@@ -52,7 +53,7 @@ bbsim.makeLive = (container) => {
     // What only a checked run has stays until the next one.
     if (run.check.length === 0) run.check = lead.check;
     data.replace(scene, arrays);
-    offered = live.keys.length > 0 ? live : {...live, keys: offered.keys};
+    offered = {...live, keys: live.keys.length > 0 ? live.keys : offered.keys};
     if (live.keys.length > 0) {
       keysDue = false;
       sliders.fill(offered);
@@ -60,6 +61,7 @@ bbsim.makeLive = (container) => {
     editing.show(yaml);
     showFaults(answer.warnings.map((message) => ({place: '', message: message.replace(/^warning: /, '')})), 'Warning: ');
     showNumbers();
+    follow(state);
   }
 
   // Runs what is wanted now. Fulfilled when this, or what replaced it meanwhile, is drawn; rejected if
@@ -143,7 +145,14 @@ bbsim.makeLive = (container) => {
     return run();
   }
   // Settings apply in their order, so that the newest comes last.
-  const setKey = (key, value, more = {}) => change({set: [...wanted.set.filter(([other]) => other !== key), [key, String(value)]], ...more});
+  const withSet = (set) => [...wanted.set.filter(([key]) => set.every(([other]) => other !== key)), ...set];
+  const setKey = (key, value, more = {}) => change({set: withSet([[key, String(value)]]), ...more});
+  // Takes several settings from elsewhere than the sliders.
+  function setKeys(set) {
+    remember();
+    keysDue = true;
+    quietly(change({set: withSet(set)}));
+  }
 
   function restore(state) {
     keepRun();
@@ -162,9 +171,13 @@ bbsim.makeLive = (container) => {
   }
 
   const sliders = bbsim.makeSliders({remember, change: (key, words) => quietly(setKey(key, words)), valueOf: (key) => (wanted.set.find(([other]) => other === key) || [])[1]});
+  let known = null;
   const editing = bbsim.makeEditor({yaml, take(words) {
     remember();
     return quietly(change({text: words, set: [], pokes: []}));
+  }, paths() {
+    known = known || engine.ask({paths: true}).then(({answer}) => answer.paths);
+    return known.catch(() => (known = null) || []);
   }});
   const control = (script) => {
     remember();
@@ -191,6 +204,25 @@ bbsim.makeLive = (container) => {
     return setKey('ball.push', `{x: [${along(0)}], y: [${along(1)}]}`, {pokes});
   }
 
+  // --- Many runs ----------------------------------------------------------------------------
+
+  const cases = bbsim.makeCases();
+  const ofLaw = (state) => {
+    if (state.script !== '') throw new Error('Your controller runs in single runs only: use the scenario\'s law.');
+    return requestOf(state);
+  };
+  const fan = bbsim.makeFan(cases, ofLaw), map = bbsim.makeMap(cases, ofLaw, setKeys);
+  const bode = bbsim.makeBode(data.scene.live.loops, async (state) => {
+    if (state.script !== '') return {loops: null, arrays: []};
+    const {answer, arrays} = await cases.ask({...requestOf(state), loops: true});
+    return {loops: answer, arrays};
+  });
+  function follow(state) {
+    bode.follow(state);
+    fan.follow(state);
+    map.follow(state, offered);
+  }
+
   // --- Numbers ------------------------------------------------------------------------------
 
   const numbers = element('table', {class: 'measures'}), exercise = element('ol', {class: 'tasks'});
@@ -205,7 +237,7 @@ bbsim.makeLive = (container) => {
     exercise.replaceChildren(...tasks.map(({text: words, expect, holds}) => element(
         'li', {class: holds ? 'holds' : 'open'}, element('b', {}, holds ? '✓ ' : '✗ '), words, element('small', {}, ` ${expect}`))));
     poles.replaceChildren(...(lead.poles && lead.poles.values.length > 0
-        ? [bbsim.drawPoles(lead.poles), element('figcaption', {}, lead.poles.period === null ? 'Poles: stable left of the line, 1/s' : 'Poles of a period: stable within the circle')] : []));
+        ? [bbsim.drawPoles(lead.poles), element('figcaption', {}, lead.poles.period === null ? 'Poles: stable left of the line, 1/s' : 'Poles of a period: stable within the circle'), bbsim.polesTable(lead.poles)] : []));
   }
 
   // --- Buttons ------------------------------------------------------------------------------
@@ -236,27 +268,34 @@ bbsim.makeLive = (container) => {
     undoing.setAttribute('aria-disabled', String(history.length === 0));
   }
 
+  const hand = bbsim.makeHand(async (piece) => {
+    const {answer} = await engine.ask({...requestOf(wanted), hand: piece});
+    if (answer.faults) throw new Error(answer.faults.map(({message}) => message).join('\n'));
+    return answer;
+  }, (error) => {
+    showFaults([{place: '', message: error.message}]);
+    tilting.setAttribute('aria-pressed', 'false');
+  });
+  const tilting = toggle('Tilt by hand', 'Then drag across the picture, or press the arrow keys: the ball rolls as the plate tilts. Press again for the scenario\'s run', (on) => (on ? hand.start() : hand.stop()));
+  const fanning = toggle('100 rigs', 'Show rigs within the tolerances of this one, in the plots', (on) => (on ? fan.show(wanted) : fan.hide()));
+
   const link = bbsim.makeLink({
     // The changes, if they fit into an address.
     changes: () => (wanted.text === original.text && !same(wanted, original) ? wanted.set : []),
-    apply(set) {
-      remember();
-      keysDue = true;
-      const names = new Set(set.map(([key]) => key));
-      quietly(change({set: [...wanted.set.filter(([key]) => !names.has(key)), ...set]}));
-    },
+    apply: setKeys,
   });
 
   container.append(element('div', {class: 'live-head'}, element('h2', {}, 'Change it'), status, stop), link.root,
-                   element('p', {class: 'buttons'}, undoing, button('Back to the file', 'Undo all changes', reset), pin, poking,
+                   element('p', {class: 'buttons'}, undoing, button('Back to the file', 'Undo all changes', reset), pin, poking, tilting, fanning,
                            button('YAML', 'Save the scenario with its changes', () => {
                              editing.flush();
                              bbsim.save.offer(new Blob([yaml], {type: 'application/yaml'}), bbsim.save.fileName(name, '.yaml'));
-                           })),
-                   faults, exercise, sliders.root, element('div', {class: 'live-numbers'}, numbers, poles), controller.root, editing.root);
+                           }), fan.status),
+                   faults, exercise, sliders.root, element('div', {class: 'live-numbers'}, numbers, poles, bode.root), map.root, controller.root, editing.root);
   sliders.fill(offered);
   showNumbers();
   showButtons();
+  map.follow(wanted, offered);
   // The engine starts at the first touch.
   for (const touch of ['pointerenter', 'focusin', 'pointerdown']) container.addEventListener(touch, () => engine.start(), {once: true});
 
@@ -282,7 +321,15 @@ bbsim.makeLive = (container) => {
     get columns() { return columns || pageColumns(); },
     get yaml() { return yaml; },
     get measures() { return Object.fromEntries(Object.entries(offered.measures).map(([key, one]) => [key, valueOf(one)])); },
+    // Fulfilled with {phi_command: {gain, gain_frequency, ...}, ...}, as bbsim linearize writes them.
+    margins: () => bode.margins(),
     get tasks() { return offered.tasks.map(({holds}) => holds); },
+    // Tilting by hand: start(), lean(x, y) between -1 and 1, state, stop(); step() computes a piece.
+    hand,
+    // Shows rigs within their tolerances in the plots: {keys, status, columns}, by cases.
+    rigs: () => fan.show(wanted),
+    // Draws a map of a measure over two keys: {keys, status, values}, by cells.
+    map: (x, y, measure, count = 20) => map.show(x, y, measure, count),
     undo, reset, fragment: link.fragment,
   };
 };

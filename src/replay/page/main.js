@@ -139,7 +139,7 @@
     get('subtitle').replaceChildren(describe(lead));
     findFactors();
     const chips = [['trail', 'line', true], ['reference', 'dashed', lead.path.length > 0 || lead.hasReference], ['sensor', 'cross', lead.isMeasured],
-                   ['events', 'diamond', lead.events.length > 0], ['axes', 'axes', true], ['gimbal', 'frame', picture !== null]].filter(([, , has]) => has);
+                   ['events', 'diamond', lead.events.length > 0], ['axes', 'axes', true], ['gimbal', 'frame', picture !== null], ['arrows', 'line', picture !== null]].filter(([, , has]) => has);
     // The same chips stay, with their focus.
     const names = chips.map(([name]) => name).join();
     if (names !== get('shown').dataset.names) {

@@ -41,11 +41,11 @@ bbsim.makePicture = (canvas, left) => {
     y: paint.flat(), event: paint.flat(), eventRim: paint.flat(), sensor: paint.flat({transparent: true, opacity: 0.85}),
     rim: paint.flat({depthTest: false}),
   };
-  const visible = {trail: true, reference: true, sensor: true, events: true, axes: true, gimbal: true};
+  const visible = {trail: true, reference: true, sensor: true, events: true, axes: true, gimbal: true, arrows: false};
   const labels = [];
   // What furnish() makes of the runs.
   const rig = {}, parts = {};
-  let size, trailWidth, layers, marks, ribbons, actors, leader, floor, hasPath, target, targetLeast, seen, marked;
+  let arrows, size, trailWidth, layers, marks, ribbons, actors, leader, floor, hasPath, target, targetLeast, seen, marked;
 
   // Puts an object on the plate, in layer n.
   const layer = (n, near = 1) => lead.mounting.height + n * 0.00025 * size * near;
@@ -92,11 +92,14 @@ bbsim.makePicture = (canvas, left) => {
     floor.position.z = -rig.foot - 0.012 * size;
     world.add(floor);
 
-    Object.assign(parts, {axes: new THREE.Group(), events: new THREE.Group(), reference: new THREE.Group(), sensor: new THREE.Group()});
+    Object.assign(parts, {axes: new THREE.Group(), events: new THREE.Group(), reference: new THREE.Group(), sensor: new THREE.Group(), arrows: new THREE.Group()});
     for (const group of Object.values(parts)) rig.plane.add(group);
     for (const axis of ['x', 'y']) {
       onPlate(paint.arrow(axis, 0.13 * size, 0.0085 * size, materials[axis]), 2, parts.axes);
     }
+
+    arrows = bbsim.makeArrows(lead, rig.plane, 0.3 * size, {velocity: materials.x, gravity: materials.rim, force: materials.y});
+    parts.arrows.add(...arrows.meshes);
 
     // The balls and trails of all runs. The leading run is on the rig's plate; a run with angles has
     // a ghost plate.
@@ -328,6 +331,7 @@ bbsim.makePicture = (canvas, left) => {
       while (row >= 0 && xs[row] === x && ys[row] === y) --row;
     }
     for (const [name, group] of Object.entries(parts)) group.visible = visible[name];
+    if (visible.arrows) state.push(...arrows.pose(t, leader.ball.mesh.position));
     for (const part of rig.base.children) if (part !== rig.ring) part.visible = visible.gimbal;
     for (const part of [...rig.ring.children, ...rig.hinge.children]) if (part.isMesh) part.visible = visible.gimbal;
     floor.visible = visible.gimbal;

@@ -7,7 +7,7 @@
 bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
   const {clock, palette, text, data} = bbsim;
   const {element} = text;
-  const plots = [];
+  const plots = [], hidden = new Map();  // labels of curves that are not shown, by the plots' titles
   // Slightly more than the run, to have a number at its end.
   const wholeRange = () => (data.end > data.start ? [data.start, data.end + 1e-6 * (data.end - data.start)] : [data.start - 0.5, data.end + 0.5]);
   let whole = wholeRange();
@@ -139,10 +139,16 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
     constructor(group) {
       const {title, curves} = group;
       Object.assign(this, contentOf(group));
+      if (!hidden.has(title)) hidden.set(title, new Set());
+      this.hidden = hidden.get(title);
       this.readings = curves.map(() => element('output', {}));
       const legend = element('ul', {class: 'legend'}, ...curves.map((curve, i) => {
-        const item = element('li', {title: text.visible(curve.meaning || '')}, swatch(curve),
-                             element('span', {class: 'label'}, curve.label), this.readings[i]);
+        const name = element('button', {type: 'button', class: 'label', 'aria-pressed': String(!this.hidden.has(curve.label)), title: 'Hide or show this curve', onclick: () => {
+          this.hidden[this.hidden.has(curve.label) ? 'delete' : 'add'](curve.label);
+          name.setAttribute('aria-pressed', String(!this.hidden.has(curve.label)));
+          if (this.graph) this.graph.updateOptions({visibility: this.visibility(), valueRange: this.valueRange()});
+        }}, swatch(curve), curve.label);
+        const item = element('li', {title: text.visible(curve.meaning || '')}, name, this.readings[i]);
         item.style.setProperty('--colour', curve.colour());
         return item;
       }));
@@ -175,6 +181,7 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
           y: {axisLabelFormatter: (value) => text.number(value, 5), axisLabelWidth: 46, pixelsPerLabel: 26, ticker: roundTicks},
         },
         ...this.colours(),
+        visibility: this.visibility(),
         dateWindow: range || whole,
         valueRange: this.valueRange(),
         highlightCallback: (event, t) => point(t),
@@ -187,12 +194,29 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
           if (!initial) this.placeCursor();
           if (!initial && !zooming && !printing) share(graph);
         },
-        underlayCallback: (ink, area, graph) => (behind ? behind(ink, area, graph, this.group) : this.paintEvents(ink, area, graph)),
+        underlayCallback: (ink, area, graph) => {
+          if (data.fan) data.fan.paint(ink, area, graph, this.visible, this.shown.factor);
+          return behind ? behind(ink, area, graph, this.group) : this.paintEvents(ink, area, graph);
+        },
       });
       this.placeCursor();
     }
 
+    visibility() {
+      return this.order.map(({label}) => !this.hidden.has(label));
+    }
+    get visible() {
+      return this.curves.filter(({label}) => !this.hidden.has(label));
+    }
+
     valueRange() {
+      const reach = data.fan && !this.inner && data.fan.reach(this.visible);
+      if (reach) {
+        const extents = this.visible.map((curve) => data.extent(curve.values));
+        const low = Math.min(reach[0], ...extents.map(({least}) => least)), high = Math.max(reach[1], ...extents.map(({greatest}) => greatest));
+        const room = 0.04 * (high - low || 1);
+        return [(low - room) * this.shown.factor, (high + room) * this.shown.factor];
+      }
       return this.inner ? [this.inner.low * this.shown.factor, this.inner.high * this.shown.factor] : null;
     }
 
@@ -366,6 +390,13 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
     plots, point,
     get range() { return range; },
     zoom: (to) => setRange(to),
+    // What lies behind the curves has changed.
+    repaint() {
+      for (const plot of plots) {
+        plot.stale = plot.graph !== null;
+        if (plot.near) plot.freshen();
+      }
+    },
     // Removes all plots.
     end() {
       unsubscribe();

@@ -2,6 +2,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
+// The rate and the damping of a pole's mode: of s, or of z = exp(s period).
+bbsim.modeOf = ([re, im], period) => {
+  const [decay, turn] = period === null ? [re, im] : [Math.log(Math.hypot(re, im)) / period, Math.atan2(im, re) / period];
+  const rate = Math.hypot(decay, turn);
+  return {rate, damping: rate > 0 ? -decay / rate : 0, time: -1 / decay};
+};
+
+// The modes in a table, slowest first; a pair of poles is one mode, and so are the same ones of both
+// axes.
+bbsim.polesTable = ({period, values}) => {
+  const {element, number} = bbsim.text;
+  const modes = values.filter(([re, im]) => Number.isFinite(re) && im >= 0 && (period === null || Math.hypot(re, im) > 1e-9))
+      .map((pole) => ({pole, ...bbsim.modeOf(pole, period)})).sort((a, b) => a.rate - b.rate)
+      .filter(({rate, damping}, i, all) => i === 0 || Math.abs(rate - all[i - 1].rate) > 1e-6 * rate || Math.abs(damping - all[i - 1].damping) > 1e-6);
+  const shown = modes.slice(0, 8), seconds = (time) => (Math.abs(time) < 1 ? `${number(1e3 * time, 3)} ms` : Number.isFinite(time) ? `${number(time, 3)} s` : '∞');
+  return element('table', {class: 'measures modes'},
+      element('thead', {}, element('tr', {}, ...['mode, rad/s', 'damping', 'time constant'].map((words) => element('th', {scope: 'col'}, words)))),
+      element('tbody', {}, ...shown.map(({rate, damping, time}) => element('tr', {}, element('td', {}, number(rate, 3)), element('td', {}, number(damping, 3)),
+                                                                                 element('td', {}, time < 0 ? `grows in ${seconds(-time)}` : seconds(time))))),
+      modes.length > shown.length ? element('caption', {}, `and ${modes.length - shown.length} faster ones`) : null);
+};
+
 // A small picture of the loop's poles: the s plane or, for a sampled loop, the unit circle.
 bbsim.drawPoles = ({period, values}) => {
   const {svg, number} = bbsim.text;
@@ -40,12 +62,9 @@ bbsim.drawPoles = ({period, values}) => {
     const [re, im] = pole;
     const sign = im === 0 ? '' : im > 0 ? ` + ${number(im)} i` : ` − ${number(-im)} i`;
     let words = `${number(re)}${sign}`;
-    if (sampled) {
-      words += `: size ${number(Math.hypot(re, im))}`;
-    } else {
-      const size = Math.hypot(re, im);
-      words += ` 1/s: ${number(size)} rad/s${size > 0 ? `, damping ${number(-re / size, 3)}` : ''}`;
-    }
+    const {rate, damping, time} = bbsim.modeOf(pole, period);
+    words += sampled ? `: size ${number(Math.hypot(re, im))}, ` : ' 1/s: ';
+    words += `${number(rate)} rad/s, damping ${number(damping, 3)}, time constant ${number(time, 3)} s`;
     words += isStable(pole) ? '' : ', unstable';
     const s = isStable(pole) ? 4.5 : 6;
     const mark = svg('path', {d: `M${x(re) - s} ${y(im) - s}l${2 * s} ${2 * s}m0 ${-2 * s}l${-2 * s} ${2 * s}`,

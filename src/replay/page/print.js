@@ -17,9 +17,10 @@ bbsim.preparePrint = () => {
     return made;
   }
 
-  // Removes cards while there is too much, the longest first. The reason of an early end stays.
+  // Removes cards while there is too much, the longest first, but the scenario last. The reason of an
+  // early end stays.
   function shorten(room) {
-    const cards = [...document.querySelectorAll('#details .card')].sort((a, b) => b.scrollHeight - a.scrollHeight);
+    const cards = [...document.querySelectorAll('#details .card')].sort((a, b) => a.classList.contains('text') - b.classList.contains('text') || b.scrollHeight - a.scrollHeight);
     for (const card of cards) {
       if (document.body.scrollHeight <= room) return;
       card.classList.add('unprinted');

@@ -8,7 +8,7 @@ bbsim.makeScreen = (solid, makeFlat) => {
   const get = (id) => document.getElementById(id);
   const listeners = [];
   let isFlat = solid === null, flat = null;
-  const off = new Set();  // parts that are switched off
+  const off = new Set(['arrows']);  // parts that are switched off
   function makeIt() {
     flat = makeFlat();
     for (const name of off) flat.show(name, false);

@@ -2,6 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
+// The range of a key's slider in the unit of `number`, its value: up to 2.5 times the value, as far as
+// it is allowed. `least` and `most` are SI; `open`: least itself is not allowed.
+bbsim.rangeOf = ({value, least, most, open, whole}, number) => {
+  const size = number === 0 ? 1 : 2.5 * Math.abs(number), factor = number === 0 ? null : value / number;
+  const inUnit = (bound, otherwise) => (bound === null || (factor === null && bound !== 0) ? otherwise : factor === null ? 0 : bound / factor);
+  let low = Math.max(inUnit(least, -size), -size), high = Math.min(inUnit(most, size), size);
+  if (number > 0 && low < 0) low = 0;
+  if (number < 0 && high > 0) high = 0;
+  if (!(high > low)) high = low + size;
+  const power = 10 ** Math.floor(Math.log10((high - low) / 200));
+  const step = Math.max(whole ? 1 : 0, [1, 2, 5, 10].map((n) => n * power).find((n) => n >= (high - low) / 200 * 0.999));
+  return {low: open && low === inUnit(least, -size) ? low + step : low, high, step};
+};
+
 // Sliders for the numbers of a live page's scenario, in the units of its text.
 bbsim.makeSliders = ({remember, change, valueOf}) => {
   const {element, number: numberText} = bbsim.text;
@@ -13,24 +27,10 @@ bbsim.makeSliders = ({remember, change, valueOf}) => {
     return found ? {number: Number(found[1]), unit: found[2]} : null;
   }
 
-  // The range in the unit of the text: up to 2.5 times the value, as far as it is allowed. `least` and
-  // `most` are SI; `open`: least itself is not allowed.
-  function rangeOf({value, least, most, open, whole}, number) {
-    const size = number === 0 ? 1 : 2.5 * Math.abs(number), factor = number === 0 ? null : value / number;
-    const inUnit = (bound, otherwise) => (bound === null || (factor === null && bound !== 0) ? otherwise : factor === null ? 0 : bound / factor);
-    let low = Math.max(inUnit(least, -size), -size), high = Math.min(inUnit(most, size), size);
-    if (number > 0 && low < 0) low = 0;
-    if (number < 0 && high > 0) high = 0;
-    if (!(high > low)) high = low + size;
-    const power = 10 ** Math.floor(Math.log10((high - low) / 200));
-    const step = Math.max(whole ? 1 : 0, [1, 2, 5, 10].map((n) => n * power).find((n) => n >= (high - low) / 200 * 0.999));
-    return {low: open && low === inUnit(least, -size) ? low + step : low, high, step};
-  }
-
   function rowOf(key) {
     const words = valueOf(key.key) || key.text, begun = parsed(words);
     if (!begun) return null;
-    const {unit} = begun, {low, high, step} = rangeOf(key, begun.number);
+    const {unit} = begun, {low, high, step} = bbsim.rangeOf(key, begun.number);
     const id = `live-${key.key}`, parts = key.key.split('.'), last = parts.pop();
     // Steps count from the value, so that the slider can come back to it.
     const input = element('input', {type: 'range', id, min: Math.min(low, begun.number), max: Math.max(high, begun.number), step: 'any', 'data-key': key.key});

@@ -3,8 +3,9 @@
 
 'use strict';
 // A sweep as a map of a measure over two keys, as lines over one, or as a histogram. A case shows
-// the command that runs it again.
-bbsim.makeSweep = (json, container) => {
+// the command that runs it again. A live page gives columns as arrays and fills them (update());
+// cases without a status yet are blank, and `chosen(i)` hears of a choice.
+bbsim.makeSweep = (json, container, chosen = () => {}) => {
   const {text, palette, data} = bbsim;
   const {element, svg, number} = text;
 
@@ -17,9 +18,13 @@ bbsim.makeSweep = (json, container) => {
     } else {
       made.values = column.doubles ? data.doubles(column.doubles) : data.floats(column.floats);
     }
+    return measured(made);
+  }
+  function measured(made) {
     const finite = [...new Set(made.values)].filter(Number.isFinite).sort((a, b) => a - b);
     made.levels = finite;
     made.size = finite.length ? Math.max(Math.abs(finite[0]), Math.abs(finite[finite.length - 1])) : 0;
+    made.shown = text.shownIn(made.unit, made.size);
     // The axis is logarithmic if the ratios of neighboring levels vary less than their differences.
     made.logarithmic = !made.words && finite.length > 2 && finite[0] > 0 && finite[finite.length - 1] / finite[0] > 20 &&
         Math.abs(Math.log(finite[1] / finite[0]) / Math.log(finite[finite.length - 1] / finite[0]) * (finite.length - 1) - 1) < 0.5;
@@ -56,8 +61,8 @@ bbsim.makeSweep = (json, container) => {
     return `rgb(${stops[low].map((c, i) => Math.round(c + (at - low) * (stops[low + 1][i] - c))).join(',')})`;
   }
 
-  const valueText = (column, i) => (column.words ? column.words[i] : `${number(column.values[i], 7)}${column.unit && column.unit !== '1' ? ' ' + column.unit : ''}`);
-  const shortText = (column, value) => (column.names ? column.names[value] || '' : number(value));
+  const valueText = (column, i) => (column.words ? column.words[i] : `${number(column.values[i] * column.shown.factor, 7)} ${column.shown.unit}`.trim());
+  const shortText = (column, value, digits = 4) => (column.names ? column.names[value] || '' : number(value * column.shown.factor, digits));
 
   // Quotes a word for a shell.
   const quoted = (word) => (/^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", `'\\''`)}'`);
@@ -152,32 +157,33 @@ bbsim.makeSweep = (json, container) => {
 
   // The axis of a column: the position of a value between two ends, and ticks.
   function axisOf(column, from, to, cells) {
-    const {levels} = column;
+    const {levels, shown = {factor: 1}} = column;
     const list = column.names || (cells && levels.length <= 400);
     if (list) {
       const step = (to - from) / levels.length;
       const every = Math.max(1, Math.ceil(levels.length / Math.max(2, Math.abs(to - from) / 64)));
       return {
         place: (value) => from + (levels.indexOf(value) + 0.5) * step, cell: Math.abs(step),
-        ticks: levels.map((value, i) => [from + (i + 0.5) * step, shortText(column, value)]).filter((_, i) => i % every === 0),
+        ticks: levels.map((value, i) => [from + (i + 0.5) * step, shortText(column, value, 3)]).filter((_, i) => i % every === 0),
       };
     }
     const low = levels[0], high = levels[levels.length - 1];
     const scaled = column.logarithmic ? Math.log : (v) => v;
     const a = scaled(low), b = scaled(high), pad = (b - a) * 0.04 || Math.abs(a) * 0.1 || 1;
     const place = (value) => from + (scaled(value) - a + pad) / (b - a + 2 * pad) * (to - from);
-    const ticks = [];
-    if (column.logarithmic) {
-      for (let p = Math.floor(Math.log10(low)); p <= Math.ceil(Math.log10(high)); ++p) {
-        for (const m of [1, 2, 5]) {
-          const value = m * 10 ** p;
-          if (value >= low * 0.999 && value <= high * 1.001) ticks.push([place(value), number(value, 3)]);
-        }
+    const marked = column.logarithmic ? powers(low * shown.factor, high * shown.factor) : niceTicks(low * shown.factor, high * shown.factor, Math.abs(to - from) / 70);
+    return {place, cell: 7, ticks: marked.map((value) => [place(value / shown.factor), number(value)])};
+  }
+  // Ticks of a logarithmic scale.
+  function powers(low, high) {
+    const result = [], far = high / low > 1e4;
+    for (let p = Math.floor(Math.log10(low)); p <= Math.ceil(Math.log10(high)); ++p) {
+      for (const m of far ? [1] : [1, 2, 5]) {
+        const value = Number(`${m}e${p}`);
+        if (value >= low * 0.999 && value <= high * 1.001) result.push(value);
       }
-    } else {
-      for (const value of niceTicks(low, high, Math.abs(to - from) / 70)) ticks.push([place(value), number(value)]);
     }
-    return {place, cell: 7, ticks};
+    return result;
   }
   function niceTicks(low, high, wanted) {
     if (!(high > low)) return [low];
@@ -188,7 +194,7 @@ bbsim.makeSweep = (json, container) => {
     return result;
   }
 
-  const unitOf = (column) => (column.unit && column.unit !== '1' ? `, ${column.unit}` : '');
+  const unitOf = (column) => (column.shown.unit ? `, ${column.shown.unit}` : '');
   let ink, width, height;
   const box = {left: 74, top: 14, right: 96, bottom: 46};
 
@@ -212,7 +218,7 @@ bbsim.makeSweep = (json, container) => {
     const dark = palette.isDark();
     ink.fillStyle = dark ? '#3a434e' : '#d5dae0';
     ink.fillRect(x, y, w, h);
-    if (w < 5 || h < 5) return;
+    if (w < 5 || h < 5 || statusOf(i) === '') return;
     ink.strokeStyle = dark ? '#aab4bf' : '#59636e';
     ink.lineWidth = 1.2;
     ink.beginPath();
@@ -226,24 +232,30 @@ bbsim.makeSweep = (json, container) => {
     ink.stroke();
   }
 
-  // From the least to the greatest value; from the 2nd to the 98th percentile if a few are far out.
+  // From the least to the greatest value, logarithmic over a decade and more; else from the 2nd to the
+  // 98th percentile if a few are far out.
   function colourRange(values) {
     values.sort((a, b) => a - b);
     const at = (part) => values[Math.min(values.length - 1, Math.floor(part * values.length))];
-    const range = {low: at(0), high: at(1), clipped: false};
+    const range = {low: at(0), high: at(1), clipped: false, logarithmic: at(0) > 0 && at(1) > 10 * at(0)};
+    if (range.logarithmic) return range;
     if (values.length < 20 || range.high - range.low <= 4 * (at(0.98) - at(0.02))) return range;
-    return {low: at(0.02), high: at(0.98), clipped: true};
+    return {...range, low: at(0.02), high: at(0.98), clipped: true};
   }
 
-  function colourBar(low, high, clipped, name) {
+  // The part of the color scale at a value.
+  const partOf = ({low, high, logarithmic}, value) => (!(high > low) ? 0.5 : logarithmic ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low));
+
+  function colourBar(range, factor, name) {
     over.append(svg('text', {'text-anchor': 'middle', class: 'name', transform: `translate(${width - 5} ${(box.top + height - box.bottom) / 2}) rotate(-90)`}, name));
     const x = width - box.right + 18, top = box.top, bottom = height - box.bottom;
     for (let y = 0; y < bottom - top; ++y) {
       ink.fillStyle = colourOf(1 - y / (bottom - top));
       ink.fillRect(x, top + y, 14, 1.5);
     }
-    for (const value of niceTicks(low, high, 5)) {
-      const y = bottom - (value - low) / (high - low || 1) * (bottom - top);
+    const {low, high, clipped} = range;
+    for (const value of range.logarithmic ? powers(low * factor, high * factor) : niceTicks(low * factor, high * factor, 5)) {
+      const y = bottom - partOf(range, value / factor) * (bottom - top);
       over.append(svg('path', {d: `M${x + 14} ${y}h4`}), svg('text', {x: x + 21, y: y + 4}, number(value, 3)));
     }
     if (clipped) {
@@ -274,7 +286,7 @@ bbsim.makeSweep = (json, container) => {
     const x = axisOf(kx, box.left, width - box.right, cells), y = axisOf(ky, height - box.bottom, box.top, cells);
     const piles = cells ? gathered(list, (i) => `${kx.values[i]},${ky.values[i]}`) : list.map((i) => [i]);
     const shown = piles.map((all) => ({i: middleOf(all, measure), all}));
-    const {low, high, clipped} = colourRange(shown.filter(({i}) => isFine(i, measure)).map(({i}) => measure.values[i]));
+    const range = colourRange(shown.filter(({i}) => isFine(i, measure)).map(({i}) => measure.values[i]));
     const most = Math.max(...piles.map((all) => all.length));
     if (most > 1) remark.textContent = text.visible(`A cell shows the median of its ${stack ? '' : 'up to '}${most} cases${drawnNames() ? `, over draws of ${drawnNames()}` : ''}.`);
     for (const {i, all} of shown) {
@@ -284,7 +296,7 @@ bbsim.makeSweep = (json, container) => {
       marks.push(mark);
       const value = measure.values[i];
       if (isDone(i) && Number.isFinite(value)) {
-        ink.fillStyle = colourOf(high > low ? (value - low) / (high - low) : 0.5);
+        ink.fillStyle = colourOf(partOf(range, value));
         if (cells) {
           ink.fillRect(mark.x, mark.y, w + 0.5, h + 0.5);
         } else {
@@ -297,7 +309,7 @@ bbsim.makeSweep = (json, container) => {
       }
     }
     frame(x, y, labelOf(kx) + unitOf(kx), labelOf(ky) + unitOf(ky));
-    if (low !== undefined) colourBar(low, high, clipped, text.columnName(measure.name) + unitOf(measure));
+    if (range.low !== undefined) colourBar(range, measure.shown.factor, text.columnName(measure.name) + unitOf(measure));
   }
 
   // The ends of an axis; around the value if there is only one.
@@ -309,7 +321,7 @@ bbsim.makeSweep = (json, container) => {
     // A case that is not done may have reached any value.
     const fine = list.filter((i) => isFine(i, measure));
     const {least, greatest} = data.extent((fine.length > 0 ? fine : list).map((i) => measure.values[i]));
-    const y = axisOf({levels: spread(least, greatest)}, height - box.bottom, box.top, false);
+    const y = axisOf({levels: spread(least, greatest), shown: measure.shown}, height - box.bottom, box.top, false);
     const byLine = new Map();
     const lined = ky && stack && listed.includes(ky) && ky.levels.length <= 12;
     for (const i of list) {
@@ -408,7 +420,7 @@ bbsim.makeSweep = (json, container) => {
     const heap = Array.from({length: bars}, () => []);
     for (const i of values) heap[Math.min(bars - 1, Math.floor((measure.values[i] - low) / (high - low || 1) * bars))].push(i);
     const most = Math.max(...heap.map((h) => h.length));
-    const x = axisOf({levels: spread(low, high)}, box.left, width - box.right, false);
+    const x = axisOf({levels: spread(low, high), shown: measure.shown}, box.left, width - box.right, false);
     const bottom = height - box.bottom, tall = (n) => n / most * (bottom - box.top - 8);
     // A single value has a single bar around it.
     const wide = (x.place(high) - x.place(low)) / bars || 20, from = high > low ? x.place(low) : x.place(low) - wide / 2;
@@ -423,7 +435,7 @@ bbsim.makeSweep = (json, container) => {
     frame(x, {ticks}, text.columnName(measure.name) + unitOf(measure), 'cases');
     const middle = at(0.5);
     over.append(svg('path', {d: `M${x.place(middle)} ${box.top}V${bottom}`, class: 'middle'}),
-                svg('text', {x: x.place(middle) + 6, y: box.top + 10}, `median ${number(middle)}`));
+                svg('text', {x: x.place(middle) + 6, y: box.top + 10}, `median ${number(middle * measure.shown.factor)}`));
     if (other > 0) over.append(svg('text', {x: width - 8, y: box.top + 10, 'text-anchor': 'end'}, `${other} not done`));
   }
 
@@ -456,6 +468,7 @@ bbsim.makeSweep = (json, container) => {
   function choose(i) {
     state.chosen = i;
     showChosen();
+    chosen(i);
     const command = commandOf(i);
     const rows = element('dl', {class: 'rows'});
     for (const column of [...keys, ...measures]) {
@@ -495,7 +508,7 @@ bbsim.makeSweep = (json, container) => {
     const measure = measures[state.measure];
     const lines = mark.cases === undefined
         ? [`case ${cases[mark.i]}`, ...keys.map((key) => `${key.name} = ${valueText(key, mark.i)}`), `${measure.name} = ${valueText(measure, mark.i)}`]
-        : [`${mark.cases} cases`, `${number(mark.from)} to ${number(mark.to)}`];
+        : [`${mark.cases} cases`, `${number(mark.from * measure.shown.factor)} to ${number(mark.to * measure.shown.factor)} ${measure.shown.unit}`];
     if (mark.cases === undefined && !isDone(mark.i)) lines.push(statusOf(mark.i));
     if (mark.all && mark.all.length > 1) {
       const fine = mark.all.filter((i) => isFine(i, measure)).length;
@@ -554,6 +567,11 @@ bbsim.makeSweep = (json, container) => {
   palette.onChange(draw);
   return {
     state, choose, commandOf, refresh,
+    // The columns and the status of cases have changed.
+    update() {
+      measures.forEach(measured);
+      draw();
+    },
     // For tests: the place of a case in the window.
     placeOf(number_) {
       const mark = marks.find((m) => cases[m.i] === number_ || (m.all && m.all.some((i) => cases[i] === number_)));

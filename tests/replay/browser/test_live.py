@@ -9,6 +9,8 @@ text runs as code. scripts/test-browser calls it.
 
 import atexit
 import csv
+import json
+import math
 import os
 import platform
 import shutil
@@ -214,6 +216,154 @@ class Page(Live):
         self.js("document.querySelector('.offer button').click()")
         self.run_js("await new Promise((resolve) => setTimeout(resolve, 2000))")
         self.assertIn("gravity: 5", self.js("bbsim.live.yaml"))
+
+
+class Loops(Live):
+    def test_margins_follow_a_slider(self):
+        """those of `bbsim linearize` and `bbsim check`; the curves cross 0 dB and -180 degrees there"""
+        for name, key, value in [("fig2b", "gravity", "8"), ("rig", "controller.sampling.delay", "0.02")]:
+            with self.subTest(name):
+                self.open(page(f"configs/{name}.yaml"))
+                wanted = self.margins(name)
+                self.assertEqual(wanted, self.run_js("return bbsim.live.margins()"))
+                wanted = self.margins(name, "--set", f"{key}={value}")
+                found = self.run_js("await bbsim.live.set(args[0], args[1]); return bbsim.live.margins()", key, value)
+                self.assertEqual(sorted(found), sorted(wanted))
+                for command, its in wanted.items():
+                    for part, number in its.items():
+                        self.assertEqual(found[command][part] is None, number is None, part)
+                        if number is not None:
+                            self.assertAlmostEqual(found[command][part], number, delta=1e-6 * abs(number))
+                shown = self.js("document.querySelector('.live-bode .measures').textContent")
+                decibels = 20 * math.log10(wanted["phi_command"]["gain"])
+                self.assertIn(f"{decibels:.3g} dB", shown)
+                said = subprocess.run([BBSIM, "check", f"configs/{name}.yaml", "--set", f"{key}={value}"], cwd=SOURCE,
+                                      stdout=subprocess.PIPE, check=True, text=True).stdout
+                self.assertIn(f"({decibels:.3g} dB)", said)
+                self.assertGreater(self.js("document.querySelectorAll('.bode .curve').length"), 1)
+
+    def margins(self, name, *options):
+        file = os.path.join(FOLDER, "linear.json")
+        subprocess.run([BBSIM, "linearize", f"configs/{name}.yaml", "-o", file, "-q", *options],
+                       cwd=SOURCE, check=True)
+        with open(file, encoding="utf-8") as stream:
+            return json.load(stream)["margins"]
+
+    def test_no_loop_has_no_plot(self):
+        self.open(page("configs/fig2a.yaml"))
+        self.assertEqual(self.run_js("return bbsim.live.margins()"), {})
+        self.assertEqual(self.js("document.querySelectorAll('.bode').length"), 0)
+
+
+class ManyRuns(Live):
+    def test_rigs_are_runs_of_the_program(self):
+        """one rig, run by the program, and the band holds it"""
+        for name in ["fig2b", "step"]:
+            with self.subTest(name):
+                self.open(page(f"configs/{name}.yaml"))
+                keys = self.run_js("const {keys, status} = await bbsim.live.rigs();"
+                                   "if (status.some((word) => word !== 'done')) throw new Error(status);"
+                                   "return Object.fromEntries(Object.entries(keys).map(([key, values]) => [key, values[7]]))")
+                self.assertNotIn("fault", keys)
+                self.assertEqual(self.js("bbsim.data.fan.status.length"), 100)
+                wanted = native(f"configs/{name}.yaml", *(f"--set={key}={value!r}" for key, value in keys.items()))
+                for column in ["x", "y"]:
+                    found = self.js(f"[...bbsim.data.fan.columns.{column}[7]]")
+                    size = max(map(abs, wanted[column]))
+                    self.assertEqual(len(found), len(wanted[column]))
+                    self.assertLessEqual(max(abs(a - b) for a, b in zip(found, wanted[column])), 1e-4 * size)
+                least, greatest = self.js("bbsim.data.fan.reach([{role: 'main', name: 'x'}])")
+                self.assertLessEqual(least, min(wanted["x"]))
+                self.assertGreaterEqual(greatest, max(wanted["x"]))
+
+    def test_a_slider_draws_the_rigs_anew(self):
+        self.open(page("configs/fig2b.yaml"))
+        self.run_js("await bbsim.live.rigs(); await bbsim.live.set('gravity', '5')")
+        self.run_js("const old = bbsim.data.fan.keys.gravity[3], begun = performance.now();"
+                    "while (bbsim.data.fan.keys.gravity[3] > 6 || bbsim.data.fan.status.length < 100) {"
+                    "  if (performance.now() - begun > 20000) throw new Error(`still ${old}`);"
+                    "  await new Promise((resolve) => setTimeout(resolve, 50));"
+                    "}")
+        self.assertLess(max(self.js("[...bbsim.data.fan.keys.gravity]")), 5.5 + 1e-9)
+
+    def test_a_map_has_the_measures_of_runs(self):
+        """and a click on a cell shows its case"""
+        self.open(page("configs/fig2b.yaml"))
+        keys = ["controller.pd.kp.0.0", "controller.pd.kv.0.0"]
+        found = self.run_js("const {keys, status, values} = await bbsim.live.map(args[0], args[1], 'max_tracking_error', 10);"
+                            "return {keys, status, values: [...values], x: [...keys[args[0]]], y: [...keys[args[1]]]}", *keys)
+        self.assertEqual(len(found["values"]), 100)
+        cell = found["status"].index("done", 40)
+        values = [found["x"][cell], found["y"][cell]]
+        summary = os.path.join(FOLDER, "summary.json")
+        subprocess.run([BBSIM, "run", "configs/fig2b.yaml", "-o", os.path.join(FOLDER, "cell.csv"), "-q", "--summary", summary,
+                        "--measure", "max_tracking_error", *(f"--set={key}={value!r}" for key, value in zip(keys, values))],
+                       cwd=SOURCE, check=True, stdout=subprocess.DEVNULL)
+        with open(summary, encoding="utf-8") as stream:
+            wanted = json.load(stream)["measures"]["max_tracking_error"]
+        self.assertAlmostEqual(found["values"][cell], wanted, delta=1e-4 * wanted)
+        self.js("document.querySelector('.map canvas').scrollIntoView()")
+        place = self.js("bbsim.map.placeOf(arguments[0])", cell)
+        self.browser.frame()
+        self.run_js("const target = document.querySelector('.map canvas');"
+                    "target.dispatchEvent(new MouseEvent('click', {clientX: args[0], clientY: args[1], bubbles: true}));"
+                    "await new Promise((resolve) => setTimeout(resolve, 1500))", *place)
+        self.assertAlmostEqual(self.js("bbsim.live.measures.max_tracking_error"), wanted, delta=1e-4 * wanted)
+
+
+class Hand(Live):
+    def test_a_piece_is_a_run_of_the_program(self):
+        self.open(page("configs/incline.yaml"))
+        tilt = math.radians(5)
+        found = self.run_js("return bbsim.live.hand.step({from: [0, 0, 0, 0, args[0], 0], to: [args[0], 0], seconds: 2})", tilt)
+        wanted = native("configs/incline.yaml")
+        for name in ["x", "vx"]:
+            self.assertAlmostEqual(found[name], wanted[name][-1], delta=1e-6)
+
+    def test_leaning_rolls_the_ball_in_real_time(self):
+        self.open(page("configs/fig2b.yaml"))
+        at = self.js("bbsim.data.runs[0].placeAt(0)")
+        state = self.run_js("window.tilted = bbsim.live.hand.start(); bbsim.live.hand.lean(-1, 0);"
+                            "while (!(bbsim.live.hand.state && bbsim.live.hand.state.vx < -0.05)) await new Promise(requestAnimationFrame);"
+                            "return bbsim.live.hand.state")
+        self.assertLess(state["phi"], 0)
+        self.assertGreaterEqual(state["phi"], -math.pi / 15 - 1e-9)
+        self.assertEqual(state["theta"], 0)
+        self.assertEqual(self.js("bbsim.data.runs[0].placeAt(0)[1]"), at[1])
+        # The arrow keys lean, too, and the end shows the scenario's run again.
+        self.run_js("bbsim.live.hand.lean(0, 0);"
+                    "dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowUp'}));"
+                    "while (!(bbsim.live.hand.state.theta < 0)) await new Promise(requestAnimationFrame);"
+                    "dispatchEvent(new KeyboardEvent('keyup', {key: 'ArrowUp'}))")
+        self.run_js("bbsim.live.hand.stop(); await window.tilted")
+        self.assertEqual(self.js("bbsim.data.runs[0].placeAt(0)"), at)
+        self.assertEqual(self.browser.console(), [])
+
+
+class Editor(Live):
+    def test_offers_the_keys_that_fit(self):
+        self.open(page("configs/fig2b.yaml"))
+        self.run_js("const area = document.querySelector('.editor[aria-label*=YAML]'), at = area.value.length;"
+                    "area.closest('details').open = true; area.focus();"
+                    "area.setRangeText('\\nplate:\\n  si', at, at, 'end'); area.dispatchEvent(new Event('input'));"
+                    "while (!document.querySelector('.offers button')) await new Promise(requestAnimationFrame)")
+        self.assertEqual(self.js("[...document.querySelectorAll('.offers button')].map((one) => one.textContent)"), ["size"])
+        self.js("document.querySelector('.offers button').click()")
+        self.assertTrue(self.js("document.activeElement.value").endswith("plate:\n  size: "))
+        names = self.js("bbsim.completions('ball:\\n  radius: 1 cm\\n  ', 23, ['ball.mass', 'ball.radius', 'plate.size']).names")
+        self.assertEqual(names, ["mass", "radius"])
+
+
+class Legend(Live):
+    def test_a_name_hides_its_curve(self):
+        """also while the run changes"""
+        self.open(page("configs/fig2b.yaml"))
+        self.run_js("bbsim.plots.plots[0].build(); document.querySelector('.plot .legend .label').click();"
+                    "await bbsim.live.set('gravity', 9)")
+        self.assertEqual(self.js("bbsim.plots.plots[0].visibility().filter((on) => !on).length"), 1)
+        self.assertEqual(self.js("document.querySelector('.plot .legend .label').getAttribute('aria-pressed')"), "false")
+        self.js("bbsim.plots.plots[0].build()")
+        self.assertEqual(self.js("bbsim.plots.plots[0].graph.visibility().filter((on) => !on).length"), 1)
 
 
 class Controllers(Live):

@@ -1153,7 +1153,7 @@ class SweepPages(Made):
         self.assertIn("22,500 of 90,000 shown", self.browser.text("#sweeps"))
         # As in a plot, the first of two keys is horizontal; the page says what the colors show.
         self.assertEqual(self.js("[bbsim.sweeps[0].state.x, bbsim.sweeps[0].state.y]"), [0, 1])
-        self.assertEqual(self.js("[...document.querySelectorAll('.over .name')].map((e) => e.textContent)").count("max tilt, rad"), 1)
+        self.assertEqual(self.js("[...document.querySelectorAll('.over .name')].map((e) => e.textContent)").count("max tilt, °"), 1)
 
     def test_with_one_case_that_is_done_show_it(self):
         self.sweep_page("one-done", "case,a,status,end_time,max_distance\n0,1,failed,0.1,9\n1,2,done,1,0.02\n2,3,failed,0.1,9\n")
