@@ -41,6 +41,9 @@ void Host::require_printed() const {}
 std::string Host::unheard() const {
   return "";
 }
+std::string Host::line_remark() const {
+  return "";
+}
 void Host::finish() {}
 
 std::vector<std::string> files_of(const Scenario& /*scenario*/) {

@@ -151,9 +151,15 @@ void Extremes::climb_within(std::size_t i, const solve::Piece& piece,
   }
 }
 
-bool Extremes::may_exceed(std::size_t i, const std::optional<solve::Bounds>& bounds) const {
-  if (!bounds) return true;
-  return !(std::max(signs_[i] * bounds->least, signs_[i] * bounds->most) <= greatest_[i].value);
+bool Extremes::may_exceed(std::size_t i, const solve::Bounds& bounds) const {
+  return !(std::max(signs_[i] * bounds.least, signs_[i] * bounds.most) <= greatest_[i].value);
+}
+
+// Bounds of a column over a piece; infinite if only rows can show its range.
+solve::Bounds Extremes::bounds_of(std::size_t i, const solve::Piece& piece, bool closely) const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto known = bounded_[i] ? piece.bounds(*bounded_[i], *constants_, closely) : std::nullopt;
+  return known.value_or(solve::Bounds{-infinity, infinity});
 }
 
 // Finds the columns whose bounds over the piece, which need no rows, do not exclude a value greater
@@ -161,18 +167,17 @@ bool Extremes::may_exceed(std::size_t i, const std::optional<solve::Bounds>& bou
 void Extremes::find_open(const solve::Piece& piece) {
   open_.clear();
   // The greatest and the least value of one column are neighbors and share the bounds.
-  std::optional<solve::Bounds> bounds;
+  solve::Bounds bounds{};
   bool close = false;
   for (std::size_t i = 0; i < size(); ++i) {
-    const auto exceeds = [&](bool closely) {
-      bounds.reset();
-      if (bounded_[i]) bounds = piece.bounds(*bounded_[i], *constants_, closely);
-      close = closely;
-      return may_exceed(i, bounds);
-    };
-    const bool known = i > 0 && bounded_[i] == bounded_[i - 1];
-    if (!(known ? may_exceed(i, bounds) : exceeds(false))) continue;
-    if (!bounds || close || exceeds(true)) open_.push_back(i);
+    if (i == 0 || bounded_[i] != bounded_[i - 1]) {
+      bounds = bounds_of(i, piece, false);
+      close = false;
+    }
+    if (!may_exceed(i, bounds)) continue;
+    if (!close) bounds = bounds_of(i, piece, true);
+    close = true;
+    if (may_exceed(i, bounds)) open_.push_back(i);
   }
 }
 

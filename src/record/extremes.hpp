@@ -52,7 +52,9 @@ class Extremes : public solve::PieceSink {
 
  private:
   void sample(const solve::Piece& piece, const ChebyshevPoints& points);
-  [[nodiscard]] bool may_exceed(std::size_t i, const std::optional<solve::Bounds>& bounds) const;
+  [[nodiscard]] bool may_exceed(std::size_t i, const solve::Bounds& bounds) const;
+  [[nodiscard]] solve::Bounds bounds_of(std::size_t i, const solve::Piece& piece,
+                                        bool closely) const;
   void find_open(const solve::Piece& piece);
   [[nodiscard]] bool may_matter(std::size_t i, const ChebyshevPoints& points) const;
   [[nodiscard]] bool is_shown(std::size_t i, const ChebyshevPoints& points) const;
