@@ -81,14 +81,14 @@ struct Scene {
 // are x, y and the integral of u.
 struct alignas(64) Piece {
   double velocity_at[3][nodes], position_at[2][nodes], acceleration_at[3][nodes];
+  double reference_at[2][nodes];  // x and y at the start and at all nodes but the first, if wanted
   // Shifted Legendre coefficients of the accelerations times the length.
   double series[3][nodes];
   double position[3], velocity[3];          // at the start
   double position_end[3], velocity_end[3];  // at the end
-  double guess[3];                // of the accelerations: those at the end of the last piece
-  double reference_at[2][nodes];  // x and y at the start and at all nodes but the first, if wanted
-  double contraction;             // of the last pieces' iterations
-  double length;                  // s
+  double guess[3];     // of the accelerations: those at the end of the last piece
+  double contraction;  // of the last pieces' iterations
+  double length;       // s
   PlateMotion plate;
 };
 
