@@ -47,8 +47,8 @@ std::vector<LiveKey> keys_of(const ScenarioFamily& family) {
 
 std::vector<Variation> drawn_keys(const Sweep& sweep) {
   std::vector<Variation> drawn;
-  std::ranges::copy_if(sweep.vary, std::back_inserter(drawn), [](const Variation& one) {
-    return scenario::parse_variation(one).random();
+  std::ranges::copy_if(sweep.vary, std::back_inserter(drawn), [](const Variation& variation) {
+    return scenario::parse_variation(variation).random();
   });
   return drawn;
 }
@@ -107,16 +107,17 @@ replay::Live LiveRun::of(const RunResult& result, bool with_keys) const {
 std::optional<replay::Live::Loops> loops_of(const Scenario& scenario) {
   Watch nobody;
   try {
-    const Linearization made = linearize({scenario, LinearKind::loop}, nobody).linearisation;
-    if (made.margins.empty()) return {};
-    model::OpenLoops open = model::open_loops(made);
-    replay::Live::Loops loops{made.system.period,
+    const Linearization linearization =
+        linearize({scenario, LinearKind::loop}, nobody).linearisation;
+    if (linearization.margins.empty()) return {};
+    model::OpenLoops open = model::open_loops(linearization);
+    replay::Live::Loops loops{linearization.system.period,
                               std::move(open.frequencies),
                               {},
-                              record::margins_json(made),
-                              made.stable};
+                              record::margins_json(linearization),
+                              linearization.stable};
     for (std::size_t i = 0; i < open.curves.size(); ++i) {
-      loops.curves.push_back({made.margins[i].command, std::move(open.curves[i].gain),
+      loops.curves.push_back({linearization.margins[i].command, std::move(open.curves[i].gain),
                               std::move(open.curves[i].phase)});
     }
     return loops;

@@ -76,12 +76,12 @@ std::vector<double> picked(const std::vector<double>& values,
 
 }  // namespace
 
-OpenLoops open_loops(const Linearization& made) {
+OpenLoops open_loops(const Linearization& linearization) {
   OpenLoops all;
-  if (made.margins.empty()) return all;
-  const double period = made.system.period.value_or(0);
-  all.frequencies = frequencies_of(made.margins, period);
-  for (const LoopMargins& loop : made.margins) {
+  if (linearization.margins.empty()) return all;
+  const double period = linearization.system.period.value_or(0);
+  all.frequencies = frequencies_of(linearization.margins, period);
+  for (const LoopMargins& loop : linearization.margins) {
     const LinearSystem& open = loop.open;
     const FrequencyResponse response(open.a, open.b, open.c, open.d, period);
     OpenLoops::Curve curve;

@@ -23,6 +23,6 @@ struct OpenLoops {
 
 // The loops of a linearization's margins: each broken at its command, with the other one closed.
 // Empty if it has none.
-[[nodiscard]] OpenLoops open_loops(const Linearization& made);
+[[nodiscard]] OpenLoops open_loops(const Linearization& linearization);
 
 }  // namespace bbsim::model

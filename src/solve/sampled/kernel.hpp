@@ -91,6 +91,8 @@ struct alignas(64) Piece {
   double length;       // s
   PlateMotion plate;
 };
+// Vectors are loaded from arrays over the nodes.
+static_assert(offsetof(Piece, reference_at) % 64 == 0 && offsetof(Piece, series) % 64 == 0);
 
 struct Attempt {
   bool converged;
