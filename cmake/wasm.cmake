@@ -16,6 +16,8 @@ target_compile_options(bbsim_options INTERFACE
   -msimd128 -fwasm-exceptions -fno-math-errno $<$<COMPILE_LANGUAGE:CXX>:-include${PROJECT_SOURCE_DIR}/wasm/libcxx.hpp>
   -Wno-unused-command-line-argument -Wno-sign-compare)
 target_include_directories(bbsim_options SYSTEM INTERFACE ${BBSIM_WASM_DEPS}/include)
+# Matrices up to about 30 by 30 are multiplied by short loops: Eigen's kernels for large ones are slow at -Os.
+target_compile_definitions(bbsim_options INTERFACE EIGEN_GEMM_TO_COEFFBASED_THRESHOLD=100)
 
 foreach(_headers IN ITEMS Eigen3::Eigen nlohmann_json::nlohmann_json Threads::Threads SUNDIALS::cvodes)
   add_library(${_headers} INTERFACE IMPORTED GLOBAL)

@@ -61,6 +61,17 @@ Source source_of(const Json& request) {
   return source;
 }
 
+// The family of the request's text, which most requests share with the one before.
+const ScenarioFamily& family_of(const Json& request) {
+  static std::unique_ptr<ScenarioFamily> family;
+  const std::string &name = request["name"].get_ref<const std::string&>(),
+                    &text = request["text"].get_ref<const std::string&>();
+  if (!family || family->source().file != name || family->source().text != text) {
+    family = std::make_unique<ScenarioFamily>(Source{name, text, {}});
+  }
+  return *family;
+}
+
 Json problems_json(const InputError& error) {
   Json faults = Json::array();
   for (const Problem& problem : error.problems()) {
@@ -162,11 +173,9 @@ Source edited(const Json& request) {
 
 // A run: what a page shows of it, and its columns.
 std::string run(const Json& request, std::vector<std::vector<double>>& arrays) {
-  const Source source = source_of(request);
-  const ScenarioFamily family(source);
   api::RunRequest wanted;
-  wanted.scenario = family.read({});
-  wanted.scenario.source = source;
+  wanted.scenario = family_of(request).read(settings_of(request));
+  wanted.scenario.source = source_of(request);
   if (request["controlled"]) wanted.scenario = with_controller_of_page(wanted.scenario);
   wanted.checked = request["checked"];
   const api::LiveRun live(wanted);
@@ -224,7 +233,7 @@ std::string by_hand(const Json& request) {
   const double seconds = hand["seconds"];
   api::RunRequest piece;
   Scenario& scenario = piece.scenario;
-  scenario = ScenarioFamily(source_of(request)).read({});
+  scenario = family_of(request).read(settings_of(request));
   scenario.controller.reset();
   const Mounting mounting = scenario.gimbal.mounting;
   scenario.gimbal = Gimbal{};
@@ -262,7 +271,7 @@ std::string answered(const Json& request, std::vector<std::vector<double>>& arra
   try {
     if (request.contains("cases")) return many(request, arrays);
     if (request.contains("loops")) {
-      const Scenario scenario = ScenarioFamily(source_of(request)).read({});
+      const Scenario scenario = family_of(request).read(settings_of(request));
       return replay::loops_json(api::loops_of(scenario), arrays);
     }
     if (request.contains("paths")) {

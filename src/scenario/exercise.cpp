@@ -127,6 +127,7 @@ void read_exercise(yaml::Keys& keys, Exercise& exercise) {
 }
 
 std::optional<Exercise> checked_exercise(const Scenario& scenario) {
+  if (!scenario.has_exercise) return {};
   const Source& source = scenario.source;
   yaml::Problems problems(source.file, yaml::without_byte_order_mark(source.text),
                           source.overrides);
@@ -134,7 +135,6 @@ std::optional<Exercise> checked_exercise(const Scenario& scenario) {
   const yaml::Node* root = build_tree(source, problems, nodes);
   yaml::Context context{problems, {}};
   const auto section = yaml::Keys({root, "", {}, &context}).find("exercise");
-  if (!section) return {};
   Exercise exercise;
   yaml::MappingOf(read_exercise).read(*section, exercise);
   check_items(*section, scenario);

@@ -34,6 +34,7 @@ void read_sections(Keys& keys, Scenario& scenario) {
   keys.section("sweep", read_sweep, scenario.sweep);
   std::optional<Exercise> exercise;  // only `check` and pages look at it
   keys.optional("exercise", MappingOf(read_exercise), exercise);
+  scenario.has_exercise = exercise.has_value();
   place_groove(scenario);
   check_loop(keys);
   check_rig(keys, scenario);

@@ -600,6 +600,7 @@ struct Scenario {
   Solver solver;
   Output output;
   Sweep sweep;
+  bool has_exercise = false;  // which scenario/exercise.hpp reads
   Source source;
   // Notes and warnings on valid values that may be mistakes: one line each, with the place.
   std::vector<std::string> remarks{};
