@@ -9,7 +9,7 @@
 * At the end, no link may be broken, and nothing may come from the network.
 
 The environment names the folder that scripts/docs prepared: BBSIM_SITE_MADE, with assets/ and replays/,
-the scenarios that it replayed, BBSIM_SITE_REPLAYS, and those with live pages, BBSIM_SITE_LIVE.
+and the scenarios of its pages, BBSIM_SITE_PAGES.
 """
 
 import json
@@ -28,7 +28,7 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 MADE = os.environ["BBSIM_SITE_MADE"]
 
 # Pages of the site that are not in docs/, with the files of the repository that contain their text.
-PAGES = {"changes.md": "CHANGELOG.md", "replays.md": "scripts/site/replays.md"}
+PAGES = {"changes.md": "CHANGELOG.md"}
 # A link to one of these folders gives its files pages too.
 WHOLE = ("configs/", "examples/", "scripts/examples/")
 LANGUAGES = {".yaml": "yaml", ".yml": "yaml", ".py": "python", ".js": "javascript", ".awk": "awk", ".cmake": "cmake",
@@ -154,46 +154,33 @@ def on_page_read_source(page, config):
     uri = page.file.src_uri
     if uri in PAGES:
         with open(os.path.join(ROOT, PAGES[uri]), encoding="utf-8") as text:
-            return text.read() + (gallery() if uri == "replays.md" else "")
+            return text.read()
     for path, source in sources.items():
         if source == uri:
             return source_text(path)
     return None
 
 
-def described(name):
-    """The title of a shipped scenario, and the first lines of its comment."""
+def title_of(name):
     with open(os.path.join(ROOT, "configs", name + ".yaml"), encoding="utf-8") as scenario:
-        text = scenario.read()
-    comment = re.match(r"(?:# \S.*\n)*", text)[0].replace("# ", "").replace("\n", " ")
-    title = re.search(r"^title: *(.*)$", text, re.MULTILINE)
-    return title[1].strip("\"'") if title else name, comment
+        title = re.search(r"^title: *(.*)$", scenario.read(), re.MULTILINE)
+    return title[1].strip("\"'") if title else name
 
 
 def gallery():
-    """The replays that scripts/docs made, each under its title, and a table of all live pages."""
-    parts = []
-    live = os.environ["BBSIM_SITE_LIVE"].split()
-    if live:
-        parts.append("\n## Try bbsim in the browser\n\nThese pages run bbsim itself. Move a slider, or change the text "
-                     "([how](how-to/live.md)).\n\n| page | scenario |\n|---|---|\n")
-        parts += [f'| <a href="replays/{name}.html" target="_blank">{name}</a> | {described(name)[0]} |\n' for name in live]
-    for name in os.environ["BBSIM_SITE_REPLAYS"].split():
-        heading, comment = described(name)
+    """The pages that scripts/docs made, each with a picture and its title."""
+    parts = ["\n## All pages\n\nClick a picture.\n\n<div class=\"gallery\" markdown>\n"]
+    for name in os.environ["BBSIM_SITE_PAGES"].split():
         parts.append(f"""
-## {heading}
+<section markdown>
+<a href="replays/{name}.html" target="_blank"><img src="replays/{name}.png" alt="" loading="lazy"></a>
 
-{comment}
+**<a href="replays/{name}.html" target="_blank">{name}</a>** · [scenario](source/configs/{name}.yaml.md)
 
-<iframe class="replay" src="replays/{name}.html" loading="lazy" title="A replay of configs/{name}.yaml"></iframe>
-
-<a href="replays/{name}.html" target="_blank">Open it in a window</a> · [the scenario](source/configs/{name}.yaml.md)
-
-```console
-$ bbsim replay configs/{name}.yaml -o {name}.html
-```
+{title_of(name)}
+</section>
 """)
-    return "".join(parts)
+    return "".join(parts) + "\n</div>\n"
 
 
 def source_text(path):
@@ -216,7 +203,7 @@ def source_text(path):
 
 def on_page_markdown(markdown, page, config, files):
     uri = page.file.src_uri
-    if uri.startswith("source/") or uri == "replays.md":
+    if uri.startswith("source/"):
         return markdown  # written for the site
     here = repository_path(uri)
 
@@ -262,9 +249,9 @@ def on_page_markdown(markdown, page, config, files):
         close(lines)
     text = "\n".join(lines)
     if uri == "index.md":
-        # The picture links to the page with its replay.
-        text = re.sub(r"^(!\[[^\]]*\]\([^)]*\))$", r"[\1](replays.md)\n\n[Play this and other replays](replays.md)",
-                      text, count=1, flags=re.MULTILINE)
+        text = re.sub(r"^(!\[[^\]]*\]\([^)]*\))$", r"[\1](try.md)", text, count=1, flags=re.MULTILINE)
+    if uri == "try.md":
+        text += gallery()
     return text
 
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// Formulas, tables, the colors of replays, and what the copy buttons copy.
+// Formulas, tables, and what the copy buttons copy.
 (() => {
   // If a table is wider than a phone, numbers and names are not broken, and sentences have room.
   for (const cell of document.querySelectorAll('.md-typeset td')) {
@@ -16,16 +16,6 @@
     const text = element.textContent.trim();
     // \( ... \) in a line, \[ ... \] on lines of its own.
     katex.render(text.slice(2, -2), element, {displayMode: text.startsWith('\\['), throwOnError: false});
-  }
-
-  const frames = document.querySelectorAll('iframe.replay');
-  const theme = () => (document.body.dataset.mdColorScheme === 'slate' ? 'dark' : 'light');
-  function paint() {
-    for (const frame of frames) frame.src = `${frame.getAttribute('src').split('#')[0]}#theme=${theme()}`;
-  }
-  if (frames.length > 0) {
-    paint();
-    new MutationObserver(paint).observe(document.body, {attributes: true, attributeFilter: ['data-md-color-scheme']});
   }
 
   // A copy button copies only the commands, without prompts and output. Its text must be set before the theme's
