@@ -79,6 +79,20 @@ std::vector<Variation> tolerances(const ScenarioFamily& family) {
   return vary;
 }
 
+// Of a ball that a controller leads to a point, along the axes on which it does not start there.
+std::vector<std::string> step_metrics(const Scenario& scenario) {
+  std::vector<std::string> names;
+  if (!scenario.controller) return names;
+  const auto* const point = std::get_if<PointReference>(&scenario.controller->reference);
+  for (const std::size_t axis : {0U, 1U}) {
+    if (point == nullptr || scenario.ball.position[axis] == point->position[axis]) continue;
+    for (const char* const metric : {"RiseTime", "Overshoot", "SettlingTime"}) {
+      names.push_back((axis == 0 ? "x." : "y.") + std::string(metric));
+    }
+  }
+  return names;
+}
+
 }  // namespace
 
 LiveRun::LiveRun(RunRequest& request) : source_(request.scenario.source) {
@@ -86,6 +100,14 @@ LiveRun::LiveRun(RunRequest& request) : source_(request.scenario.source) {
   request.pictured = true;
   const bool closed_loop = scenario.controller && commands_of(scenario) == nullptr;
   request.measures = scenario::default_measures(closed_loop);
+  if (request.checked) {
+    std::vector<std::string> more = step_metrics(scenario);
+    std::ranges::copy(scenario.sweep.measure, std::back_inserter(more));
+    for (std::string& name : more) {
+      if (std::ranges::find(request.measures, name) != request.measures.end()) continue;
+      request.measures.push_back(std::move(name));
+    }
+  }
   if (auto exercise = scenario::checked_exercise(scenario)) exercise_ = std::move(*exercise);
   for (const auto& task : exercise_.tasks) request.expect.push_back(task.expect);
 }

@@ -53,7 +53,9 @@ bbsim.makeLive = (container) => {
     // What only a checked run has stays until the next one.
     if (run.check.length === 0) run.check = lead.check;
     data.replace(scene, arrays);
-    offered = {...live, keys: live.keys.length > 0 ? live.keys : offered.keys};
+    // Measures of a checked run are unknown until the next one.
+    const unknown = Object.fromEntries(Object.entries(offered.measures).map(([key, one]) => [key, {...one, value: null}]));
+    offered = {...live, keys: live.keys.length > 0 ? live.keys : offered.keys, measures: {...unknown, ...live.measures}};
     if (live.keys.length > 0) {
       keysDue = false;
       sliders.fill(offered);
@@ -115,6 +117,8 @@ bbsim.makeLive = (container) => {
       const {answer} = await ask(state, {checked: true});
       if (answer.faults || !same(state, wanted)) return;
       Object.assign(lead, {check: answer.scene.runs[0].check, summary: answer.scene.runs[0].summary});
+      offered.measures = answer.scene.live.measures;
+      showNumbers();
       bbsim.details.fill();
     } catch {
       // The engine was stopped.
@@ -232,7 +236,7 @@ bbsim.makeLive = (container) => {
     const {measures, tasks} = offered;
     numbers.replaceChildren(element('tbody', {}, ...Object.entries(measures).map(([key, one]) => {
       const value = valueOf(one), shown = text.shownIn(one.unit, Math.abs(value));
-      return element('tr', {}, element('th', {scope: 'row'}, key.replaceAll('_', ' ')), element('td', {}, `${text.number(value * shown.factor, 4)} ${shown.unit}`.trim()));
+      return element('tr', {}, element('th', {scope: 'row'}, key.replaceAll('_', ' ')), element('td', {}, Number.isNaN(value) ? '–' : `${text.number(value * shown.factor, 4)} ${shown.unit}`.trim()));
     })));
     exercise.replaceChildren(...tasks.map(({text: words, expect, holds}) => element(
         'li', {class: holds ? 'holds' : 'open'}, element('b', {}, holds ? '✓ ' : '✗ '), words, element('small', {}, ` ${expect}`))));

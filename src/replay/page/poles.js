@@ -47,11 +47,12 @@ bbsim.drawPoles = ({period, values}) => {
     const span = Math.max(right - left, 1e-9), high = Math.max(...finite.map(([, im]) => Math.abs(im)), 0.25 * span, 1e-9);
     const from = left - 0.12 * span, to = right + Math.max(0.12 * span, 0.1 * (right - left));
     x = (re) => 12 + (re - from) / (to - from) * (width - 24);
-    y = (im) => height / 2 - im / (1.25 * high) * (height / 2 - 14);
+    y = (im) => height / 2 - im / (1.25 * high) * (height / 2 - 18);
     root.append(svg('rect', {x: 0, y: 0, width: x(0), height, class: 'stable'}));
+    // The numbers stand farther out than the poles, whose crosses would cover them.
     for (const im of [high, -high]) {
       root.append(svg('path', {d: `M${x(0) - 3} ${y(im)}h6`, class: 'line'}),
-                  svg('text', {x: x(0) + (x(0) > 0.75 * width ? -6 : 6), y: y(im) + 4, 'text-anchor': x(0) > 0.75 * width ? 'end' : 'start'},
+                  svg('text', {x: x(0) + (x(0) > 0.75 * width ? -6 : 6), y: y(im) + (im > 0 ? -7 : 16), 'text-anchor': x(0) > 0.75 * width ? 'end' : 'start'},
                       `${number(im, 3)} i`));
     }
     root.append(svg('path', {d: `M${x(left)} ${y(0) - 3}v6`, class: 'line'}),

@@ -183,6 +183,23 @@ class Page(Live):
             self.run_js(act + "; await new Promise((resolve) => setTimeout(resolve, 1500))")
             self.assertAlmostEqual(self.js("bbsim.data.runs[0].values('x')[500]"), x, 6)
 
+    def test_metrics_of_a_step_come_at_rest(self):
+        self.open(page("configs/step.yaml"))
+        self.assertAlmostEqual(self.js("bbsim.live.measures['x.Overshoot']"), self.overshoot(), delta=0.01)
+        self.run_js("await bbsim.live.set('controller.pid.kp.0.0', '0.6')")
+        found = self.run_js("const begun = performance.now();"
+                            "while (!Number.isFinite(bbsim.live.measures['x.Overshoot'])) {"
+                            "  if (performance.now() - begun > 20000) throw new Error('no overshoot');"
+                            "  await new Promise((resolve) => setTimeout(resolve, 50));"
+                            "}"
+                            "return bbsim.live.measures['x.Overshoot']")
+        self.assertAlmostEqual(found, self.overshoot("--set", "controller.pid.kp.0.0=0.6"), delta=0.01)
+
+    def overshoot(self, *options):
+        table = subprocess.run([BBSIM, "run", "configs/step.yaml", "-q", "-o", os.path.join(FOLDER, "step.csv"),
+                                "--measure", "x.Overshoot", *options], cwd=SOURCE, check=True, capture_output=True, text=True).stdout
+        return float(table.split(",")[-1])
+
     def test_faults_are_told_at_their_line(self):
         self.open(page("configs/fig2b.yaml"))
         said = self.run_js("await bbsim.live.edit(bbsim.live.yaml.replace('radius', 'radios'))")
