@@ -20,7 +20,8 @@ namespace bbsim::api {
 class LiveRun {
  public:
   // Asks for what a live page shows of the request's scenario: the default measures, the bounds of
-  // its exercise and, if the run is checked, metrics of a step and the measures of `sweep`. Throws InputError for a mistaken exercise.
+  // its exercise and, if the run is checked, metrics of a step and the measures of `sweep`. Throws
+  // InputError for a mistaken exercise.
   explicit LiveRun(RunRequest& request);
 
   // What the page shows beside that run, without its loops. Finding the keys takes longer than a
