@@ -33,6 +33,9 @@ void read_sweep(yaml::Keys& keys, Sweep& sweep);
 // Reads all sections and checks them.
 void read_sections(yaml::Keys& keys, Scenario& scenario);
 
+// The declaration of the whole scenario.
+[[nodiscard]] const yaml::Declared& declared_keys();
+
 // The tree of a scenario's text with all overrides applied. Reports problems. Returns nullptr if
 // the text is not a tree.
 [[nodiscard]] const yaml::Node* build_tree(const Source& source, yaml::Problems& problems,

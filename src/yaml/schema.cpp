@@ -52,6 +52,10 @@ void Keys::declare(DeclaredKey key) {
   if (std::ranges::find(declared_->keys, key.name, &DeclaredKey::name) != declared_->keys.end()) {
     return;
   }
+  using Words = std::pair<std::string_view, About>;
+  const auto words = std::ranges::find(abouts_, key.name, &Words::first);
+  if (words != abouts_.end()) key.about = words->second;
+  if (key.about.meaning == same.meaning) key.about = declared_->keys.back().about;
   declared_->keys.push_back(std::move(key));
 }
 
