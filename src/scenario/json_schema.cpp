@@ -88,10 +88,20 @@ Json any_of(std::vector<Json> parts) {
   return parts.size() == 1 ? parts.front() : Json{{"anyOf", std::move(parts)}};
 }
 
+Json all_of(std::vector<Json> parts) {
+  return parts.size() == 1 ? parts.front() : Json{{"allOf", std::move(parts)}};
+}
+
 Json has_any(const std::vector<std::string_view>& keys) {
   std::vector<Json> parts;
   for (const std::string_view key : keys) parts.push_back(has(key));
   return any_of(std::move(parts));
+}
+
+Json has_all(const std::vector<std::string_view>& keys) {
+  std::vector<Json> parts;
+  for (const std::string_view key : keys) parts.push_back(has(key));
+  return all_of(std::move(parts));
 }
 
 Json unless(Json schema) {
@@ -156,6 +166,14 @@ Json mapping_schema(const Declared& mapping) {
     }
   }
   for (const Choice& choice : mapping.choices) add_choice(choice, mapping, all);
+  for (const auto& groups : mapping.needs) {
+    std::vector<Json> parts;
+    for (const auto& group : groups) parts.push_back(has_all(group));
+    all.push_back(any_of(std::move(parts)));
+  }
+  for (const auto& [key, other] : mapping.together) {
+    all.push_back({{"if", has(key)}, {"then", has(other)}});
+  }
   Json schema = {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
   if (!required.empty()) schema["required"] = required;
   if (!all.empty()) schema["allOf"] = all;
@@ -211,7 +229,7 @@ Json at(std::string_view path, const Json& schema, bool must_be_there) {
   const auto with = [&](const std::string& name) {
     Json one = Json::object();
     if (!inner.is_null()) one["properties"] = {{name, inner}};
-    if (must_be_there) one["required"] = {name};
+    if (must_be_there) one.update({{"type", "object"}, {"required", {name}}});
     return one;
   };
   const auto other = yaml::other_spelling(key);
@@ -233,16 +251,20 @@ Json holds(const Condition& condition) {
   return {{"anyOf", {there, unless(at(condition.path, nullptr, true))}}};
 }
 
-Json schema_of(const KeyRelation& relation) {
+Json hold(std::string_view conditions) {
   std::vector<Json> alternatives;
-  for (const auto& alternative : relation.alternatives()) {
+  for (const auto& alternative : scenario::conditions(conditions)) {
     std::vector<Json> all;
     for (const Condition& condition : alternative) all.push_back(holds(condition));
-    alternatives.push_back(all.size() == 1 ? all.front() : Json{{"allOf", all}});
+    alternatives.push_back(all_of(std::move(all)));
   }
-  const Json any = any_of(std::move(alternatives));
-  return {{"if", holds(Condition(relation.key))},
-          {"then", relation.kind == KeyRelation::Kind::needs ? any : unless(any)}};
+  return any_of(std::move(alternatives));
+}
+
+Json schema_of(const KeyRelation& relation) {
+  const Json others = hold(relation.others);
+  const Json then = relation.kind == KeyRelation::Kind::needs ? others : unless(others);
+  return relation.keys.empty() ? then : Json{{"if", hold(relation.keys)}, {"then", then}};
 }
 
 const Declared& declared_at(std::string_view path) {
@@ -294,8 +316,8 @@ std::string scenario_json_schema() {
     const Declared& profile = declared_at(path);
     schema["definitions"][profile.definition] = schema_of(profile);
   }
-  for (const KeyRelation& relation : scenario::relations()) {
-    schema["allOf"].push_back(schema_of(relation));
+  for (const auto& group : scenario::relations()) {
+    for (const KeyRelation& relation : group) schema["allOf"].push_back(schema_of(relation));
   }
   schema["allOf"].push_back(limit_of_numbers());
   schema["allOf"].push_back(matrices_for_angles());

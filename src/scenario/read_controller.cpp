@@ -389,6 +389,7 @@ void read_controller(yaml::Keys& keys, Controller& controller) {
                                       {Drives::voltage, name_of(Drives::voltage)},
                                       {Drives::legs, name_of(Drives::legs)}}},
                 controller.drives, {"what the commands are"});
+  keys.exclusive({{"reference"}, {"commands"}}, true);
   const yaml::MappingOf path(read_reference);
   if (const auto given =
           keys.find("reference", path,

@@ -24,24 +24,19 @@ void read_slip(yaml::Keys& keys, SlipEvent& slip) {
                     {{OnSlip::stop, "stop"}, {OnSlip::note, "note"}, {OnSlip::slide, "slide"}}},
                 action, {"`slide`: the ball slides: [losses and sliding](#losses-and-sliding)"});
   slip.action = action == OnSlip::stop ? OnEvent::stop : OnEvent::note;
-  const yaml::About about_sliding{.meaning = "coefficient of sliding friction",
-                                  .standard = "required with `slide`",
-                                  .range = "0 to `friction`"};
   const yaml::Number sliding{yaml::Dimension::number, {.at_least = 0}, "0.25"};
-  if (action == OnSlip::slide) {
-    keys.required("sliding_friction", sliding, slip.sliding.emplace(), about_sliding);
-    if (*slip.sliding > slip.friction && slip.friction > 0) {
-      if (const auto found = keys.find("sliding_friction")) {
-        found->report(
+  std::optional<double> given;
+  keys.optional("sliding_friction", sliding, given,
+                {.meaning = "coefficient of sliding friction",
+                 .standard = "required with `slide`",
+                 .range = "0 to `friction`"});
+  if (action != OnSlip::slide) return;
+  slip.sliding = given.value_or(0);
+  if (*slip.sliding > slip.friction && slip.friction > 0) {
+    keys.find("sliding_friction")
+        ->report(
             "found more than friction, at which the ball starts to slide; allowed: at most "
             "friction");
-      }
-    }
-  } else if (const auto found = keys.find("sliding_friction", sliding, about_sliding)) {
-    double unused = 0;
-    if (sliding.read(*found, unused)) {
-      found->report("found, but action is not slide; allowed: only with action: slide");
-    }
   }
 }
 

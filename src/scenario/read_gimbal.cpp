@@ -212,10 +212,7 @@ void read_stepper(yaml::Keys& keys, StepperMotor& stepper) {
        .standard = "no swings"});
   keys.optional("damping", yaml::Number{yaml::Dimension::number, {.at_least = 0}}, stepper.damping,
                 {"damping ratio of these swings"});
-  const auto damping = keys.find("damping");
-  if (damping && !stepper.natural_frequency) {
-    damping->report("found without natural_frequency; allowed: only with it");
-  }
+  keys.needs("damping", "natural_frequency");
 }
 
 // Reads the keys into `servo`, over its existing values. Does not report missing keys.
@@ -299,6 +296,11 @@ void read_servo(yaml::Keys& keys, BothServos& both) {
       at.missing(key, allowed);
     }
   };
+  keys.needs_one({{"model"},
+                  {"time_constant"},
+                  {"stepper"},
+                  {"natural_frequency", "damping"},
+                  {"phi", "theta"}});
   Servo common;
   read_servo_keys(keys, common);
   const yaml::MappingOf axis(read_servo_keys);
@@ -497,6 +499,7 @@ struct Legs {
 
 void read_three_servos(yaml::Keys& keys, ThreeServos& of) {
   ThreeServoPlate& plate = of.plate;
+  keys.needs_one({{"legs"}, {"radius_base", "radius_plate", "horn", "rod", "height"}});
   read_leg_lengths(keys, plate);
   const auto given = keys.find("legs", Legs{}, {"a list of three mappings, for legs that differ"});
   std::array<ServoLeg, 3> legs;

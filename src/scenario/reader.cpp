@@ -42,8 +42,7 @@ void read_sections(Keys& keys, Scenario& scenario) {
   keys.optional("exercise", MappingOf(read_exercise), exercise,
                 {"tasks for a learner: [exercise](#exercise)"});
   place_groove(scenario);
-  check_loop(keys);
-  check_rig(keys, scenario);
+  check_rig(keys.mapping(), scenario);
 }
 
 const Declared& declared_keys() {

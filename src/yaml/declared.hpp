@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "yaml/quantity.hpp"
@@ -68,6 +69,9 @@ struct Declared {
   bool distinct = false;  // no item occurs twice
   std::vector<DeclaredKey> keys;
   std::vector<Choice> choices{};
+  std::vector<std::vector<std::vector<std::string_view>>> needs{};  // all keys of one of the groups
+  std::vector<std::pair<std::string_view, std::string_view>>
+      together{};            // the first needs the other
   std::string definition{};  // the name of a value that the schema defines once
 
   Declared(Kind of = Kind::none);  // NOLINT: a kind alone is a declaration

@@ -74,6 +74,8 @@ struct Value {
 
   [[nodiscard]] Value item(std::size_t i) const;
   [[nodiscard]] std::string path_of(std::string_view key) const;
+  // The value at a path of keys and positions below, if present.
+  [[nodiscard]] std::optional<Value> at(std::string_view below) const;
   // The last name in the path.
   [[nodiscard]] std::string_view name() const;
 
@@ -81,6 +83,8 @@ struct Value {
   bool refuse(std::string_view remark, std::string_view allowed) const;
   // Reports "path: <message>" at the node. Returns false.
   bool report(std::string_view message) const;
+  // The same at the key.
+  bool report_at_key(std::string_view message) const;
 
   // Adds the remark "warning: path: <message>" at the node.
   void warn(std::string_view message) const;
@@ -90,6 +94,9 @@ struct Value {
   // Records that a single number was read here, in SI units.
   void note(double number, Dimension dimension) const;
 };
+
+// The entry of a key of a mapping, in either spelling; nullptr if there is none.
+[[nodiscard]] const Entry* entry_of(const Node& mapping, std::string_view key);
 
 class Keys {
  public:
@@ -164,6 +171,13 @@ class Keys {
     if (declared_ == nullptr) return;
     declared_->choices.push_back({{groups.begin(), groups.end()}, needed});
   }
+  // Declares that all keys of one of the groups must be present. The reader reports violations.
+  void needs_one(std::initializer_list<std::initializer_list<std::string_view>> groups) {
+    if (declared_ == nullptr) return;
+    declared_->needs.push_back({groups.begin(), groups.end()});
+  }
+  // Reports the key, if present, unless the other key is present too.
+  void needs(std::string_view key, std::string_view other);
 
   // Reports unknown keys and repeated keys.
   void finish() const;
