@@ -110,11 +110,12 @@ struct KeyNames {
 
 void read_task(yaml::Keys& keys, Exercise::Task& task) {
   keys.required("text", yaml::Text{"a text, such as \"Hold the ball within 3 mm.\"", true},
-                task.text);
+                task.text, {"what the learner should reach"});
   keys.required("expect",
                 yaml::Text{"\"MEASURE < VALUE\", or with <=, > or >=, such as \"max_tilt < 5 "
                            "deg\""},
-                task.expect);
+                task.expect,
+                {"the bound that decides it, as in `run --expect`: `max_distance < 3 mm`"});
 }
 
 }  // namespace
@@ -122,8 +123,9 @@ void read_task(yaml::Keys& keys, Exercise::Task& task) {
 void read_exercise(yaml::Keys& keys, Exercise& exercise) {
   const yaml::ListOf<yaml::MappingOf<Exercise::Task>, Exercise::Task> tasks{
       yaml::MappingOf(read_task), 1, most_items, "tasks {text, expect}"};
-  keys.optional("tasks", tasks, exercise.tasks);
-  keys.optional("free", KeyNames{}, exercise.free);
+  keys.optional("tasks", tasks, exercise.tasks, {"a list of mappings, one for each task"});
+  keys.optional("free", KeyNames{}, exercise.free,
+                {"keys that the learner may change: each a number, or one of several names"});
 }
 
 std::optional<Exercise> checked_exercise(const Scenario& scenario) {

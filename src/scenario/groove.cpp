@@ -58,7 +58,6 @@ std::string why_not_along(int axis, const Scenario& scene) {
   if (ball.position[across] != 0) return "ball.position is not 0 across it";
   if (ball.velocity[across] != 0) return "ball.velocity is not 0 across it";
   if (ball.spin != 0) return "ball.spin is not 0";
-  if (ball.rotation) return "ball.rotation turns the ball by itself";
   if (ball.push && !is_zero(x ? ball.push->y : ball.push->x)) return "ball.push acts across it";
   const Gimbal& gimbal = scene.gimbal;
   const char* const tilts = x ? "theta tilts the plate" : "phi tilts the plate";
@@ -74,7 +73,6 @@ std::string why_not_along(int axis, const Scenario& scene) {
       mounting.yaw != 0 || mounting.base_tilt != 0) {
     return "gimbal.mounting tilts or turns the plate";
   }
-  if (gimbal.three_servos) return "three servos tilt the plate in all directions";
   if (!scene.controller) return "";
   if (!std::visit(StaysAtZero{across}, scene.controller->reference)) {
     return "controller.reference is not 0 across it";

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/json.hpp"
-#include "scenario/keys.hpp"
 #include "scenario/relations.hpp"
+#include "scenario/sections.hpp"
 #include "yaml/spelling.hpp"
 
 namespace bbsim {
@@ -88,10 +88,20 @@ Json any_of(std::vector<Json> parts) {
   return parts.size() == 1 ? parts.front() : Json{{"anyOf", std::move(parts)}};
 }
 
+Json all_of(std::vector<Json> parts) {
+  return parts.size() == 1 ? parts.front() : Json{{"allOf", std::move(parts)}};
+}
+
 Json has_any(const std::vector<std::string_view>& keys) {
   std::vector<Json> parts;
   for (const std::string_view key : keys) parts.push_back(has(key));
   return any_of(std::move(parts));
+}
+
+Json has_all(const std::vector<std::string_view>& keys) {
+  std::vector<Json> parts;
+  for (const std::string_view key : keys) parts.push_back(has(key));
+  return all_of(std::move(parts));
 }
 
 Json unless(Json schema) {
@@ -128,38 +138,23 @@ std::optional<Json> standard_of(const DeclaredKey& key) {
   return key.standard;
 }
 
-std::string description_of(const scenario::KeyText& row, const Declared& value) {
-  std::string text = plain(std::string(row.meaning));
-  const bool number = value.kind == Declared::Kind::number;
-  const std::string unit(row.unit.empty() && number ? yaml::si_unit(value.dimension) : row.unit);
+std::string description_of(const DeclaredKey& key) {
+  std::string text = plain(std::string(key.about.meaning));
+  const bool si = key.about.unit.empty() && key.value.kind == Declared::Kind::number;
+  const std::string unit(si ? yaml::si_unit(key.value.dimension) : key.about.unit);
   if (!unit.empty() && unit != "-" && unit != "below") text += " (" + unit + ')';
   return text;
 }
 
-Json schema_of(const Declared& value, const std::string& path);
+Json schema_of(const Declared& value);
 
-// The name of a profile's definition, from the dimension of its values.
-std::string profile_name(const Declared& profile) {
-  std::string name =
-      "profile of " + std::string(yaml::noun(profile.parts.front().parts.front().dimension));
-  std::ranges::replace(name, ' ', '_');
-  return name;
-}
-
-Json reference_to(const Declared& profile) {
-  return {{"allOf", {{{"$ref", "#/definitions/" + profile_name(profile)}}}}};
-}
-
-Json mapping_schema(const Declared& mapping, const std::string& path) {
+Json mapping_schema(const Declared& mapping) {
   Json properties = Json::object(), required = Json::array(), all = Json::array();
   for (const DeclaredKey& key : mapping.keys) {
-    const std::string its =
-        scenario::path_in_tables(path.empty() ? key.name : path + '.' + key.name);
-    const bool profile = scenario::path_in_tables(its + '.') == "profile.";
-    Json schema = profile ? reference_to(key.value) : schema_of(key.value, its);
-    if (const scenario::KeyText* row = scenario::text_of_key(its)) {
-      schema["description"] = description_of(*row, key.value);
-    }
+    const std::string& definition = key.value.definition;
+    Json schema = definition.empty() ? schema_of(key.value)
+                                     : Json{{"allOf", {{{"$ref", "#/definitions/" + definition}}}}};
+    if (!key.about.meaning.empty()) schema["description"] = description_of(key);
     if (const auto standard = standard_of(key)) schema["default"] = *standard;
     properties[key.name] = schema;
     if (const auto other = yaml::other_spelling(key.name)) {
@@ -171,13 +166,21 @@ Json mapping_schema(const Declared& mapping, const std::string& path) {
     }
   }
   for (const Choice& choice : mapping.choices) add_choice(choice, mapping, all);
+  for (const auto& groups : mapping.needs) {
+    std::vector<Json> parts;
+    for (const auto& group : groups) parts.push_back(has_all(group));
+    all.push_back(any_of(std::move(parts)));
+  }
+  for (const auto& [key, other] : mapping.together) {
+    all.push_back({{"if", has(key)}, {"then", has(other)}});
+  }
   Json schema = {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
   if (!required.empty()) schema["required"] = required;
   if (!all.empty()) schema["allOf"] = all;
   return schema;
 }
 
-Json schema_of(const Declared& value, const std::string& path) {
+Json schema_of(const Declared& value) {
   switch (value.kind) {
     case Declared::Kind::number:
       return number_schema(value);
@@ -196,20 +199,19 @@ Json schema_of(const Declared& value, const std::string& path) {
       return {{"type", "string"}, {"pattern", "^\\s*([µμ°]|" + units + ").*$"}};
     }
     case Declared::Kind::list: {
-      Json schema = {{"type", "array"},
-                     {"minItems", value.fewest},
-                     {"items", schema_of(value.parts.front(), path)}};
+      Json schema = {
+          {"type", "array"}, {"minItems", value.fewest}, {"items", schema_of(value.parts.front())}};
       if (value.most != Declared::unbounded) schema["maxItems"] = value.most;
       if (value.distinct) schema["uniqueItems"] = true;
       return schema;
     }
     case Declared::Kind::mapping:
-      return mapping_schema(value, path);
+      return mapping_schema(value);
     case Declared::Kind::names:
-      return {{"type", "object"}, {"additionalProperties", schema_of(value.parts.front(), path)}};
+      return {{"type", "object"}, {"additionalProperties", schema_of(value.parts.front())}};
     case Declared::Kind::any: {
       Json parts = Json::array();
-      for (const Declared& part : value.parts) parts.push_back(schema_of(part, path));
+      for (const Declared& part : value.parts) parts.push_back(schema_of(part));
       return {{"anyOf", parts}};
     }
     case Declared::Kind::none:
@@ -227,7 +229,7 @@ Json at(std::string_view path, const Json& schema, bool must_be_there) {
   const auto with = [&](const std::string& name) {
     Json one = Json::object();
     if (!inner.is_null()) one["properties"] = {{name, inner}};
-    if (must_be_there) one["required"] = {name};
+    if (must_be_there) one.update({{"type", "object"}, {"required", {name}}});
     return one;
   };
   const auto other = yaml::other_spelling(key);
@@ -249,16 +251,20 @@ Json holds(const Condition& condition) {
   return {{"anyOf", {there, unless(at(condition.path, nullptr, true))}}};
 }
 
-Json schema_of(const KeyRelation& relation) {
+Json hold(std::string_view conditions) {
   std::vector<Json> alternatives;
-  for (const auto& alternative : relation.alternatives()) {
+  for (const auto& alternative : scenario::conditions(conditions)) {
     std::vector<Json> all;
     for (const Condition& condition : alternative) all.push_back(holds(condition));
-    alternatives.push_back(all.size() == 1 ? all.front() : Json{{"allOf", all}});
+    alternatives.push_back(all_of(std::move(all)));
   }
-  const Json any = any_of(std::move(alternatives));
-  return {{"if", holds(Condition(relation.key))},
-          {"then", relation.kind == KeyRelation::Kind::needs ? any : unless(any)}};
+  return any_of(std::move(alternatives));
+}
+
+Json schema_of(const KeyRelation& relation) {
+  const Json others = hold(relation.others);
+  const Json then = relation.kind == KeyRelation::Kind::needs ? others : unless(others);
+  return relation.keys.empty() ? then : Json{{"if", hold(relation.keys)}, {"then", then}};
 }
 
 const Declared& declared_at(std::string_view path) {
@@ -297,7 +303,7 @@ Json known_columns() {
   const Declared& name = columns.parts.front().parts.front();
   return {{"if", unless(any_of({holds(Condition("controller.program")),
                                 holds(Condition("controller.library"))}))},
-          {"then", at("output.columns", {{"items", schema_of(name, "")}}, false)}};
+          {"then", at("output.columns", {{"items", schema_of(name)}}, false)}};
 }
 
 }  // namespace
@@ -305,13 +311,13 @@ Json known_columns() {
 std::string scenario_json_schema() {
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                  {"title", "Scenario of bbsim"}};
-  schema.update(schema_of(scenario::declared_keys(), ""));
+  schema.update(schema_of(scenario::declared_keys()));
   for (const char* path : {"gimbal.motion.phi", "gimbal.torque.phi", "ball.push.x"}) {
     const Declared& profile = declared_at(path);
-    schema["definitions"][profile_name(profile)] = schema_of(profile, "profile");
+    schema["definitions"][profile.definition] = schema_of(profile);
   }
-  for (const KeyRelation& relation : scenario::relations()) {
-    schema["allOf"].push_back(schema_of(relation));
+  for (const auto& group : scenario::relations()) {
+    for (const KeyRelation& relation : group) schema["allOf"].push_back(schema_of(relation));
   }
   schema["allOf"].push_back(limit_of_numbers());
   schema["allOf"].push_back(matrices_for_angles());

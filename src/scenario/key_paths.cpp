@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <set>
 
-#include "scenario/keys.hpp"
+#include "scenario/sections.hpp"
 
 namespace bbsim::scenario {
 namespace {

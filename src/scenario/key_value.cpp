@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
-#include "scenario/keys.hpp"
+#include "scenario/sections.hpp"
 #include "yaml/quantity.hpp"
 #include "yaml/spelling.hpp"
 

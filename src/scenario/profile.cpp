@@ -3,6 +3,7 @@
 
 #include "scenario/profile.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "scenario/table_rows.hpp"
@@ -38,28 +39,35 @@ struct OfForce {
 
 template <class Of>
 void read_sinusoid(yaml::Keys& keys, Sinusoid& sinusoid) {
-  keys.required("amplitude", yaml::Number{Of::value}, sinusoid.amplitude);
-  keys.required("frequency", angular_rate, sinusoid.frequency);
-  keys.optional("phase", angle, sinusoid.phase);
-  keys.optional("offset", yaml::Number{Of::value}, sinusoid.offset);
+  keys.required("amplitude", yaml::Number{Of::value}, sinusoid.amplitude,
+                {"A in offset + A sin(ωt + p)", "of the quantity"});
+  keys.required("frequency", angular_rate, sinusoid.frequency, {"ω"});
+  keys.optional("phase", angle, sinusoid.phase, {"p"});
+  keys.optional("offset", yaml::Number{Of::value}, sinusoid.offset, {"offset", "of the quantity"});
 }
 
 template <class Of>
 void read_ramp(yaml::Keys& keys, Ramp& ramp) {
-  keys.required("start", yaml::Number{Of::value}, ramp.start);
-  keys.required("rate", yaml::Number{Of::rate}, ramp.rate);
+  keys.required("start", yaml::Number{Of::value}, ramp.start,
+                {"value at t = 0", "of the quantity"});
+  keys.required("rate", yaml::Number{Of::rate}, ramp.rate, {"rate", "of the quantity, per s"});
 }
 
 template <class Of>
 void read_pulse(yaml::Keys& keys, Pulse& pulse) {
-  keys.required("start", yaml::Number{yaml::Dimension::time}, pulse.start);
-  keys.required("duration", yaml::Number{yaml::Dimension::time, {.above = 0}}, pulse.duration);
-  keys.required("value", yaml::Number{Of::value}, pulse.value);
+  keys.required("start", yaml::Number{yaml::Dimension::time}, pulse.start, {"when it begins"});
+  keys.required("duration", yaml::Number{yaml::Dimension::time, {.above = 0}}, pulse.duration,
+                {"duration of rise and fall together"});
+  keys.required("value", yaml::Number{Of::value}, pulse.value,
+                {"value in its middle", "of the quantity"});
 }
 
 template <class Of>
 void read_table(yaml::Keys& keys, Table& table) {
   TableRows rows;
+  keys.about({"header"}, {"names of the columns of a CSV without a header: `[t, x, y]`"});
+  keys.about({"unit", "time_unit"},
+             {.meaning = "units of the values and of the times", .standard = "SI"});
   read_table_rows(keys, {"value"}, Of::value, rows);
   if (rows.values.empty()) return;
   table = {std::move(rows.file), std::move(rows.times), std::move(rows.values[0])};
@@ -113,7 +121,10 @@ std::string ProfileRule::allowed() const {
 yaml::Declared ProfileRule::declared() const {
   const auto sum_of = [](yaml::Dimension dimension, yaml::Declared shapes) {
     const auto term = yaml::Declared::any({yaml::Declared::number(dimension), std::move(shapes)});
-    return yaml::Declared::any({term, yaml::Declared::list(1, most_terms, term)});
+    auto sum = yaml::Declared::any({term, yaml::Declared::list(1, most_terms, term)});
+    sum.definition = "profile of " + std::string(yaml::noun(dimension));
+    std::ranges::replace(sum.definition, ' ', '_');
+    return sum;
   };
   switch (of) {
     case ProfileOf::torque:

@@ -18,36 +18,57 @@ namespace bbsim::scenario {
 namespace {
 
 void read_pd(yaml::Keys& keys, Controller& controller) {
-  keys.required("kv", yaml::GainMatrix{}, controller.kv);
-  keys.required("kp", yaml::GainMatrix{}, controller.kp);
+  keys.required("kv", yaml::GainMatrix{}, controller.kv,
+                {"2x2; rows phi, theta; columns x, y: [[k, 0], [0, -k]] (*Signs*, below). A number "
+                 "k stands for [[k, 0], [0, k]]; under `drives: angle`, only 0 is allowed",
+                 "below"});
+  keys.required("kp", yaml::GainMatrix{}, controller.kp, yaml::same);
 }
 
 void read_pid(yaml::Keys& keys, Controller& controller) {
+  keys.about({"kv"}, {"the same", "below"});
   read_pd(keys, controller);
-  keys.required("ki", yaml::GainMatrix{}, controller.ki);
+  keys.required("ki", yaml::GainMatrix{}, controller.ki, yaml::same);
+}
+
+void read_gravity_compensation(yaml::Keys& keys, Controller& controller) {
+  keys.about({"kv"}, {"a number or 2x2; rows x, y; columns x, y", "1/s, 1/s²"});
+  read_pd(keys, controller);
+}
+
+void read_feedback_linearisation(yaml::Keys& keys, Controller& controller) {
+  keys.about({"kv"}, {"the same", "1/s, 1/s²"});
+  read_pd(keys, controller);
 }
 
 void read_state_feedback(yaml::Keys& keys, Controller& controller) {
-  keys.required("gain", yaml::StateGain{}, controller.gain);
+  keys.required(
+      "gain", yaml::StateGain{}, controller.gain,
+      {"K: rows phi, theta, each of 4 numbers (x, y, vx, vy) or 8 (phi, theta and their rates too)",
+       "below"});
 }
 
 void read_lqr(yaml::Keys& keys, Controller& controller) {
   LqrWeights& weights = controller.weights;
   const yaml::Number weight{yaml::Dimension::number, {.at_least = 0}, "1"};
   keys.required("position", yaml::Number{yaml::Dimension::number, {.above = 0}, "1"},
-                weights.position);
-  keys.optional("velocity", weight, weights.velocity);
-  keys.optional("angle", weight, weights.angle);
-  keys.optional("rate", weight, weights.rate);
+                weights.position, {"weight of x² and y²", "1/m²"});
+  keys.optional("velocity", weight, weights.velocity, {"weight of vx² and vy²", "1/(m/s)²"});
+  keys.optional("angle", weight, weights.angle, {"weight of the servos' angles²", "1/rad²"});
+  keys.optional("rate", weight, weights.rate, {"weight of their rates²", "1/(rad/s)²"});
   keys.required("command", yaml::Number{yaml::Dimension::number, {.above = 0}, "0.1"},
-                weights.command);
+                weights.command, {"weight of $u_\\phi^2$ and $u_\\theta^2$", "1/command²"});
 }
 
 void read_commands(yaml::Keys& keys, Controller& controller) {
   CommandProfiles commands;
   const bool phi = keys.find("phi").has_value(), theta = keys.find("theta").has_value();
-  keys.optional("phi", ProfileRule{}, commands.phi);
-  keys.optional("theta", ProfileRule{}, commands.theta);
+  keys.optional(
+      "phi", ProfileRule{}, commands.phi,
+      {.meaning =
+           "[profiles](#profiles): commands that are known beforehand, whatever the ball does",
+       .standard = "0"});
+  keys.optional("theta", ProfileRule{}, commands.theta, yaml::same);
   if (!phi && !theta) keys.missing("phi", "profiles of phi and theta, or of one of them");
   controller.reference = std::move(commands);
 }
@@ -62,8 +83,8 @@ constexpr NamedLaw laws[] = {
     {"pid", Law::pid, read_pid},
     {"state_feedback", Law::state_feedback, read_state_feedback},
     {"lqr", Law::lqr, read_lqr},
-    {"gravity_compensation", Law::gravity_compensation, read_pd},
-    {"feedback_linearization", Law::feedback_linearisation, read_pd},
+    {"gravity_compensation", Law::gravity_compensation, read_gravity_compensation},
+    {"feedback_linearization", Law::feedback_linearisation, read_feedback_linearisation},
     {"commands", Law::commands, read_commands},
     {"program", Law::own, read_program},
     {"library", Law::own, read_library},
@@ -74,7 +95,13 @@ void read_law(yaml::Keys& keys, Controller& controller) {
   std::vector<const NamedLaw*> given;
   for (const NamedLaw& law : laws) {
     names.push_back(law.key);
-    if (keys.find(law.key, yaml::MappingOf(law.read))) given.push_back(&law);
+    const yaml::About about{law.law == Law::own
+                                ? "a controller of your own: [controllers.md](controllers.md#keys)"
+                            : law.law == Law::commands ? ""
+                                                       : "one of the built-in [laws](#laws)",
+                            {},
+                            "-"};
+    if (keys.find(law.key, yaml::MappingOf(law.read), about)) given.push_back(&law);
   }
   keys.one_of(names);
   if (given.empty()) {
@@ -112,6 +139,10 @@ struct Jitter {
   }
   static void read_file(yaml::Keys& keys, Sampling& sampling) {
     FileColumns read;
+    keys.about({"file"}, {.meaning = "instead of a number: a table of measured periods, and its "
+                                     "column; after the last period it starts again",
+                          .standard = "-"});
+    keys.about({"unit"}, {.meaning = "unit of these periods", .standard = "s"});
     if (!read_columns(keys, {"period"}, yaml::Dimension::time, read)) return;
     sampling.periods_file = std::move(read.file);
     sampling.periods = std::move(read.columns[0]);
@@ -146,11 +177,16 @@ struct Jitter {
 void read_sampling(yaml::Keys& keys, Sampling& sampling) {
   const yaml::Number time{yaml::Dimension::time, {.at_least = 0}};
   const yaml::Number period{yaml::Dimension::time, {.above = 0}, period_example};
-  keys.required("period", Period{{period, "ms", 1}}, sampling.period);
-  keys.optional("delay", time, sampling.delay);
-  keys.optional("resolution", yaml::angle_limit({.at_least = 0}, 0.15), sampling.resolution);
-  keys.optional("derivative_filter", time, sampling.derivative_filter);
-  keys.optional("jitter", Jitter{}, sampling);
+  keys.required("period", Period{{period, "ms", 1}}, sampling.period,
+                {"a sample at t = 0 and every period after"});
+  keys.optional("delay", time, sampling.delay,
+                {.meaning = "from a sample to its command; may exceed a period",
+                 .range = "0 to 100 periods"});
+  keys.optional("resolution", yaml::angle_limit({.at_least = 0}, 0.15), sampling.resolution,
+                {"the command is rounded to the nearest multiple; 0 does not round"});
+  keys.optional("derivative_filter", time, sampling.derivative_filter,
+                {"time constant of the filter of velocities"});
+  keys.optional("jitter", Jitter{}, sampling, {"standard deviation of a period"});
 }
 
 // One factor for both axes, or one for each.
@@ -210,40 +246,70 @@ void read_fault(yaml::Keys& keys, SensorFault& fault) {
   keys.required("duration", yaml::Usual{duration, "ms", 10}, fault.duration);
 }
 
+void read_stuck(yaml::Keys& keys, SensorFault& fault) {
+  keys.about({"probability"}, {"probability that the sensor sticks at a reading"});
+  keys.about({"duration"}, {"time for which it then repeats this reading"});
+  read_fault(keys, fault);
+}
+
+void read_burst(yaml::Keys& keys, SensorFault& fault) {
+  keys.about({"probability"}, {"probability that a frame waits, and others after it"});
+  keys.about({"duration"}, {"time for which the first one waits; all then arrive together"});
+  read_fault(keys, fault);
+}
+
 void read_sensor(yaml::Keys& keys, Sensor& sensor) {
   const yaml::Number length{yaml::Dimension::length, {.at_least = 0}};
   const yaml::Usual fine{length, "mm", 0.05};
-  keys.optional("resolution", fine, sensor.resolution);
-  keys.optional("noise", fine, sensor.noise);
+  keys.optional("resolution", fine, sensor.resolution,
+                {"each coordinate, noise included, is [rounded](#sampling) to the nearest "
+                 "multiple; 0 does not round"});
+  keys.optional("noise", fine, sensor.noise,
+                {"standard deviation of each coordinate: normal, drawn at each sample"});
   auto seed = static_cast<double>(sensor.seed);
-  if (keys.optional("seed", yaml::Whole{0, "1"}, seed)) {
+  if (keys.optional("seed", yaml::Whole{0, "1"}, seed,
+                    {"seed of noise, dropouts, faults and jitter; gives the same numbers on every "
+                     "machine"})) {
     sensor.seed = static_cast<std::uint64_t>(seed);
   }
   const yaml::Number delay{yaml::Dimension::time, {.at_least = 0}};
-  keys.optional("delay", yaml::Usual{delay, "ms", 1}, sensor.delay);
+  keys.optional(
+      "delay", yaml::Usual{delay, "ms", 1}, sensor.delay,
+      {.meaning = "from the measurement to the sample; before t = 0 the ball is where it starts",
+       .range = "0 to 100 periods"});
   keys.optional("dropout",
                 yaml::Number{yaml::Dimension::number, {.at_least = 0, .at_most = 1}, "0.05"},
-                sensor.dropout);
-  const yaml::MappingOf fault(read_fault);
-  keys.optional("stuck", fault, sensor.stuck);
-  keys.optional("burst", fault, sensor.burst);
-  keys.optional("area", yaml::SidesOf{}, sensor.area);
+                sensor.dropout, {"probability that a sample sees nothing"});
+  keys.optional("stuck", yaml::MappingOf(read_stuck), sensor.stuck);
+  keys.optional("burst", yaml::MappingOf(read_burst), sensor.burst);
+  keys.optional(
+      "area", yaml::SidesOf{}, sensor.area,
+      {"[a, b], sides along x and y of the rectangle about the origin in which it sees the ball"});
   keys.optional("dead_zones",
                 yaml::ListOf<Zone, std::array<double, 4>>{{}, 1, 100, "zones [x0, y0, x1, y1]"},
-                sensor.dead_zones);
+                sensor.dead_zones,
+                {"rectangles in which it does not: a list of corners [x0, y0, x1, y1] with x0 < "
+                 "x1, y0 < y1"});
   keys.optional("contact_force", yaml::Number{yaml::Dimension::force, {.at_least = 0}},
-                sensor.contact_force);
-  keys.optional("on_miss",
-                yaml::NameOf<OnMiss>{
-                    {{OnMiss::none, "none"}, {OnMiss::last, "last"}, {OnMiss::edge, "edge"}}},
-                sensor.on_miss);
-  keys.optional("rotation", yaml::Number{yaml::Dimension::angle}, sensor.rotation);
-  keys.optional("offset", yaml::PairOf{yaml::Dimension::length}, sensor.offset);
-  keys.optional("scale", Scale{}, sensor.scale);
+                sensor.contact_force,
+                {"least normal force that a touch screen reads; needs `ball.mass`"});
+  keys.optional(
+      "on_miss",
+      yaml::NameOf<OnMiss>{
+          {{OnMiss::none, "none"}, {OnMiss::last, "last"}, {OnMiss::edge, "edge"}}},
+      sensor.on_miss,
+      {"what a sample that sees nothing reads: `none`; `last`: the last reading again; `edge`: the "
+       "corner of `area` at its least x and y, as screens that nobody touches"});
+  keys.optional("rotation", yaml::Number{yaml::Dimension::angle}, sensor.rotation,
+                {"rotation of the measured position"});
+  keys.optional("offset", yaml::PairOf{yaml::Dimension::length}, sensor.offset,
+                {"offset of the measured position"});
+  keys.optional("scale", Scale{}, sensor.scale, {"factor on the measured position, or [x, y]"});
   const yaml::Number period{yaml::Dimension::time, {.above = 0}, period_example};
-  keys.optional("period", Period{{period, "ms", std::numeric_limits<double>::max()}},
-                sensor.period);
-  keys.optional("phase", yaml::Number{yaml::Dimension::time, {.at_least = 0}}, sensor.phase);
+  keys.optional("period", Period{{period, "ms", std::numeric_limits<double>::max()}}, sensor.period,
+                {"period of the sensor's own frames"});
+  keys.optional("phase", yaml::Number{yaml::Dimension::time, {.at_least = 0}}, sensor.phase,
+                {.meaning = "time of the first frame", .range = "≥ 0, < `period`"});
 }
 
 // How the controller converts angles of the plate: a name, or the legs that it assumes.
@@ -284,7 +350,8 @@ struct CommandLimit {
   [[nodiscard]] static yaml::Declared declared() {
     const auto one = yaml::Declared::number(yaml::Dimension::angle, {.above = 0});
     yaml::Declared axes(yaml::Declared::Kind::mapping);
-    axes.keys = {{"phi", one, false, {}}, {"theta", one, false, {}}};
+    constexpr yaml::About about{"the same for one axis", "of the command"};
+    axes.keys = {{"phi", one, false, {}, false, about}, {"theta", one, false, {}, false, about}};
     axes.choices = {{{{"phi", "theta"}}, true}};
     return yaml::Declared::any({one, axes});
   }
@@ -321,17 +388,34 @@ void read_controller(yaml::Keys& keys, Controller& controller) {
                                       {Drives::torque, name_of(Drives::torque)},
                                       {Drives::voltage, name_of(Drives::voltage)},
                                       {Drives::legs, name_of(Drives::legs)}}},
-                controller.drives);
+                controller.drives, {"what the commands are"});
+  keys.exclusive({{"reference"}, {"commands"}}, true);
   const yaml::MappingOf path(read_reference);
-  if (const auto given = keys.find("reference", path); controller.law != Law::commands) {
+  if (const auto given =
+          keys.find("reference", path,
+                    {.meaning = "where the ball should be: [reference paths](#reference-paths)",
+                     .standard = "required, except with `commands`"});
+      controller.law != Law::commands) {
     keys.section("reference", read_reference, controller.reference);
   } else if (given) {
     given->report("found beside commands, which follow no path; allowed: without it");
   }
-  keys.optional("limit", CommandLimit{drives_servos(controller.drives)}, controller);
-  keys.optional("assumes", AssumesRule{}, controller);
-  keys.optional("sampling", yaml::MappingOf(read_sampling), controller.sampling);
-  keys.optional("sensor", yaml::MappingOf(read_sensor), controller.sensor);
+  keys.optional(
+      "limit", CommandLimit{drives_servos(controller.drives)}, controller,
+      {"each command saturates at ± this: a number, or {phi: ..., theta: ...} with one or both",
+       "of the command"});
+  keys.optional(
+      "assumes", AssumesRule{}, controller,
+      {.meaning = "how a law converts an angle of the plate into a servo angle; or the keys of "
+                  "[three servos](#three-servos), the legs that the firmware assumes",
+       .standard = "`ratio`; `exact` with `three_servos`",
+       .range = "`exact`, `ratio`"});
+  keys.optional(
+      "sampling", yaml::MappingOf(read_sampling), controller.sampling,
+      {"a discrete-time controller: [sampling](#sampling); without it the law is continuous"});
+  keys.optional(
+      "sensor", yaml::MappingOf(read_sensor), controller.sensor,
+      {"what a sampled controller measures: [sensor](#sensor); without it, the exact position"});
 }
 
 }  // namespace bbsim::scenario

@@ -21,46 +21,56 @@ namespace bbsim::scenario {
 namespace {
 
 void read_motion(yaml::Keys& keys, GimbalMotion& motion) {
-  keys.optional("phi", ProfileRule{}, motion.phi);
-  keys.optional("theta", ProfileRule{}, motion.theta);
+  keys.optional("phi", ProfileRule{}, motion.phi,
+                {.meaning = "[profiles](#profiles): a prescribed motion", .standard = "0"});
+  keys.optional("theta", ProfileRule{}, motion.theta, yaml::same);
 }
 
 void read_torque(yaml::Keys& keys, GimbalMotion& torque) {
-  keys.optional("phi", ProfileRule{ProfileOf::torque}, torque.phi);
-  keys.optional("theta", ProfileRule{ProfileOf::torque}, torque.theta);
+  keys.optional("phi", ProfileRule{ProfileOf::torque}, torque.phi,
+                {.meaning = "[profiles](#profiles): torques of the motors", .standard = "0"});
+  keys.optional("theta", ProfileRule{ProfileOf::torque}, torque.theta, yaml::same);
 }
 
 void read_dc(yaml::Keys& keys, DcMotor& dc) {
   const yaml::Number positive{yaml::Dimension::number, {.above = 0}};
-  keys.required("resistance", positive, dc.resistance);
-  keys.required("torque_constant", positive, dc.torque_constant);
-  keys.optional("gear", positive, dc.gear);
-  keys.optional("voltage_limit", positive, dc.voltage_limit);
+  keys.required("resistance", positive, dc.resistance, {"resistance of the armature", "Ω"});
+  keys.required("torque_constant", positive, dc.torque_constant,
+                {"torque constant of the armature", "N m/A"});
+  keys.optional("gear", positive, dc.gear, {"turns of the motor per turn of the axis"});
+  keys.optional("voltage_limit", positive, dc.voltage_limit, {"largest voltage", "V"});
 }
 
 void read_position_loop(yaml::Keys& keys, PositionLoop& loop) {
   const yaml::Number gain{yaml::Dimension::number, {.at_least = 0}};
-  keys.required("kp", yaml::Number{yaml::Dimension::number, {.above = 0}}, loop.kp);
-  keys.optional("kd", gain, loop.kd);
-  keys.optional("ki", gain, loop.ki);
+  keys.required("kp", yaml::Number{yaml::Dimension::number, {.above = 0}}, loop.kp,
+                {"proportional gain", "N m/rad"});
+  keys.optional("kd", gain, loop.kd, {"rate gain", "N m s/rad"});
+  keys.optional("ki", gain, loop.ki, {"integral gain", "N m/(rad s)"});
 }
 
 void read_motor(yaml::Keys& keys, Motor& motor) {
   const yaml::Number at_least_none{yaml::Dimension::number, {.at_least = 0}, "1e-3"};
-  keys.optional("rotor_inertia", at_least_none, motor.rotor_inertia);
-  keys.optional("viscous", at_least_none, motor.viscous);
-  keys.optional("friction", yaml::Number{yaml::Dimension::torque, {.at_least = 0}}, motor.friction);
+  keys.optional("rotor_inertia", at_least_none, motor.rotor_inertia,
+                {"inertia of each rotor, seen through its gear", "kg m²"});
+  keys.optional("viscous", at_least_none, motor.viscous,
+                {"friction torque divided by the axis' rate", "N m s"});
+  keys.optional("friction", yaml::Number{yaml::Dimension::torque, {.at_least = 0}}, motor.friction,
+                {"dry friction; up to this torque it holds an axis at rest"});
   keys.optional("torque_limit", yaml::Number{yaml::Dimension::torque, {.above = 0}},
-                motor.torque_limit);
+                motor.torque_limit, {"largest torque"});
   keys.optional("dc", yaml::MappingOf(read_dc), motor.dc);
   keys.optional("position_loop", yaml::MappingOf(read_position_loop), motor.position_loop);
 }
 
 void read_start(yaml::Keys& keys, GimbalStart& start) {
-  keys.optional("phi", yaml::Number{yaml::Dimension::angle}, start.phi);
-  keys.optional("theta", yaml::Number{yaml::Dimension::angle}, start.theta);
-  keys.optional("phi_rate", yaml::Number{yaml::Dimension::angular_rate}, start.phi_rate);
-  keys.optional("theta_rate", yaml::Number{yaml::Dimension::angular_rate}, start.theta_rate);
+  keys.optional("phi", yaml::Number{yaml::Dimension::angle}, start.phi,
+                {"angles at t = 0 under a controller or torques, without the mounting's offsets"});
+  keys.optional("theta", yaml::Number{yaml::Dimension::angle}, start.theta, yaml::same);
+  keys.optional("phi_rate", yaml::Number{yaml::Dimension::angular_rate}, start.phi_rate,
+                {"rates at t = 0"});
+  keys.optional("theta_rate", yaml::Number{yaml::Dimension::angular_rate}, start.theta_rate,
+                yaml::same);
 }
 
 // The width of a gap: 0, or enough that rounding does not decide when the servo touches the plane.
@@ -164,30 +174,45 @@ void read_stepper(yaml::Keys& keys, StepperMotor& stepper) {
   const yaml::NameOf<StepperModel> models{{{StepperModel::nema14, "nema14"},
                                            {StepperModel::nema17, "nema17"},
                                            {StepperModel::nema23, "nema23"}}};
-  if (const auto given = keys.find("model", models)) {
+  if (const auto given = keys.find(
+          "model", models,
+          {"values for `steps`, `torque` and `inertia`; a key that is given replaces its value"})) {
     StepperModel model = StepperModel::nema17;
     if (models.read(*given, model)) set_model(stepper, model);
   }
   const yaml::Whole count{1, "200"};
-  keys.optional("steps", count, stepper.steps);
-  keys.optional("microsteps", count, stepper.microsteps);
+  keys.optional("steps", count, stepper.steps,
+                {.meaning = "full steps in a turn of a [stepper motor](#stepper-motors), and "
+                            "microsteps in a step; instead of the keys above",
+                 .standard = "200, 16"});
+  keys.optional("microsteps", count, stepper.microsteps, yaml::same);
   const yaml::Number ratio{yaml::Dimension::number, {.at_least = 0.001, .at_most = 1000}};
-  keys.optional("gear", ratio, stepper.gear);
+  keys.optional("gear", ratio, stepper.gear,
+                {"turns of the motor in a turn of its shaft behind the gear"});
   keys.optional("torque", yaml::Number{yaml::Dimension::number, {.above = 0}, "0.4"},
-                stepper.torque);
+                stepper.torque,
+                {.meaning = "greatest torque of the motor, beyond which it [loses "
+                            "steps](#stepper-motors); with `inertia`; a plain number",
+                 .unit = "N m",
+                 .standard = "never loses any"});
   keys.optional("inertia", yaml::Number{yaml::Dimension::number, {.above = 0}, "1e-5"},
-                stepper.inertia);
+                stepper.inertia,
+                {.meaning = "moment of inertia that the motor turns: its rotor's, and the plate's "
+                            "share divided by gear²; a plain number",
+                 .unit = "kg m²",
+                 .standard = "required with `torque`"});
   const yaml::Number speed{yaml::Dimension::angular_rate, {.above = 0}};
-  keys.optional("corner_speed", speed, stepper.corner_speed);
+  keys.optional("corner_speed", speed, stepper.corner_speed,
+                {"speed of the motor beyond which its torque falls as 1/speed"});
   constexpr double one_hertz = 2 * std::numbers::pi, any = std::numeric_limits<double>::max();
   const yaml::Number frequency{yaml::Dimension::angular_rate, {.at_least = 1}};
-  keys.optional("natural_frequency", yaml::Usual{frequency, "Hz", any, one_hertz},
-                stepper.natural_frequency);
-  keys.optional("damping", yaml::Number{yaml::Dimension::number, {.at_least = 0}}, stepper.damping);
-  const auto damping = keys.find("damping");
-  if (damping && !stepper.natural_frequency) {
-    damping->report("found without natural_frequency; allowed: only with it");
-  }
+  keys.optional(
+      "natural_frequency", yaml::Usual{frequency, "Hz", any, one_hertz}, stepper.natural_frequency,
+      {.meaning = "of the [swings](#stepper-motors) of the shaft about the driver's angle",
+       .standard = "no swings"});
+  keys.optional("damping", yaml::Number{yaml::Dimension::number, {.at_least = 0}}, stepper.damping,
+                {"damping ratio of these swings"});
+  keys.needs("damping", "natural_frequency");
 }
 
 // Reads the keys into `servo`, over its existing values. Does not report missing keys.
@@ -195,7 +220,8 @@ void read_servo_keys(yaml::Keys& keys, Servo& servo) {
   const yaml::NameOf<ServoModel> models{{{ServoModel::hobby_standard, "hobby-standard"},
                                          {ServoModel::hobby_micro, "hobby-micro"},
                                          {ServoModel::smart_serial, "smart-serial"}}};
-  if (const auto given = keys.find("model", models)) {
+  if (const auto given = keys.find(
+          "model", models, {"values for all keys below; a key that is given replaces its value"})) {
     ServoModel model = ServoModel::hobby_standard;
     if (models.read(*given, model)) servo = servo_of_model(model);
   }
@@ -204,7 +230,8 @@ void read_servo_keys(yaml::Keys& keys, Servo& servo) {
   const yaml::Number damping{yaml::Dimension::number, {.at_least = 0}};
   keys.exclusive({{"time_constant"}, {"natural_frequency", "damping"}, {"stepper"}});
   keys.optional("stepper", yaml::MappingOf(read_stepper), servo.stepper);
-  keys.optional("time_constant", time, servo.time_constant);
+  keys.optional("time_constant", time, servo.time_constant,
+                {"T of a first-order servo, instead of the two keys above"});
   if (keys.find("time_constant")) {
     servo.natural_frequency = servo.damping = 0;
     for (const char* key : {"natural_frequency", "damping"}) {
@@ -219,25 +246,39 @@ void read_servo_keys(yaml::Keys& keys, Servo& servo) {
     if (keys.find("natural_frequency")) servo.time_constant.reset();
     constexpr double one_hertz = 2 * std::numbers::pi, any = std::numeric_limits<double>::max();
     keys.optional("natural_frequency", yaml::Usual{frequency, "Hz", any, one_hertz},
-                  servo.natural_frequency);
-    keys.optional("damping", damping, servo.damping);
+                  servo.natural_frequency,
+                  {.meaning = "$\\omega_n$ of a second-order servo",
+                   .standard = "required without `time_constant`, `stepper` and `model`"});
+    keys.optional("damping", damping, servo.damping,
+                  {.meaning = "$\\zeta$ of a second-order servo",
+                   .standard = "required without `time_constant`, `stepper` and `model`"});
   }
-  keys.optional("angle_limit", yaml::angle_limit({.above = 0}), servo.angle_limit);
+  keys.optional("angle_limit", yaml::angle_limit({.above = 0}), servo.angle_limit,
+                {"hard stops at ± this angle"});
   const yaml::Number rate{yaml::Dimension::angular_rate, {.above = 0}};
-  keys.optional("rate_limit", yaml::Usual{rate, "deg/s", 60}, servo.rate_limit);
+  keys.optional("rate_limit", yaml::Usual{rate, "deg/s", 60}, servo.rate_limit, {"largest rate"});
   keys.optional("acceleration_limit", yaml::Number{yaml::Dimension::number, {.above = 0}, "200"},
-                servo.acceleration_limit);
+                servo.acceleration_limit, {"largest acceleration; a plain number", "rad/s²"});
   keys.exclusive({{"speed"}, {"rate_limit"}});
-  keys.optional("speed", Speed{}, servo.rate_limit);
+  keys.optional("speed", Speed{}, servo.rate_limit,
+                {"the same, as data sheets give it: `\"0.17 s/60deg\"`"});
   if (keys.find("speed") && keys.find("rate_limit")) {
     keys.find("speed")->report("given together with rate_limit; allowed: one of the two");
   }
   // As in Arduino's Servo.h: 180 degrees from 544 to 2400 us.
   double scale = std::numbers::pi / 1856;
   const yaml::Number angle{yaml::Dimension::angle, {.above = 0}, "\"0.1 deg\""};
-  if (const auto given = keys.find("scale", angle)) angle.read(*given, scale);
-  keys.optional("dead_band", DeadBand{scale}, servo.dead_band);
-  keys.optional("backlash", Backlash{}, servo.backlash);
+  if (const auto given =
+          keys.find("scale", angle,
+                    {.meaning = "angle per microsecond of the pulse, for such a `dead_band`",
+                     .standard = "180°/1856"}))
+    angle.read(*given, scale);
+  keys.optional(
+      "dead_band", DeadBand{scale}, servo.dead_band,
+      {"smaller changes of the command have no effect; also as a width of the pulse: `\"4 us\"`"});
+  keys.optional(
+      "backlash", Backlash{}, servo.backlash,
+      {.meaning = "full width of the gap between servo and plate", .range = "0, or ≥ 1e-6"});
 }
 
 struct BothServos {
@@ -255,10 +296,16 @@ void read_servo(yaml::Keys& keys, BothServos& both) {
       at.missing(key, allowed);
     }
   };
+  keys.needs_one({{"model"},
+                  {"time_constant"},
+                  {"stepper"},
+                  {"natural_frequency", "damping"},
+                  {"phi", "theta"}});
   Servo common;
   read_servo_keys(keys, common);
   const yaml::MappingOf axis(read_servo_keys);
-  const auto phi = keys.find("phi", axis), theta = keys.find("theta", axis);
+  const auto phi = keys.find("phi", axis, {"any of the keys above, for one axis"});
+  const auto theta = keys.find("theta", axis, yaml::same);
   const auto in_common = [&](std::string_view key) { return keys.find(key).has_value(); };
   if (!phi || !theta) {
     for (const char* key : {"natural_frequency", "damping"}) require(keys, key, in_common);
@@ -289,6 +336,9 @@ void read_servo(yaml::Keys& keys, BothServos& both) {
 
 // Reads the (servo angle, plane angle) rows of a curve.
 void read_curve(yaml::Keys& keys, CurveLinkage& curve) {
+  keys.about({"file"}, {"a measured curve instead of rods: a CSV or HDF5 file"});
+  keys.about({"servo", "plate"}, {"its columns: the servo's angle and the plate's", "rad"});
+  keys.about({"unit"}, {.meaning = "unit of both columns", .standard = "rad"});
   FileColumns read;
   if (!read_columns(keys, {"servo", "plate"}, yaml::Dimension::angle, read)) return;
   curve = {std::move(read.file), std::move(read.columns[0]), std::move(read.columns[1])};
@@ -317,10 +367,16 @@ void read_curve(yaml::Keys& keys, CurveLinkage& curve) {
 
 void read_rods(yaml::Keys& keys, RodLinkage& rods) {
   const yaml::Number length{yaml::Dimension::length, {.above = 0}};
-  keys.required("horn", length, rods.horn);
-  keys.required("arm", length, rods.arm);
-  keys.optional("rod", length, rods.rod);
-  keys.required("offset", yaml::PairOf{yaml::Dimension::length}, rods.offset);
+  keys.required("horn", length, rods.horn,
+                {"length of the bar on the servo, and of the bar on the plate"});
+  keys.required("arm", length, rods.arm, yaml::same);
+  keys.optional("rod", length, rods.rod,
+                {.meaning = "length of the push rod; the default is the length that fits at home. "
+                            "With another length, the plate is tilted when the servo is at zero",
+                 .standard = "closes at home"});
+  keys.required("offset", yaml::PairOf{yaml::Dimension::length}, rods.offset,
+                {"$[d_x, d_z]$, the gimbal's axis from the servo's; both bars lie along +x at "
+                 "home. The rod is upright there if $d_x$ is horn − arm"});
 }
 
 void read_table_linkage(yaml::Keys& keys, CurveLinkage& curve) {
@@ -349,7 +405,9 @@ using BothLinkages = std::array<std::optional<AxisLinkage>, 2>;
 void read_linkage(yaml::Keys& keys, BothLinkages& both) {
   keys.exclusive({{"phi", "theta"}, {"table"}, {"horn", "arm", "rod", "offset"}}, true);
   const yaml::MappingOf axis(read_axis_linkage);
-  const auto phi = keys.find("phi", axis), theta = keys.find("theta", axis);
+  const auto phi =
+      keys.find("phi", axis, {"rods or a curve for one axis; an axis that you leave out is ideal"});
+  const auto theta = keys.find("theta", axis, yaml::same);
   if (!phi && !theta) {
     read_curve_or_rods(keys, both[0]);
     both[1] = both[0];
@@ -364,21 +422,27 @@ const yaml::Number leg_length{yaml::Dimension::length, {.above = 0}};
 // Reads lengths of all legs or of one leg.
 template <class Leg>
 void read_leg_lengths(yaml::Keys& keys, Leg& leg) {
-  const auto length = [&](const char* key, double& into) {
-    if (const auto given = keys.find(key, leg_length)) leg_length.read(*given, into);
+  const auto length = [&](const char* key, double& into, std::string_view meaning) {
+    const yaml::About about{meaning, {}, "required, or in each leg"};
+    if (const auto given = keys.find(key, leg_length, about)) leg_length.read(*given, into);
   };
-  length("radius_base", leg.radius_base);
-  length("radius_plate", leg.radius_plate);
-  length("horn", leg.horn);
-  length("rod", leg.rod);
-  length("height", leg.height);
+  length("radius_base", leg.radius_base, "radius of the servos' axes");
+  length("radius_plate", leg.radius_plate, "radius of the joints under the plate");
+  length("horn", leg.horn, "lengths of horn and rod");
+  length("rod", leg.rod, "lengths of horn and rod");
+  length("height", leg.height,
+         "height of the joints above the servos' axes where the plate is level");
 }
 
 // Reads the keys of a leg over the common values.
 void read_leg(yaml::Keys& keys, ServoLeg& leg) {
   const yaml::Number azimuth{yaml::Dimension::angle};
-  if (const auto given = keys.find("angle", azimuth)) azimuth.read(*given, leg.angle);
-  if (const auto given = keys.find("radius", leg_length)) {
+  if (const auto given =
+          keys.find("angle", azimuth,
+                    {.meaning = "azimuth of the leg's plane, from the plate's x axis towards y",
+                     .standard = "0, 2π/3, 4π/3"}))
+    azimuth.read(*given, leg.angle);
+  if (const auto given = keys.find("radius", leg_length, {"both radii of the leg"})) {
     leg_length.read(*given, leg.radius_base);
     leg.radius_plate = leg.radius_base;
   }
@@ -391,12 +455,19 @@ void read_leg(yaml::Keys& keys, ServoLeg& leg) {
           "radius_plate");
     }
   }
+  keys.about({"radius_base", "radius_plate", "horn", "rod", "height"},
+             {.meaning = "as above, of the leg", .standard = "as for all legs"});
   read_leg_lengths(keys, leg);
-  keys.optional("joint_height", yaml::Number{yaml::Dimension::length}, leg.joint_height);
-  keys.optional("offset", yaml::Number{yaml::Dimension::angle}, leg.offset);
-  keys.optional("direction", yaml::Sign{}, leg.direction);
+  keys.optional("joint_height", yaml::Number{yaml::Dimension::length}, leg.joint_height,
+                {"height of the joint in the plate, from any level that all three share"});
+  keys.optional("offset", yaml::Number{yaml::Dimension::angle}, leg.offset,
+                {"angle of the horn from home where the servo is at zero"});
+  keys.optional("direction", yaml::Sign{}, leg.direction,
+                {.meaning = "-1: the horn falls as the servo's angle grows", .range = "1, -1"});
   const yaml::MappingOf servo(read_servo_keys);
-  if (const auto given = keys.find("servo", servo)) {
+  if (const auto given =
+          keys.find("servo", servo,
+                    {"[servo](#servos) of the leg: its keys replace those of `gimbal.servo`"})) {
     if (!leg.servo) leg.servo.emplace();
     servo.read(*given, *leg.servo);
   } else {
@@ -428,8 +499,9 @@ struct Legs {
 
 void read_three_servos(yaml::Keys& keys, ThreeServos& of) {
   ThreeServoPlate& plate = of.plate;
+  keys.needs_one({{"legs"}, {"radius_base", "radius_plate", "horn", "rod", "height"}});
   read_leg_lengths(keys, plate);
-  const auto given = keys.find("legs", Legs{});
+  const auto given = keys.find("legs", Legs{}, {"a list of three mappings, for legs that differ"});
   std::array<ServoLeg, 3> legs;
   for (std::size_t i = 0; i < legs.size(); ++i) {
     legs[i] = plate.leg(i);
@@ -451,14 +523,21 @@ void read_three_servos(yaml::Keys& keys, ThreeServos& of) {
 namespace {
 
 void read_mounting(yaml::Keys& keys, Mounting& mounting) {
-  keys.optional("height", yaml::Number{yaml::Dimension::length}, mounting.height);
-  keys.optional("phi_offset", yaml::Number{yaml::Dimension::angle}, mounting.phi_offset);
-  keys.optional("theta_offset", yaml::Number{yaml::Dimension::angle}, mounting.theta_offset);
+  keys.optional("height", yaml::Number{yaml::Dimension::length}, mounting.height,
+                {"height of the contact plane above the gimbal's center; negative below"});
+  keys.optional("phi_offset", yaml::Number{yaml::Dimension::angle}, mounting.phi_offset,
+                {"angle of the plate where the servo, or the prescribed motion, is at zero"});
+  keys.optional("theta_offset", yaml::Number{yaml::Dimension::angle}, mounting.theta_offset,
+                yaml::same);
   // At 90 degrees the two axes would coincide.
-  keys.optional("skew", yaml::Number{yaml::Dimension::angle, {.at_least = -1.4, .at_most = 1.4}},
-                mounting.skew);
-  keys.optional("yaw", yaml::Number{yaml::Dimension::angle}, mounting.yaw);
-  keys.optional("base_tilt", yaml::Number{yaml::Dimension::angle}, mounting.base_tilt);
+  keys.optional(
+      "skew", yaml::Number{yaml::Dimension::angle, {.at_least = -1.4, .at_most = 1.4}},
+      mounting.skew,
+      {"deviation of the angle between theta's and phi's axes from 90 degrees, about the normal"});
+  keys.optional("yaw", yaml::Number{yaml::Dimension::angle}, mounting.yaw,
+                {"angle of the plate's x axis from theta's unskewed axis, about the normal"});
+  keys.optional("base_tilt", yaml::Number{yaml::Dimension::angle}, mounting.base_tilt,
+                {"tilt of the whole gimbal about the base's x axis"});
 }
 
 }  // namespace
@@ -468,22 +547,32 @@ void read_gimbal(yaml::Keys& keys, Gimbal& gimbal) {
   keys.optional("torque", yaml::MappingOf(read_torque), gimbal.torque);
   keys.optional("start", yaml::MappingOf(read_start), gimbal.start);
   std::optional<BothServos> servos;
-  keys.optional("servo", yaml::MappingOf(read_servo), servos);
+  keys.optional("servo", yaml::MappingOf(read_servo), servos,
+                {.meaning = "[servos](#servos): required under `drives: legs`, and under `drives: "
+                            "angle` without `gimbal.motor`, otherwise refused",
+                 .standard = "-"});
   if (servos) {
     gimbal.servo = servos->phi;
     gimbal.theta_servo = servos->theta;
   }
-  keys.optional("linkage", yaml::MappingOf(read_linkage), gimbal.linkage);
+  keys.optional("linkage", yaml::MappingOf(read_linkage), gimbal.linkage,
+                {"[linkages](#linkages) between servos and plate"});
   const yaml::MappingOf three_servos(read_three_servos);
-  if (const auto given = keys.find("three_servos", three_servos)) {
+  if (const auto given = keys.find("three_servos", three_servos,
+                                   {"[three servos](#three-servos) under the plate"})) {
     ThreeServos read{{}, gimbal.servo};
     three_servos.read(*given, read);
     gimbal.three_servos = read.plate;
   }
   keys.optional("ring_inertia", yaml::Number{yaml::Dimension::number, {.at_least = 0}, "1e-3"},
-                gimbal.ring_inertia);
-  keys.optional("motor", yaml::MappingOf(read_motor), gimbal.motor);
-  keys.section("mounting", read_mounting, gimbal.mounting);
+                gimbal.ring_inertia,
+                {.meaning = "inertia, about phi's axis, of the parts that turn with phi alone; "
+                            "only where torques move the gimbal",
+                 .unit = "kg m²"});
+  keys.optional("motor", yaml::MappingOf(read_motor), gimbal.motor,
+                {"[torques and motors](#torques-and-motors)"});
+  keys.section("mounting", read_mounting, gimbal.mounting,
+               {.meaning = "[mounting](#mounting) errors"});
 }
 
 }  // namespace bbsim::scenario

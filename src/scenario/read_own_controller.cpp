@@ -54,19 +54,33 @@ void read_process(yaml::Keys& keys, ControllerProgram& program,
                   std::vector<Parameter>& parameters) {
   const yaml::ListOf<yaml::Text, std::string> words{
       {"a word"}, 1, 1000, "words, such as [python3, pid.py]"};
-  keys.required("command", words, program.command);
-  keys.optional("parameters", Parameters{}, parameters);
+  keys.required("command", words, program.command,
+                {.meaning = "the program and its arguments; no shell reads them",
+                 .range = "1 to 1000 words"});
+  keys.optional("parameters", Parameters{}, parameters,
+                {"names and numbers that bbsim passes to the program: `{kp: 0.7}`"});
   const yaml::Number time{yaml::Dimension::time, some_time};
-  keys.optional("timeout", time, program.timeout);
+  keys.optional("timeout", time, program.timeout, {"for each answer"});
   program.start_timeout = std::max(program.start_timeout, program.timeout);
-  keys.optional("start_timeout", time, program.start_timeout);
+  keys.optional("start_timeout", time, program.start_timeout,
+                {.meaning = "for the first answer, which includes the program's startup",
+                 .standard = "5, at least `timeout`"});
 }
 
 void read_serial(yaml::Keys& keys, SerialProgram& serial) {
+  keys.about({"command", "parameters", "timeout", "start_timeout"},
+             {.meaning = "[a program at the sketch's `Serial`](#a-program-and-a-sketch); as of "
+                         "`controller.program`",
+              .standard = "-"});
   read_process(keys, serial.program, serial.parameters);
   const yaml::Number period{yaml::Dimension::time, {.above = 0}, period_example};
-  keys.optional("period", Period{{period, "ms", 1}}, serial.period);
-  keys.optional("delay", yaml::Number{yaml::Dimension::time, {.at_least = 0}}, serial.delay);
+  keys.optional("period", Period{{period, "ms", 1}}, serial.period,
+                {.meaning = "time between samples of that program, such as its camera's frames",
+                 .standard = "`sampling.period`",
+                 .range = "≥ `sampling.period`"});
+  keys.optional(
+      "delay", yaml::Number{yaml::Dimension::time, {.at_least = 0}}, serial.delay,
+      {"time from a sample to the first byte that the program sends, such as its computation"});
 }
 
 }  // namespace
@@ -83,11 +97,14 @@ void read_program(yaml::Keys& keys, Controller& controller) {
 void read_library(yaml::Keys& keys, Controller& controller) {
   OwnController& own = controller.own.emplace();
   ControllerLibrary library;
-  keys.required("file", yaml::Text{"the name of a shared library"}, library.file);
+  keys.required("file", yaml::Text{"the name of a shared library"}, library.file,
+                {"the shared library, relative to the scenario"});
   keys.optional("wiring", yaml::Text{"the name of a file that says what a sketch is wired to"},
-                library.wiring);
+                library.wiring,
+                {"for a sketch: the [wiring](wiring.md) of its board, relative to the scenario"});
   keys.optional("serial", yaml::MappingOf(read_serial), library.serial);
-  keys.optional("parameters", Parameters{}, own.parameters);
+  keys.optional("parameters", Parameters{}, own.parameters,
+                {"names and numbers that bbsim passes to the library"});
   own.by = std::move(library);
   own.folder = keys.context().folder.string();
   keys.context().own_controller = true;

@@ -98,10 +98,12 @@ void check_bound(yaml::Keys& keys, Solver& solver) {
 }  // namespace
 
 void read_time(yaml::Keys& keys, OutputTimes& time) {
-  const bool end =
-      keys.required("end", yaml::Number{yaml::Dimension::time, {.above = 0}}, time.end);
+  const bool end = keys.required("end", yaml::Number{yaml::Dimension::time, {.above = 0}}, time.end,
+                                 {"end of the run"});
   const bool step =
-      keys.required("step", yaml::Number{yaml::Dimension::time, {.above = 0}}, time.step);
+      keys.required("step", yaml::Number{yaml::Dimension::time, {.above = 0}}, time.step,
+                    {.meaning = "a row at i × step, exactly, and at the end",
+                     .range = "> 0, `end` / 10⁹ or more"});
   if (end) keys.context().end = time.end;
   if (end && step && time.step > time.end) {
     keys.find("step")->warn("is longer than the run, so the result has a row at its start only");
@@ -116,15 +118,22 @@ void read_solver(yaml::Keys& keys, Solver& solver) {
   const yaml::Number rtol{yaml::Dimension::number, {.at_least = 1e-14, .at_most = 0.1}, "1e-8"};
   const yaml::Number atol{yaml::Dimension::number, {.above = 0, .at_most = 1}, "1e-10"};
   keys.exclusive({{"error"}, {"rtol", "atol"}});
-  keys.optional("method", methods(), solver.method);
-  keys.optional("rtol", rtol, solver.rtol);
-  keys.optional("atol", atol, solver.atol);
+  keys.optional("method", methods(), solver.method,
+                {"`radau`: bbsim's own collocation; `bdf`, `adams`: CVODES; `auto` takes the "
+                 "cheapest, which is `radau`"});
+  keys.optional("rtol", rtol, solver.rtol, {"local relative tolerance"});
+  keys.optional("atol", atol, solver.atol, {"local absolute tolerance", "state's unit"});
   const yaml::Number error{yaml::Dimension::length, {.above = 0, .at_most = 1}, "1e-9"};
-  if (keys.optional("error", error, solver.error) && solver.error) check_bound(keys, solver);
+  if (keys.optional(
+          "error", error, solver.error,
+          {"instead of tolerances: a bound on the error of x and y at all output times"}) &&
+      solver.error)
+    check_bound(keys, solver);
 }
 
 void read_output(yaml::Keys& keys, Output& output) {
-  keys.optional("columns", Columns{}, output.columns);
+  keys.optional("columns", Columns{}, output.columns,
+                {"[columns](columns.md) of the result, each once"});
 }
 
 }  // namespace bbsim::scenario

@@ -95,12 +95,18 @@ struct MeasureNames {
 }  // namespace
 
 void read_sweep(yaml::Keys& keys, Sweep& sweep) {
-  keys.optional("vary", Variations{}, sweep.vary);
+  keys.optional("vary", Variations{}, sweep.vary,
+                {"from keys to [value specifications](commands.md#values-of-a-sweep), such as "
+                 "`ball.radius: linear:0.005:0.02:16`"});
   keys.optional("combine", yaml::NameOf<Combine>{{{Combine::grid, "grid"}, {Combine::zip, "zip"}}},
-                sweep.combine);
-  keys.optional("samples", yaml::Whole{1, "1000"}, sweep.samples);
-  keys.optional("seed", yaml::Whole{0, "1000"}, sweep.seed);
-  keys.optional("measure", MeasureNames{}, sweep.measure);
+                sweep.combine,
+                {"`grid`: every combination; `zip`: first values together, then second ones"});
+  keys.optional("samples", yaml::Whole{1, "1000"}, sweep.samples,
+                {"cases to draw where values are drawn"});
+  keys.optional("seed", yaml::Whole{0, "1000"}, sweep.seed, {"seed of drawn values"});
+  keys.optional("measure", MeasureNames{}, sweep.measure,
+                {.meaning = "[measures](measures.md) to keep, such as `max_tilt`, `x.RiseTime`",
+                 .standard = "the [default measures](measures.md#default-measures-of-a-sweep)"});
 }
 
 }  // namespace bbsim::scenario

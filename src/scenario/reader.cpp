@@ -20,24 +20,35 @@ using namespace yaml;
 
 // Reads `time` before `gimbal` and the ball's push, because their tables must cover the run.
 void read_sections(Keys& keys, Scenario& scenario) {
-  keys.optional("title", Text{"a text", true}, scenario.title);
-  keys.optional("gravity", Number{Dimension::acceleration, {.at_least = 0}}, scenario.gravity);
-  keys.section("ball", read_ball, scenario.ball);
-  keys.section("plate", read_plate, scenario.plate);
-  keys.section("time", read_time, scenario.time);
+  keys.optional("title", Text{"a text", true}, scenario.title,
+                {"any text, for reports and pictures"});
+  keys.optional("gravity", Number{Dimension::acceleration, {.at_least = 0}}, scenario.gravity,
+                {"acceleration of gravity"});
+  keys.section("ball", read_ball, scenario.ball, {"[ball](#ball)"});
+  keys.section("plate", read_plate, scenario.plate, {"[plate](#plate)"});
+  keys.section("time", read_time, scenario.time,
+               {"[time, solver and output](#time-solver-and-output)"});
   read_ball_push(keys, scenario.ball);
-  keys.section("gimbal", read_gimbal, scenario.gimbal);
-  keys.optional("controller", MappingOf(read_controller), scenario.controller);
-  keys.section("events", read_events, scenario.events);
-  keys.section("solver", read_solver, scenario.solver);
-  keys.section("output", read_output, scenario.output);
-  keys.section("sweep", read_sweep, scenario.sweep);
+  keys.section("gimbal", read_gimbal, scenario.gimbal, {"what moves the plate: [gimbal](#gimbal)"});
+  keys.optional("controller", MappingOf(read_controller), scenario.controller,
+                {"a closed loop: [controller](#controller)"});
+  keys.section("events", read_events, scenario.events,
+               {.meaning = "what bbsim watches for: [events](#events)", .standard = "none"});
+  keys.section("solver", read_solver, scenario.solver, {"the same section"});
+  keys.section("output", read_output, scenario.output, same);
+  keys.section("sweep", read_sweep, scenario.sweep,
+               {.meaning = "defaults of `bbsim sweep`: [sweep](#sweep)", .standard = "none"});
   std::optional<Exercise> exercise;  // only `check` and pages look at it
-  keys.optional("exercise", MappingOf(read_exercise), exercise);
+  keys.optional("exercise", MappingOf(read_exercise), exercise,
+                {"tasks for a learner: [exercise](#exercise)"});
   scenario.has_exercise = exercise.has_value();
   place_groove(scenario);
-  check_loop(keys);
-  check_rig(keys, scenario);
+  check_rig(keys.mapping(), scenario);
+}
+
+const Declared& declared_keys() {
+  static const Declared declared = MappingOf(read_sections).declared();
+  return declared;
 }
 
 const Node* build_tree(const Source& source, Problems& problems, Nodes& nodes) {

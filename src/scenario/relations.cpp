@@ -4,7 +4,6 @@
 #include "scenario/relations.hpp"
 
 #include <algorithm>
-#include <optional>
 
 namespace bbsim::scenario {
 namespace {
@@ -12,11 +11,21 @@ namespace {
 constexpr auto needs = KeyRelation::Kind::needs;
 constexpr auto excludes = KeyRelation::Kind::excludes;
 
-constexpr KeyRelation table[] = {
-    // What moves the gimbal.
-    {"time", needs, "gimbal.motion or gimbal.torque or controller"},
-    {"gimbal.motion", excludes, "gimbal.torque or controller"},
-    {"gimbal.torque", excludes, "controller"},
+constexpr KeyRelation movers[] = {
+    {"controller", excludes, "gimbal.motion",
+     "found beside gimbal.motion; allowed: exactly one of the two, since either the scenario "
+     "prescribes the motion or the controller drives it"},
+    {"gimbal.torque", excludes, "gimbal.motion",
+     "found beside gimbal.motion; allowed: exactly one of gimbal.motion, gimbal.torque and "
+     "controller"},
+    {"gimbal.torque", excludes, "controller",
+     "found beside controller; allowed: exactly one of gimbal.motion, gimbal.torque and "
+     "controller"},
+    {"", needs, "gimbal.motion or gimbal.torque or controller",
+     "missing, and so is controller; allowed: exactly one of the two", "gimbal:gimbal.motion"},
+};
+
+constexpr KeyRelation moved[] = {
     {"gimbal.start", excludes, "gimbal.motion",
      "found beside gimbal.motion, which determines where the gimbal starts; allowed: only with a "
      "controller"},
@@ -32,115 +41,212 @@ constexpr KeyRelation table[] = {
     {"gimbal.motor.position_loop", excludes, "gimbal.torque",
      "found beside gimbal.torque, which prescribes the motors' torque; allowed: only with a "
      "controller that drives angle"},
-    {"controller.drives=angle", needs, "gimbal.servo or gimbal.motor.position_loop"},
-    {"controller.drives=angle", excludes, "gimbal.servo and gimbal.motor"},
+    {"controller.drives=angle", needs, "gimbal.servo or gimbal.motor",
+     "missing, but controller.drives is angle; allowed: a mapping with natural_frequency, damping",
+     "gimbal:gimbal.servo"},
+    {"controller.drives=legs", needs, "gimbal.servo",
+     "missing, but controller.drives is legs; allowed: a mapping with natural_frequency, damping",
+     "gimbal:gimbal.servo"},
+    {"gimbal.motor and controller.drives=angle", needs,
+     "gimbal.servo or gimbal.motor.position_loop",
+     "found without position_loop, but controller.drives is angle; allowed: a position_loop that "
+     "follows the angle, or drives: torque or voltage"},
+    {"gimbal.servo and controller.drives=angle", excludes, "gimbal.motor",
+     "found beside gimbal.motor, but a servo moves at any torque; allowed: one of the two"},
     {"gimbal.servo", excludes, "controller and controller.drives=acceleration|",
      "found, but controller.drives is acceleration, which no servo follows; allowed: only with "
      "drives: angle"},
     {"gimbal.motor", excludes, "controller and controller.drives=acceleration|",
      "found, but controller.drives is acceleration, whatever the torque; allowed: only with "
      "drives: torque or voltage, or angle and a position_loop"},
-    {"gimbal.servo", excludes, "controller.drives=torque",
-     "found, but controller.drives is torque, which no servo follows; allowed: only with drives: "
-     "angle"},
-    {"gimbal.motor.position_loop", excludes, "controller.drives=torque",
-     "found, but controller.drives is torque; allowed: only with drives: angle, which the loop "
-     "follows"},
-    {"gimbal.servo", excludes, "controller.drives=voltage",
-     "found, but controller.drives is voltage, which no servo follows; allowed: only with drives: "
-     "angle"},
-    {"gimbal.motor.position_loop", excludes, "controller.drives=voltage",
-     "found, but controller.drives is voltage; allowed: only with drives: angle, which the loop "
-     "follows"},
-    {"controller.drives=voltage", needs, "gimbal.motor.dc"},
+    {"gimbal.servo", excludes, "controller.drives=torque|voltage",
+     "found, but controller.drives is {=controller.drives}, which no servo follows; allowed: only "
+     "with drives: angle"},
+    {"gimbal.motor.position_loop", excludes, "controller.drives=torque|voltage",
+     "found, but controller.drives is {=controller.drives}; allowed: only with drives: angle, "
+     "which the loop follows"},
+    {"controller.drives=voltage", needs, "gimbal.motor.dc",
+     "missing, but controller.drives is voltage; allowed: a mapping with resistance, "
+     "torque_constant",
+     "gimbal:gimbal.motor.dc"},
+};
 
-    // Servos and linkages.
-    {"gimbal.servo", needs,
-     "gimbal.servo.model or gimbal.servo.time_constant or gimbal.servo.stepper or "
-     "gimbal.servo.natural_frequency and "
-     "gimbal.servo.damping or "
-     "gimbal.servo.phi and gimbal.servo.theta"},
-    {"gimbal.servo.time_constant", needs, "controller.sampling"},
-    {"gimbal.servo.time_constant", excludes, "gimbal.servo.acceleration_limit"},
-    {"gimbal.servo.stepper", needs, "controller.sampling"},
+constexpr std::string_view by_torques =
+    "gimbal.torque or controller.drives=torque|voltage or "
+    "controller.drives=angle and gimbal.motor.position_loop";
+
+constexpr std::string_view one_of_torque_and_inertia =
+    "found with one of torque and inertia; allowed: both, whose ratio is the greatest "
+    "acceleration, or neither";
+
+constexpr KeyRelation others[] = {
+    // Servos.
+    {"gimbal.servo.time_constant", needs, "controller.sampling",
+     "found without controller.sampling; allowed: only with it. The rate of a servo of first order "
+     "follows its command at once, so a continuous command would have to be differentiated"},
+    {"gimbal.servo.acceleration_limit", excludes, "gimbal.servo.time_constant",
+     "found with time_constant: a servo of first order changes its rate at once; allowed: only "
+     "with natural_frequency and damping"},
+    {"gimbal.servo.dead_band>0", needs, "controller.sampling",
+     "found without controller.sampling; allowed: only with it, since a dead band "
+     "compares each command with the one before"},
+    {"gimbal.servo.stepper", needs, "controller.sampling",
+     "found without controller.sampling; allowed: only with it, since the driver plans a ramp to "
+     "each command"},
+    {"gimbal.servo.stepper.torque or gimbal.servo.stepper.model", excludes,
+     "controller.library.wiring",
+     "found with torque; allowed: only under a law of bbsim, whose ramps it limits. To test a "
+     "sketch's ramp, give its speed and acceleration as rate_limit and acceleration_limit of such "
+     "a law",
+     "gimbal.servo.stepper"},
+    {"gimbal.servo.stepper and controller.library.wiring", excludes,
+     "gimbal.servo.rate_limit or gimbal.servo.speed or gimbal.servo.acceleration_limit",
+     "found beside rate_limit or acceleration_limit; allowed: without them, since the sketch's "
+     "pulses make the ramp"},
     {"gimbal.servo.stepper", needs,
      "gimbal.servo.acceleration_limit and gimbal.servo.rate_limit or "
-     "gimbal.servo.acceleration_limit and gimbal.servo.speed or controller.library.wiring"},
+     "gimbal.servo.acceleration_limit and gimbal.servo.speed or controller.library.wiring",
+     "found without rate_limit and acceleration_limit; allowed: only with both, which are the "
+     "driver's ramp"},
     {"gimbal.servo.stepper", excludes,
-     "controller.library.wiring and gimbal.servo.rate_limit or "
-     "controller.library.wiring and gimbal.servo.speed or "
-     "controller.library.wiring and gimbal.servo.acceleration_limit"},
+     "gimbal.servo.natural_frequency or gimbal.servo.time_constant or gimbal.servo.model",
+     "found beside natural_frequency, time_constant or model; allowed: one of them"},
     {"gimbal.servo.stepper.torque", needs,
-     "gimbal.servo.stepper.inertia or gimbal.servo.stepper.model"},
+     "gimbal.servo.stepper.inertia or gimbal.servo.stepper.model", one_of_torque_and_inertia,
+     "gimbal.servo.stepper"},
     {"gimbal.servo.stepper.inertia", needs,
-     "gimbal.servo.stepper.torque or gimbal.servo.stepper.model"},
+     "gimbal.servo.stepper.torque or gimbal.servo.stepper.model", one_of_torque_and_inertia,
+     "gimbal.servo.stepper"},
     {"gimbal.servo.stepper.corner_speed", needs,
-     "gimbal.servo.stepper.torque or gimbal.servo.stepper.model"},
-    {"gimbal.servo.stepper.model", excludes,
-     "gimbal.servo.backlash>0 or controller.library.wiring"},
-    {"gimbal.servo.stepper.damping", needs, "gimbal.servo.stepper.natural_frequency"},
-    {"gimbal.servo.stepper.natural_frequency", excludes, "gimbal.servo.backlash>0"},
-    {"gimbal.servo.stepper.torque", excludes,
-     "gimbal.servo.backlash>0 or controller.library.wiring"},
-    {"events.steps_lost", needs, "gimbal.servo.stepper.torque or gimbal.servo.stepper.model"},
-    {"gimbal.servo.stepper", excludes, "gimbal.servo.angle_limit or gimbal.servo.model"},
-    {"gimbal.servo.dead_band>0", needs, "controller.sampling"},
+     "gimbal.servo.stepper.torque or gimbal.servo.stepper.model",
+     "found with corner_speed, but no torque; allowed: only with torque and inertia",
+     "gimbal.servo.stepper"},
+    {"gimbal.servo.stepper.torque or gimbal.servo.stepper.model", excludes,
+     "gimbal.servo.backlash>0", "found with torque, beside backlash; allowed: one of the two",
+     "gimbal.servo.stepper"},
+    {"gimbal.servo.stepper.natural_frequency", excludes, "gimbal.servo.backlash>0",
+     "found with natural_frequency, beside backlash; allowed: one of the two",
+     "gimbal.servo.stepper"},
+    {"gimbal.servo.stepper", excludes, "gimbal.servo.angle_limit",
+     "found beside angle_limit; allowed: controller.limit, which keeps commands within bounds"},
+
+    // Linkages.
     {"controller.assumes", needs, "gimbal.linkage or gimbal.three_servos",
      "found, but nothing links servos and plate; allowed: only with gimbal.linkage or "
      "gimbal.three_servos"},
     {"controller.assumes", excludes,
      "controller.drives=legs or gimbal.linkage and controller.program or gimbal.linkage and "
-     "controller.library"},
+     "controller.library",
+     "found with your own controller, which commands the servos itself; allowed: only with a "
+     "built-in law, or, of three servos, under drives: angle"},
+    {"controller.assumes.legs or controller.assumes.radius_base", needs,
+     "gimbal.three_servos and controller.sampling",
+     "found legs; allowed: only with gimbal.three_servos and controller.sampling, since only "
+     "firmware assumes other legs",
+     "controller.assumes"},
     {"gimbal.three_servos", excludes, "gimbal.linkage",
      "found beside gimbal.linkage; allowed: one of the two, since three servos are a linkage "
      "themselves"},
-    {"gimbal.linkage", needs, "controller.drives=angle"},
-    {"gimbal.linkage", excludes, "gimbal.motor"},
-    {"gimbal.three_servos", needs, "controller.drives=angle|legs"},
-    {"gimbal.three_servos", needs,
-     "gimbal.three_servos.legs or gimbal.three_servos.radius_base and "
-     "gimbal.three_servos.radius_plate and gimbal.three_servos.horn and gimbal.three_servos.rod "
-     "and "
-     "gimbal.three_servos.height"},
-    {"gimbal.three_servos", excludes, "gimbal.motor or gimbal.servo.phi or gimbal.servo.theta"},
-    {"controller.drives=legs", needs,
-     "gimbal.three_servos and gimbal.servo and controller.program or gimbal.three_servos and "
-     "gimbal.servo and controller.library"},
-    {"controller.drives=legs", excludes, "controller.limit.phi or controller.limit.theta"},
+    {"gimbal.linkage or gimbal.three_servos", needs, "controller",
+     "found without a controller, and no servo moves it; allowed: only with a controller that "
+     "drives angle"},
+    {"gimbal.linkage and controller", needs, "controller.drives=angle or gimbal.motor",
+     "found, but controller.drives is not angle, and no servo moves it; allowed: only with "
+     "drives: angle and gimbal.servo"},
+    {"gimbal.three_servos and controller", needs, "controller.drives=angle|legs or gimbal.motor",
+     "found, but controller.drives is not angle, and no servo moves it; allowed: only with "
+     "drives: angle and gimbal.servo"},
+    {"gimbal.linkage and controller or gimbal.three_servos and controller", excludes,
+     "gimbal.motor",
+     "found, but gimbal.motor moves the axes themselves; allowed: only with drives: angle and "
+     "gimbal.servo"},
+    {"gimbal.servo.phi or gimbal.servo.theta", excludes, "gimbal.three_servos",
+     "found keys for phi and theta beside gimbal.three_servos, which belong to no axis; allowed: "
+     "the same keys for all three",
+     "gimbal.servo"},
+    {"controller.drives=legs", needs, "gimbal.three_servos",
+     "found legs, but there are no three servos; allowed: angle, or gimbal.three_servos given"},
+    {"controller.drives=legs", needs, "controller.program or controller.library",
+     "found legs beside a law that gives two angles; allowed: angle, or your own program or "
+     "library, which gives an angle for each servo"},
+    {"controller.limit.phi or controller.limit.theta", excludes, "controller.drives=legs",
+     "found limits of phi and theta, but the commands are those of three servos; allowed: one "
+     "angle for all",
+     "controller.limit"},
 
     // Ball, plate and torques.
     {"ball.push", needs, "ball.mass",
      "found, but no ball.mass, and a push moves a lighter ball farther; allowed: only with "
      "ball.mass"},
-    {"ball.push", excludes, "controller.feedback_linearization"},
-    {"ball.losses.viscous>0", needs, "ball.mass"},
-    {"ball.losses.rolling>0", excludes, "controller.feedback_linearization"},
-    {"ball.losses.pivoting>0", excludes, "controller.feedback_linearization"},
-    {"ball.rolling_radius", excludes, "events.slip or gimbal.three_servos or ball.rotation"},
+    {"ball.push", excludes, "controller.feedback_linearization",
+     "found beside {controller.feedback_linearization}, whose equations do not include it; "
+     "allowed: any other law"},
+    {"ball.losses.viscous>0", needs, "ball.mass",
+     "found, but no ball.mass, and a lighter ball loses more speed; allowed: only with ball.mass"},
+    {"ball.losses.rolling>0 or ball.losses.pivoting>0", excludes,
+     "controller.feedback_linearization",
+     "found dry friction beside {controller.feedback_linearization}, which inverts smooth "
+     "equations; allowed: viscous, or any other law",
+     "ball.losses"},
+    {"ball.losses.pivoting>0", needs, "ball.inertia_factor>0|",
+     "found, but ball.inertia_factor is 0: such a ball's spin would stop at once; allowed: a "
+     "factor greater than 0"},
+    {"ball.rolling_radius", excludes, "gimbal.three_servos",
+     "found beside gimbal.three_servos, which tilt the plate in all directions; allowed: only for "
+     "a ball that rolls along one axis, in a groove or between rails"},
+    {"ball.rolling_radius", excludes, "ball.rotation",
+     "found beside ball.rotation, which turns the ball by itself; allowed: only for a ball that "
+     "rolls along one axis, in a groove or between rails"},
     {"ball.rotation", needs, "events.slip.action=slide",
      "found, but the ball only rolls, which determines how it turns; allowed: only with "
      "events.slip and its action: slide"},
-    {"plate.center_of_mass", needs, "plate.mass>0"},
-    {"gimbal.torque", needs, "ball.mass and plate.inertia"},
-    {"gimbal.motor", needs, "ball.mass and plate.inertia"},
-    {"controller.drives=torque|voltage", needs, "ball.mass and plate.inertia"},
-    {"gimbal.ring_inertia", needs,
-     "gimbal.torque or gimbal.motor or controller.drives=torque|voltage"},
+    {"plate.center_of_mass", needs, "plate.mass>0",
+     "found without plate.mass; allowed: only with it, since the weight acts there"},
+    {by_torques, needs, "ball.mass",
+     "found no mass, but the ball's weight moves the gimbal; allowed: ball.mass given, since the "
+     "default of 1 kg is not a realistic ball",
+     "ball"},
+    {by_torques, needs, "plate.inertia",
+     "missing, but torques move the gimbal; allowed: three moments of inertia about x, y and the "
+     "normal, such as [2e-4, 2e-4, 4e-4]",
+     "gimbal:plate.inertia"},
+    {"gimbal.ring_inertia", needs, by_torques,
+     "found, but no torques move the gimbal; allowed: only with gimbal.torque, or a controller of "
+     "gimbal.motor"},
 
     // The controller.
-    {"controller", needs, "controller.reference or controller.commands"},
-    {"controller.reference", excludes, "controller.commands"},
-    {"controller.commands", needs, "controller.drives=angle"},
+    {"controller.commands", needs, "controller.drives=angle",
+     "found, but controller.drives is not angle; allowed: only with drives: angle, since commands "
+     "are angles"},
     {"controller.sensor", excludes, "controller.commands",
      "found beside commands, which no measurement changes; allowed: without it"},
-    {"controller.program", needs, "controller.sampling"},
-    {"controller.library", needs, "controller.sampling"},
+    {"controller.program or controller.library", needs, "controller.sampling",
+     "found without controller.sampling; allowed: only with it, since bbsim calls it once per "
+     "sample"},
     {"controller.library.serial", needs, "controller.library.wiring",
      "found without wiring; allowed: only with it, since the line is that of a sketch's board"},
-    {"controller.feedback_linearization", excludes, "controller.sampling"},
-    {"controller.feedback_linearization", needs, "controller.drives=acceleration|"},
-    {"controller.gravity_compensation", needs, "controller.drives=angle"},
-    {"controller.sampling.resolution>0", needs, "controller.drives=angle|legs"},
+    {"controller.sampling", excludes, "controller.feedback_linearization",
+     "found beside {controller.feedback_linearization}, which needs the exact state at all times; "
+     "allowed: any other law"},
+    {"controller.feedback_linearization", needs, "controller.drives=acceleration|",
+     "found {=controller.drives}, but {controller.feedback_linearization} gives the gimbal's "
+     "accelerations; allowed: acceleration",
+     "controller.drives"},
+    {"controller.gravity_compensation", needs, "controller.drives=angle",
+     "found, but controller.drives is not angle; allowed: only with drives: angle, since it gives "
+     "angles"},
+    {"controller.gravity_compensation", needs, "gravity>0|",
+     "found, but gravity is 0; allowed: gravity greater than 0"},
+    {"controller.lqr", needs, "gravity>0|",
+     "found, but gravity is 0, and a tilted plate does not move the ball; allowed: gravity greater "
+     "than 0"},
+    {"controller.lqr", excludes, "gimbal.servo.time_constant",
+     "found with a servo of first order (time_constant); allowed: one with natural_frequency and "
+     "damping, whose state the regulator feeds back"},
+    {"gimbal.motor.position_loop.ki>0", excludes, "controller.lqr",
+     "found beside lqr, which does not see the loop's integral; allowed: ki 0, or any other law"},
+    {"controller.sampling.resolution>0", needs, "controller.drives=angle|legs",
+     "found, but controller.drives is not angle; allowed: only with drives: angle"},
     {"controller.sensor", needs, "controller.sampling",
      "found, but no controller.sampling; allowed: only with it, since the controller reads the "
      "sensor at its samples; a continuous law knows the ball exactly"},
@@ -151,7 +257,7 @@ constexpr KeyRelation table[] = {
      ".burst, with sampling.jitter, or a sketch"},
     {"controller.sensor.burst", needs, "controller.sensor.period",
      "found without sensor.period; allowed: only with it, since it holds up a camera's frames"},
-    {"controller.sensor.contact_force>0", needs, "ball.mass",
+    {"controller.sensor.contact_force", needs, "ball.mass",
      "found, but no ball.mass, and a lighter ball presses less; allowed: only with ball.mass"},
     {"controller.sensor.on_miss=edge", needs, "controller.sensor.area",
      "found without sensor.area; allowed: only with it, whose corner it reads"},
@@ -162,14 +268,33 @@ constexpr KeyRelation table[] = {
     // Events.
     {"events.edge", needs, "plate.size or plate.diameter",
      "found, but the plate has no edge; allowed: only with plate.size or plate.diameter"},
-    {"events.rest", needs, "ball.losses.rolling>0"},
-    {"events.stick", needs, "gimbal.motor.friction>0"},
-    {"events.singularity", needs, "controller.feedback_linearization"},
-    {"events.slip.action=slide", needs, "events.slip.sliding_friction"},
-    {"events.slip.sliding_friction", needs, "events.slip.action=slide"},
+    {"events.rest", needs, "ball.losses.rolling>0",
+     "found, but nothing brings the ball to rest; allowed: only with ball.losses.rolling"},
+    {"events.stick", needs, "gimbal.motor.friction>0",
+     "found, but nothing holds an axis; allowed: only with gimbal.motor.friction"},
+    {"events.steps_lost", needs, "gimbal.servo.stepper.torque or gimbal.servo.stepper.model",
+     "found, but no stepper loses steps; allowed: only with gimbal.servo.stepper.torque"},
+    {"events.singularity", needs, "controller.feedback_linearization",
+     "found without controller.feedback_linearization; allowed: only with it"},
+    {"events.slip", excludes, "ball.rolling_radius",
+     "found beside ball.rolling_radius, and the friction of two contacts is not that of one; "
+     "allowed: any other event"},
+    {"events.slip.action=slide", needs, "events.slip.sliding_friction",
+     "missing; allowed: a number of at least 0, such as 0.25",
+     "events.slip:events.slip.sliding_friction"},
+    {"events.slip.sliding_friction", needs, "events.slip.action=slide",
+     "found, but action is not slide; allowed: only with action: slide",
+     "=events.slip.sliding_friction"},
+    {"events.slip.action=slide", needs, "ball.inertia_factor>0|",
+     "found slide, but ball.inertia_factor is 0: nothing would make such a ball slide; allowed: a "
+     "factor greater than 0"},
+    {"events.slip.action=slide", excludes, "controller.feedback_linearization",
+     "found slide beside {controller.feedback_linearization}, which inverts the equations of a "
+     "ball that rolls; allowed: stop or note, or any other law"},
     {"events.slip.action=slide", excludes,
-     "controller.feedback_linearization or gimbal.servo.time_constant or gimbal.servo.angle_limit "
-     "or gimbal.servo.backlash>0"},
+     "gimbal.servo.time_constant or gimbal.servo.angle_limit or gimbal.servo.backlash>0",
+     "found slide with a servo that jolts the plate (time_constant, angle_limit or backlash), "
+     "where the sliding motion is not defined; allowed: stop or note"},
 };
 
 std::vector<std::string_view> split(std::string_view text, std::string_view by) {
@@ -182,96 +307,33 @@ std::vector<std::string_view> split(std::string_view text, std::string_view by) 
   return parts;
 }
 
-std::optional<yaml::Value> find_at(yaml::Keys& keys, std::string_view path) {
-  std::optional<yaml::Value> value = keys.mapping();
-  for (const std::string_view key : split(path, ".")) {
-    if (value) value = yaml::Keys(*value).find(key);
-  }
-  return value;
-}
-
-// Ignores Condition::positive, because no relation with a message uses it.
-bool holds(yaml::Keys& keys, const Condition& condition) {
-  const std::optional<yaml::Value> value = find_at(keys, condition.path);
-  if (!value) return condition.or_absent;
-  return condition.values.empty() ||
-         std::ranges::find(condition.values, value->node->text) != condition.values.end();
-}
-
-struct Check {
-  const KeyRelation* relation;
-  Condition key;
-  std::vector<std::vector<Condition>> others;
-};
-
-const std::vector<Check>& checks() {
-  static const std::vector<Check> all = [] {
-    std::vector<Check> list;
-    for (const KeyRelation& one : table) {
-      if (!one.message.empty()) list.push_back({&one, Condition(one.key), one.alternatives()});
-    }
-    return list;
-  }();
-  return all;
-}
-
-void report_if_broken(yaml::Keys& keys, const Check& check) {
-  if (!holds(keys, check.key)) return;
-  const bool any = std::ranges::any_of(check.others, [&](const auto& alternative) {
-    return std::ranges::all_of(alternative,
-                               [&](const Condition& condition) { return holds(keys, condition); });
-  });
-  if (any == (check.relation->kind == needs)) return;
-  const yaml::Value value = *find_at(keys, check.key.path);
-  value.context->problems.add(value.position,
-                              value.path + ": " + std::string(check.relation->message));
-}
-
-// Whether the relation is about what moves the gimbal. check_loop() asks for these one by one.
-bool of_loop(const KeyRelation& relation) {
-  return relation.others == "gimbal.motion" || relation.others == "gimbal.torque" ||
-         relation.others.find("controller.drives") != std::string_view::npos;
-}
-
 }  // namespace
 
 Condition::Condition(std::string_view text) {
-  if (text.ends_with(">0")) {
-    positive = true;
-    text.remove_suffix(2);
-  }
-  const std::size_t equals = text.find('=');
-  path = text.substr(0, equals);
-  if (equals == std::string_view::npos) return;
-  values = split(text.substr(equals + 1), "|");
+  const std::size_t above = text.find(">0");
+  const std::size_t end = std::min(text.find('='), above);
+  path = text.substr(0, end);
+  positive = above != std::string_view::npos;
+  if (positive) or_absent = text.ends_with('|');
+  if (positive || end == std::string_view::npos) return;
+  values = split(text.substr(end + 1), "|");
   or_absent = std::erase(values, "") > 0;
 }
 
-std::vector<std::vector<Condition>> KeyRelation::alternatives() const {
-  std::vector<std::vector<Condition>> all;
-  for (const std::string_view alternative : split(others, " or ")) {
-    auto& one = all.emplace_back();
+Conditions conditions(std::string_view text) {
+  Conditions any;
+  if (text.empty()) return any;
+  for (const std::string_view alternative : split(text, " or ")) {
+    auto& all = any.emplace_back();
     for (const std::string_view condition : split(alternative, " and ")) {
-      one.emplace_back(condition);
+      all.emplace_back(condition);
     }
   }
-  return all;
+  return any;
 }
 
-std::span<const KeyRelation> relations() {
-  return table;
-}
-
-void check_relations(yaml::Keys& scenario, std::string_view others) {
-  for (const Check& check : checks()) {
-    if (check.relation->others == others) report_if_broken(scenario, check);
-  }
-}
-
-void check_relations(yaml::Keys& scenario) {
-  for (const Check& check : checks()) {
-    if (!of_loop(*check.relation)) report_if_broken(scenario, check);
-  }
+std::array<std::span<const KeyRelation>, 3> relations() {
+  return {movers, moved, others};
 }
 
 }  // namespace bbsim::scenario

@@ -33,17 +33,15 @@ void read_sweep(yaml::Keys& keys, Sweep& sweep);
 // Reads all sections and checks them.
 void read_sections(yaml::Keys& keys, Scenario& scenario);
 
+// The declaration of the whole scenario.
+[[nodiscard]] const yaml::Declared& declared_keys();
+
 // The tree of a scenario's text with all overrides applied. Reports problems. Returns nullptr if
 // the text is not a tree.
 [[nodiscard]] const yaml::Node* build_tree(const Source& source, yaml::Problems& problems,
                                            yaml::Nodes& nodes);
 
-// Checks conditions between sections: whether a controller or a prescribed motion moves the gimbal,
-// and which keys may accompany each.
-void check_loop(yaml::Keys& scenario);
-
-// Checks conditions between parts of the rig: a servo limit needs a servo, a sensor needs samples,
-// and an edge needs a plate. Call it after check_loop.
-void check_rig(yaml::Keys& keys, const Scenario& scenario);
+// Checks what lies between keys: their relations, and values that do not go together.
+void check_rig(const yaml::Value& root, const Scenario& scenario);
 
 }  // namespace bbsim::scenario

@@ -23,6 +23,9 @@ constexpr std::size_t fewest_rows = 4;  // a C2 interpolant needs four without e
 
 using Names = std::vector<std::string>;
 
+constexpr yaml::About about_file{"a file and its columns: [tables from files](#tables-from-files)"};
+constexpr yaml::About about_header{"names of the columns of a CSV without a header"};
+
 // Texts become NaN, because the scenario may not use their columns. `header` names the columns of a
 // file without a header.
 file::TableData read_numbers(const yaml::Value& value, const std::string& path,
@@ -334,10 +337,19 @@ struct TimeOffsetRule {
 bool read_changes(yaml::Keys& keys, std::size_t columns, yaml::Dimension dimension, Changes& into) {
   into.scales.assign(columns, 1);
   into.offsets.assign(columns, 0);
-  bool fine = keys.optional("scale", ForEach{yaml::Number{}, columns}, into.scales);
-  static_cast<void>(keys.find("offset", ForEach{yaml::Number{dimension}, columns}, "0"));
-  fine = keys.optional("delay", yaml::Number{yaml::Dimension::time}, into.delay) && fine;
-  return keys.optional("time_offset", TimeOffsetRule{}, into) && fine;
+  bool fine = keys.optional(
+      "scale", ForEach{yaml::Number{}, columns}, into.scales,
+      {"value = offset + scale × table; the offset in the table's own unit", "-", "1, 0"});
+  static_cast<void>(
+      keys.find("offset", ForEach{yaml::Number{dimension}, columns}, yaml::same, "0"));
+  fine = keys.optional("delay", yaml::Number{yaml::Dimension::time}, into.delay,
+                       {"value(t) = table(t − delay)"}) &&
+         fine;
+  return keys.optional("time_offset", TimeOffsetRule{}, into,
+                       {.meaning = "added to the table's times; `start`: its first row is t = 0",
+                        .standard = "0",
+                        .range = "a time, `start`"}) &&
+         fine;
 }
 
 void move_times(const Changes& changes, std::vector<double>& times) {
@@ -409,19 +421,19 @@ void warn_of_unit(const yaml::Value& table, const std::string& file, const std::
 bool read_columns(yaml::Keys& keys, const std::vector<std::string_view>& column_keys,
                   yaml::Dimension dimension, FileColumns& into) {
   std::vector<std::string> names(column_keys.size());
-  bool named = keys.required("file", yaml::Text{"the name of a CSV file"}, into.file);
+  bool named = keys.required("file", yaml::Text{"the name of a CSV file"}, into.file, about_file);
   for (std::size_t k = 0; k < names.size(); ++k) {
-    named =
-        keys.required(column_keys[k], yaml::Text{"the name of a column of the file"}, names[k]) &&
-        named;
+    named = keys.required(column_keys[k], yaml::Text{"the name of a column of the file"}, names[k],
+                          yaml::same) &&
+            named;
   }
   Names header;
-  named = keys.optional("header", HeaderOf{}, header) && named;
+  named = keys.optional("header", HeaderOf{}, header, about_header) && named;
   std::optional<yaml::UnitScale> unit;
   named = keys.optional("unit", UnitOf{dimension}, unit) && named;
   if (dimension == yaml::Dimension::time) {
     keys.exclusive({{"unit"}, {"time_unit"}});
-    named = keys.optional("time_unit", UnitOf{dimension}, unit) && named;
+    named = keys.optional("time_unit", UnitOf{dimension}, unit, yaml::same) && named;
     if (const auto given = keys.find("time_unit"); given && keys.find("unit")) {
       named = given->report("found beside unit; allowed: one of them");
     }
@@ -464,13 +476,13 @@ void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& valu
   constexpr yaml::Text column{"the name of a column of the file"};
   std::string time_name;
   std::vector<std::string> names(value_keys.size());
-  bool named = keys.required("file", yaml::Text{"the name of a CSV file"}, into.file);
-  named = keys.required("time", column, time_name) && named;
+  bool named = keys.required("file", yaml::Text{"the name of a CSV file"}, into.file, about_file);
+  named = keys.required("time", column, time_name, yaml::same) && named;
   for (std::size_t k = 0; k < names.size(); ++k) {
-    named = keys.required(value_keys[k], column, names[k]) && named;
+    named = keys.required(value_keys[k], column, names[k], yaml::same) && named;
   }
   Names header;
-  named = keys.optional("header", HeaderOf{}, header) && named;
+  named = keys.optional("header", HeaderOf{}, header, about_header) && named;
   std::optional<yaml::UnitScale> unit, time_unit;
   Changes changes;
   named = keys.optional("unit", UnitOf{dimension}, unit) && named;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Keys and their allowed values, as the readers of a scenario declare them. They are the source of
-// the tables of the documents and the JSON Schema.
+// Keys, their meaning and their allowed values, as the readers of a scenario declare them. They are
+// the source of the tables of the documents, the JSON Schema and completion.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "yaml/quantity.hpp"
@@ -31,6 +32,15 @@ struct Choice {
   std::vector<std::vector<std::string_view>> groups;
   bool needed = false;  // one of the groups must be present
 };
+
+// What the documents say of a key, in Markdown. The declaration fills empty cells of unit, default
+// and range; "-" is an empty cell.
+struct About {
+  std::string_view meaning{};
+  std::string_view unit{}, standard{}, range{};
+};
+// The same as of the key declared before.
+inline constexpr About same{"="};
 
 struct DeclaredKey;
 
@@ -59,6 +69,10 @@ struct Declared {
   bool distinct = false;  // no item occurs twice
   std::vector<DeclaredKey> keys;
   std::vector<Choice> choices{};
+  std::vector<std::vector<std::vector<std::string_view>>> needs{};  // all keys of one of the groups
+  std::vector<std::pair<std::string_view, std::string_view>>
+      together{};            // the first needs the other
+  std::string definition{};  // the name of a value that the schema defines once
 
   Declared(Kind of = Kind::none);  // NOLINT: a kind alone is a declaration
   [[nodiscard]] static Declared number(Dimension dimension, Range range = {});
@@ -75,8 +89,9 @@ struct DeclaredKey {
   std::string name;  // in American spelling
   Declared value;
   bool required = false;
-  std::string standard;  // default as text; empty if it has no text
-  bool section = false;  // a mapping that reads like an empty one if it is missing
+  std::string standard{};  // default as text; empty if it has no text
+  bool section = false;    // a mapping that reads like an empty one if it is missing
+  About about{};
 
   [[nodiscard]] bool must_be_given() const { return required || (section && value.needs_keys()); }
 };

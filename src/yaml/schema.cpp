@@ -32,6 +32,29 @@ bool Value::report(std::string_view message) const {
   return false;
 }
 
+bool Value::report_at_key(std::string_view message) const {
+  context->problems.add(position, path + ": " + std::string(message));
+  return false;
+}
+
+std::optional<Value> Value::at(std::string_view below) const {
+  Value value = *this;
+  while (true) {
+    const std::size_t dot = below.find('.');
+    const std::string_view name = below.substr(0, dot);
+    const std::size_t i = name.size() == 1 ? static_cast<std::size_t>(name[0] - '0') : 10;
+    if (i < std::min<std::size_t>(10, value.node->items.size())) {
+      value = value.item(i);
+    } else if (const Entry* const entry = entry_of(*value.node, name)) {
+      value = {entry->value, value.path_of(entry->key), entry->position, context};
+    } else {
+      return {};
+    }
+    if (dot == std::string_view::npos) return value;
+    below.remove_prefix(dot + 1);
+  }
+}
+
 std::string_view Value::name() const {
   return std::string_view(path).substr(path.rfind('.') + 1);
 }
@@ -52,6 +75,10 @@ void Keys::declare(DeclaredKey key) {
   if (std::ranges::find(declared_->keys, key.name, &DeclaredKey::name) != declared_->keys.end()) {
     return;
   }
+  using Words = std::pair<std::string_view, About>;
+  const auto words = std::ranges::find(abouts_, key.name, &Words::first);
+  if (words != abouts_.end()) key.about = words->second;
+  if (key.about.meaning == same.meaning) key.about = declared_->keys.back().about;
   declared_->keys.push_back(std::move(key));
 }
 
@@ -68,16 +95,29 @@ void Keys::know(std::string_view key) {
   if (std::ranges::find(known_, key) == known_.end()) known_.push_back(key);
 }
 
-std::optional<Value> Keys::find(std::string_view key) {
-  know(key);
-  const auto& entries = mapping_.node->entries;
+const Entry* entry_of(const Node& mapping, std::string_view key) {
+  const auto& entries = mapping.entries;
   auto entry = std::ranges::find(entries, key, &Entry::key);
   if (entry == entries.end()) {
     const std::optional<std::string> spelling = other_spelling(key);
     if (spelling) entry = std::ranges::find(entries, *spelling, &Entry::key);
   }
-  if (entry == entries.end() || entry->value->absent) return {};
+  return entry == entries.end() || entry->value->absent ? nullptr : &*entry;
+}
+
+std::optional<Value> Keys::find(std::string_view key) {
+  know(key);
+  const Entry* const entry = entry_of(*mapping_.node, key);
+  if (entry == nullptr) return {};
   return Value{entry->value, mapping_.path_of(entry->key), entry->position, mapping_.context};
+}
+
+void Keys::needs(std::string_view key, std::string_view other) {
+  if (declared_ != nullptr) declared_->together.emplace_back(key, other);
+  const std::optional<Value> value = find(key);
+  if (value && !find(other)) {
+    value->report("found without " + std::string(other) + "; allowed: only with it");
+  }
 }
 
 bool Keys::missing(std::string_view key, std::string_view allowed) {

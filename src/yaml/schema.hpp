@@ -4,15 +4,15 @@
 // Reads mappings of the scenario into structs, with one function for each mapping:
 //
 //     void read_ball(Keys& keys, Ball& ball) {
-//       keys.required("radius", Number{Dimension::length, {.above = 0}}, ball.radius);
-//       keys.optional("spin", Number{Dimension::angular_rate}, ball.spin);
+//       keys.required("radius", Number{Dimension::length, {.above = 0}}, ball.radius, {"radius"});
+//       keys.optional("spin", Number{Dimension::angular_rate}, ball.spin, {"rate of turn"});
 //     }
 //
 // The function defines the known keys by reading them, each in either spelling (spelling.hpp). Any
-// other key is reported with the nearest known one. A rule (rules.hpp) describes the allowed values
-// in allowed(), and in declared() as data (declared.hpp). Its read() reads a value, reports its
-// faults, and returns whether it is valid. If values have a default, the rule's text_of() converts
-// it to text.
+// other key is reported with the nearest known one. `about` is for the documents. A rule
+// (rules.hpp) describes the allowed values in allowed(), and in declared() as data (declared.hpp).
+// Its read() reads a value, reports its faults, and returns whether it is valid. If values have a
+// default, the rule's text_of() converts it to text.
 #pragma once
 
 #include <algorithm>
@@ -24,6 +24,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "file/table_writer.hpp"
@@ -73,6 +74,8 @@ struct Value {
 
   [[nodiscard]] Value item(std::size_t i) const;
   [[nodiscard]] std::string path_of(std::string_view key) const;
+  // The value at a path of keys and positions below, if present.
+  [[nodiscard]] std::optional<Value> at(std::string_view below) const;
   // The last name in the path.
   [[nodiscard]] std::string_view name() const;
 
@@ -80,6 +83,8 @@ struct Value {
   bool refuse(std::string_view remark, std::string_view allowed) const;
   // Reports "path: <message>" at the node. Returns false.
   bool report(std::string_view message) const;
+  // The same at the key.
+  bool report_at_key(std::string_view message) const;
 
   // Adds the remark "warning: path: <message>" at the node.
   void warn(std::string_view message) const;
@@ -89,6 +94,9 @@ struct Value {
   // Records that a single number was read here, in SI units.
   void note(double number, Dimension dimension) const;
 };
+
+// The entry of a key of a mapping, in either spelling; nullptr if there is none.
+[[nodiscard]] const Entry* entry_of(const Node& mapping, std::string_view key);
 
 class Keys {
  public:
@@ -101,17 +109,19 @@ class Keys {
 
   // The same for a key that `rule` reads later. `standard` is its default as text, if any.
   template <class Rule>
-  std::optional<Value> find(std::string_view key, const Rule& rule,
+  std::optional<Value> find(std::string_view key, const Rule& rule, const About& about = {},
                             const std::string& standard = {}) {
-    if (declared_ != nullptr) declare({std::string(key), rule.declared(), false, standard});
+    if (declared_ != nullptr) {
+      declare({std::string(key), rule.declared(), false, standard, false, about});
+    }
     return find(key);
   }
 
   // Reads the key's value if present. Returns false after reporting a problem.
   template <class Rule, class T>
-  bool optional(std::string_view key, const Rule& rule, T& into) {
+  bool optional(std::string_view key, const Rule& rule, T& into, const About& about = {}) {
     if (declared_ != nullptr) {
-      declare({std::string(key), rule.declared(), false, text_of(rule, into)});
+      declare({std::string(key), rule.declared(), false, text_of(rule, into), false, about});
     }
     const std::optional<Value> value = find(key);
     return !value || rule.read(*value, into);
@@ -119,15 +129,18 @@ class Keys {
 
   // The same; `into` is empty if the key is missing.
   template <class Rule, class T>
-  bool optional(std::string_view key, const Rule& rule, std::optional<T>& into) {
-    const std::optional<Value> value = find(key, rule);
+  bool optional(std::string_view key, const Rule& rule, std::optional<T>& into,
+                const About& about = {}) {
+    const std::optional<Value> value = find(key, rule, about);
     return !value || rule.read(*value, into.emplace());
   }
 
   // Reads the key's value; reports a missing key.
   template <class Rule, class T>
-  bool required(std::string_view key, const Rule& rule, T& into) {
-    if (declared_ != nullptr) declare({std::string(key), rule.declared(), true, {}});
+  bool required(std::string_view key, const Rule& rule, T& into, const About& about = {}) {
+    if (declared_ != nullptr) {
+      declare({std::string(key), rule.declared(), true, {}, false, about});
+    }
     const std::optional<Value> value = find(key);
     return value ? rule.read(*value, into) : missing(key, rule.allowed());
   }
@@ -135,7 +148,13 @@ class Keys {
   // Reads a mapping. A missing mapping reads like an empty one: it takes all defaults and reports
   // its required keys as missing.
   template <class T>
-  bool section(std::string_view key, void (*reader)(Keys&, T&), T& into);
+  bool section(std::string_view key, void (*reader)(Keys&, T&), T& into, const About& about = {});
+
+  // What the documents say of keys that a reader for several mappings declares after this call.
+  void about(std::initializer_list<std::string_view> keys, const About& about) {
+    if (declared_ == nullptr) return;
+    for (const std::string_view key : keys) abouts_.emplace_back(key, about);
+  }
 
   // Reports the missing key at the mapping. Returns false.
   bool missing(std::string_view key, std::string_view allowed);
@@ -152,6 +171,13 @@ class Keys {
     if (declared_ == nullptr) return;
     declared_->choices.push_back({{groups.begin(), groups.end()}, needed});
   }
+  // Declares that all keys of one of the groups must be present. The reader reports violations.
+  void needs_one(std::initializer_list<std::initializer_list<std::string_view>> groups) {
+    if (declared_ == nullptr) return;
+    declared_->needs.push_back({groups.begin(), groups.end()});
+  }
+  // Reports the key, if present, unless the other key is present too.
+  void needs(std::string_view key, std::string_view other);
 
   // Reports unknown keys and repeated keys.
   void finish() const;
@@ -178,6 +204,7 @@ class Keys {
   Value mapping_;
   std::vector<std::string_view> known_;
   Declared* declared_;
+  std::vector<std::pair<std::string_view, About>> abouts_;
 };
 
 [[nodiscard]] const Node& empty_mapping();
@@ -204,7 +231,7 @@ class MappingOf {
     read_empty(&result, known);
     for (const std::string_view key : known) {
       if (std::ranges::find(result.keys, key, &DeclaredKey::name) == result.keys.end()) {
-        result.keys.push_back({std::string(key), {}, false, {}});
+        result.keys.push_back({std::string(key), {}});
       }
     }
     return result;
@@ -232,9 +259,9 @@ class MappingOf {
 };
 
 template <class T>
-bool Keys::section(std::string_view key, void (*reader)(Keys&, T&), T& into) {
+bool Keys::section(std::string_view key, void (*reader)(Keys&, T&), T& into, const About& about) {
   if (declared_ != nullptr) {
-    declare({std::string(key), MappingOf<T>(reader).declared(), false, {}, true});
+    declare({std::string(key), MappingOf<T>(reader).declared(), false, {}, true, about});
   }
   const std::optional<Value> value = find(key);
   const Value absent{&empty_mapping(), mapping_.path_of(key), mapping_.position, mapping_.context};
