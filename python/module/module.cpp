@@ -8,6 +8,7 @@
 #include <pybind11/eigen.h>
 
 #include <algorithm>
+#include <complex>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -28,6 +29,7 @@
 #include "api/sweep.hpp"
 #include "base/error.hpp"
 #include "file/outputs.hpp"
+#include "model/control/open_loops.hpp"
 #include "scenario/family.hpp"
 #include "scenario/measures.hpp"
 
@@ -133,6 +135,16 @@ api::Linearized linearize(const Given& given, const std::optional<std::string>& 
   });
   if (!made.reason.empty()) throw InputError(made.reason);
   return made;
+}
+
+// From the only input to the only output, at these frequencies (rad/s).
+std::vector<std::complex<double>> response(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
+                                           const Eigen::MatrixXd& c, const Eigen::MatrixXd& d,
+                                           double period, const std::vector<double>& frequencies) {
+  const model::FrequencyResponse its(a, b, c, d, period);
+  std::vector<std::complex<double>> all;
+  for (const double w : frequencies) all.push_back(its.at(w, 0, 0));
+  return all;
 }
 
 // For each column its name, and its numbers or texts.
@@ -264,8 +276,9 @@ void define_linearize(py::module_& module) {
   attributes(
       py::class_<Linearized>(module, "Linearized"), "kind", &Linearized::kind, "at",
       &Linearized::at, "note", &Linearized::note, "system",
-      [](const Linearized& made) { return made.linearisation.system; }, "json",
-      [](const Linearized& made) { return api::file_text(made, ".json"); }, "report",
+      [](const Linearized& made) { return made.linearisation.system; }, "frequencies",
+      [](const Linearized& made) { return model::open_loop_frequencies(made.linearisation); },
+      "json", [](const Linearized& made) { return api::file_text(made, ".json"); }, "report",
       [](const Linearized& made) { return to_text(api::report_of(made)); }, "open_loops",
       [](const Linearized& made) {
         std::map<std::string, LinearSystem> loops;
@@ -274,7 +287,7 @@ void define_linearize(py::module_& module) {
         }
         return loops;
       });
-  module.def("frequencies", &model::frequencies_to_look_at);
+  module.def("response", &response);
   module.def("linearize", &linearize);
 }
 
