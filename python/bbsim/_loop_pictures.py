@@ -276,8 +276,8 @@ def draw_accuracy(text: str, title: str, wide: Optional[float]) -> Tuple[Any, in
     axes = sheet.panel(box, "processor time of a run (µs)")
     every = [point for method in points.values() for point in method]
     label = "error: largest |Δx|, |Δy| over the output times (m)"
-    logarithmic(axes.xaxis, covered([error for error, _ in every]), box.across, label, air=0.04)
-    logarithmic(axes.yaxis, covered([time for _, time in every]), height, air=0.06)
+    logarithmic(axes.xaxis, covered([error for error, _ in every]), label, air=0.04)
+    logarithmic(axes.yaxis, covered([time for _, time in every]), air=0.06)
     for method, look in looks.items():
         axes.plot(*zip(*points[method]), **look)
     return sheet.figure, len(every)

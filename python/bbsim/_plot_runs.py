@@ -100,8 +100,8 @@ def _time_panel(
         legend.append((names, edge))
     axes = sheet.panel(box, scale.heading(planned.name), legend)
     label = abscissa.scale.heading("t" if abscissa.is_time else "row")
-    linear(axes.xaxis, *abscissa.limits, box.across, label, numbered=lowest)
-    linear(axes.yaxis, *linear_limits(scale.of(shown)), box.up)
+    linear(axes.xaxis, *abscissa.limits, label, numbered=lowest)
+    linear(axes.yaxis, *linear_limits(scale.of(shown)))
 
     # References and measurements are bands below the thin lines of commands and the motion.
     order = [REFERENCE, MEASURED, COMMAND, MAIN]
@@ -183,9 +183,9 @@ class _Path:
         half = 0.54 * (wide if wide > 1e-9 * most else most or 1.0)
         axes = sheet.panel(box, y_scale.heading("y"))
         middle = x[0] / 2 + x[1] / 2
-        step = linear(axes.xaxis, middle - half, middle + half, box.across, x_scale.heading("x"))
+        linear(axes.xaxis, middle - half, middle + half, x_scale.heading("x"))
         middle, tall = y[0] / 2 + y[1] / 2, half * box.up / box.across
-        linear(axes.yaxis, middle - tall, middle + tall, box.up, step=step)
+        linear(axes.yaxis, middle - tall, middle + tall)
 
         def line(points: Array, look: Stroke) -> None:
             _line(axes, x_scale(points[0]), y_scale(points[1]), **look)
