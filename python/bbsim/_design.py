@@ -18,7 +18,7 @@ from scipy.optimize import minimize
 from . import _bbsim
 from ._experiment import Experiment, Motions
 from ._scenario import Array, InputError, Scenario, Settings, counted, fault, given, listed, refuse
-from ._task import Progress, aligned, as_json, carry_out, files_of, read_free_keys, silent
+from ._task import Progress, as_json, carry_out, files_of, read_free_keys, silent
 
 Size = Union[float, str, None]
 
@@ -443,8 +443,8 @@ def design(
     percent = {kind: f"{_bbsim.rounded(100 * share, 3)} %" for kind, share in used.items()}
     by_limit = [[name, size, percent[kind], source] for kind, name, size, source, _ in limits]
     made.report = "\n".join([
-        aligned([["standard deviation", "value", "designed", "circle", "step", "unit"], *by_key]),
-        aligned([["limit", "of", "used", "from"], *by_limit]),
+        _bbsim.aligned([["standard deviation", "value", "designed", "circle", "step", "unit"], *by_key]),
+        _bbsim.aligned([["limit", "of", "used", "from"], *by_limit]),
         f"{short(seconds)} s at {short(hertz)} Hz: {experiment.numbers} numbers in {windows}; noise {logged}",
         f"best of {tried} motions{circling}", begin,
         *["the circle determines the keys better, but its ball is launched"] * bool(better and tilts),

@@ -133,15 +133,6 @@ def read_free_keys(texts: Sequence[str], given: _bbsim.Given) -> List[FreeKey]:
     return keys
 
 
-def aligned(lines: Sequence[Sequence[str]]) -> str:
-    """A table: the first field of each line to the left, the others to the right."""
-    widths = [max(map(len, column)) for column in zip(*lines)]
-    texts = []
-    for first, *rest in lines:
-        texts.append(first.ljust(widths[0]) + "".join("  " + one.rjust(n) for one, n in zip(rest, widths[1:])))
-    return "".join(text.rstrip() + "\n" for text in texts)
-
-
 def _plain(value: Any) -> Any:
     """JSON has no numbers that are not finite."""
     value = vars(value) if isinstance(value, SimpleNamespace) else value

@@ -295,34 +295,29 @@ using api::Environments;
 
 using Indices = std::vector<std::size_t>;
 
-// For each run that begins, its values as texts and its seed.
-std::vector<Environments::Beginning> beginnings(const Indices& which, std::vector<Texts>& values,
-                                                const Indices& seeds) {
-  if (values.size() != which.size() || seeds.size() != which.size()) {
-    throw py::value_error("found lists of different lengths");
-  }
+using Drawn = std::vector<std::pair<Texts, std::size_t>>;  // values as texts, and a seed
+
+std::vector<Environments::Beginning> beginnings(const Drawn& drawn) {
   std::vector<Environments::Beginning> all;
-  for (std::size_t i = 0; i < seeds.size(); ++i) all.push_back({std::move(values[i]), seeds[i]});
+  for (const auto& [values, seed] : drawn) all.push_back({values, seed});
   return all;
 }
 
-void begin(Environments& its, const Indices& which, std::vector<Texts> values,
-           const Indices& seeds) {
-  const auto how = beginnings(which, values, seeds);
+void begin(Environments& its, const Indices& which, const Drawn& drawn) {
+  const auto how = beginnings(drawn);
   const WithoutLock unlocked;
   its.begin(which, how);
 }
 
 // Steps the runs that do not begin.
-void step(Environments& its, const Numbers& commands, const Indices& which,
-          std::vector<Texts> values, const Indices& seeds) {
+void step(Environments& its, const Numbers& commands, const Indices& which, const Drawn& drawn) {
   const auto count = static_cast<py::ssize_t>(its.count());
   if (commands.ndim() != 2 || commands.shape(0) != count || commands.shape(1) != 2) {
     throw py::value_error("actions: found another shape; allowed: (" + std::to_string(count) +
                           ", 2)");
   }
   const std::span of(commands.data(), 2 * its.count());
-  const auto how = beginnings(which, values, seeds);
+  const auto how = beginnings(drawn);
   const WithoutLock unlocked;
   its.step(of, which, how);
 }
