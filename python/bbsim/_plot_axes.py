@@ -179,8 +179,9 @@ def _set(axis: Any, low: float, high: float, locator: Any, formatter: Any, label
     axis.set_major_locator(locator)
     axis.set_major_formatter(formatter)
     axis.set_minor_locator(NullLocator())
-    axis.set_tick_params(**{"labelbottom" if axis.axis_name == "x" else "labelleft": numbered})
-    if label and numbered:
+    if not numbered:
+        axis.set_tick_params(labelbottom=False, labelleft=False)
+    elif label:
         axis.set_label_text(cut(label, _millimeters(axis), TEXT))
 
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
+from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm, Normalize
 
 from . import _bbsim
@@ -165,7 +166,9 @@ def _map(sweep: _Sweep, name: str, over: _bbsim.SweepKey, against: _bbsim.SweepK
     if colors.range is not None:
         low, high = colors.range if is_wide(colors.range) else linear_limits(colors.range, 0)
         norm = (LogNorm if colors.log else Normalize)(low, high)
-        _color_scale(sheet.axes(box._replace(left=box.right + 2.5, right=box.right + 5)), colors, norm)
+        scale = sheet.axes(box._replace(left=box.right + 2.5, right=box.right + 5))
+        sheet.figure.colorbar(ScalarMappable(norm, "viridis"), scale).solids.set_rasterized(True)
+        colors.set(scale.yaxis, 0.0)
     if scattered:
         _points(sweep, axes, colors, norm, along, up)
         return
@@ -193,18 +196,6 @@ def _map(sweep: _Sweep, name: str, over: _bbsim.SweepKey, against: _bbsim.SweepK
                     shown = number(value, 3)
                     axes.text(x[column], y[row], shown, size=6, ha="center", va="center_baseline", color=color)
     _mark_cells(sweep, axes, cells, x, y, min(box.across / shape[1], box.up / shape[0]))
-
-
-def _color_scale(axes: Any, colors: _Measure, norm: Any) -> None:
-    """The gradient is drawn by itself: colorbar() takes as long as the rest of a panel."""
-    axes.grid(False)
-    axes.spines[:].set_visible(True)
-    ends = np.geomspace(norm.vmin, norm.vmax, 129) if colors.log else np.linspace(norm.vmin, norm.vmax, 129)
-    colors.set(axes.yaxis, 0.0)
-    axes.pcolormesh([0, 1], ends, _middles(ends, colors.log)[:, None], cmap="viridis", norm=norm, rasterized=True)
-    axes.set_xticks([])
-    axes.set_ylim(norm.vmin, norm.vmax)
-    axes.yaxis.tick_right()
 
 
 def _points(sweep: _Sweep, axes: Any, colors: _Measure, norm: Any, along: _Key, up: _Key) -> None:
