@@ -190,22 +190,19 @@ def step(experiment: Experiment) -> Motions:
 
 def section_of(rig: _bbsim.Given, sketch: Optional[str]) -> str:
     """What plays the motion."""
-    tilts = [key for key in ("controller.commands", "gimbal.motion") if _bbsim.has(rig, key)]
-    if tilts:
-        return tilts[0]
-    why = ""
+    for tilts in ("controller.commands", "gimbal.motion"):
+        if _bbsim.has(rig, tilts):
+            return tilts
     if not _bbsim.has(rig, "controller"):
-        why = ("gimbal.torque: found, which a design cannot choose; allowed: gimbal.motion, or a controller with a "
-               "reference")  # fmt: skip
-    elif any(_bbsim.has(rig, f"controller.{key}") for key in ("program", "library")):
-        why = ("controller: found a program or library of your own; allowed in a design: a law of bbsim, "
-               "controller.commands, or gimbal.motion")  # fmt: skip
-    elif sketch:
-        why = ("sketch: the scenario has a controller with a reference; allowed: with gimbal.motion or "
-               "controller.commands, whose tilts a sketch can play; --table writes the reference for your own "
-               "firmware")  # fmt: skip
-    if why:
-        raise fault(why)
+        allowed = "gimbal.motion, or a controller with a reference"
+        raise fault(f"gimbal.torque: found, which a design cannot choose; allowed: {allowed}")
+    if _bbsim.has(rig, "controller.program") or _bbsim.has(rig, "controller.library"):
+        allowed = "a law of bbsim, controller.commands, or gimbal.motion"
+        raise fault(f"controller: found a program or library of your own; allowed in a design: {allowed}")
+    if sketch:
+        allowed = "with gimbal.motion or controller.commands, whose tilts a sketch can play"
+        more = "--table writes the reference for your own firmware"
+        raise fault(f"sketch: the scenario has a controller with a reference; allowed: {allowed}; {more}")
     return "controller.reference"
 
 

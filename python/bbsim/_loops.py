@@ -49,24 +49,17 @@ def phase_of(response: Complex) -> Array:
 
 
 def bode(loop: Linearization) -> Columns:
-    """frequency (rad/s), phi_gain, phi_phase (rad), theta_gain, theta_phase of the open loops.
-
-    Each loop is broken at its command, with the other one closed, and with the sign for which -1 is the
-    critical point. Raises InputError for a scenario without a loop.
-    """
+    """Gain and phase of the open loops over the frequency. Raises InputError for a scenario without a loop."""
     return _responses(loop, {"gain": np.abs, "phase": phase_of})
 
 
 def nyquist(loop: Linearization) -> Columns:
-    """frequency (rad/s), phi_real, phi_imag, theta_real, theta_imag of the open loops, as in bode()."""
+    """The same loops as complex numbers."""
     return _responses(loop, {"real": np.real, "imag": np.imag})
 
 
 def poles(loop: Linearization) -> Columns:
-    """real, imag, damping, frequency (rad/s) of the closed loop's poles.
-
-    Those of a sampled loop are z; damping and frequency are those of s, with z = exp(s period).
-    """
+    """The closed loop's poles. Those of a sampled loop are z; damping and frequency are those of s."""
     at = rates(loop.poles, loop.dt)
     size = np.abs(at)
     with np.errstate(invalid="ignore"):
@@ -75,8 +68,7 @@ def poles(loop: Linearization) -> Columns:
 
 
 def root_locus(scenario: Scenario, set: Settings, key: str, bounds: Sequence[str], count: int) -> Columns:
-    """value, real, imag: a row for each pole of the closed loop at evenly spaced values of the key (SI). The bounds are
-    texts such as "2 cm"."""
+    """A row for each pole of the closed loop at evenly spaced values of the key, between texts such as "2 cm"."""
     ends = [_bbsim.number_at(given(scenario, set), key, bound) for bound in bounds]
     if None in ends:
         raise fault(f"{key}: found {bounds[ends.index(None)]}; allowed: the bounds of a key that holds one number")
@@ -87,11 +79,8 @@ def root_locus(scenario: Scenario, set: Settings, key: str, bounds: Sequence[str
 
 
 def step(loop: Linearization) -> Columns:
-    """t (s), x and y: the linear responses to a unit step of x_reference and of y_reference.
-
-    They end when the slowest mode has decayed to 0.1 %, or has grown tenfold. A sampled loop has a row for each
-    sample. nan for an axis that the loop leaves out.
-    """
+    """The linear responses to a unit step of each reference, until the slowest mode has decayed to 0.1 %, or has grown
+    tenfold. A sampled loop has a row for each sample."""
     from scipy.signal import cont2discrete, dlsim  # take long to import
 
     if not loop.inputs:
