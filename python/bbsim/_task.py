@@ -24,6 +24,9 @@ from ._scenario import fault
 # A change that probably has a visible effect, by unit (SI). Other units span orders of magnitude.
 _USUAL = {"m": 0.01, "s": 0.01, "rad": 0.01, "m/s": 0.01, "N": 0.01}
 _ROUNDING = 1e-12
+# Noise and rounding in a loop: they differ in each log, and have no derivatives.
+ROUGH = tuple(f"controller.{key}" for key in ("sensor.noise", "sensor.dropout", "sensor.seed", "sensor.resolution",
+                                              "sampling.jitter", "sampling.resolution"))  # fmt: skip
 
 
 def refuse_free(what: str) -> NoReturn:
