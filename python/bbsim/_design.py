@@ -18,7 +18,7 @@ from scipy.optimize import minimize
 from . import _bbsim
 from ._experiment import Experiment, Motions
 from ._scenario import Array, InputError, Scenario, Settings, counted, fault, given, listed, refuse
-from ._task import Progress, aligned, as_json, carry_out, files_of, read_free_keys, silent
+from ._task import Progress, as_json, carry_out, files_of, read_free_keys, silent
 
 Size = Union[float, str, None]
 
@@ -190,22 +190,19 @@ def step(experiment: Experiment) -> Motions:
 
 def section_of(rig: _bbsim.Given, sketch: Optional[str]) -> str:
     """What plays the motion."""
-    tilts = [key for key in ("controller.commands", "gimbal.motion") if _bbsim.has(rig, key)]
-    if tilts:
-        return tilts[0]
-    why = ""
+    for tilts in ("controller.commands", "gimbal.motion"):
+        if _bbsim.has(rig, tilts):
+            return tilts
     if not _bbsim.has(rig, "controller"):
-        why = ("gimbal.torque: found, which a design cannot choose; allowed: gimbal.motion, or a controller with a "
-               "reference")  # fmt: skip
-    elif any(_bbsim.has(rig, f"controller.{key}") for key in ("program", "library")):
-        why = ("controller: found a program or library of your own; allowed in a design: a law of bbsim, "
-               "controller.commands, or gimbal.motion")  # fmt: skip
-    elif sketch:
-        why = ("sketch: the scenario has a controller with a reference; allowed: with gimbal.motion or "
-               "controller.commands, whose tilts a sketch can play; --table writes the reference for your own "
-               "firmware")  # fmt: skip
-    if why:
-        raise fault(why)
+        allowed = "gimbal.motion, or a controller with a reference"
+        raise fault(f"gimbal.torque: found, which a design cannot choose; allowed: {allowed}")
+    if _bbsim.has(rig, "controller.program") or _bbsim.has(rig, "controller.library"):
+        allowed = "a law of bbsim, controller.commands, or gimbal.motion"
+        raise fault(f"controller: found a program or library of your own; allowed in a design: {allowed}")
+    if sketch:
+        allowed = "with gimbal.motion or controller.commands, whose tilts a sketch can play"
+        more = "--table writes the reference for your own firmware"
+        raise fault(f"sketch: the scenario has a controller with a reference; allowed: {allowed}; {more}")
     return "controller.reference"
 
 
@@ -443,8 +440,8 @@ def design(
     percent = {kind: f"{_bbsim.rounded(100 * share, 3)} %" for kind, share in used.items()}
     by_limit = [[name, size, percent[kind], source] for kind, name, size, source, _ in limits]
     made.report = "\n".join([
-        aligned([["standard deviation", "value", "designed", "circle", "step", "unit"], *by_key]),
-        aligned([["limit", "of", "used", "from"], *by_limit]),
+        _bbsim.aligned([["standard deviation", "value", "designed", "circle", "step", "unit"], *by_key]),
+        _bbsim.aligned([["limit", "of", "used", "from"], *by_limit]),
         f"{short(seconds)} s at {short(hertz)} Hz: {experiment.numbers} numbers in {windows}; noise {logged}",
         f"best of {tried} motions{circling}", begin,
         *["the circle determines the keys better, but its ball is launched"] * bool(better and tilts),

@@ -156,13 +156,13 @@ class VectorEnv(_VectorBase):
         return self._runs.command_unit
 
     def _beginnings(self, which: Array, random: np.random.Generator, options: Mapping[str, Any]) -> Any:
-        """The runs, and what is drawn for their new episodes: values and seeds."""
-        values, seeds = [], []
+        """The runs, and what is drawn for the new episode of each: values and a seed."""
+        made = []
         for _ in which:
             drawn = {key: its(random) if callable(its) else random.uniform(*its) for key, its in self._randomize.items()}
-            values.append([as_yaml(options.get(key, value)) for key, value in drawn.items()])
-            seeds.append(int(random.integers(_MOST_SEED)))
-        return [int(one) for one in which], values, seeds
+            values = [as_yaml(options.get(key, value)) for key, value in drawn.items()]
+            made.append((values, int(random.integers(_MOST_SEED))))
+        return which.tolist(), made
 
     def _which(self, mask: Any) -> Array:
         """The runs that a ``reset_mask`` names."""

@@ -13,11 +13,9 @@ import numpy as np
 from . import _bbsim
 from ._scenario import Array
 from ._simulate import simulate
-from ._task import FreeKey, Progress
+from ._task import ROUGH, FreeKey, Progress
 
 _STEP = 1e-3  # of keys' numbers u and of starts (SI), for differences
-_ROUGH = ("sampling.resolution", "sampling.jitter", "sensor.resolution", "sensor.noise", "sensor.dropout",
-          "sensor.seed")  # fmt: skip
 _CHANGES = ("scale", "offset", "delay")  # of a table
 
 
@@ -59,8 +57,7 @@ class Experiment:
         self._changes: Dict[str, float] = {}
         for key in (f"{its}.table.{name}" for its in self._profiles[: 2 * self.tilts] for name in _CHANGES):
             self._changes[key] = own[key] if key in own else _bbsim.key_facts(plain, "", key).value or 0.0
-        # Rounding has no derivative, and random effects are not the log's own noise.
-        smooth = [(f"controller.{key}", "null") for key in _ROUGH if _bbsim.has(plain, f"controller.{key}")]
+        smooth = [(key, "null") for key in ROUGH if _bbsim.has(plain, key)]
         if not any(key.name.endswith("dead_band") for key in keys) and _bbsim.has(plain, "controller.sampling"):
             servos = [f"gimbal.servo{axis}" for axis in ("", ".phi", ".theta")]
             servos = [key for key in servos if _bbsim.has(plain, key)]
@@ -155,7 +152,7 @@ class Experiment:
         starts[:, 0, self._free] = steps[:, :free]
         at = np.tile(self.times[self._rows], (count * len(steps), 1))
         keys = {key.name: np.tile(np.repeat(its, windows), count) for key, its in zip(self.keys, values.T)
-                if key.name[len("controller.") :] not in _ROUGH}  # fmt: skip
+                if key.name not in ROUGH}  # fmt: skip
         begins = (motions.states[:, None] + starts).reshape(-1, len(_bbsim.START))
         run = self._simulate(motions, len(steps) * windows, keys, list(self._noise), times=at, begin=at[:, 0],
                              end=at[:, -1], start=begins)  # fmt: skip

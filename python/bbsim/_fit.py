@@ -18,7 +18,7 @@ from ._fit_windows import Log, LogKey, Windows, WindowsFit, cut, start_coordinat
 from ._logs import as_files, log_choice, without_folders
 from ._scenario import Array, InputError, Scenario, Settings, counted, fault, given as given_of, listed, refuse
 from ._task import (
-    FreeKey, Progress, carry_out, files_of, read_bounds, read_free_key, read_free_keys, refuse_free, refuse_twice, silent,
+    ROUGH, FreeKey, Progress, carry_out, files_of, read_bounds, read_free_key, read_free_keys, refuse_free, refuse_twice, silent,
     usual_scale, write_all,
 )  # fmt: skip
 
@@ -30,8 +30,6 @@ _CANDIDATES = ("ball.inertia_factor", "ball.losses.rolling", "ball.losses.viscou
                "gimbal.mounting.theta_offset", "gimbal.mounting.yaw", "gimbal.mounting.skew", "gimbal.mounting.height",
                "gimbal.servo.natural_frequency", "gimbal.servo.damping", "gimbal.servo.time_constant",
                "controller.sampling.delay")  # fmt: skip
-_NOISE = ("controller.sensor.noise", "controller.sensor.dropout", "controller.sensor.seed", "controller.sensor.resolution",
-           "controller.sampling.jitter", "controller.sampling.resolution")  # fmt: skip
 
 
 def _compared(given: _bbsim.Given, maps: Sequence[str], log: _bbsim.Stored, notes: List[str]) -> List[str]:
@@ -177,7 +175,7 @@ class _Task:
     def _without_noise(self, given: _bbsim.Given) -> _bbsim.Given:
         """Leaves out the noise in a loop, which differs in the log, and the steps that this noise smooths."""
         free = {key.name for key in self.keys}
-        parts = [(part, "null") for part in _NOISE if _bbsim.has(given, part) and part not in free]
+        parts = [(part, "null") for part in ROUGH if _bbsim.has(given, part) and part not in free]
         if not _closes_a_loop(given):
             return given
         for name in ("gimbal.servo.dead_band", "gimbal.servo.backlash"):

@@ -15,7 +15,7 @@ import numpy as np
 
 from . import _bbsim
 from ._scenario import Array, counted
-from ._task import aligned, as_json
+from ._task import as_json
 
 _MOST_ROWS = 40000  # of a page
 
@@ -61,7 +61,7 @@ def remarks(fitted: Any) -> str:
 
 
 def report(fitted: Any) -> str:
-    return aligned(_parameters(fitted)) + "\n" + aligned(_residuals(fitted)) + "\n" + remarks(fitted)
+    return _bbsim.aligned(_parameters(fitted)) + "\n" + _bbsim.aligned(_residuals(fitted)) + "\n" + remarks(fitted)
 
 
 def as_document(fitted: Any, _: Any) -> str:

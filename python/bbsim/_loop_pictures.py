@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import csv
 import math
-from typing import Any, Dict, List, Mapping, Optional, Tuple
+from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -18,13 +18,11 @@ from . import _loops
 from ._loops import AXES, Columns
 from ._plot_axes import covered, logarithmic
 from ._plot_sheet import MM, TEXT, Box, Figure, Sheet, cut, mark, number, stroke, width_of
+from ._result import Linearization
 from ._scenario import Array, Scenario, Settings, fault
 
-Margins = Mapping[str, Mapping[str, Any]]
 Label = Tuple[str, float, float, bool, str]  # text, x, y, whether above y, color
-Labels = Dict[Axes, List[Label]]
 
-KINDS = ("bode", "nyquist", "poles", "step", "root_locus")
 NAMES = {"phi": "φ", "theta": "θ"}
 LOOKS: Dict[str, Any] = {"phi": {"color": "#0072b2", "ls": "-"}, "theta": {"color": "#d55e00", "ls": (0, (4, 1.5))}}
 QUIET = {"color": "#909090", "lw": 0.6}
@@ -55,7 +53,7 @@ def _decibels(gain: Any) -> Any:
         return 20 * np.log10(gain)
 
 
-def bode(columns: Columns, margins: Margins, width: float = 135.0) -> Figure:
+def bode(columns: Columns, loop: Linearization, width: float = 135.0) -> Figure:
     """Gain and phase of the open loops over the frequency, with the margins marked. ``width`` in mm."""
     figure = _figure(width, 0.85 * width)
     above, below = figure.subplots(2, 1, sharex=True)
@@ -75,9 +73,9 @@ def bode(columns: Columns, margins: Margins, width: float = 135.0) -> Figure:
     below.xaxis.set_minor_formatter(NullFormatter())
     for axes in (above, below):
         axes.margins(x=0)
-    labels: Labels = {above: [], below: []}
+    labels: Dict[Axes, List[Label]] = {above: [], below: []}
     for axis, _, _ in curves:
-        its, color = margins.get(f"{axis}_command", {}), LOOKS[axis]["color"]
+        its, color = loop.margins.get(f"{axis}_command", {}), LOOKS[axis]["color"]
         for name in ("gain", "gain_reduction", "phase"):
             margin, where = its.get(name), its.get(f"{name}_frequency")
             if margin is None or not where:
@@ -116,7 +114,7 @@ def _write(axes: Axes, labels: List[Label]) -> None:
         )  # fmt: skip
 
 
-def nyquist(columns: Columns, width: float = 100.0) -> Figure:
+def nyquist(columns: Columns, loop: Linearization, width: float = 100.0) -> Figure:
     """The open loops in the complex plane, with -1 and the unit circle; mirrored for negative frequencies."""
     figure = _figure(width, width)
     axes = figure.subplots()
@@ -180,16 +178,16 @@ def _plane(columns: Columns, dt: Optional[float], width: float, height: float = 
     return figure, axes
 
 
-def poles(columns: Columns, dt: Optional[float], width: float = 100.0) -> Figure:
-    """The closed loop's poles: of s, or with a period ``dt`` (s) of z."""
-    figure, axes = _plane(columns, dt, width)
+def poles(columns: Columns, loop: Linearization, width: float = 100.0) -> Figure:
+    """The closed loop's poles: of s, or of z if it is sampled."""
+    figure, axes = _plane(columns, loop.dt, width)
     axes.plot(columns["real"], columns["imag"], "x", color=LOOKS["phi"]["color"], ms=6)
     return figure
 
 
-def root_locus(columns: Columns, dt: Optional[float], key: str, width: float = 110.0) -> Figure:
+def root_locus(columns: Columns, loop: Linearization, key: str, width: float = 110.0) -> Figure:
     """The poles at each value of a key, colored by it; crosses at its first value, circles at its last."""
-    figure, axes = _plane(columns, dt, width, 1.14 * width)
+    figure, axes = _plane(columns, loop.dt, width, 1.14 * width)
     value = columns["value"]
     branches, its = _branches(columns)
     points = axes.add_collection(LineCollection(branches, array=its, cmap="viridis", lw=1.6, zorder=2))
@@ -221,7 +219,7 @@ def _branches(columns: Columns) -> Tuple[List[Array], Array]:
     return lines, np.array(values)
 
 
-def step(columns: Columns, width: float = 135.0) -> Figure:
+def step(columns: Columns, loop: Linearization, width: float = 135.0) -> Figure:
     """The response of x and y to a unit step of their references."""
     figure = _figure(width, 0.55 * width)
     axes = figure.subplots()
@@ -236,6 +234,10 @@ def step(columns: Columns, width: float = 135.0) -> Figure:
     return figure
 
 
+# The pictures of one loop, and what the rows of their columns are.
+_PICTURES = {"bode": (bode, "frequencies"), "nyquist": (nyquist, "frequencies"), "poles": (poles, "poles"),
+             "step": (step, "times")}  # fmt: skip
+KINDS = (*_PICTURES, "root_locus")
 _VALUES = 200  # of the key of a root locus
 
 
@@ -246,22 +248,16 @@ def _csv(columns: Columns) -> str:
 
 def draw_loop(kind: str, scenario: Scenario, set: Settings, locus: str, wide: Optional[float]) -> Tuple[str, Figure, str]:
     """The numbers as CSV, the figure, and what is in it. Raises InputError for a scenario without a loop."""
-    width: Dict[str, Any] = {"width": wide} if wide else {}
+    width, loop = {"width": wide} if wide else {}, _loops.linearized(scenario, set)
     if kind == "root_locus":
         key, _, between = locus.partition("=")
         bounds = between.partition(":")[::2]
         if not all((key, *bounds)):
             raise fault(f"root-locus: found {locus}; allowed: KEY=FROM:TO, such as controller.pd.kv.0.0=0.2:2")
         columns = _loops.root_locus(scenario, set, key, bounds, _VALUES)
-        figure = root_locus(columns, _loops.linearized(scenario, set).dt, key, **width)
-        return _csv(columns), figure, f"the poles at {_VALUES} values of {key}"
-    loop = _loops.linearized(scenario, set)
-    columns = getattr(_loops, kind)(loop)
-    also: Dict[str, Dict[str, Any]] = {"poles": {"dt": loop.dt}, "bode": {"margins": loop.margins}}
-    pictures: Dict[str, Any] = {"bode": bode, "nyquist": nyquist, "poles": poles, "step": step}
-    figure = pictures[kind](columns, **also.get(kind, {}), **width)
-    rows, what = len(next(iter(columns.values()))), {"poles": "poles", "step": "times"}.get(kind, "frequencies")
-    return _csv(columns), figure, f"{rows} {what}"
+        return _csv(columns), root_locus(columns, loop, key, **width), f"the poles at {_VALUES} values of {key}"
+    (picture, rows), columns = _PICTURES[kind], getattr(_loops, kind)(loop)
+    return _csv(columns), picture(columns, loop, **width), f"{len(next(iter(columns.values())))} {rows}"
 
 
 def draw_accuracy(text: str, title: str, wide: Optional[float]) -> Tuple[Any, int]:
@@ -280,8 +276,8 @@ def draw_accuracy(text: str, title: str, wide: Optional[float]) -> Tuple[Any, in
     axes = sheet.panel(box, "processor time of a run (µs)")
     every = [point for method in points.values() for point in method]
     label = "error: largest |Δx|, |Δy| over the output times (m)"
-    logarithmic(axes.xaxis, covered([error for error, _ in every]), box.across, label, air=0.04)
-    logarithmic(axes.yaxis, covered([time for _, time in every]), height, air=0.06)
+    logarithmic(axes.xaxis, covered([error for error, _ in every]), label, air=0.04)
+    logarithmic(axes.yaxis, covered([time for _, time in every]), air=0.06)
     for method, look in looks.items():
         axes.plot(*zip(*points[method]), **look)
     return sheet.figure, len(every)

@@ -10,7 +10,7 @@ from typing import Callable, Dict, Optional, Sequence
 import numpy as np
 
 from . import _bbsim
-from ._result import Linearization, OpenLoop
+from ._result import Linearization
 from ._scenario import Array, Scenario, Settings, fault, given
 
 Complex = np.ndarray
@@ -32,28 +32,13 @@ def rates(poles: Complex, dt: Optional[float]) -> Complex:
         return np.log(poles.astype(np.complex128)) / dt
 
 
-def frequencies(loops: Dict[str, OpenLoop]) -> Array:
-    """Rising angular frequencies (rad/s), dense where the responses change, up to the Nyquist frequency."""
-    poles, closed, dt = [], [], 0.0
-    for one in loops.values():
-        dt = one.dt
-        poles.append(np.linalg.eigvals(one.A))
-        closed.append(np.linalg.eigvals(one.A - one.B @ one.C))
-    every = np.concatenate([*poles, *closed])
-    points = np.array(_bbsim.frequencies(list(np.concatenate(poles)), list(np.concatenate(closed)), dt))
-    sizes = np.abs(rates(every[np.abs(every) > 1e-6] if dt else every, dt))
-    sizes = sizes[sizes > 1e-6 * sizes.max()]
-    far = 30
-    return points[(points >= sizes.min() / far) & (points <= max(sizes.max() * far, points[-1] if dt else 0))]
-
-
 def _responses(loop: Linearization, parts: Dict[str, Callable[[Complex], Array]]) -> Columns:
     """Frequencies, and parts of the open-loop response of each axis; nan for an axis without a loop."""
-    loops = {axis: loop.open_loop(axis) for axis in AXES if f"{axis}_command" in loop.margins}
-    if not loops:
+    at = loop._frequencies
+    if not len(at):
         raise fault("found a scenario in which no command closes a loop; allowed: a controller that feeds back")
-    at = frequencies(loops)
-    found = {axis: loops[axis].response(at) if axis in loops else np.full(len(at), np.nan * 1j) for axis in AXES}
+    lacking = np.full(len(at), np.nan * 1j)
+    found = {axis: loop.open_loop(axis).response(at) if f"{axis}_command" in loop.margins else lacking for axis in AXES}
     return {"frequency": at, **{f"{axis}_{name}": part(found[axis]) for axis in AXES for name, part in parts.items()}}
 
 
@@ -64,24 +49,17 @@ def phase_of(response: Complex) -> Array:
 
 
 def bode(loop: Linearization) -> Columns:
-    """frequency (rad/s), phi_gain, phi_phase (rad), theta_gain, theta_phase of the open loops.
-
-    Each loop is broken at its command, with the other one closed, and with the sign for which -1 is the
-    critical point. Raises InputError for a scenario without a loop.
-    """
+    """Gain and phase of the open loops over the frequency. Raises InputError for a scenario without a loop."""
     return _responses(loop, {"gain": np.abs, "phase": phase_of})
 
 
 def nyquist(loop: Linearization) -> Columns:
-    """frequency (rad/s), phi_real, phi_imag, theta_real, theta_imag of the open loops, as in bode()."""
+    """The same loops as complex numbers."""
     return _responses(loop, {"real": np.real, "imag": np.imag})
 
 
 def poles(loop: Linearization) -> Columns:
-    """real, imag, damping, frequency (rad/s) of the closed loop's poles.
-
-    Those of a sampled loop are z; damping and frequency are those of s, with z = exp(s period).
-    """
+    """The closed loop's poles. Those of a sampled loop are z; damping and frequency are those of s."""
     at = rates(loop.poles, loop.dt)
     size = np.abs(at)
     with np.errstate(invalid="ignore"):
@@ -90,8 +68,7 @@ def poles(loop: Linearization) -> Columns:
 
 
 def root_locus(scenario: Scenario, set: Settings, key: str, bounds: Sequence[str], count: int) -> Columns:
-    """value, real, imag: a row for each pole of the closed loop at evenly spaced values of the key (SI). The bounds are
-    texts such as "2 cm"."""
+    """A row for each pole of the closed loop at evenly spaced values of the key, between texts such as "2 cm"."""
     ends = [_bbsim.number_at(given(scenario, set), key, bound) for bound in bounds]
     if None in ends:
         raise fault(f"{key}: found {bounds[ends.index(None)]}; allowed: the bounds of a key that holds one number")
@@ -102,12 +79,9 @@ def root_locus(scenario: Scenario, set: Settings, key: str, bounds: Sequence[str
 
 
 def step(loop: Linearization) -> Columns:
-    """t (s), x and y: the linear responses to a unit step of x_reference and of y_reference.
-
-    They end when the slowest mode has decayed to 0.1 %, or has grown tenfold. A sampled loop has a row for each
-    sample. nan for an axis that the loop leaves out.
-    """
-    from scipy.signal import cont2discrete  # takes long to import
+    """The linear responses to a unit step of each reference, until the slowest mode has decayed to 0.1 %, or has grown
+    tenfold. A sampled loop has a row for each sample."""
+    from scipy.signal import cont2discrete, dlsim  # take long to import
 
     if not loop.inputs:
         raise fault("found a controller of your own, whose answer to a reference is not known; allowed: a law of bbsim")
@@ -117,16 +91,11 @@ def step(loop: Linearization) -> Columns:
     end = math.log(1000) / -growth if growth < 0 else math.log(10) / growth
     count = min(int(round(end / loop.dt)), 20000) if loop.dt else 500
     period = loop.dt or end / count
-    system = (loop.A, loop.B, loop.C, loop.D)
-    advance, push = system[:2] if loop.dt else cont2discrete(system, period)[:2]
-    columns = {"t": np.arange(count + 1) * period}
+    columns = {"t": np.arange(count + 1) * period, "x": np.full(count + 1, np.nan), "y": np.full(count + 1, np.nan)}
     for output in ("x", "y"):
-        column = np.full(count + 1, np.nan)
         if output in loop.outputs and f"{output}_reference" in loop.inputs:
-            row, of = loop.outputs.index(output), loop.inputs.index(f"{output}_reference")
-            state = np.zeros(len(loop.A))
-            for k in range(count + 1):
-                column[k] = loop.C[row] @ state + loop.D[row, of]
-                state = advance @ state + push[:, of]
-        columns[output] = column
+            row, of = [loop.outputs.index(output)], [loop.inputs.index(f"{output}_reference")]
+            system = (loop.A, loop.B[:, of], loop.C[row], loop.D[row][:, of])
+            sampled = (*system, period) if loop.dt else cont2discrete(system, period)
+            columns[output] = dlsim(sampled, np.ones(count + 1))[1][:, 0]
     return columns

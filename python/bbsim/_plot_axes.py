@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import functools
 import math
 import re
 from collections import Counter
@@ -12,9 +11,11 @@ from dataclasses import dataclass
 from typing import Any, Optional, Sequence, Tuple
 
 import numpy as np
-from matplotlib.ticker import FixedFormatter, FixedLocator, FuncFormatter, MultipleLocator, NullLocator
+from matplotlib.ticker import (
+    FixedFormatter, FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullLocator, ScalarFormatter,
+)  # fmt: skip
 
-from ._plot_sheet import SMALL, TEXT, cut, number, width_of
+from ._plot_sheet import MM, SMALL, TEXT, cut, number
 
 Range = Optional[Tuple[float, float]]  # the interval that finite values cover; None if there are none
 
@@ -153,30 +154,6 @@ def choose_scales(unit: Unit, x: Range, y: Range) -> Tuple[Scale, Scale]:
     return one, other
 
 
-def _nice_step(rough: float) -> float:
-    size = 10.0 ** math.floor(math.log10(rough))
-    digits = rough / size
-    return size * (1 if digits < 1.5 else 2 if digits < 3.5 else 5 if digits < 7.5 else 10)
-
-
-def decimals_of(step: float) -> int:
-    return max(0, -math.floor(math.log10(step) + 1e-9))
-
-
-def fixed(value: float, decimals: int) -> str:
-    text = f"{value:.{decimals}f}"
-    return text.replace("-", "" if float(text) == 0 else "−")
-
-
-def _label(decimals: int, value: float, _position: int) -> str:
-    return fixed(value, decimals)
-
-
-def _spaced(axis: Any) -> float:
-    """Millimeters for each tick."""
-    return 11.0 if axis.axis_name == "x" else 4.5
-
-
 def linear_limits(range_: Range, air: float = 0.06) -> Tuple[float, float]:
     """The ends of an axis over a range, with free space at both."""
     if range_ is None:
@@ -187,70 +164,66 @@ def linear_limits(range_: Range, air: float = 0.06) -> Tuple[float, float]:
     return range_[0] - more, range_[1] + more
 
 
-def _limit(axis: Any, low: float, high: float, label: str, numbered: bool, room: float) -> None:
+def _millimeters(axis: Any) -> float:
+    """The length of an axis."""
+    size = axis.axes.bbox.width if axis.axis_name == "x" else axis.axes.bbox.height
+    return float(size / axis.figure.dpi / MM)
+
+
+def _most_ticks(axis: Any) -> float:
+    return _millimeters(axis) / (11 if axis.axis_name == "x" else 4.5)
+
+
+def _set(axis: Any, low: float, high: float, locator: Any, formatter: Any, label: str, numbered: bool) -> None:
     getattr(axis.axes, f"set_{axis.axis_name}lim")(low, high)
-    axis.set_tick_params(**{"labelbottom" if axis.axis_name == "x" else "labelleft": numbered})
-    if label and numbered:
-        axis.set_label_text(cut(label, room, TEXT))
+    axis.set_major_locator(locator)
+    axis.set_major_formatter(formatter)
+    axis.set_minor_locator(NullLocator())
+    if not numbered:
+        axis.set_tick_params(labelbottom=False, labelleft=False)
+    elif label:
+        axis.set_label_text(cut(label, _millimeters(axis), TEXT))
 
 
-def linear(
-    axis: Any, low: float, high: float, millimeters: float, label: str = "", *,
-    numbered: bool = True, least: float = 0.0, step: Optional[float] = None,
-) -> float:  # fmt: skip
-    """Round ticks at least `least` apart; their labels do not overlap. Returns the distance of ticks."""
-    if step is None:
-        for ticks in range(max(2, min(8, int(millimeters / _spaced(axis)))), 0, -1):
-            step = max(_nice_step((high - low) / ticks), least)
-            widest = max(width_of(fixed(end, decimals_of(step)), SMALL) for end in (low, high))
-            if axis.axis_name == "y" or step / (high - low) * millimeters > widest + 2:
-                break
-    assert step is not None
-    decimals = decimals_of(step)
-    axis.set_major_locator(MultipleLocator(step))
-    axis.set_major_formatter(FuncFormatter(functools.partial(_label, decimals)))
-    _limit(axis, low, high, label, numbered, millimeters)
-    return step
+def linear(axis: Any, low: float, high: float, label: str = "", *, numbered: bool = True, whole: bool = False) -> None:
+    """An axis with round ticks, or ticks at whole numbers."""
+    locator = MaxNLocator(max(2, min(9, int(1.4 * _most_ticks(axis)))), steps=[1, 2, 5, 10], integer=whole)
+    formatter = ScalarFormatter(useOffset=False)
+    formatter.set_scientific(False)
+    _set(axis, low, high, locator, formatter, label, numbered)
 
 
 def better_by_log(range_: Range, decades: float = 3) -> bool:
     return range_ is not None and range_[0] > 0 and range_[1] / range_[0] > 10**decades
 
 
-def logarithmic(
-    axis: Any, range_: Range, millimeters: float, label: str = "", *, air: float = 0.0, numbered: bool = True
-) -> None:
-    """An axis over positive values, with labels at decades, and at 2 and 5 if there is room."""
+def _of_decade(value: float, _position: int) -> str:
+    exponent = math.floor(math.log10(value) + 1e-9)
+    mantissa, ten = round(value / 10.0**exponent), power_of_ten(exponent)
+    return number(value) if -3 <= exponent <= 3 else ten if mantissa == 1 else f"{mantissa}·{ten}"
+
+
+def logarithmic(axis: Any, range_: Range, label: str = "", *, air: float = 0.0, numbered: bool = True) -> None:
+    """An axis over positive values, with ticks at decades, and between them if there is room."""
     low, high = range_ if range_ is not None else (1.0, 10.0)
     more = (high / low) ** air if is_wide(range_) else 2.0
     low, high = low / more, high * more
-    decades = math.log10(high) - math.log10(low)
-    most = max(2.0, millimeters / _spaced(axis))
-    mantissas = [1, 2, 5] if 3 * decades <= most else [1, 3] if 2 * decades <= most else [1]
-    every = max(1, math.ceil(decades / most))
-    labels = {}
-    for exponent in range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1):
-        for mantissa in mantissas if exponent % every == 0 else []:
-            value, ten = mantissa * 10.0**exponent, power_of_ten(exponent)
-            if low * (1 - 1e-9) <= value <= high * (1 + 1e-9):
-                long = ten if mantissa == 1 else f"{mantissa}·{ten}"
-                labels[value] = number(value) if -3 <= exponent <= 4 else long
+    most, decades = _most_ticks(axis), math.log10(high) - math.log10(low)
+    within = (1, 2, 5) if 3 * decades <= most else (1, 3) if 2 * decades <= most else (1,)
     getattr(axis.axes, f"set_{axis.axis_name}scale")("log")
-    ticks(axis, list(labels), list(labels.values()))
-    _limit(axis, low, high, label, numbered, millimeters)
+    _set(axis, low, high, LogLocator(subs=within, numticks=max(2, int(most))), FuncFormatter(_of_decade), label, numbered)
 
 
-def fitted(
-    axis: Any, log: bool, range_: Range, millimeters: float, label: str = "", *, air: float = 0.0, numbered: bool = True
-) -> None:
+def fitted(axis: Any, log: bool, range_: Range, label: str = "", *, air: float = 0.0, numbered: bool = True) -> None:
     """A logarithmic or a linear axis over a range."""
     if log:
-        logarithmic(axis, range_, millimeters, label, air=air, numbered=numbered)
+        logarithmic(axis, range_, label, air=air, numbered=numbered)
     else:
-        linear(axis, *linear_limits(range_, air), millimeters, label, numbered=numbered)
+        linear(axis, *linear_limits(range_, air), label, numbered=numbered)
 
 
-def ticks(axis: Any, at: Sequence[float], labels: Sequence[str]) -> None:
-    axis.set_major_locator(FixedLocator(at))
-    axis.set_major_formatter(FixedFormatter(labels))
-    axis.set_minor_locator(NullLocator())
+def words(axis: Any, texts: Sequence[str], label: str, numbered: bool = True) -> None:
+    """An axis with a text at each whole number."""
+    room = 0.9 * _millimeters(axis) / len(texts) if axis.axis_name == "x" else 9.0
+    formatter = FixedFormatter([cut(text, room, SMALL) for text in texts])
+    _set(axis, -0.5, len(texts) - 0.5, FixedLocator(range(len(texts))), formatter, label, numbered)

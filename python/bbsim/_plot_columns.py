@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Dict, List, NamedTuple, Optional, Sequence
+from typing import Dict, List, NamedTuple, Optional, Sequence
 
 import numpy as np
 
@@ -47,26 +47,17 @@ class Panel:
         return sum(line.role == role for line in self.lines)
 
 
-def _misfit(t: Any, u: Any, angle: Any, twice: bool) -> float:
-    """Root mean square of u minus the angle, or minus its second derivative over time."""
-    before, after = t[1:-1] - t[:-2], t[2:] - t[1:-1]
-    even = (before > 0) & (np.abs(after - before) < 1e-6 * before)
-    with np.errstate(all="ignore"):
-        other = (angle[2:] - 2 * angle[1:-1] + angle[:-2]) / (before * after) if twice else angle[1:-1]
-        difference = (u[1:-1] - other)[even]
-    difference = difference[np.isfinite(difference)]
-    return float(np.sqrt(np.mean(difference**2))) if len(difference) else 0.0
-
-
 def _command_unit(run: _bbsim.Stored) -> str:
     """From the scenario; without one, angles or accelerations, whichever fits the commands better."""
     if run.command_unit is not None:
         return run.command_unit
-    misfits = [0.0, 0.0]
+    misfits = np.zeros(2)  # sums of squares
     for axis in ("phi", "theta"):
-        if {"t", axis, f"{axis}_command"} <= set(run.names):
+        if {"t", axis, f"{axis}_command"} <= set(run.names) and run.rows > 1:
             t, command, angle = (run.numbers(name) for name in ("t", f"{axis}_command", axis))
-            misfits = [misfits[i] + _misfit(t, command, angle, twice=bool(i)) for i in range(2)]
+            with np.errstate(all="ignore"):  # rows at the same time
+                errors = command - [angle, np.gradient(np.gradient(angle, t), t)]
+            misfits += (errors[:, np.isfinite(errors).all(0)] ** 2).sum(1)
     return "rad/s^2" if misfits[1] < misfits[0] else "rad"
 
 

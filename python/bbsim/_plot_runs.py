@@ -100,8 +100,8 @@ def _time_panel(
         legend.append((names, edge))
     axes = sheet.panel(box, scale.heading(planned.name), legend)
     label = abscissa.scale.heading("t" if abscissa.is_time else "row")
-    linear(axes.xaxis, *abscissa.limits, box.across, label, numbered=lowest)
-    linear(axes.yaxis, *linear_limits(scale.of(shown)), box.up)
+    linear(axes.xaxis, *abscissa.limits, label, numbered=lowest)
+    linear(axes.yaxis, *linear_limits(scale.of(shown)))
 
     # References and measurements are bands below the thin lines of commands and the motion.
     order = [REFERENCE, MEASURED, COMMAND, MAIN]
@@ -183,9 +183,9 @@ class _Path:
         half = 0.54 * (wide if wide > 1e-9 * most else most or 1.0)
         axes = sheet.panel(box, y_scale.heading("y"))
         middle = x[0] / 2 + x[1] / 2
-        step = linear(axes.xaxis, middle - half, middle + half, box.across, x_scale.heading("x"))
+        linear(axes.xaxis, middle - half, middle + half, x_scale.heading("x"))
         middle, tall = y[0] / 2 + y[1] / 2, half * box.up / box.across
-        linear(axes.yaxis, middle - tall, middle + tall, box.up, step=step)
+        linear(axes.yaxis, middle - tall, middle + tall)
 
         def line(points: Array, look: Stroke) -> None:
             _line(axes, x_scale(points[0]), y_scale(points[1]), **look)
@@ -218,30 +218,23 @@ _ABOVE, _BELOW, _UNDER = 4.8, 1.2, 9.0  # of a panel: heading, gap, and labels o
 _NARROW = 125.0  # mm: narrower pictures have one column
 
 
-def _columns(path: bool, panels: int, wide: Optional[float]) -> Tuple[float, float, List[List[float]]]:
-    """The width, the height of the path, and for each column the heights of its panels with their gaps, mm."""
-    least = 20.0
-
-    def stack(count: int, whole: float = 0.0) -> List[float]:
-        return [max(whole / max(count, 1), least)] * count
-
-    two = 180.0 if wide is None else wide
-    half = (two - _LEFT - _RIGHT - _BETWEEN) / 2
+def _layout(path: bool, panels: int, wide: Optional[float]) -> Tuple[float, float, float, List[int]]:
+    """The picture's width, the height of a panel with its gaps, and that of the path, mm; and the number of panels in
+    each column, the first of them below the path."""
+    least, two = 20.0, 180.0 if wide is None else wide
     if path and panels == 0:
-        sheet = 88.0 if wide is None else wide
-        return sheet, min(sheet - _LEFT - _RIGHT, 130.0), [[]]
+        one = 88.0 if wide is None else wide
+        return one, 0.0, min(one - _LEFT - _RIGHT, 130.0), [0]
     if two < _NARROW or (not path and panels <= 6):
-        sheet = 135.0 if wide is None else wide
-        heights = stack(panels, 66 if panels > 1 else 54)
-        return sheet, 0.85 * (sheet - _LEFT - _RIGHT) if path else 0.0, [heights]
-    if path and panels < 6:
-        right = stack(panels, half + 4)
-        return two, sum(right) - _ABOVE - _BELOW, [[], right]
-    if path:
-        right = stack((panels + 5) // 2)
-        left = stack(panels - len(right))
-        return two, sum(right) - sum(left) - _ABOVE - _BELOW - (_UNDER if left else 0), [left, right]
-    return two, 0.0, [stack(panels - panels // 2), stack(panels // 2)]
+        one = 135.0 if wide is None else wide
+        pitch = max((66 if panels > 1 else 54) / panels, least)
+        return one, pitch, 0.85 * (one - _LEFT - _RIGHT), [panels]
+    if not path:
+        return two, least, 0.0, [panels - panels // 2, panels // 2]
+    right = panels if panels < 6 else (panels + 5) // 2
+    left = panels - right
+    pitch = max(((two - _LEFT - _RIGHT - _BETWEEN) / 2 + 4) / right, least)
+    return two, pitch, (right - left) * pitch - _ABOVE - _BELOW - (_UNDER if left else 0), [left, right]
 
 
 def _status(run: _bbsim.Stored) -> str:
@@ -281,27 +274,22 @@ def draw_runs(results: Sequence[_bbsim.Stored], asked: Sequence[Sequence[str]], 
         name = results[0].file or "the result"
         raise fault(f"{name}: nothing to draw: no column but t holds finite numbers")
 
-    sheet_width, path_height, columns = _columns(with_path, len(panels), wide)
+    sheet_width, pitch, path_height, counts = _layout(with_path, len(panels), wide)
     abscissa, marks = _Abscissa(runs), _Marks(runs)
     title, subtitle, legend = _titles(runs)
     legend = [*legend, *(path.legend() if with_path else ()), *marks.legend()]
-    part = (sheet_width - _LEFT - _RIGHT - _BETWEEN * (len(columns) - 1)) / len(columns)
-    lefts = [_LEFT + i * (part + _BETWEEN) for i in range(len(columns))]
+    part = (sheet_width - _LEFT - _RIGHT - _BETWEEN * (len(counts) - 1)) / len(counts)
     path_room = _ABOVE + path_height + _BELOW if with_path else 0.0
     # Below the path stand the labels of its axis, if panels follow there.
-    top = path_room + (_UNDER if with_path and columns[0] else 0.0)
-    tallest = max(sum(heights) + (top if i == 0 else 0.0) for i, heights in enumerate(columns))
+    tops = [path_room + (_UNDER if with_path and counts[0] else 0.0), 0.0][: len(counts)]
+    tallest = max(top + pitch * count for top, count in zip(tops, counts))
     sheet = Sheet(sheet_width, tallest + _UNDER, title, subtitle, legend)
     if with_path:
         path.draw(sheet, Box(_LEFT, _ABOVE, _LEFT + part, path_room - _BELOW), marks)
-    # With a path, panels fill the right column first.
-    order = sorted(range(len(columns)), reverse=with_path)
     waiting = iter(panels)
-    for column in order:
-        at = top if column == 0 else 0.0
-        for i, height in enumerate(columns[column]):
-            box = Box(lefts[column], at + _ABOVE, lefts[column] + part, at + height - _BELOW)
-            _time_panel(sheet, box, runs, next(waiting), abscissa, marks, i + 1 == len(columns[column]))
-            at += height
+    for column in sorted(range(len(counts)), reverse=with_path):  # with a path, panels fill the right column first
+        for i in range(counts[column]):
+            left, top = _LEFT + column * (part + _BETWEEN), tops[column] + i * pitch
+            box = Box(left, top + _ABOVE, left + part, top + pitch - _BELOW)
+            _time_panel(sheet, box, runs, next(waiting), abscissa, marks, lowest=i + 1 == counts[column])
     return sheet.figure, len(panels) + with_path
-

@@ -9,13 +9,14 @@ from dataclasses import dataclass
 from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
+from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm, Normalize
 
 from . import _bbsim
 from ._plot_axes import (
-    CLOSE, Unit, Units, better_by_log, choose_scale, covered, fitted, is_wide, linear, linear_limits, ticks, width,
+    CLOSE, Unit, Units, better_by_log, choose_scale, covered, fitted, is_wide, linear, linear_limits, width, words,
 )  # fmt: skip
-from ._plot_sheet import ORANGE, SMALL, Box, Sheet, Stroke, cut, mark, number, stroke
+from ._plot_sheet import ORANGE, Box, Sheet, Stroke, mark, number, stroke
 from ._scenario import counted, fault
 
 _MOST_GROUPS = 5  # more values make a map instead of a line for each
@@ -54,8 +55,8 @@ class _Measure:
         self.range = self.scale.of(whole)
         self.heading = self.scale.heading(name)
 
-    def set(self, axis: Any, millimeters: float, air: float, label: str = "", numbered: bool = True) -> None:
-        fitted(axis, self.log, self.range, millimeters, label, air=air, numbered=numbered)
+    def set(self, axis: Any, air: float, label: str = "") -> None:
+        fitted(axis, self.log, self.range, label, air=air)
 
 
 class _Key:
@@ -85,16 +86,13 @@ class _Key:
         edges = np.concatenate([[2 * at[0] - middle[0]], middle, [2 * at[-1] - middle[-1]]])
         return np.exp(edges) if self.log else edges
 
-    def set(self, axis: Any, millimeters: float, cells: bool, numbered: bool = True) -> None:
+    def set(self, axis: Any, cells: bool, numbered: bool = True) -> None:
         """Leaves half the distance to the next value at both ends if `cells`, else room for a marker."""
-        ends = self.edges() if cells else self.place(self.distinct)
-        if not self.is_text:
-            range_, air = (float(ends[0]), float(ends[-1])), 0.0 if cells else 0.02
-            return fitted(axis, self.log, range_, millimeters, self.label, air=air, numbered=numbered)
-        count = len(self.key.labels)
-        linear(axis, -0.5, count - 0.5, millimeters, self.label, numbered=numbered)
-        room = 0.9 * millimeters / count if axis.axis_name == "x" else 9.0
-        ticks(axis, range(count), [cut(label, room, SMALL) for label in self.key.labels])
+        if self.is_text:
+            words(axis, self.key.labels, self.label, numbered)
+        else:
+            ends = self.edges() if cells else self.place(self.distinct)
+            fitted(axis, self.log, covered(ends), self.label, air=0.0 if cells else 0.02, numbered=numbered)
 
 
 # Panels; `lowest` of its column: the others have no labels below
@@ -116,8 +114,8 @@ def _lines(sweep: _Sweep, name: str, over: _bbsim.SweepKey, group: Optional[_bbs
     """A curve for each value of `group` through the medians, with a band that holds nine of ten cases."""
     along, up = _Key(sweep, over), _Measure(sweep, name)
     axes = sheet.panel(box, up.heading)
-    along.set(axes.xaxis, box.across, cells=False, numbered=lowest)
-    up.set(axes.yaxis, box.up, 0.08)
+    along.set(axes.xaxis, cells=False, numbered=lowest)
+    up.set(axes.yaxis, 0.08)
     groups = [0.0] if group is None else list(group.distinct)
     chosen = np.arange(len(over.values)) % (len(over.values) // _MOST_POINTS + 1 if over.drawn else 1) == 0
     for g, value in enumerate(groups):
@@ -162,13 +160,15 @@ def _map(sweep: _Sweep, name: str, over: _bbsim.SweepKey, against: _bbsim.SweepK
     axes.grid(False)
     axes.spines[:].set_visible(True)
     scattered = over.drawn or against.drawn  # each value is another case's
-    along.set(axes.xaxis, box.across, cells=not scattered, numbered=lowest)
-    up.set(axes.yaxis, box.up, cells=not scattered)
+    along.set(axes.xaxis, cells=not scattered, numbered=lowest)
+    up.set(axes.yaxis, cells=not scattered)
     norm: Any = None
     if colors.range is not None:
         low, high = colors.range if is_wide(colors.range) else linear_limits(colors.range, 0)
         norm = (LogNorm if colors.log else Normalize)(low, high)
-        _color_scale(sheet.axes(box._replace(left=box.right + 2.5, right=box.right + 5)), colors, norm, box.up)
+        scale = sheet.axes(box._replace(left=box.right + 2.5, right=box.right + 5))
+        sheet.figure.colorbar(ScalarMappable(norm, "viridis"), scale).solids.set_rasterized(True)
+        colors.set(scale.yaxis, 0.0)
     if scattered:
         _points(sweep, axes, colors, norm, along, up)
         return
@@ -196,18 +196,6 @@ def _map(sweep: _Sweep, name: str, over: _bbsim.SweepKey, against: _bbsim.SweepK
                     shown = number(value, 3)
                     axes.text(x[column], y[row], shown, size=6, ha="center", va="center_baseline", color=color)
     _mark_cells(sweep, axes, cells, x, y, min(box.across / shape[1], box.up / shape[0]))
-
-
-def _color_scale(axes: Any, colors: _Measure, norm: Any, up: float) -> None:
-    """The gradient is drawn by itself: colorbar() takes as long as the rest of a panel."""
-    axes.grid(False)
-    axes.spines[:].set_visible(True)
-    ends = np.geomspace(norm.vmin, norm.vmax, 129) if colors.log else np.linspace(norm.vmin, norm.vmax, 129)
-    colors.set(axes.yaxis, up, 0.0)
-    axes.pcolormesh([0, 1], ends, _middles(ends, colors.log)[:, None], cmap="viridis", norm=norm, rasterized=True)
-    axes.set_xticks([])
-    axes.set_ylim(norm.vmin, norm.vmax)
-    axes.yaxis.tick_right()
 
 
 def _points(sweep: _Sweep, axes: Any, colors: _Measure, norm: Any, along: _Key, up: _Key) -> None:
@@ -260,8 +248,8 @@ def _histogram(sweep: _Sweep, name: str, sheet: Sheet, box: Box) -> None:
             tails = f"5, 95 %: {number(at[0], digits)}, {number(at[2], digits)}"
             legend = [(f"median {number(at[1], digits)}", median), (tails, tail)]
     axes = sheet.panel(box, "", legend)
-    along.set(axes.xaxis, box.across, 0.03, along.heading)
-    linear(axes.yaxis, 0, 1.05 * counts.max(), box.up, "cases", least=1)
+    along.set(axes.xaxis, 0.03, along.heading)
+    linear(axes.yaxis, 0, 1.05 * counts.max(), "cases", whole=True)
     if len(edges):
         axes.stairs(counts, np.exp(edges) if along.log else edges, fill=True, color="#7fb8d8")
     for value in at:

@@ -177,23 +177,11 @@ class OpenLoop(_StateSpace):
     def response(self, frequencies: Any) -> "np.ndarray[Any, np.dtype[np.complex128]]":
         """The frequency response at these angular frequencies (rad/s); not finite at a pole."""
         w = np.asarray(frequencies, dtype=np.float64)
-        points = np.exp(1j * w * self.dt) if self.dt else 1j * w
-        systems = points[..., None, None] * np.eye(len(self.A)) - self.A
-        return self.D[0, 0] + np.squeeze(self.C @ _solved(systems, self.B), axis=(-2, -1))
+        return np.reshape(_bbsim.response(self.A, self.B, self.C, self.D, self.dt, w.ravel()), w.shape)
 
     def __repr__(self) -> str:
         time = f"every {self.dt} s" if self.dt else "in continuous time"
         return f"<bbsim.OpenLoop at {self.command}, {len(self.states)} states, {time}>"
-
-
-def _solved(systems: "np.ndarray[Any, np.dtype[np.complex128]]", right: Array) -> Any:
-    """The solutions of systems with one right-hand side; nan for those that are singular."""
-    try:
-        return np.linalg.solve(systems, np.broadcast_to(right, (*systems.shape[:-1], right.shape[1])))
-    except np.linalg.LinAlgError:
-        if systems.ndim == 2:
-            return np.full((systems.shape[0], right.shape[1]), np.nan)
-        return np.stack([_solved(one, right) for one in systems])
 
 
 class Linearization(_StateSpace):
@@ -211,6 +199,7 @@ class Linearization(_StateSpace):
         self._json: Dict[str, Any] = json.loads(made.json)
         self._report: str = made.report.rstrip("\n")
         self._loops = {name: OpenLoop(loop) for name, loop in made.open_loops.items()}
+        self._frequencies = np.array(made.frequencies)  # at which to look at these loops
 
     @property
     def poles(self) -> "np.ndarray[Any, np.dtype[np.complex128]]":

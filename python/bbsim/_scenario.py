@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import json
-import math
 import os
 from dataclasses import dataclass
 from typing import Any, Callable, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
@@ -106,25 +105,25 @@ class Columns:
 def whole(text: str) -> str:
     try:
         text.encode()
-    except UnicodeEncodeError:
-        raise fault(f"found {text!r}, a part of a character; allowed: Unicode text") from None
+    except UnicodeEncodeError as error:
+        found = text[error.start : error.end]
+        raise fault(f"found {found!r}, a part of a character; allowed: Unicode text") from None
     return text
 
 
 def _text(value: Any) -> str:
-    """The value in YAML's flow style."""
+    """The value in YAML's flow style, of which JSON is a part."""
+    return whole(json.dumps(value, ensure_ascii=False, default=_plain))
+
+
+def _plain(value: Any) -> Any:
+    """The value as a kind that JSON knows."""
     if isinstance(value, (np.generic, np.ndarray)):
-        value = value.tolist()
-    if isinstance(value, (str, os.PathLike)):
-        return json.dumps(whole(os.fspath(value)), ensure_ascii=False)
-    if isinstance(value, float) and not math.isfinite(value):  # the reader refuses these words and names the key
-        return ".nan" if math.isnan(value) else ".inf" if value > 0 else "-.inf"
-    if isinstance(value, (bool, int, float)) or value is None:
-        return json.dumps(value)
-    if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{_text(str(key))}: {_text(one)}" for key, one in value.items()) + "}"
+        return value.tolist()
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
     if isinstance(value, Iterable):
-        return "[" + ", ".join(map(_text, value)) + "]"
+        return dict(value) if isinstance(value, Mapping) else list(value)
     kinds = "numbers, texts, lists, dicts, numpy arrays and None"
     raise TypeError(f"found {value!r} of type {type(value).__name__}; allowed: {kinds}")
 

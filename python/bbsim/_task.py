@@ -24,6 +24,9 @@ from ._scenario import fault
 # A change that probably has a visible effect, by unit (SI). Other units span orders of magnitude.
 _USUAL = {"m": 0.01, "s": 0.01, "rad": 0.01, "m/s": 0.01, "N": 0.01}
 _ROUNDING = 1e-12
+# Noise and rounding in a loop: they differ in each log, and have no derivatives.
+ROUGH = tuple(f"controller.{key}" for key in ("sensor.noise", "sensor.dropout", "sensor.seed", "sensor.resolution",
+                                              "sampling.jitter", "sampling.resolution"))  # fmt: skip
 
 
 def refuse_free(what: str) -> NoReturn:
@@ -131,15 +134,6 @@ def read_free_keys(texts: Sequence[str], given: _bbsim.Given) -> List[FreeKey]:
         refuse_twice([*(key.name for key in keys), name])
         keys.append(read_free_key(text, given))
     return keys
-
-
-def aligned(lines: Sequence[Sequence[str]]) -> str:
-    """A table: the first field of each line to the left, the others to the right."""
-    widths = [max(map(len, column)) for column in zip(*lines)]
-    texts = []
-    for first, *rest in lines:
-        texts.append(first.ljust(widths[0]) + "".join("  " + one.rjust(n) for one, n in zip(rest, widths[1:])))
-    return "".join(text.rstrip() + "\n" for text in texts)
 
 
 def _plain(value: Any) -> Any:

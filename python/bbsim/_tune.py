@@ -15,7 +15,7 @@ from . import _bbsim
 from ._scenario import Array, InputError, Scenario, Settings, counted, fault, given, listed
 from ._simulate import simulate
 from ._task import (
-    Progress, aligned, as_json, carry_out, files_of, read_free_key, refuse_free, refuse_twice, silent, write_all,
+    Progress, as_json, carry_out, files_of, read_free_key, refuse_free, refuse_twice, silent, write_all,
 )  # fmt: skip
 from ._worst_case import Search, merit_of, worst_of
 
@@ -205,7 +205,7 @@ class _Tuning:
         if found.interrupted:
             lines.insert(0, f"tune: interrupted after {found.tried} tries; the result is the best of them")
         made.met, made.reason = not reasons, "\n".join(lines)
-        made.report = f"{aligned(keys)}\n{aligned(measures)}\non {rigs}; {found.tried} tries\n"
+        made.report = f"{_bbsim.aligned(keys)}\n{_bbsim.aligned(measures)}\non {rigs}; {found.tried} tries\n"
         share = float(np.mean(found.passes)) if len(found.passes) else None
         made.hold_out = SimpleNamespace(cases=len(found.passes), share_that_holds=share)
         if share is not None:

@@ -14,6 +14,7 @@
 #include "base/error.hpp"
 #include "base/short_number.hpp"
 #include "module.hpp"
+#include "record/aligned.hpp"
 #include "replay/template.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/edit_text.hpp"
@@ -187,6 +188,7 @@ void define_analysis(py::module_& module) {
                return replay::filled(replay::read_template(name), title, json);
              });
   module.def("file_of_template", &replay::file_of_template);
+  module.def("aligned", &record::aligned);
   module.def("short_number", &short_number);
   module.def("rounded", &rounded);
 }

@@ -19,13 +19,6 @@ namespace {
 using api::Sample;
 using model::ControllerFault;
 
-constexpr const char* allowed =
-    "allowed: (phi, theta), or (phi, theta, {\"NAME\": number}) with the names that output.columns "
-    "asks for";
-constexpr const char* allowed_of_legs =
-    "allowed: (s1, s2, s3), or (s1, s2, s3, {\"NAME\": number}) with the names that "
-    "output.columns asks for";
-
 py::tuple pair(const Pair& of) {
   return py::make_tuple(of[0], of[1]);
 }
@@ -134,8 +127,10 @@ class Callable::Controller : public model::ExternalController {
 
   [[noreturn]] void refuse(const py::object& answer) const {
     const std::string shown = bbsim::shown(std::string(py::repr(answer)), longest_saying);
-    const std::string text =
-        "its answer was " + shown + "; " + (commands_ == 3 ? allowed_of_legs : allowed);
+    const std::string commands = commands_ == 3 ? "s1, s2, s3" : "phi, theta";
+    const std::string text = "its answer was " + shown + "; allowed: (" + commands + "), or (" +
+                             commands +
+                             ", {\"NAME\": number}) with the names that output.columns asks for";
     PyErr_SetString(PyExc_ValueError, text.c_str());
     throw py::error_already_set();
   }

@@ -8,6 +8,7 @@
 #include <pybind11/eigen.h>
 
 #include <algorithm>
+#include <complex>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -28,6 +29,7 @@
 #include "api/sweep.hpp"
 #include "base/error.hpp"
 #include "file/outputs.hpp"
+#include "model/control/open_loops.hpp"
 #include "scenario/family.hpp"
 #include "scenario/measures.hpp"
 
@@ -133,6 +135,16 @@ api::Linearized linearize(const Given& given, const std::optional<std::string>& 
   });
   if (!made.reason.empty()) throw InputError(made.reason);
   return made;
+}
+
+// From the only input to the only output, at these frequencies (rad/s).
+std::vector<std::complex<double>> response(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
+                                           const Eigen::MatrixXd& c, const Eigen::MatrixXd& d,
+                                           double period, const std::vector<double>& frequencies) {
+  const model::FrequencyResponse its(a, b, c, d, period);
+  std::vector<std::complex<double>> all;
+  for (const double w : frequencies) all.push_back(its.at(w, 0, 0));
+  return all;
 }
 
 // For each column its name, and its numbers or texts.
@@ -264,8 +276,9 @@ void define_linearize(py::module_& module) {
   attributes(
       py::class_<Linearized>(module, "Linearized"), "kind", &Linearized::kind, "at",
       &Linearized::at, "note", &Linearized::note, "system",
-      [](const Linearized& made) { return made.linearisation.system; }, "json",
-      [](const Linearized& made) { return api::file_text(made, ".json"); }, "report",
+      [](const Linearized& made) { return made.linearisation.system; }, "frequencies",
+      [](const Linearized& made) { return model::open_loop_frequencies(made.linearisation); },
+      "json", [](const Linearized& made) { return api::file_text(made, ".json"); }, "report",
       [](const Linearized& made) { return to_text(api::report_of(made)); }, "open_loops",
       [](const Linearized& made) {
         std::map<std::string, LinearSystem> loops;
@@ -274,7 +287,7 @@ void define_linearize(py::module_& module) {
         }
         return loops;
       });
-  module.def("frequencies", &model::frequencies_to_look_at);
+  module.def("response", &response);
   module.def("linearize", &linearize);
 }
 
@@ -282,34 +295,29 @@ using api::Environments;
 
 using Indices = std::vector<std::size_t>;
 
-// For each run that begins, its values as texts and its seed.
-std::vector<Environments::Beginning> beginnings(const Indices& which, std::vector<Texts>& values,
-                                                const Indices& seeds) {
-  if (values.size() != which.size() || seeds.size() != which.size()) {
-    throw py::value_error("found lists of different lengths");
-  }
+using Drawn = std::vector<std::pair<Texts, std::size_t>>;  // values as texts, and a seed
+
+std::vector<Environments::Beginning> beginnings(const Drawn& drawn) {
   std::vector<Environments::Beginning> all;
-  for (std::size_t i = 0; i < seeds.size(); ++i) all.push_back({std::move(values[i]), seeds[i]});
+  for (const auto& [values, seed] : drawn) all.push_back({values, seed});
   return all;
 }
 
-void begin(Environments& its, const Indices& which, std::vector<Texts> values,
-           const Indices& seeds) {
-  const auto how = beginnings(which, values, seeds);
+void begin(Environments& its, const Indices& which, const Drawn& drawn) {
+  const auto how = beginnings(drawn);
   const WithoutLock unlocked;
   its.begin(which, how);
 }
 
 // Steps the runs that do not begin.
-void step(Environments& its, const Numbers& commands, const Indices& which,
-          std::vector<Texts> values, const Indices& seeds) {
+void step(Environments& its, const Numbers& commands, const Indices& which, const Drawn& drawn) {
   const auto count = static_cast<py::ssize_t>(its.count());
   if (commands.ndim() != 2 || commands.shape(0) != count || commands.shape(1) != 2) {
     throw py::value_error("actions: found another shape; allowed: (" + std::to_string(count) +
                           ", 2)");
   }
   const std::span of(commands.data(), 2 * its.count());
-  const auto how = beginnings(which, values, seeds);
+  const auto how = beginnings(drawn);
   const WithoutLock unlocked;
   its.step(of, which, how);
 }

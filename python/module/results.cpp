@@ -126,13 +126,6 @@ std::optional<bool> is_sampled(const Result& one) {
   return one.scenario->controller->sampling.has_value();
 }
 
-// Keeps what a command would print.
-class Noting : public Watch {
- public:
-  Texts notes;
-  void note(const std::string& text) override { notes.push_back(text); }
-};
-
 // A page, why a scenario's run ended early, and notes.
 using Page = std::tuple<std::string, std::string, Texts>;
 using Shown = std::variant<std::string, Result>;
@@ -153,7 +146,7 @@ Page replay(const std::vector<Shown>& shown, const Texts& logs, const results::L
   request.log = log;
   request.beside = beside;
   request.title = title;
-  Noting watch;
+  Watch watch;
   Page page = watch.beside([&] {
     const std::string page_template = replay::page_template();
     file::Outputs outputs;
@@ -171,14 +164,14 @@ Page replay(const std::vector<Shown>& shown, const Texts& logs, const results::L
   });
   watch.throw_if_interrupted();
   auto& notes = std::get<Texts>(page);
-  notes.insert(notes.end(), watch.notes.begin(), watch.notes.end());
+  notes.insert(notes.end(), watch.notes().begin(), watch.notes().end());
   return page;
 }
 
 api::Compared compare(const std::string& a, const std::string& b, const Texts& overrides,
                       std::optional<double> rtol, std::optional<double> atol, const Texts& columns,
                       const results::LogChoice& log) {
-  Noting watch;
+  Watch watch;
   api::Compared made = watch.beside([&] {
     api::CompareRequest request{a, b, rtol, atol, columns, log, {}};
     if (api::is_scenario(b)) {

@@ -21,6 +21,7 @@
 #include <string_view>
 #include <unordered_set>
 #include <utility>
+#include <vector>
 
 #include "api/watch.hpp"
 
@@ -96,8 +97,10 @@ class Watch : public api::Watch {
     look();
   }
 
-  // Notes are in the results or meant for a terminal.
-  void note(const std::string& /*text*/) override {}
+  // What a command would print.
+  void note(const std::string& text) override { notes_.push_back(text); }
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+
   void controller_says(std::string_view line) override {
     with_lock([&] {
       try {
@@ -167,6 +170,7 @@ class Watch : public api::Watch {
   const int nesting_ = nesting;
 
   std::atomic<bool> stop_{false};
+  std::vector<std::string> notes_;
   bool in_caller_ = true;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
   std::optional<py::error_already_set> raised_;

@@ -305,7 +305,6 @@ class Content(Case):
         np.testing.assert_allclose([min(heights), max(heights)], expected, atol=1e-4)
 
     def test_ticks(self):
-        self.assertEqual(axes.fixed(-0.0001, 2), "0.00")
         self.assertEqual(axes.power_of_ten(-12), "10⁻¹²")
         self.assertEqual(axes.choose_scale(axes.Unit("m"), (0.1, 0.1 + 5e-8)).heading("x"), "x − 0.1 m (nm)")
         self.assertEqual(axes.choose_scale(axes.Unit("N m"), (0, 2e-4)).unit, "µN m")

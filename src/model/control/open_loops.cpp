@@ -17,34 +17,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-std::vector<double> frequencies_of(const std::vector<LoopMargins>& loops, double period) {
-  std::vector<Complex> open, closed;
-  const auto add = [](std::vector<Complex>& all, const Eigen::MatrixXd& a) {
-    const std::vector<Complex> some = eigenvalues_of(a);
-    all.insert(all.end(), some.begin(), some.end());
-  };
-  for (const LoopMargins& loop : loops) {
-    add(open, loop.open.a);
-    add(closed, loop.open.a - loop.open.b * loop.open.c);
-  }
-  std::vector<double> points = frequencies_to_look_at(open, closed, period);
-  std::vector<double> sizes;  // of poles, as rates
-  open.insert(open.end(), closed.begin(), closed.end());
-  for (const Complex& pole : open) {
-    if (period > 0 && !(std::abs(pole) > 1e-6)) continue;
-    sizes.push_back(std::abs(period > 0 ? std::log(pole) / period : pole));
-  }
-  if (sizes.empty() || points.empty()) return points;
-  constexpr double far = 30;
-  const double fastest = *std::max_element(sizes.begin(), sizes.end());
-  std::erase_if(sizes, [fastest](double size) { return !(size > 1e-6 * fastest); });
-  if (sizes.empty()) return points;
-  const double low = *std::min_element(sizes.begin(), sizes.end()) / far,
-               high = std::max(fastest * far, period > 0 ? points.back() : 0);
-  std::erase_if(points, [=](double w) { return w < low || w > high; });
-  return points;
-}
-
 // The phase nearest to the one before; NaN beside a pole.
 double without_jump(double phase, double before) {
   constexpr double turn = 2 * std::numbers::pi;
@@ -76,11 +48,41 @@ std::vector<double> picked(const std::vector<double>& values,
 
 }  // namespace
 
+std::vector<double> open_loop_frequencies(const Linearization& linearization) {
+  std::vector<Complex> open, closed;
+  const auto add = [](std::vector<Complex>& all, const Eigen::MatrixXd& a) {
+    const std::vector<Complex> some = eigenvalues_of(a);
+    all.insert(all.end(), some.begin(), some.end());
+  };
+  for (const LoopMargins& loop : linearization.margins) {
+    add(open, loop.open.a);
+    add(closed, loop.open.a - loop.open.b * loop.open.c);
+  }
+  if (open.empty()) return {};
+  const double period = linearization.system.period.value_or(0);
+  std::vector<double> points = frequencies_to_look_at(open, closed, period);
+  std::vector<double> sizes;  // of poles, as rates
+  open.insert(open.end(), closed.begin(), closed.end());
+  for (const Complex& pole : open) {
+    if (period > 0 && !(std::abs(pole) > 1e-6)) continue;
+    sizes.push_back(std::abs(period > 0 ? std::log(pole) / period : pole));
+  }
+  if (sizes.empty() || points.empty()) return points;
+  constexpr double far = 30;
+  const double fastest = *std::max_element(sizes.begin(), sizes.end());
+  std::erase_if(sizes, [fastest](double size) { return !(size > 1e-6 * fastest); });
+  if (sizes.empty()) return points;
+  const double low = *std::min_element(sizes.begin(), sizes.end()) / far,
+               high = std::max(fastest * far, period > 0 ? points.back() : 0);
+  std::erase_if(points, [=](double w) { return w < low || w > high; });
+  return points;
+}
+
 OpenLoops open_loops(const Linearization& linearization) {
   OpenLoops all;
   if (linearization.margins.empty()) return all;
   const double period = linearization.system.period.value_or(0);
-  all.frequencies = frequencies_of(linearization.margins, period);
+  all.frequencies = open_loop_frequencies(linearization);
   for (const LoopMargins& loop : linearization.margins) {
     const LinearSystem& open = loop.open;
     const FrequencyResponse response(open.a, open.b, open.c, open.d, period);

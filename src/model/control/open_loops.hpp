@@ -10,10 +10,13 @@
 
 namespace bbsim::model {
 
+// Rising frequencies at which to look at the loops of a linearization's margins, from a thirtieth
+// of the slowest pole to thirty times the fastest, or to half the sampling rate; rad/s. Empty
+// without loops.
+[[nodiscard]] std::vector<double> open_loop_frequencies(const Linearization& linearization);
+
 struct OpenLoops {
-  // Rising, as dense as a picture needs, from a thirtieth of the slowest pole to thirty times the
-  // fastest, or to half the sampling rate; rad/s.
-  std::vector<double> frequencies;
+  std::vector<double> frequencies;  // some of those, as many as a picture needs
   struct Curve {
     std::vector<double> gain;
     std::vector<double> phase;  // rad, without jumps; the first is between -7/4 pi and pi/4
