@@ -51,16 +51,13 @@ bbsim.gimbal = (() => {
   }
 
   // Grid lines at 1, 2 or 5 times a power of ten, about a dozen across the plate.
-  function gridSpacing() {
-    const wanted = Math.max(stage.width, stage.depth) / 10;
-    const power = 10 ** Math.floor(Math.log10(wanted));
-    return [1, 2, 5, 10].map((n) => n * power).find((spacing) => spacing >= wanted * 0.85);
-  }
+  const gridSpacing = () => bbsim.text.roundUp(0.085 * Math.max(stage.width, stage.depth));
 
-  // The plate's face with its grid and its rim, in meters from its corner.
-  function paintPlate(canvas, palette) {
-    const ink = canvas.getContext('2d', {willReadFrequently: true}), {width, depth} = stage, size = Math.max(width, depth);
-    ink.setTransform(canvas.width / width, 0, 0, canvas.height / depth, 0, 0);
+  // The plate's face with its grid and its rim, so large in pixels, in meters from its corner.
+  function paintPlate(ink, across, down, palette) {
+    const {width, depth} = stage, size = Math.max(width, depth);
+    ink.save();
+    ink.scale(across / width, down / depth);
     ink.fillStyle = palette.plate;
     ink.fillRect(0, 0, width, depth);
     const spacing = gridSpacing(), line = size / 460;
@@ -83,6 +80,7 @@ bbsim.gimbal = (() => {
     if (stage.round) ink.arc(width / 2, depth / 2, width / 2 - 2.5 * line, 0, 2 * Math.PI);
     else ink.rect(2.5 * line, 2.5 * line, width - 5 * line, depth - 5 * line);
     ink.stroke();
+    ink.restore();
   }
 
   function build(run, materials) {

@@ -153,8 +153,7 @@ bbsim.makePicture = (canvas, left) => {
       marks.push(...seen);
     }
 
-    // Marks only the first hundred events and the last one.
-    marked = lead.events.filter((_, i) => i < 100 || i === lead.events.length - 1);
+    marked = bbsim.markedEvents(lead);
     for (const event of marked) {
       const mark = onPlate(paint.eventMark(event.action, 0.016 * size, materials.event, materials.eventRim), 6, parts.events);
       mark.position.x = event.x;
@@ -239,20 +238,12 @@ bbsim.makePicture = (canvas, left) => {
     paint.lights.sky.value.set(colours.sky).multiplyScalar(colours.hemisphere);
     paint.lights.earth.value.set(colours.earth).multiplyScalar(colours.hemisphere);
     paint.lights.lampColour.value.setScalar(colours.light);
-    bbsim.gimbal.paintPlate(plate, colours);
+    bbsim.gimbal.paintPlate(plate.getContext('2d', {willReadFrequently: true}), plate.width, plate.height, colours);
     plateTexture.needsUpdate = true;
-    materials.slab.color.set(colours.grid);
-    materials.frame.color.set(colours.frame);
-    materials.axle.color.set(colours.rim);
-    materials.metal.color.set(colours.metal);
-    materials.reference.color.set(colours.reference);
-    materials.target.color.set(colours.reference);
-    materials.x.color.set(colours.x);
-    materials.y.color.set(colours.y);
+    for (const name of ['frame', 'metal', 'reference', 'x', 'y', 'sensor']) materials[name].color.set(colours[name]);
+    for (const [name, colour] of Object.entries({slab: 'grid', axle: 'rim', target: 'reference', rim: 'ink'})) materials[name].color.set(colours[colour]);
     materials.event.color.set('#ffd23f');
     materials.eventRim.color.set('#14181e');
-    materials.sensor.color.set(colours.sensor);
-    materials.rim.color.set(colours.ink);
     for (const actor of actors) {
       const colour = palette.run(actor.run.index);
       actor.ball.colour(colours.cream, colour);
@@ -319,17 +310,11 @@ bbsim.makePicture = (canvas, left) => {
       target.position.y = lead.at(t, 'y_reference', lead.path[1]);
       state.push(target.position.x, target.position.y);
     }
-    // One point for each sample; the rows between two samples repeat it.
-    let row = lead.row(t);
-    const xs = lead.values('x_measured'), ys = lead.values('y_measured');
-    for (const mark of seen) {
-      mark.visible = row >= 0 && Number.isFinite(xs[row]) && Number.isFinite(ys[row]);
-      if (!mark.visible) continue;
-      mark.position.x = xs[row];
-      mark.position.y = ys[row];
-      const [x, y] = [xs[row], ys[row]];
-      while (row >= 0 && xs[row] === x && ys[row] === y) --row;
-    }
+    const points = bbsim.lastSeen(lead, t, seen.length);
+    seen.forEach((mark, i) => {
+      mark.visible = i < points.length;
+      if (mark.visible) [mark.position.x, mark.position.y] = points[i];
+    });
     for (const [name, group] of Object.entries(parts)) group.visible = visible[name];
     if (visible.arrows) state.push(...arrows.pose(t, leader.ball.mesh.position));
     for (const part of rig.base.children) if (part !== rig.ring) part.visible = visible.gimbal;

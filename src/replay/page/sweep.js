@@ -171,27 +171,14 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
     const scaled = column.logarithmic ? Math.log : (v) => v;
     const a = scaled(low), b = scaled(high), pad = (b - a) * 0.04 || Math.abs(a) * 0.1 || 1;
     const place = (value) => from + (scaled(value) - a + pad) / (b - a + 2 * pad) * (to - from);
-    const marked = column.logarithmic ? powers(low * shown.factor, high * shown.factor) : niceTicks(low * shown.factor, high * shown.factor, Math.abs(to - from) / 70);
-    return {place, cell: 7, ticks: marked.map((value) => [place(value / shown.factor), number(value)])};
+    return {place, cell: 7, ticks: ticksOf(column, low, high, shown.factor, Math.abs(to - from) / 70).map((value) => [place(value / shown.factor), number(value)])};
   }
-  // Ticks of a logarithmic scale.
-  function powers(low, high) {
-    const result = [], far = high / low > 1e4;
-    for (let p = Math.floor(Math.log10(low)); p <= Math.ceil(Math.log10(high)); ++p) {
-      for (const m of far ? [1] : [1, 2, 5]) {
-        const value = Number(`${m}e${p}`);
-        if (value >= low * 0.999 && value <= high * 1.001) result.push(value);
-      }
-    }
-    return result;
-  }
-  function niceTicks(low, high, wanted) {
-    if (!(high > low)) return [low];
-    const raw = (high - low) / Math.max(2, wanted), power = 10 ** Math.floor(Math.log10(raw));
-    const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= raw);
-    const result = [];
-    for (let n = Math.ceil(low / step - 1e-9); n * step <= high + 1e-9 * step; ++n) result.push(Number((n * step).toPrecision(12)));
-    return result;
+  // Ticks in the unit that is shown.
+  function ticksOf({logarithmic}, low, high, factor, most) {
+    if (!logarithmic) return text.ticks(low * factor, high * factor, most);
+    const power = Math.floor(Math.log10(low * factor)), powers = Math.ceil(Math.log10(high * factor)) - power + 1;
+    return Array.from({length: powers}, (_, i) => power + i).flatMap((p) => (high / low > 1e4 ? [1] : [1, 2, 5]).map((m) => Number(`${m}e${p}`)))
+        .filter((value) => value >= low * factor * 0.999 && value <= high * factor * 1.001);
   }
 
   const unitOf = (column) => (column.shown.unit ? `, ${column.shown.unit}` : '');
@@ -253,12 +240,11 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
       ink.fillStyle = colourOf(1 - y / (bottom - top));
       ink.fillRect(x, top + y, 14, 1.5);
     }
-    const {low, high, clipped} = range;
-    for (const value of range.logarithmic ? powers(low * factor, high * factor) : niceTicks(low * factor, high * factor, 5)) {
+    for (const value of ticksOf(range, range.low, range.high, factor, 5)) {
       const y = bottom - partOf(range, value / factor) * (bottom - top);
       over.append(svg('path', {d: `M${x + 14} ${y}h4`}), svg('text', {x: x + 21, y: y + 4}, number(value, 3)));
     }
-    if (clipped) {
+    if (range.clipped) {
       over.append(svg('text', {x: x - 2, y: bottom + 18}, 'a few are'), svg('text', {x: x - 2, y: bottom + 32}, 'beyond'));
     }
   }
@@ -271,12 +257,24 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
   }
   function gathered(list, placeOf) {
     const places = new Map();
-    for (const i of list) {
-      const place = placeOf(i);
+    for (const one of list) {
+      const place = placeOf(one);
       if (!places.has(place)) places.set(place, []);
-      places.get(place).push(i);
+      places.get(place).push(one);
     }
     return [...places.values()];
+  }
+  // A line through the median of the cases above each place; it breaks where none is done. Returns its end.
+  function lineOfMedians(points, measure) {
+    let last = null, joined = false;
+    ink.beginPath();
+    for (const all of gathered(points, (point) => point.x)) {
+      const middle = middleOf(all.map(({i}) => i), measure), {x, y} = all.find(({i}) => i === middle);
+      if (isFine(middle, measure)) ink[joined ? 'lineTo' : 'moveTo'](...(last = [x + 4, y + 4]));
+      joined = isFine(middle, measure);
+    }
+    ink.stroke();
+    return last;
   }
   const drawnNames = () => leads.filter((key) => key.drawn).map(labelOf).join(', ');
 
@@ -295,7 +293,7 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
       if (!Number.isFinite(mark.x + mark.y)) continue;
       marks.push(mark);
       const value = measure.values[i];
-      if (isDone(i) && Number.isFinite(value)) {
+      if (isFine(i, measure)) {
         ink.fillStyle = colourOf(partOf(range, value));
         if (cells) {
           ink.fillRect(mark.x, mark.y, w + 0.5, h + 0.5);
@@ -322,43 +320,29 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
     const fine = list.filter((i) => isFine(i, measure));
     const {least, greatest} = data.extent((fine.length > 0 ? fine : list).map((i) => measure.values[i]));
     const y = axisOf({levels: spread(least, greatest), shown: measure.shown}, height - box.bottom, box.top, false);
-    const byLine = new Map();
     const lined = ky && stack && listed.includes(ky) && ky.levels.length <= 12;
     for (const i of list) {
       const value = measure.values[i];
       const line = lined ? ky.values[i] : 0;
       const mark = {i, x: x.place(kx.values[i]) - 4, y: (Number.isFinite(value) ? Math.min(Math.max(y.place(value), box.top), height - box.bottom) : height - box.bottom) - 4, w: 8, h: 8, line, value};
-      if (!Number.isFinite(mark.x)) continue;
-      marks.push(mark);
-      if (!byLine.has(line)) byLine.set(line, []);
-      byLine.get(line).push(mark);
+      if (Number.isFinite(mark.x)) marks.push(mark);
     }
     frame(x, y, labelOf(kx) + unitOf(kx), text.columnName(measure.name) + unitOf(measure));
     const connect = stack && listed.includes(kx) && (!ky || lined);
     if (connect && stack > 1) remark.textContent = text.visible(`Lines go through the medians of ${stack} cases, over draws of ${drawnNames()}.`);
     const ends = [];
-    [...byLine.keys()].sort((a, b) => a - b).forEach((line, n) => {
-      const points = byLine.get(line).sort((a, b) => a.x - b.x);
-      ink.strokeStyle = ink.fillStyle = palette.run(n);
+    gathered([...marks].sort((a, b) => a.line - b.line || a.x - b.x), (mark) => mark.line).forEach((points, n) => {
+      const {line} = points[0], done = points.filter(({i}) => isFine(i, measure));
+      ink.strokeStyle = palette.run(n);
       ink.lineWidth = 1.8;
       ink.setLineDash(palette.dash(n) || []);
-      if (connect) {
-        ink.beginPath();
-        let on = false;
-        for (const all of gathered(points.map((_, p) => p), (p) => points[p].x)) {
-          const middle = middleOf(all.map((p) => points[p].i), measure), point = points[all.find((p) => points[p].i === middle)];
-          if (!isFine(middle, measure)) { on = false; continue; }
-          if (on) ink.lineTo(point.x + 4, point.y + 4);
-          else ink.moveTo(point.x + 4, point.y + 4);
-          on = true;
-        }
-        ink.stroke();
-      }
+      if (connect) lineOfMedians(points, measure);
       ink.setLineDash([]);
       for (const point of points) {
-        if (isDone(point.i) && Number.isFinite(point.value)) {
+        if (isFine(point.i, measure)) {
           if (connect && points.length > 80) continue;
           ink.globalAlpha = connect && stack === 1 ? 1 : 0.55;
+          ink.fillStyle = palette.run(n);
           ink.beginPath();
           ink.arc(point.x + 4, point.y + 4, 3, 0, 2 * Math.PI);
           ink.fill();
@@ -367,8 +351,14 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
           paintStatus(point.i, point.x - 1, point.y - 1, 10, 10);
         }
       }
-      if (!connect) drawMedians(points);
-      const end = points.filter((point) => isDone(point.i) && Number.isFinite(point.value)).pop();
+      const places = new Set(done.map(({x: at}) => at)).size;
+      if (!connect && places > 1 && places <= done.length / 2) {
+        ink.strokeStyle = palette.now().ink;
+        ink.lineWidth = 2.5;
+        const [at, level] = lineOfMedians(done, measure);
+        over.append(svg('text', {x: at + 8, y: level + 4}, 'median'));
+      }
+      const end = done[done.length - 1];
       if (lined && end) ends.push({y: end.y + 8, words: shortText(ky, line), colour: palette.run(n)});
     });
     // Moves the names at the lines' ends apart.
@@ -382,31 +372,8 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
     }
   }
 
-  // Draws a line through the medians if many cases share a value.
-  function drawMedians(points) {
-    const above = new Map();
-    for (const point of points) {
-      if (!isDone(point.i) || !Number.isFinite(point.value)) continue;
-      if (!above.has(point.x)) above.set(point.x, []);
-      above.get(point.x).push(point.y);
-    }
-    if (above.size < 2 || above.size > points.length / 2) return;
-    ink.strokeStyle = palette.now().ink;
-    ink.lineWidth = 2.5;
-    ink.beginPath();
-    let last = null;
-    for (const x of [...above.keys()].sort((a, b) => a - b)) {
-      const ys = above.get(x).sort((a, b) => a - b), middle = ys[ys.length >> 1] + 4;
-      if (last === null) ink.moveTo(x + 4, middle);
-      else ink.lineTo(x + 4, middle);
-      last = [x + 4, middle];
-    }
-    ink.stroke();
-    over.append(svg('text', {x: last[0] + 8, y: last[1] + 4}, 'median'));
-  }
-
   function drawHistogram(list, measure) {
-    const values = list.filter((i) => isDone(i) && Number.isFinite(measure.values[i])).sort((a, b) => measure.values[a] - measure.values[b]);
+    const values = list.filter((i) => isFine(i, measure)).sort((a, b) => measure.values[a] - measure.values[b]);
     const other = list.length - values.length;
     if (values.length === 0) {
       frame({ticks: []}, {ticks: []}, text.columnName(measure.name), 'cases');
@@ -431,7 +398,7 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
       ink.fillRect(mark.x + 0.5, mark.y, Math.max(1, wide - 1), mark.h);
       if (cases_.length > 0) marks.push(mark);
     });
-    const ticks = niceTicks(0, most, 5).filter(Number.isInteger).map((n) => [bottom - tall(n), String(n)]);
+    const ticks = text.ticks(0, most, 5).filter(Number.isInteger).map((n) => [bottom - tall(n), String(n)]);
     frame(x, {ticks}, text.columnName(measure.name) + unitOf(measure), 'cases');
     const middle = at(0.5);
     over.append(svg('path', {d: `M${x.place(middle)} ${box.top}V${bottom}`, class: 'middle'}),
@@ -469,23 +436,13 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
     state.chosen = i;
     showChosen();
     chosen(i);
-    const command = commandOf(i);
     const rows = element('dl', {class: 'rows'});
     for (const column of [...keys, ...measures]) {
       rows.append(element('div', {}, element('dt', {}, column.name), element('dd', {}, valueText(column, i))));
     }
-    const copy = element('button', {type: 'button', class: 'copy', onclick: async () => {
-      try {
-        await navigator.clipboard.writeText(command);
-        copy.textContent = 'Copied';
-      } catch {
-        getSelection().selectAllChildren(side.querySelector('code'));
-        copy.textContent = 'Marked';
-      }
-    }}, 'Copy');
     side.replaceChildren(element('h3', {}, `Case ${cases[i]}`), element('p', {class: isDone(i) ? 'fine' : 'why'}, statusOf(i)), rows,
                          element('p', {class: 'fine again'}, 'To run it again:'),
-                         element('div', {class: 'copyable'}, copy, element('pre', {class: 'wrap', tabindex: '0'}, element('code', {id: 'rerun'}, command))));
+                         bbsim.save.copyable(element('code', {id: 'rerun'}, commandOf(i)), {class: 'wrap'}));
   }
 
   function nearest(event) {

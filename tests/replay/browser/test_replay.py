@@ -1095,12 +1095,20 @@ class Flat(Made):
             scale = scale or math.hypot(dx, dy) / math.hypot(px, py)
             self.near(dx, scale * px, 0.05)
             self.near(dy, -scale * py, 0.05)
-        # The ball is drawn there.
+        # The ball is drawn there, and nowhere else: in the colour of its run.
+        self.js("[bbsim.screen.show('trail', false), bbsim.screen.show('arrows', false)]")
         self.browser.frame()
-        piece = self.js("""(() => { const b = [...document.querySelectorAll('#flat .piece')].pop().getBoundingClientRect();
-            return [b.left + b.width / 2, b.top + b.height / 2]; })()""")
-        self.near(piece[0], x, 1)
-        self.near(piece[1], y, 1)
+        drawn = self.js("""(() => { const canvas = document.getElementById('flat-canvas'), box = canvas.getBoundingClientRect();
+            const {data, width} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+            let count = 0, x = 0, y = 0;
+            for (let i = 0; i < data.length; i += 4) {
+              if (data[i] < 1.5 * data[i + 2] || data[i] < 60) continue;
+              ++count; x += i / 4 % width; y += Math.floor(i / 4 / width);
+            }
+            return [box.left + x / count / width * box.width, box.top + y / count / canvas.height * box.height, count]; })()""")
+        self.assertGreater(drawn[2], 500)
+        self.near(drawn[0], x, 3)
+        self.near(drawn[1], y, 3)
         self.assertIn("view=flat", self.wait("location.hash.includes('view=flat') && location.hash"))
         self.browser.keys("1")
         self.assertFalse(self.js("bbsim.screen.isFlat"))
@@ -1111,11 +1119,18 @@ class Paper(Made):
         pdf = base64.b64decode(self.browser.devtools("Page.printToPDF", {"paperWidth": 8.27, "paperHeight": 11.69})["data"])
         return len(re.findall(rb"/Type\s*/Page[^s]", pdf))
 
-    def test_has_two_sheets_at_most_all_plots_and_a_round_ball(self):
+    def test_has_the_whole_scenario_all_plots_and_a_round_ball(self):
         for scene in ["rig", "falls", "fig2a", "slides", "torque-lqr", "three-servos", "pushrod", "hard/overflow"]:
             with self.subTest(scene):
                 self.show(scene.replace("/", "-"), f"configs/{scene}.yaml")
-                self.assertLessEqual(self.pages(), 2)
+                self.assertLessEqual(self.pages(), 4)
+                # No card is left out or cut off.
+                self.js("bbsim.print.begin()")
+                cards = self.js("""[...document.querySelectorAll('#details .card')].map((card) => [card.querySelector('h3').textContent,
+                    card.getBoundingClientRect().height > 0 && [...card.querySelectorAll('pre')].every((text) => text.scrollHeight <= text.clientHeight + 1)])""")
+                self.assertEqual([name for name, whole in cards if not whole], [])
+                with open(os.path.join(SOURCE, f"configs/{scene}.yaml")) as text:
+                    self.assertEqual(self.browser.text("#details .card.text code").split(), text.read().split())
         self.show("rig", "configs/rig.yaml")
         self.js("bbsim.print.begin()")
         drawn = self.js("""bbsim.plots.plots.map(({canvas}) => { const c = canvas.querySelector('canvas.printed');
