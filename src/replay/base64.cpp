@@ -7,18 +7,24 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <vector>
 
 namespace bbsim::replay {
 namespace {
 
-template <class Word>
-void put_little_endian(Word word, std::vector<unsigned char>& bytes) {
-  for (std::size_t i = 0; i < sizeof word; ++i) {
-    bytes.push_back(static_cast<unsigned char>(word >> (8 * i) & 0xFFU));
+// The words of the values, little endian.
+template <class WordOf>
+std::string encoded(std::span<const double> values, WordOf word_of) {
+  std::vector<unsigned char> bytes;
+  bytes.reserve(values.size() * sizeof word_of(0));
+  for (const double value : values) {
+    const auto word = word_of(value);
+    for (std::size_t i = 0; i < sizeof word; ++i) {
+      bytes.push_back(static_cast<unsigned char>(word >> (8 * i) & 0xFFU));
+    }
   }
+  return base64(bytes);
 }
 
 }  // namespace
@@ -48,30 +54,18 @@ float to_float(double value) {
 }
 
 std::string base64_of_floats(std::span<const double> values) {
-  std::vector<unsigned char> bytes;
-  bytes.reserve(values.size() * sizeof(float));
-  for (const double value : values) {
-    put_little_endian(std::bit_cast<std::uint32_t>(to_float(value)), bytes);
-  }
-  return base64(bytes);
+  return encoded(values,
+                 [](double value) { return std::bit_cast<std::uint32_t>(to_float(value)); });
 }
 
 std::string base64_of_doubles(std::span<const double> values) {
-  std::vector<unsigned char> bytes;
-  bytes.reserve(values.size() * sizeof(double));
-  for (const double value : values) put_little_endian(std::bit_cast<std::uint64_t>(value), bytes);
-  return base64(bytes);
+  return encoded(values, [](double value) { return std::bit_cast<std::uint64_t>(value); });
 }
 
 std::string base64_of_parts(std::span<const double> values) {
-  constexpr double steps = 32767;
-  std::vector<unsigned char> bytes;
-  bytes.reserve(values.size() * sizeof(std::int16_t));
-  for (const double value : values) {
-    const auto part = static_cast<std::int16_t>(std::lround(std::clamp(value, -1.0, 1.0) * steps));
-    put_little_endian(static_cast<std::uint16_t>(part), bytes);
-  }
-  return base64(bytes);
+  return encoded(values, [](double value) {
+    return static_cast<std::uint16_t>(std::lround(std::clamp(value, -1.0, 1.0) * 32767));
+  });
 }
 
 }  // namespace bbsim::replay

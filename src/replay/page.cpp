@@ -10,6 +10,8 @@
 #include "base/json.hpp"
 #include "replay/base64.hpp"
 #include "replay/kept_rows.hpp"
+#include "replay/live_json.hpp"
+#include "replay/numbers.hpp"
 #include "replay/rotation.hpp"
 #include "replay/stage.hpp"
 #include "replay/sweep_cases.hpp"
@@ -21,38 +23,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char *template_name = "replay.html", *engine_name = "engine.html";
 constexpr std::size_t most_rows = 20000;
 constexpr std::size_t most_bytes = 2'400'000;
 constexpr std::size_t most_cases = 40000;
 constexpr std::size_t most_sweep_numbers = 320000;
 constexpr std::size_t most_events = 2000;
 constexpr std::size_t longest_chord = 200;  // points
-
-// How numbers enter the JSON. A page that is open already takes arrays, and JSON with their places.
-class Numbers {
- public:
-  explicit Numbers(std::vector<std::vector<double>>* arrays) : arrays_(arrays) {}
-
-  [[nodiscard]] Json floats(std::vector<double> values) const {
-    return arrays_ != nullptr ? place(std::move(values)) : Json(base64_of_floats(values));
-  }
-  [[nodiscard]] Json doubles(std::vector<double> values) const {
-    return arrays_ != nullptr ? place(std::move(values)) : Json(base64_of_doubles(values));
-  }
-  // Between -1 and 1.
-  [[nodiscard]] Json parts(std::vector<double> values) const {
-    return arrays_ != nullptr ? place(std::move(values)) : Json(base64_of_parts(values));
-  }
-
- private:
-  [[nodiscard]] Json place(std::vector<double> values) const {
-    arrays_->push_back(std::move(values));
-    return arrays_->size() - 1;
-  }
-
-  std::vector<std::vector<double>>* arrays_;
-};
 
 template <class Value>
 std::vector<Value> picked(const std::vector<Value>& values, const std::vector<std::size_t>& rows) {
@@ -188,18 +164,38 @@ Json poles_json(const Poles& poles) {
 
 Json legs_json(const Run& run) {
   Json legs = Json::array();
-  for (const Leg& leg : run.legs) {
+  for (const ServoLeg& leg : run.legs) {
     legs.push_back({{"angle", leg.angle},
-                    {"base", leg.base},
-                    {"plate", leg.plate},
+                    {"base", leg.radius_base},
+                    {"plate", leg.radius_plate},
                     {"horn", leg.horn},
                     {"rod", leg.rod},
                     {"height", leg.height},
-                    {"joint", leg.joint},
+                    {"joint", leg.joint_height},
                     {"offset", leg.offset},
                     {"direction", leg.direction}});
   }
-  return {{"legs", legs}, {"phiOffset", run.plate_offset[0]}, {"thetaOffset", run.plate_offset[1]}};
+  return {{"legs", legs},
+          {"phiOffset", run.mounting.phi_offset},
+          {"thetaOffset", run.mounting.theta_offset}};
+}
+
+// The push rods of phi and theta; null if there is none.
+Json push_rods_json(const Run& run) {
+  const double zero[] = {run.mounting.phi_offset, run.mounting.theta_offset};
+  Json rods = Json::array();
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const auto& its = run.push_rods[axis];
+    rods.push_back(nullptr);
+    if (!its) continue;
+    const double fits = std::hypot(its->offset[0] + its->arm - its->horn, its->offset[1]);
+    rods.back() = {{"horn", its->horn},
+                   {"arm", its->arm},
+                   {"rod", its->rod.value_or(fits)},
+                   {"offset", its->offset},
+                   {"zero", zero[axis]}};
+  }
+  return rods;
 }
 
 Json run_json(const Run& run, const Stage& stage, std::size_t most, const Numbers& numbers) {
@@ -216,6 +212,7 @@ Json run_json(const Run& run, const Stage& stage, std::size_t most, const Number
                       {"yaw", run.mounting.yaw},
                       {"baseTilt", run.mounting.base_tilt}};
   if (!run.legs.empty()) json["legs"] = legs_json(run);
+  json["rods"] = push_rods_json(run);
   json["time"] = times_json(picked(find_series(run, "t")->values, kept.rows), numbers);
   json["columns"] = columns_json(run, kept.rows, numbers);
   json["orientation"] = numbers.parts(parts_of(orientation, kept.rows));
@@ -279,49 +276,6 @@ Json sweep_json(const Sweep& sweep, std::size_t sweeps) {
   json["scenario"] = {
       {"file", sweep.scenario_file}, {"text", sweep.scenario_text}, {"overrides", sweep.overrides}};
   return json;
-}
-
-Json loops_json(const std::optional<Live::Loops>& maybe, const Numbers& numbers) {
-  if (!maybe) return nullptr;
-  const Live::Loops& loops = *maybe;
-  Json curves = Json::object();
-  for (const auto& [command, gain, phase] : loops.curves) {
-    curves[command] = {{"gain", numbers.floats(gain)}, {"phase", numbers.floats(phase)}};
-  }
-  return {{"stable", loops.stable},
-          {"period", loops.period ? Json(*loops.period) : Json()},
-          {"frequencies", numbers.floats(loops.frequencies)},
-          {"curves", curves},
-          {"margins", parse_json(loops.margins)}};
-}
-
-Json live_json(const Live& live, const Numbers& numbers) {
-  const auto bound = [](const std::optional<double>& value) {
-    return value ? Json(*value) : Json();
-  };
-  Json keys = Json::array(), tasks = Json::array();
-  for (const LiveKey& key : live.keys) {
-    keys.push_back({{"key", key.key},
-                    {"text", key.text},
-                    {"unit", key.unit},
-                    {"value", key.value},
-                    {"least", bound(key.least)},
-                    {"most", bound(key.most)},
-                    {"open", key.open},
-                    {"whole", key.whole}});
-  }
-  for (const Live::Task& task : live.tasks) {
-    tasks.push_back({{"text", task.text}, {"expect", task.expect}, {"holds", task.holds}});
-  }
-  Json measures = Json::object();
-  for (const Live::Measure& one : live.measures) {
-    measures[one.name] = {{"value", one.value}, {"unit", one.unit}};
-  }
-  return {{"keys", keys},
-          {"free", live.free},
-          {"tasks", tasks},
-          {"measures", measures},
-          {"loops", loops_json(live.loops, numbers)}};
 }
 
 Json json_of(const Scene& scene, const Numbers& numbers) {
@@ -388,32 +342,6 @@ std::string page(const Scene& scene, std::string_view whole_template, std::strin
 std::string scene_json(const Scene& scene, std::vector<std::vector<double>>& arrays) {
   check_scene(scene);
   return json_text(json_of(scene, Numbers(&arrays)));
-}
-
-std::string loops_json(const std::optional<Live::Loops>& loops,
-                       std::vector<std::vector<double>>& arrays) {
-  return json_text(loops_json(loops, Numbers(&arrays)));
-}
-
-std::string page_template(const std::vector<std::string>& folders) {
-  return read_template(template_name, folders);
-}
-
-std::string page_template() {
-  return read_template(template_name);
-}
-
-std::string read_engine() {
-  return read_template(engine_name,
-                       "`scripts/setup --wasm && scripts/build wasm` makes it in bbsim's sources");
-}
-
-std::string engine_file() {
-  return file_of_template(engine_name);
-}
-
-std::string template_file() {
-  return file_of_template(template_name);
 }
 
 }  // namespace bbsim::replay

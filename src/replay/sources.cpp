@@ -158,21 +158,20 @@ Run run_of_table(file::TableData table, const std::string& name) {
 void describe_sight(Run& run, const Scenario& scenario) {
   run.title = scenario.title;
   run.end = scenario.time.end;
-  run.plate = {scenario.plate.size, scenario.plate.diameter};
+  run.plate = scenario.plate;
   run.ball_radius = scenario.ball.radius;
   if (scenario.ball.groove) {
     run.rolling_radius = run.ball_radius;
     run.ball_radius = scenario.ball.groove->ball_radius;
   }
-  const bbsim::Mounting& mounting = scenario.gimbal.mounting;
-  run.mounting = {mounting.height, mounting.skew, mounting.yaw, mounting.base_tilt};
+  run.mounting = scenario.gimbal.mounting;
   if (const auto& three = scenario.gimbal.three_servos) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const ServoLeg leg = three->leg(i);
-      run.legs.push_back({leg.angle, leg.radius_base, leg.radius_plate, leg.horn, leg.rod,
-                          leg.height, leg.joint_height, leg.offset, leg.direction});
-    }
-    run.plate_offset = {mounting.phi_offset, mounting.theta_offset};
+    for (std::size_t i = 0; i < 3; ++i) run.legs.push_back(three->leg(i));
+  }
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const auto& linkage = scenario.gimbal.linkage[axis];
+    const auto* const rods = linkage ? std::get_if<RodLinkage>(&*linkage) : nullptr;
+    if (rods != nullptr) run.push_rods[axis] = *rods;
   }
   if (scenario.events.slip) run.friction = scenario.events.slip->friction;
   if (scenario.events.slip && scenario.events.slip->sliding) run.rolls = false;
@@ -216,6 +215,15 @@ Run run_of_result(results::Result result, const std::string& name) {
     if (!column.unit.empty()) run.columns.back().unit = std::move(column.unit);
   }
   take_orientation(run);
+  return run;
+}
+
+Run run_of_log(results::Result log, const results::LogChoice& choice, const std::string& name,
+               std::vector<std::string>& notes) {
+  results::make_log(log, choice, true, notes);
+  log.units_known = true;  // as --data or the map states
+  Run run = run_of_result(std::move(log), name);
+  if (!choice.maps.empty()) run.rolls = false;
   return run;
 }
 

@@ -14,6 +14,7 @@
 #include "replay/base64.hpp"
 #include "replay/page.hpp"
 #include "replay/stage.hpp"
+#include "replay/template.hpp"
 #include "scenario/columns.hpp"
 
 namespace bbsim_test::test_page {
@@ -281,7 +282,7 @@ TEST_CASE("an invalid or missing template") {
   CHECK_THROWS_AS(page(scene, small_template + small_template), InputError);
   CHECK_THROWS_AS(page(scene, "@BBSIM_DATA@ @BBSIM_TITLE@"), InputError);
   try {
-    static_cast<void>(bbsim::replay::page_template({"/nowhere", "/else"}));
+    static_cast<void>(bbsim::replay::read_template("replay.html", {"/nowhere", "/else"}));
     FAIL("a template from nowhere");
   } catch (const OutputError& error) {
     CHECK(std::string(error.what()).find("replay.html is not in /nowhere and /else") !=

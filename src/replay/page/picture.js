@@ -98,8 +98,8 @@ bbsim.makePicture = (canvas, left) => {
       onPlate(paint.arrow(axis, 0.13 * size, 0.0085 * size, materials[axis]), 2, parts.axes);
     }
 
-    arrows = bbsim.makeArrows(lead, rig.plane, 0.3 * size, {velocity: materials.x, gravity: materials.rim, force: materials.y});
-    parts.arrows.add(...arrows.meshes);
+    arrows = bbsim.makeArrows(lead, rig.plane, 0.3 * size, {velocity: materials.x, gravity: materials.rim, 'normal force': materials.y});
+    parts.arrows.add(...Object.values(arrows.meshes));
 
     // The balls and trails of all runs. The leading run is on the rig's plate; a run with angles has
     // a ghost plate.
@@ -109,8 +109,7 @@ bbsim.makePicture = (canvas, left) => {
       const links = leads ? rig : run.hasAngles ? bbsim.gimbal.buildGhost(run, edge) : null;
       if (links && !leads) world.add(links.base);
       const plane = links ? links.plane : rig.plane;
-      // Balls at the same place must not flicker: the leading one covers the others.
-      const ball = bbsim.ball.build(run.ball.radius * (1 - 0.003 * run.index), !leads, !run.turns);
+      const ball = bbsim.ball.build(run);
       ball.mesh.renderOrder = 10;
       plane.add(ball.mesh);
       const xs = run.values('x'), ys = run.values('y');
@@ -180,6 +179,9 @@ bbsim.makePicture = (canvas, left) => {
     const colours = palette.now(), high = layer(2) + 0.02 * size;
     label('x', colours.x, new THREE.Vector3(0.155 * size, 0, high), parts.axes);
     label('y', colours.y, new THREE.Vector3(0, 0.155 * size, high), parts.axes);
+    for (const [words, colour] of [['velocity', colours.x], ['gravity', colours.ink], ['normal force', colours.y]]) {
+      label(words, colour, arrows.meshes[words].tip, arrows.meshes[words], 13);
+    }
     const named = [];
     for (const event of marked) {
       // Events of the same name that are close to each other share one label.
@@ -197,7 +199,7 @@ bbsim.makePicture = (canvas, left) => {
     const pixel = pixelSize(), shown = [];
     for (const one of labels) {
       const {mesh, at, group} = one;
-      mesh.visible = group.visible;
+      mesh.visible = group.visible && group.parent.visible;
       if (!mesh.visible) continue;
       one.place = at.clone().applyMatrix4(rig.plane.matrixWorld);
       const on = one.place.clone().project(eyes.camera);
@@ -317,8 +319,7 @@ bbsim.makePicture = (canvas, left) => {
     });
     for (const [name, group] of Object.entries(parts)) group.visible = visible[name];
     if (visible.arrows) state.push(...arrows.pose(t, leader.ball.mesh.position));
-    for (const part of rig.base.children) if (part !== rig.ring) part.visible = visible.gimbal;
-    for (const part of [...rig.ring.children, ...rig.hinge.children]) if (part.isMesh) part.visible = visible.gimbal;
+    for (const part of rig.solids) part.visible = visible.gimbal;
     floor.visible = visible.gimbal;
     root.updateMatrixWorld(true);
     return state;
