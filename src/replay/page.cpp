@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json.hpp"
-#include "replay/base64.hpp"
 #include "replay/kept_rows.hpp"
 #include "replay/live_json.hpp"
 #include "replay/numbers.hpp"
@@ -28,7 +27,7 @@ constexpr std::size_t most_bytes = 2'400'000;
 constexpr std::size_t most_cases = 40000;
 constexpr std::size_t most_sweep_numbers = 320000;
 constexpr std::size_t most_events = 2000;
-constexpr std::size_t longest_chord = 200;  // points
+constexpr std::size_t longest_chord = 50;  // points
 
 template <class Value>
 std::vector<Value> picked(const std::vector<Value>& values, const std::vector<std::size_t>& rows) {
@@ -123,33 +122,28 @@ Json events_json(const Run& run) {
   return events;
 }
 
-// Whether all points between two are this close to the line from one to the other.
-bool near_chord(const std::vector<std::array<double, 2>>& path, std::size_t from, std::size_t to,
-                double tolerance) {
-  const double dx = path[to][0] - path[from][0], dy = path[to][1] - path[from][1];
-  const double length = std::hypot(dx, dy);
-  for (std::size_t i = from + 1; i < to; ++i) {
-    const double px = path[i][0] - path[from][0], py = path[i][1] - path[from][1];
-    const double along = length > 0 ? (px * dx + py * dy) / length : 0;
-    const double off = length > 0 ? std::abs(px * dy - py * dx) / length : std::hypot(px, py);
-    if (off > tolerance || along < -tolerance || along > length + tolerance) return false;
-  }
-  return true;
+// The distance of a point from the line between two others.
+double off_line(const std::array<double, 2>& from, const std::array<double, 2>& point,
+                const std::array<double, 2>& to) {
+  const double dx = to[0] - from[0], dy = to[1] - from[1], length = std::hypot(dx, dy);
+  const double px = point[0] - from[0], py = point[1] - from[1];
+  if (!(length > 0) || px * dx + py * dy > length * length) return std::hypot(px, py);
+  return std::abs(px * dy - py * dx) / length;
 }
 
-// The points of the reference path that a polyline needs to stay within 1/5000 of the path's
-// extent.
+// The points of the reference path that a polyline needs to look like it: where it leaves the line
+// from the last one by 1/20000 of the path's extent.
 std::vector<double> reference_points(const Run& run) {
   const auto& path = run.reference;
   double extent = 0;
   for (const auto& point : path)
     extent = std::max({extent, std::abs(point[0]), std::abs(point[1])});
-  const double tolerance = extent / 5000;
+  const double tolerance = extent / 20000;
   std::vector<double> points;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const bool must = i == 0 || i + 1 == path.size() || i - kept >= longest_chord;
-    if (!must && near_chord(path, kept, i + 1, tolerance)) continue;
+    if (!must && off_line(path[kept], path[i], path[i + 1]) < tolerance) continue;
     points.insert(points.end(), path[i].begin(), path[i].end());
     kept = i;
   }
@@ -302,19 +296,14 @@ Json json_of(const Scene& scene, const Numbers& numbers) {
 
 // Removes the parts of the template between <!--NAME--> and <!--/NAME-->. A sweep, for example,
 // needs no three.js.
-std::string without(const std::string& name, std::string_view page_template) {
+std::string without(const std::string& name, std::string text) {
   const std::string begin = "<!--" + name + "-->", end = "<!--/" + name + "-->";
-  std::string result;
-  std::size_t place = 0;
-  while (true) {
-    const std::size_t from = page_template.find(begin, place);
-    const std::size_t to = from == std::string_view::npos ? from : page_template.find(end, from);
-    if (to == std::string_view::npos) break;
-    result += page_template.substr(place, from - place);
-    place = to + end.size();
+  for (std::size_t from = text.find(begin); from != std::string::npos; from = text.find(begin)) {
+    const std::size_t to = text.find(end, from);
+    if (to == std::string::npos) break;
+    text.erase(from, to + end.size() - from);
   }
-  result += page_template.substr(place);
-  return result;
+  return text;
 }
 
 }  // namespace
@@ -331,10 +320,10 @@ std::size_t rows_allowed(const Scene& scene) {
 
 std::string page(const Scene& scene, std::string_view whole_template, std::string_view engine) {
   check_scene(scene);
-  std::string needed = without(engine.empty() ? "live" : "still", whole_template);
+  std::string needed = without(engine.empty() ? "live" : "still", std::string(whole_template));
   if (!engine.empty()) needed = with_engine(std::move(needed), engine);
-  if (scene.runs.empty()) needed = without("runs", needed);
-  if (scene.sweeps.empty() && engine.empty()) needed = without("sweeps", needed);
+  if (scene.runs.empty()) needed = without("runs", std::move(needed));
+  if (scene.sweeps.empty() && engine.empty()) needed = without("sweeps", std::move(needed));
   const Json json = json_of(scene, Numbers(nullptr));
   return filled(needed, scene.title, json_text(json));
 }

@@ -17,7 +17,7 @@
 #include "replay/rotation.hpp"
 #include "results/sweep_table.hpp"
 #include "scenario/columns.hpp"
-#include "scenario/loop_measures.hpp"
+#include "scenario/measures.hpp"
 
 namespace bbsim::replay {
 namespace {
@@ -62,20 +62,6 @@ std::optional<Poles> poles_of(const model::Model& model) {
   return Poles{model::closed_loop_poles(model), {}};
 }
 
-// The unit of a measure is that of its column, whose name follows "max_" and the like or precedes
-// "_end".
-std::string unit_of_measure(const std::string& name) {
-  if (name == "end_time") return "s";
-  if (const auto* const loop = scenario::find_loop_measure(name)) return std::string(loop->unit);
-  const std::size_t prefix = name.find('_');
-  const scenario::Column* column = nullptr;
-  if (prefix != std::string::npos) column = scenario::find_column(name.substr(prefix + 1));
-  if (column == nullptr && name.ends_with("_end")) {
-    column = scenario::find_column(name.substr(0, name.size() - 4));
-  }
-  return column == nullptr ? "" : std::string(column->unit);
-}
-
 Series series_of(const std::string& name, std::vector<double> values, bool unit_known = true) {
   const scenario::Column* const known = scenario::find_column(name);
   if (known == nullptr) return {name, "", "", std::move(values)};
@@ -104,21 +90,15 @@ void turn_to_the_end(Run& run) {
 // If all four parts of the ball's orientation are recorded, makes them the run's orientation and
 // removes their columns. A row without a finite orientation repeats the last one.
 void take_orientation(Run& run) {
-  std::array<std::size_t, 4> places{};
-  for (std::size_t part = 0; part < places.size(); ++part) {
-    const auto found = std::ranges::find(run.columns, orientation_columns[part], &Series::name);
-    if (found == run.columns.end()) return;
-    places[part] = static_cast<std::size_t>(found - run.columns.begin());
+  std::array<const Series*, 4> parts{};
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    parts[part] = find_series(run, orientation_columns[part]);
+    if (parts[part] == nullptr) return;
   }
   Quaternion last{1, 0, 0, 0};
-  const std::size_t rows = run.columns[places[0]].values.size();
-  run.orientation.reserve(rows);
-  for (std::size_t row = 0; row < rows; ++row) {
-    Quaternion now{};
-    for (std::size_t part = 0; part < now.size(); ++part) {
-      now[part] = run.columns[places[part]].values[row];
-    }
-    now = normalised(now);
+  for (std::size_t row = 0; row < parts[0]->values.size(); ++row) {
+    const Quaternion now = normalised({parts[0]->values[row], parts[1]->values[row],
+                                       parts[2]->values[row], parts[3]->values[row]});
     if (std::isfinite(now[0] + now[1] + now[2] + now[3])) last = now;
     run.orientation.push_back(last);
   }
@@ -252,7 +232,9 @@ Sweep sweep_of_result(results::Result result, const std::string& name) {
     } else if (column.name != "reason") {
       sweep.measures.push_back(sweep_column(std::move(column)));
       SweepColumn& measure = sweep.measures.back();
-      if (measure.unit.empty()) measure.unit = unit_of_measure(measure.name);
+      const auto known = scenario::find_measure(measure.name);
+      if (measure.unit.empty() && known) measure.unit = known->unit();
+      if (measure.unit.empty() && measure.name == "end_time") measure.unit = "s";
     }
   }
   relate(sweep.keys, table);

@@ -11,7 +11,7 @@
 #include "catch.hpp"
 #include "make_scene.hpp"
 #include "read_page.hpp"
-#include "replay/base64.hpp"
+#include "replay/numbers.hpp"
 #include "replay/page.hpp"
 #include "replay/stage.hpp"
 #include "replay/template.hpp"

@@ -60,7 +60,7 @@ bbsim.makeFlat = (canvas) => {
         ground.lineTo(x - (dx + side * dy) * head, y - (dy + side * dx) * head);
       }
       ground.stroke();
-      words.push({words: name, x: x + dx * 18 * ratio, y: y + dy * 18 * ratio, colour: colours[name], pixels: 15});
+      words.push({words: name, x: x + dx * 18 * ratio, y: y + dy * 18 * ratio, colour: colours[name]});
     }
   }
 
@@ -78,7 +78,7 @@ bbsim.makeFlat = (canvas) => {
       ground.fill();
       ground.stroke();
       if (words.some((other) => other.words === event.name && Math.hypot(other.x - x, other.y - y) < 60 * ratio)) continue;
-      words.push({words: text.visible(event.name), x, y: y - 16 * ratio, colour: colours.ink, pixels: 13});
+      words.push({words: text.visible(event.name), x, y: y - 16 * ratio, colour: colours.ink});
     }
   }
 
@@ -108,16 +108,12 @@ bbsim.makeFlat = (canvas) => {
     }
     if (visible.events) paintEvents(colours, words);
     pen(ground, colours.plate, 4);
-    Object.assign(ground, {textAlign: 'center', textBaseline: 'middle'});
-    const font = ({pixels}) => `600 ${pixels * ratio}px system-ui, sans-serif`;
-    for (const one of words) {
-      ground.font = font(one);
-      Object.assign(one, {width: ground.measureText(one.words).width + 4 * ratio, height: 1.2 * one.pixels * ratio});
-    }
-    bbsim.placeLabels(words).forEach((up, i) => {
+    Object.assign(ground, {font: `600 ${14 * ratio}px system-ui, sans-serif`, textAlign: 'center', textBaseline: 'middle'});
+    const boxes = words.map((one) => ({...one, width: ground.measureText(one.words).width + 4 * ratio, height: 17 * ratio}));
+    bbsim.placeLabels(boxes).forEach((up, i) => {
       if (up === null) return;
       const {words: name, x, y, colour} = words[i];
-      Object.assign(ground, {font: font(words[i]), fillStyle: colour});
+      ground.fillStyle = colour;
       ground.strokeText(name, x, y - up);
       ground.fillText(name, x, y - up);
     });

@@ -106,6 +106,6 @@ bbsim.makeOrbit = (canvas, eye, told) => {
   // A finger that is for the view does not scroll the page as well.
   for (const name of ['focus', 'blur']) canvas.addEventListener(name, () => canvas.classList.toggle('taken', taken()));
 
-  const orbit = {target, turn, zoom, around, zUp, yUp, minDistance: 0, maxDistance: Infinity, update: () => stand(around())};
+  const orbit = {target, turn, zoom, minDistance: 0, maxDistance: Infinity, update: () => stand(around())};
   return orbit;
 };

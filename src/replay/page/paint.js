@@ -11,6 +11,7 @@ bbsim.paint = (() => {
   // reaches.
   function ribbon(xs, ys, width, dash = null) {
     const positions = [], aside = [], indices = [], until = new Uint32Array(xs.length + 1), reached = new Int32Array(xs.length + 1);
+    const [on, off] = dash || [Number.MAX_VALUE, 0];
     reached[0] = -1;
     let along = 0;
     const quad = (ax, ay, bx, by, ux, uy) => {
@@ -28,18 +29,11 @@ bbsim.paint = (() => {
           // A fifth of the width is too short to be seen.
           if (length > width / 5) {
             const ux = (xs[i] - ax) / length, uy = (ys[i] - ay) / length;
-            if (!dash) {
-              quad(ax, ay, xs[i], ys[i], ux, uy);
-            } else {
-              const period = dash[0] + dash[1];
-              let from = 0;
-              while (from < length) {
-                const phase = (along + from) % period;
-                const on = phase < dash[0];
-                const to = Math.min(length, from + Math.max((on ? dash[0] : period) - phase, 1e-6 * period));
-                if (on) quad(ax + ux * from, ay + uy * from, ax + ux * to, ay + uy * to, ux, uy);
-                from = to;
-              }
+            for (let from = 0; from < length;) {
+              const phase = (along + from) % (on + off), drawn = phase < on;
+              const to = Math.min(length, from + Math.max((drawn ? on : on + off) - phase, 1e-6 * on));
+              if (drawn) quad(ax + ux * from, ay + uy * from, ax + ux * to, ay + uy * to, ux, uy);
+              from = to;
             }
             along += length;
             last = i;

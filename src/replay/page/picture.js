@@ -45,7 +45,7 @@ bbsim.makePicture = (canvas, left) => {
   const labels = [];
   // What furnish() makes of the runs.
   const rig = {}, parts = {};
-  let arrows, size, trailWidth, layers, marks, ribbons, actors, leader, floor, hasPath, target, targetLeast, seen, marked;
+  let arrows, size, trailWidth, layers, marks, ribbons, actors, leader, floor, target, targetLeast, seen, marked;
 
   // Puts an object on the plate, in layer n.
   const layer = (n, near = 1) => lead.mounting.height + n * 0.00025 * size * near;
@@ -133,8 +133,7 @@ bbsim.makePicture = (canvas, left) => {
     });
     leader = actors[0];
 
-    hasPath = lead.path.length >= 4;
-    if (hasPath) {
+    if (lead.path.length >= 4) {
       const xs = lead.path.filter((_, i) => i % 2 === 0), ys = lead.path.filter((_, i) => i % 2 === 1);
       onPlate(ribbonOf(0.75, (material) => {
         materials.reference = material;
@@ -379,8 +378,6 @@ bbsim.makePicture = (canvas, left) => {
   const picture = {
     eyes, rig, visible, lead, renderer, canvas,
     get actors() { return actors; },
-    get hasPath() { return hasPath; },
-    get target() { return target; },
     active: true,  // is on the screen
     draws: 0,      // number of drawings, for tests
     get factor() { return factor; },

@@ -6,52 +6,9 @@
 // the command that runs it again. A live page gives columns as arrays and fills them (update());
 // cases without a status yet are blank, and `chosen(i)` hears of a choice.
 bbsim.makeSweep = (json, container, chosen = () => {}) => {
-  const {text, palette, data} = bbsim;
+  const {text, palette, data, gathered} = bbsim;
   const {element, svg, number} = text;
-
-  function columnOf(column) {
-    const made = {name: column.name, unit: column.unit, drawn: Boolean(column.drawn), along: column.along};
-    if (column.words) {
-      made.names = [...new Set(column.words)];
-      made.words = column.words;
-      made.values = Float64Array.from(column.words, (word) => made.names.indexOf(word));
-    } else {
-      made.values = column.doubles ? data.doubles(column.doubles) : data.floats(column.floats);
-    }
-    return measured(made);
-  }
-  function measured(made) {
-    const finite = [...new Set(made.values)].filter(Number.isFinite).sort((a, b) => a - b);
-    made.levels = finite;
-    made.size = finite.length ? Math.max(Math.abs(finite[0]), Math.abs(finite[finite.length - 1])) : 0;
-    made.shown = text.shownIn(made.unit, made.size);
-    // The axis is logarithmic if the ratios of neighboring levels vary less than their differences.
-    made.logarithmic = !made.words && finite.length > 2 && finite[0] > 0 && finite[finite.length - 1] / finite[0] > 20 &&
-        Math.abs(Math.log(finite[1] / finite[0]) / Math.log(finite[finite.length - 1] / finite[0]) * (finite.length - 1) - 1) < 0.5;
-    return made;
-  }
-
-  const keys = json.keys.map(columnOf), measures = json.measures.map(columnOf);
-  const cases = data.doubles(json.numbers), status = json.status;
-  const count = cases.length;
-  const doneIndex = json.statuses.indexOf('done');
-  const isDone = (i) => status[i] === doneIndex;
-  const statusOf = (i) => json.statuses[status[i]];
-  // The first of several tied keys represents all of them.
-  const leads = keys.filter((key) => !key.along), listed = leads.filter((key) => !key.drawn);
-  const labelOf = (key) => [key, ...keys.filter((other) => other.along === key.name)].map((one) => one.name).join(', ');
-  // The number of cases for each combination of the listed keys' values: one in a grid, several if
-  // other keys were drawn. 0 if the numbers differ or combinations are missing.
-  const stack = (() => {
-    const cells = listed.reduce((product, key) => product * key.levels.length, 1), tall = new Map();
-    if (cells > count) return 0;
-    for (let i = 0; i < count; ++i) {
-      const cell = listed.map((key) => key.values[i]).join();
-      tall.set(cell, (tall.get(cell) || 0) + 1);
-    }
-    return tall.size === cells && [...tall.values()].every((n) => n === count / cells) ? count / cells : 0;
-  })();
-  const axes = listed.filter((key) => key.levels.length > 1 && (stack > 0 || key.levels.length <= count / 2));
+  const swept = bbsim.makeSwept(json), {keys, measures, cases, leads, listed, stack, axes, isDone, isFine, statusOf, labelOf, middleOf, valueText, shortText} = swept;
 
   // Viridis, which grows lighter evenly, so that it can be read in gray too.
   const stops = [[68, 1, 84], [72, 40, 120], [62, 74, 137], [49, 104, 142], [38, 130, 142], [31, 158, 137], [53, 183, 121],
@@ -59,18 +16,6 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
   function colourOf(part) {
     const at = Math.min(Math.max(part, 0), 1) * (stops.length - 1), low = Math.min(Math.floor(at), stops.length - 2);
     return `rgb(${stops[low].map((c, i) => Math.round(c + (at - low) * (stops[low + 1][i] - c))).join(',')})`;
-  }
-
-  const valueText = (column, i) => (column.words ? column.words[i] : `${number(column.values[i] * column.shown.factor, 7)} ${column.shown.unit}`.trim());
-  const shortText = (column, value, digits = 4) => (column.names ? column.names[value] || '' : number(value * column.shown.factor, digits));
-
-  // Quotes a word for a shell.
-  const quoted = (word) => (/^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", `'\\''`)}'`);
-  function commandOf(i) {
-    const sets = [...json.scenario.overrides, ...keys.map((key) => `${key.name}=${key.words ? key.words[i] : String(key.values[i])}`)];
-    const stem = (json.scenario.file || 'scenario.yaml').split('/').pop().replace(/\.ya?ml$/, '');
-    return [`bbsim run ${quoted(json.scenario.file || 'SCENARIO')}`, ...sets.map((set) => `--set ${quoted(set)}`),
-            `-o ${quoted(`${stem}-case-${cases[i]}.csv`)}`].join(' \\\n  ');
   }
 
   // The view. The first measure shown is one of tracking, if the sweep has one.
@@ -110,13 +55,10 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
     if (!stack || state.kind === 'histogram') return [];
     return listed.filter((key) => key !== leads[state.x] && key !== leads[state.y] && key.levels.length > 1);
   }
+  const levelOf = (key) => Math.min(state.fixed.get(key.name) || 0, key.levels.length - 1);
   function selected() {
     const fixed = fixedKeys();
-    const result = [];
-    for (let i = 0; i < count; ++i) {
-      if (fixed.every((key) => key.values[i] === key.levels[Math.min(state.fixed.get(key.name) || 0, key.levels.length - 1)])) result.push(i);
-    }
-    return result;
+    return Array.from(cases.keys()).filter((i) => fixed.every((key) => key.values[i] === key.levels[levelOf(key)]));
   }
 
   function makeControls() {
@@ -130,20 +72,15 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
       }}, words));
     }
     controls.append(group, select('Measure', measures.map((m) => text.columnName(m.name)), state.measure, (k) => { state.measure = k; }));
-    if (state.kind !== 'histogram') {
-      controls.append(select('across', leads.map(labelOf), state.x, (k) => {
-        if (k === state.y) state.y = state.x;
-        state.x = k;
-      }));
-      if (leads.length > 1) {
-        controls.append(select(state.kind === 'map' ? 'up' : 'a line for each', leads.map(labelOf), state.y, (k) => {
-          if (k === state.x) state.x = state.y;
-          state.y = k;
-        }));
-      }
-    }
+    // Keys change places if one takes the other's.
+    const choice = (label, one, other) => select(label, leads.map(labelOf), state[one], (k) => {
+      if (k === state[other]) state[other] = state[one];
+      state[one] = k;
+    });
+    if (state.kind !== 'histogram') controls.append(choice('across', 'x', 'y'));
+    if (state.kind !== 'histogram' && leads.length > 1) controls.append(choice(state.kind === 'map' ? 'up' : 'a line for each', 'y', 'x'));
     for (const key of fixedKeys()) {
-      const level = Math.min(state.fixed.get(key.name) || 0, key.levels.length - 1);
+      const level = levelOf(key);
       const shown = element('output', {}, shortText(key, key.levels[level]));
       const slider = element('input', {type: 'range', min: '0', max: String(key.levels.length - 1), value: String(level), 'aria-label': key.name});
       slider.addEventListener('input', () => {
@@ -249,21 +186,6 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
     }
   }
 
-  // The median of the done cases in one place, or the first case if none is done.
-  const isFine = (i, measure) => isDone(i) && Number.isFinite(measure.values[i]);
-  function middleOf(all, measure) {
-    const fine = all.filter((i) => isFine(i, measure)).sort((a, b) => measure.values[a] - measure.values[b]);
-    return fine.length > 0 ? fine[fine.length >> 1] : all[0];
-  }
-  function gathered(list, placeOf) {
-    const places = new Map();
-    for (const one of list) {
-      const place = placeOf(one);
-      if (!places.has(place)) places.set(place, []);
-      places.get(place).push(one);
-    }
-    return [...places.values()];
-  }
   // A line through the median of the cases above each place; it breaks where none is done. Returns its end.
   function lineOfMedians(points, measure) {
     let last = null, joined = false;
@@ -426,9 +348,10 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
     showChosen();
   }
 
+  const markOf = (i) => marks.find((mark) => mark.i === i) || marks.find((mark) => mark.all && mark.all.includes(i));
   function showChosen() {
     over.querySelectorAll('.chosen').forEach((old) => old.remove());
-    const mark = marks.find((m) => m.i === state.chosen) || marks.find((m) => m.all && m.all.includes(state.chosen));
+    const mark = markOf(state.chosen);
     if (mark) over.append(svg('rect', {x: mark.x - 1.5, y: mark.y - 1.5, width: mark.w + 3, height: mark.h + 3, class: 'chosen'}));
   }
 
@@ -442,7 +365,7 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
     }
     side.replaceChildren(element('h3', {}, `Case ${cases[i]}`), element('p', {class: isDone(i) ? 'fine' : 'why'}, statusOf(i)), rows,
                          element('p', {class: 'fine again'}, 'To run it again:'),
-                         bbsim.save.copyable(element('code', {id: 'rerun'}, commandOf(i)), {class: 'wrap'}));
+                         bbsim.save.copyable(element('code', {id: 'rerun'}, swept.commandOf(i)), {class: 'wrap'}));
   }
 
   function nearest(event) {
@@ -485,7 +408,7 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
     const way = ways[event.key];
     if (!way || marks.length === 0) return;
     event.preventDefault();
-    const now = marks.find((m) => m.i === state.chosen || (m.all && m.all.includes(state.chosen)));
+    const now = markOf(state.chosen);
     if (!now) return choose(marks[0].i);
     let best = null, least = Infinity;
     for (const mark of marks) {
@@ -500,14 +423,12 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
     draw();
   }
 
-  const tally = new Map();
-  for (const s of status) {
-    const word = json.statuses[s].split(/[ :]/)[0];
-    tally.set(word, (tally.get(word) || 0) + 1);
+  const words = Array.from(cases.keys(), (i) => statusOf(i).split(/[ :]/)[0]);
+  for (const all of gathered(words, (word) => word).sort((a, b) => b.length - a.length)) {
+    counts.append(element('li', {class: `status ${all[0]}`}, `${{done: '●', stopped: '⁄'}[all[0]] || '×'} ${all.length} ${all[0]}`));
   }
-  for (const [word, n] of [...tally].sort((a, b) => b[1] - a[1])) counts.append(element('li', {class: `status ${word}`}, `${{done: '●', stopped: '⁄'}[word] || '×'} ${n} ${word}`));
   const grouped = (n) => n.toLocaleString('en-US');
-  const thinned = count < json.cases ? ` ${grouped(count)} of ${grouped(json.cases)} shown, evenly thinned out; the result file has all cases.` : '';
+  const thinned = cases.length < json.cases ? ` ${grouped(cases.length)} of ${grouped(json.cases)} shown, evenly thinned out; the result file has all cases.` : '';
   container.append(element('section', {class: 'sweep'},
       element('header', {}, element('h2', {}, json.name), element('p', {class: 'fine'}, `${json.cases} ${json.cases === 1 ? 'case' : 'cases'} over ${keys.map((k) => k.name).join(', ')}.${thinned}`), counts),
       controls, remark, element('div', {class: 'columns'}, drawing, side)));
@@ -523,28 +444,18 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
   new ResizeObserver(() => { if (drawing.clientWidth && Math.abs(drawing.clientWidth - width) > 1) draw(); }).observe(drawing);
   palette.onChange(draw);
   return {
-    state, choose, commandOf, refresh,
+    state, choose, refresh, csv: swept.csv,
     // The columns and the status of cases have changed.
     update() {
-      measures.forEach(measured);
+      swept.renew();
       draw();
     },
     // For tests: the place of a case in the window.
     placeOf(number_) {
-      const mark = marks.find((m) => cases[m.i] === number_ || (m.all && m.all.some((i) => cases[i] === number_)));
+      const mark = markOf(cases.indexOf(number_));
       if (!mark) return null;
       const bounds = canvas.getBoundingClientRect();
       return [bounds.left + (mark.x + mark.w / 2) * bounds.width / width, bounds.top + (mark.y + mark.h / 2) * bounds.height / height];
-    },
-    csv() {
-      const columns = [...keys, ...measures];
-      const lines = [['case', ...keys.map((k) => k.name), 'status', ...measures.map((m) => m.name)].join(',')];
-      const plain = (words) => (/[",\n]/.test(words) ? `"${words.replaceAll('"', '""')}"` : words);
-      for (let i = 0; i < count; ++i) {
-        const cell = (column) => (column.words ? plain(column.words[i]) : String(column.values[i]));
-        lines.push([cases[i], ...keys.map(cell), plain(statusOf(i)), ...columns.slice(keys.length).map(cell)].join(','));
-      }
-      return lines.join('\n') + '\n';
     },
   };
 };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "replay/base64.hpp"
+#include "replay/numbers.hpp"
 
 #include <algorithm>
 #include <bit>
