@@ -46,11 +46,7 @@ std::string base64(std::span<const unsigned char> bytes) {
 
 float to_float(double value) {
   constexpr double largest = std::numeric_limits<float>::max();
-  if (std::abs(value) > largest) {
-    return std::copysign(std::numeric_limits<float>::infinity(),
-                         static_cast<float>(std::copysign(1.0, value)));
-  }
-  return static_cast<float>(value);
+  return static_cast<float>(std::abs(value) > largest ? std::copysign(HUGE_VAL, value) : value);
 }
 
 std::string base64_of_floats(std::span<const double> values) {

@@ -9,7 +9,6 @@
 
 #include "base/json.hpp"
 #include "replay/kept_rows.hpp"
-#include "replay/live_json.hpp"
 #include "replay/numbers.hpp"
 #include "replay/rotation.hpp"
 #include "replay/stage.hpp"
@@ -88,9 +87,7 @@ Json plots_json() {
 std::vector<double> parts_of(const std::vector<Quaternion>& orientation,
                              const std::vector<std::size_t>& rows) {
   std::vector<double> parts;
-  if (orientation.empty()) return parts;
-  parts.reserve(4 * rows.size());
-  for (const std::size_t row : rows) {
+  for (const std::size_t row : orientation.empty() ? std::vector<std::size_t>{} : rows) {
     parts.insert(parts.end(), orientation[row].begin(), orientation[row].end());
   }
   return parts;
@@ -192,6 +189,10 @@ Json push_rods_json(const Run& run) {
   return rods;
 }
 
+Json source_json(const Source& source) {
+  return {{"file", source.file}, {"text", source.text}, {"overrides", source.overrides}};
+}
+
 Json run_json(const Run& run, const Stage& stage, std::size_t most, const Numbers& numbers) {
   const double radius = run.ball_radius.value_or(stage.ball_radius);
   const std::vector<Quaternion> orientation = orientation_of(run, radius);
@@ -218,8 +219,7 @@ Json run_json(const Run& run, const Stage& stage, std::size_t most, const Number
   json["eventCount"] = run.events.size();
   json["reference"] = numbers.floats(reference_points(run));
   json["friction"] = run.friction ? Json(*run.friction) : Json();
-  json["scenario"] = {
-      {"file", run.scenario_file}, {"text", run.scenario_text}, {"overrides", run.overrides}};
+  json["scenario"] = source_json(run.source);
   json["summary"] = run.summary.empty() ? Json() : parse_json(run.summary);
   json["check"] = run.check;
   json["poles"] = run.poles ? poles_json(*run.poles) : Json();
@@ -267,8 +267,7 @@ Json sweep_json(const Sweep& sweep, std::size_t sweeps) {
   }
   json["keys"] = std::move(keys);
   json["measures"] = std::move(measures);
-  json["scenario"] = {
-      {"file", sweep.scenario_file}, {"text", sweep.scenario_text}, {"overrides", sweep.overrides}};
+  json["scenario"] = source_json(sweep.source);
   return json;
 }
 

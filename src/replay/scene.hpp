@@ -68,10 +68,9 @@ struct Run {
   std::array<std::optional<RodLinkage>, 2> push_rods{};  // of phi and theta
   std::vector<std::array<double, 2>> reference;          // points of the whole path, plane frame
   std::optional<double> friction{};  // coefficient to compare friction_demand with
-  std::string scenario_file, scenario_text;
-  std::vector<std::string> overrides;  // each "key.path=value"
-  std::string summary;                 // JSON of `run --summary`; empty if unknown
-  std::vector<std::string> check;      // the lines of `bbsim check`
+  Source source;                     // of the scenario
+  std::string summary;               // JSON of `run --summary`; empty if unknown
+  std::vector<std::string> check;    // the lines of `bbsim check`
   std::optional<Poles> poles{};
   std::string version;  // of the bbsim that computed it
 };
@@ -93,8 +92,7 @@ struct Sweep {
   std::vector<SweepColumn> keys, measures;
   std::vector<double> cases;        // their numbers
   std::vector<std::string> status;  // "done", or why a case ended early
-  std::string scenario_file, scenario_text;
-  std::vector<std::string> overrides;  // of all cases
+  Source source;                    // of the scenario, with the overrides of all cases
 };
 
 struct Scene {

@@ -69,13 +69,6 @@ Series series_of(const std::string& name, std::vector<double> values, bool unit_
           std::move(values)};
 }
 
-// Sets the unit of commands to that of the gimbal's drive; `bbsim columns` lists them as angles.
-void set_unit_of_commands(Run& run, Drives driven) {
-  for (Series& series : run.columns) {
-    if (scenario::is_command(series.name)) series.unit = command_unit(driven);
-  }
-}
-
 // Rolls the ball from the last row to the instant at which an event stopped the run.
 void turn_to_the_end(Run& run) {
   if (!run.has_end_row || !run.rolls || !run.ball_radius || run.orientation.size() < 2) return;
@@ -112,15 +105,13 @@ SweepColumn sweep_column(results::Column column) {
           column.texts};
 }
 
-// Notes which keys were drawn, and which are tied to another key.
-void relate(std::vector<SweepColumn>& keys, const results::SweepTable& table) {
-  for (SweepColumn& key : keys) {
-    const auto of = std::ranges::find(table.keys, key.name, &results::Key::name);
-    if (of == table.keys.end()) continue;
-    key.drawn = of->drawn;
-    const std::string& leader = table.keys[of->leader].name;
-    if (leader != key.name) key.along = leader;
-  }
+// Notes whether the key was drawn, or is tied to another one.
+void relate(SweepColumn& key, const results::SweepTable& table) {
+  const auto of = std::ranges::find(table.keys, key.name, &results::Key::name);
+  if (of == table.keys.end()) return;
+  key.drawn = of->drawn;
+  const std::string& leader = table.keys[of->leader].name;
+  if (leader != key.name) key.along = leader;
 }
 
 }  // namespace
@@ -155,11 +146,14 @@ void describe_sight(Run& run, const Scenario& scenario) {
   }
   if (scenario.events.slip) run.friction = scenario.events.slip->friction;
   if (scenario.events.slip && scenario.events.slip->sliding) run.rolls = false;
-  if (scenario.controller) set_unit_of_commands(run, scenario.controller->drives);
+  // `bbsim columns` lists commands as angles; their unit is that of the gimbal's drive.
+  for (Series& series : run.columns) {
+    if (scenario.controller && scenario::is_command(series.name)) {
+      series.unit = command_unit(scenario.controller->drives);
+    }
+  }
   turn_to_the_end(run);
-  run.scenario_file = scenario.source.file;
-  run.scenario_text = scenario.source.text;
-  run.overrides = scenario.source.overrides;
+  run.source = scenario.source;
 }
 
 void describe(Run& run, const Scenario& scenario) {
@@ -211,11 +205,7 @@ Sweep sweep_of_result(results::Result result, const std::string& name) {
   Sweep sweep;
   sweep.name = name;
   sweep.title = std::move(result.title);
-  if (result.scenario) {
-    sweep.scenario_file = result.scenario->source.file;
-    sweep.scenario_text = result.scenario->source.text;
-    sweep.overrides = result.scenario->source.overrides;
-  }
+  if (result.scenario) sweep.source = result.scenario->source;
   const results::SweepTable table = results::sweep_table(result);
   const results::Column* const reason = result.find("reason");
   std::vector<std::string> reasons;
@@ -229,6 +219,7 @@ Sweep sweep_of_result(results::Result result, const std::string& name) {
       sweep.status = std::move(column.texts);
     } else if (before_status) {
       sweep.keys.push_back(sweep_column(std::move(column)));
+      relate(sweep.keys.back(), table);
     } else if (column.name != "reason") {
       sweep.measures.push_back(sweep_column(std::move(column)));
       SweepColumn& measure = sweep.measures.back();
@@ -237,7 +228,6 @@ Sweep sweep_of_result(results::Result result, const std::string& name) {
       if (measure.unit.empty() && measure.name == "end_time") measure.unit = "s";
     }
   }
-  relate(sweep.keys, table);
   for (std::size_t i = 0; i < reasons.size() && i < sweep.status.size(); ++i) {
     if (!reasons[i].empty()) sweep.status[i] += ": " + reasons[i];
   }

@@ -120,9 +120,9 @@ TEST_CASE("hostile text stays text everywhere") {
       "\xE2\x80\xAE @BBSIM_DATA@ \xff";
   Run run = circling(3);
   run.name = run.title = run.status = run.reason = hostile;
-  run.scenario_file = run.scenario_text = hostile;
+  run.source.file = run.source.text = hostile;
   run.check = {hostile};
-  run.overrides = {hostile};
+  run.source.overrides = {hostile};
   run.version = hostile;
   run.summary = R"({"title": "</script>"})";
   run.columns.push_back({hostile, hostile, hostile, {1, 2, 3}});

@@ -6,13 +6,11 @@
 // What stays is painted once, and the trails are added as they grow.
 bbsim.makeFlat = (canvas) => {
   const {scene: {stage}, runs, shown} = bbsim.data;
-  const {palette, text} = bbsim;
+  const {palette, text, visible} = bbsim;
   const [lead] = runs;
-  const visible = {trail: true, reference: true, sensor: true, events: true, axes: true};
   const inkOf = (one) => one.getContext('2d', {willReadFrequently: true});
   const ink = inkOf(canvas), ground = inkOf(document.createElement('canvas')), base = inkOf(document.createElement('canvas'));
   let width = 0, height = 0, ratio = 1, scale = 1, waiting = false, stale = true;
-  const least = 5;  // pixels: a smaller ball gets a ring
   // For each run, the row up to which its trail is in `base`, the trail's length, and the ball's place.
   const trails = runs.map((run) => ({run, until: 0, along: 0, place: [0, 0]}));
   const turned = new THREE.Quaternion(), point = new THREE.Vector3();
@@ -77,8 +75,9 @@ bbsim.makeFlat = (canvas) => {
       ground.fillStyle = '#ffd23f';
       ground.fill();
       ground.stroke();
-      if (words.some((other) => other.words === event.name && Math.hypot(other.x - x, other.y - y) < 60 * ratio)) continue;
-      words.push({words: text.visible(event.name), x, y: y - 16 * ratio, colour: colours.ink});
+    }
+    for (const {name, x, y} of bbsim.namedEvents(lead, 60 * ratio / scale)) {
+      if (shown(x) && shown(y)) words.push({words: text.visible(name), x: px(x), y: py(y) - 16 * ratio, colour: colours.ink});
     }
   }
 
@@ -107,16 +106,7 @@ bbsim.makeFlat = (canvas) => {
       ground.globalAlpha = 1;
     }
     if (visible.events) paintEvents(colours, words);
-    pen(ground, colours.plate, 4);
-    Object.assign(ground, {font: `600 ${14 * ratio}px system-ui, sans-serif`, textAlign: 'center', textBaseline: 'middle'});
-    const boxes = words.map((one) => ({...one, width: ground.measureText(one.words).width + 4 * ratio, height: 17 * ratio}));
-    bbsim.placeLabels(boxes).forEach((up, i) => {
-      if (up === null) return;
-      const {words: name, x, y, colour} = words[i];
-      ground.fillStyle = colour;
-      ground.strokeText(name, x, y - up);
-      ground.fillText(name, x, y - up);
-    });
+    bbsim.writeWords(ground, words, ratio);
   }
 
   // Adds the new part of the trails, or all of it if time has gone back.
@@ -147,7 +137,7 @@ bbsim.makeFlat = (canvas) => {
 
   // The ball from above, with the three circles that part the octants of ball.js, and their dot.
   function paintBall({run, place: [x, y]}, colours) {
-    const radius = run.ball.radius * scale, ring = radius < least * ratio, light = ink.createRadialGradient(
+    const radius = run.ball.radius * scale, ring = radius < 5 * ratio, light = ink.createRadialGradient(
         px(x) - 0.3 * radius, py(y) - 0.4 * radius, 0, px(x), py(y), radius);
     light.addColorStop(0, 'rgba(255, 255, 255, .35)');
     light.addColorStop(1, 'rgba(0, 0, 0, .4)');
@@ -242,10 +232,6 @@ bbsim.makeFlat = (canvas) => {
     printed() {
       setSize();
       draw();
-    },
-    show(name, on) {
-      visible[name] = on;
-      invalidate();
     },
     // The point [x, y] of the plate at a point of the window, CSS pixels.
     plateAt(left, top) {

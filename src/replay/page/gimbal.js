@@ -65,15 +65,13 @@ bbsim.gimbal = (() => {
     ink.fillRect(0, 0, width, depth);
     const spacing = gridSpacing(), line = size / 460;
     ink.strokeStyle = palette.grid;
-    for (let n = 0; n * spacing < size / 2; ++n) {
+    for (let many = Math.ceil(size / 2 / spacing) - 1, n = -many; n <= many; ++n) {
       ink.lineWidth = n === 0 ? 2 * line : line;
       ink.beginPath();
-      for (const side of n === 0 ? [0] : [-n, n]) {
-        ink.moveTo(width / 2 + side * spacing, 0);
-        ink.lineTo(width / 2 + side * spacing, depth);
-        ink.moveTo(0, depth / 2 + side * spacing);
-        ink.lineTo(width, depth / 2 + side * spacing);
-      }
+      ink.moveTo(width / 2 + n * spacing, 0);
+      ink.lineTo(width / 2 + n * spacing, depth);
+      ink.moveTo(0, depth / 2 + n * spacing);
+      ink.lineTo(width, depth / 2 + n * spacing);
       ink.stroke();
     }
     ink.strokeStyle = palette.rim;

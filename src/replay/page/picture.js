@@ -7,7 +7,7 @@
 bbsim.makePicture = (canvas, left) => {
   const {scene, runs} = bbsim.data;
   const {stage} = scene;
-  const {palette, paint, text} = bbsim;
+  const {palette, paint, text, visible} = bbsim;
   const [lead] = runs;
 
   // The canvas gets its final size at the start, so that its buffers are made once.
@@ -15,8 +15,7 @@ bbsim.makePicture = (canvas, left) => {
     const box = canvas.parentElement.getBoundingClientRect();
     return [Math.max(1, Math.round(box.width)), Math.max(1, Math.round(box.height))];
   };
-  [canvas.width, canvas.height] = sizeOf();
-  let [width, height] = sizeOf();
+  let [width, height] = [canvas.width, canvas.height] = sizeOf();
   const renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: false});
   renderer.debug.checkShaderErrors = false;  // a check would wait for each shader's compilation
   const sharp = () => Math.min(Math.max(window.devicePixelRatio || 1, 1), 2);
@@ -41,11 +40,11 @@ bbsim.makePicture = (canvas, left) => {
     y: paint.flat(), event: paint.flat(), eventRim: paint.flat(), sensor: paint.flat({transparent: true, opacity: 0.85}),
     rim: paint.flat({depthTest: false}),
   };
-  const visible = {trail: true, reference: true, sensor: true, events: true, axes: true, gimbal: true, arrows: false};
-  const labels = [];
+  const labels = [];  // {words, colour, at, group}: at a place of the plate while the group is visible
+  const words = document.getElementById('words').getContext('2d');
   // What furnish() makes of the runs.
   const rig = {}, parts = {};
-  let arrows, size, trailWidth, layers, marks, ribbons, actors, leader, floor, target, targetLeast, seen, marked;
+  let arrows, size, trailWidth, layers, marks, ribbons, actors, leader, floor, target, targetLeast, seen;
 
   // Puts an object on the plate, in layer n.
   const layer = (n, near = 1) => lead.mounting.height + n * 0.00025 * size * near;
@@ -63,7 +62,7 @@ bbsim.makePicture = (canvas, left) => {
     return make(material);
   }
 
-  // Removes everything but the labels, with its memory on the graphics card.
+  // Removes everything, with its memory on the graphics card.
   function clear() {
     for (const group of [world, ...actors.map(({marker}) => marker)]) {
       group.traverse((part) => { if (part.geometry) part.geometry.dispose(); });
@@ -84,11 +83,9 @@ bbsim.makePicture = (canvas, left) => {
     marks = [];  // do not grow on the screen when the eye comes near
     ribbons = [];  // materials of ribbons, and their greatest widths
     Object.assign(rig, bbsim.gimbal.build(lead, materials));
-    rig.width = stage.width + 0.2 * size;
-    rig.depth = stage.depth + 0.26 * size;
     world.add(rig.base);
     floor = paint.shadow(0.3);
-    floor.scale.set(0.62 * rig.width, 0.62 * rig.depth, 1);
+    floor.scale.set(0.62 * stage.width + 0.124 * size, 0.62 * stage.depth + 0.161 * size, 1);
     floor.position.z = -rig.foot - 0.012 * size;
     world.add(floor);
 
@@ -151,64 +148,40 @@ bbsim.makePicture = (canvas, left) => {
       marks.push(...seen);
     }
 
-    marked = bbsim.markedEvents(lead);
-    for (const event of marked) {
+    for (const event of bbsim.markedEvents(lead)) {
       const mark = onPlate(paint.eventMark(event.action, 0.016 * size, materials.event, materials.eventRim), 6, parts.events);
       mark.position.x = event.x;
       mark.position.y = event.y;
       marks.push(mark);
     }
-  }
-  furnish();
-
-  function label(words, colour, at, group, pixels) {
-    const mesh = paint.label(words, colour, palette.now().plate, pixels);
-    root.add(mesh);
-    labels.push({mesh, at, group});
+    makeLabels();
   }
 
   function makeLabels() {
-    for (const {mesh} of labels) {
-      root.remove(mesh);
-      mesh.geometry.dispose();
-      mesh.material.uniforms.map.value.dispose();
-      mesh.material.dispose();
-    }
+    const high = layer(2) + 0.02 * size, add = (words, colour, at, group) => labels.push({words, colour, at, group});
     labels.length = 0;
-    const colours = palette.now(), high = layer(2) + 0.02 * size;
-    label('x', colours.x, new THREE.Vector3(0.155 * size, 0, high), parts.axes);
-    label('y', colours.y, new THREE.Vector3(0, 0.155 * size, high), parts.axes);
-    for (const [words, colour] of [['velocity', colours.x], ['gravity', colours.ink], ['normal force', colours.y]]) {
-      label(words, colour, arrows.meshes[words].tip, arrows.meshes[words], 13);
-    }
-    const named = [];
-    for (const event of marked) {
-      // Events of the same name that are close to each other share one label.
-      if (named.length > 11 || named.some((other) => other.name === event.name &&
-          Math.hypot(other.x - event.x, other.y - event.y) < 0.08 * size)) continue;
-      named.push(event);
-      label(text.visible(event.name), colours.ink, new THREE.Vector3(event.x, event.y, high + Math.max(0.03 * size, 2.6 * lead.ball.radius)), parts.events, 13);
+    add('x', 'x', new THREE.Vector3(0.155 * size, 0, high), parts.axes);
+    add('y', 'y', new THREE.Vector3(0, 0.155 * size, high), parts.axes);
+    for (const [words, colour] of [['velocity', 'x'], ['gravity', 'ink'], ['normal force', 'y']]) add(words, colour, arrows.meshes[words].tip, arrows.meshes[words]);
+    for (const {name, x, y} of bbsim.namedEvents(lead, 0.08 * size)) {
+      add(text.visible(name), 'ink', new THREE.Vector3(x, y, high + Math.max(0.03 * size, 2.6 * lead.ball.radius)), parts.events);
     }
   }
+
+  furnish();
 
   // The size of a pixel at distance 1.
   const pixelSize = () => 2 * Math.tan(eyes.fov * Math.PI / 360) / height;
 
-  function faceLabels() {
-    const pixel = pixelSize(), shown = [];
-    for (const one of labels) {
-      const {mesh, at, group} = one;
-      mesh.visible = group.visible && group.parent.visible;
-      if (!mesh.visible) continue;
-      one.place = at.clone().applyMatrix4(rig.plane.matrixWorld);
-      const on = one.place.clone().project(eyes.camera);
-      shown.push({...one, x: on.x * width / 2, y: -on.y * height / 2, width: mesh.size[0], height: mesh.size[1]});
-    }
-    bbsim.placeLabels(shown).forEach((up, i) => {
-      const {mesh, place} = shown[i];
-      mesh.visible = up !== null;
-      if (up !== null) paint.face(mesh, place, eyes.camera, pixel, up);
-    });
+  // Writes the labels on a canvas above the picture.
+  function writeLabels() {
+    const ratio = Math.max(1, renderer.getPixelRatio()), colours = palette.now();
+    Object.assign(words.canvas, {width: Math.round(width * ratio), height: Math.round(height * ratio)});
+    const shown = labels.filter(({group}) => group.visible && group.parent.visible)
+        .map((one) => ({...one, on: one.at.clone().applyMatrix4(rig.plane.matrixWorld).project(eyes.camera)})).filter(({on}) => on.z < 1);
+    bbsim.writeWords(words, shown.map(({words: name, colour, on}) => ({
+      words: name, colour: colours[colour], x: (on.x + 1) / 2 * width * ratio, y: (1 - on.y) / 2 * height * ratio,
+    })), ratio);
   }
 
   // Adapts sizes to the screen. Ribbons and marks do not grow when the eye comes near. Balls that
@@ -253,7 +226,6 @@ bbsim.makePicture = (canvas, left) => {
       actor.edge.color.set(colour);
       actor.marker.children[1].material.color.set(colour);
     }
-    makeLabels();
     invalidate();
   }
 
@@ -335,7 +307,7 @@ bbsim.makePicture = (canvas, left) => {
     if (!whole && state.length === drawn.length && state.every((value, i) => value === drawn[i])) return;
     drawn = state;
     sizeToScreen();
-    faceLabels();
+    writeLabels();
     renderer.render(root, eyes.camera);
     ++picture.draws;
   }
@@ -376,15 +348,18 @@ bbsim.makePicture = (canvas, left) => {
   }
 
   const picture = {
-    eyes, rig, visible, lead, renderer, canvas,
+    eyes, rig, lead, renderer, canvas,
     get actors() { return actors; },
     active: true,  // is on the screen
     draws: 0,      // number of drawings, for tests
     get factor() { return factor; },
     get zoom() { return renderer.getPixelRatio(); },
+    // The picture with its labels.
     whole() {
       draw();
-      return canvas;
+      const made = Object.assign(document.createElement('canvas'), {width: canvas.width, height: canvas.height});
+      for (const one of [canvas, words.canvas]) made.getContext('2d').drawImage(one, 0, 0, made.width, made.height);
+      return made;
     },
     invalidate, resize, draw, recolour,
     // Draws, and returns when the drawing is complete.
@@ -404,7 +379,7 @@ bbsim.makePicture = (canvas, left) => {
     print(w, h) {
       renderer.setPixelRatio(2);
       setSize(w, h);
-      return canvas;
+      return picture.whole();
     },
     printed() {
       renderer.setPixelRatio(sharp() * pixels);
@@ -414,10 +389,6 @@ bbsim.makePicture = (canvas, left) => {
       factor = value;
       rig.reach(value);
       eyes.refit();
-      invalidate();
-    },
-    show(name, on) {
-      visible[name] = on;
       invalidate();
     },
     // The point [x, y] of the plate at a point of the window, CSS pixels; null if there is none.

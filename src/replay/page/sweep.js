@@ -138,22 +138,14 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
   }
 
   // A case that is not done is gray, with a cross if it failed and a stroke if it was stopped.
+  const signOf = (words) => ({done: '●', stopped: '⁄'}[words.split(/[ :]/)[0]] || '×');
   function paintStatus(i, x, y, w, h) {
     const dark = palette.isDark();
     ink.fillStyle = dark ? '#3a434e' : '#d5dae0';
     ink.fillRect(x, y, w, h);
     if (w < 5 || h < 5 || statusOf(i) === '') return;
-    ink.strokeStyle = dark ? '#aab4bf' : '#59636e';
-    ink.lineWidth = 1.2;
-    ink.beginPath();
-    const m = 0.28 * Math.min(w, h, 30), cx = x + w / 2, cy = y + h / 2;
-    ink.moveTo(cx - m, cy + m);
-    ink.lineTo(cx + m, cy - m);
-    if (!statusOf(i).startsWith('stopped')) {
-      ink.moveTo(cx - m, cy - m);
-      ink.lineTo(cx + m, cy + m);
-    }
-    ink.stroke();
+    Object.assign(ink, {fillStyle: dark ? '#aab4bf' : '#59636e', textAlign: 'center', textBaseline: 'middle', font: `${Math.min(w, h, 30)}px system-ui, sans-serif`});
+    ink.fillText(signOf(statusOf(i)), x + w / 2, y + h / 2);
   }
 
   // From the least to the greatest value, logarithmic over a decade and more; else from the 2nd to the
@@ -425,7 +417,7 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
 
   const words = Array.from(cases.keys(), (i) => statusOf(i).split(/[ :]/)[0]);
   for (const all of gathered(words, (word) => word).sort((a, b) => b.length - a.length)) {
-    counts.append(element('li', {class: `status ${all[0]}`}, `${{done: '●', stopped: '⁄'}[all[0]] || '×'} ${all.length} ${all[0]}`));
+    counts.append(element('li', {class: `status ${all[0]}`}, `${signOf(all[0])} ${all.length} ${all[0]}`));
   }
   const grouped = (n) => n.toLocaleString('en-US');
   const thinned = cases.length < json.cases ? ` ${grouped(cases.length)} of ${grouped(json.cases)} shown, evenly thinned out; the result file has all cases.` : '';

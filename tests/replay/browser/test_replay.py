@@ -158,7 +158,7 @@ class TheBall(InBrowser):
         rows = rows_of(files("rig.csv"))
         self.js("bbsim.picture.eyes.go('above')")
         for name in ["trail", "reference", "sensor", "events", "axes"]:
-            self.js("bbsim.picture.show(arguments[0], false)", name)
+            self.js("bbsim.screen.show(arguments[0], false)", name)
         self.js("bbsim.picture.actors[0].shadow.material.uniforms.opacity.value = 0")
         for index in [0, 700, 1400]:
             self.js("bbsim.seek(arguments[0])", rows[index]["t"])
