@@ -9,6 +9,7 @@
 #include "file/format.hpp"
 #include "removed.hpp"
 #include "replay/page.hpp"
+#include "replay/template.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -43,15 +44,15 @@ void require_replay_ending(const std::string& file, const std::string& option) {
 }
 
 void declare_replay(file::Outputs& outputs, const std::string& file, const std::string& what) {
-  outputs.reads(replay::template_file(), "the template of pages");
-  outputs.reads(replay::engine_file(), "the engine of live pages");
+  outputs.reads(replay::file_of_template(replay::replay_name), "the template of pages");
+  outputs.reads(replay::file_of_template(replay::engine_name), "the engine of live pages");
   outputs.writes(file, what);
 }
 
 ReplayFile::ReplayFile(const std::string& target, bool live)
     : target_(target),
-      template_(replay::page_template()),
-      engine_(live ? replay::read_engine() : ""),
+      template_(replay::read_template(replay::replay_name)),
+      engine_(live ? replay::read_template(replay::engine_name) : ""),
       file_(target) {}
 
 void ReplayFile::write(const replay::Scene& scene, bool quiet) {

@@ -27,6 +27,7 @@
 #include "file/temporaries.hpp"
 #include "module.hpp"
 #include "replay/page.hpp"
+#include "replay/template.hpp"
 #include "results/log.hpp"
 #include "results/read_result.hpp"
 #include "results/sweep_table.hpp"
@@ -148,7 +149,7 @@ Page replay(const std::vector<Shown>& shown, const Texts& logs, const results::L
   request.title = title;
   Watch watch;
   Page page = watch.beside([&] {
-    const std::string page_template = replay::page_template();
+    const std::string page_template = replay::read_template(replay::replay_name);
     file::Outputs outputs;
     request.before_running = [&] {
       if (!output.empty()) outputs.writes(output, "output");

@@ -13,7 +13,6 @@
 #include "api/version.hpp"
 #include "base/error.hpp"
 #include "file/format.hpp"
-#include "replay/log.hpp"
 #include "replay/sources.hpp"
 #include "scenario/reader.hpp"
 

@@ -4,6 +4,7 @@
 #include "replay/kept_rows.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <queue>
@@ -51,7 +52,7 @@ std::vector<std::size_t> rows_of_plots(const Run& run, std::size_t buckets, std:
 class Motion {
  public:
   Motion(const Run& run, const std::vector<Quaternion>& orientation)
-      : t_(find_series(run, "t")->values), orientation_(orientation) {
+      : t_(find_series(run, "t")->values) {
     add(find_series(run, "x"), 0);
     add(find_series(run, "y"), 0);
     double extent = 0;
@@ -63,6 +64,7 @@ class Motion {
     for (Line& line : lines_) line.tolerance = std::max(extent * position_tolerance, 1e-12);
     add(find_series(run, "phi"), angle_tolerance);
     add(find_series(run, "theta"), angle_tolerance);
+    add_parts(orientation);
   }
 
   [[nodiscard]] double error(std::size_t from, std::size_t to, std::size_t row) const {
@@ -73,19 +75,7 @@ class Motion {
       const double off = std::abs(v[from] + part * (v[to] - v[from]) - v[row]) / line.tolerance;
       if (off > worst) worst = off;  // false for NaN
     }
-    return orientation_.empty() ? worst : std::max(worst, turn_error(from, to, row, part));
-  }
-
-  // Whether the ball turns so far between two kept rows that interpolation is ambiguous. Adds up
-  // its small turns, because it may turn a whole number of times.
-  [[nodiscard]] bool turns_too_far(std::size_t from, std::size_t to) const {
-    if (orientation_.empty()) return false;
-    double turned = 0;
-    for (std::size_t row = from + 1; row <= to; ++row) {
-      turned += angle_between(orientation_[row - 1], orientation_[row]);
-      if (turned > largest_turn) return true;
-    }
-    return false;
+    return worst;
   }
 
  private:
@@ -98,39 +88,24 @@ class Motion {
     if (series != nullptr) lines_.push_back({&series->values, tolerance});
   }
 
-  static double dot(const Quaternion& a, const Quaternion& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
-  }
-
-  static double angle_between(const Quaternion& a, const Quaternion& b) {
-    return 2 * std::acos(std::min(1.0, std::abs(dot(a, b))));
-  }
-
-  // The page interpolates orientations by spherical linear interpolation.
-  [[nodiscard]] double turn_error(std::size_t from, std::size_t to, std::size_t row,
-                                  double part) const {
-    const Quaternion& a = orientation_[from];
-    Quaternion b = orientation_[to];
-    double cosine = dot(a, b);
-    if (cosine < 0) {
-      for (double& component : b) component = -component;
-      cosine = -cosine;
+  // The parts of the ball's orientation as lines, with signs that do not jump. The page
+  // interpolates along the sphere, which is better. A part errs by half the angle.
+  void add_parts(const std::vector<Quaternion>& orientation) {
+    double sign = 1;
+    for (std::size_t row = 0; row < orientation.size(); ++row) {
+      const Quaternion &now = orientation[row], &before = orientation[row > 0 ? row - 1 : 0];
+      if (std::inner_product(now.begin(), now.end(), before.begin(), 0.0) < 0) sign = -sign;
+      for (std::size_t part = 0; part < now.size(); ++part) {
+        parts_[part].push_back(sign * now[part]);
+      }
     }
-    const double angle = std::acos(std::min(1.0, cosine));
-    double weight_a = 1 - part, weight_b = part;
-    if (angle > 1e-6) {
-      weight_a = std::sin((1 - part) * angle) / std::sin(angle);
-      weight_b = std::sin(part * angle) / std::sin(angle);
+    for (const std::vector<double>& part : parts_) {
+      if (!orientation.empty()) lines_.push_back({&part, orientation_tolerance / 4});
     }
-    Quaternion between{};
-    for (std::size_t i = 0; i < between.size(); ++i) {
-      between[i] = weight_a * a[i] + weight_b * b[i];
-    }
-    return angle_between(between, orientation_[row]) / orientation_tolerance;
   }
 
   const std::vector<double>& t_;
-  const std::vector<Quaternion>& orientation_;
+  std::array<std::vector<double>, 4> parts_;
   std::vector<Line> lines_;
 };
 
@@ -150,10 +125,6 @@ Stretch stretch(const Motion& motion, std::size_t from, std::size_t to) {
       result.error = error;
       result.worst = row;
     }
-  }
-  if (result.error < 2 && to - from > 1 && motion.turns_too_far(from, to)) {
-    result.error = 2;  // above the tolerance
-    result.worst = from + (to - from) / 2;
   }
   return result;
 }

@@ -23,7 +23,6 @@ struct KeptRows {
 inline constexpr double position_tolerance = 1.0 / 2000;  // of the largest distance from home
 inline constexpr double angle_tolerance = 2e-4;           // of the gimbal, rad
 inline constexpr double orientation_tolerance = 0.05;     // of the ball, rad
-inline constexpr double largest_turn = 2.0;               // of the ball between kept rows, rad
 
 // Returns all rows if there are at most `most`. Otherwise, half of `most` goes to the plots. The
 // run is cut into as many buckets with equal numbers of rows as fit. Each bucket keeps its first

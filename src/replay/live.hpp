@@ -4,6 +4,7 @@
 // What a live page shows beside its run: numbers to change, measures, tasks.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,5 +48,8 @@ struct Live {
   std::vector<Measure> measures;
   std::optional<Loops> loops;  // of a loop that bbsim can linearize
 };
+
+class Numbers;
+[[nodiscard]] nlohmann::ordered_json live_json(const Live& live, const Numbers& numbers);
 
 }  // namespace bbsim::replay

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json.hpp"
-#include "replay/base64.hpp"
 #include "replay/kept_rows.hpp"
+#include "replay/numbers.hpp"
 #include "replay/rotation.hpp"
 #include "replay/stage.hpp"
 #include "replay/sweep_cases.hpp"
@@ -21,38 +21,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char *template_name = "replay.html", *engine_name = "engine.html";
 constexpr std::size_t most_rows = 20000;
 constexpr std::size_t most_bytes = 2'400'000;
 constexpr std::size_t most_cases = 40000;
 constexpr std::size_t most_sweep_numbers = 320000;
 constexpr std::size_t most_events = 2000;
-constexpr std::size_t longest_chord = 200;  // points
-
-// How numbers enter the JSON. A page that is open already takes arrays, and JSON with their places.
-class Numbers {
- public:
-  explicit Numbers(std::vector<std::vector<double>>* arrays) : arrays_(arrays) {}
-
-  [[nodiscard]] Json floats(std::vector<double> values) const {
-    return arrays_ != nullptr ? place(std::move(values)) : Json(base64_of_floats(values));
-  }
-  [[nodiscard]] Json doubles(std::vector<double> values) const {
-    return arrays_ != nullptr ? place(std::move(values)) : Json(base64_of_doubles(values));
-  }
-  // Between -1 and 1.
-  [[nodiscard]] Json parts(std::vector<double> values) const {
-    return arrays_ != nullptr ? place(std::move(values)) : Json(base64_of_parts(values));
-  }
-
- private:
-  [[nodiscard]] Json place(std::vector<double> values) const {
-    arrays_->push_back(std::move(values));
-    return arrays_->size() - 1;
-  }
-
-  std::vector<std::vector<double>>* arrays_;
-};
+constexpr std::size_t longest_chord = 50;  // points
 
 template <class Value>
 std::vector<Value> picked(const std::vector<Value>& values, const std::vector<std::size_t>& rows) {
@@ -113,9 +87,7 @@ Json plots_json() {
 std::vector<double> parts_of(const std::vector<Quaternion>& orientation,
                              const std::vector<std::size_t>& rows) {
   std::vector<double> parts;
-  if (orientation.empty()) return parts;
-  parts.reserve(4 * rows.size());
-  for (const std::size_t row : rows) {
+  for (const std::size_t row : orientation.empty() ? std::vector<std::size_t>{} : rows) {
     parts.insert(parts.end(), orientation[row].begin(), orientation[row].end());
   }
   return parts;
@@ -147,33 +119,28 @@ Json events_json(const Run& run) {
   return events;
 }
 
-// Whether all points between two are this close to the line from one to the other.
-bool near_chord(const std::vector<std::array<double, 2>>& path, std::size_t from, std::size_t to,
-                double tolerance) {
-  const double dx = path[to][0] - path[from][0], dy = path[to][1] - path[from][1];
-  const double length = std::hypot(dx, dy);
-  for (std::size_t i = from + 1; i < to; ++i) {
-    const double px = path[i][0] - path[from][0], py = path[i][1] - path[from][1];
-    const double along = length > 0 ? (px * dx + py * dy) / length : 0;
-    const double off = length > 0 ? std::abs(px * dy - py * dx) / length : std::hypot(px, py);
-    if (off > tolerance || along < -tolerance || along > length + tolerance) return false;
-  }
-  return true;
+// The distance of a point from the line between two others.
+double off_line(const std::array<double, 2>& from, const std::array<double, 2>& point,
+                const std::array<double, 2>& to) {
+  const double dx = to[0] - from[0], dy = to[1] - from[1], length = std::hypot(dx, dy);
+  const double px = point[0] - from[0], py = point[1] - from[1];
+  if (!(length > 0) || px * dx + py * dy > length * length) return std::hypot(px, py);
+  return std::abs(px * dy - py * dx) / length;
 }
 
-// The points of the reference path that a polyline needs to stay within 1/5000 of the path's
-// extent.
+// The points of the reference path that a polyline needs to look like it: where it leaves the line
+// from the last one by 1/20000 of the path's extent.
 std::vector<double> reference_points(const Run& run) {
   const auto& path = run.reference;
   double extent = 0;
   for (const auto& point : path)
     extent = std::max({extent, std::abs(point[0]), std::abs(point[1])});
-  const double tolerance = extent / 5000;
+  const double tolerance = extent / 20000;
   std::vector<double> points;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const bool must = i == 0 || i + 1 == path.size() || i - kept >= longest_chord;
-    if (!must && near_chord(path, kept, i + 1, tolerance)) continue;
+    if (!must && off_line(path[kept], path[i], path[i + 1]) < tolerance) continue;
     points.insert(points.end(), path[i].begin(), path[i].end());
     kept = i;
   }
@@ -188,18 +155,42 @@ Json poles_json(const Poles& poles) {
 
 Json legs_json(const Run& run) {
   Json legs = Json::array();
-  for (const Leg& leg : run.legs) {
+  for (const ServoLeg& leg : run.legs) {
     legs.push_back({{"angle", leg.angle},
-                    {"base", leg.base},
-                    {"plate", leg.plate},
+                    {"base", leg.radius_base},
+                    {"plate", leg.radius_plate},
                     {"horn", leg.horn},
                     {"rod", leg.rod},
                     {"height", leg.height},
-                    {"joint", leg.joint},
+                    {"joint", leg.joint_height},
                     {"offset", leg.offset},
                     {"direction", leg.direction}});
   }
-  return {{"legs", legs}, {"phiOffset", run.plate_offset[0]}, {"thetaOffset", run.plate_offset[1]}};
+  return {{"legs", legs},
+          {"phiOffset", run.mounting.phi_offset},
+          {"thetaOffset", run.mounting.theta_offset}};
+}
+
+// The push rods of phi and theta; null if there is none.
+Json push_rods_json(const Run& run) {
+  const double zero[] = {run.mounting.phi_offset, run.mounting.theta_offset};
+  Json rods = Json::array();
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const auto& its = run.push_rods[axis];
+    rods.push_back(nullptr);
+    if (!its) continue;
+    const double fits = std::hypot(its->offset[0] + its->arm - its->horn, its->offset[1]);
+    rods.back() = {{"horn", its->horn},
+                   {"arm", its->arm},
+                   {"rod", its->rod.value_or(fits)},
+                   {"offset", its->offset},
+                   {"zero", zero[axis]}};
+  }
+  return rods;
+}
+
+Json source_json(const Source& source) {
+  return {{"file", source.file}, {"text", source.text}, {"overrides", source.overrides}};
 }
 
 Json run_json(const Run& run, const Stage& stage, std::size_t most, const Numbers& numbers) {
@@ -216,6 +207,7 @@ Json run_json(const Run& run, const Stage& stage, std::size_t most, const Number
                       {"yaw", run.mounting.yaw},
                       {"baseTilt", run.mounting.base_tilt}};
   if (!run.legs.empty()) json["legs"] = legs_json(run);
+  json["rods"] = push_rods_json(run);
   json["time"] = times_json(picked(find_series(run, "t")->values, kept.rows), numbers);
   json["columns"] = columns_json(run, kept.rows, numbers);
   json["orientation"] = numbers.parts(parts_of(orientation, kept.rows));
@@ -227,8 +219,7 @@ Json run_json(const Run& run, const Stage& stage, std::size_t most, const Number
   json["eventCount"] = run.events.size();
   json["reference"] = numbers.floats(reference_points(run));
   json["friction"] = run.friction ? Json(*run.friction) : Json();
-  json["scenario"] = {
-      {"file", run.scenario_file}, {"text", run.scenario_text}, {"overrides", run.overrides}};
+  json["scenario"] = source_json(run.source);
   json["summary"] = run.summary.empty() ? Json() : parse_json(run.summary);
   json["check"] = run.check;
   json["poles"] = run.poles ? poles_json(*run.poles) : Json();
@@ -276,52 +267,8 @@ Json sweep_json(const Sweep& sweep, std::size_t sweeps) {
   }
   json["keys"] = std::move(keys);
   json["measures"] = std::move(measures);
-  json["scenario"] = {
-      {"file", sweep.scenario_file}, {"text", sweep.scenario_text}, {"overrides", sweep.overrides}};
+  json["scenario"] = source_json(sweep.source);
   return json;
-}
-
-Json loops_json(const std::optional<Live::Loops>& maybe, const Numbers& numbers) {
-  if (!maybe) return nullptr;
-  const Live::Loops& loops = *maybe;
-  Json curves = Json::object();
-  for (const auto& [command, gain, phase] : loops.curves) {
-    curves[command] = {{"gain", numbers.floats(gain)}, {"phase", numbers.floats(phase)}};
-  }
-  return {{"stable", loops.stable},
-          {"period", loops.period ? Json(*loops.period) : Json()},
-          {"frequencies", numbers.floats(loops.frequencies)},
-          {"curves", curves},
-          {"margins", parse_json(loops.margins)}};
-}
-
-Json live_json(const Live& live, const Numbers& numbers) {
-  const auto bound = [](const std::optional<double>& value) {
-    return value ? Json(*value) : Json();
-  };
-  Json keys = Json::array(), tasks = Json::array();
-  for (const LiveKey& key : live.keys) {
-    keys.push_back({{"key", key.key},
-                    {"text", key.text},
-                    {"unit", key.unit},
-                    {"value", key.value},
-                    {"least", bound(key.least)},
-                    {"most", bound(key.most)},
-                    {"open", key.open},
-                    {"whole", key.whole}});
-  }
-  for (const Live::Task& task : live.tasks) {
-    tasks.push_back({{"text", task.text}, {"expect", task.expect}, {"holds", task.holds}});
-  }
-  Json measures = Json::object();
-  for (const Live::Measure& one : live.measures) {
-    measures[one.name] = {{"value", one.value}, {"unit", one.unit}};
-  }
-  return {{"keys", keys},
-          {"free", live.free},
-          {"tasks", tasks},
-          {"measures", measures},
-          {"loops", loops_json(live.loops, numbers)}};
 }
 
 Json json_of(const Scene& scene, const Numbers& numbers) {
@@ -348,19 +295,14 @@ Json json_of(const Scene& scene, const Numbers& numbers) {
 
 // Removes the parts of the template between <!--NAME--> and <!--/NAME-->. A sweep, for example,
 // needs no three.js.
-std::string without(const std::string& name, std::string_view page_template) {
+std::string without(const std::string& name, std::string text) {
   const std::string begin = "<!--" + name + "-->", end = "<!--/" + name + "-->";
-  std::string result;
-  std::size_t place = 0;
-  while (true) {
-    const std::size_t from = page_template.find(begin, place);
-    const std::size_t to = from == std::string_view::npos ? from : page_template.find(end, from);
-    if (to == std::string_view::npos) break;
-    result += page_template.substr(place, from - place);
-    place = to + end.size();
+  for (std::size_t from = text.find(begin); from != std::string::npos; from = text.find(begin)) {
+    const std::size_t to = text.find(end, from);
+    if (to == std::string::npos) break;
+    text.erase(from, to + end.size() - from);
   }
-  result += page_template.substr(place);
-  return result;
+  return text;
 }
 
 }  // namespace
@@ -377,10 +319,10 @@ std::size_t rows_allowed(const Scene& scene) {
 
 std::string page(const Scene& scene, std::string_view whole_template, std::string_view engine) {
   check_scene(scene);
-  std::string needed = without(engine.empty() ? "live" : "still", whole_template);
+  std::string needed = without(engine.empty() ? "live" : "still", std::string(whole_template));
   if (!engine.empty()) needed = with_engine(std::move(needed), engine);
-  if (scene.runs.empty()) needed = without("runs", needed);
-  if (scene.sweeps.empty() && engine.empty()) needed = without("sweeps", needed);
+  if (scene.runs.empty()) needed = without("runs", std::move(needed));
+  if (scene.sweeps.empty() && engine.empty()) needed = without("sweeps", std::move(needed));
   const Json json = json_of(scene, Numbers(nullptr));
   return filled(needed, scene.title, json_text(json));
 }
@@ -388,32 +330,6 @@ std::string page(const Scene& scene, std::string_view whole_template, std::strin
 std::string scene_json(const Scene& scene, std::vector<std::vector<double>>& arrays) {
   check_scene(scene);
   return json_text(json_of(scene, Numbers(&arrays)));
-}
-
-std::string loops_json(const std::optional<Live::Loops>& loops,
-                       std::vector<std::vector<double>>& arrays) {
-  return json_text(loops_json(loops, Numbers(&arrays)));
-}
-
-std::string page_template(const std::vector<std::string>& folders) {
-  return read_template(template_name, folders);
-}
-
-std::string page_template() {
-  return read_template(template_name);
-}
-
-std::string read_engine() {
-  return read_template(engine_name,
-                       "`scripts/setup --wasm && scripts/build wasm` makes it in bbsim's sources");
-}
-
-std::string engine_file() {
-  return file_of_template(engine_name);
-}
-
-std::string template_file() {
-  return file_of_template(template_name);
 }
 
 }  // namespace bbsim::replay

@@ -20,7 +20,7 @@ namespace bbsim::replay {
 // text of the scene appears as text in the page, whatever characters it has. Throws InputError as
 // check_scene() does, and for a damaged template.
 //
-// With an `engine`, read_engine(), the page is live: it can run the scene's scenario again.
+// With an `engine` (template.hpp), the page is live: it can run the scene's scenario again.
 [[nodiscard]] std::string page(const Scene& scene, std::string_view page_template,
                                std::string_view engine = {});
 
@@ -32,23 +32,8 @@ namespace bbsim::replay {
 [[nodiscard]] std::string loops_json(const std::optional<Live::Loops>& loops,
                                      std::vector<std::vector<double>>& arrays);
 
-// Reads the template, which CMake assembles, from share/bbsim beside the program or from
-// BBSIM_SHARE_PATH. Throws OutputError with advice if it is not there.
-[[nodiscard]] std::string page_template();
-
-// Reads the template from the first of these folders that has it.
-[[nodiscard]] std::string page_template(const std::vector<std::string>& folders);
-
-// Reads the engine of live pages, which scripts/build wasm makes, from the same folder. Throws
-// OutputError with advice if it is not there.
-[[nodiscard]] std::string read_engine();
-
 // Identifies a page of bbsim; found at the beginning of the template.
 inline constexpr const char* page_mark = "A replay made by bbsim";
-
-// The files that page_template() and read_engine() read; empty if they are not there.
-[[nodiscard]] std::string template_file();
-[[nodiscard]] std::string engine_file();
 
 // The most rows that each run of a page may keep.
 [[nodiscard]] std::size_t rows_allowed(const Scene& scene);

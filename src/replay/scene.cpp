@@ -16,6 +16,13 @@ namespace {
   throw InputError(name + ": cannot be replayed: " + what);
 }
 
+void check_rows(const std::string& of, const std::string& column, std::size_t rows,
+                const std::string& other, std::size_t wanted) {
+  if (rows == wanted) return;
+  refuse_run(of, "column " + column + " has " + std::to_string(rows) + " rows, and " + other +
+                     " has " + std::to_string(wanted));
+}
+
 void check_times(const Run& run, const std::vector<double>& times) {
   for (std::size_t row = 0; row < times.size(); ++row) {
     const std::string place = "t in row " + std::to_string(row + 1) + " is ";
@@ -41,11 +48,7 @@ void check_run(const Run& run) {
   const std::size_t rows = row_count(run);
   if (rows == 0) refuse_run(run.name, "it has no rows");
   for (const Series& column : run.columns) {
-    if (column.values.size() != rows) {
-      refuse_run(run.name, "column " + column.name + " has " +
-                               std::to_string(column.values.size()) + " rows, and t has " +
-                               std::to_string(rows));
-    }
+    check_rows(run.name, column.name, column.values.size(), "t", rows);
   }
   if (!run.orientation.empty() && run.orientation.size() != rows) {
     refuse_run(run.name, "there are " + std::to_string(run.orientation.size()) +
@@ -60,15 +63,12 @@ void check_sweep(const Sweep& sweep) {
   if (cases == 0) refuse_run(sweep.name, "it has no cases");
   if (sweep.keys.empty()) refuse_run(sweep.name, "no key varies in it");
   if (sweep.measures.empty()) refuse_run(sweep.name, "it has no measure");
-  const auto check = [&](const std::string& name, std::size_t rows) {
-    if (rows != cases) {
-      refuse_run(sweep.name, "column " + name + " has " + std::to_string(rows) +
-                                 " rows, and status has " + std::to_string(cases));
+  check_rows(sweep.name, "case", sweep.cases.size(), "status", cases);
+  for (const auto* columns : {&sweep.keys, &sweep.measures}) {
+    for (const SweepColumn& column : *columns) {
+      check_rows(sweep.name, column.name, column.rows(), "status", cases);
     }
-  };
-  check("case", sweep.cases.size());
-  for (const SweepColumn& key : sweep.keys) check(key.name, key.rows());
-  for (const SweepColumn& measure : sweep.measures) check(measure.name, measure.rows());
+  }
 }
 
 }  // namespace

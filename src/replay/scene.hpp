@@ -18,6 +18,7 @@
 
 #include "base/quaternion.hpp"
 #include "replay/live.hpp"
+#include "scenario/scenario.hpp"
 
 namespace bbsim::replay {
 
@@ -31,28 +32,6 @@ struct Event {
   double t = 0;
   std::string name, action;  // action: stop or note
   double x = 0, y = 0;       // the contact point, plane frame
-};
-
-// A rectangle or a disc about the plane's origin.
-struct Plate {
-  std::optional<std::array<double, 2>> size{};  // along x and y
-  std::optional<double> diameter{};
-};
-
-struct Mounting {
-  double height = 0;  // of the plane of contact above the gimbal's center
-  double skew = 0, yaw = 0, base_tilt = 0;
-};
-
-// A leg under the plate, as in gimbal.three_servos.
-struct Leg {
-  double angle = 0;            // azimuth
-  double base = 0, plate = 0;  // radii of the servo's axis and of the joint
-  double horn = 0, rod = 0;
-  double height = 0;  // of the joint above the servo's axis, at home
-  double joint = 0;   // height of the joint in the plate
-  double offset = 0;  // of the horn from home when the servo is at zero
-  int direction = 1;
 };
 
 // Poles of the loop about home: in 1/s for a continuous loop, in the z plane for a sampled one.
@@ -85,14 +64,13 @@ struct Run {
   std::optional<double> ball_radius{};
   std::optional<double> rolling_radius{};  // if different
   Mounting mounting;
-  std::vector<Leg> legs;                 // three, or none
-  std::array<double, 2> plate_offset{};  // phi and theta of the plate when the legs are at home
-  std::vector<std::array<double, 2>> reference;  // points of the whole path, plane frame
-  std::optional<double> friction{};              // coefficient to compare friction_demand with
-  std::string scenario_file, scenario_text;
-  std::vector<std::string> overrides;  // each "key.path=value"
-  std::string summary;                 // JSON of `run --summary`; empty if unknown
-  std::vector<std::string> check;      // the lines of `bbsim check`
+  std::vector<ServoLeg> legs;                            // three, or none
+  std::array<std::optional<RodLinkage>, 2> push_rods{};  // of phi and theta
+  std::vector<std::array<double, 2>> reference;          // points of the whole path, plane frame
+  std::optional<double> friction{};  // coefficient to compare friction_demand with
+  Source source;                     // of the scenario
+  std::string summary;               // JSON of `run --summary`; empty if unknown
+  std::vector<std::string> check;    // the lines of `bbsim check`
   std::optional<Poles> poles{};
   std::string version;  // of the bbsim that computed it
 };
@@ -114,8 +92,7 @@ struct Sweep {
   std::vector<SweepColumn> keys, measures;
   std::vector<double> cases;        // their numbers
   std::vector<std::string> status;  // "done", or why a case ended early
-  std::string scenario_file, scenario_text;
-  std::vector<std::string> overrides;  // of all cases
+  Source source;                    // of the scenario, with the overrides of all cases
 };
 
 struct Scene {

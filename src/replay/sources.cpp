@@ -17,7 +17,7 @@
 #include "replay/rotation.hpp"
 #include "results/sweep_table.hpp"
 #include "scenario/columns.hpp"
-#include "scenario/loop_measures.hpp"
+#include "scenario/measures.hpp"
 
 namespace bbsim::replay {
 namespace {
@@ -62,32 +62,11 @@ std::optional<Poles> poles_of(const model::Model& model) {
   return Poles{model::closed_loop_poles(model), {}};
 }
 
-// The unit of a measure is that of its column, whose name follows "max_" and the like or precedes
-// "_end".
-std::string unit_of_measure(const std::string& name) {
-  if (name == "end_time") return "s";
-  if (const auto* const loop = scenario::find_loop_measure(name)) return std::string(loop->unit);
-  const std::size_t prefix = name.find('_');
-  const scenario::Column* column = nullptr;
-  if (prefix != std::string::npos) column = scenario::find_column(name.substr(prefix + 1));
-  if (column == nullptr && name.ends_with("_end")) {
-    column = scenario::find_column(name.substr(0, name.size() - 4));
-  }
-  return column == nullptr ? "" : std::string(column->unit);
-}
-
 Series series_of(const std::string& name, std::vector<double> values, bool unit_known = true) {
   const scenario::Column* const known = scenario::find_column(name);
   if (known == nullptr) return {name, "", "", std::move(values)};
   return {name, unit_known ? std::string(known->unit) : "", std::string(known->meaning),
           std::move(values)};
-}
-
-// Sets the unit of commands to that of the gimbal's drive; `bbsim columns` lists them as angles.
-void set_unit_of_commands(Run& run, Drives driven) {
-  for (Series& series : run.columns) {
-    if (scenario::is_command(series.name)) series.unit = command_unit(driven);
-  }
 }
 
 // Rolls the ball from the last row to the instant at which an event stopped the run.
@@ -104,21 +83,15 @@ void turn_to_the_end(Run& run) {
 // If all four parts of the ball's orientation are recorded, makes them the run's orientation and
 // removes their columns. A row without a finite orientation repeats the last one.
 void take_orientation(Run& run) {
-  std::array<std::size_t, 4> places{};
-  for (std::size_t part = 0; part < places.size(); ++part) {
-    const auto found = std::ranges::find(run.columns, orientation_columns[part], &Series::name);
-    if (found == run.columns.end()) return;
-    places[part] = static_cast<std::size_t>(found - run.columns.begin());
+  std::array<const Series*, 4> parts{};
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    parts[part] = find_series(run, orientation_columns[part]);
+    if (parts[part] == nullptr) return;
   }
   Quaternion last{1, 0, 0, 0};
-  const std::size_t rows = run.columns[places[0]].values.size();
-  run.orientation.reserve(rows);
-  for (std::size_t row = 0; row < rows; ++row) {
-    Quaternion now{};
-    for (std::size_t part = 0; part < now.size(); ++part) {
-      now[part] = run.columns[places[part]].values[row];
-    }
-    now = normalised(now);
+  for (std::size_t row = 0; row < parts[0]->values.size(); ++row) {
+    const Quaternion now = normalised({parts[0]->values[row], parts[1]->values[row],
+                                       parts[2]->values[row], parts[3]->values[row]});
     if (std::isfinite(now[0] + now[1] + now[2] + now[3])) last = now;
     run.orientation.push_back(last);
   }
@@ -132,15 +105,13 @@ SweepColumn sweep_column(results::Column column) {
           column.texts};
 }
 
-// Notes which keys were drawn, and which are tied to another key.
-void relate(std::vector<SweepColumn>& keys, const results::SweepTable& table) {
-  for (SweepColumn& key : keys) {
-    const auto of = std::ranges::find(table.keys, key.name, &results::Key::name);
-    if (of == table.keys.end()) continue;
-    key.drawn = of->drawn;
-    const std::string& leader = table.keys[of->leader].name;
-    if (leader != key.name) key.along = leader;
-  }
+// Notes whether the key was drawn, or is tied to another one.
+void relate(SweepColumn& key, const results::SweepTable& table) {
+  const auto of = std::ranges::find(table.keys, key.name, &results::Key::name);
+  if (of == table.keys.end()) return;
+  key.drawn = of->drawn;
+  const std::string& leader = table.keys[of->leader].name;
+  if (leader != key.name) key.along = leader;
 }
 
 }  // namespace
@@ -158,29 +129,31 @@ Run run_of_table(file::TableData table, const std::string& name) {
 void describe_sight(Run& run, const Scenario& scenario) {
   run.title = scenario.title;
   run.end = scenario.time.end;
-  run.plate = {scenario.plate.size, scenario.plate.diameter};
+  run.plate = scenario.plate;
   run.ball_radius = scenario.ball.radius;
   if (scenario.ball.groove) {
     run.rolling_radius = run.ball_radius;
     run.ball_radius = scenario.ball.groove->ball_radius;
   }
-  const bbsim::Mounting& mounting = scenario.gimbal.mounting;
-  run.mounting = {mounting.height, mounting.skew, mounting.yaw, mounting.base_tilt};
+  run.mounting = scenario.gimbal.mounting;
   if (const auto& three = scenario.gimbal.three_servos) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const ServoLeg leg = three->leg(i);
-      run.legs.push_back({leg.angle, leg.radius_base, leg.radius_plate, leg.horn, leg.rod,
-                          leg.height, leg.joint_height, leg.offset, leg.direction});
-    }
-    run.plate_offset = {mounting.phi_offset, mounting.theta_offset};
+    for (std::size_t i = 0; i < 3; ++i) run.legs.push_back(three->leg(i));
+  }
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const auto& linkage = scenario.gimbal.linkage[axis];
+    const auto* const rods = linkage ? std::get_if<RodLinkage>(&*linkage) : nullptr;
+    if (rods != nullptr) run.push_rods[axis] = *rods;
   }
   if (scenario.events.slip) run.friction = scenario.events.slip->friction;
   if (scenario.events.slip && scenario.events.slip->sliding) run.rolls = false;
-  if (scenario.controller) set_unit_of_commands(run, scenario.controller->drives);
+  // `bbsim columns` lists commands as angles; their unit is that of the gimbal's drive.
+  for (Series& series : run.columns) {
+    if (scenario.controller && scenario::is_command(series.name)) {
+      series.unit = command_unit(scenario.controller->drives);
+    }
+  }
   turn_to_the_end(run);
-  run.scenario_file = scenario.source.file;
-  run.scenario_text = scenario.source.text;
-  run.overrides = scenario.source.overrides;
+  run.source = scenario.source;
 }
 
 void describe(Run& run, const Scenario& scenario) {
@@ -219,15 +192,20 @@ Run run_of_result(results::Result result, const std::string& name) {
   return run;
 }
 
+Run run_of_log(results::Result log, const results::LogChoice& choice, const std::string& name,
+               std::vector<std::string>& notes) {
+  results::make_log(log, choice, true, notes);
+  log.units_known = true;  // as --data or the map states
+  Run run = run_of_result(std::move(log), name);
+  if (!choice.maps.empty()) run.rolls = false;
+  return run;
+}
+
 Sweep sweep_of_result(results::Result result, const std::string& name) {
   Sweep sweep;
   sweep.name = name;
   sweep.title = std::move(result.title);
-  if (result.scenario) {
-    sweep.scenario_file = result.scenario->source.file;
-    sweep.scenario_text = result.scenario->source.text;
-    sweep.overrides = result.scenario->source.overrides;
-  }
+  if (result.scenario) sweep.source = result.scenario->source;
   const results::SweepTable table = results::sweep_table(result);
   const results::Column* const reason = result.find("reason");
   std::vector<std::string> reasons;
@@ -241,13 +219,15 @@ Sweep sweep_of_result(results::Result result, const std::string& name) {
       sweep.status = std::move(column.texts);
     } else if (before_status) {
       sweep.keys.push_back(sweep_column(std::move(column)));
+      relate(sweep.keys.back(), table);
     } else if (column.name != "reason") {
       sweep.measures.push_back(sweep_column(std::move(column)));
       SweepColumn& measure = sweep.measures.back();
-      if (measure.unit.empty()) measure.unit = unit_of_measure(measure.name);
+      const auto known = scenario::find_measure(measure.name);
+      if (measure.unit.empty() && known) measure.unit = known->unit();
+      if (measure.unit.empty() && measure.name == "end_time") measure.unit = "s";
     }
   }
-  relate(sweep.keys, table);
   for (std::size_t i = 0; i < reasons.size() && i < sweep.status.size(); ++i) {
     if (!reasons[i].empty()) sweep.status[i] += ": " + reasons[i];
   }

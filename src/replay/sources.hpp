@@ -5,9 +5,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "file/table_writer.hpp"
 #include "replay/scene.hpp"
+#include "results/log.hpp"
 #include "results/result.hpp"
 #include "scenario/scenario.hpp"
 
@@ -21,6 +23,13 @@ namespace bbsim::replay {
 // Makes a run of a result in the same way, with the content of its file or summary. Does not use
 // the result's scenario; describe() does. Leaves out columns of texts.
 [[nodiscard]] Run run_of_result(results::Result result, const std::string& name);
+
+// Makes a run of the log of a real rig: any CSV, with any column names and units. Without maps, the
+// log has those of bbsim. With maps, the run has only the columns that they name, and the log's own
+// t. Adds the changes to `notes`. Throws InputError with the row of the log or the place in the
+// map, the text found and the texts allowed.
+[[nodiscard]] Run run_of_log(results::Result log, const results::LogChoice& choice,
+                             const std::string& name, std::vector<std::string>& notes);
 
 // Makes a sweep of a result of `bbsim sweep` (results::Result::is_sweep()).
 [[nodiscard]] Sweep sweep_of_result(results::Result result, const std::string& name);

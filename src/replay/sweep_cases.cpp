@@ -4,7 +4,6 @@
 #include "replay/sweep_cases.hpp"
 
 #include <algorithm>
-#include <map>
 #include <set>
 #include <string>
 
@@ -19,24 +18,20 @@ struct Levels {
 
 template <class Value>
 Levels levels_of(const std::vector<Value>& values) {
-  std::map<Value, std::size_t> positions;
-  for (const Value& value : values) positions.emplace(value, 0);
-  std::size_t next = 0;
-  for (auto& [value, position] : positions) position = next++;
-  Levels levels;
-  levels.count = positions.size();
-  levels.of_case.reserve(values.size());
-  for (const Value& value : values) levels.of_case.push_back(positions.find(value)->second);
+  std::vector<Value> distinct = values;
+  std::ranges::sort(distinct);
+  const auto end = std::unique(distinct.begin(), distinct.end());
+  Levels levels{{}, static_cast<std::size_t>(end - distinct.begin())};
+  for (const Value& value : values) {
+    levels.of_case.push_back(std::lower_bound(distinct.begin(), end, value) - distinct.begin());
+  }
   return levels;
 }
 
 bool is_grid(const std::vector<Levels>& keys, std::size_t cases) {
-  std::size_t combinations = 1;
-  for (const Levels& key : keys) {
-    if (combinations > cases / key.count) return false;
-    combinations *= key.count;
-  }
-  if (combinations != cases) return false;
+  double combinations = 1;
+  for (const Levels& key : keys) combinations *= static_cast<double>(key.count);
+  if (combinations != static_cast<double>(cases)) return false;
   std::set<std::size_t> seen;
   for (std::size_t i = 0; i < cases; ++i) {
     std::size_t number = 0;

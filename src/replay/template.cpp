@@ -3,10 +3,13 @@
 
 #include "replay/template.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "base/error.hpp"
 #include "base/json.hpp"
@@ -20,59 +23,36 @@ constexpr std::string_view title_mark = "@BBSIM_TITLE@";
 constexpr std::string_view data_mark = "@BBSIM_DATA@";
 constexpr std::string_view engine_mark = "@BBSIM_ENGINE@";
 
-// JSON for a <script> element. These characters occur only in strings, where the escapes mean the
-// same. Without them, nothing ends the script or one of its lines.
-std::string script_text(const std::string& text) {
+using Replacements = std::vector<std::pair<std::string_view, std::string_view>>;
+
+std::string replaced(std::string_view text, const Replacements& replacements) {
   std::string result;
   result.reserve(text.size());
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    switch (text[i]) {
-      case '<':
-        result += "\\u003c";
-        break;
-      case '>':
-        result += "\\u003e";
-        break;
-      case '&':
-        result += "\\u0026";
-        break;
-      case '\xE2':  // U+2028 and U+2029
-        if (text.compare(i, 3, "\xE2\x80\xA8") == 0 || text.compare(i, 3, "\xE2\x80\xA9") == 0) {
-          result += text[i + 2] == '\xA8' ? "\\u2028" : "\\u2029";
-          i += 2;
-          break;
-        }
-        [[fallthrough]];
-      default:
-        result += text[i];
-    }
+  while (!text.empty()) {
+    const auto found = std::ranges::find_if(
+        replacements, [text](const auto& pair) { return text.starts_with(pair.first); });
+    const bool is_plain = found == replacements.end();
+    result += is_plain ? text.substr(0, 1) : found->second;
+    text.remove_prefix(is_plain ? 1 : found->first.size());
   }
   return result;
 }
 
+// JSON for a <script> element. These characters occur only in strings, where the escapes mean the
+// same. Without them, nothing ends the script or one of its lines.
+std::string script_text(const std::string& text) {
+  return replaced(text, {{"<", "\\u003c"},
+                         {">", "\\u003e"},
+                         {"&", "\\u0026"},
+                         {"\xE2\x80\xA8", "\\u2028"},
+                         {"\xE2\x80\xA9", "\\u2029"}});
+}
+
 // Text for HTML. Replaces bytes that are not UTF-8 as the JSON does.
 std::string html_text(const std::string& raw) {
-  const std::string text = parse_json(json_text(raw)).get<std::string>();
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '&':
-        result += "&amp;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        if (static_cast<unsigned char>(c) >= 0x20) result += c;
-    }
-  }
-  return result;
+  std::string text = parse_json(json_text(raw)).get<std::string>();
+  std::erase_if(text, [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+  return replaced(text, {{"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}});
 }
 
 std::size_t place_of(std::string_view mark, std::string_view text) {
@@ -93,41 +73,32 @@ std::string filled(std::string_view page_template, const std::string& title,
   if (data < title_place) {
     throw InputError("the page's template is damaged: its data are before its title");
   }
-  const std::size_t after_title = title_place + title_mark.size();
-  std::string result{page_template.substr(0, title_place)};
-  result += html_text(title);
-  result += page_template.substr(after_title, data - after_title);
-  result += script_text(json);
-  result += page_template.substr(data + data_mark.size());
-  return result;
+  std::string result{page_template};
+  result.replace(data, data_mark.size(), script_text(json));
+  return result.replace(title_place, title_mark.size(), html_text(title));
 }
 
 std::string with_engine(std::string page_template, std::string_view engine) {
   return page_template.replace(place_of(engine_mark, page_template), engine_mark.size(), engine);
 }
 
-std::string read_template(const std::string& name, const std::vector<std::string>& folders,
-                          const std::string& remedy) {
+std::string read_template(const std::string& name, const std::vector<std::string>& folders) {
   std::string looked_in;
-  for (const std::string& folder : folders) {
+  for (const std::string& folder : folders.empty() ? file::share_folders() : folders) {
     try {
       return file::read_whole(std::filesystem::path(folder) / name);
     } catch (const InputError&) {  // try the next folder
     }
     looked_in.append(looked_in.empty() ? "" : " and ").append(folder);
   }
-  if (!remedy.empty()) {
-    throw OutputError("cannot make a live page: " + name + " is not in " + looked_in + "; " +
-                      remedy);
+  if (name == engine_name) {
+    throw OutputError("cannot make a live page: " + name + " is not in " + looked_in +
+                      "; `scripts/setup --wasm && scripts/build wasm` makes it in bbsim's sources");
   }
   throw OutputError("cannot make a page: its template " + name + " is not in " + looked_in +
                     "; it is made where bbsim is built with three.js and dygraphs (Debian: "
                     "libjs-three, libjs-dygraphs; scripts/setup installs them): build bbsim again, "
                     "or set BBSIM_SHARE_PATH to the template's folder");
-}
-
-std::string read_template(const std::string& name, const std::string& remedy) {
-  return read_template(name, file::share_folders(), remedy);
 }
 
 std::string file_of_template(const std::string& name) {

@@ -65,8 +65,7 @@ Sweep sweep_of(const std::string& table, const std::string& scenario) {
   Sweep sweep = bbsim::replay::sweep_of_result(bbsim::results::read_result(table, {}), table);
   sweep.name = table.substr(table.rfind('/') + 1);
   sweep.title = bbsim::read_scenario(scenario).title;
-  sweep.scenario_file = scenario;
-  sweep.scenario_text = content(scenario);
+  sweep.source = {scenario, content(scenario), {}};
   return sweep;
 }
 
@@ -98,7 +97,7 @@ Run circling(std::size_t rows) {
 Sweep swept() {
   Sweep sweep;
   sweep.name = "swept.csv";
-  sweep.scenario_file = "configs/my scene.yaml";
+  sweep.source.file = "configs/my scene.yaml";
   sweep.keys = {{"ball.radius", "", {}, {}}, {"ball.position.0", "", {}, {}}};
   sweep.measures = {{"max_distance", "m", {}, {}}};
   for (int i = 0; i < 41; ++i) {

@@ -11,9 +11,10 @@
 #include "catch.hpp"
 #include "make_scene.hpp"
 #include "read_page.hpp"
-#include "replay/base64.hpp"
+#include "replay/numbers.hpp"
 #include "replay/page.hpp"
 #include "replay/stage.hpp"
+#include "replay/template.hpp"
 #include "scenario/columns.hpp"
 
 namespace bbsim_test::test_page {
@@ -119,9 +120,9 @@ TEST_CASE("hostile text stays text everywhere") {
       "\xE2\x80\xAE @BBSIM_DATA@ \xff";
   Run run = circling(3);
   run.name = run.title = run.status = run.reason = hostile;
-  run.scenario_file = run.scenario_text = hostile;
+  run.source.file = run.source.text = hostile;
   run.check = {hostile};
-  run.overrides = {hostile};
+  run.source.overrides = {hostile};
   run.version = hostile;
   run.summary = R"({"title": "</script>"})";
   run.columns.push_back({hostile, hostile, hostile, {1, 2, 3}});
@@ -281,7 +282,7 @@ TEST_CASE("an invalid or missing template") {
   CHECK_THROWS_AS(page(scene, small_template + small_template), InputError);
   CHECK_THROWS_AS(page(scene, "@BBSIM_DATA@ @BBSIM_TITLE@"), InputError);
   try {
-    static_cast<void>(bbsim::replay::page_template({"/nowhere", "/else"}));
+    static_cast<void>(bbsim::replay::read_template("replay.html", {"/nowhere", "/else"}));
     FAIL("a template from nowhere");
   } catch (const OutputError& error) {
     CHECK(std::string(error.what()).find("replay.html is not in /nowhere and /else") !=

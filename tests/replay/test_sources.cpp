@@ -44,7 +44,7 @@ TEST_CASE("a scenario determines what a replay shows") {
   REQUIRE(rig.poles);
   CHECK(rig.poles->period == 0.02);
   CHECK(rig.poles->values.size() == 16);
-  CHECK(rig.scenario_text.find("A hobby rig") != std::string::npos);
+  CHECK(rig.source.text.find("A hobby rig") != std::string::npos);
   // One closed lap of the circle.
   REQUIRE(rig.reference.size() > 100);
   CHECK(rig.reference.front()[0] == Approx(rig.reference.back()[0]));

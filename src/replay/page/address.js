@@ -6,23 +6,7 @@
 // saw.
 bbsim.address = (() => {
   const short = (value) => String(Number(value.toPrecision(5)));
-  // Returns an invalid escape sequence, such as "%", unchanged.
-  function decoded(words) {
-    try {
-      return decodeURIComponent(words);
-    } catch {
-      return words;
-    }
-  }
-
-  function read() {
-    const result = new Map();
-    for (const part of location.hash.slice(1).split('&')) {
-      const [name, value] = part.split('=');
-      if (name) result.set(name, value === undefined ? '' : decoded(value));
-    }
-    return result;
-  }
+  const read = () => new URLSearchParams(location.hash.slice(1));
 
   function write(screen) {
     const {clock, palette, plots} = bbsim;

@@ -13,7 +13,7 @@ bbsim.makeArrows = (run, plane, length, materials) => {
     other.rotation.x = Math.PI / 2;
     both.add(arrow, other);
     for (const part of both.children) part.renderOrder = 12;
-    return [name, both];
+    return [name, Object.assign(both, {tip: new THREE.Vector3()})];
   }));
   // The velocity from the columns, or between the rows beside the time.
   function velocityAt(t) {
@@ -25,17 +25,19 @@ bbsim.makeArrows = (run, plane, length, materials) => {
   const fastest = greatest(Array.from(run.t, (t) => Math.hypot(...velocityAt(t))));
   const force = run.columns.get('normal_force');
   return {
-    meshes: Object.values(made),
+    // Each with the place of its name, `tip`.
+    meshes: made,
     // Returns all numbers that they depend on.
     pose(t, place) {
       const [vx, vy] = velocityAt(t);
       const down = new THREE.Vector3(0, 0, -1).applyQuaternion(plane.getWorldQuaternion(turned).inverse());
       const vectors = {velocity: new THREE.Vector3(vx, vy, 0).divideScalar(fastest || 1), gravity: down,
-                       force: new THREE.Vector3(0, 0, force ? run.at(t, 'normal_force', 0) / (force.size || 1) : 0)};
+                       'normal force': new THREE.Vector3(0, 0, force ? run.at(t, 'normal_force', 0) / (force.size || 1) : 0)};
       return Object.entries(vectors).flatMap(([name, vector]) => {
         const one = made[name], size = vector.length();
         one.visible = size > 1e-3;
         one.position.copy(place);
+        one.tip.copy(place).addScaledVector(vector, 1.1 * length);
         if (one.visible) one.quaternion.setFromUnitVectors(along, vector.clone().normalize());
         one.scale.setScalar(Math.max(size, 1e-3));
         return vector.toArray();

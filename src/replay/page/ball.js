@@ -31,16 +31,19 @@ bbsim.ball = (() => {
     ink.fill();
   }
 
-  // A ball whose rotation is unknown is plain.
-  function build(radius, ghost, plain) {
+  // A ball whose rotation is unknown is plain. Balls at the same place must not flicker: the ball of a
+  // run covers those of later ones, which are drawn a little smaller and farther away.
+  function build({ball: {radius}, index, turns}) {
+    const plain = !turns, ghost = index > 0;
     const canvas = document.createElement('canvas');
     canvas.width = 512;
     canvas.height = 256;
     const texture = new THREE.CanvasTexture(canvas);
     const material = bbsim.paint.lit({
       map: texture, gloss: 0.3, transparent: ghost, opacity: ghost ? 0.72 : 1,
+      polygonOffset: ghost, polygonOffsetFactor: index, polygonOffsetUnits: 8 * index,
     });
-    const mesh = new THREE.Mesh(new THREE.SphereBufferGeometry(radius, 40, 28), material);
+    const mesh = new THREE.Mesh(new THREE.SphereBufferGeometry(radius * (1 - 0.003 * index), 40, 28), material);
     return {
       mesh,
       dispose() {

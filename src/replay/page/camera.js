@@ -21,7 +21,6 @@ bbsim.makeCamera = (canvas, rig, told) => {
     },
     ended: notify,
   });
-  const {yUp, zUp} = controls;
   // The unit of length is the longest side of the plate, as in the picture.
   const scale = () => 1 / rig.size, radius = () => rig.ballRadius * scale();
   controls.minDistance = Math.min(0.05, 3 * radius());
@@ -72,24 +71,19 @@ bbsim.makeCamera = (canvas, rig, told) => {
   }
 
   function glide(to) {
-    const from = {position: eye.position.clone(), target: controls.target.clone()}, begun = performance.now();
+    const target = controls.target.clone(), begun = performance.now();
+    // Moves around the target, not through it.
+    const from = eye.position.clone().sub(target), way = to.position.clone().sub(to.target);
+    const far = [from.length(), way.length()], turned = new THREE.Quaternion().setFromUnitVectors(from.normalize(), way.normalize());
     moving = to;
     const frame = (time) => {
       if (moving !== to) return;
       const part = Math.min(1, (time - begun) / 350), eased = part * part * (3 - 2 * part);
-      // Moves around the target, not through it.
-      const a = new THREE.Spherical().setFromVector3(yUp(from.position.clone().sub(from.target)));
-      const b = new THREE.Spherical().setFromVector3(yUp(to.position.clone().sub(to.target)));
-      // A view straight from above has no azimuth, so it takes the other one.
-      if (a.phi < 0.01) a.theta = b.theta;
-      if (b.phi < 0.01) b.theta = a.theta;
-      const turn = Math.atan2(Math.sin(b.theta - a.theta), Math.cos(b.theta - a.theta));
-      const now = new THREE.Spherical(a.radius + eased * (b.radius - a.radius), a.phi + eased * (b.phi - a.phi),
-                                      a.theta + eased * turn);
-      const target = from.target.clone().lerp(to.target, eased);
-      set({position: zUp(new THREE.Vector3().setFromSpherical(now)).add(target), target});
-      if (part < 1) requestAnimationFrame(frame);
-      else {
+      if (part < 1) {
+        const now = target.clone().lerp(to.target, eased), back = from.clone().applyQuaternion(new THREE.Quaternion().slerp(turned, eased));
+        set({position: back.multiplyScalar(far[0] + eased * (far[1] - far[0])).add(now), target: now});
+        requestAnimationFrame(frame);
+      } else {
         moving = null;
         set(to);
         notify();

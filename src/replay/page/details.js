@@ -7,22 +7,6 @@ bbsim.makeDetails = (container) => {
   const {data, text} = bbsim;
   const {element} = text;
 
-  function copyButton(words) {
-    const button = element('button', {type: 'button', class: 'copy'}, 'Copy');
-    button.addEventListener('click', async () => {
-      try {
-        await navigator.clipboard.writeText(words);
-        button.textContent = 'Copied';
-      } catch {
-        // Without access to the clipboard, selects the text, so that one key copies it.
-        getSelection().selectAllChildren(button.closest('.copyable').querySelector('code'));
-        button.textContent = 'Marked';
-      }
-      setTimeout(() => { button.textContent = 'Copy'; }, 1500);
-    });
-    return button;
-  }
-
   function card(title, ...content) {
     return element('details', {class: 'card', open: true}, element('summary', {}, element('h3', {}, title)), ...content);
   }
@@ -84,8 +68,7 @@ bbsim.makeDetails = (container) => {
     }
     const {scenario, summary} = run;
     if (scenario.text) {
-      root.append(Object.assign(card(scenario.file || 'scenario', element('div', {class: 'copyable'}, copyButton(scenario.text),
-                       element('pre', {tabindex: '0', 'aria-label': 'The scenario'}, bbsim.highlight(scenario.text)))), {className: 'card text'}));
+      root.append(Object.assign(card(scenario.file || 'scenario', bbsim.save.copyable(bbsim.highlight(scenario.text), {'aria-label': 'The scenario'}, scenario.text)), {className: 'card text'}));
     }
     if (scenario.overrides.length > 0) {
       root.append(card('Set beside the text', element('pre', {}, scenario.overrides.join('\n'))));
@@ -146,5 +129,5 @@ bbsim.makeDetails = (container) => {
     }
   }
   fill();
-  return {copyButton, fill};
+  return {fill};
 };

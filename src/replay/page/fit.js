@@ -147,36 +147,8 @@
   get('log').append(...runs.map((run, i) => element('option', {value: String(i)}, run.name)));
   get('log').addEventListener('change', () => show(runs[get('log').value]));
 
-  // On paper: all plots, two side by side, and the picture at its time.
-  const root = document.documentElement, high = 120, wide = Math.floor((716 - 8) / 2 - 14);
-  let copies = [];
-  function beginPrint() {
-    if (copies.length > 0) return;
-    bbsim.clock.pause();
-    root.classList.add('printing');
-    palette.print(true);
-    root.style.setProperty('--plots-beside', 2);
-    root.style.setProperty('--plot-height', `${high}px`);
-    bbsim.plots.print({width: wide, height: high});
-    copies = bbsim.plots.plots.map(({canvas}) => {
-      const copy = bbsim.copyForPaper(canvas.querySelector('canvas'));
-      canvas.prepend(copy);
-      return copy;
-    });
-  }
-  function endPrint() {
-    if (copies.length === 0) return;
-    for (const copy of copies.splice(0)) copy.remove();
-    root.classList.remove('printing');
-    palette.print(false);
-    bbsim.plots.print(null);
-  }
-  window.addEventListener('beforeprint', beginPrint);
-  window.addEventListener('afterprint', endPrint);
-  matchMedia('print').addEventListener('change', (event) => (event.matches ? beginPrint() : endPrint()));
-  bbsim.print = {begin: beginPrint, end: endPrint};  // for tests
-
   show(runs[0]);
+  bbsim.preparePrint();
   bbsim.seek = (t) => bbsim.clock.seek(t);
   bbsim.ready = new Promise((resolve) => { requestAnimationFrame(() => setTimeout(resolve, 0)); });
 })();

@@ -3,37 +3,25 @@
 
 'use strict';
 // The rig at its true size: the base, the ring that turns by phi, and the plate that turns by theta
-// in it; or three legs under the plate in place of base and ring. Frames as in docs/explanation/model.md: R = R_x(base tilt) R_y(phi) R_z(skew) R_x(theta)
-// R_z(yaw - skew).
+// in it, perhaps with push rods; or three legs under the plate in place of base and ring. Frames as
+// in docs/explanation/model.md: R = R_x(base tilt) R_y(phi) R_z(skew) R_x(theta) R_z(yaw - skew).
 bbsim.gimbal = (() => {
   const {runs, scene: {stage}} = bbsim.data;
 
-  // A frame of square bars with rounded corners, centered at the origin; halfX and halfY are half
-  // its inner width.
-  function frameGeometry(halfX, halfY, bar, round) {
-    const outline = (x, y, radius, path) => {
-      if (round) return path.absarc(0, 0, x, 0, 2 * Math.PI, false);
-      path.moveTo(x, -y + radius);
-      path.lineTo(x, y - radius);
-      path.absarc(x - radius, y - radius, radius, 0, Math.PI / 2, false);
-      path.lineTo(-x + radius, y);
-      path.absarc(-x + radius, y - radius, radius, Math.PI / 2, Math.PI, false);
-      path.lineTo(-x, -y + radius);
-      path.absarc(-x + radius, -y + radius, radius, Math.PI, 1.5 * Math.PI, false);
-      path.lineTo(x - radius, -y);
-      path.absarc(x - radius, -y + radius, radius, 1.5 * Math.PI, 2 * Math.PI, false);
+  // The links of a run's gimbal, each in the frame of the one before.
+  function linksOf({mounting: {skew, yaw, baseTilt}}) {
+    const [base, ring, cross, hinge, plane] = Array.from({length: 5}, () => new THREE.Group());
+    base.rotation.x = baseTilt;
+    cross.rotation.z = skew;
+    plane.rotation.z = yaw - skew;
+    [base, ring, cross, hinge].forEach((link, i) => link.add([ring, cross, hinge, plane][i]));
+    return {
+      base, ring, cross, hinge, plane,
+      set(phi, theta) {
+        ring.rotation.y = phi;
+        hinge.rotation.x = theta;
+      },
     };
-    const shape = new THREE.Shape(), hole = new THREE.Path();
-    outline(halfX + bar, halfY + bar, 2 * bar, shape);
-    outline(halfX, halfY, bar, hole);
-    shape.holes.push(hole);
-    const bevel = 0.18 * bar;
-    const geometry = new THREE.ExtrudeBufferGeometry(shape, {
-      depth: bar - 2 * bevel, bevelThickness: bevel, bevelSize: bevel, bevelOffset: -bevel, bevelSegments: 2,
-      curveSegments: round ? 40 : 5,
-    });
-    geometry.translate(0, 0, -bar / 2 + bevel);
-    return geometry;
   }
 
   // A rod between two points of an axis, 'x' or 'y'.
@@ -44,6 +32,21 @@ bbsim.gimbal = (() => {
     return mesh;
   }
 
+  // A frame of round bars about the origin, whose middle lines are at +-x and +-y.
+  function frame(x, y, bar, material) {
+    const group = new THREE.Group(), add = (part, at = [part.position.x, part.position.y]) => {
+      part.position.set(...at, 0);
+      group.add(part);
+    };
+    if (stage.round) add(new THREE.Mesh(new THREE.TorusBufferGeometry(x, bar / 2, 16, 96), material));
+    for (const side of stage.round ? [] : [-1, 1]) {
+      add(rod('x', -x, x, bar / 2, material), [0, side * y]);
+      add(rod('y', -y, y, bar / 2, material), [side * x, 0]);
+      for (const end of [-1, 1]) add(new THREE.Mesh(new THREE.SphereBufferGeometry(bar / 2, 20, 14), material), [side * x, end * y]);
+    }
+    return group;
+  }
+
   function box(size, at, material) {
     const mesh = new THREE.Mesh(new THREE.BoxBufferGeometry(...size), material);
     mesh.position.set(...at);
@@ -51,29 +54,24 @@ bbsim.gimbal = (() => {
   }
 
   // Grid lines at 1, 2 or 5 times a power of ten, about a dozen across the plate.
-  function gridSpacing() {
-    const wanted = Math.max(stage.width, stage.depth) / 10;
-    const power = 10 ** Math.floor(Math.log10(wanted));
-    return [1, 2, 5, 10].map((n) => n * power).find((spacing) => spacing >= wanted * 0.85);
-  }
+  const gridSpacing = () => bbsim.text.roundUp(0.085 * Math.max(stage.width, stage.depth));
 
-  // The plate's face with its grid and its rim, in meters from its corner.
-  function paintPlate(canvas, palette) {
-    const ink = canvas.getContext('2d', {willReadFrequently: true}), {width, depth} = stage, size = Math.max(width, depth);
-    ink.setTransform(canvas.width / width, 0, 0, canvas.height / depth, 0, 0);
+  // The plate's face with its grid and its rim, so large in pixels, in meters from its corner.
+  function paintPlate(ink, across, down, palette) {
+    const {width, depth} = stage, size = Math.max(width, depth);
+    ink.save();
+    ink.scale(across / width, down / depth);
     ink.fillStyle = palette.plate;
     ink.fillRect(0, 0, width, depth);
     const spacing = gridSpacing(), line = size / 460;
     ink.strokeStyle = palette.grid;
-    for (let n = 0; n * spacing < size / 2; ++n) {
+    for (let many = Math.ceil(size / 2 / spacing) - 1, n = -many; n <= many; ++n) {
       ink.lineWidth = n === 0 ? 2 * line : line;
       ink.beginPath();
-      for (const side of n === 0 ? [0] : [-n, n]) {
-        ink.moveTo(width / 2 + side * spacing, 0);
-        ink.lineTo(width / 2 + side * spacing, depth);
-        ink.moveTo(0, depth / 2 + side * spacing);
-        ink.lineTo(width, depth / 2 + side * spacing);
-      }
+      ink.moveTo(width / 2 + n * spacing, 0);
+      ink.lineTo(width / 2 + n * spacing, depth);
+      ink.moveTo(0, depth / 2 + n * spacing);
+      ink.lineTo(width, depth / 2 + n * spacing);
       ink.stroke();
     }
     ink.strokeStyle = palette.rim;
@@ -83,18 +81,17 @@ bbsim.gimbal = (() => {
     if (stage.round) ink.arc(width / 2, depth / 2, width / 2 - 2.5 * line, 0, 2 * Math.PI);
     else ink.rect(2.5 * line, 2.5 * line, width - 5 * line, depth - 5 * line);
     ink.stroke();
+    ink.restore();
   }
 
   function build(run, materials) {
     const size = Math.max(stage.width, stage.depth);
     const bar = 0.03 * size, gap = 0.025 * size, thickness = 0.014 * size;
     const halfX = stage.width / 2 + gap, halfY = stage.depth / 2 + gap;
-    const {height, skew, yaw, baseTilt} = run.mounting;
+    const {height} = run.mounting, links = linksOf(run), {base, ring, cross, hinge, plane} = links;
     const legs = run.legs ? bbsim.legs.build(run, height - 2 * thickness, size, materials) : null;
     const postY = halfY + bar + 0.7 * gap, foot = legs ? legs.depth : Math.min(0.46 * size, 0.16 * size + 0.6 * Math.min(stage.width, stage.depth));
 
-    const base = new THREE.Group();
-    base.rotation.x = baseTilt;
     if (legs) base.add(legs.group);
     for (const side of legs ? [] : [-1, 1]) {
       const y = side * (postY + bar / 2);
@@ -102,22 +99,21 @@ bbsim.gimbal = (() => {
       const bearing = rod('y', -bar / 2, bar / 2, 0.95 * bar, materials.metal);
       bearing.position.set(0, y, 0);
       base.add(post, bearing, box([5 * bar, 1.6 * bar, 0.35 * bar], [0, y, -foot], materials.metal));
-    }
-    if (!legs) base.add(box([1.5 * bar, 2 * postY, 0.35 * bar], [0, 0, -foot], materials.metal));
-
-    const ring = new THREE.Group();
-    if (!legs) ring.add(new THREE.Mesh(frameGeometry(halfX, halfY, bar, stage.round), materials.frame));
-    for (const side of legs ? [] : [-1, 1]) {
       ring.add(rod('y', side * (halfY + bar * 0.6), side * (postY + 1.25 * bar), 0.32 * bar, materials.axle));
-    }
-    const cross = new THREE.Group();
-    cross.rotation.z = skew;
-    const hinge = new THREE.Group();
-    for (const side of legs ? [] : [-1, 1]) {
       hinge.add(rod('x', side * (stage.width / 2 - gap), side * (halfX + bar * 0.5), 0.28 * bar, materials.axle));
     }
-    const plane = new THREE.Group();
-    plane.rotation.z = yaw - skew;
+    if (!legs) {
+      base.add(box([1.5 * bar, 2 * postY, 0.35 * bar], [0, 0, -foot], materials.metal));
+      ring.add(frame(halfX + bar / 2, halfY + bar / 2, bar, materials.frame));
+    }
+    // Push rods turn the ends of the axles: phi's from the base, theta's from the ring.
+    const ends = [-postY - 1.25 * bar, halfX + 1.5 * bar];
+    const rods = run.rods.map((one, axis) => one && bbsim.legs.buildRod(one, axis, ends[axis], size, materials));
+    rods.forEach((one, axis) => one && [base, cross][axis].add(one.group));
+    if (rods[1]) hinge.add(rod('x', halfX, ends[1], 0.28 * bar, materials.axle));
+    const solids = [];
+    base.traverse((part) => { if (part.isMesh) solids.push(part); });
+
     const disc = stage.round
         ? new THREE.CylinderBufferGeometry(stage.width / 2, stage.width / 2, thickness, 96).rotateX(Math.PI / 2)
         : new THREE.BoxBufferGeometry(stage.width, stage.depth, thickness);
@@ -131,12 +127,8 @@ bbsim.gimbal = (() => {
       plane.add(box([2 * bar, 2 * bar, Math.abs(height)], [0, 0, height / 2 - thickness / 2], materials.axle));
     }
 
-    base.add(ring);
-    ring.add(cross);
-    cross.add(hinge);
-    hinge.add(plane);
-    // The points that must be in the picture: ends of the posts, and corners of the ring and the
-    // plate at all of their angles.
+    // The points that must be in the picture: ends of the posts and rods, and corners of the ring and
+    // the plate at all of their angles.
     function outlineAt(factor) {
       const angles = (name) => {
         const seen = runs.map((one) => one.columns.get(name)).filter(Boolean);
@@ -146,77 +138,58 @@ bbsim.gimbal = (() => {
         const steps = Math.min(10, Math.ceil((high - low) / 0.3)) || 1;
         return Array.from({length: steps + 1}, (_, i) => low + i / steps * (high - low));
       };
-      const points = [], turned = new THREE.Matrix4().makeRotationX(baseTilt);
-      const add = (matrix, x, y, z) => points.push(new THREE.Vector3(x, y, z).applyMatrix4(matrix));
+      const points = [], turned = linksOf(run);
+      const add = (link, x, y, z) => points.push(new THREE.Vector3(x, y, z).applyMatrix4(link.matrixWorld));
       const corners = stage.round ? Array.from({length: 12}, (_, i) => [Math.cos(i * Math.PI / 6), Math.sin(i * Math.PI / 6)])
                                   : [[-1, -1], [-1, 1], [1, -1], [1, 1]];
-      for (const [x, y] of legs ? corners : []) add(turned, x * legs.reach, y * legs.reach, -foot);
+      turned.base.updateMatrixWorld(true);
+      for (const [x, y] of legs ? corners : []) add(turned.base, x * legs.reach, y * legs.reach, -foot);
       for (const y of legs ? [] : [-1, 1]) {
-        for (const x of [-1, 1]) add(turned, x * 2.5 * bar, y * (postY + bar), -foot);
-        add(turned, 0, y * (postY + 1.4 * bar), bar);
+        for (const x of [-1, 1]) add(turned.base, x * 2.5 * bar, y * (postY + bar), -foot);
+        add(turned.base, 0, y * (postY + 1.4 * bar), bar);
       }
       const thetas = angles('theta');
       for (const phi of angles('phi')) {
-        const outer = turned.clone().multiply(new THREE.Matrix4().makeRotationY(phi));
-        for (const [x, y] of legs ? [] : corners) {
-          for (const z of [-1.5 * bar, 1.5 * bar]) add(outer, x * (halfX + bar), y * (halfY + bar), z);
-        }
         for (const theta of thetas) {
-          const inner = outer.clone().multiply(new THREE.Matrix4().makeRotationZ(skew))
-              .multiply(new THREE.Matrix4().makeRotationX(theta)).multiply(new THREE.Matrix4().makeRotationZ(yaw - skew));
-          for (const [x, y] of corners) add(inner, x * stage.width / 2, y * stage.depth / 2, height);
+          turned.set(phi, theta);
+          turned.base.updateMatrixWorld(true);
+          for (const [x, y] of corners) {
+            add(turned.plane, x * stage.width / 2, y * stage.depth / 2, height);
+            for (const z of legs || theta !== thetas[0] ? [] : [-bar, bar]) add(turned.ring, x * (halfX + bar), y * (halfY + bar), z);
+          }
+          rods.forEach((one, axis) => one && one.pointsAt([phi, theta][axis]).forEach((point) => add([turned.base, turned.cross][axis], ...point)));
         }
       }
       return points;
     }
     let outline = outlineAt(1);
     return {
-      base, ring, hinge, plane, size, foot, legs,
+      ...links, size, foot, legs, rods, solids,
       ballRadius: run.ball.radius, ball: new THREE.Vector3(),
       long: stage.depth > 2 * stage.width ? 'y' : 'x',
       outline: () => outline,
       reach(factor) { outline = outlineAt(factor); },
       set(phi, theta, servos) {
-        ring.rotation.y = phi;
-        hinge.rotation.x = theta;
+        links.set(phi, theta);
         if (legs) legs.set(phi, theta, servos);
+        rods.forEach((one, axis) => one && one.set([phi, theta][axis]));
       },
     };
   }
 
   // The gimbal of a run that does not lead: its links and the edge of its plate.
   function buildGhost(run, line) {
-    const base = new THREE.Group(), ring = new THREE.Group(), cross = new THREE.Group(), hinge = new THREE.Group(),
-          plane = new THREE.Group();
-    base.rotation.x = run.mounting.baseTilt;
-    cross.rotation.z = run.mounting.skew;
-    plane.rotation.z = run.mounting.yaw - run.mounting.skew;
-    base.add(ring);
-    ring.add(cross);
-    cross.add(hinge);
-    hinge.add(plane);
-    const points = [];
-    const corners = stage.round ? 96 : 4;
-    for (let i = 0; i <= corners; ++i) {
+    const links = linksOf(run), corners = stage.round ? 96 : 4;
+    const outline = new THREE.BufferGeometry().setFromPoints(Array.from({length: corners + 1}, (_, i) => {
       const angle = 2 * Math.PI * (i + (stage.round ? 0 : 0.5)) / corners;
-      const c = Math.cos(angle), s = Math.sin(angle);
-      points.push(stage.round ? new THREE.Vector3(c * stage.width / 2, s * stage.depth / 2, 0)
-                              : new THREE.Vector3(Math.sign(c) * stage.width / 2, Math.sign(s) * stage.depth / 2, 0));
-    }
-    const outline = new THREE.BufferGeometry().setFromPoints(points);
+      const [x, y] = [Math.cos(angle), Math.sin(angle)].map((part) => (stage.round ? part : Math.sign(part)));
+      return new THREE.Vector3(x * stage.width / 2, y * stage.depth / 2, run.mounting.height);
+    }));
     for (const [name, of] of [['normal', 3], ['uv', 2]]) {
-      outline.setAttribute(name, new THREE.BufferAttribute(new Float32Array(of * points.length), of));
+      outline.setAttribute(name, new THREE.BufferAttribute(new Float32Array(of * (corners + 1)), of));
     }
-    const edge = new THREE.Line(outline, line);
-    edge.position.z = run.mounting.height;
-    plane.add(edge);
-    return {
-      base, plane,
-      set(phi, theta) {
-        ring.rotation.y = phi;
-        hinge.rotation.x = theta;
-      },
-    };
+    links.plane.add(new THREE.Line(outline, line));
+    return links;
   }
 
   return {build, buildGhost, paintPlate, gridSpacing};

@@ -4,18 +4,26 @@
 'use strict';
 // The keyboard, and the list of its keys.
 bbsim.makeKeys = (actions) => {
-  const {element} = bbsim.text;
-  const keys = document.getElementById('keys');
+  const {clock, data, screen} = bbsim, {element} = bbsim.text;
+  const keys = document.getElementById('keys'), speed = document.getElementById('speed');
+  function faster(by) {
+    const speeds = [...speed.options].map((option) => Number(option.value)), at = speeds.indexOf(clock.speed) + by;
+    clock.setSpeed(speeds[Math.min(Math.max(at, 0), speeds.length - 1)]);
+    actions.say(`speed ${speed.selectedOptions[0].textContent}`);
+  }
+  const seekBy = (seconds) => clock.seek(clock.now + seconds);
+  const zoom = (factor) => !screen.isFlat && screen.solid.eyes.zoom(factor);
+  const turn = (left, up) => !screen.isFlat && screen.solid.eyes.turn(left, up);
   const table = [
-    [[' '], 'Space', 'play or pause', actions.toggle],
-    [['ArrowLeft', ','], '←', 'a row back', (e) => (e.shiftKey ? actions.seekBy(-1) : actions.step(-1))],
-    [['ArrowRight', '.'], '→', 'a row on', (e) => (e.shiftKey ? actions.seekBy(1) : actions.step(1))],
+    [[' '], 'Space', 'play or pause', clock.toggle],
+    [['ArrowLeft', ','], '←', 'a row back', (e) => (e.shiftKey ? seekBy(-1) : clock.step(-1))],
+    [['ArrowRight', '.'], '→', 'a row on', (e) => (e.shiftKey ? seekBy(1) : clock.step(1))],
     [[], 'Shift ← →', 'a second back or on', null],
-    [['Home'], 'Home', 'to the start', actions.toStart],
-    [['End'], 'End', 'to the end', actions.toEnd],
-    [['['], '[', 'slower', () => actions.faster(-1)],
-    [[']'], ']', 'faster', () => actions.faster(1)],
-    [['l'], 'L', 'loop', actions.loop],
+    [['Home'], 'Home', 'to the start', () => clock.seek(data.start)],
+    [['End'], 'End', 'to the end', () => clock.seek(data.end)],
+    [['['], '[', 'slower', () => faster(-1)],
+    [[']'], ']', 'faster', () => faster(1)],
+    [['l'], 'L', 'loop', () => clock.setLoop(!clock.loop)],
     [['1'], '1', 'from a corner', () => actions.view('free')],
     [['2'], '2', 'from above', () => actions.view('above')],
     [['3'], '3', 'from the front', () => actions.view('front')],
@@ -23,12 +31,12 @@ bbsim.makeKeys = (actions) => {
     [['5'], '5', 'in the plate\'s frame', () => actions.view('plate')],
     [['6'], '6', 'near the ball', () => actions.view('ball')],
     [['7'], '7', 'from above, flat', () => actions.view('flat')],
-    [['+', '='], '+', 'nearer', () => actions.zoom(0.85)],
-    [['-'], '−', 'farther', () => actions.zoom(1 / 0.85)],
-    [['w'], 'W', 'turn the view up', () => actions.turn(0, 0.08)],
-    [['x'], 'X', 'turn the view down', () => actions.turn(0, -0.08)],
-    [['a'], 'A', 'turn the view left', () => actions.turn(-0.08, 0)],
-    [['d'], 'D', 'turn the view right', () => actions.turn(0.08, 0)],
+    [['+', '='], '+', 'nearer', () => zoom(0.85)],
+    [['-'], '−', 'farther', () => zoom(1 / 0.85)],
+    [['w'], 'W', 'turn the view up', () => turn(0, 0.08)],
+    [['x'], 'X', 'turn the view down', () => turn(0, -0.08)],
+    [['a'], 'A', 'turn the view left', () => turn(-0.08, 0)],
+    [['d'], 'D', 'turn the view right', () => turn(0.08, 0)],
     [['e'], 'E', 'draw the tilt larger', actions.exaggerate],
     [['t'], 'T', 'light or dark', actions.theme],
     [['p'], 'P', 'save a PNG', actions.png],

@@ -2,9 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// Three legs under a plate: positions of axes, horns' ends and joints
-// (docs/explanation/rig-model.md, "Three servos"), and their drawing.
+// Three legs under a plate, or push rods beside it: positions of servos' axes, of horns' ends
+// (knees) and of joints (docs/explanation/rig-model.md, "Linkages", "Three servos"), and their
+// drawing.
 bbsim.legs = (() => {
+  // The angle of a horn from which a rod leads to a point (x, z), seen from the horn's axis; `side`
+  // of that line on which the knee lies: 1 counterclockwise, -1 clockwise.
+  function bend({horn, rod}, x, z, side) {
+    const far = Math.hypot(x, z), cosine = (far * far + horn * horn - rod * rod) / (2 * horn * far);
+    return Math.atan2(z, x) + side * Math.acos(Math.min(1, Math.max(-1, cosine)));
+  }
+
   // Kinematics of a run's legs. `at(phi, theta, servos)` returns the points axis, knee and joint of
   // each leg, from the center of the joints at home, m. Without the servos' angles, the plate keeps
   // its height at home.
@@ -18,12 +26,7 @@ bbsim.legs = (() => {
       xy -= leg.ey * leg.ex;
       yy += leg.ex * leg.ex;
     });
-    // The horn's elevation, knee outward, for a joint at (x, z) from the servo's axis.
-    const elevation = ({horn, rod}, x, z) => {
-      const far = Math.hypot(x, z), cosine = (far * far + horn * horn - rod * rod) / (2 * horn * far);
-      return Math.atan2(z, x) - Math.acos(Math.min(1, Math.max(-1, cosine)));
-    };
-    for (const leg of parts) leg.home = elevation(leg, leg.plate - leg.base, leg.height);
+    for (const leg of parts) leg.home = bend(leg, leg.plate - leg.base, leg.height, -1);
 
     function at(phi, theta, servos) {
       const [f, t] = [phi - phiOffset, theta - thetaOffset];
@@ -60,7 +63,7 @@ bbsim.legs = (() => {
       });
       return parts.map((leg) => {
         const foot = leg.joint - leg.height, z = leg.z + lift;
-        const horn = elevation(leg, leg.x - leg.base, z - foot), end = leg.base + leg.horn * Math.cos(horn);
+        const horn = bend(leg, leg.x - leg.base, z - foot, -1), end = leg.base + leg.horn * Math.cos(horn);
         const point = (out, up) => [out * leg.ex, out * leg.ey, up];
         return {horn, axis: point(leg.base, foot), knee: point(end, foot + leg.horn * Math.sin(horn)), joint: point(leg.x, z)};
       });
@@ -68,36 +71,78 @@ bbsim.legs = (() => {
     return {at, depth: Math.max(...parts.map((leg) => leg.height - leg.joint)), reach: Math.max(...parts.map((leg) => leg.base + leg.horn))};
   }
 
-  // The legs as meshes in a group; set() moves them. `level`: height of the joints' center at home.
-  function build(run, level, size, materials) {
-    const chain = kinematics(run.legs), group = new THREE.Group();
+  // A servo with horn, rod and joint; place() moves them.
+  function limbIn(group, size, materials) {
     const thick = 0.012 * size, up = new THREE.Vector3(0, 1, 0);
-    const bar = (radius, material) => {
-      const mesh = new THREE.Mesh(new THREE.CylinderBufferGeometry(radius, radius, 1, 16), material);
+    const add = (geometry, material) => {
+      const mesh = new THREE.Mesh(geometry, material);
       group.add(mesh);
       return mesh;
     };
-    const ball = (radius, material) => {
-      const mesh = new THREE.Mesh(new THREE.SphereBufferGeometry(radius, 20, 12), material);
-      group.add(mesh);
-      return mesh;
-    };
-    const limbs = run.legs.legs.map((leg) => {
-      const servo = new THREE.Mesh(new THREE.BoxBufferGeometry(3 * thick, 2 * thick, 3 * thick), materials.metal);
-      servo.rotation.z = leg.angle;
-      group.add(servo);
-      return {servo, horn: bar(thick, materials.axle), rod: bar(0.5 * thick, materials.frame), joint: ball(0.9 * thick, materials.axle)};
-    });
+    const bar = (radius, material) => add(new THREE.CylinderBufferGeometry(radius, radius, 1, 16), material);
+    const servo = add(new THREE.BoxBufferGeometry(3 * thick, 2 * thick, 3 * thick), materials.metal);
+    const horn = bar(thick, materials.axle), rod = bar(0.5 * thick, materials.frame);
+    const joint = add(new THREE.SphereBufferGeometry(0.9 * thick, 20, 12), materials.axle);
     const stretch = (mesh, from, to) => {
       const way = to.clone().sub(from);
       mesh.position.copy(from).addScaledVector(way, 0.5);
       mesh.scale.set(1, way.length(), 1);
       mesh.quaternion.setFromUnitVectors(up, way.normalize());
     };
+    return {
+      thick, servo, bar, stretch,
+      place(points) {
+        const [axis, knee, end] = ['axis', 'knee', 'joint'].map((name) => new THREE.Vector3(...points[name]));
+        servo.position.copy(axis);
+        joint.position.copy(end);
+        stretch(horn, axis, knee);
+        stretch(rod, knee, end);
+      },
+    };
+  }
+
+  // A push rod that turns axis 0 (phi, about y) or 1 (theta, about x); `at`: its place along that axis.
+  function buildRod(run, axis, at, size, materials) {
+    const {arm, offset: [x, z], zero} = run, group = new THREE.Group(), limb = limbIn(group, size, materials);
+    const crank = limb.bar(limb.thick, materials.axle), center = new THREE.Vector3().setComponent(1 - axis, at);
+    // From the linkage's plane, where the gimbal's axis is at the origin, to the gimbal's frame.
+    const inSpace = ([along, up]) => (axis === 0 ? [-along, at, up] : [at, along, up]);
+    const wrapped = (angle) => Math.atan2(Math.sin(angle), Math.cos(angle));
+    const bySize = (a, b) => Math.abs(wrapped(a)) - Math.abs(wrapped(b));
+    // The run keeps the branch on which horn and arm are nearest to home when the servo is at zero.
+    const [first] = [1, -1].map((side) => bend({horn: arm, rod: run.rod}, run.horn - x, -z, side)).sort(bySize);
+    const hornAt = (angle, side) => bend(run, x + arm * Math.cos(angle), z + arm * Math.sin(angle), side);
+    const [branch] = [1, -1].sort((a, b) => bySize(hornAt(first, a), hornAt(first, b)));
+    function placesAt(angle) {
+      const turned = angle - zero, horn = hornAt(turned, branch);
+      const places = {axis: [-x, -z], knee: [run.horn * Math.cos(horn) - x, run.horn * Math.sin(horn) - z], joint: [arm * Math.cos(turned), arm * Math.sin(turned)]};
+      return {horn, ...Object.fromEntries(Object.entries(places).map(([name, place]) => [name, inSpace(place)]))};
+    }
+    let places = null;
+    return {
+      group,
+      pointsAt: (angle) => Object.values(placesAt(angle)).slice(1),
+      places: () => places,
+      set(angle) {
+        places = placesAt(angle);
+        limb.place(places);
+        limb.stretch(crank, center, new THREE.Vector3(...places.joint));
+      },
+    };
+  }
+
+  // The legs as meshes in a group; set() moves them. `level`: height of the joints' center at home.
+  function build(run, level, size, materials) {
+    const chain = kinematics(run.legs), group = new THREE.Group();
+    const limbs = run.legs.legs.map((leg) => {
+      const limb = limbIn(group, size, materials);
+      limb.servo.rotation.z = leg.angle;
+      return limb;
+    });
     let points = [];
     return {
       group,
-      depth: chain.depth - level + 2 * thick,
+      depth: chain.depth - level + 2 * limbs[0].thick,
       reach: chain.reach,
       // Axis, knee and joint of each leg in the base's frame, m.
       points: () => points,
@@ -105,15 +150,11 @@ bbsim.legs = (() => {
         points = chain.at(phi, theta, servos);
         points.forEach((leg, i) => {
           for (const name of ['axis', 'knee', 'joint']) leg[name][2] += level;
-          const [axis, knee, joint] = ['axis', 'knee', 'joint'].map((name) => new THREE.Vector3(...leg[name]));
-          limbs[i].servo.position.copy(axis);
-          limbs[i].joint.position.copy(joint);
-          stretch(limbs[i].horn, axis, knee);
-          stretch(limbs[i].rod, knee, joint);
+          limbs[i].place(leg);
         });
       },
     };
   }
 
-  return {kinematics, build};
+  return {kinematics, build, buildRod};
 })();

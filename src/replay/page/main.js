@@ -63,7 +63,8 @@
 
   get('replay').hidden = false;
   makePicture();
-  const screen = bbsim.makeScreen(picture, () => bbsim.makeFlat(get('flat-canvas')));
+  const screen = bbsim.makeScreen(picture, () => bbsim.makeFlat(get('flat-canvas')),
+      (rate) => hint(`This browser draws only ${rate} pictures a second in three dimensions, so the picture is flat now. Choose a view to bring it back.`));
   bbsim.screen = screen;
   bbsim.picture = picture;
 
@@ -97,15 +98,11 @@
   const transport = bbsim.makeTransport();
   bbsim.transport = transport;
 
-  function say(words) {
-    get('said').textContent = words;
-  }
-
-  const pace = bbsim.makePace(screen, (rate) => hint(`This browser draws only ${rate} pictures a second in three dimensions, so the picture is flat now. Choose a view to bring it back.`));
+  const say = (words) => { get('said').textContent = words; };
   function goTo(name) {
     screen.setFlat(name === 'flat');
     if (name === 'flat' || !picture) return;
-    pace.choose();
+    screen.choose();
     picture.eyes.go(name);
   }
   const views = [...document.querySelectorAll('[data-view]')];
@@ -122,7 +119,7 @@
   if (picture) picture.eyes.onChange(mark);
 
   const chip = (name, words, sign) => {
-    const button = text.element('button', {type: 'button', class: 'chip', 'aria-pressed': String(screen.shows(name))},
+    const button = text.element('button', {type: 'button', class: 'chip', 'aria-pressed': String(bbsim.visible[name])},
                                 text.element('span', {class: `sign ${sign}`, 'aria-hidden': 'true'}), words);
     button.addEventListener('click', () => {
       const on = button.getAttribute('aria-pressed') !== 'true';
@@ -178,33 +175,18 @@
   later = bbsim.address.keep(screen, {setFactor});
   bbsim.addressLater = later;
 
-  const speeds = [...get('speed').options].map((option) => Number(option.value));
-  get('save-csv').addEventListener('click', () => bbsim.save.csv(runs[0]));
-  const png = () => bbsim.save.png(screen.shown, transport.timeText);
+  const csv = () => bbsim.save.csv(runs[0]), png = () => bbsim.save.png(screen.shown, transport.timeText);
+  get('save-csv').addEventListener('click', csv);
   get('save-png').addEventListener('click', png);
   bbsim.makeKeys({
-    toggle: clock.toggle,
-    step: clock.step,
-    seekBy: (seconds) => clock.seek(clock.now + seconds),
-    toStart: () => clock.seek(data.start),
-    toEnd: () => clock.seek(data.end),
-    faster(by) {
-      const at = speeds.indexOf(clock.speed) + by;
-      clock.setSpeed(speeds[Math.min(Math.max(at, 0), speeds.length - 1)]);
-      say(`speed ${get('speed').selectedOptions[0].textContent}`);
-    },
-    loop: () => clock.setLoop(!clock.loop),
+    say, csv, png,
     view: goTo,
-    zoom: (factor) => !screen.isFlat && picture.eyes.zoom(factor),
-    turn: (left, up) => !screen.isFlat && picture.eyes.turn(left, up),
+    theme: toggleTheme,
     exaggerate() {
       if (screen.isFlat) return;
       setFactor(factors[(factors.indexOf(picture.factor) + 1) % factors.length]);
       say(`tilt drawn ${picture.factor} times`);
     },
-    theme: toggleTheme,
-    png,
-    csv: () => bbsim.save.csv(runs[0]),
   });
 
   bbsim.seek = clock.seek;

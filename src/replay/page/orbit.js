@@ -23,18 +23,12 @@ bbsim.makeOrbit = (canvas, eye, told) => {
     told.changed();
   }
 
-  function turn(left, up) {
-    const at = around();
-    at.theta += left;
-    at.phi -= up;
-    stand(at);
-  }
-
-  function zoom(factor) {
-    const at = around();
-    at.radius *= factor;
-    stand(at);
-  }
+  // The eye moves around its target, or nearer.
+  const step = (left, up, factor) => {
+    const {radius, phi, theta} = around();
+    stand(new THREE.Spherical(radius * factor, phi - up, theta + left));
+  };
+  const turn = (left, up) => step(left, up, 1), zoom = (factor) => step(0, 0, factor);
 
   function move(dx, dy) {
     const pixel = 2 * Math.tan(eye.fov * Math.PI / 360) * eye.position.distanceTo(target) / canvas.clientHeight;
@@ -106,6 +100,6 @@ bbsim.makeOrbit = (canvas, eye, told) => {
   // A finger that is for the view does not scroll the page as well.
   for (const name of ['focus', 'blur']) canvas.addEventListener(name, () => canvas.classList.toggle('taken', taken()));
 
-  const orbit = {target, turn, zoom, around, zUp, yUp, minDistance: 0, maxDistance: Infinity, update: () => stand(around())};
+  const orbit = {target, turn, zoom, minDistance: 0, maxDistance: Infinity, update: () => stand(around())};
   return orbit;
 };

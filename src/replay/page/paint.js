@@ -11,6 +11,7 @@ bbsim.paint = (() => {
   // reaches.
   function ribbon(xs, ys, width, dash = null) {
     const positions = [], aside = [], indices = [], until = new Uint32Array(xs.length + 1), reached = new Int32Array(xs.length + 1);
+    const [on, off] = dash || [Number.MAX_VALUE, 0];
     reached[0] = -1;
     let along = 0;
     const quad = (ax, ay, bx, by, ux, uy) => {
@@ -28,18 +29,11 @@ bbsim.paint = (() => {
           // A fifth of the width is too short to be seen.
           if (length > width / 5) {
             const ux = (xs[i] - ax) / length, uy = (ys[i] - ay) / length;
-            if (!dash) {
-              quad(ax, ay, xs[i], ys[i], ux, uy);
-            } else {
-              const period = dash[0] + dash[1];
-              let from = 0;
-              while (from < length) {
-                const phase = (along + from) % period;
-                const on = phase < dash[0];
-                const to = Math.min(length, from + Math.max((on ? dash[0] : period) - phase, 1e-6 * period));
-                if (on) quad(ax + ux * from, ay + uy * from, ax + ux * to, ay + uy * to, ux, uy);
-                from = to;
-              }
+            for (let from = 0; from < length;) {
+              const phase = (along + from) % (on + off), drawn = phase < on;
+              const to = Math.min(length, from + Math.max((drawn ? on : on + off) - phase, 1e-6 * on));
+              if (drawn) quad(ax + ux * from, ay + uy * from, ax + ux * to, ay + uy * to, ux, uy);
+              from = to;
             }
             along += length;
             last = i;
@@ -126,26 +120,20 @@ bbsim.paint = (() => {
   function target(radius, material) {
     const group = new THREE.Group();
     group.add(new THREE.Mesh(new THREE.RingBufferGeometry(0.88 * radius, radius, 48), material));
-    for (const turn of [0, Math.PI / 2]) {
-      for (const side of [-1, 1]) {
-        const bar = new THREE.Mesh(new THREE.PlaneBufferGeometry(0.5 * radius, 0.12 * radius), material);
-        bar.rotation.z = turn;
-        bar.position.set(side * 1.05 * radius * Math.cos(turn), side * 1.05 * radius * Math.sin(turn), 0);
-        group.add(bar);
-      }
+    for (const turn of [0, 0.5, 1, 1.5].map((part) => part * Math.PI)) {
+      const bar = new THREE.Mesh(new THREE.PlaneBufferGeometry(0.5 * radius, 0.12 * radius), material);
+      bar.rotation.z = turn;
+      bar.position.set(1.05 * radius * Math.cos(turn), 1.05 * radius * Math.sin(turn), 0);
+      group.add(bar);
     }
     return group;
   }
 
   // An arrow from the origin along x or y.
   function arrow(axis, length, width, material) {
-    const shape = new THREE.Shape();
-    const head = 3.2 * width;
-    for (const [x, y] of [[0, -0.5], [1, -0.5], [1, -1.6], [2, 0], [1, 1.6], [1, 0.5], [0, 0.5]]) {
-      const px = x === 2 ? length : x * (length - head), py = y * width;
-      if (x === 0 && y < 0) shape.moveTo(px, py);
-      else shape.lineTo(px, py);
-    }
+    const neck = length - 3.2 * width;
+    const shape = new THREE.Shape([[0, -0.5], [neck, -0.5], [neck, -1.6], [length, 0], [neck, 1.6], [neck, 0.5], [0, 0.5]]
+        .map(([x, y]) => new THREE.Vector2(x, y * width)));
     const mesh = new THREE.Mesh(new THREE.ShapeBufferGeometry(shape), material);
     if (axis === 'y') mesh.rotation.z = Math.PI / 2;
     return mesh;
@@ -153,51 +141,21 @@ bbsim.paint = (() => {
 
   // The mark of an event: an octagon if it stopped the run, a diamond if it was noted.
   function eventMark(action, radius, fill, rim) {
-    const sides = action === 'stop' ? 8 : 4;
-    const group = new THREE.Group();
-    const outer = new THREE.Mesh(new THREE.CircleBufferGeometry(radius, sides, action === 'stop' ? Math.PI / 8 : 0), rim);
-    const inner = new THREE.Mesh(new THREE.CircleBufferGeometry(0.68 * radius, sides, action === 'stop' ? Math.PI / 8 : 0), fill);
+    const [sides, turn] = action === 'stop' ? [8, Math.PI / 8] : [4, 0], group = new THREE.Group();
+    const outer = new THREE.Mesh(new THREE.CircleBufferGeometry(radius, sides, turn), rim);
+    const inner = new THREE.Mesh(new THREE.CircleBufferGeometry(0.68 * radius, sides, turn), fill);
     inner.renderOrder = 0.5;  // draws it above the other one, which is in the same plane
     group.add(outer, inner);
     return group;
   }
 
-  // A word that faces the eye, `pixels` high at any distance.
-  function label(words, colour, halo, pixels = 15) {
-    const canvas = document.createElement('canvas');
-    const ink = canvas.getContext('2d', {willReadFrequently: true}), zoom = 2;
-    const font = `600 ${pixels * zoom}px system-ui, sans-serif`;
-    ink.font = font;
-    const width = Math.ceil(ink.measureText(words).width + 10 * zoom), height = Math.ceil(1.5 * pixels * zoom);
-    // Sizes are powers of two, which every WebGL accepts.
-    canvas.width = 2 ** Math.ceil(Math.log2(width));
-    canvas.height = 2 ** Math.ceil(Math.log2(height));
-    ink.font = font;
-    ink.textAlign = 'center';
-    ink.textBaseline = 'middle';
-    ink.lineJoin = 'round';
-    ink.lineWidth = 4 * zoom;
-    ink.strokeStyle = halo;
-    ink.strokeText(words, canvas.width / 2, canvas.height / 2);
-    ink.fillStyle = colour;
-    ink.fillText(words, canvas.width / 2, canvas.height / 2);
-    const map = new THREE.CanvasTexture(canvas);
-    map.minFilter = THREE.LinearFilter;
-    map.generateMipmaps = false;
-    const mesh = new THREE.Mesh(new THREE.PlaneBufferGeometry(canvas.width / zoom, canvas.height / zoom),
-                                flat({map, transparent: true, depthTest: false}));
-    mesh.renderOrder = 20;
-    mesh.size = [width / zoom, height / zoom];
-    return mesh;
-  }
-
-  // Places a mesh with sizes in pixels, moves it `up` pixels on the screen and turns it to the
-  // camera. `pixel` is the size of a pixel at distance 1.
-  function face(mesh, place, camera, pixel, up = 0) {
+  // Places a mesh with sizes in pixels and turns it to the camera. `pixel` is the size of a pixel at
+  // distance 1.
+  function face(mesh, place, camera, pixel) {
     const deep = Math.max(-place.clone().applyMatrix4(camera.matrixWorldInverse).z, 1e-30);
     mesh.quaternion.setFromRotationMatrix(camera.matrixWorld);
     mesh.scale.setScalar(deep * pixel);
-    mesh.position.copy(place).addScaledVector(new THREE.Vector3().setFromMatrixColumn(camera.matrixWorld, 1), up * deep * pixel);
+    mesh.position.copy(place);
     mesh.updateMatrixWorld(true);
   }
 
@@ -234,5 +192,5 @@ bbsim.paint = (() => {
     return group;
   }
 
-  return {lights, ribbon, lit, flat, target, arrow, eventMark, label, face, marker, shadow, cross};
+  return {lights, ribbon, lit, flat, target, arrow, eventMark, face, marker, shadow, cross};
 })();

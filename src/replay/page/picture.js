@@ -7,7 +7,7 @@
 bbsim.makePicture = (canvas, left) => {
   const {scene, runs} = bbsim.data;
   const {stage} = scene;
-  const {palette, paint, text} = bbsim;
+  const {palette, paint, text, visible} = bbsim;
   const [lead] = runs;
 
   // The canvas gets its final size at the start, so that its buffers are made once.
@@ -15,8 +15,7 @@ bbsim.makePicture = (canvas, left) => {
     const box = canvas.parentElement.getBoundingClientRect();
     return [Math.max(1, Math.round(box.width)), Math.max(1, Math.round(box.height))];
   };
-  [canvas.width, canvas.height] = sizeOf();
-  let [width, height] = sizeOf();
+  let [width, height] = [canvas.width, canvas.height] = sizeOf();
   const renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: false});
   renderer.debug.checkShaderErrors = false;  // a check would wait for each shader's compilation
   const sharp = () => Math.min(Math.max(window.devicePixelRatio || 1, 1), 2);
@@ -41,11 +40,11 @@ bbsim.makePicture = (canvas, left) => {
     y: paint.flat(), event: paint.flat(), eventRim: paint.flat(), sensor: paint.flat({transparent: true, opacity: 0.85}),
     rim: paint.flat({depthTest: false}),
   };
-  const visible = {trail: true, reference: true, sensor: true, events: true, axes: true, gimbal: true, arrows: false};
-  const labels = [];
+  const labels = [];  // {words, colour, at, group}: at a place of the plate while the group is visible
+  const words = document.getElementById('words').getContext('2d');
   // What furnish() makes of the runs.
   const rig = {}, parts = {};
-  let arrows, size, trailWidth, layers, marks, ribbons, actors, leader, floor, hasPath, target, targetLeast, seen, marked;
+  let arrows, size, trailWidth, layers, marks, ribbons, actors, leader, floor, target, targetLeast, seen;
 
   // Puts an object on the plate, in layer n.
   const layer = (n, near = 1) => lead.mounting.height + n * 0.00025 * size * near;
@@ -63,7 +62,7 @@ bbsim.makePicture = (canvas, left) => {
     return make(material);
   }
 
-  // Removes everything but the labels, with its memory on the graphics card.
+  // Removes everything, with its memory on the graphics card.
   function clear() {
     for (const group of [world, ...actors.map(({marker}) => marker)]) {
       group.traverse((part) => { if (part.geometry) part.geometry.dispose(); });
@@ -84,11 +83,9 @@ bbsim.makePicture = (canvas, left) => {
     marks = [];  // do not grow on the screen when the eye comes near
     ribbons = [];  // materials of ribbons, and their greatest widths
     Object.assign(rig, bbsim.gimbal.build(lead, materials));
-    rig.width = stage.width + 0.2 * size;
-    rig.depth = stage.depth + 0.26 * size;
     world.add(rig.base);
     floor = paint.shadow(0.3);
-    floor.scale.set(0.62 * rig.width, 0.62 * rig.depth, 1);
+    floor.scale.set(0.62 * stage.width + 0.124 * size, 0.62 * stage.depth + 0.161 * size, 1);
     floor.position.z = -rig.foot - 0.012 * size;
     world.add(floor);
 
@@ -98,8 +95,8 @@ bbsim.makePicture = (canvas, left) => {
       onPlate(paint.arrow(axis, 0.13 * size, 0.0085 * size, materials[axis]), 2, parts.axes);
     }
 
-    arrows = bbsim.makeArrows(lead, rig.plane, 0.3 * size, {velocity: materials.x, gravity: materials.rim, force: materials.y});
-    parts.arrows.add(...arrows.meshes);
+    arrows = bbsim.makeArrows(lead, rig.plane, 0.3 * size, {velocity: materials.x, gravity: materials.rim, 'normal force': materials.y});
+    parts.arrows.add(...Object.values(arrows.meshes));
 
     // The balls and trails of all runs. The leading run is on the rig's plate; a run with angles has
     // a ghost plate.
@@ -109,8 +106,7 @@ bbsim.makePicture = (canvas, left) => {
       const links = leads ? rig : run.hasAngles ? bbsim.gimbal.buildGhost(run, edge) : null;
       if (links && !leads) world.add(links.base);
       const plane = links ? links.plane : rig.plane;
-      // Balls at the same place must not flicker: the leading one covers the others.
-      const ball = bbsim.ball.build(run.ball.radius * (1 - 0.003 * run.index), !leads, !run.turns);
+      const ball = bbsim.ball.build(run);
       ball.mesh.renderOrder = 10;
       plane.add(ball.mesh);
       const xs = run.values('x'), ys = run.values('y');
@@ -134,8 +130,7 @@ bbsim.makePicture = (canvas, left) => {
     });
     leader = actors[0];
 
-    hasPath = lead.path.length >= 4;
-    if (hasPath) {
+    if (lead.path.length >= 4) {
       const xs = lead.path.filter((_, i) => i % 2 === 0), ys = lead.path.filter((_, i) => i % 2 === 1);
       onPlate(ribbonOf(0.75, (material) => {
         materials.reference = material;
@@ -153,62 +148,40 @@ bbsim.makePicture = (canvas, left) => {
       marks.push(...seen);
     }
 
-    // Marks only the first hundred events and the last one.
-    marked = lead.events.filter((_, i) => i < 100 || i === lead.events.length - 1);
-    for (const event of marked) {
+    for (const event of bbsim.markedEvents(lead)) {
       const mark = onPlate(paint.eventMark(event.action, 0.016 * size, materials.event, materials.eventRim), 6, parts.events);
       mark.position.x = event.x;
       mark.position.y = event.y;
       marks.push(mark);
     }
-  }
-  furnish();
-
-  function label(words, colour, at, group, pixels) {
-    const mesh = paint.label(words, colour, palette.now().plate, pixels);
-    root.add(mesh);
-    labels.push({mesh, at, group});
+    makeLabels();
   }
 
   function makeLabels() {
-    for (const {mesh} of labels) {
-      root.remove(mesh);
-      mesh.geometry.dispose();
-      mesh.material.uniforms.map.value.dispose();
-      mesh.material.dispose();
-    }
+    const high = layer(2) + 0.02 * size, add = (words, colour, at, group) => labels.push({words, colour, at, group});
     labels.length = 0;
-    const colours = palette.now(), high = layer(2) + 0.02 * size;
-    label('x', colours.x, new THREE.Vector3(0.155 * size, 0, high), parts.axes);
-    label('y', colours.y, new THREE.Vector3(0, 0.155 * size, high), parts.axes);
-    const named = [];
-    for (const event of marked) {
-      // Events of the same name that are close to each other share one label.
-      if (named.length > 11 || named.some((other) => other.name === event.name &&
-          Math.hypot(other.x - event.x, other.y - event.y) < 0.08 * size)) continue;
-      named.push(event);
-      label(text.visible(event.name), colours.ink, new THREE.Vector3(event.x, event.y, high + Math.max(0.03 * size, 2.6 * lead.ball.radius)), parts.events, 13);
+    add('x', 'x', new THREE.Vector3(0.155 * size, 0, high), parts.axes);
+    add('y', 'y', new THREE.Vector3(0, 0.155 * size, high), parts.axes);
+    for (const [words, colour] of [['velocity', 'x'], ['gravity', 'ink'], ['normal force', 'y']]) add(words, colour, arrows.meshes[words].tip, arrows.meshes[words]);
+    for (const {name, x, y} of bbsim.namedEvents(lead, 0.08 * size)) {
+      add(text.visible(name), 'ink', new THREE.Vector3(x, y, high + Math.max(0.03 * size, 2.6 * lead.ball.radius)), parts.events);
     }
   }
+
+  furnish();
 
   // The size of a pixel at distance 1.
   const pixelSize = () => 2 * Math.tan(eyes.fov * Math.PI / 360) / height;
 
-  function faceLabels() {
-    const pixel = pixelSize(), shown = [];
-    for (const one of labels) {
-      const {mesh, at, group} = one;
-      mesh.visible = group.visible;
-      if (!mesh.visible) continue;
-      one.place = at.clone().applyMatrix4(rig.plane.matrixWorld);
-      const on = one.place.clone().project(eyes.camera);
-      shown.push({...one, x: on.x * width / 2, y: -on.y * height / 2, width: mesh.size[0], height: mesh.size[1]});
-    }
-    bbsim.placeLabels(shown).forEach((up, i) => {
-      const {mesh, place} = shown[i];
-      mesh.visible = up !== null;
-      if (up !== null) paint.face(mesh, place, eyes.camera, pixel, up);
-    });
+  // Writes the labels on a canvas above the picture.
+  function writeLabels() {
+    const ratio = Math.max(1, renderer.getPixelRatio()), colours = palette.now();
+    Object.assign(words.canvas, {width: Math.round(width * ratio), height: Math.round(height * ratio)});
+    const shown = labels.filter(({group}) => group.visible && group.parent.visible)
+        .map((one) => ({...one, on: one.at.clone().applyMatrix4(rig.plane.matrixWorld).project(eyes.camera)})).filter(({on}) => on.z < 1);
+    bbsim.writeWords(words, shown.map(({words: name, colour, on}) => ({
+      words: name, colour: colours[colour], x: (on.x + 1) / 2 * width * ratio, y: (1 - on.y) / 2 * height * ratio,
+    })), ratio);
   }
 
   // Adapts sizes to the screen. Ribbons and marks do not grow when the eye comes near. Balls that
@@ -239,20 +212,12 @@ bbsim.makePicture = (canvas, left) => {
     paint.lights.sky.value.set(colours.sky).multiplyScalar(colours.hemisphere);
     paint.lights.earth.value.set(colours.earth).multiplyScalar(colours.hemisphere);
     paint.lights.lampColour.value.setScalar(colours.light);
-    bbsim.gimbal.paintPlate(plate, colours);
+    bbsim.gimbal.paintPlate(plate.getContext('2d', {willReadFrequently: true}), plate.width, plate.height, colours);
     plateTexture.needsUpdate = true;
-    materials.slab.color.set(colours.grid);
-    materials.frame.color.set(colours.frame);
-    materials.axle.color.set(colours.rim);
-    materials.metal.color.set(colours.metal);
-    materials.reference.color.set(colours.reference);
-    materials.target.color.set(colours.reference);
-    materials.x.color.set(colours.x);
-    materials.y.color.set(colours.y);
+    for (const name of ['frame', 'metal', 'reference', 'x', 'y', 'sensor']) materials[name].color.set(colours[name]);
+    for (const [name, colour] of Object.entries({slab: 'grid', axle: 'rim', target: 'reference', rim: 'ink'})) materials[name].color.set(colours[colour]);
     materials.event.color.set('#ffd23f');
     materials.eventRim.color.set('#14181e');
-    materials.sensor.color.set(colours.sensor);
-    materials.rim.color.set(colours.ink);
     for (const actor of actors) {
       const colour = palette.run(actor.run.index);
       actor.ball.colour(colours.cream, colour);
@@ -261,7 +226,6 @@ bbsim.makePicture = (canvas, left) => {
       actor.edge.color.set(colour);
       actor.marker.children[1].material.color.set(colour);
     }
-    makeLabels();
     invalidate();
   }
 
@@ -319,21 +283,14 @@ bbsim.makePicture = (canvas, left) => {
       target.position.y = lead.at(t, 'y_reference', lead.path[1]);
       state.push(target.position.x, target.position.y);
     }
-    // One point for each sample; the rows between two samples repeat it.
-    let row = lead.row(t);
-    const xs = lead.values('x_measured'), ys = lead.values('y_measured');
-    for (const mark of seen) {
-      mark.visible = row >= 0 && Number.isFinite(xs[row]) && Number.isFinite(ys[row]);
-      if (!mark.visible) continue;
-      mark.position.x = xs[row];
-      mark.position.y = ys[row];
-      const [x, y] = [xs[row], ys[row]];
-      while (row >= 0 && xs[row] === x && ys[row] === y) --row;
-    }
+    const points = bbsim.lastSeen(lead, t, seen.length);
+    seen.forEach((mark, i) => {
+      mark.visible = i < points.length;
+      if (mark.visible) [mark.position.x, mark.position.y] = points[i];
+    });
     for (const [name, group] of Object.entries(parts)) group.visible = visible[name];
     if (visible.arrows) state.push(...arrows.pose(t, leader.ball.mesh.position));
-    for (const part of rig.base.children) if (part !== rig.ring) part.visible = visible.gimbal;
-    for (const part of [...rig.ring.children, ...rig.hinge.children]) if (part.isMesh) part.visible = visible.gimbal;
+    for (const part of rig.solids) part.visible = visible.gimbal;
     floor.visible = visible.gimbal;
     root.updateMatrixWorld(true);
     return state;
@@ -350,7 +307,7 @@ bbsim.makePicture = (canvas, left) => {
     if (!whole && state.length === drawn.length && state.every((value, i) => value === drawn[i])) return;
     drawn = state;
     sizeToScreen();
-    faceLabels();
+    writeLabels();
     renderer.render(root, eyes.camera);
     ++picture.draws;
   }
@@ -391,17 +348,18 @@ bbsim.makePicture = (canvas, left) => {
   }
 
   const picture = {
-    eyes, rig, visible, lead, renderer, canvas,
+    eyes, rig, lead, renderer, canvas,
     get actors() { return actors; },
-    get hasPath() { return hasPath; },
-    get target() { return target; },
     active: true,  // is on the screen
     draws: 0,      // number of drawings, for tests
     get factor() { return factor; },
     get zoom() { return renderer.getPixelRatio(); },
+    // The picture with its labels.
     whole() {
       draw();
-      return canvas;
+      const made = Object.assign(document.createElement('canvas'), {width: canvas.width, height: canvas.height});
+      for (const one of [canvas, words.canvas]) made.getContext('2d').drawImage(one, 0, 0, made.width, made.height);
+      return made;
     },
     invalidate, resize, draw, recolour,
     // Draws, and returns when the drawing is complete.
@@ -421,7 +379,7 @@ bbsim.makePicture = (canvas, left) => {
     print(w, h) {
       renderer.setPixelRatio(2);
       setSize(w, h);
-      return canvas;
+      return picture.whole();
     },
     printed() {
       renderer.setPixelRatio(sharp() * pixels);
@@ -431,10 +389,6 @@ bbsim.makePicture = (canvas, left) => {
       factor = value;
       rig.reach(value);
       eyes.refit();
-      invalidate();
-    },
-    show(name, on) {
-      visible[name] = on;
       invalidate();
     },
     // The point [x, y] of the plate at a point of the window, CSS pixels; null if there is none.

@@ -30,11 +30,7 @@ bbsim.makePlan = (container, run, [xName, yName], radius) => {
 
   const root = svg('svg', {viewBox: `0 0 ${wide} ${high}`, class: 'place', role: 'img', 'aria-label': 'The ball of the log and of the model, from above'});
   const shown = text.shownIn('m', Math.max(...sides.flat().map(Math.abs)));
-  const step = (() => {
-    const rough = (sides[0][1] - sides[0][0]) * shown.factor / 9, power = 10 ** Math.floor(Math.log10(rough));
-    return [1, 2, 5, 10].find((one) => one * power >= rough) * power / shown.factor;
-  })();
-  const lines = ([from, to]) => Array.from({length: Math.floor(to / step) - Math.ceil(from / step) + 1}, (_, i) => (Math.ceil(from / step) + i) * step);
+  const lines = ([from, to]) => text.ticks(from * shown.factor, to * shown.factor, (to - from) / (sides[0][1] - sides[0][0]) * 9).map((value) => value / shown.factor);
   for (const x of lines(sides[0])) {
     root.append(svg('path', {class: 'line', d: `M${at(px(x))} ${top}V${high - bottom}`}),
                 svg('text', {x: at(px(x)), y: high - bottom + 14, 'text-anchor': 'middle'}, text.number(x * shown.factor)));

@@ -91,23 +91,6 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
     return holds(curve) ? curve.values[run.row(t + slack)] : run.between(t, curve.values);
   }
 
-  // Places of 1, 2 or 5 times a power of ten: at least three, if two decimals more than the range
-  // has show them.
-  function roundTicks(low, high, pixels) {
-    const span = high - low;
-    let power = 10 ** Math.ceil(Math.log10(span)), step = power;
-    const count = (by) => Math.floor(high / by + 1e-9) - Math.ceil(low / by - 1e-9) + 1;
-    for (let i = 0; count(step) < Math.max(3, Math.floor(pixels / 40)) && i < 9; ++i) {
-      step = [5, 2, 1][i % 3] * (i % 3 === 2 ? (power /= 10) : power / 10);
-    }
-    const ticks = [];
-    for (let n = Math.ceil(low / step - 1e-9); n <= Math.floor(high / step + 1e-9) && ticks.length < 40; ++n) {
-      const v = Number((n * step).toPrecision(12));
-      ticks.push({v, label: text.number(v, 5)});
-    }
-    return ticks;
-  }
-
   // The range of a plot in which a few values are a thousand times farther out than all others, as
   // where a ball takes off: that of the others. Null if there are none.
   function innerRange(curves) {
@@ -178,7 +161,7 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
         gridLineWidth: 0.6, axisLineWidth: 0.8, rightGap: 8, xlabel: timeLabel, xLabelHeight: 13,
         axes: {
           x: {axisLabelFormatter: (t) => text.number(t, 6), valueFormatter: (t) => text.number(t, 6), axisLabelWidth: 44, pixelsPerLabel: 50},
-          y: {axisLabelFormatter: (value) => text.number(value, 5), axisLabelWidth: 46, pixelsPerLabel: 26, ticker: roundTicks},
+          y: {axisLabelFormatter: (value) => text.number(value, 5), axisLabelWidth: 46, ticker: (low, high, pixels) => text.ticks(low, high, pixels / 26).map((v) => ({v, label: text.number(v, 5)}))},
         },
         ...this.colours(),
         visibility: this.visibility(),

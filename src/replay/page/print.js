@@ -2,67 +2,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// The page on paper: the current picture, all plots, and as many details of the run as fit on two
-// sheets.
+// The page on paper: the current picture, all plots, and all else that the page says of the run.
 bbsim.preparePrint = () => {
-  const {clock, palette} = bbsim;
-  const root = document.documentElement;
-  // The smaller width and height of A4 and Letter without their margins, CSS pixels (96 an inch).
-  const width = 716, sheet = 970, sheets = 2;
+  const root = document.documentElement, screen = document.getElementById('screen');
+  // The smaller width of A4 and Letter without their margins, CSS pixels (96 an inch).
+  const width = 716, height = 110;
   let copies = [];
 
-  function copied(from) {
-    const made = bbsim.copyForPaper(from);
+  // Prints a copy: a canvas that is redrawn during printing may be printed empty, as may a 3D canvas.
+  function copy(from, into) {
+    const made = bbsim.text.element('canvas', {class: 'printed'});
+    [made.width, made.height] = [from.width, from.height];
+    made.getContext('2d', {willReadFrequently: true}).drawImage(from, 0, 0);
+    into.prepend(made);
     copies.push(made);
-    return made;
-  }
-
-  // Removes cards while there is too much, the longest first, but the scenario last. The reason of an
-  // early end stays.
-  function shorten(room) {
-    const cards = [...document.querySelectorAll('#details .card')].sort((a, b) => a.classList.contains('text') - b.classList.contains('text') || b.scrollHeight - a.scrollHeight);
-    for (const card of cards) {
-      if (document.body.scrollHeight <= room) return;
-      card.classList.add('unprinted');
-    }
-    document.querySelectorAll('#details .fine, #details .again').forEach((one) => {
-      if (document.body.scrollHeight > room) one.classList.add('unprinted');
-    });
   }
 
   function begin() {
     if (copies.length > 0) return;
-    clock.pause();
+    bbsim.clock.pause();
     root.classList.add('printing');
-    palette.print(true);
-    const box = document.getElementById('screen').getBoundingClientRect();
-    document.getElementById('screen').prepend(copied(bbsim.screen.shown.print(box.width, box.height)));
-    // Takes as many columns as it needs to fit all plots below the picture, with half a row to
-    // spare at the end of a sheet.
-    const {plots} = bbsim.plots, heads = 50, least = 58;
-    const high = document.getElementById('plots').getBoundingClientRect().top + window.scrollY;
-    let columns = 2, height = 0;
-    for (; columns < 6; ++columns) {
-      const rows = Math.ceil(plots.length / columns);
-      height = Math.min(110, (sheets * sheet - high - 60) / (rows + 0.5) - heads);
-      if (height >= least) break;
-    }
+    bbsim.palette.print(true);
+    if (screen) copy(bbsim.screen.shown.print(screen.clientWidth, screen.clientHeight), screen);
+    const {plots} = bbsim.plots, columns = plots.length > 12 ? 3 : 2;
     root.style.setProperty('--plots-beside', columns);
-    root.style.setProperty('--plot-height', `${Math.max(height, 40)}px`);
-    bbsim.plots.print({width: Math.floor((width - 8 * (columns - 1)) / columns - 14), height: Math.max(height, 40)});
-    for (const {canvas} of plots) canvas.prepend(copied(canvas.querySelector('canvas')));
-    shorten(sheets * sheet - 0.5 * (height + heads) - 20);
+    bbsim.plots.print({width: Math.floor((width - 8 * (columns - 1)) / columns - 14), height});
+    for (const {canvas} of plots) copy(canvas.querySelector('canvas'), canvas);
   }
 
   function end() {
-    for (const copy of copies) copy.remove();
     if (copies.length === 0) return;
-    copies = [];
+    for (const one of copies.splice(0)) one.remove();
     root.classList.remove('printing');
-    palette.print(false);
-    document.querySelectorAll('.unprinted').forEach((one) => one.classList.remove('unprinted'));
+    bbsim.palette.print(false);
     bbsim.plots.print(null);
-    bbsim.screen.shown.printed();
+    if (screen) bbsim.screen.shown.printed();
   }
 
   window.addEventListener('beforeprint', begin);

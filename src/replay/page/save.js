@@ -69,5 +69,21 @@ bbsim.save = (() => {
     canvas.toBlob((blob) => offer(blob, fileName(picture.lead.name, `-${timeText(bbsim.clock.now)}s.png`)), 'image/png');
   }
 
-  return {csv, csvOf, png, offer, fileName};
+  // A text with a button that copies it. `code` shows it; `words` are copied.
+  function copyable(code, attributes = {}, words = code.textContent) {
+    const button = text.element('button', {type: 'button', class: 'copy', onclick: async () => {
+      try {
+        await navigator.clipboard.writeText(words);
+        button.textContent = 'Copied';
+      } catch {
+        // Without access to the clipboard, selects the text, so that one key copies it.
+        getSelection().selectAllChildren(code);
+        button.textContent = 'Marked';
+      }
+      setTimeout(() => { button.textContent = 'Copy'; }, 1500);
+    }}, 'Copy');
+    return text.element('div', {class: 'copyable'}, button, text.element('pre', {tabindex: '0', ...attributes}, code));
+  }
+
+  return {copyable, csv, csvOf, png, offer, fileName};
 })();

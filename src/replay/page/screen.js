@@ -4,15 +4,44 @@
 'use strict';
 // Shows one of two pictures: the one in three dimensions if the browser can draw it, or the flat
 // one, which is made when needed.
-bbsim.makeScreen = (solid, makeFlat) => {
-  const get = (id) => document.getElementById(id);
-  const listeners = [];
-  let isFlat = solid === null, flat = null;
-  const off = new Set(['arrows']);  // parts that are switched off
-  function makeIt() {
-    flat = makeFlat();
-    for (const name of off) flat.show(name, false);
+//
+// While time runs, adapts the page to slow frames, in three stages. First, everything but the
+// picture follows only a few times a second, because a browser composes everything between changed
+// parts again. Then the picture gets fewer pixels. If that does not suffice, it becomes flat, and
+// `notify` gets the rate. A picture at rest has all pixels. A view that the user has chosen stays.
+bbsim.makeScreen = (solid, makeFlat, notify) => {
+  const {clock} = bbsim, get = (id) => document.getElementById(id), listeners = [];
+  const slow = 1000 / 24, tooSlow = 1000 / 15, several = 6;  // ms a frame; frames to judge
+  let isFlat = solid === null, flat = null, begun = false;
+  let last = null, spans = [], coarse = false, chosen = false;
+
+  function judge() {
+    const middle = spans.sort((a, b) => a - b)[several >> 1];
+    spans = [];
+    if (middle <= slow) return;
+    clock.relax(100);
+    if (isFlat) return;
+    if (!coarse) {
+      coarse = true;
+      solid.setPixels(0.5);
+    } else if (!chosen && middle > tooSlow) {
+      screen.setFlat(true);
+      notify(Math.round(1000 / middle));
+    }
   }
+  clock.onTime(() => {
+    if (!clock.playing) return;
+    const now = performance.now();
+    if (last !== null) spans.push(now - last);
+    last = now;
+    if (spans.length >= several) judge();
+  });
+  clock.onState(() => {
+    last = null;
+    spans = [];
+    if (solid) solid.setPixels(clock.playing && coarse ? 0.5 : 1);
+  });
+
   const screen = {
     solid,
     get isFlat() { return isFlat; },
@@ -20,10 +49,10 @@ bbsim.makeScreen = (solid, makeFlat) => {
     // Switches to the flat picture, or back.
     setFlat(on) {
       const next = on || solid === null;
-      if (next === isFlat && screen.begun) return;
-      screen.begun = true;
+      if (next === isFlat && begun) return;
+      begun = true;
       isFlat = next;
-      if (isFlat && !flat) makeIt();
+      if (isFlat && !flat) flat = makeFlat();
       get('picture').hidden = isFlat;
       get('flat').hidden = !isFlat;
       if (flat) flat.active = isFlat;
@@ -32,17 +61,14 @@ bbsim.makeScreen = (solid, makeFlat) => {
       screen.shown.invalidate();
       for (const listener of listeners) listener();
     },
-    shows: (name) => !off.has(name),
+    // The user has chosen a view in three dimensions.
+    choose() { chosen = true; },
     show(name, on) {
-      off[on ? 'delete' : 'add'](name);
-      for (const one of [solid, flat]) if (one) one.show(name, on);
+      bbsim.visible[name] = on;
+      screen.invalidate();
     },
-    invalidate() {
-      screen.shown.invalidate();
-    },
-    resize() {
-      screen.shown.resize();
-    },
+    invalidate: () => screen.shown.invalidate(),
+    resize: () => screen.shown.resize(),
     onChange: (listener) => listeners.push(listener),
   };
   return screen;

@@ -6,52 +6,9 @@
 // the command that runs it again. A live page gives columns as arrays and fills them (update());
 // cases without a status yet are blank, and `chosen(i)` hears of a choice.
 bbsim.makeSweep = (json, container, chosen = () => {}) => {
-  const {text, palette, data} = bbsim;
+  const {text, palette, data, gathered} = bbsim;
   const {element, svg, number} = text;
-
-  function columnOf(column) {
-    const made = {name: column.name, unit: column.unit, drawn: Boolean(column.drawn), along: column.along};
-    if (column.words) {
-      made.names = [...new Set(column.words)];
-      made.words = column.words;
-      made.values = Float64Array.from(column.words, (word) => made.names.indexOf(word));
-    } else {
-      made.values = column.doubles ? data.doubles(column.doubles) : data.floats(column.floats);
-    }
-    return measured(made);
-  }
-  function measured(made) {
-    const finite = [...new Set(made.values)].filter(Number.isFinite).sort((a, b) => a - b);
-    made.levels = finite;
-    made.size = finite.length ? Math.max(Math.abs(finite[0]), Math.abs(finite[finite.length - 1])) : 0;
-    made.shown = text.shownIn(made.unit, made.size);
-    // The axis is logarithmic if the ratios of neighboring levels vary less than their differences.
-    made.logarithmic = !made.words && finite.length > 2 && finite[0] > 0 && finite[finite.length - 1] / finite[0] > 20 &&
-        Math.abs(Math.log(finite[1] / finite[0]) / Math.log(finite[finite.length - 1] / finite[0]) * (finite.length - 1) - 1) < 0.5;
-    return made;
-  }
-
-  const keys = json.keys.map(columnOf), measures = json.measures.map(columnOf);
-  const cases = data.doubles(json.numbers), status = json.status;
-  const count = cases.length;
-  const doneIndex = json.statuses.indexOf('done');
-  const isDone = (i) => status[i] === doneIndex;
-  const statusOf = (i) => json.statuses[status[i]];
-  // The first of several tied keys represents all of them.
-  const leads = keys.filter((key) => !key.along), listed = leads.filter((key) => !key.drawn);
-  const labelOf = (key) => [key, ...keys.filter((other) => other.along === key.name)].map((one) => one.name).join(', ');
-  // The number of cases for each combination of the listed keys' values: one in a grid, several if
-  // other keys were drawn. 0 if the numbers differ or combinations are missing.
-  const stack = (() => {
-    const cells = listed.reduce((product, key) => product * key.levels.length, 1), tall = new Map();
-    if (cells > count) return 0;
-    for (let i = 0; i < count; ++i) {
-      const cell = listed.map((key) => key.values[i]).join();
-      tall.set(cell, (tall.get(cell) || 0) + 1);
-    }
-    return tall.size === cells && [...tall.values()].every((n) => n === count / cells) ? count / cells : 0;
-  })();
-  const axes = listed.filter((key) => key.levels.length > 1 && (stack > 0 || key.levels.length <= count / 2));
+  const swept = bbsim.makeSwept(json), {keys, measures, cases, leads, listed, stack, axes, isDone, isFine, statusOf, labelOf, middleOf, valueText, shortText} = swept;
 
   // Viridis, which grows lighter evenly, so that it can be read in gray too.
   const stops = [[68, 1, 84], [72, 40, 120], [62, 74, 137], [49, 104, 142], [38, 130, 142], [31, 158, 137], [53, 183, 121],
@@ -59,18 +16,6 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
   function colourOf(part) {
     const at = Math.min(Math.max(part, 0), 1) * (stops.length - 1), low = Math.min(Math.floor(at), stops.length - 2);
     return `rgb(${stops[low].map((c, i) => Math.round(c + (at - low) * (stops[low + 1][i] - c))).join(',')})`;
-  }
-
-  const valueText = (column, i) => (column.words ? column.words[i] : `${number(column.values[i] * column.shown.factor, 7)} ${column.shown.unit}`.trim());
-  const shortText = (column, value, digits = 4) => (column.names ? column.names[value] || '' : number(value * column.shown.factor, digits));
-
-  // Quotes a word for a shell.
-  const quoted = (word) => (/^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", `'\\''`)}'`);
-  function commandOf(i) {
-    const sets = [...json.scenario.overrides, ...keys.map((key) => `${key.name}=${key.words ? key.words[i] : String(key.values[i])}`)];
-    const stem = (json.scenario.file || 'scenario.yaml').split('/').pop().replace(/\.ya?ml$/, '');
-    return [`bbsim run ${quoted(json.scenario.file || 'SCENARIO')}`, ...sets.map((set) => `--set ${quoted(set)}`),
-            `-o ${quoted(`${stem}-case-${cases[i]}.csv`)}`].join(' \\\n  ');
   }
 
   // The view. The first measure shown is one of tracking, if the sweep has one.
@@ -110,13 +55,10 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
     if (!stack || state.kind === 'histogram') return [];
     return listed.filter((key) => key !== leads[state.x] && key !== leads[state.y] && key.levels.length > 1);
   }
+  const levelOf = (key) => Math.min(state.fixed.get(key.name) || 0, key.levels.length - 1);
   function selected() {
     const fixed = fixedKeys();
-    const result = [];
-    for (let i = 0; i < count; ++i) {
-      if (fixed.every((key) => key.values[i] === key.levels[Math.min(state.fixed.get(key.name) || 0, key.levels.length - 1)])) result.push(i);
-    }
-    return result;
+    return Array.from(cases.keys()).filter((i) => fixed.every((key) => key.values[i] === key.levels[levelOf(key)]));
   }
 
   function makeControls() {
@@ -130,20 +72,15 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
       }}, words));
     }
     controls.append(group, select('Measure', measures.map((m) => text.columnName(m.name)), state.measure, (k) => { state.measure = k; }));
-    if (state.kind !== 'histogram') {
-      controls.append(select('across', leads.map(labelOf), state.x, (k) => {
-        if (k === state.y) state.y = state.x;
-        state.x = k;
-      }));
-      if (leads.length > 1) {
-        controls.append(select(state.kind === 'map' ? 'up' : 'a line for each', leads.map(labelOf), state.y, (k) => {
-          if (k === state.x) state.x = state.y;
-          state.y = k;
-        }));
-      }
-    }
+    // Keys change places if one takes the other's.
+    const choice = (label, one, other) => select(label, leads.map(labelOf), state[one], (k) => {
+      if (k === state[other]) state[other] = state[one];
+      state[one] = k;
+    });
+    if (state.kind !== 'histogram') controls.append(choice('across', 'x', 'y'));
+    if (state.kind !== 'histogram' && leads.length > 1) controls.append(choice(state.kind === 'map' ? 'up' : 'a line for each', 'y', 'x'));
     for (const key of fixedKeys()) {
-      const level = Math.min(state.fixed.get(key.name) || 0, key.levels.length - 1);
+      const level = levelOf(key);
       const shown = element('output', {}, shortText(key, key.levels[level]));
       const slider = element('input', {type: 'range', min: '0', max: String(key.levels.length - 1), value: String(level), 'aria-label': key.name});
       slider.addEventListener('input', () => {
@@ -171,27 +108,14 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
     const scaled = column.logarithmic ? Math.log : (v) => v;
     const a = scaled(low), b = scaled(high), pad = (b - a) * 0.04 || Math.abs(a) * 0.1 || 1;
     const place = (value) => from + (scaled(value) - a + pad) / (b - a + 2 * pad) * (to - from);
-    const marked = column.logarithmic ? powers(low * shown.factor, high * shown.factor) : niceTicks(low * shown.factor, high * shown.factor, Math.abs(to - from) / 70);
-    return {place, cell: 7, ticks: marked.map((value) => [place(value / shown.factor), number(value)])};
+    return {place, cell: 7, ticks: ticksOf(column, low, high, shown.factor, Math.abs(to - from) / 70).map((value) => [place(value / shown.factor), number(value)])};
   }
-  // Ticks of a logarithmic scale.
-  function powers(low, high) {
-    const result = [], far = high / low > 1e4;
-    for (let p = Math.floor(Math.log10(low)); p <= Math.ceil(Math.log10(high)); ++p) {
-      for (const m of far ? [1] : [1, 2, 5]) {
-        const value = Number(`${m}e${p}`);
-        if (value >= low * 0.999 && value <= high * 1.001) result.push(value);
-      }
-    }
-    return result;
-  }
-  function niceTicks(low, high, wanted) {
-    if (!(high > low)) return [low];
-    const raw = (high - low) / Math.max(2, wanted), power = 10 ** Math.floor(Math.log10(raw));
-    const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= raw);
-    const result = [];
-    for (let n = Math.ceil(low / step - 1e-9); n * step <= high + 1e-9 * step; ++n) result.push(Number((n * step).toPrecision(12)));
-    return result;
+  // Ticks in the unit that is shown.
+  function ticksOf({logarithmic}, low, high, factor, most) {
+    if (!logarithmic) return text.ticks(low * factor, high * factor, most);
+    const power = Math.floor(Math.log10(low * factor)), powers = Math.ceil(Math.log10(high * factor)) - power + 1;
+    return Array.from({length: powers}, (_, i) => power + i).flatMap((p) => (high / low > 1e4 ? [1] : [1, 2, 5]).map((m) => Number(`${m}e${p}`)))
+        .filter((value) => value >= low * factor * 0.999 && value <= high * factor * 1.001);
   }
 
   const unitOf = (column) => (column.shown.unit ? `, ${column.shown.unit}` : '');
@@ -214,22 +138,14 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
   }
 
   // A case that is not done is gray, with a cross if it failed and a stroke if it was stopped.
+  const signOf = (words) => ({done: '●', stopped: '⁄'}[words.split(/[ :]/)[0]] || '×');
   function paintStatus(i, x, y, w, h) {
     const dark = palette.isDark();
     ink.fillStyle = dark ? '#3a434e' : '#d5dae0';
     ink.fillRect(x, y, w, h);
     if (w < 5 || h < 5 || statusOf(i) === '') return;
-    ink.strokeStyle = dark ? '#aab4bf' : '#59636e';
-    ink.lineWidth = 1.2;
-    ink.beginPath();
-    const m = 0.28 * Math.min(w, h, 30), cx = x + w / 2, cy = y + h / 2;
-    ink.moveTo(cx - m, cy + m);
-    ink.lineTo(cx + m, cy - m);
-    if (!statusOf(i).startsWith('stopped')) {
-      ink.moveTo(cx - m, cy - m);
-      ink.lineTo(cx + m, cy + m);
-    }
-    ink.stroke();
+    Object.assign(ink, {fillStyle: dark ? '#aab4bf' : '#59636e', textAlign: 'center', textBaseline: 'middle', font: `${Math.min(w, h, 30)}px system-ui, sans-serif`});
+    ink.fillText(signOf(statusOf(i)), x + w / 2, y + h / 2);
   }
 
   // From the least to the greatest value, logarithmic over a decade and more; else from the 2nd to the
@@ -253,30 +169,26 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
       ink.fillStyle = colourOf(1 - y / (bottom - top));
       ink.fillRect(x, top + y, 14, 1.5);
     }
-    const {low, high, clipped} = range;
-    for (const value of range.logarithmic ? powers(low * factor, high * factor) : niceTicks(low * factor, high * factor, 5)) {
+    for (const value of ticksOf(range, range.low, range.high, factor, 5)) {
       const y = bottom - partOf(range, value / factor) * (bottom - top);
       over.append(svg('path', {d: `M${x + 14} ${y}h4`}), svg('text', {x: x + 21, y: y + 4}, number(value, 3)));
     }
-    if (clipped) {
+    if (range.clipped) {
       over.append(svg('text', {x: x - 2, y: bottom + 18}, 'a few are'), svg('text', {x: x - 2, y: bottom + 32}, 'beyond'));
     }
   }
 
-  // The median of the done cases in one place, or the first case if none is done.
-  const isFine = (i, measure) => isDone(i) && Number.isFinite(measure.values[i]);
-  function middleOf(all, measure) {
-    const fine = all.filter((i) => isFine(i, measure)).sort((a, b) => measure.values[a] - measure.values[b]);
-    return fine.length > 0 ? fine[fine.length >> 1] : all[0];
-  }
-  function gathered(list, placeOf) {
-    const places = new Map();
-    for (const i of list) {
-      const place = placeOf(i);
-      if (!places.has(place)) places.set(place, []);
-      places.get(place).push(i);
+  // A line through the median of the cases above each place; it breaks where none is done. Returns its end.
+  function lineOfMedians(points, measure) {
+    let last = null, joined = false;
+    ink.beginPath();
+    for (const all of gathered(points, (point) => point.x)) {
+      const middle = middleOf(all.map(({i}) => i), measure), {x, y} = all.find(({i}) => i === middle);
+      if (isFine(middle, measure)) ink[joined ? 'lineTo' : 'moveTo'](...(last = [x + 4, y + 4]));
+      joined = isFine(middle, measure);
     }
-    return [...places.values()];
+    ink.stroke();
+    return last;
   }
   const drawnNames = () => leads.filter((key) => key.drawn).map(labelOf).join(', ');
 
@@ -295,7 +207,7 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
       if (!Number.isFinite(mark.x + mark.y)) continue;
       marks.push(mark);
       const value = measure.values[i];
-      if (isDone(i) && Number.isFinite(value)) {
+      if (isFine(i, measure)) {
         ink.fillStyle = colourOf(partOf(range, value));
         if (cells) {
           ink.fillRect(mark.x, mark.y, w + 0.5, h + 0.5);
@@ -322,43 +234,29 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
     const fine = list.filter((i) => isFine(i, measure));
     const {least, greatest} = data.extent((fine.length > 0 ? fine : list).map((i) => measure.values[i]));
     const y = axisOf({levels: spread(least, greatest), shown: measure.shown}, height - box.bottom, box.top, false);
-    const byLine = new Map();
     const lined = ky && stack && listed.includes(ky) && ky.levels.length <= 12;
     for (const i of list) {
       const value = measure.values[i];
       const line = lined ? ky.values[i] : 0;
       const mark = {i, x: x.place(kx.values[i]) - 4, y: (Number.isFinite(value) ? Math.min(Math.max(y.place(value), box.top), height - box.bottom) : height - box.bottom) - 4, w: 8, h: 8, line, value};
-      if (!Number.isFinite(mark.x)) continue;
-      marks.push(mark);
-      if (!byLine.has(line)) byLine.set(line, []);
-      byLine.get(line).push(mark);
+      if (Number.isFinite(mark.x)) marks.push(mark);
     }
     frame(x, y, labelOf(kx) + unitOf(kx), text.columnName(measure.name) + unitOf(measure));
     const connect = stack && listed.includes(kx) && (!ky || lined);
     if (connect && stack > 1) remark.textContent = text.visible(`Lines go through the medians of ${stack} cases, over draws of ${drawnNames()}.`);
     const ends = [];
-    [...byLine.keys()].sort((a, b) => a - b).forEach((line, n) => {
-      const points = byLine.get(line).sort((a, b) => a.x - b.x);
-      ink.strokeStyle = ink.fillStyle = palette.run(n);
+    gathered([...marks].sort((a, b) => a.line - b.line || a.x - b.x), (mark) => mark.line).forEach((points, n) => {
+      const {line} = points[0], done = points.filter(({i}) => isFine(i, measure));
+      ink.strokeStyle = palette.run(n);
       ink.lineWidth = 1.8;
       ink.setLineDash(palette.dash(n) || []);
-      if (connect) {
-        ink.beginPath();
-        let on = false;
-        for (const all of gathered(points.map((_, p) => p), (p) => points[p].x)) {
-          const middle = middleOf(all.map((p) => points[p].i), measure), point = points[all.find((p) => points[p].i === middle)];
-          if (!isFine(middle, measure)) { on = false; continue; }
-          if (on) ink.lineTo(point.x + 4, point.y + 4);
-          else ink.moveTo(point.x + 4, point.y + 4);
-          on = true;
-        }
-        ink.stroke();
-      }
+      if (connect) lineOfMedians(points, measure);
       ink.setLineDash([]);
       for (const point of points) {
-        if (isDone(point.i) && Number.isFinite(point.value)) {
+        if (isFine(point.i, measure)) {
           if (connect && points.length > 80) continue;
           ink.globalAlpha = connect && stack === 1 ? 1 : 0.55;
+          ink.fillStyle = palette.run(n);
           ink.beginPath();
           ink.arc(point.x + 4, point.y + 4, 3, 0, 2 * Math.PI);
           ink.fill();
@@ -367,8 +265,14 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
           paintStatus(point.i, point.x - 1, point.y - 1, 10, 10);
         }
       }
-      if (!connect) drawMedians(points);
-      const end = points.filter((point) => isDone(point.i) && Number.isFinite(point.value)).pop();
+      const places = new Set(done.map(({x: at}) => at)).size;
+      if (!connect && places > 1 && places <= done.length / 2) {
+        ink.strokeStyle = palette.now().ink;
+        ink.lineWidth = 2.5;
+        const [at, level] = lineOfMedians(done, measure);
+        over.append(svg('text', {x: at + 8, y: level + 4}, 'median'));
+      }
+      const end = done[done.length - 1];
       if (lined && end) ends.push({y: end.y + 8, words: shortText(ky, line), colour: palette.run(n)});
     });
     // Moves the names at the lines' ends apart.
@@ -382,31 +286,8 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
     }
   }
 
-  // Draws a line through the medians if many cases share a value.
-  function drawMedians(points) {
-    const above = new Map();
-    for (const point of points) {
-      if (!isDone(point.i) || !Number.isFinite(point.value)) continue;
-      if (!above.has(point.x)) above.set(point.x, []);
-      above.get(point.x).push(point.y);
-    }
-    if (above.size < 2 || above.size > points.length / 2) return;
-    ink.strokeStyle = palette.now().ink;
-    ink.lineWidth = 2.5;
-    ink.beginPath();
-    let last = null;
-    for (const x of [...above.keys()].sort((a, b) => a - b)) {
-      const ys = above.get(x).sort((a, b) => a - b), middle = ys[ys.length >> 1] + 4;
-      if (last === null) ink.moveTo(x + 4, middle);
-      else ink.lineTo(x + 4, middle);
-      last = [x + 4, middle];
-    }
-    ink.stroke();
-    over.append(svg('text', {x: last[0] + 8, y: last[1] + 4}, 'median'));
-  }
-
   function drawHistogram(list, measure) {
-    const values = list.filter((i) => isDone(i) && Number.isFinite(measure.values[i])).sort((a, b) => measure.values[a] - measure.values[b]);
+    const values = list.filter((i) => isFine(i, measure)).sort((a, b) => measure.values[a] - measure.values[b]);
     const other = list.length - values.length;
     if (values.length === 0) {
       frame({ticks: []}, {ticks: []}, text.columnName(measure.name), 'cases');
@@ -431,7 +312,7 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
       ink.fillRect(mark.x + 0.5, mark.y, Math.max(1, wide - 1), mark.h);
       if (cases_.length > 0) marks.push(mark);
     });
-    const ticks = niceTicks(0, most, 5).filter(Number.isInteger).map((n) => [bottom - tall(n), String(n)]);
+    const ticks = text.ticks(0, most, 5).filter(Number.isInteger).map((n) => [bottom - tall(n), String(n)]);
     frame(x, {ticks}, text.columnName(measure.name) + unitOf(measure), 'cases');
     const middle = at(0.5);
     over.append(svg('path', {d: `M${x.place(middle)} ${box.top}V${bottom}`, class: 'middle'}),
@@ -459,9 +340,10 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
     showChosen();
   }
 
+  const markOf = (i) => marks.find((mark) => mark.i === i) || marks.find((mark) => mark.all && mark.all.includes(i));
   function showChosen() {
     over.querySelectorAll('.chosen').forEach((old) => old.remove());
-    const mark = marks.find((m) => m.i === state.chosen) || marks.find((m) => m.all && m.all.includes(state.chosen));
+    const mark = markOf(state.chosen);
     if (mark) over.append(svg('rect', {x: mark.x - 1.5, y: mark.y - 1.5, width: mark.w + 3, height: mark.h + 3, class: 'chosen'}));
   }
 
@@ -469,23 +351,13 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
     state.chosen = i;
     showChosen();
     chosen(i);
-    const command = commandOf(i);
     const rows = element('dl', {class: 'rows'});
     for (const column of [...keys, ...measures]) {
       rows.append(element('div', {}, element('dt', {}, column.name), element('dd', {}, valueText(column, i))));
     }
-    const copy = element('button', {type: 'button', class: 'copy', onclick: async () => {
-      try {
-        await navigator.clipboard.writeText(command);
-        copy.textContent = 'Copied';
-      } catch {
-        getSelection().selectAllChildren(side.querySelector('code'));
-        copy.textContent = 'Marked';
-      }
-    }}, 'Copy');
     side.replaceChildren(element('h3', {}, `Case ${cases[i]}`), element('p', {class: isDone(i) ? 'fine' : 'why'}, statusOf(i)), rows,
                          element('p', {class: 'fine again'}, 'To run it again:'),
-                         element('div', {class: 'copyable'}, copy, element('pre', {class: 'wrap', tabindex: '0'}, element('code', {id: 'rerun'}, command))));
+                         bbsim.save.copyable(element('code', {id: 'rerun'}, swept.commandOf(i)), {class: 'wrap'}));
   }
 
   function nearest(event) {
@@ -528,7 +400,7 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
     const way = ways[event.key];
     if (!way || marks.length === 0) return;
     event.preventDefault();
-    const now = marks.find((m) => m.i === state.chosen || (m.all && m.all.includes(state.chosen)));
+    const now = markOf(state.chosen);
     if (!now) return choose(marks[0].i);
     let best = null, least = Infinity;
     for (const mark of marks) {
@@ -543,14 +415,12 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
     draw();
   }
 
-  const tally = new Map();
-  for (const s of status) {
-    const word = json.statuses[s].split(/[ :]/)[0];
-    tally.set(word, (tally.get(word) || 0) + 1);
+  const words = Array.from(cases.keys(), (i) => statusOf(i).split(/[ :]/)[0]);
+  for (const all of gathered(words, (word) => word).sort((a, b) => b.length - a.length)) {
+    counts.append(element('li', {class: `status ${all[0]}`}, `${signOf(all[0])} ${all.length} ${all[0]}`));
   }
-  for (const [word, n] of [...tally].sort((a, b) => b[1] - a[1])) counts.append(element('li', {class: `status ${word}`}, `${{done: '●', stopped: '⁄'}[word] || '×'} ${n} ${word}`));
   const grouped = (n) => n.toLocaleString('en-US');
-  const thinned = count < json.cases ? ` ${grouped(count)} of ${grouped(json.cases)} shown, evenly thinned out; the result file has all cases.` : '';
+  const thinned = cases.length < json.cases ? ` ${grouped(cases.length)} of ${grouped(json.cases)} shown, evenly thinned out; the result file has all cases.` : '';
   container.append(element('section', {class: 'sweep'},
       element('header', {}, element('h2', {}, json.name), element('p', {class: 'fine'}, `${json.cases} ${json.cases === 1 ? 'case' : 'cases'} over ${keys.map((k) => k.name).join(', ')}.${thinned}`), counts),
       controls, remark, element('div', {class: 'columns'}, drawing, side)));
@@ -566,28 +436,18 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
   new ResizeObserver(() => { if (drawing.clientWidth && Math.abs(drawing.clientWidth - width) > 1) draw(); }).observe(drawing);
   palette.onChange(draw);
   return {
-    state, choose, commandOf, refresh,
+    state, choose, refresh, csv: swept.csv,
     // The columns and the status of cases have changed.
     update() {
-      measures.forEach(measured);
+      swept.renew();
       draw();
     },
     // For tests: the place of a case in the window.
     placeOf(number_) {
-      const mark = marks.find((m) => cases[m.i] === number_ || (m.all && m.all.some((i) => cases[i] === number_)));
+      const mark = markOf(cases.indexOf(number_));
       if (!mark) return null;
       const bounds = canvas.getBoundingClientRect();
       return [bounds.left + (mark.x + mark.w / 2) * bounds.width / width, bounds.top + (mark.y + mark.h / 2) * bounds.height / height];
-    },
-    csv() {
-      const columns = [...keys, ...measures];
-      const lines = [['case', ...keys.map((k) => k.name), 'status', ...measures.map((m) => m.name)].join(',')];
-      const plain = (words) => (/[",\n]/.test(words) ? `"${words.replaceAll('"', '""')}"` : words);
-      for (let i = 0; i < count; ++i) {
-        const cell = (column) => (column.words ? plain(column.words[i]) : String(column.values[i]));
-        lines.push([cases[i], ...keys.map(cell), plain(statusOf(i)), ...columns.slice(keys.length).map(cell)].join(','));
-      }
-      return lines.join('\n') + '\n';
     },
   };
 };

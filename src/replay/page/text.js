@@ -76,6 +76,21 @@ bbsim.text = (() => {
     return {factor: 1, unit: name};
   }
 
+  // The least of 1, 2 and 5 times a power of ten that is this large.
+  function roundUp(value) {
+    const power = 10 ** Math.floor(Math.log10(value));
+    return [1, 2, 5, 10].find((n) => n * power >= value) * power;
+  }
+
+  // Round numbers from low to high: as many as `most` or fewer, but three at least.
+  function ticks(low, high, most) {
+    for (let many = most; many < 100; many *= 1.5) {
+      const step = roundUp((high - low) / many), first = Math.ceil(low / step - 1e-9), last = Math.floor(high / step + 1e-9);
+      if (last - first >= 2) return Array.from({length: last - first + 1}, (_, i) => Number(((first + i) * step).toPrecision(12)));
+    }
+    return [low];  // is also high
+  }
+
   const symbols = {phi: 'φ', theta: 'θ', gamma: 'γ'};
 
   // Turns phi_command into "φ command".
@@ -88,5 +103,5 @@ bbsim.text = (() => {
     return Math.max(1, Math.min(6, Math.ceil(-Math.log10(step || 0.01) - 1e-9)));
   }
 
-  return {visible, element, svg, number, steady, shownIn, columnName, decimalsOfTime, degrees};
+  return {visible, element, svg, number, steady, shownIn, roundUp, ticks, columnName, decimalsOfTime, degrees};
 })();

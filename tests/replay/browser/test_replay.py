@@ -158,7 +158,7 @@ class TheBall(InBrowser):
         rows = rows_of(files("rig.csv"))
         self.js("bbsim.picture.eyes.go('above')")
         for name in ["trail", "reference", "sensor", "events", "axes"]:
-            self.js("bbsim.picture.show(arguments[0], false)", name)
+            self.js("bbsim.screen.show(arguments[0], false)", name)
         self.js("bbsim.picture.actors[0].shadow.material.uniforms.opacity.value = 0")
         for index in [0, 700, 1400]:
             self.js("bbsim.seek(arguments[0])", rows[index]["t"])
@@ -741,6 +741,24 @@ class ManyRuns(Made):
         self.assertEqual(len({tuple(one) for one in ranges}), 1)
         self.assertEqual(self.js("document.querySelector('.dygraph-xlabel').textContent"), "t (s)")
 
+    def test_at_the_same_place_do_not_flicker(self):
+        """Regression: the ghost of an equal run shone through the leading ball here and there."""
+        equal = [files(f"equal{n}.csv") for n in range(2)]
+        for table in equal:
+            subprocess.run([BBSIM, "run", "configs/rig.yaml", "-q", "-o", table], cwd=SOURCE, check=True)
+        self.show("equal", *equal)
+        for view in ["free", "above", "ball"]:
+            self.js("bbsim.picture.eyes.go(arguments[0])", view)
+            for t in [1.3, 7.9, 23.1]:
+                self.js("bbsim.seek(arguments[0])", t)
+                x, y = self.js("bbsim.ballOnScreen()")
+                shots = []
+                for shown in [True, False]:
+                    self.js("[bbsim.data.runs[1].shown = arguments[0], bbsim.picture.draw()]", shown)
+                    self.browser.frame()
+                    shots.append(pixels(self.browser.picture(clip=(math.floor(x) - 6, math.floor(y) - 6, 12, 12)))[2])
+                self.assertEqual(shots[0], shots[1], (view, t))
+
     def test_that_end_early_and_late_have_one_span(self):
         self.show("spans", "configs/falls.yaml", "configs/fig2a.yaml")
         ranges = self.js("bbsim.plots.plots.filter((p) => p.graph).map((p) => p.graph.xAxisRange())")
@@ -799,6 +817,23 @@ class TheStage(Made):
         self.show("beam", "configs/beam.yaml")
         stage = self.js("bbsim.data.scene.stage")
         self.assertLess(stage["depth"], stage["width"] / 3)
+
+    def test_of_a_beam_has_a_frame_without_cracks(self):
+        """Regression: a corner of a long frame was open. Rays from above meet the frame all around."""
+        self.show("beam", "configs/beam.yaml")
+        missed = self.js("""(() => { const {rig} = bbsim.picture, {stage} = bbsim.data.scene, missed = [];
+            bbsim.picture.draw();
+            rig.ring.updateMatrixWorld(true);
+            const frame = rig.ring.children.find((one) => one.isGroup && one !== rig.cross), bar = 0.03 * rig.size, gap = 0.025 * rig.size;
+            const x = (stage.width + bar) / 2 + gap, y = (stage.depth + bar) / 2 + gap;
+            for (let i = 0; i < 400; ++i) {
+              const along = i / 400 * 4, side = Math.floor(along), part = 2 * (along - side) - 1;
+              const at = [[part * x, -y], [x, part * y], [-part * x, y], [-x, -part * y]][side];
+              const from = new THREE.Vector3(...at, 1).applyMatrix4(rig.ring.matrixWorld), to = new THREE.Vector3(...at, 0).applyMatrix4(rig.ring.matrixWorld);
+              if (new THREE.Raycaster(from, to.sub(from).normalize()).intersectObject(frame, true).length === 0) missed.push(at);
+            }
+            return missed; })()""")
+        self.assertEqual(missed, [])
 
     def test_a_ball_too_small_to_be_seen_has_a_marker_of_constant_size(self):
         sizes = {}
@@ -1095,12 +1130,20 @@ class Flat(Made):
             scale = scale or math.hypot(dx, dy) / math.hypot(px, py)
             self.near(dx, scale * px, 0.05)
             self.near(dy, -scale * py, 0.05)
-        # The ball is drawn there.
+        # The ball is drawn there, and nowhere else: in the colour of its run.
+        self.js("[bbsim.screen.show('trail', false), bbsim.screen.show('arrows', false)]")
         self.browser.frame()
-        piece = self.js("""(() => { const b = [...document.querySelectorAll('#flat .piece')].pop().getBoundingClientRect();
-            return [b.left + b.width / 2, b.top + b.height / 2]; })()""")
-        self.near(piece[0], x, 1)
-        self.near(piece[1], y, 1)
+        drawn = self.js("""(() => { const canvas = document.getElementById('flat-canvas'), box = canvas.getBoundingClientRect();
+            const {data, width} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+            let count = 0, x = 0, y = 0;
+            for (let i = 0; i < data.length; i += 4) {
+              if (data[i] < 1.5 * data[i + 2] || data[i] < 60) continue;
+              ++count; x += i / 4 % width; y += Math.floor(i / 4 / width);
+            }
+            return [box.left + x / count / width * box.width, box.top + y / count / canvas.height * box.height, count]; })()""")
+        self.assertGreater(drawn[2], 500)
+        self.near(drawn[0], x, 3)
+        self.near(drawn[1], y, 3)
         self.assertIn("view=flat", self.wait("location.hash.includes('view=flat') && location.hash"))
         self.browser.keys("1")
         self.assertFalse(self.js("bbsim.screen.isFlat"))
@@ -1111,11 +1154,18 @@ class Paper(Made):
         pdf = base64.b64decode(self.browser.devtools("Page.printToPDF", {"paperWidth": 8.27, "paperHeight": 11.69})["data"])
         return len(re.findall(rb"/Type\s*/Page[^s]", pdf))
 
-    def test_has_two_sheets_at_most_all_plots_and_a_round_ball(self):
+    def test_has_the_whole_scenario_all_plots_and_a_round_ball(self):
         for scene in ["rig", "falls", "fig2a", "slides", "torque-lqr", "three-servos", "pushrod", "hard/overflow"]:
             with self.subTest(scene):
                 self.show(scene.replace("/", "-"), f"configs/{scene}.yaml")
-                self.assertLessEqual(self.pages(), 2)
+                self.assertLessEqual(self.pages(), 4)
+                # No card is left out or cut off.
+                self.js("bbsim.print.begin()")
+                cards = self.js("""[...document.querySelectorAll('#details .card')].map((card) => [card.querySelector('h3').textContent,
+                    card.getBoundingClientRect().height > 0 && [...card.querySelectorAll('pre')].every((text) => text.scrollHeight <= text.clientHeight + 1)])""")
+                self.assertEqual([name for name, whole in cards if not whole], [])
+                with open(os.path.join(SOURCE, f"configs/{scene}.yaml")) as text:
+                    self.assertEqual(self.browser.text("#details .card.text code").split(), text.read().split())
         self.show("rig", "configs/rig.yaml")
         self.js("bbsim.print.begin()")
         drawn = self.js("""bbsim.plots.plots.map(({canvas}) => { const c = canvas.querySelector('canvas.printed');
@@ -1213,6 +1263,39 @@ class Legs(InBrowser):
                            ".map((mesh) => mesh.position.toArray())")
             for end, (_, _, joint) in zip(ends, legs):
                 self.near(math.dist(end, joint), 0, 1e-9)
+
+
+class PushRods(InBrowser):
+    def test_lead_from_horns_to_the_plate(self):
+        """Bars keep their lengths, the plate carries the joints, and horns have the servos' angles but for backlash."""
+        files.run("pushrod", "pushrod")
+        rows = rows_of(files("pushrod.csv"))
+        self.open(files.replay("pushrod"))
+        horn, arm, offset, backlash = 0.024, 0.06, (-0.016, 0.07), math.radians(0.3)
+        rod = math.hypot(offset[0] + arm - horn, offset[1])
+        moved = []
+        for row in rows[:60:4] + rows[100::150]:
+            self.js("bbsim.seek(arguments[0])", row["t"])
+            self.js("bbsim.picture.draw()")
+            for axis, name in enumerate(["phi", "theta"]):
+                ends = self.js(f"bbsim.picture.rig.rods[{axis}].places()")
+                self.near(math.dist(ends["axis"], ends["knee"]), horn, 1e-9)
+                self.near(math.dist(ends["knee"], ends["joint"]), rod, 1e-9)
+                self.near(ends["horn"], row["servo_" + name], backlash / 2 + 1e-4)
+                # The joint goes with the plate: its place in the frame that the axis turns is always the same.
+                fixed = self.js("""((joint, axis) => { const {rig} = bbsim.picture, base = [rig.base, rig.cross][axis], turned = [rig.ring, rig.hinge][axis];
+                    return new THREE.Vector3(...joint).applyMatrix4(base.matrixWorld).applyMatrix4(new THREE.Matrix4().getInverse(turned.matrixWorld)).toArray(); })
+                    (arguments[0], arguments[1])""", ends["joint"], axis)
+                self.near(fixed[axis], [-arm, arm][axis], 1e-6)
+                self.near(fixed[2], 0, 1e-6)
+                moved.append(ends["horn"])
+            # The drawn bars end there.
+            for axis in range(2):
+                drawn = self.js(f"""(() => {{ const {{group, places}} = bbsim.picture.rig.rods[{axis}], {{knee, joint}} = places(), middle = knee.map((v, i) => (v + joint[i]) / 2);
+                    return group.children.filter((bar) => bar.position.distanceTo(new THREE.Vector3(...middle)) < 1e-9).map((bar) => bar.scale.y); }})()""")
+                self.assertEqual(len(drawn), 1)
+                self.near(drawn[0], rod, 1e-6)
+        self.assertGreater(max(moved) - min(moved), 0.05)
 
 
 def fit_page():

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "replay/numbers.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace bbsim::replay {
+namespace {
+
+// The words of the values, little endian.
+template <class WordOf>
+std::string encoded(std::span<const double> values, WordOf word_of) {
+  std::vector<unsigned char> bytes;
+  bytes.reserve(values.size() * sizeof word_of(0));
+  for (const double value : values) {
+    const auto word = word_of(value);
+    for (std::size_t i = 0; i < sizeof word; ++i) {
+      bytes.push_back(static_cast<unsigned char>(word >> (8 * i) & 0xFFU));
+    }
+  }
+  return base64(bytes);
+}
+
+}  // namespace
+
+std::string base64(std::span<const unsigned char> bytes) {
+  constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t here = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < here ? bytes[i + k] : 0U);
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += k <= here ? digits[group >> (18 - 6 * k) & 63] : '=';
+    }
+  }
+  return text;
+}
+
+float to_float(double value) {
+  constexpr double largest = std::numeric_limits<float>::max();
+  return static_cast<float>(std::abs(value) > largest ? std::copysign(HUGE_VAL, value) : value);
+}
+
+std::string base64_of_floats(std::span<const double> values) {
+  return encoded(values,
+                 [](double value) { return std::bit_cast<std::uint32_t>(to_float(value)); });
+}
+
+std::string base64_of_doubles(std::span<const double> values) {
+  return encoded(values, [](double value) { return std::bit_cast<std::uint64_t>(value); });
+}
+
+std::string base64_of_parts(std::span<const double> values) {
+  return encoded(values, [](double value) {
+    return static_cast<std::uint16_t>(std::lround(std::clamp(value, -1.0, 1.0) * 32767));
+  });
+}
+
+}  // namespace bbsim::replay
