@@ -174,10 +174,7 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
   const model::BallConstants constants = model::constants_of(scenario);
   const scenario::SplitMeasures split = scenario::split_loop_measures(wanted.measures);
   record::Recorder recorder({wanted.columns, split.of_motion, true});
-  // Sweeps record rows this way too, so that both give the same numbers.
-  const bool quick =
-      !scenario.solver.error && solve::choose_method(scenario.solver.method) == Method::radau;
-  recorder.begin(model, constants, grid, &writer, {quick});
+  recorder.begin(model, constants, grid, &writer);
   std::optional<record::EdgeNote> edge;
   if (record::EdgeNote::wanted(scenario)) edge.emplace(model, scenario.plate, grid, recorder);
   solve::StateSink& sink = edge ? static_cast<solve::StateSink&>(*edge) : recorder;

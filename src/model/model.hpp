@@ -72,6 +72,9 @@ struct Model {
   [[nodiscard]] double gamma_not_integrated() const;
   // Converts a row to the paper's symbols.
   [[nodiscard]] Sample sample(double t, const double* row, Detail detail = Detail::all) const;
+  // The same for `count` rows without gaps.
+  void samples(const double* times, const double* rows, std::size_t count, Detail detail,
+               Sample* into) const;
   // Whether the model has switches, samples or events. model/hybrid/hybrid_system.hpp then
   // runs it.
   [[nodiscard]] bool hybrid() const {

@@ -26,8 +26,9 @@ struct GimbalState {
 };
 
 // Parts of a sample to fill; each includes those before it: the ball; the gimbal's angles and
-// rates; its accelerations; commands and measurements; the reference. Other parts may stay unset.
-enum class Detail { ball, gimbal, motion, loop, all };
+// rates; its accelerations; commands and measurements; the reference. `path` is the ball and the
+// reference only. Other parts may stay unset.
+enum class Detail { ball, path, gimbal, motion, loop, all };
 
 // The additional quantities of a coupled scene. All are doubles.
 struct CoupledMotion {

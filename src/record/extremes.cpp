@@ -28,6 +28,11 @@ std::vector<const scenario::Column*> columns_of(const std::vector<Extremes::Quer
   return columns;
 }
 
+double time_of(const solve::Piece& piece, const ChebyshevPoints& points, std::size_t p) {
+  return p + 1 == points.size() ? piece.to()
+                                : piece.from() + (piece.to() - piece.from()) * points[p];
+}
+
 std::optional<solve::Bounded> bounded(std::string_view column) {
   using solve::Bounded;
   constexpr std::pair<std::string_view, Bounded> known[] = {
@@ -88,18 +93,20 @@ void Extremes::note(const model::Sample& sample) {
   for (std::size_t i = 0; i < size(); ++i) take(i, signs_[i] * columns_[i][0], sample.t);
 }
 
-void Extremes::sample(const solve::Piece& piece, const ChebyshevPoints& points) {
-  const std::size_t count = points.size();
-  times_.resize(count);
+// Evaluates the columns at all points, or with a stride of 2 at each second one: the others have
+// the values of half as many points.
+void Extremes::sample(const solve::Piece& piece, const ChebyshevPoints& points,
+                      std::size_t stride) {
+  const std::size_t count = points.size(), before = (count + 1) / 2, first = stride - 1;
+  times_.clear();
+  for (std::size_t p = first; p < count; p += stride) times_.push_back(time_of(piece, points, p));
+  columns_.evaluate(piece, times_.data(), times_.size());
   values_.resize(count * size());
-  for (std::size_t p = 0; p < count; ++p) {
-    times_[p] = piece.from() + (piece.to() - piece.from()) * points[p];
-  }
-  times_.back() = piece.to();
-  columns_.evaluate(piece, times_.data(), count);
-  for (std::size_t i = 0; i < size(); ++i) {
-    for (std::size_t p = 0; p < count; ++p) {
-      values_[i * count + p] = signs_[i] * columns_[i][p];
+  for (std::size_t i = size(); i-- > 0;) {
+    double* const values = &values_[i * count];
+    for (std::size_t p = before; stride == 2 && p-- > 0;) values[2 * p] = values_[i * before + p];
+    for (std::size_t k = 0; k < times_.size(); ++k) {
+      values[first + k * stride] = signs_[i] * columns_[i][k];
     }
   }
 }
@@ -127,7 +134,7 @@ void Extremes::climb_within(std::size_t i, const solve::Piece& piece,
                             const ChebyshevPoints& points) {
   const double* const values = &values_[i * points.size()];
   const double length = piece.to() - piece.from();
-  for (std::size_t p = 0; p < points.size(); ++p) take(i, values[p], times_[p]);
+  for (std::size_t p = 0; p < points.size(); ++p) take(i, values[p], time_of(piece, points, p));
   const auto value_at = [&](double s) {
     const double t = std::min(piece.from() + length * s, piece.to());
     columns_.evaluate(piece, &t, 1);
@@ -187,9 +194,9 @@ void Extremes::accept(const solve::Piece& piece) {
   // Half of the points that may be needed usually resolve all columns.
   const std::size_t enough = piece.parts();
   std::size_t parts = std::max(fewest_parts, (enough + 1) / 2);
-  for (;; parts *= 2) {
+  for (std::size_t stride = 1;; parts *= 2, stride = 2) {
     const ChebyshevPoints& points = tables_.points(parts);
-    sample(piece, points);
+    sample(piece, points, stride);
     const bool few = parts < enough;
     bool all_shown = true;
     matter_.clear();

@@ -51,7 +51,7 @@ class Extremes : public solve::PieceSink {
   }
 
  private:
-  void sample(const solve::Piece& piece, const ChebyshevPoints& points);
+  void sample(const solve::Piece& piece, const ChebyshevPoints& points, std::size_t stride);
   [[nodiscard]] bool may_exceed(std::size_t i, const solve::Bounds& bounds) const;
   [[nodiscard]] solve::Bounds bounds_of(std::size_t i, const solve::Piece& piece,
                                         bool closely) const;

@@ -64,46 +64,27 @@ Recorder::Recorder(RecordRequest request)
     first_columns_.push_back(first);
     first += window->row_columns().size();
   }
-  if (!request_.measures.empty() && are_track_measures(request_.measures)) {
-    track_.emplace(request_.measures);
-  }
   if (request_.peaks) loads_.emplace();
 }
 
 void Recorder::begin(const model::Model& model, const model::BallConstants& constants,
-                     const solve::OutputGrid& grid, file::TableWriter* table,
-                     const Manner& manner) {
+                     const solve::OutputGrid& grid, file::TableWriter* table) {
   model_ = &model;
   grid_ = &grid;
   table_ = table;
-  quick_ = manner.quick && track_ && has_track(model);
   with_loads_ =
       loads_ && (scenario::need_dynamics(request_.columns) || has_plate_inertia(constants));
   gaps_.assign(request_.columns.size(), {});
-  if (!request_.columns.empty() || !quick_) rows_.begin(model, constants);
+  rows_.begin(model, constants);
   fan_.clear();
   if (with_loads_) {
     loads_->begin(model, constants);
     fan_.add(loads_->extremes());
   }
-  if (quick_) {
-    track_->begin(model, constants, grid, manner.same_signals);
-    fan_.add(*track_);
-    return;
-  }
   last_time_ = 0;
   last_ = model.initial;
   last_.resize(model.row_size());
   for (const auto& window : windows_) window->begin(model, constants, fan_);
-}
-
-bool Recorder::wants_positions_only() const {
-  return quick_ && request_.columns.empty() && !with_loads_ &&
-         track_->wants_positions_only(*model_);
-}
-
-bool Recorder::wants_rows() const {
-  return !quick_ || !request_.columns.empty() || with_loads_ || track_->wants_rows();
 }
 
 void Recorder::accept(std::size_t first, std::size_t count, const double* values) {
@@ -112,11 +93,6 @@ void Recorder::accept(std::size_t first, std::size_t count, const double* values
   for (std::size_t i = 0; i < count; ++i) times_[i] = (*grid_)[first + i];
   // A run may end before its first step, without a piece.
   if (first == 0 && with_loads_) loads_->extremes().note(times_[0], values);
-  if (quick_) {
-    track_->accept(first, count, values);
-    if (!request_.columns.empty()) take_rows(count, values);
-    return;
-  }
   if (first == 0) {
     for (const auto& window : windows_) window->accept_start(times_[0], values);
   }
@@ -129,10 +105,8 @@ void Recorder::accept(std::size_t first, std::size_t count, const double* values
 void Recorder::take_rows(std::size_t count, const double* values) {
   rows_.evaluate(times_.data(), values, count);
   const std::size_t columns = request_.columns.size();
-  if (!quick_) {
-    for (std::size_t w = 0; w < windows_.size(); ++w) {
-      windows_[w]->accept_rows(times_, [&](std::size_t k) { return rows_[first_columns_[w] + k]; });
-    }
+  for (std::size_t w = 0; w < windows_.size(); ++w) {
+    windows_[w]->accept_rows(times_, [&](std::size_t k) { return rows_[first_columns_[w] + k]; });
   }
   if (columns == 0) return;
   look_for_gaps(count);
@@ -154,17 +128,11 @@ void Recorder::look_for_gaps(std::size_t count) {
 
 void Recorder::finish(const solve::Outcome& outcome, double* results) {
   whys_.assign(request_.measures.size(), nullptr);
-  if (quick_) {
-    track_->finish(results);
-  } else if (outcome.rows == 0) {
+  if (outcome.rows == 0) {
     std::fill_n(results, request_.measures.size(), not_measured);
     whys_.assign(request_.measures.size(), "the run ended before it began");
-  } else {
-    finish_each(outcome, results);
+    return;
   }
-}
-
-void Recorder::finish_each(const solve::Outcome& outcome, double* results) {
   const bool stopped = outcome.ending == solve::Ending::stopped;
   const RunEnd end =
       stopped ? RunEnd{outcome.occurrences.back().t, end_of(outcome)}

@@ -17,7 +17,6 @@
 #include "record/motor_loads.hpp"
 #include "record/piece_fan.hpp"
 #include "record/rows.hpp"
-#include "record/track/track_measures.hpp"
 #include "record/window_measures.hpp"
 #include "scenario/measures.hpp"
 #include "solve/outcome.hpp"
@@ -34,14 +33,6 @@ struct RecordRequest {
   bool peaks = false;
 };
 
-struct Manner {
-  // Takes the usual measures of a smooth model with TrackMeasures, which evaluates many instants at
-  // a time. The numbers differ by rounding only.
-  bool quick = false;
-  // The motion or reference, and the grid, are those of the previous run.
-  bool same_signals = false;
-};
-
 // Records one run after another. All measures but `end` ignore NaN; a measure without a value is
 // NaN.
 class Recorder : public solve::StateSink {
@@ -53,18 +44,12 @@ class Recorder : public solve::StateSink {
   // Begins a run. All arguments must outlive it. `table` receives the columns, and is null if there
   // are none.
   void begin(const model::Model& model, const model::BallConstants& constants,
-             const solve::OutputGrid& grid, file::TableWriter* table = nullptr,
-             const Manner& manner = {});
-
-  // Whether this run is recorded in the quick manner.
-  [[nodiscard]] bool is_quick() const { return quick_; }
-  // Whether only positions are needed.
-  [[nodiscard]] bool wants_positions_only() const;
+             const solve::OutputGrid& grid, file::TableWriter* table = nullptr);
 
   // Throws OutputError.
   void accept(std::size_t first, std::size_t count, const double* values) override;
   [[nodiscard]] solve::PieceSink* pieces() override { return fan_.sink(); }
-  [[nodiscard]] bool wants_rows() const override;
+  [[nodiscard]] bool wants_rows() const override { return !rows_.columns().empty(); }
 
   // Writes the measures of the run, one after the other.
   void finish(const solve::Outcome& outcome, double* results);
@@ -86,7 +71,6 @@ class Recorder : public solve::StateSink {
  private:
   void take_rows(std::size_t count, const double* values);
   void look_for_gaps(std::size_t count);
-  void finish_each(const solve::Outcome& outcome, double* results);
 
   RecordRequest request_;
   // One for each window of the measures, and the index of its first column in rows_.
@@ -94,14 +78,13 @@ class Recorder : public solve::StateSink {
   std::vector<std::size_t> first_columns_;
   Rows rows_;  // columns of the table, then of the windows' means
   scenario::Whys whys_;
-  std::optional<TrackMeasures> track_;  // replaces windows_ in the quick manner
   std::optional<MotorLoads> loads_;
   PieceFan fan_;
 
   const model::Model* model_ = nullptr;
   const solve::OutputGrid* grid_ = nullptr;
   file::TableWriter* table_ = nullptr;
-  bool quick_ = false, with_loads_ = false;
+  bool with_loads_ = false;
 
   struct Gaps {
     std::size_t rows = 0;  // with a value that is not finite

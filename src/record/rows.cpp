@@ -40,7 +40,7 @@ Detail detail_for(Needs needs) {
     case Needs::controller:
       break;
   }
-  return Detail::all;
+  return Detail::path;
 }
 
 }  // namespace
@@ -50,9 +50,10 @@ Rows::Rows(std::vector<const scenario::Column*> columns) : columns_(std::move(co
     detail_ = std::max(detail_, detail_for(column->needs));
   }
   needs_dynamics_ = scenario::need_dynamics(columns_);
+  if (detail_ > Detail::path && any_needs(columns_, Needs::controller)) detail_ = Detail::all;
   needs_orientation_ = any_needs(columns_, Needs::orientation);
   needs_ball_only_ =
-      detail_ == Detail::ball && !needs_dynamics_ && !any_needs(columns_, Needs::own);
+      detail_ <= Detail::path && !needs_dynamics_ && !any_needs(columns_, Needs::own);
 }
 
 void Rows::begin(const model::Model& model, const model::BallConstants& constants) {
@@ -71,9 +72,7 @@ void Rows::evaluate(const double* times, const double* rows, std::size_t count) 
   for (std::size_t first = 0; first < count; first += strip) {
     const std::size_t many = std::min(strip, count - first);
     samples_.resize(many);
-    for (std::size_t i = 0; i < many; ++i) {
-      samples_[i] = model_->sample(times[first + i], rows + (first + i) * row_size, detail_);
-    }
+    model_->samples(times + first, rows + first * row_size, many, detail_, samples_.data());
     fill(first);
   }
 }

@@ -33,7 +33,7 @@ class StateSink {
   virtual void accept(std::size_t first, std::size_t count, const double* values) = 0;
   // Returns the receiver of the motion between rows (solve/piece.hpp); null if none is needed.
   [[nodiscard]] virtual PieceSink* pieces() { return nullptr; }
-  // If false, the run may skip the rows and only count them.
+  // If false, the run may skip rows, but neither its first nor its last one.
   [[nodiscard]] virtual bool wants_rows() const { return true; }
 };
 

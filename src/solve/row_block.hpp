@@ -35,6 +35,12 @@ class RowBlock {
     return first;
   }
 
+  // Leaves out the next rows.
+  void skip(std::size_t count) {
+    flush();
+    first_ += count;
+  }
+
   void flush() {
     if (count_ > 0) sink_.accept(first_, count_, values_.get());
     first_ += count_;

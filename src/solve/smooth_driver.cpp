@@ -88,7 +88,10 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
       if (to > before) pieces->accept(StepPiece(stepper, before, to));
     }
     const std::size_t rows_until = grid.rows_until(reached);
-    if (!with_rows) next_row = std::max(next_row, rows_until);
+    if (!with_rows && rows_until > next_row + 1) {
+      rows.skip(rows_until - 1 - next_row);
+      next_row = rows_until - 1;
+    }
     while (next_row < rows_until) {
       std::size_t count = std::min(times.size(), rows_until - next_row);
       double* const out = rows.next(count);

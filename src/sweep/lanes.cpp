@@ -4,21 +4,22 @@
 #include "sweep/lanes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <optional>
-#include <string_view>
-#include <utility>
+#include <type_traits>
 #include <variant>
 
 #include "model/model.hpp"
 #include "model/signals/add_profile.hpp"
 #include "model/signals/given_motion.hpp"
-#include "record/track/track_measures.hpp"
+#include "record/rows.hpp"
 #include "solve/choose.hpp"
 #include "solve/ensemble/ensemble.hpp"
 #include "sweep/case_scenario.hpp"
 #include "sweep/group_runner.hpp"
+#include "sweep/lane_measures.hpp"
 
 namespace bbsim::sweep {
 namespace {
@@ -30,9 +31,20 @@ using Kind = scenario::Measure::Kind;
 // Smaller sweeps of given motions are short anyway, and single runs match `bbsim run` bit for bit.
 constexpr std::size_t least_given = 32;
 
-bool has_single_harmonic(const Reference& reference) {
-  return std::holds_alternative<PointReference>(reference) ||
-         std::holds_alternative<CircleReference>(reference);
+// The reference of a loop of the paper's rig whose states are those of a lane; otherwise null.
+const model::SignalPair* reference_of(const model::Model& model) {
+  const model::SignalPair* reference = nullptr;
+  std::visit(
+      [&](const auto& system) {
+        using System = std::decay_t<decltype(system)>;
+        using model::ClosedLoop, model::Shape;
+        if constexpr (std::is_same_v<System, ClosedLoop<Shape::full, Drives::acceleration>> ||
+                      std::is_same_v<System, ClosedLoop<Shape::full, Drives::angle>>) {
+          reference = &system.reference();
+        }
+      },
+      model.system);
+  return reference;
 }
 
 Actuation actuation_of(const Scenario& scenario) {
@@ -43,7 +55,7 @@ Actuation actuation_of(const Scenario& scenario) {
 
 // Converts a loop of the paper to the numbers of a lane.
 void set_loop(ensemble::Case& loop, const Scenario& scenario, const model::Model& model) {
-  const model::SignalView reference = record::signals_of(model).view();
+  const model::SignalView reference = reference_of(model)->view();
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t j = 0; j < 2; ++j) {
       loop.kv[i][j] = scenario.controller->kv[i][j];
@@ -84,6 +96,16 @@ struct CaseSignals {
   }
 };
 
+// A sinusoid of both angles takes all of its values in one period, and in half of one if the plate
+// is level on average. No other motion repeats.
+double repeats_after(const ensemble::Case& lane) {
+  if (lane.rate[0] != 0 || lane.rate[1] != 0 || lane.harmonic_count != 1) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const bool level = lane.start[0] == 0 && lane.start[1] == 0;
+  return (level ? 1 : 2) * std::numbers::pi / std::abs(lane.harmonics[0].frequency);
+}
+
 // Converts a given motion to the numbers of a lane.
 void set_given(ensemble::Case& lane, const Scenario& scenario, bool has_shared_terms) {
   const Ball& ball = scenario.ball;
@@ -97,13 +119,7 @@ void set_given(ensemble::Case& lane, const Scenario& scenario, bool has_shared_t
   model::add_profile(gimbal.motion->theta, 1, signals, is_shared);
   signals.add_constant(0, gimbal.mounting.phi_offset);
   signals.add_constant(1, gimbal.mounting.theta_offset);
-  if (!has_shared_terms) {
-    lane.repeats_after = record::repeats_after({{lane.start[0], lane.start[1]},
-                                                {lane.rate[0], lane.rate[1]},
-                                                lane.harmonics,
-                                                static_cast<std::size_t>(lane.harmonic_count),
-                                                {}});
-  }
+  if (!has_shared_terms) lane.repeats_after = repeats_after(lane);
 }
 
 std::size_t sinusoids(const Profile& profile) {
@@ -120,20 +136,9 @@ model::Model model_of(const Scenario& scenario) {
 // costs little among so many cases.
 constexpr std::size_t in_turn = 1024;
 
-// Measures that an ensemble computes itself, without a model.
-enum Known : std::size_t { end_x, end_y, distance, tilt, tilt_rate, unknown };
-
-Known known(const scenario::Measure& measure) {
-  const std::string_view name = measure.column->name;
-  if (measure.kind == Kind::end) return name == "x" ? end_x : name == "y" ? end_y : unknown;
-  return name == "distance"    ? distance
-         : name == "tilt"      ? tilt
-         : name == "tilt_rate" ? tilt_rate
-                               : unknown;
-}
-
-bool is_known(Known measure) {
-  return measure != unknown;
+// Whether lanes have the column without a model.
+bool is_place(const scenario::Column* column) {
+  return column->name == "x" || column->name == "y";
 }
 
 class EnsembleRunner : public LaneRunner, private ensemble::Study {
@@ -142,7 +147,6 @@ class EnsembleRunner : public LaneRunner, private ensemble::Study {
       : scenario_(task),
         series_(task.series),
         timed_(timed_rows(task, first)),
-        track_(task.measures),
         grid_(timed_ ? timed_->grid : solve::OutputGrid(first.time)),
         given_(actuation_of(first) == Actuation::given),
         motion_(given_ ? model::given_motion(first) : model::SignalPair()),
@@ -151,12 +155,12 @@ class EnsembleRunner : public LaneRunner, private ensemble::Study {
                ensemble::choose_nodes(actuation_of(first), first.solver.rtol,
                                       motion_.highest_frequency() * first.time.end),
                {first.solver.rtol, first.solver.atol}),
-        same_signals_(task.plan.shares_signals()) {
-    for (const scenario::Measure& measure : task.measures) known_.push_back(known(measure));
-    needs_model_ = !given_ || !std::ranges::all_of(known_, is_known);
-    ends_at_places_ = std::ranges::all_of(task.measures, [](const scenario::Measure& measure) {
-      return measure.kind != Kind::end || is_known(known(measure));
-    });
+        end_(scenario::end_columns(task.measures)),
+        ends_at_places_(std::ranges::all_of(end_.columns(), is_place)),
+        needs_model_(!given_ || !ends_at_places_) {
+    for (const scenario::Measure& measure : task.measures) {
+      wanted_.push_back({measure.kind == Kind::end, measure.column->name == "y", size_of(measure)});
+    }
   }
 
   void run(std::span<GroupCase> cases, const std::atomic<bool>& stop) override {
@@ -193,19 +197,10 @@ class EnsembleRunner : public LaneRunner, private ensemble::Study {
   void end(std::size_t number, const ensemble::Result& run) override {
     using ensemble::Ending;
     GroupCase& group_case = cases_[number];
-    const auto greatest = extremes(run);
     const bool unbounded = run.ending == Ending::unbounded;
     // The last row before infinity has only x and y, and not even these under a given motion.
-    if (run.ending != Ending::given_up && greatest &&
-        (!unbounded || (ends_at_places_ && !given_))) {
-      if (needs_model_) {
-        take(number, run, *greatest);
-      } else {
-        const double values[] = {run.state[0], run.state[1], greatest->distance,
-                                 record::tilt_of(greatest->versine),
-                                 std::sqrt(greatest->rate_squared)};
-        for (std::size_t m = 0; m < known_.size(); ++m) group_case.measures[m] = values[known_[m]];
-      }
+    if (run.ending != Ending::given_up && (!unbounded || (ends_at_places_ && !given_)) &&
+        take(number, run)) {
       if (!series_.empty()) {
         std::vector<const double*> columns;
         for (const scenario::Column* const column : series_) {
@@ -220,42 +215,47 @@ class EnsembleRunner : public LaneRunner, private ensemble::Study {
     if (needs_model_) models_[number].reset();
   }
 
-  void take(std::size_t number, const ensemble::Result& run,
-            const record::TrackExtremes& greatest) {
-    const Scene& scene = *models_[number];
-    track_.begin(scene.model, scene.constants, grid_, same_signals_);
-    std::array<double, ensemble::states> last;
-    std::copy_n(run.state, last.size(), last.begin());
-    if (run.ending == ensemble::Ending::unbounded) {
-      last[0] = run.x[run.rows - 1];
-      last[1] = run.y[run.rows - 1];
+  // Writes the measures. Returns false if a square overflows or vanishes.
+  bool take(std::size_t number, const ensemble::Result& run) {
+    const bool unbounded = run.ending == ensemble::Ending::unbounded;
+    const double places[] = {unbounded ? run.x[run.rows - 1] : run.state[0],
+                             unbounded ? run.y[run.rows - 1] : run.state[1]};
+    if (!ends_at_places_) {
+      const double t = grid_.end();
+      end_.begin(models_[number]->model, models_[number]->constants);
+      end_.evaluate(&t, run.state, 1);
     }
-    track_.take(given_ ? grid_.size() : run.rows, run.x, run.y, last.data(), greatest);
-    track_.finish(cases_[number].measures);
-  }
-
-  // Empty if a square overflows or vanishes.
-  [[nodiscard]] std::optional<record::TrackExtremes> extremes(const ensemble::Result& run) const {
-    const double distance = run.greatest[ensemble::distance_squared];
-    const double error = run.greatest[ensemble::error_squared];
-    if (!record::is_square(distance) || (!given_ && !record::is_square(error))) return {};
-    return record::TrackExtremes{run.greatest[ensemble::versine],
-                                 run.greatest[ensemble::rate_squared], std::sqrt(distance),
-                                 std::sqrt(error)};
+    std::size_t at_end = 0;
+    for (std::size_t m = 0; m < wanted_.size(); ++m) {
+      const auto& [is_end, is_y, size] = wanted_[m];
+      double& result = cases_[number].measures[m];
+      if (is_end) {
+        result = ends_at_places_ ? places[is_y ? 1 : 0] : end_[at_end++][0];
+        continue;
+      }
+      const double square = size ? run.greatest[*size] : lanes_.squared_errors(run);
+      const bool of_plate = size == solve::versine || size == solve::rate_squared;
+      if (!of_plate && !is_square(square)) return false;
+      result = size ? value_of(*size, square) : std::sqrt(square / static_cast<double>(run.rows));
+    }
+    return true;
   }
 
   CaseScenario scenario_;
   const std::vector<const scenario::Column*>& series_;  // x and y
   std::optional<TimedRows> timed_;
-  record::TrackMeasures track_;
   solve::OutputGrid grid_;
   bool given_;                // whether the gimbal's motion is given
   model::SignalPair motion_;  // its tables are those of all cases
   ensemble::Ensemble lanes_;
-  bool same_signals_;
-  std::vector<Known> known_;  // for each measure
+  struct Wanted {
+    bool is_end, is_y;
+    std::optional<solve::Size> size;
+  };
+  std::vector<Wanted> wanted_;  // for each measure
+  record::Rows end_;            // columns at the end
+  bool ends_at_places_;         // they are x and y only
   bool needs_model_;
-  bool ends_at_places_;  // measures at the end are of x and y only
   std::span<GroupCase> cases_;
   std::size_t begun_ = 0;
   std::vector<std::optional<Scene>> models_;  // of cases that are in a lane
@@ -263,11 +263,8 @@ class EnsembleRunner : public LaneRunner, private ensemble::Study {
 
 // Conditions for any source of the gimbal's motion. All cases give the same answer.
 bool meets_common_conditions(const SweepTask& task) {
-  return can_share_rows(task) && record::are_track_measures(task.measures) &&
-         task.plan.independent() &&
-         std::ranges::all_of(task.series, [](const scenario::Column* column) {
-           return column->name == "x" || column->name == "y";
-         });
+  return can_share_rows(task) && are_usual_measures(task.measures) && task.plan.independent() &&
+         std::ranges::all_of(task.series, is_place);
 }
 bool is_by_collocation(const Scenario& scenario) {
   return !scenario.solver.error && solve::choose_method(scenario.solver.method) == Method::radau;
@@ -279,11 +276,13 @@ bool can_use_open_lanes(const SweepTask& task) {
   if (task.plan.cases() < least_given || !meets_common_conditions(task)) return false;
   // Planar cases are run like the others.
   const Scenario scenario = task.family.read(task.plan.first_settings());
-  return scenario.gimbal.motion && is_by_collocation(scenario) &&
-         sinusoids(scenario.gimbal.motion->phi) + sinusoids(scenario.gimbal.motion->theta) <=
+  if (!scenario.gimbal.motion || !is_by_collocation(scenario)) return false;
+  const model::Model model = model_of(scenario);
+  return sinusoids(scenario.gimbal.motion->phi) + sinusoids(scenario.gimbal.motion->theta) <=
              ensemble::most_harmonics &&
          model::given_motion(scenario).view().shared.highest_frequency == 0 &&  // no formulas
-         record::has_track(model_of(scenario));
+         !model.hybrid() &&
+         std::holds_alternative<model::OpenLoop<model::Shape::full>>(model.system);
 }
 
 bool can_use_lanes(const SweepTask& task) {
@@ -291,9 +290,11 @@ bool can_use_lanes(const SweepTask& task) {
   // Among others, planar cases are run with all states. A sweep of only planar cases has fewer
   // states and is run singly.
   const Scenario scenario = task.family.read(task.plan.general_settings());
-  return scenario.controller && is_by_collocation(scenario) &&
-         has_single_harmonic(scenario.controller->reference) &&
-         record::has_track(model::assemble(scenario, false));
+  if (!scenario.controller || !is_by_collocation(scenario)) return false;
+  const model::Model model = model::assemble(scenario, false);
+  const model::SignalPair* const reference = reference_of(model);
+  return reference != nullptr && !model.hybrid() && !reference->view().shared.any() &&
+         reference->view().harmonic_count <= ensemble::most_harmonics;
 }
 
 std::size_t lane_group() {

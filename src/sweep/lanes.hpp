@@ -9,7 +9,7 @@
 namespace bbsim::sweep {
 
 // Whether open lanes (given motions, equation (27)) or lanes (loops, (31)) can run all cases, and
-// all measures are track measures (record/track/track_measures.hpp).
+// all measures are usual measures (lane_measures.hpp).
 [[nodiscard]] bool can_use_open_lanes(const SweepTask& task);
 [[nodiscard]] bool can_use_lanes(const SweepTask& task);
 

@@ -431,14 +431,6 @@ double SweepPlan::drawn(const PlanAxis& axis, std::size_t number) {
   return axis.from + axis.to * normal_quantile(p);
 }
 
-bool SweepPlan::shares_signals() const {
-  return std::all_of(axes_.begin(), axes_.end(), [](const PlanAxis& axis) {
-    return axis.independent && !axis.key.starts_with("gimbal.motion") &&
-           !axis.key.starts_with("controller.reference") &&
-           !axis.key.starts_with("controller.commands");
-  });
-}
-
 void SweepPlan::values(std::size_t number, double* values) const {
   std::size_t rest = number / samples_;
   for (std::size_t a = axes_.size(); a-- > 0;) {

@@ -71,9 +71,6 @@ class SweepPlan {
   // Whether no rule relates the number at any varied key to another key.
   [[nodiscard]] bool independent() const { return axes_.empty() || axes_.front().independent; }
 
-  // Whether all cases have the same motion or reference at the same times.
-  [[nodiscard]] bool shares_signals() const;
-
   // Writes the number of each axis in a case, or the index of its text in the list.
   void values(std::size_t number, double* values) const;
 

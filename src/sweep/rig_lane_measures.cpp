@@ -5,18 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
-#include "record/track/gimbal_extremes.hpp"
+#include "base/maxima.hpp"
 #include "solve/sampled/monitor_ranges.hpp"
+#include "sweep/lane_measures.hpp"
 
 namespace bbsim::sweep {
 namespace {
 
 using Kind = scenario::Measure::Kind;
+using solve::Size;
 using solve::sampled::LaneStep;
 using solve::sampled::Range;
-using solve::sampled::Size;
 
 // Number of intervals that resolve polynomials of degree 9, their squares and the sines of a servo
 // over a piece or a part of one.
@@ -24,13 +24,6 @@ constexpr std::size_t parts = 16;
 
 // A piece is searched if its bound exceeds the greatest value so far by this fraction.
 constexpr double worth = 1e-9;
-
-Size size_of(std::string_view column) {
-  return column == "tilt"        ? Size::versine
-         : column == "tilt_rate" ? Size::rate_squared
-         : column == "distance"  ? Size::distance_squared
-                                 : Size::error_squared;
-}
 
 }  // namespace
 
@@ -41,23 +34,18 @@ RigLaneMeasures::RigLaneMeasures(const std::vector<scenario::Measure>& measures,
       grid_(grid),
       end_(scenario::end_columns(measures)),
       series_(series),
-      points_(search_.points(parts)),
+      points_(parts),
       times_(parts + 1),
       values_(parts + 1),
       track_(parts + 1) {
   for (const scenario::Measure& measure : measures_) {
-    if (measure.kind == Kind::end) continue;
-    const std::string_view name = measure.column->name;
-    if (measure.kind == Kind::rms) {
-      wants_rms_ = true;
-    } else {
-      wants_[static_cast<std::size_t>(size_of(name))] = true;
-    }
+    if (measure.kind == Kind::rms) wants_rms_ = true;
+    if (const auto size = size_of(measure)) wants_[*size] = true;
   }
 }
 
 solve::sampled::LaneAsked RigLaneMeasures::asks_for() const {
-  return {wants(Size::versine) || wants(Size::rate_squared), wants(Size::error_squared),
+  return {wants_[Size::versine] || wants_[Size::rate_squared], wants_[Size::error_squared],
           !series_.columns().empty()};
 }
 
@@ -78,7 +66,7 @@ void RigLaneMeasures::accept(const LaneStep& step) {
   for (std::size_t lane = 0; lane < group; ++lane) {
     if (!step.has(lane)) continue;
     track_of_ = group;
-    for (std::size_t i = 0; i < sizes; ++i) {
+    for (std::size_t i = 0; i < solve::size_count; ++i) {
       const auto size = static_cast<Size>(i);
       if (!wants_[i]) continue;
       const Range range = step.at_nodes(size, lane);
@@ -125,7 +113,11 @@ void RigLaneMeasures::look_closer(const LaneStep& step, Size size, std::size_t l
     values_[i] = size_at(size, i);
     most = larger(most, values_[i]);
   }
-  most = search_.greatest_within(parts, values_.data(), record::Spacing::close, most);
+  for_each_bracket(points_, values_.data(), most, Between::smooth, [&](const Bracket& bracket) {
+    const Peak peak = climb(bracket, good_place * (bracket.to.at - bracket.from.at),
+                            [&](double s) { return points_.at(values_.data(), s); });
+    most = std::max(most, peak.value);
+  });
 }
 
 void RigLaneMeasures::accept_row(std::size_t lane, std::size_t row, double x, double y) {
@@ -152,7 +144,7 @@ void RigLaneMeasures::take_end(std::size_t lane, const model::Model& model) {
   track_[0] = {end.ball.x,       end.ball.y,         end.gimbal.phi,
                end.gimbal.theta, end.gimbal.phi_dot, end.gimbal.theta_dot};
   track_of_ = group;
-  for (std::size_t i = 0; i < sizes; ++i) {
+  for (std::size_t i = 0; i < solve::size_count; ++i) {
     if (!wants_[i]) continue;
     const auto size = static_cast<Size>(i);
     greatest(size, lane) = larger(greatest(size, lane), size_at(size, 0));
@@ -163,21 +155,19 @@ bool RigLaneMeasures::finish(std::size_t lane, const model::Model& model,
                              const model::BallConstants& constants, double* results) {
   take_end(lane, model);
   for (const Size size : {Size::distance_squared, Size::error_squared}) {
-    if (wants(size) && !record::is_square(greatest(size, lane))) return false;
+    if (wants_[size] && !is_square(greatest(size, lane))) return false;
   }
   end_.begin(model, constants);
   if (!end_.columns().empty()) end_.evaluate(&last_time_[lane], last_row_[lane].data(), 1);
   std::size_t at_end = 0;
   for (std::size_t m = 0; m < measures_.size(); ++m) {
-    const std::string_view name = measures_[m].column->name;
     if (measures_[m].kind == Kind::end) {
       results[m] = end_[at_end++][0];
     } else if (measures_[m].kind == Kind::rms) {
       results[m] = squares_[lane].root_mean(grid_.size());
     } else {
-      const Size size = size_of(name);
-      const double most = greatest(size, lane);
-      results[m] = size == Size::versine ? record::tilt_of(most) : std::sqrt(most);
+      const Size size = *size_of(measures_[m]);
+      results[m] = value_of(size, greatest(size, lane));
     }
   }
   return true;

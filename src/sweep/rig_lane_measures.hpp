@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
+#include "base/chebyshev.hpp"
 #include "file/table_writer.hpp"
 #include "record/rows.hpp"
 #include "record/square_sum.hpp"
-#include "record/track/spans.hpp"
 #include "scenario/measures.hpp"
 #include "solve/sampled/rig_lanes.hpp"
 
@@ -20,7 +20,7 @@ namespace bbsim::sweep {
 
 class RigLaneMeasures : public solve::sampled::LaneSink {
  public:
-  // Requires record::are_track_measures(measures).
+  // Requires are_usual_measures(measures).
   RigLaneMeasures(const std::vector<scenario::Measure>& measures,
                   const std::vector<const scenario::Column*>& series,
                   const solve::OutputGrid& grid);
@@ -46,34 +46,29 @@ class RigLaneMeasures : public solve::sampled::LaneSink {
 
  private:
   static constexpr std::size_t group = solve::sampled::group;
-  using Size = solve::sampled::Size;
-  static constexpr std::size_t sizes = solve::sampled::sizes;
+  using Size = solve::Size;
 
   void look_closer(const solve::sampled::LaneStep& step, Size size, std::size_t lane);
-  [[nodiscard]] double& greatest(Size size, std::size_t lane) {
-    return greatest_[static_cast<std::size_t>(size)][lane];
-  }
-  [[nodiscard]] bool wants(Size size) const { return wants_[static_cast<std::size_t>(size)]; }
+  [[nodiscard]] double& greatest(Size size, std::size_t lane) { return greatest_[size][lane]; }
   void take_end(std::size_t lane, const model::Model& model);
   [[nodiscard]] double size_at(Size size, std::size_t point) const;
 
   std::vector<scenario::Measure> measures_;
   const solve::OutputGrid& grid_;
-  std::array<bool, sizes> wants_{};
+  std::array<bool, solve::size_count> wants_{};
   bool wants_rms_ = false;
   record::Rows end_;     // evaluates columns at the last row
   record::Rows series_;  // evaluates those of all rows
 
   const model::SignalPair* reference_ = nullptr;
   std::vector<std::array<double, 2>> at_rows_;  // the reference at each output row, m
-  std::array<std::array<double, group>, sizes> greatest_{};
+  std::array<std::array<double, group>, solve::size_count> greatest_{};
   std::array<record::SquareSum, group> squares_{};
   std::array<std::vector<double>, group> last_row_;
   std::array<std::vector<double>, group> rows_;  // whole ones, if there are series
   std::array<double, group> last_time_{};
 
-  record::SpanSearch search_;
-  const ChebyshevPoints& points_;
+  const ChebyshevPoints points_;
   std::vector<double> times_, values_;
   std::vector<solve::sampled::LaneStep::Track> track_;  // at times_
   std::size_t track_of_ = group;                        // the lane in track_; `group` if none

@@ -12,11 +12,11 @@
 
 #include "base/error.hpp"
 #include "model/model.hpp"
-#include "record/track/track_measures.hpp"
 #include "solve/choose.hpp"
 #include "solve/sampled/rig_lanes.hpp"
 #include "sweep/case_scenario.hpp"
 #include "sweep/group_runner.hpp"
+#include "sweep/lane_measures.hpp"
 #include "sweep/rig_lane_measures.hpp"
 #include "sweep/sample_cases.hpp"
 
@@ -135,7 +135,7 @@ class RigLaneRunner : public LaneRunner {
 bool can_use_rig_lanes(const SweepTask& task) {
   // Fewer cases would leave lanes empty, and single runs match `bbsim run` bit for bit.
   if (task.plan.cases() < solve::sampled::group || !can_share_rows(task) ||
-      !record::are_track_measures(task.measures) || !share_reference(task.plan) ||
+      !are_usual_measures(task.measures) || !share_reference(task.plan) ||
       !std::ranges::all_of(task.series, is_in_rows)) {
     return false;
   }

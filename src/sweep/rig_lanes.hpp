@@ -9,7 +9,7 @@
 namespace bbsim::sweep {
 
 // Whether solve::sampled::RigLanes can run most of 16 cases from all over the sweep, and all
-// measures are track measures (record/track/track_measures.hpp).
+// measures are usual measures (lane_measures.hpp).
 [[nodiscard]] bool can_use_rig_lanes(const SweepTask& task);
 
 // The number of cases in a group.

@@ -15,9 +15,7 @@
 #include "controller/host.hpp"
 #include "model/model.hpp"
 #include "record/recorder.hpp"
-#include "solve/choose.hpp"
 #include "solve/integrate.hpp"
-#include "solve/radau/radau.hpp"
 #include "study/error_control.hpp"
 #include "sweep/case_scenario.hpp"
 #include "sweep/verdict.hpp"
@@ -44,14 +42,7 @@ CaseStatus status_of(const solve::Outcome& outcome) {
 class SingleRunner : public CaseRunner {
  public:
   explicit SingleRunner(const SweepTask& task)
-      : task_(task),
-        scenario_(task),
-        recorder_({task.series, task.measures}),
-        kernels_(solve::radau::choose_kernels()),
-        same_signals_(task.plan.shares_signals() && task.windows == nullptr) {
-    for (const PlanAxis& axis : task.plan.axes()) {
-      if (axis.key.starts_with("solver")) same_tolerances_ = false;
-    }
+      : task_(task), scenario_(task), recorder_({task.series, task.measures}) {
     integrals_ = scenario::integrals_for(task.series);
     integrals_.gamma |= scenario::any_needs(task.measures, scenario::Needs::gamma);
     integrals_.work |= scenario::any_needs(task.measures, scenario::Needs::work);
@@ -94,14 +85,10 @@ class SingleRunner : public CaseRunner {
       const solve::OutputGrid grid = timed ? timed->grid : solve::OutputGrid(scenario.time);
       const Solver& solver = scenario.solver;
       SeriesWriter series(into.series, place * task_.series_rows, timed ? &*timed : nullptr);
-      const bool by_radau = !solver.error && solve::choose_method(solver.method) == Method::radau;
-      recorder_.begin(model, constants, grid, &series, {by_radau, same_signals_});
+      recorder_.begin(model, constants, grid, &series);
       const solve::Watch watch{&stop, {}};
       solve::Outcome outcome;
-      if (recorder_.is_quick()) {
-        outcome = run_quickly(scenario.solver, model, grid, watch);
-        status = status_of(outcome);
-      } else if (solver.error) {
+      if (solver.error) {
         const study::ErrorControlled run =
             study::integrate_to_error(model, solver.method, *solver.error, grid, recorder_, watch);
         status = status_of(run.outcome);
@@ -128,27 +115,10 @@ class SingleRunner : public CaseRunner {
     return true;
   }
 
-  // Integrates a smooth model as solve::integrate() does, in the memory of the previous case.
-  solve::Outcome run_quickly(const Solver& solver, const model::Model& model,
-                             const solve::OutputGrid& grid, const solve::Watch& watch) {
-    const solve::Tolerances tolerances{solver.rtol, solver.atol};
-    const int stages = solve::radau::choose_stages(model, tolerances.rtol);
-    if (stepper_ && same_tolerances_) {
-      stepper_->renew(model, stages, grid.end());
-    } else {
-      stepper_.emplace(model, kernels_, stages, tolerances, grid.end());
-    }
-    stepper_->leave_out_velocities(recorder_.wants_positions_only());
-    return solve::run_through(*stepper_, model, grid, recorder_, watch);
-  }
-
   const SweepTask& task_;
   CaseScenario scenario_;
   record::Recorder recorder_;
-  const solve::radau::StepKernels& kernels_;
-  std::optional<controller::Host> controllers_;        // for cases with your own controller
-  std::optional<solve::radau::RadauStepper> stepper_;  // reuses its memory from case to case
-  bool same_signals_, same_tolerances_ = true;
+  std::optional<controller::Host> controllers_;  // for cases with your own controller
   scenario::Integrals integrals_ = false;
 };
 

@@ -358,16 +358,16 @@ TEST_CASE("loops in lanes find their extremes between rows") {
     const solve::OutputGrid grid(close.time);
     const solve::Trajectory rows = truth(close);
     const Case one = case_of(close);
-    double most[quantity_count] = {};
+    double most[solve::size_count] = {};
     for (std::size_t row = 0; row < grid.size(); ++row) {
       const auto state = [&](std::size_t k) { return rows.row(row)[k]; };
-      const auto raise = [&](Quantity quantity, double size) {
+      const auto raise = [&](solve::Size quantity, double size) {
         most[quantity] = std::max(most[quantity], size);
       };
       const double a = std::pow(std::sin(state(5) / 2), 2), b = std::pow(std::sin(state(6) / 2), 2);
-      raise(versine, 2 * (a + b) - 4 * a * b);
-      raise(rate_squared, state(7) * state(7) + state(8) * state(8));
-      raise(distance_squared, state(0) * state(0) + state(1) * state(1));
+      raise(solve::versine, 2 * (a + b) - 4 * a * b);
+      raise(solve::rate_squared, state(7) * state(7) + state(8) * state(8));
+      raise(solve::distance_squared, state(0) * state(0) + state(1) * state(1));
       double error = 0;
       for (std::size_t k = 0; k < 2; ++k) {
         double path = one.start[k] + one.rate[k] * grid[row];
@@ -379,9 +379,9 @@ TEST_CASE("loops in lanes find their extremes between rows") {
         const double from = state(k) - path;
         error += from * from;
       }
-      raise(error_squared, error);
+      raise(solve::error_squared, error);
     }
-    for (std::size_t quantity = 0; quantity < quantity_count; ++quantity) {
+    for (std::size_t quantity = 0; quantity < solve::size_count; ++quantity) {
       CAPTURE(name, i, quantity);
       // The greatest row value is below the true one by at most h^2 / 8 times its curvature, some
       // 1e-4 for servos of 2000 rad/s; never above it.

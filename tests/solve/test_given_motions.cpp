@@ -69,7 +69,7 @@ TEST_CASE("balls in lanes agree with the reference, for any number of nodes") {
       CHECK(run.state[i] == Approx(static_cast<double>(last[1 + i])).margin(3e-12));
     }
     CHECK(run.state[4] == Approx(static_cast<double>(last[5]) * 0.01).margin(3e-12));
-    CHECK(std::sqrt(run.greatest[rate_squared]) == Approx(0.01).epsilon(1e-13));
+    CHECK(std::sqrt(run.greatest[solve::rate_squared]) == Approx(0.01).epsilon(1e-13));
   }
 }
 
@@ -149,9 +149,9 @@ TEST_CASE("each lane finds its own farthest place between nodes") {
     // Up to 0.1^2 / (2 a) and back again, and perhaps farther on the other side.
     const double turning = x + v * v / (2 * a), last = x + v * end - a / 2 * end * end;
     const double farthest = v / a < end ? std::max(turning, std::abs(last)) : std::abs(last);
-    CHECK(std::sqrt(run.greatest[distance_squared]) == Approx(farthest).epsilon(1e-11));
+    CHECK(std::sqrt(run.greatest[solve::distance_squared]) == Approx(farthest).epsilon(1e-11));
     CHECK(run.state[0] == Approx(last).epsilon(1e-11));
-    CHECK(run.greatest[versine] ==
+    CHECK(run.greatest[solve::versine] ==
           Approx(2 * std::pow(std::sin(0.5e-3 * (1 + 0.1 * i)), 2)).epsilon(1e-13));
   }
 }
@@ -195,8 +195,8 @@ TEST_CASE("the greatest tilt and rate are those of the motion, for any terms") {
     rate = std::max(rate, angles[0].rate * angles[0].rate + angles[1].rate * angles[1].rate);
   }
   // Sampling every 1e-5 s misses the maximum by at most a relative 1e-10.
-  CHECK(runs[0].greatest[versine] == Approx(tilted).epsilon(1e-9));
-  CHECK(runs[0].greatest[rate_squared] == Approx(rate).epsilon(1e-9));
+  CHECK(runs[0].greatest[solve::versine] == Approx(tilted).epsilon(1e-9));
+  CHECK(runs[0].greatest[solve::rate_squared] == Approx(rate).epsilon(1e-9));
 }
 
 }  // namespace bbsim_test::test_given_motions

@@ -53,8 +53,8 @@ double largest_difference(const CaseResults& a, const CaseResults& b) {
   return largest;
 }
 
-// Measures from the rows of solve::integrate; unless the manner is quick, of each row separately.
-CaseResults one_by_one(const SweepTask& task, const record::Manner& manner = {}) {
+// Measures from the rows of solve::integrate.
+CaseResults one_by_one(const SweepTask& task) {
   CaseResults results;
   results.resize(task.plan.cases(), task);
   const std::size_t numbers = 1 + task.measures.size();
@@ -64,7 +64,7 @@ CaseResults one_by_one(const SweepTask& task, const record::Manner& manner = {})
     const model::BallConstants constants = model::constants_of(scenario);
     const solve::OutputGrid grid(scenario.time);
     record::Recorder recorder({{}, task.measures});
-    recorder.begin(model, constants, grid, nullptr, manner);
+    recorder.begin(model, constants, grid);
     const solve::Outcome outcome =
         solve::integrate(model, scenario.solver.method,
                          {scenario.solver.rtol, scenario.solver.atol}, grid, recorder);
@@ -82,58 +82,7 @@ TEST_CASE("a case of a sweep has the measures of a run, to the bit") {
   const Setup setup(scene, {{key, "uniform:-0.1:0.1"}}, {"solver.rtol=1e-9"},
                     scene == "configs/fig2a.yaml" ? open_measures : loop_measures, 5);
   const CaseResults results = run_all(*single_runner(setup.task), setup.task);
-  CHECK(results.numbers == one_by_one(setup.task, {true}).numbers);
-}
-
-TEST_CASE("measures over many rows together equal those row by row") {
-  SECTION("under a given motion") {
-    const Setup setup("configs/fig2a.yaml",
-                      {{"gimbal.motion.phi.sinusoid.amplitude", "uniform:-2:2"},
-                       {"gimbal.motion.theta.sinusoid.frequency", "uniform:0.5:3"}},
-                      {"time.step=0.07"}, open_measures, 40);
-    const auto runner = single_runner(setup.task);
-    // The same sums and products in another order; also angles beyond 90 degrees.
-    CHECK(largest_difference(run_all(*runner, setup.task), one_by_one(setup.task)) < 1e-12);
-  }
-  SECTION("under one motion, which is evaluated only once") {
-    const Setup setup("configs/fig2a.yaml", {{"ball.spin", "uniform:-5:5"}}, {"time.step=0.3"},
-                      open_measures, 10);
-    const auto runner = single_runner(setup.task);
-    CHECK(largest_difference(run_all(*runner, setup.task), one_by_one(setup.task)) < 1e-12);
-  }
-  SECTION("in a loop") {
-    const Setup setup("configs/fig2b.yaml",
-                      {{"controller.pd.kv.0.0", "uniform:0.8:1.2"},
-                       {"controller.reference.circle.radius", "uniform:0.01:0.08"}},
-                      {"time.step=0.13"}, loop_measures, 20);
-    const auto runner = single_runner(setup.task);
-    CHECK(largest_difference(run_all(*runner, setup.task), one_by_one(setup.task)) < 1e-12);
-  }
-  SECTION("runs that end early") {
-    const Setup setup("configs/fig2b-literal.yaml", {{"controller.pd.kv", "linear:60:100:5"}}, {},
-                      loop_measures);
-    const auto runner = single_runner(setup.task);
-    const CaseResults results = run_all(*runner, setup.task), expected = one_by_one(setup.task);
-    const std::size_t numbers = 1 + setup.task.measures.size();
-    for (std::size_t i = 0; i < results.numbers.size(); ++i) {
-      // The plane turns over and over in the last steps, too fast for any number of points.
-      const std::size_t place = i % numbers;
-      const bool tilt = place > 0 && setup.task.measures[place - 1].name == "max_tilt";
-      CHECK(results.numbers[i] == Approx(expected.numbers[i]).epsilon(tilt ? 1e-3 : 1e-12));
-    }
-    CHECK(results.status[0].word == "failed");
-  }
-}
-
-TEST_CASE("a key of the motion's or reference's group changes it from case to case") {
-  const Setup setup(
-      "configs/fig2a.yaml",
-      {{"gimbal",
-        "list:{motion: {phi: 0.01}}, {motion: {phi: 0.3, theta: {ramp: {start: 0, rate: "
-        "0.01}}}}"}},
-      {}, open_measures);
-  const auto runner = single_runner(setup.task);
-  CHECK(largest_difference(run_all(*runner, setup.task), one_by_one(setup.task)) < 1e-12);
+  CHECK(results.numbers == one_by_one(setup.task).numbers);
 }
 
 TEST_CASE("distances neither overflow nor underflow in between") {
@@ -310,6 +259,16 @@ TEST_CASE("loops that diverge in lanes end as single runs do, without affecting 
   for (std::size_t i = 0; i < ends.numbers.size(); ++i) {
     CHECK(ends.numbers[i] == Approx(expected.numbers[i]).epsilon(1e-6).margin(1e-7));
   }
+}
+
+TEST_CASE("references that are sums of sinusoids have lanes") {
+  check_lanes(
+      Setup("configs/lissajous.yaml",
+            {{"controller.pd.kv.0.0", "linear:0.5:0.7:3"}, {"ball.position.1", "linear:0:2 cm:3"}},
+            coarse, loop_measures));
+  const Setup splines("configs/waypoints.yaml", {{"ball.radius", "linear:0.01:0.02:9"}}, coarse,
+                      loop_measures);
+  CHECK(choose_engine(splines.task).name == "single runs");
 }
 
 TEST_CASE("a sweep of planar cases only uses single runs") {

@@ -106,7 +106,7 @@ TEST_CASE("maxima between rows a second apart, with single runs") {
                       {"time.step=1", "solver.rtol=1e-11", "solver.atol=1e-13"}, extremes, 8);
     CHECK(error_of(run_all(*single_runner(setup.task), setup.task), setup.task) < 1e-9);
   }
-  SECTION("measures outside TrackMeasures") {
+  SECTION("other measures") {
     const Setup setup("configs/fig2b.yaml", {{"controller.pd.kv.0.0", "uniform:0.8:1.2"}},
                       {"time.step=1", "solver.rtol=1e-11", "solver.atol=1e-13"},
                       {"max_x", "max_friction_force", "max_phi_rate", "max_spin", "max_power"}, 3);

@@ -167,6 +167,8 @@ double tilt(const Sample& sample, const BallConstants& constants) {
 }
 
 double tilt_rate(const Sample& sample, const BallConstants& constants) {
+  // The axes of the paper's gimbal are square.
+  if (constants.papers_rig) return std::hypot(sample.gimbal.phi_dot, sample.gimbal.theta_dot);
   return Kinematics(sample, constants).omega.norm();
 }
 

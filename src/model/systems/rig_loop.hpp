@@ -357,6 +357,12 @@ class RigLoop {
     Sample sample;
     sample.t = t;
     sample.ball = ball_motion<Shape::full>(Layout::unpack(z), r_);
+    if (detail == Detail::ball) return sample;
+    if (detail == Detail::path || detail == Detail::all) {
+      const auto reference = reference_.at(t);
+      sample.reference = {reference[0].value, reference[1].value};
+      if (detail == Detail::path) return sample;
+    }
     sample.gimbal = {with.angle[0], with.angle[1],        with.rate[0],
                      with.rate[1],  with.acceleration[0], with.acceleration[1]};
     for (int i = 0; i < servos; ++i) {
@@ -369,15 +375,12 @@ class RigLoop {
     if (detail < Detail::loop) return sample;
     sample.command = {with.command[0], with.command[1]};
     sample.measured = {with.measured[0], with.measured[1]};
-    if (detail < Detail::all) return sample;
-    const auto reference = reference_.at(t);
-    sample.reference = {reference[0].value, reference[1].value};
     return sample;
   }
 
   // The sample in the present mode.
   [[nodiscard]] Sample sample(double t, const double* z, Detail detail = Detail::all) const {
-    return sample(t, z, detail == Detail::ball ? RigExtras{} : extras(t, z), detail);
+    return sample(t, z, detail <= Detail::path ? RigExtras{} : extras(t, z), detail);
   }
 
   [[nodiscard]] const Signals& reference() const { return reference_; }

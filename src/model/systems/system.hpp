@@ -186,7 +186,7 @@ class OpenLoop {
     Sample sample;
     sample.t = t;
     sample.ball = ball_motion<shape>(Layout::unpack(z), r_);
-    if (detail == Detail::ball) return sample;
+    if (detail <= Detail::path) return sample;
     const auto [phi, theta] = motion_.at(t);
     sample.gimbal = {phi.value,  theta.value,      phi.rate,
                      theta.rate, phi.acceleration, theta.acceleration};
@@ -326,6 +326,12 @@ class ClosedLoop {
     Sample sample;
     sample.t = t;
     sample.ball = ball_motion<shape>(ball, r_);
+    if (detail == Detail::ball) return sample;
+    if (detail == Detail::path) {
+      const auto reference = reference_.at(t);
+      sample.reference = {reference[0].value, reference[1].value};
+      return sample;
+    }
     if constexpr (phi_moves(shape)) {
       sample.gimbal.phi = angles[0];
       sample.gimbal.phi_dot = angles[axes];

@@ -119,6 +119,30 @@ struct DenseRows : Of {
       }
     }
   }
+
+  [[gnu::flatten]] static double squared_errors(const Case& of, const double* times,
+                                                std::size_t count, const double* x,
+                                                const double* y) {
+    P total(0.0);
+    for (std::size_t first = 0; first < count; first += lanes) {
+      const P t = P::load_anywhere(times + first);
+      P from[2] = {P::load_anywhere(x + first), P::load_anywhere(y + first)};
+      for (int i = 0; i < 2; ++i) from[i] -= P(of.start[i]) + P(of.rate[i]) * t;
+      for (int k = 0; k < of.harmonic_count; ++k) {
+        const model::Harmonic& harmonic = of.harmonics[k];
+        const P angle = P(harmonic.frequency) * t;
+        const bool moderate = size_of(harmonic.frequency * times[count - 1]) < 1e5;
+        const SinCos<P> wave = moderate ? sin_cos_of_moderate(angle) : sin_cos(angle);
+        for (int i = 0; i < 2; ++i) {
+          from[i] -= P(harmonic.sine[i]) * wave.sin + P(harmonic.cosine[i]) * wave.cos;
+        }
+      }
+      P squared = from[0] * from[0] + from[1] * from[1];
+      for (std::size_t l = count - first; l < lanes; ++l) squared.v[l] = 0;
+      total += squared;
+    }
+    return sum(total);
+  }
 };
 
 }  // namespace bbsim::solve::ensemble

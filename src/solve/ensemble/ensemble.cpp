@@ -132,13 +132,13 @@ void Ensemble::set_aside(int lane) {
   Aside& aside = aside_.emplace_back(Aside{std::move(*case_in(lane)), {}, {}});
   case_in(lane).reset();
   kernel_->store(workspace_.get(), lane, aside.progress);
-  for (int i = 0; i < quantity_count; ++i) aside.greatest[i] = greatest_.of[i][lane];
+  for (int i = 0; i < size_count; ++i) aside.greatest[i] = greatest_.of[i][lane];
 }
 
 void Ensemble::resume(int lane) {
   Aside& aside = aside_.back();
   kernel_->load(workspace_.get(), lane, aside.progress);
-  for (int i = 0; i < quantity_count; ++i) greatest_.of[i][lane] = aside.greatest[i];
+  for (int i = 0; i < size_count; ++i) greatest_.of[i][lane] = aside.greatest[i];
   case_in(lane) = std::move(aside.active);
   aside_.pop_back();
 }
@@ -262,9 +262,10 @@ void Ensemble::end(int lane, Ending ending, Study& study) {
   case_in(lane).reset();
   Progress now;
   kernel_->store(workspace_.get(), lane, now);
-  Result run{ending,    active.t, std::min(active.rows, rows_), active.x.data(), active.y.data(),
-             now.state, {}};
-  for (int i = 0; i < quantity_count; ++i) run.greatest[i] = greatest_.of[i][lane];
+  Result run{
+      ending, active.t, std::min(active.rows, rows_), active.x.data(), active.y.data(), now.state,
+      {},     &now.of};
+  for (int i = 0; i < size_count; ++i) run.greatest[i] = greatest_.of[i][lane];
   study.end(active.number, run);
   if (rows_ == 0) return;
   for (std::vector<double>* const column : {&active.x, &active.y})

@@ -33,11 +33,12 @@ enum class Ending {
 // The result of a case. Its pointers are valid only during Study::end().
 struct Result {
   Ending ending;
-  double reached;                   // s
-  std::size_t rows;                 // of the grid, up to `reached`; 0 if no rows are wanted
-  const double *x, *y;              // of each row
-  const double* state;              // at `reached`, packed as in the loop
-  double greatest[quantity_count];  // over the motion up to `reached`, also between rows
+  double reached;               // s
+  std::size_t rows;             // of the grid, up to `reached`; 0 if no rows are wanted
+  const double *x, *y;          // of each row
+  const double* state;          // at `reached`, packed as in the loop
+  double greatest[size_count];  // over the motion up to `reached`, also between rows
+  const Case* of;
 };
 
 // The source of cases and the sink of their results.
@@ -93,6 +94,11 @@ class Ensemble {
   // starts no more. end() is not called for any of these.
   void carry(Study& study, const std::atomic<bool>& stop);
 
+  // The sum of the squared distances of a loop's rows from its reference, m^2. Call it in end().
+  [[nodiscard]] double squared_errors(const Result& run) const {
+    return kernel_->squared_errors(*run.of, times_.data(), run.rows, run.x, run.y);
+  }
+
   // Counts of the last study. A Jacobian and its iterations count once for all lanes of an attempt.
   [[nodiscard]] Statistics statistics() const { return statistics_; }
 
@@ -103,7 +109,7 @@ class Ensemble {
   struct Aside {
     ActiveCase active;
     Progress progress;
-    double greatest[quantity_count];
+    double greatest[size_count];
   };
 
   void fill(Study& study);

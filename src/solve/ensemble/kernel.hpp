@@ -12,6 +12,7 @@
 #include <limits>
 
 #include "model/signals/signal_pair.hpp"
+#include "solve/size.hpp"
 
 namespace bbsim::solve::ensemble {
 
@@ -66,12 +67,9 @@ struct alignas(64) Lanes {
   long long of[group];
 };
 
-// The maxima of each lane: 1 - cos(tilt) of the plate, its squared angular velocity, and the
-// squared distances of the contact point from the plate's origin and from the reference.
-enum Quantity : int { versine, rate_squared, distance_squared, error_squared, quantity_count };
-
+// The greatest sizes of each lane.
 struct alignas(64) Greatest {
-  double of[quantity_count][group];
+  double of[size_count][group];
 };
 
 struct alignas(64) Attempt {
@@ -108,6 +106,10 @@ struct Kernel {
   // three arrays must have that space.
   void (*evaluate)(void* workspace, int lane, const double* times, std::size_t count, double* x,
                    double* y);
+  // The sum of the squared distances of `count` rows from the reference of a loop. The arrays have
+  // space as for evaluate().
+  double (*squared_errors)(const Case& of, const double* times, std::size_t count, const double* x,
+                           const double* y);
   // Updates the maxima with the last attempt, its start included: the ball's in `lanes`, and the
   // plate's in those also in `turning`. Call it for each accepted attempt, before accept().
   void (*raise_maxima)(void* workspace, const Lanes& lanes, const Lanes& turning,

@@ -36,7 +36,7 @@ struct Maxima : Of {
     return {zero, zero};
   }
 
-  // One of the Quantity quantities and its slope, for a pack's states at an instant. Slopes are
+  // One of the sizes and its slope, for a pack's states at an instant. Slopes are
   // with respect to the fraction of the step.
   template <int which>
   BBSIM_INLINE static void look_at(const P* q, const P* v, const P* k, const Signals& reference,
@@ -143,17 +143,17 @@ struct Maxima : Of {
     choose(wanted, most, before).store(greatest + p * lanes);
   }
 
-  // Upper bounds of all Quantity quantities over the step, as in simd::promise_between, with
+  // Upper bounds of all sizes over the step, as in simd::promise_between, with
   // squares of angles instead of sines.
-  [[gnu::flatten]] static void bound(const Workspace& w, int p, P (&bounds)[quantity_count]) {
+  [[gnu::flatten]] static void bound(const Workspace& w, int p, P (&bounds)[size_count]) {
     const Scene scene = Of::scene(w, p);
     const Pack& of = w.of[p];
     const P h = Of::length(w, p);
-    P before[quantity_count], rise_before[quantity_count];
+    P before[size_count], rise_before[size_count];
     const auto take = [&](const P(&q)[nq], const P(&v)[nv], const P(&k)[nv],
                           const Signals& reference, P width, bool first)
         __attribute__((always_inline)) {
-      P sizes[quantity_count], slopes[quantity_count];  // half the derivatives by time
+      P sizes[size_count], slopes[size_count];  // half the derivatives by time
       sizes[versine] = P(0.5) * (q[phi] * q[phi] + q[theta] * q[theta]);
       slopes[versine] = P(0.5) * (q[phi] * v[phi] + q[theta] * v[theta]);
       sizes[rate_squared] = v[phi] * v[phi] + v[theta] * v[theta];
@@ -165,7 +165,7 @@ struct Maxima : Of {
       slopes[error_squared] =
           from_x * (v[x] - reference[0].rate) + from_y * (v[y] - reference[1].rate);
 #pragma GCC unroll 4
-      for (int i = 0; i < (given ? error_squared : quantity_count); ++i) {
+      for (int i = 0; i < (given ? error_squared : size_count); ++i) {
         if (first) {
           bounds[i] = sizes[i];
         } else {
@@ -188,7 +188,7 @@ struct Maxima : Of {
 
   template <int which>
   BBSIM_INLINE static void raise_if_worth(Workspace& w, int p, Mask taken,
-                                          const P (&bounds)[quantity_count], Greatest& greatest) {
+                                          const P (&bounds)[size_count], Greatest& greatest) {
     const Mask wanted = taken & (Mask)(bounds[which].v > P::load(greatest.of[which] + p * lanes).v);
     if (simd::any_of<P>(wanted)) look_pack<which>(w, p, wanted, greatest.of[which]);
   }
@@ -199,7 +199,7 @@ struct Maxima : Of {
     for (int p = 0; p < packs; ++p) {
       const Mask of = Of::mask(taken, p);
       if (!simd::any_of<P>(of)) continue;
-      P bounds[quantity_count];
+      P bounds[size_count];
       bound(w, p, bounds);
       const Mask plate = of & Of::mask(turning, p);
       raise_if_worth<versine>(w, p, plate, bounds, greatest);

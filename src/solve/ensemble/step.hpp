@@ -145,6 +145,7 @@ struct Step : Iteration {
                                  store,
                                  attempt,
                                  DenseRows<Base>::evaluate,
+                                 DenseRows<Base>::squared_errors,
                                  Maxima<Base>::raise_maxima,
                                  accept};
 };

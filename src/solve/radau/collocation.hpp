@@ -265,9 +265,8 @@ struct Collocation {
     w.rtol = from.rtol;
     w.atol = from.atol;
     w.gamma = from.gamma;
-    w.positions_only = from.positions_only;
     w.has_guess = false;
-    w.accepted = false;
+    w.accepted = w.expanded = false;
     w.contraction = 1;
     w.t = w.h = 0;
     for (int i = 0; i < nv; ++i) {
@@ -311,6 +310,7 @@ struct Collocation {
   // coefficients predicts the first coefficient left out. The error is its integral for a velocity,
   // and its second integral for a position.
   [[gnu::noinline]] static void estimate(Workspace& w, Attempt& a) {
+    w.expanded = false;
     apply<nv, s, Table::stages, P>(
         table.legendre, w.k.of[0], Table::stages,
         [&](int i, int p, P sum) { sum.store(&w.series.of[i][p * lanes]); });

@@ -63,19 +63,18 @@ struct DenseRows : Base {
 
   static void evaluate(void* workspace, const double* times, std::size_t count, double* rows) {
     Workspace& w = *static_cast<Workspace*>(workspace);
-    expand(w);
+    if (!w.expanded) expand(w);
     if (w.gamma) {
-      evaluate_rows<true, true>(w, times, count, rows);
-    } else if (w.positions_only) {
-      evaluate_rows<false, false>(w, times, count, rows);
+      evaluate_rows<true>(w, times, count, rows);
     } else {
-      evaluate_rows<true, false>(w, times, count, rows);
+      evaluate_rows<false>(w, times, count, rows);
     }
   }
 
   // Expands velocities and positions into series. All callers share this function, so that all get
   // the same fused products.
   [[gnu::noinline]] static void expand(Workspace& w) {
+    w.expanded = true;
     const double half = w.h / 2;
     for (int i = 0; i < nv; ++i) {
       integrate_series<s, false>(w.series.of[i], half, w.v[i], w.v_series[i]);
@@ -85,26 +84,25 @@ struct DenseRows : Base {
     }
   }
 
-  // Positions are the same bit for bit, with or without velocities and the integral of u, and for
-  // any number of times.
-  template <bool velocities, bool turned>
+  // Rows are the same bit for bit, with or without the integral of u, and for any number of times.
+  template <bool turned>
   BBSIM_INLINE static void evaluate_rows(Workspace& w, const double* times, std::size_t count,
                                          double* rows) {
     constexpr int row = n + (turned ? 1 : 0);
     // Evaluates two packs of times at once to hide the latency of the recurrence.
     while (count > lanes) {
       const std::size_t some = count < 2 * lanes ? count : 2 * lanes;
-      evaluate_some<velocities, turned, 2>(w, times, static_cast<int>(some), rows);
+      evaluate_some<turned, 2>(w, times, static_cast<int>(some), rows);
       times += some;
       rows += some * row;
       count -= some;
     }
     if (count > 0) {
-      evaluate_some<velocities, turned, 1>(w, times, static_cast<int>(count), rows);
+      evaluate_some<turned, 1>(w, times, static_cast<int>(count), rows);
     }
   }
 
-  template <bool velocities, bool turned, int together>
+  template <bool turned, int together>
   BBSIM_INLINE static void evaluate_some(Workspace& w, const double* times, int count,
                                          double* rows) {
     constexpr int row = n + (turned ? 1 : 0);
@@ -119,7 +117,7 @@ struct DenseRows : Base {
       now[p] = x[p];
 #pragma GCC unroll 8
       for (int i = 0; i < nv; ++i) {
-        if (velocities) v[i][p] = w.v_series[i][0] + w.v_series[i][1] * x[p];
+        v[i][p] = w.v_series[i][0] + w.v_series[i][1] * x[p];
         if (turned || i < nq) q[i][p] = w.q_series[i][0] + w.q_series[i][1] * x[p];
       }
     }
@@ -131,7 +129,7 @@ struct DenseRows : Base {
         now[p] = next;
 #pragma GCC unroll 8
         for (int i = 0; i < nv; ++i) {
-          if (velocities && m < s) v[i][p] += P(w.v_series[i][m + 1]) * next;
+          if (m < s) v[i][p] += P(w.v_series[i][m + 1]) * next;
           if (turned || i < nq) q[i][p] += P(w.q_series[i][m + 1]) * next;
         }
       }
@@ -140,7 +138,7 @@ struct DenseRows : Base {
       const int p = l / lanes, lane = l % lanes;
 #pragma GCC unroll 8
       for (int i = 0; i < nv; ++i) {
-        if (velocities) rows[motions.of[i].velocity] = v[i][p][lane];
+        rows[motions.of[i].velocity] = v[i][p][lane];
         if (i < nq) {
           rows[motions.of[i].position] = q[i][p][lane];
         } else if (turned && turns(w, i)) {

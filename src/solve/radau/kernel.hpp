@@ -16,7 +16,6 @@ struct Start {
   const double* state;
   double rtol, atol;
   bool gamma;  // whether the integral of u is under error control too, and follows the states
-  bool positions_only = false;  // without gamma: evaluate() leaves the velocities in rows unchanged
 };
 
 enum class Verdict { converged, diverged, not_finite };
@@ -36,10 +35,10 @@ struct WorkspaceHead {
   const void* system;  // not part of a saved state
   double rtol, atol;
   bool gamma;
-  bool positions_only;  // see Start
-  bool newton;          // whether to use Newton's iteration, not substitution
-  bool has_guess;       // whether k has the values of the last attempt, over [t, t + h]
-  bool accepted;        // whether that attempt was accepted
+  bool newton;     // whether to use Newton's iteration, not substitution
+  bool has_guess;  // whether k has the values of the last attempt, over [t, t + h]
+  bool accepted;   // whether that attempt was accepted
+  bool expanded;   // whether its velocities and positions are series
 };
 
 // All functions work on a workspace of `workspace` bytes, aligned to 64, which start() prepares.

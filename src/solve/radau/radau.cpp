@@ -90,34 +90,22 @@ int stages_of(const model::Model& model, int stages) {
 
 RadauStepper::RadauStepper(const model::Model& model, const StepKernels& kernels, int stages,
                            Tolerances tolerances, double end)
-    : model_(&model), kernels_(kernels), tolerances_(tolerances) {
-  renew(model, stages, end);
-}
-
-void RadauStepper::renew(const model::Model& model, int stages, double end) {
-  model_ = &model;
-  end_ = end;
-  const Kernel* const kernel = &find_kernel(kernels_, stages, model);
-  if (kernel != kernel_) {
-    kernel_ = kernel;
-    reach_ = resolved(kernel_->stages, tolerances_.rtol);
-    const std::size_t both = kernel_->workspace + size_of_view(model);
-    std::size_t room = both + alignment;
-    memory_ = std::make_unique_for_overwrite<std::byte[]>(room);
-    workspace_ = memory_.get();
-    std::align(alignment, both, workspace_, room);
-    view_ = static_cast<std::byte*>(workspace_) + kernel_->workspace;
-  }
-  highest_frequency_ = highest_frequency(model);
-  // A sinusoid shorter than the distance of two nodes would look like a longer one.
-  widest_ = highest_frequency_ > 0 ? 1.6 * kernel_->stages / highest_frequency_
-                                   : std::numeric_limits<double>::max();
-  tempo_ = tempo(model);
-  time_ = steps_.next = turned_ = 0;
-  attempted_ = false;
-  shrinking_ = {};
-  worst_state_ = 0;
-  statistics_ = {};
+    : model_(&model),
+      kernel_(&find_kernel(kernels, stages, model)),
+      tolerances_(tolerances),
+      end_(end),
+      highest_frequency_(highest_frequency(model)),
+      reach_(resolved(kernel_->stages, tolerances.rtol)),
+      // A sinusoid shorter than the distance of two nodes would look like a longer one.
+      widest_(highest_frequency_ > 0 ? 1.6 * kernel_->stages / highest_frequency_
+                                     : std::numeric_limits<double>::max()),
+      tempo_(tempo(model)) {
+  const std::size_t both = kernel_->workspace + size_of_view(model);
+  std::size_t room = both + alignment;
+  memory_ = std::make_unique_for_overwrite<std::byte[]>(room);
+  workspace_ = memory_.get();
+  std::align(alignment, both, workspace_, room);
+  view_ = static_cast<std::byte*>(workspace_) + kernel_->workspace;
 }
 
 // Makes the kernel's own view of the system in its present mode.
@@ -166,8 +154,7 @@ void RadauStepper::start(double t, const double* z) {
     turned_ = row.back();
   }
   attempted_ = false;
-  kernel_->start(workspace_,
-                 {view_, z, tolerances_.rtol, tolerances_.atol, model_->gamma, positions_only_});
+  kernel_->start(workspace_, {view_, z, tolerances_.rtol, tolerances_.atol, model_->gamma});
   time_ = t;
   shrinking_.interrupt();
   if (steps_.next > 0) return;

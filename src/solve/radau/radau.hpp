@@ -43,13 +43,6 @@ class RadauStepper : public Stepper {
   RadauStepper(const model::Model& model, const StepKernels& kernels, int stages,
                Tolerances tolerances, double end);
 
-  // Resets the stepper for another model. Reuses the memory of the last model if it can.
-  void renew(const model::Model& model, int stages, double end);
-
-  // If `yes`, evaluate() writes only the positions of a row, and leaves its other numbers
-  // unchanged. Call it before start().
-  void leave_out_velocities(bool yes) { positions_only_ = yes; }
-
   void start(double t, const double* z) override;
   [[nodiscard]] std::optional<Failure> step(double limit) override;
   void evaluate(const double* times, std::size_t count, double* rows) override;
@@ -67,12 +60,10 @@ class RadauStepper : public Stepper {
   [[nodiscard]] bool diverges(double step, double t);
 
   const model::Model* model_;
-  const StepKernels& kernels_;
-  const Kernel* kernel_ = nullptr;
+  const Kernel* kernel_;
   Tolerances tolerances_;
-  double end_ = 0, highest_frequency_ = 0, reach_ = 0, widest_ = 0;
-  double tempo_ = 0;  // rate of explicit functions of time, rad/s
-  bool positions_only_ = false;
+  double end_, highest_frequency_, reach_, widest_;
+  double tempo_;                         // rate of explicit functions of time, rad/s
   std::unique_ptr<std::byte[]> memory_;  // of the two below
   void* workspace_ = nullptr;
   void* view_ = nullptr;

@@ -11,6 +11,7 @@
 #include "model/control/sampled_law.hpp"
 #include "model/signals/signal_pair.hpp"
 #include "solve/sampled/kernel.hpp"
+#include "solve/size.hpp"
 
 namespace bbsim::solve::sampled {
 
@@ -92,19 +93,11 @@ struct alignas(64) LaneScene {
   bool papers;  // whether all lanes have the paper's rolling
 };
 
-// Quantities whose maximum over a run is wanted. They are smooth: squares instead of roots.
-enum class Size : int {
-  versine,           // 1 - cos(tilt)
-  rate_squared,      // of the plate's angular velocity, (rad/s)^2
-  distance_squared,  // m^2
-  error_squared      // of the distance from the reference, m^2
-};
-inline constexpr int sizes = 4;
-
 // The sizes at the start and at all nodes but the first, their ranges, and whether an event may
 // occur.
 struct alignas(64) LaneQuantities {
-  double size[sizes][nodes][group], least_size[sizes][group], most_size[sizes][group];
+  double size[size_count][nodes][group], least_size[size_count][group],
+      most_size[size_count][group];
   double quiet[group];  // 1 if bounds exclude every event; otherwise 0
 };
 // A reference (x, y) at the start and at all nodes but the first.

@@ -244,7 +244,7 @@ struct LaneKernel {
     }
     ();
     constexpr int ranges = Quantity::grip + 1;
-    P least[ranges], most[ranges], least_size[sizes], most_size[sizes];
+    P least[ranges], most[ranges], least_size[size_count], most_size[size_count];
 #pragma GCC unroll 1
     for (int n = 0; n < nodes; ++n) {
       const bool start = n == 0;
@@ -332,7 +332,7 @@ struct LaneKernel {
                simd::exceeds(of(scene.most[i]), most[i] + beyond);
     }
     simd::choose(quiet, P(1.0), P(0.0)).store(quantities.quiet + first);
-    for (int i = 0; i < sizes; ++i) {
+    for (int i = 0; i < size_count; ++i) {
       const auto size = static_cast<Size>(i);
       const bool of_gimbal = size == Size::versine || size == Size::rate_squared;
       if (of_gimbal ? !scene.gimbal : size == Size::error_squared && !scene.reference) continue;
