@@ -31,7 +31,7 @@
 #include "replay/page.hpp"
 #include "scenario/edit_text.hpp"
 #include "scenario/family.hpp"
-#include "scenario/key_paths.hpp"
+#include "scenario/keys.hpp"
 #include "sweep/window.hpp"
 
 namespace bbsim {

@@ -18,13 +18,13 @@
 #include "base/short_number.hpp"
 #include "base/text.hpp"
 #include "embedded.hpp"
-#include "scenario/value_in.hpp"
 #include "terminal.hpp"
+#include "yaml/quantity.hpp"
 
 namespace bbsim::app {
 namespace {
 
-using scenario::value_in;
+using yaml::value_in;
 
 constexpr double mm = 1e-3;
 

@@ -9,7 +9,7 @@
 
 #include "command.hpp"
 #include "scenario/columns.hpp"
-#include "scenario/key_paths.hpp"
+#include "scenario/keys.hpp"
 #include "scenario/measures.hpp"
 
 namespace bbsim::app {

@@ -19,14 +19,14 @@
 #include "scenario/columns.hpp"
 #include "scenario/edit_text.hpp"
 #include "scenario/expectation.hpp"
-#include "scenario/key_value.hpp"
+#include "scenario/keys.hpp"
 #include "scenario/measures.hpp"
 #include "scenario/reader.hpp"
 #include "scenario/unit_doubts.hpp"
-#include "scenario/value_in.hpp"
 #include "scenario/variation.hpp"
 #include "sweep/plan.hpp"
 #include "sweep/window.hpp"
+#include "yaml/quantity.hpp"
 
 namespace bbsim::python {
 namespace {
@@ -168,7 +168,7 @@ void define_analysis(py::module_& module) {
   module.def("number_at", [](const Given& given, const std::string& key, const std::string& value) {
     return shared_family(given).number_at(key, {{key, value}});
   });
-  module.def("value_in", &scenario::value_in);
+  module.def("value_in", &yaml::value_in);
   module.def("text_at", &text_at);
   module.def("has", [](const Given& given, const std::string& key) {
     return !text_at(given, key).empty();

@@ -12,7 +12,7 @@
 #include "model/model.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/family.hpp"
-#include "scenario/look_up.hpp"
+#include "scenario/reader.hpp"
 
 namespace bbsim::api {
 

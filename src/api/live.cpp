@@ -16,8 +16,7 @@
 #include "record/linear_text.hpp"
 #include "scenario/exercise.hpp"
 #include "scenario/family.hpp"
-#include "scenario/key_paths.hpp"
-#include "scenario/key_value.hpp"
+#include "scenario/keys.hpp"
 #include "scenario/measures.hpp"
 #include "scenario/variation.hpp"
 

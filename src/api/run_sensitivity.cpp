@@ -18,7 +18,7 @@
 #include "base/quoted.hpp"
 #include "base/short_number.hpp"
 #include "model/model.hpp"
-#include "scenario/key_value.hpp"
+#include "scenario/keys.hpp"
 #include "sweep/sweep.hpp"
 #include "yaml/quantity.hpp"
 #include "yaml/spelling.hpp"

@@ -10,8 +10,8 @@
 
 #include "base/number_text.hpp"
 #include "scenario/columns.hpp"
-#include "scenario/look_up.hpp"
 #include "scenario/measures.hpp"
+#include "scenario/reader.hpp"
 
 namespace bbsim::record {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <set>
 
-#include "scenario/key_value.hpp"
+#include "scenario/keys.hpp"
 #include "scenario/relations.hpp"
 #include "yaml/quantity.hpp"
 

@@ -10,10 +10,9 @@
 #include <string_view>
 
 #include "base/error.hpp"
-#include "scenario/section_extent.hpp"
 #include "yaml/check_text.hpp"
 #include "yaml/document.hpp"
-#include "yaml/spelling.hpp"
+#include "yaml/schema.hpp"
 
 namespace bbsim {
 namespace {
@@ -55,11 +54,78 @@ bool is_shared(std::string_view text, const Position& from, const Node& value) {
   return before[blank == std::string_view::npos ? 0 : blank + 1] == '&';
 }
 
-const Entry* find(const Node& mapping, std::string_view name) {
-  for (const Entry& entry : mapping.entries) {
-    if (entry.key == name || yaml::other_spelling(name) == entry.key) return &entry;
+// A mapping or a list in the text.
+struct Extent {
+  std::size_t from, to;
+};
+
+constexpr std::size_t none = std::string_view::npos;
+
+std::size_t line_end(std::string_view text, std::size_t at) {
+  return std::min(text.find('\n', at), text.size());
+}
+
+// The last character of the quoted text at `at`. Two single quotes in it are one letter.
+std::size_t quote_end(std::string_view text, std::size_t at) {
+  const char quote = text[at];
+  for (++at; at < text.size(); ++at) {
+    const bool doubled = quote == '\'' && text.substr(at).starts_with("''");
+    if (doubled || (quote == '"' && text[at] == '\\')) {
+      ++at;
+    } else if (text[at] == quote) {
+      break;
+    }
   }
-  return nullptr;
+  return at;
+}
+
+// The extent of the {...} or [...] at `from`. Ignores brackets in quotes and comments.
+std::optional<Extent> flow_extent(std::string_view text, std::size_t from) {
+  constexpr std::string_view blanks = " \t\r\n", before_value = "{[,:";
+  int depth = 0;
+  char last = '{';  // the last character that is no blank
+  for (std::size_t at = from; at < text.size(); ++at) {
+    const char c = text[at];
+    const bool after_space = at == 0 || text[at - 1] == ' ' || text[at - 1] == '\n';
+    if (c == '#' && after_space) {
+      at = line_end(text, at);
+      continue;
+    }
+    if ((c == '"' || c == '\'') && before_value.find(last) != none) {
+      at = quote_end(text, at);  // elsewhere, as in it's, a quote is a letter
+    } else if (c == '{' || c == '[') {
+      ++depth;
+    } else if (c == '}' || c == ']') {
+      if (--depth == 0) return Extent{from, at + 1};
+    }
+    if (blanks.find(c) == none) last = c;
+  }
+  return {};
+}
+
+// The extent of the indented lines below the key at `key`, from the end of the key's line. Empty if
+// anything but a comment follows the key on its line, such as an anchor.
+std::optional<Extent> block_extent(std::string_view text, std::size_t key) {
+  const std::size_t newline = text.rfind('\n', key);
+  const std::size_t column = key - (newline == none ? 0 : newline + 1);
+  const std::size_t first = line_end(text, key);
+  const std::size_t colon = text.substr(0, first).find(':', key);
+  if (colon == none) return {};
+  const std::size_t more = text.find_first_not_of(" \r", colon + 1);
+  if (more < first && text[more] != '#') return {};
+  Extent found{first, first};
+  for (std::size_t end = first; end < text.size();) {
+    const std::size_t start = end + 1;
+    end = line_end(text, start);
+    const std::size_t word = text.find_first_not_of(" \r", start);
+    // Blank lines and comments belong to the key below them.
+    if (word == none || word >= end || text[word] == '#') continue;
+    const std::size_t indent = word - start;
+    const bool item = indent == column && text[word] == '-';
+    if (indent <= column && !item) break;
+    found.to = end;
+  }
+  return found.to > found.from ? std::optional(found) : std::nullopt;
 }
 
 // Writes "a.b.c" and a value as "a: {b: {c: value}}".
@@ -84,7 +150,7 @@ class Editor {
       const std::string_view name = path.substr(0, dot);
       const Node* next = nullptr;
       if (node->kind == Node::Kind::mapping) {
-        const Entry* const entry = find(*node, name);
+        const Entry* const entry = yaml::entry_of(*node, name);
         if (entry == nullptr) return insert(*node, path);
         next = entry->value;
         key = entry;
@@ -125,12 +191,12 @@ class Editor {
     const std::size_t name = offset_of(text_, key.position);
     const std::size_t at = offset_of(text_, section.position);
     if (text_[at] == '{' || text_[at] == '[') {
-      const auto extent = scenario::flow_extent(text_, at);
+      const auto extent = flow_extent(text_, at);
       if (!extent) refuse();
       text_.replace(at, extent->to - at, setting_.value);
       return;
     }
-    const auto extent = scenario::block_extent(text_, name);
+    const auto extent = block_extent(text_, name);
     if (!extent) refuse();
     text_.erase(extent->from, extent->to - extent->from);
     text_.insert(text_.find(':', name) + 1, ' ' + setting_.value);

@@ -8,10 +8,8 @@
 
 #include "base/error.hpp"
 #include "scenario/expectation.hpp"
-#include "scenario/key_paths.hpp"
-#include "scenario/key_value.hpp"
+#include "scenario/keys.hpp"
 #include "scenario/sections.hpp"
-#include "yaml/check_text.hpp"
 #include "yaml/nearest.hpp"
 #include "yaml/rules.hpp"
 #include "yaml/spelling.hpp"
@@ -49,13 +47,13 @@ bool refuse_unknown(const yaml::Value& key) {
 // A key without a value and without a default needs at least the mapping that it belongs to.
 void check_free(const yaml::Value& item, const ScenarioFamily& family) {
   const std::string& key = item.node->text;
-  const std::optional<ScalarKey> known = scalar_key(key);
-  if (!known) {
+  const std::optional<std::string> standard = scalar_default(key);
+  if (!standard) {
     refuse_unknown(item);
     return;
   }
   if (!family.text_at(key).empty() || family.number_at(key, {})) return;
-  if (known->standard.empty()) {
+  if (standard->empty()) {
     const std::string section = key.substr(0, key.rfind('.'));
     if (family.text_at(section).empty()) {
       item.refuse(", but this scenario has no " + section, "a key of a part that it has");
@@ -63,7 +61,7 @@ void check_free(const yaml::Value& item, const ScenarioFamily& family) {
     return;
   }
   try {
-    static_cast<void>(family.read({{key, known->standard}}));
+    static_cast<void>(family.read({{key, *standard}}));
   } catch (const InputError& error) {
     item.refuse(", which has no place in this scenario (" +
                     without_place(error.problems().front().message, key) + ')',
@@ -86,28 +84,6 @@ void check_items(const yaml::Value& section, const Scenario& scenario) {
   }
 }
 
-struct KeyNames {
-  static constexpr yaml::ListOf<yaml::Text, std::string> names{
-      {"a key of the scenario"}, 0, most_items, "keys, such as controller.pd.kp"};
-
-  [[nodiscard]] static std::string allowed() { return names.allowed(); }
-  [[nodiscard]] static yaml::Declared declared() {
-    yaml::Declared list = names.declared();
-    list.distinct = true;
-    return list;
-  }
-  static bool read(const yaml::Value& value, std::vector<std::string>& into) {
-    if (!names.read(value, into)) return false;
-    bool fine = true;
-    for (std::size_t i = 1; i < into.size(); ++i) {
-      const auto before = into.begin() + static_cast<std::ptrdiff_t>(i);
-      if (std::find(into.begin(), before, into[i]) == before) continue;
-      fine = value.item(i).refuse(" again", "each key once");
-    }
-    return fine;
-  }
-};
-
 void read_task(yaml::Keys& keys, Exercise::Task& task) {
   keys.required("text", yaml::Text{"a text, such as \"Hold the ball within 3 mm.\"", true},
                 task.text, {"what the learner should reach"});
@@ -124,15 +100,16 @@ void read_exercise(yaml::Keys& keys, Exercise& exercise) {
   const yaml::ListOf<yaml::MappingOf<Exercise::Task>, Exercise::Task> tasks{
       yaml::MappingOf(read_task), 1, most_items, "tasks {text, expect}"};
   keys.optional("tasks", tasks, exercise.tasks, {"a list of mappings, one for each task"});
-  keys.optional("free", KeyNames{}, exercise.free,
+  const yaml::ListOf<yaml::Text, std::string> names{
+      {"a key of the scenario"}, 0, most_items, "keys, such as controller.pd.kp", "each key once"};
+  keys.optional("free", names, exercise.free,
                 {"keys that the learner may change: each a number, or one of several names"});
 }
 
 std::optional<Exercise> checked_exercise(const Scenario& scenario) {
   if (!scenario.has_exercise) return {};
   const Source& source = scenario.source;
-  yaml::Problems problems(source.file, yaml::without_byte_order_mark(source.text),
-                          source.overrides);
+  yaml::Problems problems = problems_of(source);
   yaml::Nodes nodes;
   const yaml::Node* root = build_tree(source, problems, nodes);
   yaml::Context context{problems, {}};

@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "base/quoted.hpp"
 #include "base/text.hpp"
-#include "scenario/value_in.hpp"
+#include "yaml/quantity.hpp"
 
 namespace bbsim::scenario {
 
@@ -47,7 +47,7 @@ Expectation read_expectation(std::string_view where, std::string_view text,
   expectation.text = text;
   expectation.measure = measure_named(where, std::string(trimmed(text.substr(0, sign))), scenario);
   const std::string unit = expectation.measure.unit();
-  const auto value = value_in(text.substr(sign + (equal ? 2 : 1)), unit);
+  const auto value = yaml::value_in(text.substr(sign + (equal ? 2 : 1)), unit);
   if (!value) {
     throw InputError(found + ", but " + expectation.measure.name + " is in " + unit +
                      "; allowed: a number in that unit, or a quantity of its kind");

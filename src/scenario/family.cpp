@@ -10,7 +10,6 @@
 
 #include "base/fnv1a.hpp"
 #include "scenario/sections.hpp"
-#include "yaml/check_text.hpp"
 #include "yaml/override.hpp"
 #include "yaml/rules.hpp"
 #include "yaml/spelling.hpp"
@@ -37,7 +36,7 @@ ScenarioFamily::ScenarioFamily(const std::string& file, const std::vector<std::s
 
 ScenarioFamily::ScenarioFamily(const Source& source) : state_(std::make_unique<State>()) {
   state_->source = source;
-  Problems problems(source.file, without_byte_order_mark(state_->source.text), source.overrides);
+  Problems problems = problems_of(state_->source);
   state_->root = build_tree(state_->source, problems, state_->nodes);
   problems.throw_if_any();
 }
@@ -49,7 +48,7 @@ Scenario ScenarioFamily::State::read(const std::vector<Setting>& settings,
                                      std::map<std::string, NotedNumber>* numbers) const {
   std::vector<std::string> labels;
   for (const Setting& setting : settings) labels.push_back(setting.key + '=' + setting.value);
-  Problems problems(source.file, without_byte_order_mark(source.text), source.overrides, labels);
+  Problems problems = problems_of(source, std::move(labels));
   Nodes own;
   const Node* tree = root;
   int number = static_cast<int>(source.overrides.size());
@@ -79,10 +78,6 @@ Scenario ScenarioFamily::read(const std::vector<Setting>& settings) const {
   return state_->read(settings, nullptr);
 }
 
-std::optional<double> ScenarioFamily::read_number(const std::vector<Setting>& settings) const {
-  return number_at(settings.back().key, settings);
-}
-
 std::optional<double> ScenarioFamily::number_at(const std::string& key,
                                                 const std::vector<Setting>& settings) const {
   std::map<std::string, NotedNumber> numbers;
@@ -101,23 +96,12 @@ std::string_view ScenarioFamily::unit_of(const std::string& key,
 }
 
 std::string ScenarioFamily::text_at(const std::string& key) const {
-  const Node* node = state_->root;
-  const std::string path = american(key);
-  for (std::size_t start = 0; start <= path.size();) {
-    const std::size_t dot = std::min(path.find('.', start), path.size());
-    const std::string name = path.substr(start, dot - start);
-    const auto found = std::ranges::find_if(
-        node->entries, [&](const Entry& entry) { return american(entry.key) == name; });
-    if (found == node->entries.end()) return "";
-    node = found->value;
-    start = dot + 1;
-  }
-  return node->kind == Node::Kind::null ? "" : flow_text(*node);
+  const auto found = Value{state_->root, "", {}, nullptr}.at(key);
+  return !found || found->node->kind == Node::Kind::null ? "" : flow_text(*found->node);
 }
 
 Sweep ScenarioFamily::read_sweep() const {
-  Problems problems(state_->source.file, without_byte_order_mark(state_->source.text),
-                    state_->source.overrides);
+  Problems problems = problems_of(state_->source);
   Sweep sweep;
   if (state_->root->kind == Node::Kind::mapping) {
     Context context{problems, {}};

@@ -43,9 +43,6 @@ class ScenarioFamily {
   // InputError with all problems; those of a setting begin with "KEY=VALUE".
   [[nodiscard]] Scenario read(const std::vector<Setting>& settings) const;
 
-  // Returns number_at() for the key of the last setting.
-  [[nodiscard]] std::optional<double> read_number(const std::vector<Setting>& settings) const;
-
   // The unit of the single number at the key, with these settings: "m". Empty if the value is not a
   // single number, or if its unit depends on more than the key, as for a gain.
   [[nodiscard]] std::string_view unit_of(const std::string& key,

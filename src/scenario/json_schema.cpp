@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/json.hpp"
+#include "scenario/keys.hpp"
 #include "scenario/relations.hpp"
-#include "scenario/sections.hpp"
 #include "yaml/spelling.hpp"
 
 namespace bbsim {

@@ -8,7 +8,7 @@
 
 namespace bbsim {
 
-// The schema of the declared keys (scenario/sections.hpp) and their relations
+// The schema of the declared keys (scenario/keys.hpp) and their relations
 // (scenario/relations.hpp).
 [[nodiscard]] std::string scenario_json_schema();
 

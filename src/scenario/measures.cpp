@@ -10,8 +10,8 @@
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/text.hpp"
-#include "scenario/value_in.hpp"
 #include "yaml/nearest.hpp"
+#include "yaml/quantity.hpp"
 
 namespace bbsim::scenario {
 namespace {
@@ -91,7 +91,7 @@ std::optional<Instant> read_condition(std::string_view text, const FindColumn& f
       return {};
     }
     if (!is_usable(instant.column)) return {};
-    const std::optional<double> level = value_in(rest, instant.column->unit);
+    const std::optional<double> level = yaml::value_in(rest, instant.column->unit);
     if (!level) return {};
     instant.level = *level;
     return instant;
@@ -115,7 +115,7 @@ std::optional<Instant> read_condition(std::string_view text, const FindColumn& f
   if (equals == std::string_view::npos) return {};
   instant.column = find(trimmed(text.substr(0, equals)));
   if (!is_usable(instant.column)) return {};
-  const std::optional<double> level = value_in(text.substr(equals + 1), instant.column->unit);
+  const std::optional<double> level = yaml::value_in(text.substr(equals + 1), instant.column->unit);
   if (!level) return {};
   instant.level = *level;
   return instant;
@@ -143,7 +143,7 @@ std::optional<Measure> read_when_or_find(std::string_view text, const FindColumn
     if (!is_usable(measure.column)) return {};
     text = trimmed(text.substr(blank));
     if (take(text, "at")) {
-      const std::optional<double> time = value_in(text, "s");
+      const std::optional<double> time = yaml::value_in(text, "s");
       if (!time) return {};
       measure.instant.kind = Instant::Kind::at;
       measure.instant.level = *time;

@@ -79,8 +79,11 @@ void read_ball_push(yaml::Keys& scenario, Ball& ball) {
 }
 
 void read_plate(yaml::Keys& keys, Plate& plate) {
+  const yaml::ArrayOf<3> moments{
+      {yaml::Dimension::number, {.at_least = 0}, "2e-4"},
+      "three moments of inertia about x, y and the normal, such as [2e-4, 2e-4, 4e-4]"};
   keys.exclusive({{"size"}, {"diameter"}});
-  keys.optional("size", yaml::SidesOf{}, plate.size,
+  keys.optional("size", yaml::sides, plate.size,
                 {"[a, b], sides along x and y of a rectangle about the plate's origin"});
   const yaml::Number diameter{yaml::Dimension::length, {.above = 0}};
   if (keys.optional("diameter", diameter, plate.diameter,
@@ -89,7 +92,7 @@ void read_plate(yaml::Keys& keys, Plate& plate) {
     keys.find("diameter")->report("given together with size; allowed: one of them");
   }
   keys.optional(
-      "inertia", yaml::MomentsOf{}, plate.inertia,
+      "inertia", moments, plate.inertia,
       {"$[J_x, J_y, J_n]$ about the gimbal's center, along the plate's x axis, y axis and normal",
        "kg m²"});
   keys.optional("mass", yaml::Number{yaml::Dimension::mass, {.at_least = 0}}, plate.mass,

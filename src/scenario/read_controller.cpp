@@ -215,22 +215,13 @@ struct Scale {
 };
 
 // [x0, y0, x1, y1]: opposite corners of a rectangle.
-struct Zone {
-  [[nodiscard]] static std::string allowed() {
-    return "four lengths [x0, y0, x1, y1] with x0 < x1 and y0 < y1, such as [0.05, -0.1, 0.08, "
-           "0.1]";
-  }
-  [[nodiscard]] static yaml::Declared declared() {
-    return yaml::Declared::list(4, 4, yaml::Declared::number(yaml::Dimension::length));
-  }
-  static bool read(const yaml::Value& value, std::array<double, 4>& into) {
-    if (value.node->kind != yaml::Node::Kind::sequence || value.node->items.size() != into.size()) {
-      return value.refuse("", allowed());
-    }
-    bool fine = true;
-    for (std::size_t i = 0; i < into.size(); ++i) {
-      fine = yaml::Number{yaml::Dimension::length}.read(value.item(i), into[i]) && fine;
-    }
+struct Zone : yaml::ArrayOf<4> {
+  Zone()
+      : ArrayOf{{yaml::Dimension::length},
+                "four lengths [x0, y0, x1, y1] with x0 < x1 and y0 < y1, such as [0.05, -0.1, "
+                "0.08, 0.1]"} {}
+  bool read(const yaml::Value& value, std::array<double, 4>& into) const {
+    const bool fine = ArrayOf::read(value, into);
     if (fine && !(into[0] < into[2] && into[1] < into[3])) {
       return value.report("found corners in another order; allowed: " + allowed());
     }
@@ -283,7 +274,7 @@ void read_sensor(yaml::Keys& keys, Sensor& sensor) {
   keys.optional("stuck", yaml::MappingOf(read_stuck), sensor.stuck);
   keys.optional("burst", yaml::MappingOf(read_burst), sensor.burst);
   keys.optional(
-      "area", yaml::SidesOf{}, sensor.area,
+      "area", yaml::sides, sensor.area,
       {"[a, b], sides along x and y of the rectangle about the origin in which it sees the ball"});
   keys.optional("dead_zones",
                 yaml::ListOf<Zone, std::array<double, 4>>{{}, 1, 100, "zones [x0, y0, x1, y1]"},

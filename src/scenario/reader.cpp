@@ -46,9 +46,8 @@ void read_sections(Keys& keys, Scenario& scenario) {
   check_rig(keys.mapping(), scenario);
 }
 
-const Declared& declared_keys() {
-  static const Declared declared = MappingOf(read_sections).declared();
-  return declared;
+Problems problems_of(const Source& source, std::vector<std::string> settings) {
+  return {source.file, without_byte_order_mark(source.text), source.overrides, std::move(settings)};
 }
 
 const Node* build_tree(const Source& source, Problems& problems, Nodes& nodes) {
@@ -94,7 +93,7 @@ Scenario parse_scenario(const std::string& text, const std::string& name,
                         std::vector<file::InputTable>* inputs) {
   Scenario scenario;
   scenario.source = {name, text, overrides};
-  Problems problems(name, without_byte_order_mark(scenario.source.text), overrides);
+  Problems problems = problems_of(scenario.source);
   read_into(scenario, problems, inputs);
   problems.throw_if_any();
   scenario.remarks = problems.remarks();
@@ -142,11 +141,36 @@ std::vector<TableFile> table_files(const Scenario& scenario) {
   return files;
 }
 
+std::string place_of(const Source& source, std::string_view key) {
+  Problems problems = problems_of(source);
+  Nodes nodes;
+  const Node* const root = build_tree(source, problems, nodes);
+  Context context{problems, {}};
+  while (root != nullptr && !key.empty()) {
+    if (const auto found = Value{root, "", {}, &context}.at(key)) {
+      return problems.where(found->position);
+    }
+    const std::size_t dot = key.rfind('.');
+    key = key.substr(0, dot == std::string_view::npos ? 0 : dot);
+  }
+  return problems.where({});
+}
+
+std::optional<double> number_at(const Source& source, std::string_view key, Dimension dimension) {
+  Problems unheard = problems_of(source);
+  Nodes nodes;
+  const Node* const root = build_tree(source, unheard, nodes);
+  Context context{unheard, {}};
+  const auto found = root == nullptr ? std::nullopt : Value{root, "", {}, &context}.at(key);
+  if (!found || found->node->kind != Node::Kind::scalar) return {};
+  return read_quantity(found->node->text, found->node->quoted, dimension).value;
+}
+
 Scenario parse_sound_parts(const std::string& text, const std::string& name,
                            const std::vector<std::string>& overrides) {
   Scenario scenario;
   scenario.source = {name, text, overrides};
-  Problems unheard(name, without_byte_order_mark(scenario.source.text), overrides);
+  Problems unheard = problems_of(scenario.source);
   read_into(scenario, unheard, nullptr);
   return scenario;
 }

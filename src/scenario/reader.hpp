@@ -4,11 +4,14 @@
 // Reads YAML text into a Scenario, which is complete, finite, in range, and in SI units.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "file/table_writer.hpp"
 #include "scenario/scenario.hpp"
+#include "yaml/quantity.hpp"
 
 namespace bbsim {
 
@@ -35,6 +38,14 @@ struct TableFile {
   std::string key, path;
 };
 [[nodiscard]] std::vector<TableFile> table_files(const Scenario& scenario);
+
+// The place of the key: "file:line:column", or the override that sets it. For a missing key, the
+// place of the nearest key above it. Reads no other keys, as number_at().
+[[nodiscard]] std::string place_of(const Source& source, std::string_view key);
+
+// The number at the key in SI units, or nothing.
+[[nodiscard]] std::optional<double> number_at(const Source& source, std::string_view key,
+                                              yaml::Dimension dimension);
 
 // Reads the valid parts; the rest keeps its defaults. For commands that describe a past run without
 // running it: its tables may be gone, and another version may have known other keys.

@@ -33,8 +33,9 @@ void read_sweep(yaml::Keys& keys, Sweep& sweep);
 // Reads all sections and checks them.
 void read_sections(yaml::Keys& keys, Scenario& scenario);
 
-// The declaration of the whole scenario.
-[[nodiscard]] const yaml::Declared& declared_keys();
+// No problems yet of a scenario's text and overrides, and of the settings of one case.
+[[nodiscard]] yaml::Problems problems_of(const Source& source,
+                                         std::vector<std::string> settings = {});
 
 // The tree of a scenario's text with all overrides applied. Reports problems. Returns nullptr if
 // the text is not a tree.

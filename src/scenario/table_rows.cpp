@@ -50,27 +50,12 @@ void report(const yaml::Value& file, const InputError& error) {
 }
 
 // The names of a table's columns, for a CSV without a header.
-struct HeaderOf {
-  static constexpr yaml::ListOf<yaml::Text, std::string> names{
-      {"the name of a column"}, 1, 1000, "names, one for each column, such as [t, x, y]"};
-
-  [[nodiscard]] static std::string allowed() { return names.allowed(); }
-  [[nodiscard]] static yaml::Declared declared() {
-    yaml::Declared list = names.declared();
-    list.distinct = true;
-    return list;
-  }
-  static bool read(const yaml::Value& value, Names& into) {
-    if (!names.read(value, into)) return false;
-    bool fine = true;
-    for (std::size_t i = 1; i < into.size(); ++i) {
-      const auto here = into.begin() + static_cast<std::ptrdiff_t>(i);
-      if (std::find(into.begin(), here, into[i]) == here) continue;
-      fine = value.item(i).refuse(" again", "each name once");
-    }
-    return fine;
-  }
-};
+constexpr yaml::ListOf<yaml::Text, std::string> header_names{
+    {"the name of a column"},
+    1,
+    1000,
+    "names, one for each column, such as [t, x, y]",
+    "each name once"};
 
 // The file's content; nullptr after reporting a fault. All tables of a file have the same header.
 const file::TableData* load(yaml::Keys& keys, const std::string& name, const Names& header) {
@@ -428,7 +413,7 @@ bool read_columns(yaml::Keys& keys, const std::vector<std::string_view>& column_
             named;
   }
   Names header;
-  named = keys.optional("header", HeaderOf{}, header, about_header) && named;
+  named = keys.optional("header", header_names, header, about_header) && named;
   std::optional<yaml::UnitScale> unit;
   named = keys.optional("unit", UnitOf{dimension}, unit) && named;
   if (dimension == yaml::Dimension::time) {
@@ -482,7 +467,7 @@ void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& valu
     named = keys.required(value_keys[k], column, names[k], yaml::same) && named;
   }
   Names header;
-  named = keys.optional("header", HeaderOf{}, header, about_header) && named;
+  named = keys.optional("header", header_names, header, about_header) && named;
   std::optional<yaml::UnitScale> unit, time_unit;
   Changes changes;
   named = keys.optional("unit", UnitOf{dimension}, unit) && named;

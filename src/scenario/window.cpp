@@ -5,7 +5,7 @@
 
 #include "base/number_text.hpp"
 #include "base/text.hpp"
-#include "scenario/value_in.hpp"
+#include "yaml/quantity.hpp"
 
 namespace bbsim::scenario {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 std::optional<double> take_last(std::string_view& text, std::string_view word) {
   const std::size_t place = text.rfind(word);
   if (place == std::string_view::npos || place == 0) return {};
-  const std::optional<double> time = value_in(text.substr(place + word.size()), "s");
+  const std::optional<double> time = yaml::value_in(text.substr(place + word.size()), "s");
   if (time) text = trimmed(text.substr(0, place));
   return time;
 }

@@ -250,7 +250,7 @@ void SweepPlan::add_axes(const ScenarioFamily& family, const Sweep& sweep,
       std::vector<Setting> read = settings;
       std::rotate(read.begin() + static_cast<std::ptrdiff_t>(lead + k),
                   read.begin() + static_cast<std::ptrdiff_t>(lead + k + 1), read.end());
-      const auto read_it = [&] { return family.read_number(read); };
+      const auto read_it = [&] { return family.number_at(read.back().key, read); };
       const std::optional<std::size_t> at = variations.first_case(which, i, sweep);
       const auto number = at ? read_case(family, *at, settings, read_it) : read_it();
       axis.numeric = axis.numeric && number;

@@ -15,4 +15,9 @@ namespace bbsim::yaml {
 [[nodiscard]] std::string_view nearest_name(std::string_view word,
                                             std::span<const std::string_view> names);
 
+// The key that `word` may mean: one of `known`, the keys of the mapping, or a path from the top of
+// the scenario if none of them fits. Empty for an unknown word.
+[[nodiscard]] std::string_view synonym(std::string_view word,
+                                       std::span<const std::string_view> known);
+
 }  // namespace bbsim::yaml

@@ -219,4 +219,14 @@ Quantity read_quantity(std::string_view text, bool quoted, Dimension dimension) 
   return {{}, unit_fault(unit, dimension)};
 }
 
+std::optional<double> value_in(std::string_view text, std::string_view unit) {
+  text = trimmed(text);
+  const Dimension dimension = dimension_of(unit);
+  if (dimension == Dimension::number && unit != "1" && text.ends_with(unit)) {
+    text = trimmed(text.substr(0, text.size() - unit.size()));
+  }
+  const std::optional<double> value = read_quantity(text, false, dimension).value;
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
 }  // namespace bbsim::yaml

@@ -66,4 +66,8 @@ struct Quantity {
 // unit is text, which is a fault.
 [[nodiscard]] Quantity read_quantity(std::string_view text, bool quoted, Dimension dimension);
 
+// The finite number in SI units, or the quantity with a unit of the same dimension: "5 cm" for "m".
+// A unit without a dimension of its own, such as "%", may follow the number.
+[[nodiscard]] std::optional<double> value_in(std::string_view text, std::string_view unit);
+
 }  // namespace bbsim::yaml

@@ -99,44 +99,8 @@ bool PairOf::read(const Value& value, Pair& into) const {
     }
     return fine;
   }
-  if (node.kind != Node::Kind::sequence || node.items.size() != into.size()) {
-    return value.refuse("", allowed());
-  }
-  bool fine = true;
-  for (std::size_t i = 0; i < into.size(); ++i) {
-    fine = Number{dimension}.read(value.item(i), into[i]) && fine;
-  }
-  return fine;
-}
-
-std::string SidesOf::allowed() {
-  return "two lengths greater than 0, such as [0.3, 0.2]";
-}
-
-bool SidesOf::read(const Value& value, Pair& into) {
-  if (value.node->kind != Node::Kind::sequence || value.node->items.size() != into.size()) {
-    return value.refuse("", allowed());
-  }
-  bool fine = true;
-  for (std::size_t i = 0; i < into.size(); ++i) {
-    fine = Number{Dimension::length, {.above = 0}}.read(value.item(i), into[i]) && fine;
-  }
-  return fine;
-}
-
-std::string MomentsOf::allowed() {
-  return "three moments of inertia about x, y and the normal, such as [2e-4, 2e-4, 4e-4]";
-}
-
-bool MomentsOf::read(const Value& value, std::array<double, 3>& into) {
-  if (value.node->kind != Node::Kind::sequence || value.node->items.size() != into.size()) {
-    return value.refuse("", allowed());
-  }
-  bool fine = true;
-  for (std::size_t i = 0; i < into.size(); ++i) {
-    fine = Number{Dimension::number, {.at_least = 0}, "2e-4"}.read(value.item(i), into[i]) && fine;
-  }
-  return fine;
+  const std::string what = allowed();
+  return ArrayOf<2>{{dimension}, what}.read(value, into);
 }
 
 std::string StateGain::allowed() {

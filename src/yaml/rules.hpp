@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <iterator>
 #include <numbers>
 #include <optional>
@@ -78,23 +79,27 @@ struct PairOf {
   bool read(const Value& value, Pair& into) const;
 };
 
-// [width, height] of a rectangle (m).
-struct SidesOf {
-  [[nodiscard]] static std::string allowed();
-  [[nodiscard]] static Declared declared() {
-    return Declared::list(2, 2, Declared::number(Dimension::length, {.above = 0}));
+// A fixed count of numbers.
+template <std::size_t count>
+struct ArrayOf {
+  Number each;
+  std::string_view what;  // "two lengths greater than 0, such as [0.3, 0.2]"
+
+  [[nodiscard]] std::string allowed() const { return std::string(what); }
+  [[nodiscard]] Declared declared() const { return Declared::list(count, count, each.declared()); }
+  bool read(const Value& value, std::array<double, count>& into) const {
+    if (value.node->kind != Node::Kind::sequence || value.node->items.size() != count) {
+      return value.refuse("", allowed());
+    }
+    bool fine = true;
+    for (std::size_t i = 0; i < count; ++i) fine = each.read(value.item(i), into[i]) && fine;
+    return fine;
   }
-  static bool read(const Value& value, Pair& into);
 };
 
-// [about x, about y, about the normal] (kg m^2).
-struct MomentsOf {
-  [[nodiscard]] static std::string allowed();
-  [[nodiscard]] static Declared declared() {
-    return Declared::list(3, 3, Declared::number(Dimension::number, {.at_least = 0}));
-  }
-  static bool read(const Value& value, std::array<double, 3>& into);
-};
+// [width, height] of a rectangle (m).
+inline constexpr ArrayOf<2> sides{{Dimension::length, {.above = 0}},
+                                  "two lengths greater than 0, such as [0.3, 0.2]"};
 
 // Two rows, for phi and theta, of four gains (for x, y, vx, vy) or eight (also for phi, theta and
 // their rates).
@@ -104,18 +109,23 @@ struct StateGain {
   static bool read(const Value& value, std::array<std::array<double, 8>, 2>& into);
 };
 
-// A list of values; `rule` reads each item.
+// A list of values; `rule` reads each item. `once`: no value occurs twice.
 template <class Rule, class T>
 struct ListOf {
   Rule rule;
   std::size_t fewest, most;
-  std::string_view items;  // "points [x, y]"
+  std::string_view items;   // "points [x, y]"
+  std::string_view once{};  // "each key once"
 
   [[nodiscard]] std::string allowed() const {
     return "a list of " + std::to_string(fewest) + " to " + std::to_string(most) + ' ' +
            std::string(items);
   }
-  [[nodiscard]] Declared declared() const { return Declared::list(fewest, most, rule.declared()); }
+  [[nodiscard]] Declared declared() const {
+    Declared list = Declared::list(fewest, most, rule.declared());
+    list.distinct = !once.empty();
+    return list;
+  }
   bool read(const Value& value, std::vector<T>& into) const {
     const Node& node = *value.node;
     if (node.kind != Node::Kind::sequence || node.items.size() < fewest ||
@@ -126,6 +136,14 @@ struct ListOf {
     bool fine = true;
     for (std::size_t i = 0; i < into.size(); ++i) {
       fine = rule.read(value.item(i), into[i]) && fine;
+    }
+    const bool read = fine && !once.empty();
+    if constexpr (std::equality_comparable<T>) {
+      for (std::size_t i = 1; read && i < into.size(); ++i) {
+        const auto here = into.begin() + static_cast<std::ptrdiff_t>(i);
+        if (std::find(into.begin(), here, *here) == here) continue;
+        fine = value.item(i).refuse(" again", once);
+      }
     }
     return fine;
   }

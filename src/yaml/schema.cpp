@@ -8,7 +8,6 @@
 
 #include "yaml/nearest.hpp"
 #include "yaml/spelling.hpp"
-#include "yaml/synonyms.hpp"
 
 namespace bbsim::yaml {
 

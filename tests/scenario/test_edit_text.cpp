@@ -7,7 +7,7 @@
 #include "base/error.hpp"
 #include "catch.hpp"
 #include "scenario/edit_text.hpp"
-#include "scenario/key_value.hpp"
+#include "scenario/keys.hpp"
 
 namespace bbsim_test::test_edit_text {
 

@@ -15,7 +15,7 @@
 
 #include "base/number_text.hpp"
 #include "catch.hpp"
-#include "scenario/sections.hpp"
+#include "scenario/keys.hpp"
 
 namespace bbsim_test::test_keys {
 

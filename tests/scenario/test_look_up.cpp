@@ -5,7 +5,7 @@
 #include <string>
 
 #include "catch.hpp"
-#include "scenario/look_up.hpp"
+#include "scenario/reader.hpp"
 
 namespace bbsim_test::test_look_up {
 

@@ -8,7 +8,7 @@
 
 #include "catch.hpp"
 #include "scenario/family.hpp"
-#include "scenario/look_up.hpp"
+#include "scenario/reader.hpp"
 #include "support/reading.hpp"
 
 namespace bbsim_test::test_spelling {
@@ -110,7 +110,7 @@ TEST_CASE("a family reads a key in either spelling") {
   const ScenarioFamily family({"scenario.yaml", in_british, {}});
   const std::vector<ScenarioFamily::Setting> american{{circle + "center.0", "3 cm"}};
   CHECK(center_of(family.read(american)) == Pair{0.03, 0.02});
-  CHECK(family.read_number(american) == 0.03);
+  CHECK(family.number_at(american.back().key, american) == 0.03);
   CHECK(family.unit_of(circle + "center.1", {}) == "m");
   CHECK(family.unit_of(circle + "centre.1", {}) == "m");
 }

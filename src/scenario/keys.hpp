@@ -1,18 +1,28 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Unit, range and default of a key that is a number.
+// All keys of a scenario, as its readers declare them.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scenario/family.hpp"
 #include "yaml/declared.hpp"
 
 namespace bbsim::scenario {
 
+// The declaration of the whole scenario.
+[[nodiscard]] const yaml::Declared& declared_keys();
+
+// Sorted paths of keys whose value is not a mapping, with the positions of short lists:
+// ball.position, ball.position.0, ball.position.1, ... A prefix, such as
+// controller.program.parameters., stands for names that the user chooses.
+[[nodiscard]] std::vector<std::string> key_paths();
+
+// Unit, range and default of a key that is a number.
 struct NumberKey {
   yaml::Dimension dimension = yaml::Dimension::number;
   yaml::Range range{};
@@ -20,14 +30,9 @@ struct NumberKey {
   bool whole = false;                // without fractions
 };
 
-// A key that is a single number or one of several names.
-struct ScalarKey {
-  yaml::Dimension dimension = yaml::Dimension::number;  // of a number
-  std::string standard{};                               // default as text, if any
-};
-
-// Empty for an unknown key and for a key that takes neither.
-[[nodiscard]] std::optional<ScalarKey> scalar_key(std::string_view path);
+// The default as text, if any, of a key that is a single number or one of several names. Empty for
+// other keys.
+[[nodiscard]] std::optional<std::string> scalar_default(std::string_view path);
 
 // Empty for an unknown key and for a key that takes no number.
 [[nodiscard]] std::optional<NumberKey> number_key(std::string_view path);

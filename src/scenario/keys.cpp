@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "scenario/key_value.hpp"
+#include "scenario/keys.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "base/error.hpp"
@@ -11,12 +12,40 @@
 #include "base/quoted.hpp"
 #include "scenario/sections.hpp"
 #include "yaml/quantity.hpp"
+#include "yaml/rules.hpp"
 #include "yaml/spelling.hpp"
 
 namespace bbsim::scenario {
 namespace {
 
 using yaml::Declared;
+
+constexpr std::size_t longest_list = 8;  // with listed positions
+
+void add(const Declared& value, const std::string& path, std::set<std::string>& paths) {
+  switch (value.kind) {
+    case Declared::Kind::mapping:
+      for (const yaml::DeclaredKey& key : value.keys) {
+        add(key.value, path.empty() ? key.name : path + '.' + key.name, paths);
+      }
+      break;
+    case Declared::Kind::names:
+      paths.insert(path + '.');
+      break;
+    case Declared::Kind::any:
+      for (const Declared& part : value.parts) add(part, path, paths);
+      break;
+    case Declared::Kind::list:
+      paths.insert(path);
+      if (value.most > longest_list) break;
+      for (std::size_t i = 0; i < value.most; ++i) {
+        add(value.parts.front(), path + '.' + std::to_string(i), paths);
+      }
+      break;
+    default:
+      paths.insert(path);
+  }
+}
 
 struct Leaf {
   const Declared* value;
@@ -70,6 +99,17 @@ std::optional<double> of_servo(const std::string& name, const ScenarioFamily& fa
 
 }  // namespace
 
+const Declared& declared_keys() {
+  static const Declared declared = yaml::MappingOf(read_sections).declared();
+  return declared;
+}
+
+std::vector<std::string> key_paths() {
+  std::set<std::string> paths;
+  add(declared_keys(), "", paths);
+  return {paths.begin(), paths.end()};
+}
+
 std::optional<NumberKey> number_key(std::string_view path) {
   const auto leaf = find_leaf(declared_keys(), yaml::american(path), "", Declared::Kind::number);
   if (!leaf) return {};
@@ -78,10 +118,10 @@ std::optional<NumberKey> number_key(std::string_view path) {
                    leaf->value->whole};
 }
 
-std::optional<ScalarKey> scalar_key(std::string_view path) {
+std::optional<std::string> scalar_default(std::string_view path) {
   for (const auto kind : {Declared::Kind::number, Declared::Kind::name}) {
     const auto leaf = find_leaf(declared_keys(), yaml::american(path), "", kind);
-    if (leaf) return ScalarKey{leaf->value->dimension, leaf->standard};
+    if (leaf) return leaf->standard;
   }
   return {};
 }
