@@ -225,15 +225,8 @@ class Bar:
             return
         self._last = now
         done = min(max(fraction, 0.0), 1.0)
-        text = f" {100 * done:3.0f}%" + (f", {detail}" if detail else "")
-        if done > 0.01:
-            left = (now - self._start) * (1 - done) / done
-            short = f"{left:.0f} s" if left <= 120 else f"{left / 60:.0f} min"
-            text += f", {short if left <= 7200 else f'{left / 3600:.1f} h'} left"
-        length = min(30, shutil.get_terminal_size().columns - len(self._label) - len(text) - 5)
-        if length >= 8:
-            filled = int(done * length)
-            text = f"{self._label} [{'#' * filled}{'.' * (length - filled)}]{text}"
-        sys.stderr.write(_CLEAR + text.strip()[: shutil.get_terminal_size().columns - 1])
+        left = (now - self._start) * (1 - done) / done if done > 0.01 else None
+        columns = max(shutil.get_terminal_size().columns - 1, 10)
+        sys.stderr.write(_CLEAR + _bbsim.progress_line(self._label, detail, done, left, columns))
         sys.stderr.flush()
         self._drawn = True
