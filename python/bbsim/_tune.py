@@ -66,18 +66,11 @@ class _Tuning:
         names, equals, bounds = (part.strip() for part in text.partition("="))
         if not equals:
             refuse_free(f"{names}: found no range; allowed: KEY=FROM:TO, such as controller.gravity_compensation.kp=1:20")
-        for part in names.split(","):
-            number, star, name = (word.strip() for word in part.rpartition("*"))
-            negative = not star and name.startswith("-")
-            factor = _bbsim.value_in(number, "") if star else -1.0 if negative else 1.0
-            name = name[1:].strip() if negative else name
-            if not factor or not name:
-                refuse_free(f"{names}: found '{part}'; allowed: KEY, -KEY or NUMBER*KEY with a number that is not 0")
-            if len(self.keys) == 0 or self.keys[-1][3] != place:
-                if factor != 1:
-                    refuse_free(f"{names}: found a factor before the first key; allowed: KEY,FACTOR*KEY=FROM:TO")
-                first = read_free_key(f"{name}={bounds}", self.base)
-            self.keys.append((name, self.base.key_facts(name).unit, factor, place))
+        tied = _bbsim.tied_keys(names)
+        if tied[0][1] != 1:
+            refuse_free(f"{names}: found a factor before the first key; allowed: KEY,FACTOR*KEY=FROM:TO")
+        first = read_free_key(f"{tied[0][0]}={bounds}", self.base)
+        self.keys += [(name, self.base.key_facts(name).unit, factor, place) for name, factor in tied]
         return first.lower, first.upper, first.start
 
     def draw(self, samples: Any, seed: int) -> Any:

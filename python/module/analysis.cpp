@@ -187,6 +187,12 @@ void define_analysis(py::module_& module, py::class_<Given>& given) {
       .def("without_notes", &without_notes)
       .def("drawn", &drawn);
   module.def("value_in", &scenario::value_in);
+  // Of a text such as "KEY,-KEY,2*KEY": the keys, and their factors.
+  module.def("tied_keys", [](const std::string& keys) {
+    std::vector<std::pair<std::string, double>> all;
+    for (const auto& its : scenario::tied_keys({keys, ""})) all.emplace_back(its.path, its.factor);
+    return all;
+  });
   module.def("unit_doubt", &unit_doubt);
   module.def("filled_page",
              [](const std::string& name, const std::string& title, const std::string& json) {
