@@ -10,7 +10,7 @@
 #include <cstdio>
 
 #include "base/printable.hpp"
-#include "progress_line.hpp"
+#include "base/progress_line.hpp"
 #include "signals.hpp"
 #include "terminal.hpp"
 

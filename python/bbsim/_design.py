@@ -37,10 +37,6 @@ _NEAR = 0.1  # of a motion's size, for differences
 _PARTS = (1, 0.3, 0.1)  # of the way to the best motion nearby
 
 
-def facts(rig: _bbsim.Given, key: str) -> Optional[float]:
-    return _bbsim.key_facts(rig, "", key).value
-
-
 def merits(slopes: Array) -> Array:
     """The logarithm of the determinant of Fisher's information, for each motion. Its floor ranks motions that determine
     all keys above all others."""
@@ -191,12 +187,12 @@ def step(experiment: Experiment) -> Motions:
 def section_of(rig: _bbsim.Given, sketch: Optional[str]) -> str:
     """What plays the motion."""
     for tilts in ("controller.commands", "gimbal.motion"):
-        if _bbsim.has(rig, tilts):
+        if rig.has(tilts):
             return tilts
-    if not _bbsim.has(rig, "controller"):
+    if not rig.has("controller"):
         allowed = "gimbal.motion, or a controller with a reference"
         raise fault(f"gimbal.torque: found, which a design cannot choose; allowed: {allowed}")
-    if _bbsim.has(rig, "controller.program") or _bbsim.has(rig, "controller.library"):
+    if rig.has("controller.program") or rig.has("controller.library"):
         allowed = "a law of bbsim, controller.commands, or gimbal.motion"
         raise fault(f"controller: found a program or library of your own; allowed in a design: {allowed}")
     if sketch:
@@ -216,9 +212,9 @@ def size_of(option: str, value: Size) -> Optional[float]:
 
 def axes_of(rig: _bbsim.Given) -> List[int]:
     """The axes that move the ball; one if it is in a groove, across which the reader refuses a start."""
-    if _bbsim.has(rig, "ball.rolling_radius"):
+    if rig.has("ball.rolling_radius"):
         try:
-            _bbsim.number_at(rig, "ball.position.0", "1e-9")
+            rig.number_at("ball.position.0", "1e-9")
         except InputError:
             return [1]
         return [0]
@@ -227,7 +223,7 @@ def axes_of(rig: _bbsim.Given) -> List[int]:
 
 def limits_of(rig: _bbsim.Given, tilt: Optional[float], rate: Optional[float], margin: Optional[float]) -> List[Any]:
     """Limits on a motion: kind, name, size, source; and columns with factors, whose products are at most 1."""
-    sides = [side for side in (facts(rig, f"plate.{key}") for key in ("size.0", "size.1", "diameter")) if side]
+    sides = [side for side in (rig.value(f"plate.{key}") for key in ("size.0", "size.1", "diameter")) if side]
     if not sides:
         allowed = 'allowed: with plate.size or plate.diameter, such as --set "plate.size=[30 cm, 30 cm]"'
         raise fault(f"plate: has no size, but the ball must stay on it; {allowed}")
@@ -237,10 +233,10 @@ def limits_of(rig: _bbsim.Given, tilt: Optional[float], rate: Optional[float], m
         raise refuse("margin", f"{short(margin)} m", f"a length from 0 to below half the plate, {short(half)} m")
     edges = [side / 2 - margin for side in sides]
     # Only of servos that turn the plate directly. At its limits, a servo no longer follows.
-    links = _bbsim.has(rig, "gimbal.linkage") or _bbsim.has(rig, "gimbal.three_servos")
-    of_servos = not links and (_bbsim.has(rig, "gimbal.servo") or _bbsim.has(rig, "gimbal.motor.position_loop"))
-    command, angle, speed = 0.95 * np.array(_bbsim.rig_limits(rig) if of_servos else [[np.inf] * 3] * 2, float).T
-    total, friction = None if tilt else facts(rig, "events.tilt.limit"), facts(rig, "events.slip.friction")
+    links = rig.has("gimbal.linkage") or rig.has("gimbal.three_servos")
+    of_servos = not links and (rig.has("gimbal.servo") or rig.has("gimbal.motor.position_loop"))
+    command, angle, speed = 0.95 * np.array(rig.rig_limits() if of_servos else [[np.inf] * 3] * 2, float).T
+    total, friction = None if tilt else rig.value("events.tilt.limit"), rig.value("events.slip.friction")
     tilts = np.full(2, tilt) if tilt else np.fmin(np.fmin(command, angle), np.inf)
     by_servo = (angle < np.fmin(command, np.inf)).any()
     tilts_from = ("--max-tilt" if tilt else "gimbal.servo.angle_limit" if by_servo else "controller.limit"
@@ -271,7 +267,7 @@ def limits_of(rig: _bbsim.Given, tilt: Optional[float], rate: Optional[float], m
 
 def noise_of(rig: _bbsim.Given, axes: List[int], texts: Sequence[str], units: Dict[str, str]) -> Dict[str, float]:
     """The standard deviation of each column of the log. Rounding acts like an error that is uniformly distributed."""
-    noise, resolution = (facts(rig, f"controller.sensor.{key}") or 0.0 for key in ("noise", "resolution"))
+    noise, resolution = (rig.value(f"controller.sensor.{key}") or 0.0 for key in ("noise", "resolution"))
     sizes = {("x", "y")[i]: float(np.hypot(noise, resolution / np.sqrt(12))) or 1e-3 for i in axes}
     for text in texts:
         name, _, deviation = (part.strip() for part in text.partition("="))
@@ -279,7 +275,7 @@ def noise_of(rig: _bbsim.Given, axes: List[int], texts: Sequence[str], units: Di
         if not size or size < 0:
             allowed = "COLUMN=SIZE, a column of `bbsim columns` and a standard deviation greater than 0"
             raise refuse("noise", f'"{text}"', f"{allowed}, such as x=0.5mm")
-        why, _ = _bbsim.lacks(rig, name)
+        why, _ = rig.lacks(name)
         if why:
             raise refuse("noise", f"{name}, {why}", "columns that the scenario has")
         sizes[name] = size
@@ -334,10 +330,10 @@ def design(
     tilts = section != "controller.reference"
     asked = zip(_SIZES, (rate, length, window, max_tilt, max_tilt_rate, margin))
     sizes = {option: size_of(option, value) for option, value in asked}
-    period = facts(rig, "controller.sensor.period") or facts(rig, "controller.sampling.period")
+    period = rig.value("controller.sensor.period") or rig.value("controller.sampling.period")
     # Boards and sensors exchange values more often than a log has rows.
     hertz = sizes["rate"] or (min(1 / period, 200.0) if period else 50.0)
-    end = sizes["length"] or facts(rig, "time.end") or 0.0
+    end = sizes["length"] or rig.value("time.end") or 0.0
     rows = round(end * hertz)
     if not 16 <= rows <= 100_000:
         raise refuse("length", f"{end:.12g} s at {hertz:.12g} Hz", "a log of 16 to 100000 rows")
@@ -350,12 +346,12 @@ def design(
         """Make the scenario play a table, with the scale, offset and delay of its own."""
         file, profiles = "'" + file.replace("'", "''") + "'", []
         for i, name in enumerate(("phi", "theta")):
-            own = [key for key in ("scale", "offset", "delay") if _bbsim.has(rig, f"{section}.{name}.table.{key}")]
-            more = [f", {key}: {text_of(facts(rig, f'{section}.{name}.table.{key}') or 0)}" for key in own]
+            own = [key for key in ("scale", "offset", "delay") if rig.has(f"{section}.{name}.table.{key}")]
+            more = [f", {key}: {text_of(rig.value(f'{section}.{name}.table.{key}') or 0)}" for key in own]
             its = f"{{table: {{file: {file}, time: t, value: {name}, unit: rad{''.join(more)}}}}}"
             profiles.append(f"{name}: {its if i in axes else 0}")
         reference = f"table: {{file: {file}, time: t, x: x, y: y, unit: m}}"
-        moves = facts(rig, "ball.velocity.0") or facts(rig, "ball.velocity.1")
+        moves = rig.value("ball.velocity.0") or rig.value("ball.velocity.1")
         return [(section, f"{{{', '.join(profiles) if tilts else reference}}}"),
                 ("ball.position", f"[{text_of(place[0])}, {text_of(place[1])}]"),
                 *([("ball.velocity", "[0, 0]")] if moves else []),
@@ -363,7 +359,7 @@ def design(
 
     name_of_table = os.path.relpath(table, os.path.dirname(os.path.abspath(output))) if output and table else ""
     if output:
-        _bbsim.edited(rig, settings(name_of_table), "")  # fails now if the text cannot be written
+        rig.edited(settings(name_of_table), "")  # fails now if the text cannot be written
     with tempfile.TemporaryDirectory(prefix="bbsim-") as folder:
         still, names = Path(folder) / "still.csv", "phi,theta" if tilts else "x,y"
         still.write_text(f"t,{names}\n" + "".join(f"{seconds * i / 3!r},0,0\n" for i in range(4)))
@@ -374,8 +370,8 @@ def design(
         parts, cut = [part for limit in limits for part in limit[-1]], sizes["window"] or (2 if tilts else 2 * seconds)
         experiment = Experiment(plain, section, axes, keys, deviations_of_log, cut, seconds, hertz, parts,
                                 int(threads or 0), progress)  # fmt: skip
-        turned = (facts(rig, "ball.rolling_radius") or 1) / ((facts(rig, "ball.radius") or 1) if len(axes) < 2 else 1)
-        pull = (facts(rig, "gravity") or 0) / (1 + (facts(rig, "ball.inertia_factor") or 0) / turned**2)
+        turned = (rig.value("ball.rolling_radius") or 1) / ((rig.value("ball.radius") or 1) if len(axes) < 2 else 1)
+        pull = (rig.value("gravity") or 0) / (1 + (rig.value("ball.inertia_factor") or 0) / turned**2)
         circle, frequency = None, 3.0  # rad/s
         found = within(experiment, circles(experiment, pull))
         if found:  # it shows which frequencies are informative
@@ -426,7 +422,7 @@ def design(
     texts = {
         "table": "\n".join([f"t,{names}", *lines, ""]), "json": as_json(result),
         "sketch": player_sketch(hertz, commands, place) if sketch else "",
-        "output": _bbsim.edited(rig, settings(name_of_table, place), comments) if output else "",
+        "output": rig.edited(settings(name_of_table, place), comments) if output else "",
     }  # fmt: skip
     for name, file in files.items():
         if file:
@@ -452,7 +448,7 @@ def design(
 
 
 def _carry_out(rig: _bbsim.Given, options: Dict[str, Any], progress: Progress, say: Any) -> SimpleNamespace:
-    for remark in _bbsim.remarks(rig):
+    for remark in rig.remarks():
         say(remark)
     return design(rig, **options, progress=progress)
 

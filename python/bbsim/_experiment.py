@@ -56,14 +56,14 @@ class Experiment:
         own = {key.name: key.start for key in keys}
         self._changes: Dict[str, float] = {}
         for key in (f"{its}.table.{name}" for its in self._profiles[: 2 * self.tilts] for name in _CHANGES):
-            self._changes[key] = own[key] if key in own else _bbsim.key_facts(plain, "", key).value or 0.0
-        smooth = [(key, "null") for key in ROUGH if _bbsim.has(plain, key)]
-        if not any(key.name.endswith("dead_band") for key in keys) and _bbsim.has(plain, "controller.sampling"):
+            self._changes[key] = own[key] if key in own else plain.value(key) or 0.0
+        smooth = [(key, "null") for key in ROUGH if plain.has(key)]
+        if not any(key.name.endswith("dead_band") for key in keys) and plain.has("controller.sampling"):
             servos = [f"gimbal.servo{axis}" for axis in ("", ".phi", ".theta")]
-            servos = [key for key in servos if _bbsim.has(plain, key)]
+            servos = [key for key in servos if plain.has(key)]
             smooth += [(f"{key}.{end}", to) for key in servos for end, to in (("scale", "null"), ("dead_band", "0"))]
         for key, most in (("solver.rtol", 1e-10), ("solver.atol", 1e-12)):
-            smooth.append((key, repr(min(most, _bbsim.key_facts(plain, "", key).value or most))))
+            smooth.append((key, repr(min(most, plain.value(key) or most))))
         self._of_tables = plain.changed([*smooth, ("solver.error", "null")])
         terms = "{sinusoid: {amplitude: 0, frequency: 1}}, " * 4
         self._of_waves = self._of_tables.changed([(its, f"[{terms}0]") for its in self._profiles[: 2 * self.tilts]])
@@ -83,9 +83,9 @@ class Experiment:
         self._begins = self._rows[:, 0] * parts
         of_axis = [{name, f"v{name}", f"{name}_measured"} for name in ("x", "y")]
         self._free = [i for i in range(4) if set(noise) - of_axis[1 - i % 2]]
-        self._free += [4, 5, 6, 7] if _bbsim.begins_anywhere(plain) and len(windows) > 1 else []
-        home = [_bbsim.key_facts(plain, "", f"gimbal.start.{name}").value for name in _bbsim.START[4:8]]
-        self._home = np.array([*home, _bbsim.key_facts(plain, "", "ball.spin").value], float)
+        self._free += [4, 5, 6, 7] if plain.begins_anywhere() and len(windows) > 1 else []
+        home = [plain.value(f"gimbal.start.{name}") for name in _bbsim.START[4:8]]
+        self._home = np.array([*home, plain.value("ball.spin")], float)
 
     def commands(self, motions: Motions) -> Array:
         """What tables at even times have, so that the rig moves like this: (motion, axis, time)."""

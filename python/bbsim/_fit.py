@@ -18,8 +18,8 @@ from ._fit_windows import Log, LogKey, Windows, WindowsFit, cut, start_coordinat
 from ._logs import as_files, log_choice, without_folders
 from ._scenario import Array, InputError, Scenario, Settings, counted, fault, given as given_of, listed, refuse
 from ._task import (
-    ROUGH, FreeKey, Progress, carry_out, files_of, read_bounds, read_free_key, read_free_keys, refuse_free, refuse_twice, silent,
-    usual_scale, write_all,
+    ROUGH, FreeKey, Progress, carry_out, files_of, read_bounds, read_free_key, read_free_keys, refuse_free, refuse_twice,
+    silent, usual_scale, write_all,
 )  # fmt: skip
 
 _USUAL_WINDOW = 2.0  # s; short, because a plate makes the ball a double integrator
@@ -34,7 +34,7 @@ _CANDIDATES = ("ball.inertia_factor", "ball.losses.rolling", "ball.losses.viscou
 
 def _compared(given: _bbsim.Given, maps: Sequence[str], log: _bbsim.Stored, notes: List[str]) -> List[str]:
     """The columns that the user maps, else those that the log has."""
-    moved = _GIMBAL if _bbsim.has(given, "gimbal.motion") else ()
+    moved = _GIMBAL if given.has("gimbal.motion") else ()
     names = [one.partition("=")[0].replace(" ", "") for text in maps for one in text.split(",")]
     names = [name for name in dict.fromkeys(names) if name != "t"]
     names = names or [name for name in _BALL + _GIMBAL if name in log.names and name not in moved]
@@ -42,7 +42,7 @@ def _compared(given: _bbsim.Given, maps: Sequence[str], log: _bbsim.Stored, note
     notes += [f"note: {name} {why}" for name in names if name in moved]
     names = [name for name in names if name not in moved]
     for name in names:
-        why = _bbsim.lacks(given, name)[0]
+        why = given.lacks(name)[0]
         if why:
             raise fault(f"--map: found {name}, {why}; allowed: columns that the scenario has")
     if not names:
@@ -99,7 +99,7 @@ def _log_key(text: str, columns: Sequence[str], units: Sequence[str]) -> LogKey:
 def _candidates(task: "_Task") -> List[FreeKey]:
     """Keys of this scenario that are not free."""
     given = task.logs[0].given
-    tables = [file.removesuffix(".file") for file, _ in _bbsim.tables(given)]
+    tables = [file.removesuffix(".file") for file, _ in given.tables()]
     tables = [one for one in tables if one.startswith(("gimbal.motion", "controller.commands"))]
     found: List[FreeKey] = []
     for name in [f"{table}.{of}" for table in tables for of in ("offset", "delay", "scale")] + list(_CANDIDATES):
@@ -114,20 +114,20 @@ def _candidates(task: "_Task") -> List[FreeKey]:
 def _ideal(given: _bbsim.Given) -> Optional[_bbsim.Given]:
     """A solid ball that rolls without losses on a perfectly mounted plate, which follows the motion or the commands
     without lag. None for scenarios with feedback or torques."""
-    changes = [("controller", "null")] if _bbsim.has(given, "controller") else []
-    if _bbsim.has(given, "controller.commands"):
-        phi, theta = (_bbsim.text_at(given, f"controller.commands.{axis}") or "0" for axis in ("phi", "theta"))
+    changes = [("controller", "null")] if given.has("controller") else []
+    if given.has("controller.commands"):
+        phi, theta = (given.text_at(f"controller.commands.{axis}") or "0" for axis in ("phi", "theta"))
         changes += [("gimbal.motion", f"{{phi: {phi}, theta: {theta}}}")]
-    elif not _bbsim.has(given, "gimbal.motion"):
+    elif not given.has("gimbal.motion"):
         return None
     parts = [f"gimbal.{name}" for name in ("servo", "linkage", "three_servos", "mounting")]
     parts += ["ball.losses", "events", "output"]
-    parts += [] if _bbsim.has(given, "ball.groove") else ["ball.inertia_factor"]
-    return given.changed(changes + [(part, "null") for part in parts if _bbsim.has(given, part)])
+    parts += [] if given.has("ball.groove") else ["ball.inertia_factor"]
+    return given.changed(changes + [(part, "null") for part in parts if given.has(part)])
 
 
 def _closes_a_loop(given: _bbsim.Given) -> bool:
-    return _bbsim.has(given, "controller") and not _bbsim.has(given, "controller.commands")
+    return given.has("controller") and not given.has("controller.commands")
 
 
 class _Task:
@@ -150,12 +150,12 @@ class _Task:
         ):  # fmt: skip
             if wrong:
                 raise refuse(option, found, allowed)
-        if _bbsim.has(given, "controller.program") or _bbsim.has(given, "controller.library"):
+        if given.has("controller.program") or given.has("controller.library"):
             allowed = "a law of bbsim, or controller.commands or gimbal.motion from the log's table"
             raise fault(f"controller: found a program or library of your own; allowed in a fit: {allowed}")
         self.keys: List[FreeKey] = read_free_keys(free, given)
         run = given.changed([("solver.error", "null"), ("solver.rtol", "1e-10"), ("solver.atol", "1e-12")])
-        run, self.warnings = self._without_noise(run), list(_bbsim.remarks(given))
+        run, self.warnings = self._without_noise(run), list(given.remarks())
         maps, header = listed(map), [name for text in listed(header) for name in text.split(",")]
         choice = log_choice(maps, header, period, time_offset, missing)
         self.logs: List[Log] = []
@@ -175,14 +175,14 @@ class _Task:
     def _without_noise(self, given: _bbsim.Given) -> _bbsim.Given:
         """Leaves out the noise in a loop, which differs in the log, and the steps that this noise smooths."""
         free = {key.name for key in self.keys}
-        parts = [(part, "null") for part in ROUGH if _bbsim.has(given, part) and part not in free]
+        parts = [(part, "null") for part in ROUGH if given.has(part) and part not in free]
         if not _closes_a_loop(given):
             return given
         for name in ("gimbal.servo.dead_band", "gimbal.servo.backlash"):
             its = [f"gimbal.servo.{axis}.{name[13:]}" for axis in ("phi", "theta")]
             if not free & {name, *its}:
-                parts += [(one, "0") for one in its if _bbsim.has(given, one)]
-                parts += [(name, "0")] if _bbsim.key_facts(given, "--free", name).value else []
+                parts += [(one, "0") for one in its if given.has(one)]
+                parts += [(name, "0")] if given.value(name) else []
         if parts:
             self.notes.append("the fit leaves out noise, rounding, dead band and backlash in the loop, unless they are free")
         return given.changed(parts)
@@ -190,7 +190,7 @@ class _Task:
     def _tables_of_logs(self) -> List[str]:
         """If a table of the scenario is one of the logs, each log replaces it in turn."""
         folder = os.path.dirname(self.given.name) if os.path.exists(self.given.name) else ""
-        tables = [(key, os.path.join(folder, path)) for key, path in _bbsim.tables(self.given) if key[:5] != "ball."]
+        tables = [(key, os.path.join(folder, path)) for key, path in self.given.tables() if key[:5] != "ball."]
         tables = [(key, path) for key, path in tables if os.path.exists(path)]
         files = [file for file in self.files if os.path.exists(file)]
         same = [[key for key, path in tables if os.path.samefile(path, file)] for file in files]
@@ -270,7 +270,7 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
                              "longer --window, since windows forget which command a servo followed last")  # fmt: skip
     made.series = _series(fit, False) if series else []
     ideal = _ideal(task.logs[0].given)
-    if ideal is not None and not any(_bbsim.lacks(ideal, name)[0] for name in task.columns):
+    if ideal is not None and not any(ideal.lacks(name)[0] for name in task.columns):
         made.ideal_rms = _rms(_other(search, windows, search.u, True))
     pairs = [(made.residual_rms[name], one) for name, one in made.ideal_rms.items()]
     if not made.exact and sum(math.log(its / one) for its, one in pairs if one > 0) > 1e-3:
@@ -382,7 +382,7 @@ def _carry_out(given: _bbsim.Given, options: Dict[str, Any], progress: Progress,
     task = _Task(given, **options)
     if files["output"]:  # fails before the work if the text cannot be written
         keys = [key for key in task.keys if not isinstance(key, LogKey)]
-        _bbsim.edited(given, [(key.name, key.text(key.start)) for key in keys], "")
+        given.edited([(key.name, key.text(key.start)) for key in keys], "")
     if files["report"]:
         _bbsim.filled_page("fit.html", "", "{}")
     for text in task.warnings:

@@ -20,14 +20,13 @@ _SCANNED, _DELAYS = 201, 0.2  # delays in a scan, and how far it goes without bo
 
 def _quiet(log: Any, begins: Array, ends: Array) -> Array:
     """Of each window and axis: whether the servo follows no command that could still move it."""
-    number = lambda key: _bbsim.key_facts(log.given, "", key).value
     quiet = np.zeros((len(begins), 2), bool)
-    times = np.arange(max(log.times[0], 0.0), log.times[-1], number("controller.sampling.period"))
+    times = np.arange(max(log.times[0], 0.0), log.times[-1], log.given.value("controller.sampling.period"))
     columns = ["phi_command", "theta_command"]
     made = simulate(log.given, {}, columns, times, begin=times[:1], end=times[-1:], events=False)
     for axis, name in enumerate(("phi", "theta")):
-        own, followed, last = number(f"gimbal.servo.{name}.dead_band"), [], 0.0
-        dead_band = number("gimbal.servo.dead_band") if own is None else own
+        own, followed, last = log.given.value(f"gimbal.servo.{name}.dead_band"), [], 0.0
+        dead_band = log.given.value("gimbal.servo.dead_band") if own is None else own
         for t, command in zip(times, made[columns[axis]][0]):
             if abs(command - last) > (dead_band or 0.0):
                 last = command
@@ -42,8 +41,8 @@ def deaf_windows(logs: Sequence[Any], windows: Any, keys: List[str]) -> Array:
     bands = [f"gimbal.servo{axis}.dead_band" for axis in ("", ".phi", ".theta")]
     servos = [bool(re.match(r"gimbal\.servo|controller\.commands.*\.delay$", key)) for key in keys]
     # A band that is free may be narrower; behind a linkage, commands to servos are not phi and theta.
-    has = [_bbsim.has(given, key) for key in ("controller.commands", "gimbal.linkage", "gimbal.three_servos")]
-    banded = any(_bbsim.key_facts(given, "", one).value for one in bands) and not set(bands) & set(keys)
+    has = [given.has(key) for key in ("controller.commands", "gimbal.linkage", "gimbal.three_servos")]
+    banded = any(given.value(one) for one in bands) and not set(bands) & set(keys)
     if not (any(servos) and banded and has == [True, False, False]):
         return deaf
     for number in np.unique(windows.log):

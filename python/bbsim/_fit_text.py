@@ -96,7 +96,7 @@ def scenario(fitted: Any, given: _bbsim.Given) -> str:
         text += (known if one.told else ", which the logs do not determine") + "\n"
         if not one.key.startswith("log."):  # no scenario has those
             settings.append((one.key, f"{one.estimate!r}{unit}"))
-    return _bbsim.edited(given, settings, text)
+    return given.edited(settings, text)
 
 
 def _encoded(values: Any, kind: str) -> str:
@@ -131,14 +131,14 @@ def _run(fitted: Any, log: str, windows: Sequence[Any], step: int) -> Dict[str, 
 
 
 def page(fitted: Any, given: _bbsim.Given) -> str:
-    title = _bbsim.text_at(given, "title")
+    title = given.text_at("title")
     title = "Fit of " + (title[1:-1].replace("''", "'") if title.startswith("'") else title or given.name)
     names = list(fitted.units)
     pairs = [pair for pair in (["x", "y"], ["x_measured", "y_measured"]) if set(pair) <= set(names)]
     symbols = {column[0]: column[1] for column in _bbsim.known_columns("rad")}
     radius = {one.key: one.estimate for one in fitted.parameters}.get("ball.radius")
     if radius is None:
-        radius = _bbsim.key_facts(given, "--free", "ball.radius").value
+        radius = given.value("ball.radius")
     rows = sum(len(one.times) for one in fitted.series)
     step = max(1, -(-rows // _MOST_ROWS))
     runs = []

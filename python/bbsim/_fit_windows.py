@@ -103,7 +103,7 @@ def start_coordinates(columns: Sequence[str], given: _bbsim.Given, from_within: 
     other = not all(a or b for a, b in zip(x, y))
     axes = [axis for axis, along in enumerate((any(x), any(y))) if along or other]
     made = [*axes, *(2 + axis for axis in axes)]
-    if from_within and _bbsim.begins_anywhere(given):
+    if from_within and given.begins_anywhere():
         made += [4, 5, 6, 7]
     return made + ([_SPIN] if from_within and len(axes) == 2 else [])
 
@@ -149,8 +149,8 @@ class WindowsFit:
         self._solvers: Optional[Tuple[Array, Array]] = None
         self.kinked = False
         given = logs[0].given
-        self.jumps = bool(_bbsim.key_facts(given, "", "controller.sampling.resolution").value) or any(
-            _bbsim.key_facts(given, "", f"gimbal.servo{axis}.dead_band").value for axis in ("", ".phi", ".theta"))
+        self.jumps = bool(given.value("controller.sampling.resolution")) or any(
+            given.value(f"gimbal.servo{axis}.dead_band") for axis in ("", ".phi", ".theta"))
         self.deaf = deaf_windows(logs, windows, [key.name for key in keys])
         self.key_steps, self.start_steps = np.full(len(keys), KEY_STEP), _START_STEPS.copy()
 
@@ -171,7 +171,7 @@ class WindowsFit:
         facts = [f"ball.{name}.{axis}" for name in ("position", "velocity") for axis in (0, 1)]
         facts += [f"gimbal.start.{name}" for name in _bbsim.START[4:8]] + ["ball.spin"]
         given = self.logs[0].given
-        start = [_bbsim.key_facts(given, "--free", name).value or 0.0 for name in facts]
+        start = [given.value(name) or 0.0 for name in facts]
         starts = np.tile(start, (len(self.windows), 1))
         for place in self.free:
             if place in (2, 3):

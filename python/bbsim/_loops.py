@@ -69,7 +69,7 @@ def poles(loop: Linearization) -> Columns:
 
 def root_locus(scenario: Scenario, set: Settings, key: str, bounds: Sequence[str], count: int) -> Columns:
     """A row for each pole of the closed loop at evenly spaced values of the key, between texts such as "2 cm"."""
-    ends = [_bbsim.number_at(given(scenario, set), key, bound) for bound in bounds]
+    ends = [given(scenario, set).number_at(key, bound) for bound in bounds]
     if None in ends:
         raise fault(f"{key}: found {bounds[ends.index(None)]}; allowed: the bounds of a key that holds one number")
     values = np.linspace(ends[0], ends[1], count)

@@ -102,7 +102,7 @@ def read_bounds(text: str, key: FreeKey) -> None:
 def read_free_key(text: str, given: _bbsim.Given) -> FreeKey:
     """KEY or KEY=FROM:TO. Raises InputError for a key that the scenario does not take."""
     name, equals, bounds = (part.strip() for part in text.partition("="))
-    facts = _bbsim.key_facts(given, "--free", name)
+    facts = given.key_facts(name)
     key = FreeKey(name, facts.unit, lower=facts.lower, upper=facts.upper)
     if equals:
         read_bounds(bounds, key)
@@ -110,14 +110,14 @@ def read_free_key(text: str, given: _bbsim.Given) -> FreeKey:
     if equals and (start is None or not key.lower <= start <= key.upper):
         start = math.sqrt(key.lower * key.upper) if key.lower > 0 else (key.lower + key.upper) / 2
     if start is None:
-        _bbsim.number_at(given, name, key.text(1.0))  # reports a misspelled key, or one of another law
+        given.number_at(name, key.text(1.0))  # reports a misspelled key, or one of another law
         allowed = f"{name}=FROM:TO, or a value in the scenario"
         refuse_free(f"{name}: the scenario gives no value to start from; allowed: {allowed}")
     key.start = start
     key.logarithmic = start > 0 and (facts.positive or key.lower > 0)
     bounded = bool(equals) and math.isfinite(key.upper - key.lower)
     key.scale = (key.upper - key.lower) / 10 if bounded else usual_scale(start, key.unit)
-    _bbsim.number_at(given, name, key.text(start))  # raises if the scenario does not take the key
+    given.number_at(name, key.text(start))  # raises if the scenario does not take the key
     return key
 
 
@@ -171,7 +171,7 @@ def write_all(given: _bbsim.Given, files: Dict[str, str], texts: Dict[str, str],
             _bbsim.write_file(file, texts[name])
     output = files["output"] or "-"
     folders = {os.path.dirname(os.path.abspath(file)) for file in (output, given.name)}
-    if output != "-" and len(folders) > 1 and _bbsim.tables(given):
+    if output != "-" and len(folders) > 1 and given.tables():
         say(f"note: {output} is not in the scenario's folder, from which its tables are read; move it there to run it")
 
 
@@ -225,15 +225,8 @@ class Bar:
             return
         self._last = now
         done = min(max(fraction, 0.0), 1.0)
-        text = f" {100 * done:3.0f}%" + (f", {detail}" if detail else "")
-        if done > 0.01:
-            left = (now - self._start) * (1 - done) / done
-            short = f"{left:.0f} s" if left <= 120 else f"{left / 60:.0f} min"
-            text += f", {short if left <= 7200 else f'{left / 3600:.1f} h'} left"
-        length = min(30, shutil.get_terminal_size().columns - len(self._label) - len(text) - 5)
-        if length >= 8:
-            filled = int(done * length)
-            text = f"{self._label} [{'#' * filled}{'.' * (length - filled)}]{text}"
-        sys.stderr.write(_CLEAR + text.strip()[: shutil.get_terminal_size().columns - 1])
+        left = (now - self._start) * (1 - done) / done if done > 0.01 else None
+        columns = max(shutil.get_terminal_size().columns - 1, 10)
+        sys.stderr.write(_CLEAR + _bbsim.progress_line(self._label, detail, done, left, columns))
         sys.stderr.flush()
         self._drawn = True

@@ -44,11 +44,11 @@ class _Tuning:
         self.bounds, self.start, names = free[:2], free[2], [key[0] for key in self.keys]
         refuse_twice(names)
         self.logarithmic = (free[0] > 0) & (free[1] > 10 * free[0])  # positive numbers over more than a decade
-        _bbsim.remarks(base.changed(self.settings(self.start)))  # reads these values together
-        self.goals = [_bbsim.expectation(base, "--require", text) for text in options["require"]]
-        measure, self.unit = _bbsim.measure_name(base, "--minimize", options["minimize"])
+        base.changed(self.settings(self.start)).remarks()  # reads these values together
+        self.goals = [base.expectation("--require", text) for text in options["require"]]
+        measure, self.unit = base.measure_name("--minimize", options["minimize"])
         self.measures = [options["minimize"], *(re.split("[<>]", goal.text)[0].strip() for goal in self.goals)]
-        moves = not all(goal.of_loop for goal in [_bbsim.expectation(base, "", f"{self.measures[0]} < 0"), *self.goals])
+        moves = not all(goal.of_loop for goal in [base.expectation("", f"{self.measures[0]} < 0"), *self.goals])
         self.asked = [*dict.fromkeys(self.measures), *["end_t"] * moves]
         self.hold_out, draws = options["hold_out"], any(re.search("= *(normal|uniform):", text) for text in self.vary)
         for option, number in (("--samples", options["samples"]), ("--hold-out", self.hold_out)):
@@ -58,30 +58,23 @@ class _Tuning:
         for name in self.rigs:
             if name in names:
                 raise fault(f"--vary: {name}: found among the free keys, too; allowed: one of the two")
-        self.quick = _bbsim.without_notes(base, [*names, *self.rigs], [measure, *(goal.measure for goal in self.goals)])
-        self.end = _bbsim.key_facts(base, "", "time.end").value or 1.0
+        self.quick = base.without_notes([*names, *self.rigs], [measure, *(goal.measure for goal in self.goals)])
+        self.end = base.value("time.end") or 1.0
         self.scenario("", self.start)  # fails before the work if the text cannot be written
 
     def _read(self, text: str, place: int) -> Tuple[float, float, float]:
         names, equals, bounds = (part.strip() for part in text.partition("="))
         if not equals:
             refuse_free(f"{names}: found no range; allowed: KEY=FROM:TO, such as controller.gravity_compensation.kp=1:20")
-        for part in names.split(","):
-            number, star, name = (word.strip() for word in part.rpartition("*"))
-            negative = not star and name.startswith("-")
-            factor = _bbsim.value_in(number, "") if star else -1.0 if negative else 1.0
-            name = name[1:].strip() if negative else name
-            if not factor or not name:
-                refuse_free(f"{names}: found '{part}'; allowed: KEY, -KEY or NUMBER*KEY with a number that is not 0")
-            if len(self.keys) == 0 or self.keys[-1][3] != place:
-                if factor != 1:
-                    refuse_free(f"{names}: found a factor before the first key; allowed: KEY,FACTOR*KEY=FROM:TO")
-                first = read_free_key(f"{name}={bounds}", self.base)
-            self.keys.append((name, _bbsim.key_facts(self.base, "--free", name).unit, factor, place))
+        tied = _bbsim.tied_keys(names)
+        if tied[0][1] != 1:
+            refuse_free(f"{names}: found a factor before the first key; allowed: KEY,FACTOR*KEY=FROM:TO")
+        first = read_free_key(f"{tied[0][0]}={bounds}", self.base)
+        self.keys += [(name, self.base.key_facts(name).unit, factor, place) for name, factor in tied]
         return first.lower, first.upper, first.start
 
     def draw(self, samples: Any, seed: int) -> Any:
-        return {name: np.array(values) for name, values in _bbsim.drawn(self.base, self.vary, samples, seed)}
+        return {name: np.array(values) for name, values in self.base.drawn(self.vary, samples, seed)}
 
     def scaled(self, numbers: Array) -> Array:
         return np.where(self.logarithmic, np.log(np.where(self.logarithmic, numbers, 1)), numbers)
@@ -96,7 +89,7 @@ class _Tuning:
         return [(name, f"{float(factor * numbers[at])!r} {unit}".strip()) for name, unit, factor, at in self.keys]
 
     def scenario(self, comments: str, numbers: Array) -> str:
-        return _bbsim.edited(self.base, self.settings(numbers), comments)
+        return self.base.edited(self.settings(numbers), comments)
 
     def measured(self, points: Array, rigs: Any) -> Tuple[Array, Array]:
         """The measures of all rigs at all points, NaN where a run does not reach its end; the part that it missed."""
@@ -251,7 +244,7 @@ def _carry_out(base: _bbsim.Given, options: Dict[str, Any], progress: Progress, 
     """Tunes, and writes the files that the options ask for."""
     files = files_of(options, base, {}, "output", "json")
     tuning = _Tuning(base, options)
-    for remark in _bbsim.remarks(base):
+    for remark in base.remarks():
         say(remark)
     made = tuning.result(tuning.find(progress))
     progress(1, "")

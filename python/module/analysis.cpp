@@ -126,7 +126,7 @@ Given without_notes(const Given& given, const Texts& keys, const Texts& measures
 
 }  // namespace
 
-void define_analysis(py::module_& module) {
+void define_analysis(py::module_& module, py::class_<Given>& given) {
   using scenario::Expectation;
   using scenario::NamedNumber;
   using Relation = Expectation::Relation;
@@ -151,38 +151,49 @@ void define_analysis(py::module_& module) {
       "of_loop",
       [](const Expectation& its) { return its.measure.kind == scenario::Measure::Kind::loop; })
       .def("holds", &Expectation::holds);
-  module.def("key_facts",
-             [](const Given& given, const std::string& option, const std::string& key) {
-               return scenario::number_named(option, key, shared_family(given));
-             });
-  module.def("expectation",
-             [](const Given& given, const std::string& option, const std::string& text) {
-               return scenario::read_expectation(option, text, scenario_of(given));
-             });
-  module.def("measure_name",
-             [](const Given& given, const std::string& option, const std::string& name) {
-               const auto its = scenario::measure_named(option, name, scenario_of(given));
-               return std::pair(its.name, its.unit());
-             });
-  // The number (SI) that a text such as "2 cm" gives the key; empty if it has no single number.
-  module.def("number_at", [](const Given& given, const std::string& key, const std::string& value) {
-    return shared_family(given).number_at(key, {{key, value}});
-  });
+  given
+      .def("key_facts",
+           [](const Given& its, const std::string& key) {
+             return scenario::number_named("--free", key, shared_family(its));
+           })
+      .def("value",
+           [](const Given& its, const std::string& key) {
+             return scenario::number_named("", key, shared_family(its)).value;
+           })
+      .def("expectation",
+           [](const Given& its, const std::string& option, const std::string& text) {
+             return scenario::read_expectation(option, text, scenario_of(its));
+           })
+      .def("measure_name",
+           [](const Given& its, const std::string& option, const std::string& name) {
+             const auto measure = scenario::measure_named(option, name, scenario_of(its));
+             return std::pair(measure.name, measure.unit());
+           })
+      // The number (SI) that a text such as "2 cm" gives the key; empty if it has no single number.
+      .def("number_at",
+           [](const Given& its, const std::string& key, const std::string& value) {
+             return shared_family(its).number_at(key, {{key, value}});
+           })
+      .def("text_at", &text_at)
+      .def("has",
+           [](const Given& its, const std::string& key) { return !text_at(its, key).empty(); })
+      .def("rig_limits", &rig_limits)
+      .def("remarks", [](const Given& its) { return scenario_of(its).remarks; })
+      .def("begins_anywhere",
+           [](const Given& its) { return sweep::begins_anywhere(scenario_of(its)); })
+      .def("edited", &edited)
+      .def("tables", &tables)
+      .def("lacks", &lacks)
+      .def("without_notes", &without_notes)
+      .def("drawn", &drawn);
   module.def("value_in", &yaml::value_in);
-  module.def("text_at", &text_at);
-  module.def("has", [](const Given& given, const std::string& key) {
-    return !text_at(given, key).empty();
+  // Of a text such as "KEY,-KEY,2*KEY": the keys, and their factors.
+  module.def("tied_keys", [](const std::string& keys) {
+    std::vector<std::pair<std::string, double>> all;
+    for (const auto& its : scenario::tied_keys({keys, ""})) all.emplace_back(its.path, its.factor);
+    return all;
   });
-  module.def("rig_limits", &rig_limits);
-  module.def("remarks", [](const Given& given) { return scenario_of(given).remarks; });
-  module.def("begins_anywhere",
-             [](const Given& given) { return sweep::begins_anywhere(scenario_of(given)); });
-  module.def("edited", &edited);
-  module.def("tables", &tables);
-  module.def("lacks", &lacks);
   module.def("unit_doubt", &unit_doubt);
-  module.def("without_notes", &without_notes);
-  module.def("drawn", &drawn);
   module.def("filled_page",
              [](const std::string& name, const std::string& title, const std::string& json) {
                return replay::filled(replay::read_template(name), title, json);

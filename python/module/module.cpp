@@ -395,8 +395,8 @@ PYBIND11_MODULE(_bbsim, module) {
   module.attr("START") = bbsim::sweep::start_names;
   py::register_exception_translator(translate);
   end_work_with_the_interpreter();
-  py::class_<Given>(module, "Given")
-      .def(py::init<std::string, std::optional<std::string>, Texts, py::object>())
+  py::class_<Given> given(module, "Given");
+  given.def(py::init<std::string, std::optional<std::string>, Texts, py::object>())
       .def_property_readonly("name",
                              [](const Given& given) { return shared_family(given).source().file; })
       .def("changed", &changed);
@@ -405,7 +405,7 @@ PYBIND11_MODULE(_bbsim, module) {
   define_linearize(module);
   define_environments(module);
   define_results(module);
-  define_analysis(module);
+  define_analysis(module, given);
   py::class_<bbsim::api::CasesResult>(module, "CasesResult");
   module.def("sweep", &sweep);
   module.def("simulate", &simulate);

@@ -104,8 +104,9 @@ class Callable {
   std::string fault_;
 };
 
-void define_sample(py::module_& module);    // the argument of a callable
-void define_results(py::module_& module);   // stored results, pages of them, files written whole
-void define_analysis(py::module_& module);  // a scenario's keys, tables, measures, drawn cases
+void define_sample(py::module_& module);   // the argument of a callable
+void define_results(py::module_& module);  // stored results, pages of them, files written whole
+// A scenario's keys, tables, measures, drawn cases.
+void define_analysis(py::module_& module, py::class_<Given>& given);
 
 }  // namespace bbsim::python

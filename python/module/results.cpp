@@ -21,6 +21,7 @@
 #include "api/replay.hpp"
 #include "base/error.hpp"
 #include "base/printable.hpp"
+#include "base/progress_line.hpp"
 #include "file/atomic_file.hpp"
 #include "file/default_name.hpp"
 #include "file/outputs.hpp"
@@ -272,6 +273,10 @@ void define_results(py::module_& module) {
   });
   module.def("end_at_signals", &end_at_signals);
   module.def("printable", [](const std::string& text) { return printable(text); });
+  module.def("progress_line", [](const std::string& label, const std::string& detail, double done,
+                                 std::optional<double> seconds_left, std::size_t columns) {
+    return progress_line({printable(label), printable(detail), done, seconds_left}, columns);
+  });
 }
 
 }  // namespace bbsim::python

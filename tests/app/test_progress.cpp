@@ -9,16 +9,16 @@
 #include <string>
 #include <vector>
 
+#include "base/progress_line.hpp"
 #include "catch.hpp"
-#include "progress_line.hpp"
 #include "shell.hpp"
 
 namespace bbsim_test::test_progress {
 
-using bbsim::app::log_line;
-using bbsim::app::progress_line;
-using bbsim::app::ProgressState;
-using bbsim::app::widest;
+using bbsim::log_line;
+using bbsim::progress_line;
+using bbsim::ProgressState;
+using bbsim::widest;
 
 namespace {
 

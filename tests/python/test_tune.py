@@ -126,11 +126,11 @@ class Rigs(unittest.TestCase):
         self.assertEqual((made.hold_out.cases, made.hold_out.share_that_holds), (16, 1))
         # The scenario has the gains and its own comments.
         for one in made.parameters:
-            self.assertEqual(_bbsim.key_facts(bbsim.given(made.scenario), "", one.key).value, one.value)
+            self.assertEqual(bbsim.given(made.scenario).value(one.key), one.value)
         for text in ("# Tuned by bbsim ", "on the worst of 8 rigs\n", "# hard stops", "# All requirements hold on 100"):
             self.assertIn(text, made.scenario)
         # Each rig has the measures that a sweep of the tuned scenario has.
-        (name, values), = _bbsim.drawn(bbsim.given(RIG), [SERVO], 8, 1)
+        (name, values), = bbsim.given(RIG).drawn([SERVO], 8, 1)
         rigs = bbsim.simulate(made.scenario, {name: values}, [], measures=["rms_tracking_error"])
         self.assertAlmostEqual(rigs.measures["rms_tracking_error"].max(), made.objective, delta=1e-9)
         # Another call gives the same result, with any number of threads; it can be pickled.
@@ -166,7 +166,7 @@ class Rigs(unittest.TestCase):
             self.assertRegex(made.report, r"searched for max_tilt < 1 deg with [0-9.]+ % to spare, for rigs held out\n")
         else:
             self.assertEqual(made.report, once.report)
-        rigs = dict(_bbsim.drawn(bbsim.given(RIG), options["vary"], 1000, 77))
+        rigs = dict(bbsim.given(RIG).drawn(options["vary"], 1000, 77))
         tilts = bbsim.simulate(made.scenario, rigs, [], measures=["max_tilt"]).measures["max_tilt"]
         self.assertGreater((tilts < np.radians(1)).mean(), 0.99)
 

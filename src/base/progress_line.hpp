@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace bbsim::app {
+namespace bbsim {
 
 struct ProgressState {
   std::string label, detail;             // printable
@@ -26,4 +26,4 @@ struct ProgressState {
 // Upper bound on the columns of a text: two for each character that is not ASCII.
 [[nodiscard]] std::size_t widest(const std::string& text);
 
-}  // namespace bbsim::app
+}  // namespace bbsim

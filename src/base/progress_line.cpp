@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "progress_line.hpp"
+#include "base/progress_line.hpp"
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
-namespace bbsim::app {
+namespace bbsim {
 namespace {
 
 constexpr std::size_t longest_bar = 30, shortest_bar = 8;
@@ -106,4 +106,4 @@ std::string progress_line(const ProgressState& state, std::size_t columns) {
   return line;
 }
 
-}  // namespace bbsim::app
+}  // namespace bbsim
