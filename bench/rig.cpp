@@ -30,7 +30,7 @@
 #include "scenario/reader.hpp"
 #include "simd/instruction_set.hpp"
 #include "solve/integrate.hpp"
-#include "sweep/single.hpp"
+#include "sweep/runners.hpp"
 #include "sweep/sweep.hpp"
 
 namespace {

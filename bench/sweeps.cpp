@@ -22,7 +22,7 @@
 #include "equal_error.hpp"
 #include "record/rows.hpp"
 #include "solve/integrate.hpp"
-#include "sweep/single.hpp"
+#include "sweep/runners.hpp"
 #include "sweep/sweep.hpp"
 #include "tools.hpp"
 

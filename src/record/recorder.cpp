@@ -24,6 +24,22 @@ model::Sample end_of(const solve::Outcome& outcome) {
   return end;
 }
 
+// The greatest and the least value of each load of the motors.
+std::vector<Extremes::Query> most_and_least_loads() {
+  std::vector<Extremes::Query> queries;
+  for (const char* name : {"motor_torque_phi", "motor_torque_theta", "motor_power"}) {
+    const scenario::Column* const load = scenario::find_column(name);
+    queries.push_back({load});
+    queries.push_back({load, true});
+  }
+  return queries;
+}
+
+bool has_plate_inertia(const model::BallConstants& constants) {
+  return std::any_of(constants.plate_inertia.begin(), constants.plate_inertia.end(),
+                     [](double moment) { return moment > 0; });
+}
+
 constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
 // Groups the measures by their windows.
@@ -64,7 +80,7 @@ Recorder::Recorder(RecordRequest request)
     first_columns_.push_back(first);
     first += window->row_columns().size();
   }
-  if (request_.peaks) loads_.emplace();
+  if (request_.peaks) loads_.emplace(most_and_least_loads());
 }
 
 void Recorder::begin(const model::Model& model, const model::BallConstants& constants,
@@ -72,14 +88,14 @@ void Recorder::begin(const model::Model& model, const model::BallConstants& cons
   model_ = &model;
   grid_ = &grid;
   table_ = table;
-  with_loads_ =
-      loads_ && (scenario::need_dynamics(request_.columns) || has_plate_inertia(constants));
+  with_plate_ = has_plate_inertia(constants);
+  with_loads_ = loads_ && (scenario::need_dynamics(request_.columns) || with_plate_);
   gaps_.assign(request_.columns.size(), {});
   rows_.begin(model, constants);
   fan_.clear();
   if (with_loads_) {
     loads_->begin(model, constants);
-    fan_.add(loads_->extremes());
+    fan_.add(*loads_);
   }
   last_time_ = 0;
   last_ = model.initial;
@@ -92,7 +108,7 @@ void Recorder::accept(std::size_t first, std::size_t count, const double* values
   times_.resize(count);
   for (std::size_t i = 0; i < count; ++i) times_[i] = (*grid_)[first + i];
   // A run may end before its first step, without a piece.
-  if (first == 0 && with_loads_) loads_->extremes().note(times_[0], values);
+  if (first == 0 && with_loads_) loads_->note(times_[0], values);
   if (first == 0) {
     for (const auto& window : windows_) window->accept_start(times_[0], values);
   }
@@ -137,7 +153,7 @@ void Recorder::finish(const solve::Outcome& outcome, double* results) {
   const RunEnd end =
       stopped ? RunEnd{outcome.occurrences.back().t, end_of(outcome)}
               : RunEnd{last_time_, model_->sample(last_time_, last_.data(), model::Detail::all)};
-  if (model_->hybrid() && with_loads_) loads_->extremes().note(end.sample);
+  if (model_->hybrid() && with_loads_) loads_->note(end.sample);
   for (const auto& window : windows_) window->finish(end, results, whys_);
 }
 
@@ -166,7 +182,11 @@ std::string Recorder::why_not_finite(std::size_t columns) const {
 
 std::optional<MotorPeaks> Recorder::peaks() const {
   if (!with_loads_) return {};
-  return loads_->peaks();
+  const auto peak = [this](std::size_t load) {
+    const Extremes::Extreme most = (*loads_)[2 * load], least = (*loads_)[2 * load + 1];
+    return -least.value > most.value ? Peak{least.t, -least.value} : Peak{most.t, most.value};
+  };
+  return MotorPeaks{peak(0), peak(1), peak(2), with_plate_};
 }
 
 }  // namespace bbsim::record

@@ -14,9 +14,10 @@
 
 #include "file/table_writer.hpp"
 #include "model/model.hpp"
-#include "record/motor_loads.hpp"
-#include "record/piece_fan.hpp"
+#include "record/extremes.hpp"
+#include "record/pieces.hpp"
 #include "record/rows.hpp"
+#include "record/summary.hpp"
 #include "record/window_measures.hpp"
 #include "scenario/measures.hpp"
 #include "solve/outcome.hpp"
@@ -78,13 +79,13 @@ class Recorder : public solve::StateSink {
   std::vector<std::size_t> first_columns_;
   Rows rows_;  // columns of the table, then of the windows' means
   scenario::Whys whys_;
-  std::optional<MotorLoads> loads_;
+  std::optional<Extremes> loads_;
   PieceFan fan_;
 
   const model::Model* model_ = nullptr;
   const solve::OutputGrid* grid_ = nullptr;
   file::TableWriter* table_ = nullptr;
-  bool with_loads_ = false;
+  bool with_loads_ = false, with_plate_ = false;
 
   struct Gaps {
     std::size_t rows = 0;  // with a value that is not finite

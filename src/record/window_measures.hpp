@@ -10,11 +10,10 @@
 #include "model/model.hpp"
 #include "record/extremes.hpp"
 #include "record/instants.hpp"
-#include "record/piece_fan.hpp"
+#include "record/pieces.hpp"
 #include "record/rows.hpp"
 #include "record/square_sum.hpp"
 #include "record/traces.hpp"
-#include "record/window_pieces.hpp"
 #include "scenario/measures.hpp"
 
 namespace bbsim::record {

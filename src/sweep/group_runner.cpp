@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "solve/collocation/shrinking.hpp"
-#include "sweep/single.hpp"
-#include "sweep/verdict.hpp"
+#include "sweep/runners.hpp"
 
 namespace bbsim::sweep {
 namespace {

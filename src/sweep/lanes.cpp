@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "sweep/lanes.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,6 +18,7 @@
 #include "sweep/case_scenario.hpp"
 #include "sweep/group_runner.hpp"
 #include "sweep/lane_measures.hpp"
+#include "sweep/runners.hpp"
 
 namespace bbsim::sweep {
 namespace {

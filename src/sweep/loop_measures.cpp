@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "sweep/loop_measures.hpp"
-
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -11,6 +9,7 @@
 #include "base/error.hpp"
 #include "model/control/loop_analysis.hpp"
 #include "sweep/case_scenario.hpp"
+#include "sweep/runners.hpp"
 
 namespace bbsim::sweep {
 namespace {

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "sweep/merge_csv.hpp"
-
 #include <fcntl.h>
 #include <sys/stat.h>
 
@@ -14,7 +12,7 @@
 #include "base/error.hpp"
 #include "file/atomic_file.hpp"
 #include "sweep/case_rows.hpp"
-#include "sweep/merge_text.hpp"
+#include "sweep/merge_parts.hpp"
 #include "sweep/plan_text.hpp"
 
 namespace bbsim::sweep {

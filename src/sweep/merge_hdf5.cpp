@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "sweep/merge_hdf5.hpp"
-
 #include <algorithm>
 #include <cstring>
 #include <iterator>
@@ -10,7 +8,7 @@
 #include "base/error.hpp"
 #include "base/whole.hpp"
 #include "file/hdf5_table.hpp"
-#include "sweep/merge_text.hpp"
+#include "sweep/merge_parts.hpp"
 
 namespace bbsim::sweep {
 namespace {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "base/error.hpp"
@@ -14,7 +15,6 @@
 #include "base/number_text.hpp"
 #include "base/whole.hpp"
 #include "scenario/independent.hpp"
-#include "sweep/sample_cases.hpp"
 #include "yaml/problems.hpp"
 #include "yaml/quantity.hpp"
 #include "yaml/spelling.hpp"
@@ -379,7 +379,7 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, std::vector<ListedKey> keys, 
 void SweepPlan::find_first(const ScenarioFamily& family) {
   constexpr std::size_t most_tried = 64;
   for (std::size_t i = 0; i < std::min(cases_, most_tried); ++i) {
-    first_ = cases_ > most_tried ? sample_case(static_cast<int>(i), cases_) : i;
+    first_ = cases_ > most_tried ? sampled(i) : i;
     try {
       static_cast<void>(family.read(settings(first_)));
       return;
@@ -429,6 +429,11 @@ double SweepPlan::drawn(const PlanAxis& axis, std::size_t number) {
     return std::isfinite(width) ? axis.from + p * width : (1 - p) * axis.from + p * axis.to;
   }
   return axis.from + axis.to * normal_quantile(p);
+}
+
+std::size_t SweepPlan::sampled(std::size_t i) const {
+  const double whole = static_cast<double>(i) / std::numbers::phi, part = whole - std::floor(whole);
+  return static_cast<std::size_t>(part * static_cast<double>(cases_));
 }
 
 void SweepPlan::values(std::size_t number, double* values) const {

@@ -66,6 +66,9 @@ class SweepPlan {
   SweepPlan(const ScenarioFamily& family, std::vector<ListedKey> keys, std::size_t cases);
 
   [[nodiscard]] std::size_t cases() const { return cases_; }
+  // Case i of a sample from all over the sweep. Multiples of the golden ratio do not fall into step
+  // with a grid's keys.
+  [[nodiscard]] std::size_t sampled(std::size_t i) const;
   [[nodiscard]] const std::vector<PlanAxis>& axes() const { return axes_; }
 
   // Whether no rule relates the number at any varied key to another key.

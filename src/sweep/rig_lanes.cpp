@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "sweep/rig_lanes.hpp"
+#include "solve/sampled/rig_lanes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,12 +13,11 @@
 #include "base/error.hpp"
 #include "model/model.hpp"
 #include "solve/choose.hpp"
-#include "solve/sampled/rig_lanes.hpp"
 #include "sweep/case_scenario.hpp"
 #include "sweep/group_runner.hpp"
 #include "sweep/lane_measures.hpp"
 #include "sweep/rig_lane_measures.hpp"
-#include "sweep/sample_cases.hpp"
+#include "sweep/runners.hpp"
 
 namespace bbsim::sweep {
 namespace {
@@ -139,12 +138,11 @@ bool can_use_rig_lanes(const SweepTask& task) {
       !std::ranges::all_of(task.series, is_in_rows)) {
     return false;
   }
-  constexpr int samples = 16;
-  int found = 0;
-  for (int i = 0; i < samples; ++i) {
+  constexpr std::size_t samples = 16;
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < samples; ++i) {
     try {
-      const Scenario scenario =
-          task.family.read(task.plan.settings(sample_case(i, task.plan.cases())));
+      const Scenario scenario = task.family.read(task.plan.settings(task.plan.sampled(i)));
       if (!scenario.controller) return false;
       if (fits_lanes(scenario, model_of(scenario, task))) ++found;
     } catch (const InputError&) {  // reported when the case is run

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "sweep/single.hpp"
-
 #include <algorithm>
 #include <cstdio>
 #include <limits>
@@ -18,7 +16,7 @@
 #include "solve/integrate.hpp"
 #include "study/error_control.hpp"
 #include "sweep/case_scenario.hpp"
-#include "sweep/verdict.hpp"
+#include "sweep/runners.hpp"
 
 namespace bbsim::sweep {
 namespace {
@@ -123,23 +121,6 @@ class SingleRunner : public CaseRunner {
 };
 
 }  // namespace
-
-void CaseResults::resize(std::size_t cases, const SweepTask& task) {
-  count = cases;
-  values.resize(cases * task.plan.axes().size());
-  numbers.resize(cases * (1 + task.measures.size()));
-  status.resize(cases);
-  series.resize(task.series.size());
-  for (auto& column : series) column.assign(cases * task.series_rows, nothing);
-}
-
-void CaseResults::cut(std::size_t cases, const SweepTask& task) {
-  count = cases;
-  values.resize(cases * task.plan.axes().size());
-  numbers.resize(cases * (1 + task.measures.size()));
-  status.resize(cases);
-  for (auto& column : series) column.resize(cases * task.series_rows);
-}
 
 std::unique_ptr<CaseRunner> single_runner(const SweepTask& task) {
   return std::make_unique<SingleRunner>(task);

@@ -14,10 +14,7 @@
 #include <thread>
 #include <utility>
 
-#include "sweep/lanes.hpp"
-#include "sweep/loop_measures.hpp"
-#include "sweep/rig_lanes.hpp"
-#include "sweep/single.hpp"
+#include "sweep/runners.hpp"
 
 namespace bbsim::sweep {
 namespace {

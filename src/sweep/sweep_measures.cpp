@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "sweep/sample_cases.hpp"
 
 namespace bbsim::sweep {
 namespace {
@@ -19,7 +18,7 @@ bool any_case_has(const scenario::Measure& measure, const ScenarioFamily& family
   if (plan.independent()) return false;
   const std::size_t cases = plan.cases(), looks = std::min(cases, most_looked_at);
   for (std::size_t i = 0; i < looks; ++i) {
-    const std::size_t number = cases > looks ? sample_case(static_cast<int>(i), cases) : i;
+    const std::size_t number = cases > looks ? plan.sampled(i) : i;
     try {
       if (!scenario::missing(measure, family.read(plan.settings(number)))) return true;
     } catch (const InputError&) {  // plan.check() reports it

@@ -21,7 +21,7 @@
 #include "support/largest.hpp"
 #include "support/run_in_memory.hpp"
 #include "support/sweep_setup.hpp"
-#include "sweep/single.hpp"
+#include "sweep/runners.hpp"
 #include "sweep/sweep.hpp"
 #include "sweep/sweep_measures.hpp"
 

@@ -14,7 +14,7 @@
 #include "solve/output_grid.hpp"
 #include "support/largest.hpp"
 #include "support/sweep_setup.hpp"
-#include "sweep/single.hpp"
+#include "sweep/runners.hpp"
 #include "sweep/sweep.hpp"
 
 namespace bbsim_test::test_every_engine {

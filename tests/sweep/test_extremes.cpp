@@ -16,8 +16,7 @@
 #include "study/reference.hpp"
 #include "support/greatest_of.hpp"
 #include "support/sweep_setup.hpp"
-#include "sweep/lanes.hpp"
-#include "sweep/single.hpp"
+#include "sweep/runners.hpp"
 #include "sweep/sweep.hpp"
 
 namespace bbsim_test::test_extremes {

@@ -10,7 +10,7 @@
 #include "catch.hpp"
 #include "support/largest.hpp"
 #include "support/sweep_setup.hpp"
-#include "sweep/single.hpp"
+#include "sweep/runners.hpp"
 #include "sweep/sweep.hpp"
 
 namespace bbsim_test::test_open_lanes {

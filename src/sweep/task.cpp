@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "sweep/verdict.hpp"
+#include "sweep/task.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "base/real.hpp"
 
 namespace bbsim::sweep {
-
 namespace {
 
 bool are_finite(const SweepTask& task, const double* measures) {
@@ -18,13 +18,30 @@ bool are_finite(const SweepTask& task, const double* measures) {
 
 }  // namespace
 
+void CaseResults::resize(std::size_t cases, const SweepTask& task) {
+  count = cases;
+  values.resize(cases * task.plan.axes().size());
+  numbers.resize(cases * (1 + task.measures.size()));
+  status.resize(cases);
+  series.resize(task.series.size());
+  for (auto& column : series) column.assign(cases * task.series_rows, no_number);
+}
+
+void CaseResults::cut(std::size_t cases, const SweepTask& task) {
+  count = cases;
+  values.resize(cases * task.plan.axes().size());
+  numbers.resize(cases * (1 + task.measures.size()));
+  status.resize(cases);
+  for (auto& column : series) column.resize(cases * task.series_rows);
+}
+
 void judge(const SweepTask& task, const Scenario& scenario, double* measures, CaseStatus& status,
            const scenario::Whys& whys) {
   scenario::Whys reasons = whys;
   reasons.resize(task.measures.size(), nullptr);
   for (std::size_t m = 0; m < task.measures.size(); ++m) {
     if (const scenario::Missing lacks = scenario::missing(task.measures[m], scenario)) {
-      measures[m] = std::numeric_limits<double>::quiet_NaN();
+      measures[m] = no_number;
       reasons[m] = lacks.why;
     }
   }

@@ -1,14 +1,17 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Checks and texts that both formats of merge.hpp share.
+// The two formats of merge.hpp, and what they share.
 #pragma once
 
-#include <cstddef>
-#include <string>
-#include <vector>
+#include "sweep/merge.hpp"
 
 namespace bbsim::sweep {
+
+[[nodiscard]] Merged merge_csv(const std::vector<std::string>& parts, const std::string& target,
+                               const std::atomic<bool>& stop);
+[[nodiscard]] Merged merge_hdf5(const std::vector<std::string>& parts, const std::string& target,
+                                const std::atomic<bool>& stop);
 
 // Both throw InputError if the numbers differ.
 void check_case(const std::string& file, std::size_t found, std::size_t expected);

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Passes the pieces of one run to several sinks.
+// Passes the pieces of one run to several sinks, or the parts of them within a window of time.
 #pragma once
 
 #include <vector>
 
+#include "scenario/window.hpp"
 #include "solve/piece.hpp"
 
 namespace bbsim::record {
@@ -29,6 +30,20 @@ class PieceFan : public solve::PieceSink {
 
  private:
   std::vector<solve::PieceSink*> sinks_;
+};
+
+// Passes on each piece, or the part of it within the window, unless the part is shorter than the
+// rounding of its time. Window and sink must outlive it.
+class WindowPieces : public solve::PieceSink {
+ public:
+  WindowPieces(const scenario::Window& window, solve::PieceSink& sink)
+      : window_(window), sink_(sink) {}
+  void begin_run() override { sink_.begin_run(); }
+  void accept(const solve::Piece& piece) override;
+
+ private:
+  const scenario::Window& window_;
+  solve::PieceSink& sink_;
 };
 
 }  // namespace bbsim::record

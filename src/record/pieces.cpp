@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "record/window_pieces.hpp"
+#include "record/pieces.hpp"
 
 #include <algorithm>
 
