@@ -12,15 +12,12 @@ bbsim.makeCamera = (canvas, rig, told) => {
   let view = 'free', touched = false, moving = null, usual = 1;
   const listeners = [];
   const notify = () => listeners.forEach((listener) => listener());
-  const controls = bbsim.makeOrbit(canvas, eye, {
-    changed: told.changed, left: told.left,
-    begun() {
-      moving = null;
-      touched = true;
-      notify();
-    },
-    ended: notify,
-  });
+  function begun() {
+    moving = null;
+    touched = true;
+    notify();
+  }
+  const controls = bbsim.makeOrbit(canvas, eye, {changed: told.changed, left: told.left, begun, ended: notify});
   // The unit of length is the longest side of the plate, as in the picture.
   const scale = () => 1 / rig.size, radius = () => rig.ballRadius * scale();
   controls.minDistance = Math.min(0.05, 3 * radius());
@@ -136,14 +133,12 @@ bbsim.makeCamera = (canvas, rig, told) => {
       camera.updateMatrixWorld(true);
     },
     zoom(factor) {
-      touched = true;
+      begun();
       controls.zoom(factor);
-      notify();
     },
     turn(left, up) {
-      touched = true;
+      begun();
       controls.turn(left, up);
-      notify();
     },
     // Numbers for the page's address.
     state: () => [...eye.position.toArray(), ...controls.target.toArray()],

@@ -201,11 +201,6 @@ bbsim.makePicture = (canvas, left) => {
     root.updateMatrixWorld(true);
   }
 
-  // The color of the future trail: the plate shines through.
-  function mixed(colour, part) {
-    return new THREE.Color(palette.now().plate).lerp(new THREE.Color(colour), part);
-  }
-
   function recolour() {
     const colours = palette.now();
     root.background.set(colours.background);
@@ -222,7 +217,8 @@ bbsim.makePicture = (canvas, left) => {
       const colour = palette.run(actor.run.index);
       actor.ball.colour(colours.cream, colour);
       actor.past.material.color.set(colour);
-      actor.future.material.color.copy(mixed(colour, colours.faint));
+      // The plate shines through the trail ahead.
+      actor.future.material.color.set(colours.plate).lerp(new THREE.Color(colour), colours.faint);
       actor.edge.color.set(colour);
       actor.marker.children[1].material.color.set(colour);
     }

@@ -41,11 +41,8 @@ bbsim.makeSwept = (json) => {
   }
 
   const keys = json.keys.map(columnOf), measures = json.measures.map(columnOf);
-  const cases = data.doubles(json.numbers), status = json.status;
-  const count = cases.length;
-  const doneIndex = json.statuses.indexOf('done');
-  const isDone = (i) => status[i] === doneIndex;
-  const statusOf = (i) => json.statuses[status[i]];
+  const cases = data.doubles(json.numbers), count = cases.length;
+  const statusOf = (i) => json.statuses[json.status[i]], isDone = (i) => statusOf(i) === 'done';
   // The first of several tied keys represents all of them.
   const leads = keys.filter((key) => !key.along), listed = leads.filter((key) => !key.drawn);
   const labelOf = (key) => [key, ...keys.filter((other) => other.along === key.name)].map((one) => one.name).join(', ');

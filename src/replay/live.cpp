@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "replay/live.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include "base/json.hpp"
-#include "replay/live.hpp"
 #include "replay/numbers.hpp"
 #include "replay/page.hpp"
 
