@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Checks the relations of keys in a scenario (relations.hpp).
 #include <algorithm>
 #include <optional>
 #include <set>
