@@ -10,7 +10,7 @@
 namespace bbsim::record {
 namespace {
 
-constexpr std::size_t fewest_intervals = 8, most_intervals = 64;
+constexpr std::size_t most_intervals = 64;
 // Points suffice if the remainder is at most this part of the values.
 constexpr double unseen = 1e-14;
 
@@ -59,14 +59,12 @@ void Traces::accept(const solve::Piece& piece) {
     for (const double value : values) size = std::max(size, std::abs(value));
     return !(points.tail(values.data()) > unseen * size);
   };
-  // Half of the points that may be needed often represent all columns.
-  std::size_t parts = std::max(fewest_intervals, (piece.parts() + 1) / 2);
-  for (std::size_t stride = 1;; parts *= 2, stride = 2) {
+  for (std::size_t parts = piece.parts(), stride = 1;; parts *= 2, stride = 2) {
     const ChebyshevPoints& points = tables_.points(parts);
     sample(piece, points, stride);
     bool enough = true;
     for (std::size_t i = 0; enough && i < curves_.size(); ++i) enough = shows(values_[i], points);
-    if (!enough && (parts < piece.parts() || 2 * parts <= most_intervals)) continue;
+    if (!enough && 2 * parts <= most_intervals) continue;
     for (std::size_t i = 0; i < curves_.size(); ++i) {
       curves_[i].add_piece(piece.from(), piece.to(), points, values_[i].data());
     }
