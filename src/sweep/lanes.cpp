@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Sweeps of given motions and of continuous control loops, with a case in each SIMD lane.
 #include <algorithm>
 #include <cmath>
 #include <limits>

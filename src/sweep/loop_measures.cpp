@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Computes measures of the loop, which need no run, alone or beside measures of the motion.
 #include <algorithm>
 #include <limits>
 #include <string>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The CSV side of merge.hpp.
 #include <fcntl.h>
 #include <sys/stat.h>
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The HDF5 side of merge.hpp.
 #include <algorithm>
 #include <cstring>
 #include <iterator>

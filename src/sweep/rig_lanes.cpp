@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Sweeps of sampled rigs that advance in step, with a case in each SIMD lane.
 #include "solve/sampled/rig_lanes.hpp"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Runs cases one by one, each with the integrator of `bbsim run`.
 #include <algorithm>
 #include <cstdio>
 #include <limits>
