@@ -38,7 +38,8 @@ bbsim.makeBode = (loops, ask) => {
   return {
     root,
     follow(state) {
-      if (wanted === null) asking = asking.then(draw);
+      // Runs come first: they may need both processors.
+      if (wanted === null) asking = asking.then(() => new Promise((resolve) => setTimeout(resolve, 50))).then(draw);
       wanted = state;
     },
     async margins() {
