@@ -61,7 +61,9 @@ bool is_of_rig(const LiveKey& key) {
 
 // Draws each number within 10 % of its value, as far as it is allowed.
 std::vector<Variation> tolerances(const ScenarioFamily& family) {
-  const auto exercise = scenario::checked_exercise(family.read({}));
+  Scenario scenario = family.read({});
+  scenario.source = family.source();  // where the exercise stands
+  const auto exercise = scenario::checked_exercise(scenario);
   std::vector<Variation> vary;
   for (const LiveKey& key : keys_of(family)) {
     const bool is_free = !exercise || exercise->free.empty() ||

@@ -36,11 +36,11 @@ bbsim.makeLive = (container) => {
   const requestOf = (state) => ({text: state.text, name, set: Object.fromEntries(state.set)});
   const ask = (state, more) => engine.ask({...requestOf(state), controlled: state.script !== '', checked: false, keys: false, ...more});
 
-  function showFaults(list, warning = '') {
+  function showFaults(list) {
     faults.replaceChildren(...list.map(({place, message}) => {
       const line = Number((/:(\d+):\d+$/.exec(place) || [])[1]);
       return element('li', {}, line > 0 ? element('button', {type: 'button', class: 'link', onclick: () => editing.goTo(line)}, `line ${line}`) : null,
-                     line > 0 ? `: ${message}` : warning + message);
+                     line > 0 ? `: ${message}` : message);
     }));
   }
 
@@ -61,7 +61,7 @@ bbsim.makeLive = (container) => {
       sliders.fill(offered);
     }
     editing.show(yaml);
-    showFaults(answer.warnings.map((message) => ({place: '', message: message.replace(/^warning: /, '')})), 'Warning: ');
+    showFaults(answer.warnings.map((message) => ({place: '', message})));
     showNumbers();
     follow(state);
   }

@@ -392,6 +392,7 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
       for (const plot of plots) {
         plot.build();
         plot.graph.updateOptions({pixelRatio: size ? 2 : undefined}, true);
+        if (!size) plot.canvas.removeAttribute('style');  // which Dygraph has set for the printed size
         if (size) plot.graph.resize(size.width, size.height);
         else plot.graph.resize();
         plot.read(clock.now);

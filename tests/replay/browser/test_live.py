@@ -293,6 +293,11 @@ class ManyRuns(Live):
                 self.assertLessEqual(least, min(wanted["x"]))
                 self.assertGreaterEqual(greatest, max(wanted["x"]))
 
+    def test_rigs_of_an_exercise_differ_in_its_free_keys(self):
+        self.open(page("examples/exercise/circle.yaml"))
+        keys = self.run_js("await bbsim.live.rigs(); return Object.keys(bbsim.data.fan.keys)")
+        self.assertEqual(keys, ["controller.gravity_compensation.kp", "controller.gravity_compensation.kv"])
+
     def test_a_slider_draws_the_rigs_anew(self):
         self.open(page("configs/fig2b.yaml"))
         self.run_js("await bbsim.live.rigs(); await bbsim.live.set('gravity', '5')")

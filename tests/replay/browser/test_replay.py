@@ -1167,6 +1167,7 @@ class Paper(Made):
                 with open(os.path.join(SOURCE, f"configs/{scene}.yaml")) as text:
                     self.assertEqual(self.browser.text("#details .card.text code").split(), text.read().split())
         self.show("rig", "configs/rig.yaml")
+        on_screen = self.js("bbsim.plots.plots.map(({canvas}) => [canvas.clientWidth, canvas.clientHeight])")
         self.js("bbsim.print.begin()")
         drawn = self.js("""bbsim.plots.plots.map(({canvas}) => { const c = canvas.querySelector('canvas.printed');
             const bytes = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; let inked = 0;
@@ -1180,6 +1181,7 @@ class Paper(Made):
         self.js("bbsim.print.end()")
         self.assertEqual(self.js("document.querySelectorAll('canvas.printed').length"), 0)
         self.assertEqual(self.js("document.documentElement.className"), "")
+        self.assertEqual(self.js("bbsim.plots.plots.map(({canvas}) => [canvas.clientWidth, canvas.clientHeight])"), on_screen)
         # Print preview gives the same.
         self.browser.devtools("Emulation.setEmulatedMedia", {"media": "print"})
         self.assertTrue(self.wait("document.querySelectorAll('canvas.printed').length > 5"))
