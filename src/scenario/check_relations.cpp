@@ -13,7 +13,7 @@
 namespace bbsim::scenario {
 namespace {
 
-// What a servo has: by a key of its own or of all servos, or by its model.
+// Tells whether a servo has a value, from its own keys, the keys of all servos, or its model.
 struct ServoKey {
   std::string_view path;
   bool (*holds)(const Servo&);
@@ -40,7 +40,7 @@ constexpr ServoKey servo_keys[] = {
     {"gimbal.servo.time_constant", [](const Servo& s) { return s.time_constant.has_value(); }},
 };
 
-// A servo, and the path of its own keys.
+// A servo and the path to its keys.
 struct OneServo {
   const Servo* servo;
   std::string path;
