@@ -102,9 +102,7 @@ void AtomicFile::flush() {
 void AtomicFile::write_through(std::string_view bytes) {
   if (const int error = write_all(descriptor_.get(), bytes)) fail(error);
   if (durable_ == Durable::no || target_.written_directly()) return;
-  size_ += static_cast<off_t>(bytes.size());
-  if (const int error = flusher_.perform(flusher_.due(size_), descriptor_.get(), size_))
-    fail(error);
+  flusher_.send(descriptor_.get(), size_ += static_cast<off_t>(bytes.size()));
 }
 
 void AtomicFile::commit() {

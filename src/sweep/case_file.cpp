@@ -48,13 +48,9 @@ std::string header_of(const std::vector<file::Hdf5Column>& columns) {
 }
 
 void check_case_target(const std::string& target, const CaseFileLayout& layout, bool resume) {
+  file::require_table_name(target);
   const bool direct = file::is_written_directly(target);
-  const file::Format format = file::format_of(target);
-  if (!direct && format == file::Format::other) {
-    throw InputError("cannot tell the format of " + target +
-                     " from its name; allowed endings: .csv, .h5, .hdf5");
-  }
-  if (!layout.axis_values.empty() && (direct || format != file::Format::hdf5)) {
+  if (!layout.axis_values.empty() && (direct || file::format_of(target) != file::Format::hdf5)) {
     throw InputError("cannot keep trajectories in " + target +
                      ": trajectories need a file that ends in .h5 or .hdf5");
   }

@@ -296,13 +296,11 @@ void Journal::append(const CaseResults& results) {
 void Journal::write(std::string_view bytes) {
   if (const int error = file::write_all(descriptor_.get(), bytes)) fail("write", error);
   size_ += static_cast<off_t>(bytes.size());
-  const file::Flusher::Due due = flusher_.due(size_);
-  if (due == file::Flusher::Due::sync) return sync();
-  if (const int error = flusher_.perform(due, descriptor_.get(), size_)) fail("sync", error);
+  if (flusher_.send(descriptor_.get(), size_)) sync();
 }
 
 void Journal::sync() {
-  int error = flusher_.perform(file::Flusher::Due::sync, descriptor_.get(), size_);
+  int error = flusher_.sync(descriptor_.get());
   if (error == 0 && !name_synced_) error = file::sync_folder(target_.folder());
   if (error != 0) fail("sync", error);
   name_synced_ = true;

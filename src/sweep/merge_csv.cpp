@@ -3,13 +3,13 @@
 
 // The CSV side of merge.hpp.
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/number_in.hpp"
 #include "file/atomic_file.hpp"
 #include "file/case_text.hpp"
 #include "file/line_reader.hpp"
@@ -31,14 +31,6 @@ void require_regular(const std::string& file) {
   if (std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored)) {
     cannot_read(file, "it is not a regular file, and bbsim reads parts twice");
   }
-}
-
-// std::to_chars writes nan and inf, and from_chars reads them.
-template <class Number>
-bool is_number(std::string_view text, Number& value) {
-  const char* const end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, value);
-  return result.ec == std::errc{} && result.ptr == end;
 }
 
 // Returns the end of the field that begins at `start`: the index of the comma, or the length of the
@@ -108,11 +100,13 @@ class Rows {
       const std::size_t end = end_of_field(line_, start);
       if (end == std::string_view::npos) return "a quote that is not closed";
       const std::string_view field = line_.substr(start, end - start);
-      double number = 0;
-      if (count == 0 && !is_number(field, case_number_))
-        return "a row that does not begin with the number of a case";
-      if (count >= first_number_ && count < names_.size() && !is_number(field, number))
+      if (count == 0) {
+        const auto number = number_in<std::size_t>(field);
+        if (!number) return "a row that does not begin with the number of a case";
+        case_number_ = *number;
+      } else if (count >= first_number_ && count < names_.size() && !number_in<double>(field)) {
         return "something other than a number in field " + std::to_string(count + 1);
+      }
       if (end == line_.size()) break;
       start = end + 1;
     }
@@ -164,7 +158,7 @@ CommonPlan compare_plans_of(const std::vector<std::string>& files) {
   for (const std::string& file : files) {
     const std::optional<std::string> plan = read_plan(file);
     if (!plan) continue;
-    common.instruction_sets.add(instruction_set_in(*plan));
+    common.instruction_sets.insert(instruction_set_in(*plan));
     if (first_file.empty()) {
       first_file = file;
       first_plan = *plan;
@@ -212,13 +206,13 @@ Merged merge_csv(const std::vector<std::string>& files, const std::string& targe
 
   file::AtomicFile out(target, file::Durable::yes);
   out.write(parts.front().header + '\n');
-  Merged merged{0, false, common.instruction_sets.note()};
+  Merged merged{0, false, note_on(common.instruction_sets)};
   for (const CsvPart& part : parts) {
     if (copy_rows(part, out, merged.cases, stop)) continue;
     merged.interrupted = true;
     return merged;
   }
-  if (common.cases) check_all_there(merged.cases, *common.cases);
+  if (common.cases) check_all_there(merged.cases, std::to_string(*common.cases));
   out.commit();
   return merged;
 }

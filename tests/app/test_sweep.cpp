@@ -452,7 +452,7 @@ TEST_CASE("an impossible sweep is refused in one line before it begins") {
   CHECK(contains(fault({"--vary", "gravity=uniform:1:2", "--samples", "1.5"}), "a whole number"));
   CHECK(contains(fault(with(key, {"--measure", "max_x,max_x"})), "twice"));
   CHECK(contains(fault(with(key, {"--shard", "x"})), "K/N"));
-  CHECK(contains(fault(with(key, {"-o", "a.txt"})), ".csv, .h5, .hdf5"));
+  CHECK(contains(fault(with(key, {"-o", "a.txt"})), ".csv, .h5 and .hdf5"));
   CHECK(contains(fault(with(key, {"-o", "-", "--resume"})), "cannot resume"));
   CHECK(contains(fault(with(key, {"--keep-trajectories"})), ".h5"));
   CHECK(contains(fault({"--vary", "time.end=list:1,2", "--keep-trajectories", "-o", "a.h5"}),
