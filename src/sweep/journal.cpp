@@ -146,11 +146,14 @@ void Journal::check_plan(bool resume, const std::string& plan) {
   const std::string start = found.substr(0, head_.size());
   const bool never_written = start.find_first_not_of('\0') == std::string::npos;
   if (!never_written && !start.starts_with(magic.substr(0, start.size()))) {
-    throw InputError(name_ + ": found " +
-                     (start.starts_with("case,") ? "CSV rows, as bbsim 0.3.0 wrote them"
-                                                 : "no journal of a sweep") +
-                     "; allowed: a journal of this version; finish it with the version that began "
-                     "it, or remove it to start again");
+    const bool rows = start.starts_with("case,");
+    throw InputError(
+        name_ + ": found " +
+        (rows ? "CSV rows, as bbsim 0.3.0 wrote them" : "no journal of a sweep") +
+        "; allowed: a journal of this version; " +
+        (rows ? "finish the sweep with the version that began it, or remove this file, " +
+                    target_.path + ".plan and " + name_ + ".series to start again"
+              : "remove it, or choose another name with -o"));
   }
   if (!resume) {
     throw InputError(name_ +

@@ -43,10 +43,8 @@ std::size_t case_in(const std::string& file, double number) {
 }
 
 file::Attributes without_instruction_set(const file::Attributes& all) {
-  file::Attributes rest;
-  for (const auto& attribute : all) {
-    if (attribute.first != instruction_set) rest.push_back(attribute);
-  }
+  file::Attributes rest = all;
+  std::erase_if(rest, [](const auto& attribute) { return attribute.first == instruction_set; });
   return rest;
 }
 
