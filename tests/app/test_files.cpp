@@ -607,8 +607,7 @@ TEST_CASE("a damaged part is truncated at the damage, and this is reported") {
   folder.write("s.csv.part", part);
   const Result rest = bbsim(with(arguments, {"-o", "s.csv", "--resume"}), folder.path());
   CHECK(rest.exit_code == 0);
-  CHECK_THAT(rest.err,
-             Contains("is not as it was written (found zero bytes); continuing from case "));
+  CHECK_THAT(rest.err, Contains("is not as it was written; continuing from case "));
   const bool alike = folder.read("s.csv") == folder.read("whole.csv");
   CHECK(alike);
 }
