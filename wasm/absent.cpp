@@ -3,6 +3,8 @@
 
 // In place of the sources that cmake/wasm.cmake leaves out. A page cannot have the user's programs
 // and libraries, or CVODE. It asks for no derivatives by keys, which need the engines of sweeps.
+#include <fcntl.h>
+
 #include <string>
 
 #include "api/run_sensitivity.hpp"
@@ -10,6 +12,11 @@
 #include "controller/host.hpp"
 #include "controller/program.hpp"
 #include "solve/cvode/cvode.hpp"
+
+// Emscripten declares this function and lacks it. A page has no disk.
+extern "C" int sync_file_range(int, off_t, off_t, unsigned) {
+  return 0;
+}
 
 namespace bbsim {
 namespace controller {

@@ -97,30 +97,22 @@ void declare_files(const SweepRequest& request, const Scenario& first) {
   if (!request.script.empty()) outputs.writes(request.script, "--slurm");
 }
 
-// Destination of a sweep's rows. The threads that compute them call prepare().
+// Destination of a sweep's cases. The threads that compute them call prepare().
 struct CaseSink {
   std::function<void(sweep::CaseResults&)> prepare;
   std::function<void(const sweep::CaseResults&)> take;
 };
 
-CaseSink into_file(const sweep::SweepTask& task, sweep::CaseFile& file) {
-  return {[&task](sweep::CaseResults& results) { write_text(task, results); },
-          [&file](const sweep::CaseResults& results) {
-            file.append(results.text, results.count, results.series);
-          }};
-}
-
-std::vector<SweepTable::Column> columns_of(const sweep::CaseFileLayout& layout) {
-  std::vector<SweepTable::Column> columns;
-  for (const file::Hdf5Column& column : layout.columns) {
-    columns.push_back({column.name, column.unit, column.kind == file::Hdf5Kind::text, {}, {}});
+SweepTable table_of(const sweep::CaseFileLayout& layout, file::Hdf5Block block) {
+  SweepTable table;
+  block.values.resize(layout.columns.size());
+  block.texts.resize(layout.columns.size());
+  for (std::size_t c = 0; c < layout.columns.size(); ++c) {
+    const file::Hdf5Column& column = layout.columns[c];
+    table.columns.push_back({column.name, column.unit, column.kind == file::Hdf5Kind::text,
+                             std::move(block.values[c]), std::move(block.texts[c])});
   }
-  return columns;
-}
-
-CaseSink into_table(const sweep::SweepTask& task, SweepTable& table) {
-  return {[](sweep::CaseResults&) {},
-          [&task, &table](const sweep::CaseResults& results) { append(task, results, table); }};
+  return table;
 }
 
 // Runs the missing cases, and reports the rate to `watch`.
@@ -139,13 +131,7 @@ bool run_cases(const sweep::SweepTask& task, const sweep::Engine& engine, sweep:
       [&](const sweep::CaseResults& results) {
         sink.take(results);
         result.rows += results.count;
-        for (std::size_t i = 0; i < results.count; ++i) {
-          const std::size_t number = results.first + i;
-          result.statuses.add(number, results.status[i].word, results.status[i].reason);
-          for (std::size_t e = 0; e < task.expectations.size(); ++e) {
-            result.statuses.add_expected(number, e, holds(task, results, i, e));
-          }
-        }
+        result.statuses.add(task, results);
         const double rate = static_cast<double>(result.rows - result.kept) / seconds();
         watch.update(share(), rounded(rate, 3) + " cases/s");
       },
@@ -211,8 +197,8 @@ SweepResult sweep(const SweepRequest& request, Watch& watch) {
   result.output = request.output;
   result.cases = range.last - range.first;
   const SweepFacts facts{family, request.sweep, task, first, request.shard};
-  sweep::CaseFileLayout layout = layout_of(facts, engine, range);
-  if (request.output.empty()) result.table.columns = columns_of(layout);
+  sweep::CaseFileLayout layout = layout_of(facts, range);
+  if (request.output.empty()) result.table = table_of(layout, {});
   const std::atomic<bool>& stop = stop_of(watch);
   for (const std::string& remark : first.remarks) watch.note(remark);
   const bool checked = plan.check(family, range.first, range.last, [&](double part) {
@@ -234,8 +220,12 @@ SweepResult sweep(const SweepRequest& request, Watch& watch) {
   };
   if (request.output.empty()) {
     try_controller(family, first, watch);
-    const CaseSink sink = into_table(task, result.table);
+    file::Hdf5Block block;
+    const CaseSink sink{
+        [](sweep::CaseResults&) {},
+        [&](const sweep::CaseResults& results) { append_rows(task, results, block); }};
     if (!run_cases(task, engine, range, threads, sink, result, watch)) interrupted();
+    result.table = table_of(layout, std::move(block));
     judge(task, result);
     return result;
   }
@@ -248,21 +238,22 @@ SweepResult sweep(const SweepRequest& request, Watch& watch) {
   try_controller(family, first, watch);
   const auto summary =
       request.summary.empty() ? nullptr : std::make_unique<file::AtomicFile>(request.summary);
-  const auto file =
-      sweep::open_case_file(request.output, std::move(layout), plan_text(facts), request.resumes);
-  if (!file->kept().trouble.empty()) watch.warn(file->kept().trouble);
-  result.rows = result.kept = file->kept().rows;
-  result.statuses = file->kept().statuses;
+  sweep::CaseFile file(request.output, std::move(layout), task, plan_text(facts), request.resumes);
+  if (!file.kept().trouble.empty()) watch.warn(file.kept().trouble);
+  result.rows = result.kept = file.kept().cases;
+  result.statuses = file.kept().statuses;
 
-  if (run_cases(task, engine, {range.first + result.kept, range.last}, threads,
-                into_file(task, *file), result, watch)) {
-    file->finish(attributes_of(facts, engine));
+  const CaseSink sink{[&file](sweep::CaseResults& results) { file.prepare(results); },
+                      [&file](const sweep::CaseResults& results) { file.append(results); }};
+  if (run_cases(task, engine, {range.first + result.kept, range.last}, threads, sink, result,
+                watch)) {
+    file.finish(attributes_of(facts, engine), threads);
   } else {
-    file->interrupt();
+    file.interrupt();
     interrupted();
-    if (!file->part().empty() && result.rows > 0) {
+    if (!file.part().empty() && result.rows > 0) {
       result.reason +=
-          "\n  " + file->part() + " keeps them; the same command with --resume continues.";
+          "\n  " + file.part() + " keeps them; the same command with --resume continues.";
     }
   }
   judge(task, result);

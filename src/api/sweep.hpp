@@ -37,7 +37,7 @@ struct SweepRequest {
   const ScenarioFamily& family;
   Sweep sweep;
   Shard shard{};
-  std::string output;  // for sweep::open_case_file(); empty: the result's table
+  std::string output;  // for sweep::CaseFile; empty: the result's table
   // The user did not name the output: messages say so, and unless `replaces_anything`, only a table
   // with the same columns is replaced.
   bool by_default = false, replaces_anything = false;

@@ -10,7 +10,6 @@
 #include "api/version.hpp"
 #include "base/json.hpp"
 #include "base/quoted.hpp"
-#include "file/case_text.hpp"
 #include "simd/instruction_set.hpp"
 #include "solve/output_grid.hpp"
 
@@ -82,15 +81,12 @@ Json plan_of(const SweepFacts& facts) {
 
 }  // namespace
 
-sweep::CaseFileLayout layout_of(const SweepFacts& facts, const sweep::Engine& engine,
-                                sweep::CaseRange range) {
+sweep::CaseFileLayout layout_of(const SweepFacts& facts, sweep::CaseRange range) {
   const sweep::SweepTask& task = facts.task;
   sweep::CaseFileLayout layout;
   using file::Hdf5Kind;
   layout.inputs = facts.family.inputs();
-  layout.first_case = range.first;
-  layout.cases = range.last - range.first;
-  layout.group = engine.group;
+  layout.range = range;
   layout.is_shard = facts.shard.of > 1;
   layout.columns.push_back({"case", "1", "number of the case, from 0"});
   for (const sweep::PlanAxis& axis : task.plan.axes()) {
@@ -106,7 +102,6 @@ sweep::CaseFileLayout layout_of(const SweepFacts& facts, const sweep::Engine& en
   for (const scenario::Measure& measure : task.measures) {
     layout.columns.push_back({measure.name, measure.unit(), measure.meaning()});
   }
-  layout.expectations = task.expectations.size();
   for (const scenario::Expectation& expectation : task.expectations) {
     layout.columns.push_back({"expect: " + expectation.text, "1", "1 if it holds, 0 if not"});
   }
@@ -198,69 +193,6 @@ std::string summary_text(const SweepFacts& facts, const SweepResult& result) {
   const Json plan = plan_of(facts);
   for (const auto& [name, value] : plan.items()) summary[name] = value;
   return text_of(summary);
-}
-
-bool holds(const sweep::SweepTask& task, const sweep::CaseResults& results, std::size_t i,
-           std::size_t expectation) {
-  const std::size_t numbers = 1 + task.measures.size();
-  return task.expectations[expectation].holds(
-      results.numbers[i * numbers + 1 + task.expected[expectation]]);
-}
-
-void write_text(const sweep::SweepTask& task, sweep::CaseResults& results) {
-  const auto& axes = task.plan.axes();
-  const std::size_t numbers = 1 + task.measures.size();
-  std::string& text = results.text;
-  text.clear();
-  for (std::size_t i = 0; i < results.count; ++i) {
-    text += std::to_string(results.first + i);
-    for (std::size_t a = 0; a < axes.size(); ++a) {
-      text += ',';
-      const double value = results.values[i * axes.size() + a];
-      if (axes[a].numeric) {
-        file::append_number(text, value);
-      } else {
-        file::append_text(text, axes[a].texts[static_cast<std::size_t>(value)]);
-      }
-    }
-    text += ',';
-    file::append_text(text, results.status[i].word);
-    text += ',';
-    file::append_text(text, results.status[i].reason);
-    for (std::size_t n = 0; n < numbers; ++n) {
-      text += ',';
-      file::append_number(text, results.numbers[i * numbers + n]);
-    }
-    for (std::size_t e = 0; e < task.expectations.size(); ++e) {
-      text += holds(task, results, i, e) ? ",1" : ",0";
-    }
-    text += '\n';
-  }
-}
-
-void append(const sweep::SweepTask& task, const sweep::CaseResults& results, SweepTable& table) {
-  const auto& axes = task.plan.axes();
-  const std::size_t numbers = 1 + task.measures.size();
-  for (std::size_t i = 0; i < results.count; ++i) {
-    auto column = table.columns.begin();
-    column++->numbers.push_back(static_cast<double>(results.first + i));
-    for (std::size_t a = 0; a < axes.size(); ++a, ++column) {
-      const double value = results.values[i * axes.size() + a];
-      if (axes[a].numeric) {
-        column->numbers.push_back(value);
-      } else {
-        column->texts.push_back(axes[a].texts[static_cast<std::size_t>(value)]);
-      }
-    }
-    column++->texts.push_back(results.status[i].word);
-    column++->texts.push_back(results.status[i].reason);
-    for (std::size_t n = 0; n < numbers; ++n) {
-      column++->numbers.push_back(results.numbers[i * numbers + n]);
-    }
-    for (std::size_t e = 0; e < task.expectations.size(); ++e) {
-      column++->numbers.push_back(holds(task, results, i, e) ? 1 : 0);
-    }
-  }
 }
 
 }  // namespace bbsim::api

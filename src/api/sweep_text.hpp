@@ -22,8 +22,7 @@ struct SweepFacts {
   Shard shard;
 };
 
-[[nodiscard]] sweep::CaseFileLayout layout_of(const SweepFacts& facts, const sweep::Engine& engine,
-                                              sweep::CaseRange range);
+[[nodiscard]] sweep::CaseFileLayout layout_of(const SweepFacts& facts, sweep::CaseRange range);
 
 // Everything that the results depend on, as JSON (sweep/plan_text.hpp).
 [[nodiscard]] std::string plan_text(const SweepFacts& facts);
@@ -35,15 +34,5 @@ struct SweepFacts {
 
 // The plan and the outcome of the sweep, as JSON.
 [[nodiscard]] std::string summary_text(const SweepFacts& facts, const SweepResult& result);
-
-// Whether an expectation holds in case `i` of the results. It does not if the case has no value.
-[[nodiscard]] bool holds(const sweep::SweepTask& task, const sweep::CaseResults& results,
-                         std::size_t i, std::size_t expectation);
-
-// Writes rows as CSV into the results' text, on the thread that computed them.
-void write_text(const sweep::SweepTask& task, sweep::CaseResults& results);
-
-// Appends the same rows to a table with the columns of layout_of().
-void append(const sweep::SweepTask& task, const sweep::CaseResults& results, SweepTable& table);
 
 }  // namespace bbsim::api

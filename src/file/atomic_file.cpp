@@ -101,6 +101,8 @@ void AtomicFile::flush() {
 
 void AtomicFile::write_through(std::string_view bytes) {
   if (const int error = write_all(descriptor_.get(), bytes)) fail(error);
+  if (durable_ == Durable::no || target_.written_directly()) return;
+  flusher_.send(descriptor_.get(), size_ += static_cast<off_t>(bytes.size()));
 }
 
 void AtomicFile::commit() {

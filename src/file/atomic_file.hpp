@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "file/descriptor.hpp"
+#include "file/flusher.hpp"
 #include "file/target.hpp"
 
 namespace bbsim::file {
@@ -70,6 +71,8 @@ class AtomicFile {
   Durable durable_;
   std::string temporary_;  // its name; empty if there is none
   Descriptor descriptor_;
+  off_t size_ = 0;
+  Flusher flusher_;  // of a durable file
   std::unique_ptr<char[]> buffer_;
   char* end_;  // end of the bytes in the buffer
 };

@@ -286,7 +286,7 @@ class Parser {
         if (!above || above->size() != names->size()) break;
         --header;
       }
-      note_lines_before(header);
+      note_lines_before("the header is line ", header);
       take(header);
       take_names();
       if (header + 1 == i && std::ranges::all_of(*names, is_unit)) {
@@ -330,11 +330,7 @@ class Parser {
     }
     labelled_ = true;
     next_ahead_ = row;
-    if (row > 0) {
-      cells_.notes.push_back("note: " + lines_.name() + ": rows begin in line " +
-                             std::to_string(ahead_[row].number) +
-                             "; the lines before it are left out");
-    }
+    note_lines_before("rows begin in line ", row);
     return true;
   }
 
@@ -347,10 +343,10 @@ class Parser {
     }
   }
 
-  void note_lines_before(std::size_t header) {
-    if (header == 0) return;
-    cells_.notes.push_back("note: " + lines_.name() + ": the header is line " +
-                           std::to_string(ahead_[header].number) +
+  void note_lines_before(const char* begins, std::size_t row) {
+    if (row == 0) return;
+    cells_.notes.push_back("note: " + lines_.name() + ": " + begins +
+                           std::to_string(ahead_[row].number) +
                            "; the lines before it are left out");
   }
 
@@ -370,10 +366,7 @@ class Parser {
       }
     }
     next_ahead_ = numbers == 0 ? 0 : first - 1;
-    if (next_ahead_ == 0) return;
-    cells_.notes.push_back("note: " + lines_.name() + ": rows begin in line " +
-                           std::to_string(ahead_[next_ahead_].number) +
-                           "; the lines before it are left out");
+    note_lines_before("rows begin in line ", next_ahead_);
   }
 
   void take_names() {

@@ -13,9 +13,13 @@
 namespace bbsim::file {
 namespace {
 
-// Some file systems do not support syncing.
-bool cannot_sync(int error) {
-  return error == EINVAL || error == ENOSYS || error == EOPNOTSUPP || error == EROFS;
+int synced(int descriptor, int (*sync)(int)) {
+  while (sync(descriptor) != 0) {
+    if (errno == EINTR) continue;
+    // Some file systems do not support syncing.
+    return errno == EINVAL || errno == ENOSYS || errno == EOPNOTSUPP || errno == EROFS ? 0 : errno;
+  }
+  return 0;
 }
 
 }  // namespace
@@ -64,19 +68,13 @@ ssize_t read_at(int descriptor, char* to, std::size_t size, off_t place) {
 }
 
 int sync_content(int descriptor) {
-  while (fdatasync(descriptor) != 0) {
-    if (errno != EINTR) return cannot_sync(errno) ? 0 : errno;
-  }
-  return 0;
+  return synced(descriptor, fdatasync);
 }
 
 int sync_folder(const std::string& folder) {
   const Descriptor opened(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!opened.is_open()) return errno == EACCES ? 0 : errno;  // it may still be writable
-  while (fsync(opened.get()) != 0) {
-    if (errno != EINTR) return cannot_sync(errno) ? 0 : errno;
-  }
-  return 0;
+  return synced(opened.get(), fsync);
 }
 
 std::string error_text(int error_number) {

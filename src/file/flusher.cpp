@@ -9,16 +9,18 @@
 
 namespace bbsim::file {
 
-int Flusher::perform(Due due, int descriptor, off_t size) {
-  if (due == Due::nothing) return 0;
-  const off_t sent = sent_;
-  sent_ = size;
-  if (due == Due::send) {
+bool Flusher::send(int descriptor, off_t size) {
+  constexpr off_t enough = off_t{8} * 1024 * 1024;
+  if (size - sent_ >= enough) {
     // A hint only: if the system does not support it, the next sync writes everything.
     [[maybe_unused]] const int ignored =
-        sync_file_range(descriptor, sent, size - sent, SYNC_FILE_RANGE_WRITE);
-    return 0;
+        sync_file_range(descriptor, sent_, size - sent_, SYNC_FILE_RANGE_WRITE);
+    sent_ = size;
   }
+  return Clock::now() - last_ > std::chrono::seconds(5);
+}
+
+int Flusher::sync(int descriptor) {
   const int error = sync_content(descriptor);
   last_ = Clock::now();
   return error;

@@ -15,23 +15,19 @@ namespace bbsim::file {
 // are short.
 class Flusher {
  public:
-  using Clock = std::chrono::steady_clock;
-
   // The first `size` bytes are already on the disk.
-  explicit Flusher(off_t size = 0) : sent_(size), last_(Clock::now()) {}
+  explicit Flusher(off_t size = 0) : sent_(size) {}
 
-  // The action that is due when the file has this size (bytes).
-  enum class Due { nothing, send, sync };
-  [[nodiscard]] Due due(off_t size) const {
-    if (Clock::now() - last_ > std::chrono::seconds(5)) return Due::sync;
-    return size - sent_ >= off_t{8} * 1024 * 1024 ? Due::send : Due::nothing;
-  }
-  // Performs the action. Returns an errno, or 0.
-  [[nodiscard]] int perform(Due due, int descriptor, off_t size);
+  // Call it when the file has this size (bytes). Returns whether a sync is due.
+  bool send(int descriptor, off_t size);
+  // Returns an errno, or 0.
+  [[nodiscard]] int sync(int descriptor);
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   off_t sent_;
-  Clock::time_point last_;
+  Clock::time_point last_ = Clock::now();
 };
 
 }  // namespace bbsim::file

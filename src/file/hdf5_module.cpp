@@ -10,7 +10,6 @@
 #include <filesystem>
 #include <mutex>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "file/share_folders.hpp"
@@ -23,17 +22,6 @@ constexpr const char* way_out = "; write or read .csv instead, ";
 
 ForkMutex opening, turns;  // a forked process must not wait for a thread that it does not have
 const Hdf5Module* the_module = nullptr;
-
-// Covers a library in PREFIX/lib and a Python module in PREFIX/lib/python3/dist-packages/bbsim.
-std::vector<std::string> folders_above(const std::filesystem::path& library) {
-  std::vector<std::string> result;
-  std::filesystem::path folder = library.parent_path();
-  for (int up = 0; up < 4 && folder != folder.root_path(); ++up) {
-    result.push_back(folder / "bbsim");
-    folder = folder.parent_path();
-  }
-  return result;
-}
 
 }  // namespace
 
@@ -69,17 +57,10 @@ std::vector<std::string> hdf5_module_folders() {
   if (const char* folder = std::getenv("BBSIM_MODULE_PATH"); folder != nullptr && *folder != '\0') {
     return {folder};
   }
-  if (const std::filesystem::path library = own_library(); !library.empty()) {
-    return folders_above(library);
-  }
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (error) return {};
-  const std::filesystem::path prefix = program.parent_path().parent_path();
-  std::vector<std::string> result{prefix / "lib" / "bbsim"};
-  const std::string installed = prefix / BBSIM_INSTALL_LIBDIR / "bbsim";
-  if (installed != result.front()) result.push_back(installed);
-  return result;
+  // Covers a library in PREFIX/lib and a Python module in PREFIX/lib/python3/dist-packages/bbsim.
+  const std::filesystem::path library = own_library();
+  return library.empty() ? folders_of_prefix("lib", BBSIM_INSTALL_LIBDIR)
+                         : folders_above(library, 4, "bbsim");
 }
 
 const Hdf5Module& hdf5_module() {

@@ -72,23 +72,6 @@ Hdf5Column column_of(const ColumnHeader& header) {
   return {std::string(header.name), std::string(header.unit), std::string(header.meaning)};
 }
 
-[[noreturn]] void refuse_dataset(const Hdf5TableReader& reader, const std::string& dataset,
-                                 const char* held) {
-  reader.fail("dataset " + shown(dataset) + " is not a column of numbers: it holds " + held);
-}
-
-void check_numbers(const Hdf5TableReader& reader) {
-  for (const Hdf5Column& column : reader.columns()) {
-    if (column.kind == Hdf5Kind::text) refuse_dataset(reader, column.name, "text");
-    if (column.kind == Hdf5Kind::series) {
-      refuse_dataset(reader, column.name, "several numbers a row, in two dimensions");
-    }
-  }
-  for (const auto& [axis, values] : reader.head().axes) {
-    refuse_dataset(reader, axis.name, "the axis of other datasets");
-  }
-}
-
 }  // namespace
 
 void require_hdf5(const std::string& target) {
@@ -228,9 +211,20 @@ std::unique_ptr<TableWriter> open_hdf5(const std::string& target,
 
 TableData read_hdf5(const std::string& file) {
   Hdf5TableReader reader(file);
-  check_numbers(reader);
+  const auto refuse = [&](const std::string& dataset, const char* held) {
+    reader.fail("dataset " + shown(dataset) + " is not a column of numbers: it holds " + held);
+  };
   TableData table;
-  for (const Hdf5Column& column : reader.columns()) table.names.push_back(column.name);
+  for (const Hdf5Column& column : reader.columns()) {
+    if (column.kind == Hdf5Kind::text) refuse(column.name, "text");
+    if (column.kind == Hdf5Kind::series) {
+      refuse(column.name, "several numbers a row, in two dimensions");
+    }
+    table.names.push_back(column.name);
+  }
+  for (const auto& [axis, values] : reader.head().axes) {
+    refuse(axis.name, "the axis of other datasets");
+  }
   Hdf5Block block;
   reader.read(block);
   table.columns = std::move(block.values);

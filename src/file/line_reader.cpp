@@ -62,6 +62,7 @@ std::optional<std::string_view> LineReader::next() {
     }
     std::string_view line(buffer_.data() + begin_, size);
     begin_ += found != nullptr ? size + 1 : size;
+    whole_ = found != nullptr && !line.ends_with('\r');
     if (line.ends_with('\r')) line.remove_suffix(1);
     ++number_;
     return line;

@@ -27,6 +27,8 @@ class LineReader {
   // The next line without its end ("\n" or "\r\n"), valid until the next call; nothing at the end.
   std::optional<std::string_view> next();
 
+  // Whether that line ended in "\n" alone, as bbsim writes it.
+  [[nodiscard]] bool whole() const { return whole_; }
   // The number of the line from the last next(), from 1.
   [[nodiscard]] std::size_t number() const { return number_; }
   // The file's name in messages.
@@ -44,7 +46,7 @@ class LineReader {
   std::vector<char> buffer_;
   std::size_t begin_ = 0, end_ = 0;  // the unread bytes in the buffer
   std::size_t number_ = 0;
-  bool at_end_ = false;
+  bool at_end_ = false, whole_ = false;
 };
 
 }  // namespace bbsim::file

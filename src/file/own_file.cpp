@@ -17,7 +17,6 @@ namespace bbsim::file {
 namespace {
 
 constexpr int always = O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
-constexpr off_t largest_text = off_t{64} * 1024 * 1024;  // bytes; a scenario has at most 1 MiB
 
 [[noreturn]] void refuse_kind(const std::string& name, const std::string& found) {
   throw OutputError(
@@ -53,15 +52,15 @@ Descriptor open_existing(const std::string& name, int how) {
 
 }  // namespace
 
-OwnFile open_own_file(const std::string& name) {
+Descriptor open_own_file(const std::string& name) {
   constexpr int most_attempts = 100;  // in case other processes keep creating and removing it
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     Descriptor created = above_standard_streams(
         open(name.c_str(), O_RDWR | O_APPEND | O_CREAT | O_EXCL | always, any_permissions));
-    if (created.is_open()) return {std::move(created), true};
+    if (created.is_open()) return created;
     if (errno != EEXIST) fail_to_write(name, errno);
     Descriptor found = open_existing(name, O_RDWR | O_APPEND);
-    if (found.is_open()) return {std::move(found), false};
+    if (found.is_open()) return found;
   }
   fail_to_write(name, EBUSY);
 }
@@ -77,19 +76,8 @@ void remove_own_file(const std::string& name, int descriptor) {
   if (is_name_of(name, descriptor)) unlink(name.c_str());
 }
 
-OwnText read_own_file(const std::string& name) {
-  const Descriptor file = open_existing(name, O_RDONLY);
-  if (!file.is_open()) return {};
-  struct stat status {};
-  if (fstat(file.get(), &status) != 0) fail_to_write(name, errno);
-  if (status.st_size > largest_text) {
-    throw OutputError("cannot read " + name + ": it is larger than any plan of a sweep");
-  }
-  OwnText read{std::string(static_cast<std::size_t>(status.st_size), '\0'), true};
-  const ssize_t size = read_at(file.get(), read.text.data(), read.text.size(), 0);
-  if (size < 0) throw OutputError("cannot read " + name + ": " + error_text(errno));
-  read.text.resize(static_cast<std::size_t>(size));
-  return read;
+Descriptor find_own_file(const std::string& name) {
+  return open_existing(name, O_RDONLY);
 }
 
 }  // namespace bbsim::file

@@ -10,15 +10,10 @@
 
 namespace bbsim::file {
 
-struct OwnFile {
-  Descriptor descriptor;  // for reading and appending
-  bool created = false;   // new, and empty
-};
-
-// Opens or creates a file with a predictable name in a folder that others may write to. Refuses
-// links and everything but a regular file of this user with no other name, so that an attacker
-// cannot substitute another file. Throws OutputError.
-[[nodiscard]] OwnFile open_own_file(const std::string& name);
+// Opens, for reading and appending, or creates a file with a predictable name in a folder that
+// others may write to. Refuses links and everything but a regular file of this user with no other
+// name, so that an attacker cannot substitute another file. Throws OutputError.
+[[nodiscard]] Descriptor open_own_file(const std::string& name);
 
 // Whether the name now refers to the file behind the descriptor.
 [[nodiscard]] bool is_name_of(const std::string& name, int descriptor);
@@ -26,11 +21,7 @@ struct OwnFile {
 // Removes the name if it refers to the file behind the descriptor.
 void remove_own_file(const std::string& name, int descriptor);
 
-struct OwnText {
-  std::string text;
-  bool there = false;
-};
-// The whole content of the file, if it exists. Throws OutputError.
-[[nodiscard]] OwnText read_own_file(const std::string& name);
+// Opens such a file for reading; a closed descriptor if it does not exist.
+[[nodiscard]] Descriptor find_own_file(const std::string& name);
 
 }  // namespace bbsim::file

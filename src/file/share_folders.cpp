@@ -11,12 +11,10 @@
 
 namespace bbsim::file {
 
-namespace {
-
-// PREFIX/NAME/bbsim of the program, and the same with the folder's name when it was built.
 std::vector<std::string> folders_of_prefix(const char* name, const char* installed) {
   std::error_code error;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (error) return {};
   const std::filesystem::path prefix = program.parent_path().parent_path();
   std::vector<std::string> folders{prefix / name / "bbsim"};
   const std::string as_built = prefix / installed / "bbsim";
@@ -24,7 +22,16 @@ std::vector<std::string> folders_of_prefix(const char* name, const char* install
   return folders;
 }
 
-}  // namespace
+std::vector<std::string> folders_above(const std::filesystem::path& library, int levels,
+                                       const std::filesystem::path& name) {
+  std::vector<std::string> folders;
+  std::filesystem::path folder = library.parent_path();
+  for (int up = 0; up < levels && folder != folder.root_path(); ++up) {
+    folders.push_back(folder / name);
+    folder = folder.parent_path();
+  }
+  return folders;
+}
 
 std::filesystem::path own_library() {
   static constexpr char here = 0;
@@ -43,11 +50,8 @@ std::vector<std::string> share_folders() {
   }
   std::vector<std::string> folders = folders_of_prefix("share", BBSIM_INSTALL_DATADIR);
   // A Python module in PREFIX/lib/python3/dist-packages/bbsim, or in a wheel, which has its own.
-  std::filesystem::path folder = own_library().parent_path();
-  for (int up = 0; up < 6 && folder != folder.root_path(); ++up) {
-    folders.push_back(folder / "share" / "bbsim");
-    folder = folder.parent_path();
-  }
+  const std::vector<std::string> more = folders_above(own_library(), 6, "share/bbsim");
+  folders.insert(folders.end(), more.begin(), more.end());
   return folders;
 }
 

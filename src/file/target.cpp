@@ -7,12 +7,12 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
 
 #include "base/error.hpp"
+#include "base/number_in.hpp"
 #include "file/descriptor.hpp"
 
 namespace bbsim::file {
@@ -23,10 +23,8 @@ std::optional<int> own_descriptor(std::string_view path) {
   if (path == "-") return STDOUT_FILENO;
   for (std::string_view folder : {"/proc/self/fd/", "/dev/fd/"}) {
     if (!path.starts_with(folder)) continue;
-    int number = 0;
-    const char* end = path.data() + path.size();
-    const auto [stop, error] = std::from_chars(path.data() + folder.size(), end, number);
-    if (error == std::errc() && stop == end && number >= 0) return number;
+    const auto number = number_in<int>(path.substr(folder.size()));
+    if (number && *number >= 0) return number;
   }
   return std::nullopt;
 }

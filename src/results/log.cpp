@@ -4,13 +4,13 @@
 #include "results/log.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/number_in.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
 #include "base/text.hpp"
@@ -56,11 +56,9 @@ std::optional<double> number_of(std::string_view text) {
   const bool negative = text.starts_with('-');
   if (negative || text.starts_with('+')) text = trimmed(text.substr(1));
   if (text.starts_with('-') || text.starts_with('+')) return {};
-  double value = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty() || error != std::errc() || stop != text.data() + text.size()) return {};
-  if (!std::isfinite(value)) return {};
-  return negative ? -value : value;
+  const auto value = number_in<double>(text);
+  if (!value || !std::isfinite(*value)) return {};
+  return negative ? -*value : value;
 }
 
 const scenario::Column& target_of(std::string_view part, std::string_view name) {

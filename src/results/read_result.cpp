@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <chrono>
 #include <filesystem>
 #include <iterator>
@@ -17,6 +16,7 @@
 
 #include "base/error.hpp"
 #include "base/json.hpp"
+#include "base/number_in.hpp"
 #include "base/text.hpp"
 #include "file/format.hpp"
 #include "file/whole_file.hpp"
@@ -81,10 +81,8 @@ Json members_of(const std::string& line) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos) continue;
     const std::string name = word.substr(0, equals), text = word.substr(equals + 1);
-    double value = 0;
-    const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool number = read.ec == std::errc() && read.ptr == text.data() + text.size();
-    members[name] = number ? Json(value) : Json(text);
+    const auto value = number_in<double>(text);
+    members[name] = value ? Json(*value) : Json(text);
   }
   return members;
 }

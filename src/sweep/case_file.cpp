@@ -3,77 +3,54 @@
 
 #include "sweep/case_file.hpp"
 
-#include <limits>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
 #include <utility>
 
 #include "base/error.hpp"
-#include "file/atomic_file.hpp"
 #include "file/format.hpp"
-#include "sweep/case_file_hdf5.hpp"
-#include "sweep/case_part.hpp"
+#include "file/own_file.hpp"
 
 namespace bbsim::sweep {
 namespace {
 
-// Standard output, a pipe or a device. Writes rows immediately, so all of them stay if the run ends
-// early.
-class Stream : public CaseFile {
+// Reads the cases of a journal in place of computing them.
+class RecordRunner : public CaseRunner {
  public:
-  Stream(const std::string& target, const CaseFileLayout& layout) : file_(target) {
-    file_.write(header_of(layout.columns) + '\n');
-  }
+  explicit RecordRunner(const Journal& journal) : journal_(journal) {}
 
-  [[nodiscard]] const KeptRows& kept() const override { return kept_; }
-  [[nodiscard]] std::string part() const override { return ""; }
-  void append(std::string_view lines, std::size_t /*rows*/,
-              const std::vector<std::vector<double>>& /*CSV has no series*/) override {
-    file_.write(lines);
-    file_.flush();
-  }
-  void interrupt() override { file_.commit(); }
-  void finish(const file::Attributes&) override { file_.commit(); }
-
- private:
-  file::AtomicFile file_;
-  KeptRows kept_;
-};
-
-class Csv : public CaseFile {
- public:
-  Csv(const std::string& target, CaseFileLayout layout, const std::string& plan, bool resume)
-      : layout_(std::move(layout)), part_(target, layout_, plan, resume) {
-    part_.resume(std::numeric_limits<std::size_t>::max());
-  }
-
-  [[nodiscard]] const KeptRows& kept() const override { return part_.kept(); }
-  [[nodiscard]] std::string part() const override {
-    return part_.file().in_place() ? part_.file().name() : "";
-  }
-  void append(std::string_view lines, std::size_t rows,
-              const std::vector<std::vector<double>>& /*CSV has no series*/) override {
-    part_.append(lines, rows);
-  }
-  void interrupt() override { part_.file().sync(); }
-  void finish(const file::Attributes& /*CSV has no place for them*/) override {
-    part_.check_complete();
-    part_.file().commit(layout_.is_shard);
+  std::size_t run(std::size_t first, std::size_t count, CaseResults& into,
+                  const std::atomic<bool>& /*one record is short*/) override {
+    journal_.read(first, into);
+    return count;
   }
 
  private:
-  CaseFileLayout layout_;
-  CasePart part_;
+  const Journal& journal_;
 };
+
+std::string plan_beside(const std::string& target) {
+  return file::follow_links(target).value_or(target) + ".plan";
+}
 
 }  // namespace
 
-void check_case_target(const std::string& target, const CaseFileLayout& layout, bool resume) {
-  const bool direct = file::is_written_directly(target);
-  const file::Format format = file::format_of(target);
-  if (!direct && format == file::Format::other) {
-    throw InputError("cannot tell the format of " + target +
-                     " from its name; allowed endings: .csv, .h5, .hdf5");
+std::string header_of(const std::vector<file::Hdf5Column>& columns) {
+  std::string line;
+  for (const file::Hdf5Column& column : columns) {
+    if (column.kind == file::Hdf5Kind::series) continue;
+    if (!line.empty()) line += ',';
+    line += column.name;
   }
-  if (!layout.axis_values.empty() && (direct || format != file::Format::hdf5)) {
+  return line;
+}
+
+void check_case_target(const std::string& target, const CaseFileLayout& layout, bool resume) {
+  file::require_table_name(target);
+  const bool direct = file::is_written_directly(target);
+  if (!layout.axis_values.empty() && (direct || file::format_of(target) != file::Format::hdf5)) {
     throw InputError("cannot keep trajectories in " + target +
                      ": trajectories need a file that ends in .h5 or .hdf5");
   }
@@ -83,19 +60,116 @@ void check_case_target(const std::string& target, const CaseFileLayout& layout, 
   }
 }
 
-std::unique_ptr<CaseFile> open_case_file(const std::string& target, CaseFileLayout layout,
-                                         const std::string& plan, bool resume) {
-  check_case_target(target, layout, resume);
-  if (file::is_written_directly(target)) return std::make_unique<Stream>(target, layout);
-  if (file::format_of(target) == file::Format::hdf5) {
-    return open_case_file_hdf5(target, std::move(layout), plan, resume);
-  }
-  return std::make_unique<Csv>(target, std::move(layout), plan, resume);
-}
-
 std::vector<std::string> case_files_beside(const std::string& target) {
   if (file::is_written_directly(target)) return {};
-  return sweep::PartFile::names_beside(target);
+  return {Journal::name_of(target), plan_beside(target)};
+}
+
+CaseFile::CaseFile(const std::string& target, CaseFileLayout layout, const SweepTask& task,
+                   const std::string& plan, bool resume)
+    : target_(target), layout_(std::move(layout)), task_(task), plan_(plan) {
+  check_case_target(target_, layout_, resume);
+  if (file::is_written_directly(target_)) {
+    direct_ = std::make_unique<file::AtomicFile>(target_);
+    direct_->write(header_of(layout_.columns) + '\n');
+    return;
+  }
+  // What would fail at the end should fail before any case is run.
+  if (file::format_of(target_) == file::Format::hdf5) {
+    file::require_hdf5(target_);
+  } else {
+    static_cast<void>(file::find_own_file(plan_beside(target_)));
+  }
+  journal_ = std::make_unique<Journal>(target_, task_, layout_.range, plan_, resume);
+}
+
+const KeptCases& CaseFile::kept() const {
+  static const KeptCases none;
+  return journal_ ? journal_->kept() : none;
+}
+
+std::string CaseFile::part() const {
+  return journal_ && journal_->in_place() ? journal_->name() : "";
+}
+
+void CaseFile::prepare(CaseResults& results) const {
+  if (journal_) return journal_->encode(results);
+  write_rows(task_, results);
+}
+
+// Standard output gets the rows immediately, so all of them stay if the run ends early.
+void CaseFile::append(const CaseResults& results) {
+  if (journal_) return journal_->append(results);
+  direct_->write(results.text);
+  direct_->flush();
+}
+
+void CaseFile::interrupt() {
+  journal_ ? journal_->sync() : direct_->commit();
+}
+
+void CaseFile::finish(const file::Attributes& attributes, std::size_t threads) {
+  if (direct_) return direct_->commit();
+  journal_->check_complete();
+  if (file::format_of(target_) == file::Format::hdf5) {
+    write_hdf5(attributes, threads);
+  } else {
+    write_csv(threads);
+  }
+  journal_->discard();
+}
+
+void CaseFile::collect(std::size_t threads, const std::function<void(CaseResults&)>& prepare,
+                       const std::function<void(const CaseResults&)>& deliver) const {
+  static constexpr std::atomic<bool> never{false};
+  const std::vector<std::size_t>& ends = journal_->ends();
+  const Engine records{"", task_, 1, [this] { return std::make_unique<RecordRunner>(*journal_); },
+                       &ends};
+  static_cast<void>(
+      run_sweep(records, layout_.range, std::min(threads, ends.size()), never, prepare, deliver));
+}
+
+void CaseFile::write_csv(std::size_t threads) {
+  file::AtomicFile csv(target_, file::Durable::yes);
+  csv.write(header_of(layout_.columns) + '\n');
+  collect(
+      threads, [this](CaseResults& results) { write_rows(task_, results); },
+      [&csv](const CaseResults& results) { csv.write(results.text); });
+  settle_plan();
+  csv.commit();
+}
+
+void CaseFile::write_hdf5(const file::Attributes& attributes, std::size_t threads) {
+  std::vector<file::Hdf5Axis> axes;
+  if (!layout_.axis_values.empty()) axes.emplace_back(layout_.axis, layout_.axis_values);
+  file::Hdf5TableWriter writer(target_, layout_.columns, axes);
+  writer.keep(layout_.inputs);
+  file::Hdf5Block block;
+  collect(
+      threads, [](CaseResults&) {},
+      [&](const CaseResults& results) {
+        append_rows(task_, results, block);
+        writer.append(block);
+        for (std::vector<double>& column : block.values) column.clear();
+        for (std::vector<std::string>& column : block.texts) column.clear();
+        block.rows = 0;
+      });
+  writer.finish(attributes);
+}
+
+// A CSV shard gets its plan before its name. No other CSV keeps one, not even an earlier shard's.
+void CaseFile::settle_plan() const {
+  const std::string name = plan_beside(target_);
+  if (!layout_.is_shard) {
+    return file::remove_own_file(name, file::find_own_file(name).get());
+  }
+  const file::Descriptor plan = file::open_own_file(name);
+  int error = ftruncate(plan.get(), 0) == 0 ? 0 : errno;
+  const file::Target target = file::find_target(target_);
+  if (error == 0 && target.found) error = file::take_after(plan.get(), *target.found);
+  if (error == 0) error = file::write_all(plan.get(), plan_);
+  if (error == 0) error = file::sync_content(plan.get());
+  if (error != 0) file::fail_to_write(name, error);
 }
 
 }  // namespace bbsim::sweep

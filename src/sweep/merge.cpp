@@ -4,13 +4,14 @@
 #include "sweep/merge.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <optional>
 #include <set>
 
 #include "base/error.hpp"
+#include "base/number_in.hpp"
 #include "file/format.hpp"
+#include "file/table_writer.hpp"
 #include "file/target.hpp"
 #include "sweep/merge_parts.hpp"
 
@@ -28,18 +29,12 @@ struct ShardName {
 // Reads the numbers in "...-2of3.csv".
 std::optional<ShardName> shard_in(const std::string& file) {
   const std::string stem = std::filesystem::path(file).stem();
-  const std::size_t dash = stem.rfind('-');
-  if (dash == std::string::npos) return {};
-  const char *const begin = stem.data() + dash + 1, *const end = stem.data() + stem.size();
-  ShardName name{};
-  const auto first = std::from_chars(begin, end, name.number);
-  if (first.ec != std::errc{} || end - first.ptr < 3 || first.ptr[0] != 'o' ||
-      first.ptr[1] != 'f') {
-    return {};
-  }
-  const auto second = std::from_chars(first.ptr + 2, end, name.of);
-  if (second.ec != std::errc{} || second.ptr != end) return {};
-  return name;
+  const std::size_t dash = stem.rfind('-'), of = stem.rfind("of");
+  if (dash == std::string::npos || of == std::string::npos || of < dash) return {};
+  const std::string_view text = stem;
+  const auto number = number_in<std::size_t>(text.substr(dash + 1, of - dash - 1)),
+             count = number_in<std::size_t>(text.substr(of + 2));
+  return number && count ? std::optional(ShardName{*number, *count}) : std::nullopt;
 }
 
 void check_names(const std::vector<std::string>& parts) {
@@ -65,10 +60,7 @@ Merged merge_cases(const std::vector<std::string>& parts, const std::string& tar
                    const std::atomic<bool>& stop) {
   check_names(parts);
   const bool to_hdf5 = !file::is_written_directly(target) && is_hdf5(target);
-  if (!file::is_written_directly(target) && file::format_of(target) == file::Format::other) {
-    throw InputError("cannot tell the format of " + target +
-                     " from its name; allowed endings: .csv, .h5, .hdf5");
-  }
+  file::require_table_name(target);
   const auto hdf5 = static_cast<std::size_t>(std::count_if(parts.begin(), parts.end(), is_hdf5));
   if ((hdf5 > 0) != to_hdf5 || (hdf5 > 0 && hdf5 < parts.size())) {
     throw InputError("found CSV and HDF5 together; allowed: parts and a file of one format");
@@ -92,26 +84,21 @@ void check_case(const std::string& file, std::size_t found, std::size_t expected
                    " should come; allowed: every case of the sweep once");
 }
 
-void check_all_there(std::size_t found, std::size_t expected) {
-  if (found == expected) return;
-  throw InputError("found " + std::to_string(found) + " cases of " + std::to_string(expected) +
+void check_all_there(std::size_t found, const std::string& expected) {
+  if (std::to_string(found) == expected) return;
+  throw InputError("found " + std::to_string(found) + " cases of " + expected +
                    "; allowed: all parts of the sweep");
 }
 
-void InstructionSets::add(const std::string& name) {
-  const auto place = std::lower_bound(names_.begin(), names_.end(), name);
-  if (place == names_.end() || *place != name) names_.insert(place, name);
-}
-
-std::string InstructionSets::names() const {
+std::string names_of(const InstructionSets& sets) {
   std::string list;
-  for (const std::string& name : names_) list += (list.empty() ? "" : " and ") + name;
+  for (const std::string& name : sets) list += (list.empty() ? "" : " and ") + name;
   return list;
 }
 
-std::string InstructionSets::note() const {
-  if (names_.size() < 2) return "";
-  return "the parts are of " + names() + ": alike within the tolerance, not bit for bit";
+std::string note_on(const InstructionSets& sets) {
+  if (sets.size() < 2) return "";
+  return "the parts are of " + names_of(sets) + ": alike within the tolerance, not bit for bit";
 }
 
 }  // namespace bbsim::sweep

@@ -2,70 +2,134 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The CSV side of merge.hpp.
-#include <fcntl.h>
-#include <sys/stat.h>
-
 #include <algorithm>
-#include <cerrno>
+#include <filesystem>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/number_in.hpp"
 #include "file/atomic_file.hpp"
-#include "sweep/case_rows.hpp"
+#include "file/case_text.hpp"
+#include "file/line_reader.hpp"
+#include "file/whole_file.hpp"
 #include "sweep/merge_parts.hpp"
 #include "sweep/plan_text.hpp"
 
 namespace bbsim::sweep {
 namespace {
 
-constexpr off_t largest_plan = off_t{64} * 1024 * 1024;  // bytes
-
-struct CsvPart {
-  std::string file, header;
-  std::size_t first = 0;  // first case; 0 if the part has no rows, so that it comes first
-  dev_t device = 0;
-  ino_t inode = 0;
-};
+constexpr std::size_t largest_plan = std::size_t{64} * 1024 * 1024;  // bytes
 
 [[noreturn]] void cannot_read(const std::string& file, const std::string& reason) {
   throw InputError("cannot read " + file + ": " + reason);
 }
 
-// Parts are opened one at a time, so any number of them can be merged.
-file::Descriptor open_part(const std::string& file, struct stat& status) {
-  file::Descriptor opened = file::above_standard_streams(
-      open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
-  if (!opened.is_open() || fstat(opened.get(), &status) != 0)
-    cannot_read(file, file::error_text(errno));
-  if (!S_ISREG(status.st_mode))
+void require_regular(const std::string& file) {
+  std::error_code ignored;
+  if (std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored)) {
     cannot_read(file, "it is not a regular file, and bbsim reads parts twice");
-  return opened;
+  }
 }
 
-[[noreturn]] void refuse_row(const std::string& file, const std::string& found, std::size_t row) {
-  throw InputError(file + ": found " + found + " in row " + std::to_string(row) +
-                   " below the header; allowed: a file that bbsim sweep wrote");
+// Returns the end of the field that begins at `start`: the index of the comma, or the length of the
+// line. A quoted field ends after its closing quote. Returns npos if the quote is not closed or
+// text follows it.
+std::size_t end_of_field(std::string_view line, std::size_t start) {
+  if (start >= line.size() || line[start] != '"')
+    return std::min(line.find(',', start), line.size());
+  for (std::size_t i = start + 1; i < line.size(); ++i) {
+    if (line[i] != '"') continue;
+    if (i + 1 < line.size() && line[i + 1] == '"') {
+      ++i;
+      continue;
+    }
+    return i + 1 == line.size() || line[i + 1] == ',' ? i + 1 : std::string_view::npos;
+  }
+  return std::string_view::npos;
 }
+
+// Reads the rows of a part and checks each of them. Parts are opened one at a time, so any number
+// of them can be merged.
+class Rows {
+ public:
+  explicit Rows(const std::string& file) : file_(file), lines_((require_regular(file), file)) {
+    header_ = std::string(lines_.next().value_or(std::string_view()));
+    if (!lines_.whole()) cannot_read(file, "it is not a file with rows of cases");
+    static_cast<void>(file::split_fields(header_, names_));
+    if (names_.size() < 2 || names_[0] != "case") {
+      throw InputError(file + ": found the first column " + names_[0] +
+                       "; allowed: case, as bbsim sweep writes it");
+    }
+    // The header does not tell which fields before the status are numbers; numbers follow it and
+    // the reason.
+    const auto status = std::ranges::find(names_, "status");
+    first_number_ = static_cast<std::size_t>(status - names_.begin()) + 1;
+    if (first_number_ < names_.size() && names_[first_number_] == "reason") ++first_number_;
+  }
+
+  [[nodiscard]] const std::string& header() const { return header_; }
+  [[nodiscard]] std::string_view line() const { return line_; }
+  [[nodiscard]] std::size_t case_number() const { return case_number_; }
+
+  // Goes to the next row. Returns false at the end. Throws InputError for a row that no sweep
+  // writes.
+  bool next() {
+    const auto line = lines_.next();
+    if (!line) return false;
+    line_ = *line;
+    if (!lines_.whole()) {
+      throw InputError(file_ +
+                       ": found an incomplete last row; allowed: a part whose sweep has ended");
+    }
+    if (const std::string found = fault(); !found.empty()) {
+      throw InputError(file_ + ": found " + found + " in row " +
+                       std::to_string(lines_.number() - 1) +
+                       " below the header; allowed: a file that bbsim sweep wrote");
+    }
+    return true;
+  }
+
+ private:
+  std::string fault() {
+    if (line_.find('\0') != std::string_view::npos)
+      return "zero bytes";  // a disk page that was never written
+    std::size_t count = 0;
+    for (std::size_t start = 0;; ++count) {
+      const std::size_t end = end_of_field(line_, start);
+      if (end == std::string_view::npos) return "a quote that is not closed";
+      const std::string_view field = line_.substr(start, end - start);
+      if (count == 0) {
+        const auto number = number_in<std::size_t>(field);
+        if (!number) return "a row that does not begin with the number of a case";
+        case_number_ = *number;
+      } else if (count >= first_number_ && count < names_.size() && !number_in<double>(field)) {
+        return "something other than a number in field " + std::to_string(count + 1);
+      }
+      if (end == line_.size()) break;
+      start = end + 1;
+    }
+    if (++count == names_.size()) return "";
+    return std::to_string(count) + (count == 1 ? " field" : " fields") + " where " +
+           std::to_string(names_.size()) + " belong";
+  }
+
+  std::string file_, header_;
+  file::LineReader lines_;
+  std::vector<std::string> names_;
+  std::size_t first_number_ = 0, case_number_ = 0;
+  std::string_view line_;
+};
+
+struct CsvPart {
+  std::string file, header;
+  std::size_t first = 0;  // first case; 0 if the part has no rows, so that it comes first
+};
 
 CsvPart inspect(const std::string& file) {
-  struct stat status {};
-  const file::Descriptor opened = open_part(file, status);
-  PartLines lines(opened.get(), file, Blame::input);
-  std::string_view line;
-  if (!lines.next(line) || !lines.whole()) cannot_read(file, "it is not a file with rows of cases");
-  if (!line.starts_with("case,")) {
-    throw InputError(file + ": found the first column " +
-                     std::string(line.substr(0, line.find(','))) +
-                     "; allowed: case, as bbsim sweep writes it");
-  }
-  CsvPart part{file, std::string(line), 0, status.st_dev, status.st_ino};
-  if (lines.next(line)) {
-    RowReader reader(part.header);
-    if (const std::string found = reader.read(line); !found.empty()) refuse_row(file, found, 1);
-    part.first = reader.case_number();
-  }
-  return part;
+  Rows rows(file);
+  return {file, rows.header(), rows.next() ? rows.case_number() : 0};
 }
 
 // Reads the plan of a part, if it has one. While a sweep to the same name is unfinished, the plan
@@ -73,13 +137,8 @@ CsvPart inspect(const std::string& file) {
 std::optional<std::string> read_plan(const std::string& part) {
   const std::string file = plan_of_part(part);
   if (file.empty()) return {};
-  struct stat status {};
-  const file::Descriptor opened = open_part(file, status);
-  if (status.st_size > largest_plan) cannot_read(file, "it is larger than any plan");
-  std::string text(static_cast<std::size_t>(status.st_size), '\0');
-  const ssize_t size = file::read_at(opened.get(), text.data(), text.size(), 0);
-  if (size < 0) cannot_read(file, file::error_text(errno));
-  text.resize(static_cast<std::size_t>(size));
+  require_regular(file);
+  std::string text = file::read_whole(file, {}, largest_plan);
   if (!is_plan(text)) {
     throw InputError(file + ": found no plan of bbsim sweep; remove it to merge " + part +
                      " without one");
@@ -99,7 +158,7 @@ CommonPlan compare_plans_of(const std::vector<std::string>& files) {
   for (const std::string& file : files) {
     const std::optional<std::string> plan = read_plan(file);
     if (!plan) continue;
-    common.instruction_sets.add(instruction_set_in(*plan));
+    common.instruction_sets.insert(instruction_set_in(*plan));
     if (first_file.empty()) {
       first_file = file;
       first_plan = *plan;
@@ -119,29 +178,13 @@ CommonPlan compare_plans_of(const std::vector<std::string>& files) {
 // false if interrupted.
 bool copy_rows(const CsvPart& part, file::AtomicFile& out, std::size_t& next,
                const std::atomic<bool>& stop) {
-  struct stat status {};
-  const file::Descriptor opened = open_part(part.file, status);
-  if (status.st_dev != part.device || status.st_ino != part.inode) {
-    cannot_read(part.file, "another file took its place meanwhile");
-  }
-  PartLines lines(opened.get(), part.file, Blame::input);
-  RowReader reader(part.header);
-  std::string_view line;
-  if (!lines.next(line) || line != part.header) {
-    cannot_read(part.file, "its header has changed meanwhile");
-  }
-  for (std::size_t row = 1; lines.next(line); ++row) {
+  Rows rows(part.file);
+  if (rows.header() != part.header) cannot_read(part.file, "its header has changed meanwhile");
+  while (rows.next()) {
     if (stop.load(std::memory_order_relaxed)) return false;
-    if (!lines.whole()) {
-      throw InputError(part.file +
-                       ": found an incomplete last row; allowed: a part whose sweep has ended");
-    }
-    if (const std::string found = reader.read(line); !found.empty())
-      refuse_row(part.file, found, row);
-    check_case(part.file, reader.case_number(), next);
-    ++next;
-    // The line break follows the line in the buffer.
-    out.write({line.data(), line.size() + 1});
+    check_case(part.file, rows.case_number(), next++);
+    out.write(rows.line());
+    out.write("\n");
   }
   return true;
 }
@@ -163,13 +206,13 @@ Merged merge_csv(const std::vector<std::string>& files, const std::string& targe
 
   file::AtomicFile out(target, file::Durable::yes);
   out.write(parts.front().header + '\n');
-  Merged merged{0, false, common.instruction_sets.note()};
+  Merged merged{0, false, note_on(common.instruction_sets)};
   for (const CsvPart& part : parts) {
     if (copy_rows(part, out, merged.cases, stop)) continue;
     merged.interrupted = true;
     return merged;
   }
-  if (common.cases) check_all_there(merged.cases, *common.cases);
+  if (common.cases) check_all_there(merged.cases, std::to_string(*common.cases));
   out.commit();
   return merged;
 }

@@ -3,7 +3,8 @@
 
 // The HDF5 side of merge.hpp.
 #include <algorithm>
-#include <cstring>
+#include <bit>
+#include <cstdint>
 #include <iterator>
 
 #include "base/error.hpp"
@@ -42,10 +43,8 @@ std::size_t case_in(const std::string& file, double number) {
 }
 
 file::Attributes without_instruction_set(const file::Attributes& all) {
-  file::Attributes rest;
-  for (const auto& attribute : all) {
-    if (attribute.first != instruction_set) rest.push_back(attribute);
-  }
+  file::Attributes rest = all;
+  std::erase_if(rest, [](const auto& attribute) { return attribute.first == instruction_set; });
   return rest;
 }
 
@@ -53,7 +52,7 @@ InstructionSets instruction_sets_of(const std::vector<Hdf5Part>& parts) {
   InstructionSets all;
   for (const Hdf5Part& part : parts) {
     for (const auto& [name, value] : part.head.attributes) {
-      if (name == instruction_set) all.add(value.text());
+      if (name == instruction_set) all.insert(value.text());
     }
   }
   return all;
@@ -61,13 +60,10 @@ InstructionSets instruction_sets_of(const std::vector<Hdf5Part>& parts) {
 
 // Compares bits, so that equal NaNs count as equal.
 bool same_data(const file::TableData& a, const file::TableData& b) {
-  return a.names == b.names &&
-         std::equal(a.columns.begin(), a.columns.end(), b.columns.begin(), b.columns.end(),
-                    [](const std::vector<double>& first, const std::vector<double>& second) {
-                      return first.size() == second.size() &&
-                             std::memcmp(first.data(), second.data(),
-                                         first.size() * sizeof(double)) == 0;
-                    });
+  constexpr auto bits = [](double number) { return std::bit_cast<std::uint64_t>(number); };
+  return a.names == b.names && std::ranges::equal(a.columns, b.columns, [&](auto& x, auto& y) {
+           return std::ranges::equal(x, y, {}, bits, bits);
+         });
 }
 
 // Whether the scenarios read the same tables.
@@ -122,7 +118,7 @@ Merged merge_hdf5(const std::vector<std::string>& files, const std::string& targ
 
   file::Hdf5TableWriter out(target, model.head.columns, model.head.axes);
   out.keep(model.inputs);
-  Merged merged{0, false, instruction_sets.note()};
+  Merged merged{0, false, note_on(instruction_sets)};
   file::Hdf5Block block;
   for (const Hdf5Part& part : parts) {
     file::Hdf5TableReader table(part.file, rows_at_a_time(model.head.columns));
@@ -139,11 +135,8 @@ Merged merge_hdf5(const std::vector<std::string>& files, const std::string& targ
   }
   file::Attributes attributes = model.head.attributes;
   for (auto& [name, value] : attributes) {
-    if (name == "cases" && value.text() != std::to_string(merged.cases)) {
-      throw InputError("found " + std::to_string(merged.cases) + " cases of " + value.text() +
-                       "; allowed: all parts of the sweep");
-    }
-    if (name == instruction_set) value = instruction_sets.names();
+    if (name == "cases") check_all_there(merged.cases, value.text());
+    if (name == instruction_set) value = names_of(instruction_sets);
   }
   out.finish(attributes);
   return merged;

@@ -4,6 +4,9 @@
 // The two formats of merge.hpp, and what they share.
 #pragma once
 
+#include <set>
+#include <string>
+
 #include "sweep/merge.hpp"
 
 namespace bbsim::sweep {
@@ -15,19 +18,13 @@ namespace bbsim::sweep {
 
 // Both throw InputError if the numbers differ.
 void check_case(const std::string& file, std::size_t found, std::size_t expected);
-void check_all_there(std::size_t found, std::size_t expected);
+void check_all_there(std::size_t found, const std::string& expected);
 
 // The instruction sets that computed the parts.
-class InstructionSets {
- public:
-  void add(const std::string& name);
-  // "avx2 and avx512"
-  [[nodiscard]] std::string names() const;
-  // A note for the user if there are several sets; empty otherwise.
-  [[nodiscard]] std::string note() const;
-
- private:
-  std::vector<std::string> names_;  // sorted, each once
-};
+using InstructionSets = std::set<std::string>;
+// "avx2 and avx512"
+[[nodiscard]] std::string names_of(const InstructionSets& sets);
+// A note for the user if there are several sets; empty otherwise.
+[[nodiscard]] std::string note_on(const InstructionSets& sets);
 
 }  // namespace bbsim::sweep

@@ -35,23 +35,26 @@ std::size_t block_limit(const SweepTask& task, std::size_t group) {
 // Collects blocks of cases from the threads and delivers them in order.
 class Queue {
  public:
-  Queue(CaseRange range, std::size_t ahead, const std::atomic<bool>& stop,
-        const std::function<void(const CaseResults&)>& deliver)
+  Queue(CaseRange range, const std::vector<std::size_t>* ends, std::size_t ahead,
+        const std::atomic<bool>& stop, const std::function<void(const CaseResults&)>& deliver)
       : range_(range),
+        ends_(ends),
         ahead_(ahead),
         next_(range.first),
         delivered_(range.first),
         stop_(stop),
         deliver_(deliver) {}
 
-  // Returns the next cases to compute, at most this many; an empty range at the end.
+  // Returns the next cases to compute, at most this many unless the blocks are given; an empty
+  // range at the end.
   CaseRange take(std::size_t cases) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock,
                   [this] { return ended() || next_ >= range_.last || waiting_.size() < ahead_; });
     if (ended() || next_ >= range_.last) return {};
     const std::size_t first = next_;
-    next_ = std::min(range_.last, first + cases);
+    next_ = ends_ != nullptr ? *std::ranges::upper_bound(*ends_, first)
+                             : std::min(range_.last, first + cases);
     return {first, next_};
   }
 
@@ -104,6 +107,7 @@ class Queue {
   }
 
   const CaseRange range_;
+  const std::vector<std::size_t>* const ends_;
   const std::size_t ahead_;
   std::mutex mutex_;
   std::condition_variable changed_;
@@ -193,7 +197,7 @@ bool run_sweep(const Engine& engine, CaseRange range, std::size_t threads,
                const std::function<void(const CaseResults&)>& deliver,
                const std::function<void(std::size_t)>& fewer) {
   const std::size_t groups = (range.last - range.first + engine.group - 1) / engine.group;
-  Queue queue(range, most_ahead * threads, stop, deliver);
+  Queue queue(range, engine.ends, most_ahead * threads, stop, deliver);
   const std::size_t wanted = std::max<std::size_t>(1, std::min(threads, groups));
   {
     std::vector<std::jthread> others;

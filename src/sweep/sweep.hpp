@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "sweep/task.hpp"
 
@@ -22,6 +23,8 @@ struct Engine {
   std::size_t group = 1;
   // Makes a runner; called once on each thread.
   std::function<std::unique_ptr<CaseRunner>()> runner;
+  // The cases after each block, if the blocks are given; null if their size follows their speed.
+  const std::vector<std::size_t>* ends = nullptr;
 };
 
 // Chooses the first engine that fits (docs/explanation/sweep-engines.md): linear analysis if all

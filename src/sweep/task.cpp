@@ -19,12 +19,9 @@ bool are_finite(const SweepTask& task, const double* measures) {
 }  // namespace
 
 void CaseResults::resize(std::size_t cases, const SweepTask& task) {
-  count = cases;
-  values.resize(cases * task.plan.axes().size());
-  numbers.resize(cases * (1 + task.measures.size()));
-  status.resize(cases);
   series.resize(task.series.size());
-  for (auto& column : series) column.assign(cases * task.series_rows, no_number);
+  cut(cases, task);
+  for (auto& column : series) std::ranges::fill(column, no_number);
 }
 
 void CaseResults::cut(std::size_t cases, const SweepTask& task) {

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A sweep's results on their way into a file: an earlier run's rows are checked, conflicts refused,
-// and nothing is discarded before the result is complete.
+// A sweep's results on their way into a file: an earlier run's cases are checked, conflicts
+// refused, and nothing is discarded before the result is complete.
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/error.hpp"
-#include "catch.hpp"
 #include "file/hdf5_table.hpp"
 #include "support/folder.hpp"
+#include "support/sweep_setup.hpp"
 #include "sweep/case_file.hpp"
 
 namespace bbsim_test::test_case_file {
@@ -20,36 +20,96 @@ using namespace bbsim::sweep;
 using bbsim::InputError;
 using bbsim::OutputError;
 using Catch::Matchers::Contains;
+using Counts = std::map<std::string, std::size_t, std::less<>>;
 
 namespace {
 
 const std::string plan = R"({"version": "1", "instruction_set": "avx2", "seed": 1})";
+const std::string header = "case,gravity,solver.method,status,reason,end_time,end_x,expected\n";
 
-// Ten cases from number 100 on.
-CaseFileLayout layout(bool series = false, std::size_t group = 1) {
-  CaseFileLayout made;
-  made.columns = {{"case", "1", ""},
-                  {"gravity", "SI", ""},
-                  {"status", "", "", Hdf5Kind::text},
-                  {"reason", "", "", Hdf5Kind::text},
-                  {"end_x", "m", ""}};
-  made.first_case = 100;
-  made.cases = 10;
-  made.group = group;
-  if (series) {
-    made.axis = {"t", "s", ""};
-    made.axis_values = {0, 1, 2};
-    made.columns.push_back({"x", "m", "", Hdf5Kind::series, 3});
+// Cases 100 to 109 of a sweep over a number and a text.
+struct Ten : Setup {
+  explicit Ten(bool series = false)
+      : Setup("configs/fig2a.yaml",
+              {{"gravity", "linear:1:2:60"}, {"solver.method", "list:radau,bdf"}}, {}, {"end_x"}) {
+    task.expectations = {
+        bbsim::scenario::read_expectation("", "end_x < 0.106", family.read(plan.settings(0)))};
+    task.expected = {0};
+    layout.columns = {{"case", "1", ""},
+                      {"gravity", "SI", ""},
+                      {"solver.method", "", "", Hdf5Kind::text},
+                      {"status", "", "", Hdf5Kind::text},
+                      {"reason", "", "", Hdf5Kind::text},
+                      {"end_time", "s", ""},
+                      {"end_x", "m", ""},
+                      {"expected", "1", ""}};
+    layout.range = {100, 110};
+    if (!series) return;
+    layout.axis = {"t", "s", ""};
+    layout.axis_values = {0, 1, 2};
+    layout.columns.push_back({"x", "m", "", Hdf5Kind::series, 3});
+    task.series = {bbsim::scenario::find_column("x")};
+    task.series_rows = 3;
   }
-  return made;
-}
 
-const std::string header = "case,gravity,status,reason,end_x\n";
+  [[nodiscard]] std::unique_ptr<CaseFile> open(const std::string& target, bool resume = false,
+                                               const std::string& with = test_case_file::plan) {
+    return std::make_unique<CaseFile>(target, layout, task, with, resume);
+  }
+
+  // Appends cases first ... last - 1, in a block.
+  void append(CaseFile& file, std::size_t first, std::size_t last) const {
+    CaseResults results;
+    results.first = first;
+    results.resize(last - first, task);
+    for (std::size_t i = 0; i < results.count; ++i) {
+      const auto number = static_cast<double>(first + i);
+      const bool fails = (first + i) % 4 == 0;
+      results.values[2 * i] = number / 8;
+      results.values[2 * i + 1] = static_cast<double>((first + i) % 2);
+      results.numbers[2 * i] = fails ? 0.5 : 10;
+      results.numbers[2 * i + 1] = fails ? NAN : number / 1000;
+      if (fails) results.status[i] = {"failed", "so, and"};
+      for (auto& column : results.series) {
+        for (std::size_t k = 0; k < 3; ++k) column[3 * i + k] = number + 0.1 * double(k);
+      }
+    }
+    file.prepare(results);
+    file.append(results);
+  }
+
+  // Leaves a journal with a record for each case. Returns the places of the records, and their end.
+  std::vector<std::size_t> leave_unfinished(const std::string& target, std::size_t last) {
+    const auto file = open(target);
+    std::vector<std::size_t> places;
+    for (std::size_t number = 100; number < last; ++number) {
+      places.push_back(std::filesystem::file_size(file->part()));
+      append(*file, number, number + 1);
+    }
+    places.push_back(std::filesystem::file_size(file->part()));
+    return places;
+  }
+
+  // Continues with the missing cases.
+  KeptCases complete(const std::string& target) {
+    const auto file = open(target, true);
+    KeptCases kept = file->kept();
+    if (kept.cases < 10) append(*file, 100 + kept.cases, 110);
+    file->finish({{"title", "t"}}, 2);
+    return kept;
+  }
+
+  CaseFileLayout layout;
+};
 
 std::string row(std::size_t number) {
   const std::string text = std::to_string(number);
-  return text + ",9." + text +
-         (number % 4 == 0 ? ",failed,\"so, and\",nan\n" : ",done,,0." + text + "\n");
+  std::string gravity = std::to_string(static_cast<double>(number) / 8);
+  gravity.erase(gravity.find_last_not_of("0.") + 1);
+  const std::string end = number == 100 ? "0.1" : "0." + text;
+  return text + ',' + gravity + (number % 2 == 0 ? ",radau" : ",bdf") +
+         (number % 4 == 0 ? ",failed,\"so, and\",0.5,nan,0\n"
+                          : ",done,,10," + end + (number < 106 ? ",1\n" : ",0\n"));
 }
 
 std::string rows(std::size_t first, std::size_t last) {
@@ -58,215 +118,164 @@ std::string rows(std::size_t first, std::size_t last) {
   return text;
 }
 
-std::vector<std::vector<double>> series_of(std::size_t first, std::size_t last) {
-  std::vector<std::vector<double>> series(1);
-  for (std::size_t number = first; number < last; ++number) {
-    for (int i = 0; i < 3; ++i) series[0].push_back(static_cast<double>(number) + 0.1 * i);
-  }
-  return series;
-}
-
-// Appends cases first ... last - 1.
-void append(CaseFile& file, std::size_t first, std::size_t last, bool series = false) {
-  file.append(rows(first, last), last - first,
-              series ? series_of(first, last) : std::vector<std::vector<double>>{});
-}
-
-void leave_unfinished(const std::string& target, std::size_t last, bool series = false) {
-  const auto file = open_case_file(target, layout(series), plan, false);
-  append(*file, 100, last, series);
-}
-
-std::string opening_fails(const std::string& target, const std::string& with_plan = plan,
-                          bool resume = false) {
-  return message_of<InputError>(
-      [&] { static_cast<void>(open_case_file(target, layout(), with_plan, resume)); });
+std::string opening_fails(const std::string& target, bool resume = true,
+                          const std::string& with = plan) {
+  return message_of<InputError>([&] { static_cast<void>(Ten().open(target, resume, with)); });
 }
 
 std::string writing_fails(const std::string& target) {
-  return message_of<OutputError>(
-      [&] { static_cast<void>(open_case_file(target, layout(), plan, true)); });
+  return message_of<OutputError>([&] { static_cast<void>(Ten().open(target, true)); });
 }
 
 }  // namespace
 
-TEST_CASE("rows become a file, and a resumed part gives the same bytes") {
+TEST_CASE("cases become a file, and a continued journal gives the same bytes") {
   const Folder folder;
   const std::string ending =
       GENERATE(std::string(".csv"), std::string(".h5"), std::string(".HDF5"));
-  const bool series = ending != ".csv";
   CAPTURE(ending);
-  {
-    const auto file = open_case_file(folder / ("a" + ending), layout(series), plan, false);
-    append(*file, 100, 110, series);
-    file->finish({{"title", "t"}});
-  }
+  Ten sweep(ending != ".csv");
+  const std::string whole = folder / ("a" + ending), target = folder / ("b" + ending);
+  sweep.complete(whole);
   CHECK(folder.entries() == 1);
-  if (!series) CHECK(content_of(folder / "a.csv") == header + rows(100, 110));
-
-  leave_unfinished(folder / ("b" + ending), 107, series);
-  CHECK(folder.entries() == (series ? 4 : 3));
-  {
-    const auto file = open_case_file(folder / ("b" + ending), layout(series), plan, true);
-    CHECK(file->kept().rows == 7);
-    CHECK(file->kept().trouble.empty());
-    CHECK(file->kept().statuses.words ==
-          std::map<std::string, std::size_t, std::less<>>{{"done", 5}, {"failed", 2}});
-    append(*file, 107, 110, series);
-    file->finish({{"title", "t"}});
+  if (ending == ".csv") {
+    CHECK(content_of(whole) == header + rows(100, 110));
+  } else {
+    Hdf5TableReader reader(whole);
+    Hdf5Block block;
+    CHECK(reader.read(block));
+    CHECK(block.rows == 10);
+    CHECK(block.texts[4][4] == "so, and");
+    CHECK(block.values[8][5] == 101.2);
   }
+
+  sweep.leave_unfinished(target, 107);
   CHECK(folder.entries() == 2);
-  const bool alike = content_of(folder / ("a" + ending)) == content_of(folder / ("b" + ending));
+  const KeptCases kept = sweep.complete(target);
+  CHECK(kept.cases == 7);
+  CHECK(kept.trouble.empty());
+  CHECK(kept.statuses.words == Counts{{"done", 5}, {"failed", 2}});
+  CHECK(kept.statuses.unmet == std::vector<std::size_t>{3});
+  CHECK(kept.statuses.failed.size() == 3);
+  CHECK(folder.entries() == 2);
+  const bool alike = content_of(whole) == content_of(target);
   CHECK(alike);
 }
 
-TEST_CASE("whole groups are kept, and a smaller last one") {
+TEST_CASE("a journal is cut at the first invalid record, and this is reported") {
   const Folder folder;
-  leave_unfinished(folder / "a.csv", 107);
-  CHECK(open_case_file(folder / "a.csv", layout(false, 4), plan, true)->kept().rows == 4);
-  leave_unfinished(folder / "b.csv", 110);
-  const KeptRows kept = open_case_file(folder / "b.csv", layout(false, 4), plan, true)->kept();
-  CHECK(kept.rows == 10);
-  CHECK(kept.statuses.words ==
-        std::map<std::string, std::size_t, std::less<>>{{"done", 7}, {"failed", 3}});
-}
-
-TEST_CASE("a part is cut at the first invalid row, and this is reported") {
-  const Folder folder;
-  const std::string whole = header + rows(100, 108);
-  const std::size_t row_103 = whole.find("103,");
+  const std::string target = folder / "a.csv", part = target + ".part";
+  Ten sweep;
+  const std::vector<std::size_t> places = sweep.leave_unfinished(target, 108);
+  const std::string whole = content_of(part);
+  const std::size_t at = places[3], size = places[4] - at;  // of case 103
   const auto resumed = [&](const std::string& content) {
-    leave_unfinished(folder / "a.csv", 101);
     folder.put("a.csv.part", content);
-    const auto file = open_case_file(folder / "a.csv", layout(), plan, true);
-    KeptRows kept = file->kept();
-    append(*file, 100 + kept.rows, 110);
-    file->finish({});
-    CHECK(content_of(folder / "a.csv") == header + rows(100, 110));
+    KeptCases kept = sweep.complete(target);
+    CHECK(content_of(target) == header + rows(100, 110));
     CHECK(folder.entries() == 1);
     return kept;
   };
-  const auto changed = [&](std::size_t place, std::size_t size, const std::string& by) {
-    return std::string(whole).replace(place, size, by);
+  const auto kept_of = [&](const std::string& content) {
+    folder.put("a.csv.part", content);
+    return sweep.open(target, true)->kept();
   };
-  const std::string start =
-      (folder / "a.csv.part") + ": the row of case 103 is not as it was written";
-  const std::string& row_of_103 = row(103);
+  const auto is_cut_at_103 = [&](const std::string& content) {
+    const KeptCases kept = resumed(content);
+    CHECK(kept.cases == 3);
+    CHECK(kept.trouble ==
+          part + ": the record of case 103 is not as it was written; continuing from case 103");
+  };
+  const auto changed = [&](std::size_t place, std::size_t length, const std::string& by) {
+    return std::string(whole).replace(place, length, by);
+  };
 
-  SECTION("a deleted row") {
-    const KeptRows kept = resumed(changed(row_103, row_of_103.size(), ""));
-    CHECK(kept.rows == 3);
-    CHECK(kept.trouble == start + " (found case 104); continuing from case 103");
-  }
-  SECTION("a repeated row") {
-    const KeptRows kept = resumed(changed(row_103, 0, row(102)));
-    CHECK(kept.rows == 3);
-    CHECK_THAT(kept.trouble, Contains(start + " (found case 102)"));
+  SECTION("a deleted, a repeated and a swapped record") {
+    is_cut_at_103(changed(at, size, ""));
+    is_cut_at_103(changed(at, 0, whole.substr(places[2], at - places[2])));
+    is_cut_at_103(changed(at, size, whole.substr(places[4], places[5] - places[4])));
   }
   SECTION("zeros") {
-    CHECK_THAT(resumed(changed(row_103, 20, std::string(20, '\0'))).trouble,
-               Contains(start + " (found zero bytes)"));
-    CHECK_THAT(resumed(whole.substr(0, row_103) + std::string(4096, '\0')).trouble,
-               Contains(start + " (found zero bytes)"));
+    is_cut_at_103(changed(at, 24, std::string(24, '\0')));
+    is_cut_at_103(changed(at + 40, 8, std::string(8, '\0')));
+    is_cut_at_103(whole.substr(0, at) + std::string(4096, '\0'));
   }
-  SECTION("a lost field and a damaged number") {
-    CHECK_THAT(resumed(changed(whole.find(",done", row_103), 5, "")).trouble, Contains("4 fields"));
-    CHECK_THAT(resumed(changed(whole.find("9.103"), 5, "9.1O3")).trouble, Contains("field 2"));
-  }
-  SECTION("more rows than cases") {
-    const KeptRows kept = resumed(header + rows(100, 112));
-    CHECK(kept.rows == 10);
-    CHECK_THAT(kept.trouble, Contains("more than there are cases"));
-  }
-  SECTION("the header") {
-    const KeptRows kept = resumed(changed(0, 4, std::string(4, '\0')));
-    CHECK(kept.rows == 0);
-    CHECK_THAT(kept.trouble, Contains("its header is not as it was written"));
-  }
-  SECTION("the state after a kill is valid") {
-    for (std::size_t size = 1; size < whole.size(); ++size) {
-      CHECK(resumed(whole.substr(0, size)).trouble.empty());
+  SECTION("any changed bit is found") {
+    for (std::size_t place = at; place < places[4]; ++place) {
+      std::string content = whole;
+      content[place] = static_cast<char>(content[place] ^ 16);
+      CHECK(kept_of(content).cases == 3);
     }
   }
+  SECTION("more records than cases") {
+    std::filesystem::remove(part);
+    sweep.leave_unfinished(target, 110);
+    const std::string full = content_of(part);
+    const KeptCases kept = resumed(full + full.substr(places[7], places[8] - places[7]));
+    CHECK(kept.cases == 10);
+    CHECK_THAT(kept.trouble, Contains("the record of case 110"));
+  }
+  SECTION("a plan that never reached the disk") {
+    const KeptCases kept = resumed(std::string(4096, '\0'));
+    CHECK(kept.cases == 0);
+    CHECK_THAT(kept.trouble, Contains("the plan is not as it was written"));
+  }
+  SECTION("the state after a kill is valid") {
+    for (std::size_t length = 0; length < whole.size(); ++length) {
+      const KeptCases kept = kept_of(whole.substr(0, length));
+      CHECK(kept.trouble.empty());
+      const auto records = std::ranges::upper_bound(places, length) - places.begin();
+      CHECK(static_cast<std::ptrdiff_t>(kept.cases) == std::max<std::ptrdiff_t>(records, 1) - 1);
+    }
+    CHECK(resumed(whole.substr(0, whole.size() - 1)).cases == 7);
+  }
 }
 
-TEST_CASE("damaged trajectories are computed again") {
+TEST_CASE("a file with too few cases is not completed, and its journal stays") {
   const Folder folder;
-  const std::string series_file = folder / "a.h5.part.series";
-  const auto resumed = [&](const std::string& content) {
-    leave_unfinished(folder / "a.h5", 108, true);
-    std::ofstream(series_file, std::ios::binary) << content;
-    const auto file = open_case_file(folder / "a.h5", layout(true), plan, true);
-    KeptRows kept = file->kept();
-    append(*file, 100 + kept.rows, 110, true);
-    file->finish({});
-    Hdf5TableReader reader(folder / "a.h5");
-    Hdf5Block block;
-    CHECK(reader.read(block));
-    CHECK(block.values[5] == series_of(100, 110)[0]);
-    return kept;
-  };
-  leave_unfinished(folder / "a.h5", 108, true);
-  const std::string whole = content_of(series_file);
-  std::filesystem::remove(folder / "a.h5.part");
-  const std::size_t a_case = whole.size() / 8;
-  CHECK(resumed(whole).trouble.empty());
-  const KeptRows zeros = resumed(std::string(whole).replace(2 * a_case, a_case, a_case, '\0'));
-  CHECK(zeros.rows == 2);
-  CHECK_THAT(zeros.trouble, Contains("the trajectories of case 102 are not as they were written"));
-  const KeptRows swapped = resumed(whole.substr(0, a_case) + whole.substr(2 * a_case, a_case) +
-                                   whole.substr(2 * a_case));
-  CHECK(swapped.rows == 1);
-  CHECK(resumed(whole.substr(0, 5 * a_case + 3)).rows == 5);
-}
-
-TEST_CASE("a file with too few rows is not completed, and its part stays") {
-  const Folder folder;
-  const std::string ending = GENERATE(std::string(".csv"), std::string(".h5"));
-  const std::string target = folder / ("a" + ending);
+  const std::string target = folder / ("a" + GENERATE(std::string(".csv"), std::string(".h5")));
+  Ten sweep;
   {
-    const auto file = open_case_file(target, layout(), plan, false);
-    append(*file, 100, 108);
-    CHECK_THAT(message_of<OutputError>([&] { file->finish({}); }), Contains("it has 8 rows of 10"));
+    const auto file = sweep.open(target);
+    sweep.append(*file, 100, 108);
+    CHECK_THAT(message_of<OutputError>([&] { file->finish({}, 1); }),
+               Contains("it has 8 cases of 10"));
   }
   CHECK_FALSE(std::filesystem::exists(target));
   {
-    const auto file = open_case_file(target, layout(), plan, true);
-    append(*file, 108, 110);
-    REQUIRE(truncate((target + ".part").c_str(), 100) == 0);  // by another process
-    CHECK_FALSE(message_of<OutputError>([&] { file->finish({}); }).empty());
+    const auto file = sweep.open(target, true);
+    sweep.append(*file, 108, 110);
+    REQUIRE(truncate((target + ".part").c_str(), 400) == 0);  // by another process
+    CHECK_THAT(message_of<OutputError>([&] { file->finish({}, 2); }), Contains("with --resume"));
   }
-  CHECK_FALSE(std::filesystem::exists(target));
+  CHECK(folder.entries() == 1);
   CHECK(std::filesystem::exists(target + ".part"));
 }
 
-TEST_CASE("a part that loses its name is neither lost nor mistaken for another") {
+TEST_CASE("a journal that loses its name is neither lost nor mistaken for another") {
   const Folder folder;
   const std::string ending = GENERATE(std::string(".csv"), std::string(".h5"));
   const std::string target = folder / ("a" + ending);
-  {
-    const auto file = open_case_file(folder / ("expected" + ending), layout(), plan, false);
-    append(*file, 100, 110);
-    file->finish({});
-  }
-  const auto file = open_case_file(target, layout(), plan, false);
-  append(*file, 100, 110);
+  Ten sweep;
+  sweep.complete(folder / ("expected" + ending));
+  const auto file = sweep.open(target);
+  sweep.append(*file, 100, 110);
   CHECK(file->part() == target + ".part");
   REQUIRE(unlink((target + ".part").c_str()) == 0);
   CHECK(file->part().empty());
   SECTION("removed") {
-    file->finish({});
+    file->finish({{"title", "t"}}, 1);
   }
   SECTION("replaced") {
     folder.put("a" + ending + ".part", "somebody else's");
-    file->finish({});
+    file->finish({{"title", "t"}}, 1);
     CHECK(content_of(target + ".part") == "somebody else's");
   }
   const bool alike = content_of(target) == content_of(folder / ("expected" + ending));
   CHECK(alike);
 }
 
-TEST_CASE("no part is written through a link or special file in its place") {
+TEST_CASE("nothing is written through a link or special file in its place") {
   const Folder folder;
   const std::string precious = folder.put("precious", "precious");
   const std::string name = GENERATE(std::string(".part"), std::string(".plan"));
@@ -291,66 +300,68 @@ TEST_CASE("no part is written through a link or special file in its place") {
   }
   SECTION("a folder") {
     std::filesystem::create_directory(target + name);
-    CHECK_THAT(writing_fails(target), Contains("is a directory"));
+    CHECK_FALSE(writing_fails(target).empty());
   }
   CHECK(content_of(precious) == "precious");
   CHECK(folder.entries() == 2);
 }
 
-TEST_CASE("trajectories are not written through a link either") {
-  const Folder folder;
-  const std::string precious = folder.put("precious", "precious");
-  std::filesystem::create_symlink("precious", folder / "a.h5.part.series");
-  CHECK_THAT(message_of<OutputError>([&] {
-               static_cast<void>(open_case_file(folder / "a.h5", layout(true), plan, true));
-             }),
-             Contains("a.h5.part.series: it is a symbolic link"));
-  CHECK(content_of(precious) == "precious");
-  CHECK(folder.entries() == 2);
-}
-
-TEST_CASE("a part is continued only with the same plan, and differences are reported") {
+TEST_CASE("a journal is continued only with the same plan, and differences are reported") {
   const Folder folder;
   const std::string target = folder / "a.csv";
-  leave_unfinished(target, 103);
-  CHECK_THAT(opening_fails(target), Contains("add --resume"));
-  CHECK_THAT(
-      opening_fails(target, R"({"version": "1", "instruction_set": "avx2", "seed": 2})", true),
-      Contains("of another sweep than this one") && Contains("in its seed;"));
-  CHECK_THAT(
-      opening_fails(target, R"({"version": "1", "instruction_set": "avx512", "seed": 1})", true),
-      Contains("begun with the instruction set avx2, and this is avx512") &&
-          Contains("BBSIM_SIMD=avx2"));
-  CHECK_THAT(opening_fails(target, R"({"instruction_set": "avx512", "seed": 1, "vary": []})", true),
+  Ten().leave_unfinished(target, 103);
+  const std::string content = content_of(target + ".part");
+  const auto differs = [&](const std::string& other) { return opening_fails(target, true, other); };
+  CHECK_THAT(opening_fails(target, false), Contains("add --resume"));
+  CHECK_THAT(differs(R"({"version": "1", "instruction_set": "avx2", "seed": 2})"),
+             Contains("of another sweep than this one") && Contains("in its seed;"));
+  CHECK_THAT(differs(R"({"version": "1", "instruction_set": "avx512", "seed": 1})"),
+             Contains("begun with the instruction set avx2, and this is avx512") &&
+                 Contains("BBSIM_SIMD=avx2"));
+  CHECK_THAT(differs(R"({"instruction_set": "avx512", "seed": 1, "vary": []})"),
              Contains("in its version, vary;"));
-  folder.put("a.csv.plan", std::string(100, '\0'));
-  CHECK_THAT(opening_fails(target, plan, true), Contains("which is not a plan of bbsim"));
-  std::filesystem::remove(folder / "a.csv.plan");
-  CHECK_THAT(opening_fails(target, plan, true), Contains("found without"));
-  CHECK(content_of(target + ".part") == header + rows(100, 103));
+  CHECK(content_of(target + ".part") == content);
+  folder.put("a.csv.part", std::string(content).replace(40, 1, "x"));
+  CHECK_THAT(differs(plan), Contains("which is not a plan of bbsim"));
 }
 
-TEST_CASE("a part belongs to one process at a time") {
+TEST_CASE("a part that is no journal is refused, and stays") {
   const Folder folder;
-  const auto file = open_case_file(folder / "a.csv", layout(), plan, false);
-  append(*file, 100, 101);
-  CHECK_THAT(opening_fails(folder / "a.csv", plan, true),
-             Contains("another bbsim is writing to it"));
-  CHECK(content_of(folder / "a.csv.part") == header + row(100));
+  const auto [content, found] = GENERATE(
+      std::pair<std::string, std::string>{header + rows(100, 103), "CSV rows, as bbsim 0.3.0"},
+      std::pair<std::string, std::string>{"my own text\n", "no journal of a sweep"},
+      std::pair<std::string, std::string>{"m", "no journal of a sweep"});
+  const bool resume = GENERATE(true, false);
+  folder.put("a.csv.part", content);
+  CHECK_THAT(opening_fails(folder / "a.csv", resume),
+             Contains("a.csv.part: found " + found) && Contains("allowed: "));
+  CHECK(content_of(folder / "a.csv.part") == content);
+}
+
+TEST_CASE("a journal belongs to one process at a time") {
+  const Folder folder;
+  Ten sweep;
+  const auto file = sweep.open(folder / "a.csv");
+  sweep.append(*file, 100, 101);
+  const std::string content = content_of(file->part());
+  CHECK_THAT(opening_fails(folder / "a.csv"), Contains("another bbsim is writing to it"));
+  CHECK(content_of(file->part()) == content);
 }
 
 TEST_CASE("a sweep's file keeps the permissions of the file that it replaces") {
   const Folder folder;
-  const std::string file = folder.put("a.csv", "old");
-  REQUIRE(chmod(file.c_str(), 0600) == 0);
-  const auto cases = open_case_file(file, layout(), plan, false);
-  CHECK(permissions_of(file + ".part") == 0600);
-  CHECK(permissions_of(file + ".plan") == 0600);
-  append(*cases, 100, 110);
-  REQUIRE(chmod(file.c_str(), 0640) == 0);
-  cases->finish({});
-  CHECK(content_of(file) == header + rows(100, 110));
-  CHECK(permissions_of(file) == 0640);
+  const std::string target = folder.put("a.csv", "old");
+  REQUIRE(chmod(target.c_str(), 0600) == 0);
+  Ten sweep;
+  sweep.layout.is_shard = true;
+  const auto file = sweep.open(target);
+  CHECK(permissions_of(target + ".part") == 0600);
+  sweep.append(*file, 100, 110);
+  REQUIRE(chmod(target.c_str(), 0640) == 0);
+  file->finish({}, 1);
+  CHECK(content_of(target) == header + rows(100, 110));
+  CHECK(permissions_of(target) == 0640);
+  CHECK(permissions_of(target + ".plan") == 0640);
 }
 
 TEST_CASE("an output that cannot be written is reported before any case runs") {
@@ -367,29 +378,31 @@ TEST_CASE("an output that cannot be written is reported before any case runs") {
   CHECK(folder.entries() == 2);
 }
 
-TEST_CASE("a shard keeps its plan beside it, a whole sweep does not") {
+TEST_CASE("a CSV shard keeps its plan beside it, and a whole sweep in its place does not") {
   const Folder folder;
-  CaseFileLayout shard = layout();
-  shard.is_shard = GENERATE(true, false);
-  const auto file = open_case_file(folder / "a.csv", shard, plan, false);
-  append(*file, 100, 110);
-  file->finish({});
-  CHECK(folder.entries() == (shard.is_shard ? 2 : 1));
-  if (shard.is_shard) CHECK(content_of(folder / "a.csv.plan") == plan);
+  Ten sweep;
+  sweep.layout.is_shard = true;
+  sweep.complete(folder / "a.csv");
+  CHECK(folder.entries() == 2);
+  CHECK(content_of(folder / "a.csv.plan") == plan);
+  sweep.layout.is_shard = false;
+  sweep.complete(folder / "a.csv");
+  CHECK(folder.entries() == 1);
 }
 
-TEST_CASE("a part without rows is removed with its sweep") {
+TEST_CASE("a journal without cases is removed with its sweep") {
   const Folder folder;
-  static_cast<void>(open_case_file(folder / "a.csv", layout(), plan, false));
-  static_cast<void>(open_case_file(folder / "a.h5", layout(true), plan, false));
+  static_cast<void>(Ten().open(folder / "a.csv"));
+  static_cast<void>(Ten(true).open(folder / "a.h5"));
   CHECK(folder.entries() == 0);
 }
 
 TEST_CASE("an output that is not a regular file gets its rows immediately") {
   int ends[2];
   REQUIRE(pipe(ends) == 0);
-  const auto file = open_case_file("/dev/fd/" + std::to_string(ends[1]), layout(), plan, false);
-  append(*file, 100, 103);
+  Ten sweep;
+  const auto file = sweep.open("/dev/fd/" + std::to_string(ends[1]));
+  sweep.append(*file, 100, 103);
   char buffer[4096];
   const ssize_t got = read(ends[0], buffer, sizeof buffer);
   CHECK(std::string(buffer, static_cast<std::size_t>(std::max<ssize_t>(0, got))) ==

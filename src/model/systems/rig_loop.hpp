@@ -152,12 +152,10 @@ class RigLoop {
   // place, shafts that ring need the time.
   template <class Time>
   [[nodiscard]] std::array<Jet<Time>, 2> inputs(const Time& t) const {
-    if (mode.rings) return {Jet<Time>{t, Time(1.0), Time(0.0)}, {}};
+    const Jet<Time> nothing{Time(0.0), Time(0.0), Time(0.0)};
+    if (mode.rings) return {Jet<Time>{t, Time(1.0), Time(0.0)}, nothing};
     if constexpr (!integrates) {
-      if (law_.kind == LawKind::held) {
-        const Jet<Time> nothing{Time(0.0), Time(0.0), Time(0.0)};
-        return {nothing, nothing};
-      }
+      if (law_.kind == LawKind::held) return {nothing, nothing};
     }
     return reference_.at(t);
   }

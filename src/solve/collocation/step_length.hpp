@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The length of the next step of a collocation method.
+// The lengths of the steps of a collocation method.
 #pragma once
 
 #include <algorithm>
@@ -44,6 +44,34 @@ struct Stride {
   if (!(steps > 1)) return {left, true};
   return {steps < alike ? left / steps : next, false};
 }
+
+// The steps of one run. The tolerance allows steps of `next` seconds.
+struct StepControl {
+  double next = std::numeric_limits<double>::infinity();
+  int rejections = 0;  // since the last accepted step
+
+  // After an attempt at `step` seconds whose error exceeds the tolerance. `growth`: step_growth()
+  // of the error, or `unsolved` if there is none.
+  static constexpr double unsolved = 0.4;
+  void reject(double step, double growth) {
+    next = step * std::min(0.8, growth);
+    ++rejections;
+  }
+
+  // After an accepted step. `arrives`: whether it ends where a step has to. `most`: a bound of the
+  // next step from elsewhere. A step that was cut short there says little about the next.
+  void accept(double step, bool arrives, double growth,
+              double most = std::numeric_limits<double>::infinity()) {
+    const bool cut = arrives && rejections == 0 && step < next;
+    const double grown = std::min(most, step * (rejections > 0 ? std::min(growth, 1.0) : growth));
+    next = cut ? std::max(next, grown) : grown;
+    rejections = 0;
+  }
+  // Whether accept() depends on the growth, up to a growth of 8.
+  [[nodiscard]] bool needs_growth(double step, bool arrives) const {
+    return !arrives || rejections > 0 || next < 8 * step;
+  }
+};
 
 // Whether a step from t is lost in the rounding of t, both in s.
 [[nodiscard]] inline bool is_lost(double step, double t) {

@@ -24,8 +24,6 @@ constexpr std::size_t most_attempts = 100'000;
 // A case is given up if its step is below this fraction of the time. Shrinking detects motions that
 // go to infinity before that.
 constexpr double least_part = 1e-8;
-// The factor of the step after an iteration that does not converge.
-constexpr double unsolved = 0.4;
 
 // Lanes are refilled when at most this many are at work.
 constexpr int few = group / 2;
@@ -120,9 +118,9 @@ void Ensemble::begin(Study& study) {
     ActiveCase& active = case_in(lane).emplace();
     active.number = which[static_cast<std::size_t>(lane)];
     active.repeats_after = begun.repeats_after;
-    active.next = rates[lane] > 0 ? reach_ / rates[lane] : end_;
+    active.control.next = rates[lane] > 0 ? reach_ / rates[lane] : end_;
     // The rate is infinite. The case is given up later if none of its steps is finite.
-    if (!(active.next > 0)) active.next = end_ * 1e-6;
+    if (!(active.control.next > 0)) active.control.next = end_ * 1e-6;
     if (rows_ == 0) continue;
     take_columns(active);
     active.x[0] = begun.initial[0];
@@ -153,7 +151,7 @@ void Ensemble::set_laggards_aside() {
   for (int lane = 0; lane < group; ++lane) {
     const auto& active = case_in(lane);
     if (!active) continue;
-    const bool is_far = end_ - active->t > soon * active->next;
+    const bool is_far = end_ - active->t > soon * active->control.next;
     if ((are_few && is_far) || (!laggards_ && active->shrinking.count() >= long_since))
       set_aside(lane);
   }
@@ -186,7 +184,7 @@ void Ensemble::idle(int lane) {
   state.last_step = 0;
   kernel_->load(workspace_.get(), lane, state);
   spans_.from[lane] = (*of)->t;
-  spans_.length[lane] = (*of)->next / 2;
+  spans_.length[lane] = (*of)->control.next / 2;
 }
 
 double Ensemble::size(int lane) const {
@@ -201,7 +199,7 @@ double Ensemble::size(int lane) const {
 }
 
 void Ensemble::plan(int lane, ActiveCase& active) {
-  const Stride next = stride(stops_[active.stop] - active.t, active.next);
+  const Stride next = stride(stops_[active.stop] - active.t, active.control.next);
   active.arrives = next.arrives;
   spans_.from[lane] = active.t;
   spans_.length[lane] = next.length;
@@ -228,8 +226,8 @@ bool Ensemble::judge(int lane, const Attempt& attempt, ActiveCase& active,
   const double growth =
       step_growth(static_cast<float>(error), kernel_->nodes, active.steps < 3 ? 30 : 8);
   if (!attempt.converged[lane] || !(error <= 1)) {
-    active.rejected = true;
-    active.next = h * std::min(attempt.converged[lane] ? 0.8 : unsolved, growth);
+    active.control.reject(
+        h, attempt.converged[lane] ? growth : std::min(StepControl::unsolved, growth));
     ++statistics_.error_test_failures;
     return false;
   }
@@ -237,13 +235,9 @@ bool Ensemble::judge(int lane, const Attempt& attempt, ActiveCase& active,
     ending = Ending::unbounded;
     return false;
   }
-  // A step that a stop cut short says little about the length of the next.
-  const bool is_cut = active.arrives && !active.rejected && h < active.next;
-  const double next = h * (active.rejected ? std::min(growth, 1.0) : growth);
-  const double bound = std::min(
-      next, active.shrinking.bound(error, h * growth, kernel_->nodes, Shrinking::Sign::jump));
-  active.next = is_cut ? std::max(active.next, bound) : bound;
-  active.rejected = false;
+  active.control.accept(
+      h, active.arrives, growth,
+      active.shrinking.bound(error, h * growth, kernel_->nodes, Shrinking::Sign::jump));
   active.t = active.arrives ? stops_[active.stop] : active.t + h;
   if (active.arrives) {
     active.shrinking.interrupt();

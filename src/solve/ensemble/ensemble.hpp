@@ -63,10 +63,10 @@ struct Problem {
 // A case in progress.
 struct ActiveCase {
   std::size_t number = 0;  // in the study
-  double t = 0, next = 0;  // present time and longest next step, s
-  std::size_t stop = 0;    // the next one
-  bool arrives = false;    // whether this attempt reaches it
-  bool rejected = false;   // whether the last attempt was rejected
+  double t = 0;            // s
+  StepControl control;
+  std::size_t stop = 0;  // the next one
+  bool arrives = false;  // whether this attempt reaches it
   std::size_t attempts = 0, steps = 0, rows = 1;
   double repeats_after;  // see Case
   Shrinking shrinking;

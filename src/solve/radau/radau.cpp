@@ -157,10 +157,10 @@ void RadauStepper::start(double t, const double* z) {
   kernel_->start(workspace_, {view_, z, tolerances_.rtol, tolerances_.atol, model_->gamma});
   time_ = t;
   shrinking_.interrupt();
-  if (next_step_ > 0) return;
+  if (steps_.next > 0) return;
   const double rate = std::max(kernel_->rate(workspace_, t), highest_frequency_);
-  next_step_ = rate > 0 ? 2 * reach_ / rate : end_;
-  if (!(next_step_ > 0)) next_step_ = end_ * 1e-6;
+  steps_.next = rate > 0 ? 2 * reach_ / rate : end_;
+  if (!(steps_.next > 0)) steps_.next = end_ * 1e-6;
 }
 
 // Whether the motion is about to reach infinity. A hybrid rig is exempt, because an event may stop
@@ -176,10 +176,8 @@ std::optional<Failure> RadauStepper::step(double limit) {
   // The last stage is at the end of the step, and sees the input there.
   const double to = model_->jumps_at(limit) ? model_->just_before(limit) : limit;
   const double left = (to > t ? to : limit) - t;
-  bool rejected = false;
   for (;;) {
-    double h = std::min(next_step_, widest_);
-    const auto [step, arrives] = stride(left, h);
+    const auto [step, arrives] = stride(left, std::min(steps_.next, widest_));
     if (!arrives && is_lost(step, t)) return step_is_lost;
     Attempt attempt;
     kernel_->attempt(workspace_, t, step, &attempt);
@@ -189,10 +187,9 @@ std::optional<Failure> RadauStepper::step(double limit) {
     const bool converged = attempt.verdict == Verdict::converged;
     if (converged) worst_state_ = static_cast<std::size_t>(attempt.worst_state);
     if (!converged || !(attempt.error <= 1)) {
-      next_step_ = step * (converged ? std::min(0.9, step_growth(attempt.error, stages))
-                           : attempt.verdict == Verdict::not_finite ? 0.1
-                                                                    : 0.4);
-      rejected = true;
+      steps_.reject(step, converged ? step_growth(attempt.error, stages)
+                          : attempt.verdict == Verdict::not_finite ? 0.1
+                                                                   : StepControl::unsolved);
       ++statistics_.error_test_failures;
       continue;
     }
@@ -201,12 +198,9 @@ std::optional<Failure> RadauStepper::step(double limit) {
     time_ = arrives ? limit : t + step;
     ++statistics_.steps;
     const double factor = step_growth(static_cast<float>(attempt.error), stages);
-    h = step * (rejected ? std::min(factor, 1.0) : factor);
-    h = std::min(h, shrinking_.bound(attempt.error, step * factor, stages));
+    steps_.accept(step, arrives, factor, shrinking_.bound(attempt.error, step * factor, stages));
     accepted_step_ = step;
     fill_ = std::min(1.0, step_safety / factor);
-    // A step that the limit cut short says little about the length of the next.
-    next_step_ = arrives && !rejected ? std::max(h, next_step_) : h;
     return {};
   }
 }

@@ -68,9 +68,9 @@ class RadauStepper : public Stepper {
   void* workspace_ = nullptr;
   void* view_ = nullptr;
   double time_ = 0;
-  double next_step_ = 0;    // s; 0: not known yet
-  bool attempted_ = false;  // a step was made that is not yet the present state
-  double turned_ = 0;       // integral of u until start(), m
+  StepControl steps_{.next = 0};  // 0: not known yet
+  bool attempted_ = false;        // a step was made that is not yet the present state
+  double turned_ = 0;             // integral of u until start(), m
   Shrinking shrinking_;
   // Length of the accepted step (s), and its fraction of the length that would have passed
   double accepted_step_ = 0, fill_ = 1;

@@ -91,8 +91,7 @@ void LaneEngine::open(std::size_t l, const model::Model& model, double end, bool
   std::copy(model.initial.begin(), model.initial.end(), lane.z.begin());
   lane.time = 0;
   lane.end = end;
-  lane.next_step = std::numeric_limits<double>::infinity();
-  lane.rejections = 0;
+  lane.steps = {};
   lane.standstill = {};
   lane.waits = false;
   scene_.radius[l] = model.radius;
@@ -314,10 +313,10 @@ void LaneEngine::plan_lane(std::size_t l, double limit) {
   const double left = limit - lane.time;
   if (!(left > 0)) {  // two guards cross zero at one instant: nothing moves
     lane.until = lane.time;
-    if (++lane.rejections > most_rejections) lane.alive = lane.moved = false;
+    if (++lane.steps.rejections > most_rejections) lane.alive = lane.moved = false;
     return;
   }
-  const Stride next = stride(left, lane.next_step);
+  const Stride next = stride(left, lane.steps.next);
   lane.step = next.length;
   lane.until = next.arrives ? limit : lane.time + lane.step;
   pieces_->length[l] = lane.instants->nominal(lane.time, lane.step);
@@ -329,24 +328,17 @@ void LaneEngine::judge() {
     Lane& lane = lanes_[l];
     step_.has_[l] = lane.moved && pieces_->length[l] > 0;
     if (!step_.has_[l]) continue;
-    constexpr double most_growth = 8;
     const double error = pieces_->error[l];
     const bool solved = error < hopeless;
     const bool arrives = lane.until >= lane.limit;
-    // A step that its limit cut short says little about the length of the next.
-    const bool tells = !arrives || lane.rejections > 0 || lane.next_step < most_growth * lane.step;
     if (!solved || !(error <= 1)) {
-      lane.next_step = lane.step * (solved ? std::min(0.9, step_growth(error, nodes)) : 0.2);
+      lane.steps.reject(lane.step, solved ? step_growth(error, nodes) : StepControl::unsolved);
       lane.moved = step_.has_[l] = false;
-      if (++lane.rejections > most_rejections) lane.alive = false;
+      if (lane.steps.rejections > most_rejections) lane.alive = false;
       continue;
     }
-    if (tells) {
-      const double factor = step_growth(error, nodes);
-      const double next = lane.step * (lane.rejections > 0 ? std::min(factor, 1.0) : factor);
-      lane.next_step = arrives && lane.rejections == 0 ? std::max(next, lane.next_step) : next;
-    }
-    lane.rejections = 0;
+    const bool needs = lane.steps.needs_growth(lane.step, arrives);
+    lane.steps.accept(lane.step, arrives, needs ? step_growth(error, nodes) : 1);
     step_.from_[l] = lane.time;
     step_.whole_[l] = lane.until <= lane.end;
     const model::Model& model = lane.run->model();

@@ -49,10 +49,9 @@ class LaneEngine {
     double limit = 0;                               // that the present piece reaches at most, s
     double until = 0;                               // end of the present piece, s
     double step = 0;  // its length before rounding to the nominal one, s
-    double next_step = std::numeric_limits<double>::infinity();
+    StepControl steps;
     model::Crossing crossing;
     double predicted_to = 0;  // crossings are predicted up to here, s
-    int rejections = 0;
     Standstill standstill;
     bool alive = false;
     bool waits = false;                   // does not move for now

@@ -128,9 +128,8 @@ std::optional<Failure> HeldStepper::step(double limit) {
   // Two guards may cross zero at one instant, apart only by the rounding of the time. Nothing moves
   // then.
   if (!(left > 0)) return {};
-  bool rejected = false;
   for (;;) {
-    const auto [step, arrives] = stride(left, next_step_);
+    const auto [step, arrives] = stride(left, steps_.next);
     if (!arrives && is_lost(step, time_)) return step_is_lost;
     piece_.length = instants_.nominal(time_, step);
     plate_.prepare(servo_, piece_.length, tables_, piece_.plate);
@@ -140,9 +139,8 @@ std::optional<Failure> HeldStepper::step(double limit) {
     statistics_.rhs_evaluations += nodes * static_cast<std::size_t>(attempt.iterations + 1);
     if (attempt.converged) worst_state_ = static_cast<std::size_t>(attempt.worst_state);
     if (!attempt.converged || !(attempt.error <= 1)) {
-      next_step_ =
-          step * (attempt.converged ? std::min(0.9, step_growth(attempt.error, nodes)) : 0.2);
-      rejected = true;
+      steps_.reject(step,
+                    attempt.converged ? step_growth(attempt.error, nodes) : StepControl::unsolved);
       ++statistics_.error_test_failures;
       continue;
     }
@@ -153,13 +151,8 @@ std::optional<Failure> HeldStepper::step(double limit) {
       loses_motion_ = loses_motion_ || piece_.plate.axis[i].table->lost;
     }
     ++statistics_.steps;
-    constexpr double most_growth = 8;
-    // A step that the limit cut short says little about the length of the next.
-    if (!arrives || rejected || next_step_ < most_growth * step) {
-      const double factor = step_growth(attempt.error, nodes);
-      const double next = step * (rejected ? std::min(factor, 1.0) : factor);
-      next_step_ = arrives && !rejected ? std::max(next, next_step_) : next;
-    }
+    const bool needs = steps_.needs_growth(step, arrives);
+    steps_.accept(step, arrives, needs ? step_growth(attempt.error, nodes) : 1);
     finish();
     return {};
   }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "model/model.hpp"
+#include "solve/collocation/step_length.hpp"
 #include "solve/outcome.hpp"
 #include "solve/sampled/held_plate.hpp"
 #include "solve/sampled/instants.hpp"
@@ -98,8 +99,8 @@ class HeldStepper : public Stepper {
   QuantityValues at_points_{};
   bool evaluated_ = false;
   const model::BallConstants* loads_of_ = nullptr;
-  double began_ = 0, time_ = 0;                                 // the last step, s
-  double next_step_ = std::numeric_limits<double>::infinity();  // s
+  double began_ = 0, time_ = 0;  // the last step, s
+  StepControl steps_;
   double last_error_ = 0;
   bool loses_motion_ = false;  // a servo moved between two nodes of the last step
   double tempo_ = 0;           // of the reference, rad/s
