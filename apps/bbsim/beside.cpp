@@ -10,11 +10,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/json.hpp"
-#include "base/whole.hpp"
+#include "base/number_text.hpp"
 #include "commands.hpp"
 #include "embedded.hpp"
 #include "file/share_folders.hpp"

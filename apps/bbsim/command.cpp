@@ -10,8 +10,6 @@
 #include <system_error>
 #include <utility>
 
-#include "base/short_number.hpp"
-
 namespace bbsim::app {
 
 namespace {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "base/whole.hpp"
+#include "base/number_text.hpp"
 
 namespace CLI {
 class App;

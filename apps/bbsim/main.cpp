@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The program bbsim: its commands, each in a file of its own, and one place that turns errors into
-// exit codes.
+// The program bbsim: its commands, and one place that turns errors into exit codes.
 #include <unistd.h>
 
 #include <csignal>

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// `bbsim measure`: measures of a result or a log.
+// `bbsim measure`: measures of a result or a log; `bbsim compare`: two results, or a log and a run;
+// `bbsim summarize`: statistics of a sweep.
 #include "api/measure.hpp"
 
 #include <memory>
@@ -10,8 +11,12 @@
 #include <vector>
 
 #include "api/inputs.hpp"
+#include "api/replay.hpp"
 #include "base/number_text.hpp"
 #include "commands.hpp"
+#include "file/atomic_file.hpp"
+#include "file/outputs.hpp"
+#include "progress.hpp"
 #include "results/read_result.hpp"
 #include "terminal.hpp"
 
@@ -87,6 +92,142 @@ void add_measure(Command& command, const Options& options) {
   add_measures(command, arguments->measures, "measures to take; repeatable").required();
   add_log_options(command, arguments->log);
   command.does([arguments, &options] { return measure(*arguments, options); });
+}
+
+namespace {
+
+struct CompareArguments {
+  api::CompareRequest request;
+  std::vector<std::string> overrides;
+};
+
+ExitCode compare(const CompareArguments& arguments, const Options& all) {
+  api::CompareRequest request = arguments.request;
+  file::Outputs outputs;
+  outputs.reads(request.a, "A");
+  say_if_waiting(request.a, "a CSV", all.quiet);
+  if (api::is_scenario(request.b)) {
+    request.run = read({request.b, arguments.overrides}, all, outputs);
+  } else if (!arguments.overrides.empty()) {
+    throw InputError("--set: allowed with a scenario as B, in which it sets a key");
+  } else {
+    outputs.reads(request.b, "B");
+    say_if_waiting(request.b, "a CSV", all.quiet);
+  }
+  prints(outputs);
+  Progress progress(request.b, all.quiet || !request.run);
+  const api::Compared compared = api::compare(request, progress);
+  if (!compared.reason.empty()) say(compared.reason);
+  if (compared.code == ExitCode::interrupted) return compared.code;
+  print(compared.text);
+  if (!all.quiet) {
+    for (const std::string& warning : compared.warnings) say(warning);
+  }
+  return compared.alike ? compared.code : ExitCode::ended_early;
+}
+
+}  // namespace
+
+void add_compare(Command& command, const Options& all) {
+  command.footer(
+      "bbsim matches columns by name and rows by position. Values a and b are alike if |a - b| <= "
+      "atol + rtol max(|a|, |b|). NaN equals NaN, and an infinity equals the same infinity. Texts, "
+      "such as a sweep's status, must be equal. Without --rtol and --atol, the tolerances follow "
+      "from the solver settings that HDF5 files carry; for other files they are 1e-9 and 1e-12.\n"
+      "With one of --map, --header, --period, --time-offset and --missing, or a scenario as B, A "
+      "is the log "
+      "of a rig and B a run. bbsim then prints, for each common column, how far the log's rows are "
+      "from the run at their times; --rtol and --atol say what is alike.\n"
+      "The exit code is 0 if the files are alike, 1 if they differ, 2 if one cannot be read or "
+      "lacks a named column.\n"
+      "\n"
+      "Examples:\n"
+      "  bbsim compare old.h5 new.h5\n"
+      "  bbsim compare log.csv rig.csv --map t=millis:ms,x=Ballx:mm --time-offset auto\n"
+      "  bbsim compare log.csv rig.yaml --set ball.radius=0.02");
+  const auto arguments = std::make_shared<CompareArguments>();
+  api::CompareRequest* const request = &arguments->request;
+  command.option("A", request->a, "CSV, HDF5 (.h5, .hdf5), or - for CSV on standard input")
+      .required();
+  command.option("B", request->b, "the file to compare it with, or a scenario (.yaml) to run")
+      .required();
+  command
+      .option("--rtol", request->rtol, "tolerance relative to the larger value; default: see below")
+      .takes("R");
+  command
+      .option("--atol", request->atol,
+              "absolute tolerance, in the column's unit; default: see below")
+      .takes("A");
+  command
+      .option("--columns", request->columns,
+              "compare only these columns; default: all; a column that only one file has is a "
+              "difference")
+      .takes("NAME,...")
+      .parted_by_commas();  // a file may follow
+  add_log_options(command, request->log);
+  add_overrides(command, arguments->overrides);
+  command.does([arguments, &all] { return compare(*arguments, all); });
+}
+
+namespace {
+
+struct SummarizeArguments : api::SummarizeRequest {
+  std::string output = "-";
+};
+
+ExitCode summarize(const SummarizeArguments& arguments, const Options& options) {
+  if (!arguments.output.ends_with(".csv") && arguments.output != "-") {
+    throw InputError("-o: found " + arguments.output +
+                     "; allowed: FILE.csv, or - for standard output");
+  }
+  for (const double part : arguments.quantiles) {
+    if (!(part >= 0 && part <= 1)) {
+      throw InputError("--quantiles: allowed: numbers from 0 to 1, such as 0.05,0.5,0.95");
+    }
+  }
+  file::Outputs outputs;
+  outputs.reads(arguments.file, "SWEEP");
+  outputs.writes(arguments.output, "-o");
+  say_if_waiting(arguments.file, "a CSV", options.quiet);
+  file::write_file(arguments.output, api::summarize(arguments));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_summarize(Command& command, const Options& options) {
+  command.footer(
+      "Statistics are over the cases of a group that are done and have a finite measure; `cases` "
+      "is the number of all cases in the group. The deviation is the sample standard deviation. "
+      "`bbsim summarise` is the same command.\n"
+      "\n"
+      "Example (twenty seeds of the sensor noise at three gains):\n"
+      "  bbsim sweep configs/rig.yaml --vary controller.sensor.seed=linear:1:20:20 \\\n"
+      "      --vary controller.gravity_compensation.kp=list:8,12,16 -o seeds.csv\n"
+      "  bbsim summarize seeds.csv --by controller.gravity_compensation.kp");
+  const auto arguments = std::make_shared<SummarizeArguments>();
+  command
+      .option("SWEEP", arguments->file,
+              "the result of a sweep: CSV, HDF5 (.h5, .hdf5), or - for CSV on standard input")
+      .required();
+  command
+      .option("--by", arguments->keys,
+              "group cases with equal values of these keys; default: one group of all cases")
+      .takes("KEY,...")
+      .parted_by_commas();
+  command.option("--measure", arguments->measures, "only these measures; repeatable")
+      .takes("NAME,...")
+      .may_be_repeated();
+  command
+      .option("--quantiles", arguments->quantiles,
+              "numbers from 0 to 1; default: 0.05,0.25,0.5,0.75,0.95")
+      .takes("Q,...")
+      .parted_by_commas();
+  command
+      .option("-o,--output", arguments->output,
+              "write FILE.csv, or - for CSV on standard output (default)")
+      .takes("FILE");
+  command.does([arguments, &options] { return summarize(*arguments, options); });
 }
 
 }  // namespace bbsim::app

@@ -11,11 +11,10 @@
 #include <optional>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "base/error.hpp"
-#include "base/printable.hpp"
-#include "base/short_number.hpp"
+#include "base/number_text.hpp"
+#include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "embedded.hpp"
 #include "terminal.hpp"

@@ -6,11 +6,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdio>
 
-#include "base/printable.hpp"
 #include "base/progress_line.hpp"
+#include "base/quoted.hpp"
 #include "signals.hpp"
 #include "terminal.hpp"
 

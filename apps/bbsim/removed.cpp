@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "removed.hpp"
-
+// Options, commands and endings that earlier versions had, with what to use instead
+// (docs/how-to/migrate.md).
 #include <algorithm>
 #include <span>
+
+#include "command_line.hpp"
 
 namespace bbsim::app {
 namespace {

@@ -1,23 +1,74 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// `bbsim replay`: a page that plays runs, sweeps and logs.
-#include "api/replay.hpp"
+// `bbsim replay`: a page that plays runs, sweeps and logs; and replay files.
+#include "replay.hpp"
 
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "api/replay.hpp"
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "command_line.hpp"
 #include "commands.hpp"
 #include "file/default_name.hpp"
+#include "file/format.hpp"
 #include "progress.hpp"
 #include "replay/page.hpp"
-#include "replay_file.hpp"
+#include "replay/template.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
+namespace {
+
+std::string size_text(std::size_t bytes) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.2f MB", static_cast<double>(bytes) / 1e6);
+  return text;
+}
+
+std::string content_text(const replay::Scene& scene) {
+  std::size_t rows = 0, cases = 0;
+  for (const replay::Run& run : scene.runs) rows += replay::rows_of_file(run);
+  for (const replay::Sweep& sweep : scene.sweeps) cases += sweep.status.size();
+  if (scene.runs.empty()) return counted(cases, "case");
+  const std::string text = counted(rows, "row");
+  return scene.runs.size() == 1 ? text : std::to_string(scene.runs.size()) + " runs, " + text;
+}
+
+}  // namespace
+
+void require_replay_ending(const std::string& file, const std::string& option) {
+  if (file == "-" || file::lower_ending(file) == ".html") return;
+  const std::string gone = removed_ending(file::lower_ending(file));
+  if (!gone.empty()) throw InputError(option + ": found " + file + ": " + gone);
+  throw InputError(option + ": found " + file + "; allowed: a name that ends in .html");
+}
+
+void declare_replay(file::Outputs& outputs, const std::string& file, const std::string& what) {
+  outputs.reads(replay::file_of_template(replay::replay_name), "the template of pages");
+  outputs.reads(replay::file_of_template(replay::engine_name), "the engine of live pages");
+  outputs.writes(file, what);
+}
+
+ReplayFile::ReplayFile(const std::string& target, bool live)
+    : target_(target),
+      template_(replay::read_template(replay::replay_name)),
+      engine_(live ? replay::read_template(replay::engine_name) : ""),
+      file_(target) {}
+
+void ReplayFile::write(const replay::Scene& scene, bool quiet) {
+  const std::string content = replay::page(scene, template_, engine_);
+  file_.write(content);
+  file_.commit();
+  if (quiet || target_ == "-") return;
+  say(target_ + ": " + content_text(scene) + ", " + size_text(content.size()));
+}
+
 namespace {
 
 struct ReplayArguments {

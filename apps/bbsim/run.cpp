@@ -4,20 +4,17 @@
 // `bbsim run`: simulates a scenario.
 #include "api/run.hpp"
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
-#include <vector>
 
 #include "api/replay.hpp"
 #include "base/error.hpp"
-#include "base/short_number.hpp"
+#include "base/number_text.hpp"
 #include "commands.hpp"
 #include "progress.hpp"
-#include "replay_file.hpp"
+#include "replay.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {

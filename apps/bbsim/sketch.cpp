@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "commands.hpp"
 #include "file/atomic_file.hpp"

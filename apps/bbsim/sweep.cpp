@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// `bbsim sweep`: a scenario at many values of its keys.
+// `bbsim sweep`: a scenario at many values of its keys; `bbsim merge`: joins the parts of a sweep.
 #include "api/sweep.hpp"
 
 #include <algorithm>
@@ -9,22 +9,102 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "base/number_text.hpp"
-#include "base/shell_word.hpp"
-#include "base/short_number.hpp"
+#include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "commands.hpp"
 #include "file/atomic_file.hpp"
 #include "progress.hpp"
 #include "scenario/measures.hpp"
 #include "scenario/variation.hpp"
-#include "slurm.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
 namespace {
+
+// "gains.h5" and the number of a part become "gains-3of8.h5". merge() finds missing parts by such
+// names.
+struct PartName {
+  std::string stem, ending;
+
+  explicit PartName(const std::string& file) {
+    const std::size_t dot = file.rfind('.');
+    const std::size_t slash = file.rfind('/');
+    const bool has_ending =
+        dot != std::string::npos && (slash == std::string::npos || dot > slash + 1);
+    stem = file.substr(0, has_ending ? dot : file.size());
+    ending = has_ending ? file.substr(dot) : "";
+  }
+
+  // `number` is for a shell: $SLURM_ARRAY_TASK_ID in quotes, or a star.
+  [[nodiscard]] std::string word(std::string_view number, std::size_t tasks) const {
+    return shell_word(stem + '-') + std::string(number) +
+           shell_word("of" + std::to_string(tasks) + ending);
+  }
+};
+
+constexpr std::string_view task = "\"$SLURM_ARRAY_TASK_ID\"";
+
+// The script that runs a sweep as a Slurm job array, one shard for each task.
+struct SlurmJob {
+  std::string script;                // where it is written, as in the advice to submit it
+  std::vector<std::string> options;  // of `bbsim sweep`, behind the scenario; one or two words each
+  std::string scenario;
+  std::string output, summary;  // of the sweep as a whole; no summary if empty
+  std::size_t cases = 0, tasks = 1;
+  std::size_t threads = 0;  // of a task; 0: as many as Slurm gives it
+};
+
+std::string slurm_script(const SlurmJob& job) {
+  const std::string tasks = std::to_string(job.tasks);
+  const PartName part(job.output);
+  const std::string merge =
+      "bbsim merge " + part.word("*", job.tasks) + " -o " + shell_word(job.output);
+  std::string text =
+      "#!/bin/sh\n"
+      "# A sweep of " +
+      std::to_string(job.cases) + " cases as a Slurm job array of " + tasks +
+      " tasks. Submit it from the folder\n"
+      "# in which bbsim wrote it, because names of files are relative to that folder:\n"
+      "#\n"
+      "#   sbatch " +
+      shell_word(job.script) +
+      "\n"
+      "#\n"
+      "# A task that is queued again continues where it stopped. When all tasks are done, join "
+      "their parts:\n"
+      "#\n"
+      "#   " +
+      merge +
+      "\n"
+      "#\n"
+      "# or let Slurm do it, with the number of the array's job in place of JOB:\n"
+      "#\n"
+      "#   sbatch --dependency=afterany:JOB --wrap=" +
+      shell_word(merge) +
+      "\n"
+      "#\n"
+      "#SBATCH --job-name=bbsim\n"
+      "#SBATCH --array=1-" +
+      tasks + "\n";
+  if (job.threads > 0) text += "#SBATCH --cpus-per-task=" + std::to_string(job.threads) + '\n';
+  text +=
+      "#SBATCH --requeue\n"
+      "#SBATCH --output=bbsim-%A_%a.log\n"
+      "exec \"${BBSIM:-bbsim}\" sweep " +
+      shell_word(job.scenario);
+  for (const std::string& option : job.options) text += " \\\n  " + option;
+  if (!job.summary.empty()) {
+    text += " \\\n  --summary " + PartName(job.summary).word(task, job.tasks);
+  }
+  text += " \\\n  -j \"${SLURM_CPUS_PER_TASK:-1}\" --resume --shard " + std::string(task) + '/' +
+          tasks + " \\\n  -o " + part.word(task, job.tasks) + '\n';
+  return text;
+}
 
 struct SweepArguments {
   ScenarioArguments scenario;
@@ -122,7 +202,7 @@ ExitCode write_slurm(const SweepArguments& arguments, api::SweepRequest request,
                                                   size.cases, tasks, arguments.threads}));
   if (!options.quiet) {
     say(name_of_output(arguments.slurm) + ": " + std::to_string(size.cases) + " cases in " +
-        std::to_string(tasks) + (tasks == 1 ? " task" : " tasks") + "; submit it with sbatch");
+        counted(tasks, "task") + "; submit it with sbatch");
   }
   return ExitCode::done;
 }
@@ -240,6 +320,41 @@ void add_sweep(Command& command, const Options& options) {
   command.does([arguments, &options] {
     return with_error_option(arguments->error, [&] { return sweep(*arguments, options); });
   });
+}
+
+namespace {
+
+struct MergeArguments {
+  std::vector<std::string> parts;
+  std::string output;
+};
+
+ExitCode merge(const MergeArguments& arguments, const Options& options) {
+  Progress progress("merge", options.quiet);
+  const api::MergeResult merged = api::merge(arguments.parts, arguments.output, progress);
+  if (!merged.note.empty() && !options.quiet) say(merged.note);
+  if (merged.code != ExitCode::done) {
+    say("interrupted; nothing was written.");
+    return merged.code;
+  }
+  if (!options.quiet) {
+    say(name_of_output(arguments.output) + ": " + std::to_string(merged.cases) + " cases from " +
+        std::to_string(arguments.parts.size()) + " parts");
+  }
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_merge(Command& command, const Options& options) {
+  const auto arguments = std::make_shared<MergeArguments>();
+  command.option("PARTS", arguments->parts, "the files of all shards, in any order").required();
+  command
+      .option("-o,--output", arguments->output,
+              "write FILE.csv or FILE.h5, like the parts; - is CSV on standard output")
+      .takes("FILE")
+      .required();
+  command.does([arguments, &options] { return merge(*arguments, options); });
 }
 
 }  // namespace bbsim::app

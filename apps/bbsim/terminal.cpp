@@ -11,7 +11,7 @@
 #include <cstring>
 #include <new>
 
-#include "base/printable.hpp"
+#include "base/quoted.hpp"
 #include "file/atomic_file.hpp"
 
 namespace bbsim::app {
@@ -49,6 +49,28 @@ void say_if_waiting(const std::string& file, const std::string& what, bool quiet
 
 void print(const std::string& report) {
   file::write_file("-", printable(report));
+}
+
+std::string wrapped(std::string_view text, std::size_t indent, std::size_t column,
+                    std::size_t width) {
+  std::string result;
+  bool first = true;
+  while (!text.empty()) {
+    const std::size_t end = text.find(' ');
+    const std::string_view word = text.substr(0, end);
+    if (!first && column + 1 + word.size() > width) {
+      result += '\n' + std::string(indent, ' ');
+      column = indent;
+    } else if (!first) {
+      result += ' ';
+      ++column;
+    }
+    result += word;
+    column += word.size();
+    first = false;
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  }
+  return result;
 }
 
 }  // namespace bbsim::app

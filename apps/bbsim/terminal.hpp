@@ -35,4 +35,9 @@ inline constexpr const char* to_clear_line = "\r\033[K";
 // If the file is standard input and that is a terminal, says that the program waits for `what`.
 void say_if_waiting(const std::string& file, const std::string& what, bool quiet);
 
+// Wraps a text into lines of at most `width` columns that start at column `indent`; the first one
+// is at `column` already. Longer words stay whole.
+[[nodiscard]] std::string wrapped(std::string_view text, std::size_t indent, std::size_t column,
+                                  std::size_t width);
+
 }  // namespace bbsim::app

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "words.hpp"
-
+// Completion: how the last word of a command line may go on.
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <string_view>
 #include <vector>
 
 #include "command.hpp"
+#include "command_line.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/keys.hpp"
 #include "scenario/measures.hpp"

@@ -22,7 +22,6 @@
 #include "api/cases.hpp"
 #include "api/check.hpp"
 #include "api/environments.hpp"
-#include "api/fault.hpp"
 #include "api/inputs.hpp"
 #include "api/linearize.hpp"
 #include "api/run.hpp"
@@ -412,7 +411,7 @@ PYBIND11_MODULE(_bbsim, module) {
   module.def("check", &check);
   module.def("accuracy", &accuracy);
   module.def("key_and_hint", [](const std::string& message) {
-    const bbsim::api::KeyAndHint found = bbsim::api::key_and_hint(message);
+    const bbsim::KeyAndHint found = bbsim::key_and_hint(message);
     return std::pair(found.key, found.hint);
   });
 }

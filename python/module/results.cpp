@@ -20,8 +20,8 @@
 #include "api/measure.hpp"
 #include "api/replay.hpp"
 #include "base/error.hpp"
-#include "base/printable.hpp"
 #include "base/progress_line.hpp"
+#include "base/quoted.hpp"
 #include "file/atomic_file.hpp"
 #include "file/default_name.hpp"
 #include "file/outputs.hpp"
@@ -35,7 +35,7 @@
 #include "scenario/columns.hpp"
 #include "scenario/measures.hpp"
 #include "scenario/reader.hpp"
-#include "yaml/nearest.hpp"
+#include "yaml/spelling.hpp"
 
 namespace bbsim::python {
 namespace {

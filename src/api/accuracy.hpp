@@ -10,8 +10,6 @@
 #include "api/watch.hpp"
 #include "scenario/scenario.hpp"
 #include "study/accuracy.hpp"
-#include "study/accuracy_text.hpp"
-#include "study/full_model.hpp"
 #include "study/verify.hpp"
 
 namespace bbsim::api {

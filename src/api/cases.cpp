@@ -4,29 +4,24 @@
 #include "api/cases.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <limits>
 #include <string_view>
-#include <thread>
 #include <utility>
 
 #include "api/assemble.hpp"
 #include "api/sweep.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
-#include "base/whole.hpp"
+#include "base/real.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/measures.hpp"
 #include "solve/output_grid.hpp"
 #include "sweep/sweep.hpp"
 #include "sweep/sweep_measures.hpp"
-#include "yaml/nearest.hpp"
+#include "yaml/spelling.hpp"
 
 namespace bbsim::api {
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 [[noreturn]] void refuse(const std::string& what, const std::string& found,
                          const std::string& allowed) {
@@ -124,10 +119,7 @@ void check_columns(const std::vector<std::string>& names, const Scenario& first)
     if (!is_known) {
       std::vector<std::string_view> all;
       for (const scenario::Column& known : scenario::catalogue) all.push_back(known.name);
-      const std::string_view nearest = yaml::nearest_name(*name, all);
-      refuse("columns",
-             found + (nearest.empty() ? "" : " (did you mean " + std::string(nearest) + "?)"),
-             "the names that `bbsim columns` lists");
+      refuse("columns", found + yaml::hint(*name, all), "the names that `bbsim columns` lists");
     }
     if (const scenario::Missing lacks = scenario::missing(*column, first)) {
       refuse("columns", found + ", but " + lacks.why, lacks.instead);
@@ -158,9 +150,9 @@ class Cases {
     }
     result.times = times_.count;
     result.columns.resize(request.columns.size());
-    for (auto& column : result.columns) column.assign(request.count * times_.count, nothing);
+    for (auto& column : result.columns) column.assign(request.count * times_.count, no_number);
     result.measures.resize(request.measures.size());
-    for (auto& measure : result.measures) measure.assign(request.count, nothing);
+    for (auto& measure : result.measures) measure.assign(request.count, no_number);
     result.status.assign(request.count, {"", ""});
     for (const std::string& name : request.columns) {
       if (name != "t") series_.push_back(scenario::find_column(name));
@@ -200,20 +192,15 @@ class Cases {
  private:
   bool run(const sweep::SweepTask& task) {
     const sweep::Engine engine = sweep::choose_engine(task);
-    static constexpr std::atomic<bool> never{false};
-    const std::atomic<bool>* const stop = watch_.stop();
-    const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
-    const bool finished = sweep::run_sweep(
-        engine, {0, request_.count},
-        request_.threads > 0 ? static_cast<std::size_t>(request_.threads) : processors,
-        stop != nullptr ? *stop : never, [](sweep::CaseResults&) {},
+    return sweep::run_sweep(
+        engine, {0, request_.count}, threads_of(request_.threads), stop_of(watch_),
+        [](sweep::CaseResults&) {},
         [&](const sweep::CaseResults& results) {
           take(task, results);
           done_ += results.count;
           watch_.update(static_cast<double>(done_) / static_cast<double>(passes_ * request_.count),
                         "");
         });
-    return finished;
   }
 
   void take(const sweep::SweepTask& task, const sweep::CaseResults& results) {
@@ -280,7 +267,7 @@ CasesResult run_cases(const CasesRequest& request, Watch& watch) {
   Scenario first = request.family.read(request.count > 0 ? plan.first_settings() : Settings{});
   check_columns(request.columns, first);
   const bool any_end = varies_time(request);
-  const double end = any_end ? std::numeric_limits<double>::infinity() : first.time.end;
+  const double end = any_end ? infinity : first.time.end;
   check_windows(request, end);
   if (request.times) check_times(request, end);
   if (any_end && !request.times && !request.columns.empty()) {

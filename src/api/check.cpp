@@ -8,7 +8,6 @@
 #include <functional>
 #include <optional>
 #include <set>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -17,9 +16,10 @@
 #include "api/linearize.hpp"
 #include "api/loop_text.hpp"
 #include "api/probe.hpp"
-#include "base/short_number.hpp"
-#include "model/control/common_cycle.hpp"
-#include "model/explain.hpp"
+#include "base/number_text.hpp"
+#include "base/text.hpp"
+#include "model/control/sample_times.hpp"
+#include "model/model.hpp"
 #include "model/spectrum.hpp"
 #include "scenario/exercise.hpp"
 #include "scenario/family.hpp"
@@ -43,12 +43,9 @@ void report_gain(Report& report, const Scenario& scenario, const model::Model& m
                                           },
                                           model.system);
   const auto row = [](const double(&gain)[8]) {
-    std::string text;
-    for (const double value : gain) {
-      // Entries that symmetry makes zero differ from it by rounding.
-      text += (text.empty() ? "" : ", ") + short_number(std::abs(value) < 1e-12 ? 0 : value);
-    }
-    return text;
+    // Entries that symmetry makes zero differ from it by rounding.
+    return joined(gain,
+                  [](double value) { return short_number(std::abs(value) < 1e-12 ? 0 : value); });
   };
   report.push_back({"gain phi", row(law.gain[0])});
   report.push_back({"gain theta", row(law.gain[1])});
@@ -185,19 +182,17 @@ void report_sweep(Report& report, const Scenario& scenario) {
   const ScenarioFamily family(scenario.source);
   const sweep::SweepPlan plan(family, scenario.sweep);
   static_cast<void>(plan.check(family, 0, plan.cases(), [](double) { return true; }));
-  std::string keys;
-  for (const sweep::PlanAxis& axis : plan.axes()) keys += (keys.empty() ? "" : ", ") + axis.key;
-  report.push_back({"sweep", std::to_string(plan.cases()) + " cases of bbsim sweep, over " + keys});
+  report.push_back({"sweep", std::to_string(plan.cases()) + " cases of bbsim sweep, over " +
+                                 joined(plan.axes(), &sweep::PlanAxis::key)});
 }
 
 void report_exercise(Report& report, const Scenario& scenario) {
   const auto exercise = scenario::checked_exercise(scenario);
   if (!exercise) return;
-  std::string free;
-  for (const std::string& key : exercise->free) free += (free.empty() ? "" : ", ") + key;
+  const std::string free = joined(exercise->free);
   const std::size_t count = exercise->tasks.size();
-  report.push_back({"exercise", std::to_string(count) + (count == 1 ? " task" : " tasks") +
-                                    "; free keys: " + (free.empty() ? "none" : free)});
+  report.push_back(
+      {"exercise", counted(count, "task") + "; free keys: " + (free.empty() ? "none" : free)});
   for (std::size_t i = 0; i < count; ++i) {
     const auto& [text, expect] = exercise->tasks[i];
     report.push_back({"", std::to_string(i + 1) + ". " + text + " (" + expect + ')'});
@@ -242,9 +237,8 @@ Report report_of(const Scenario& scenario, bool sweep, bool reasons) {
   Report report;
   report.push_back({"scenario", scenario.source.file + " is valid"});
   if (!scenario.title.empty()) report.push_back({"title", scenario.title});
-  std::string states;
-  for (const std::string& name : model.state_names()) states += (states.empty() ? "" : ", ") + name;
-  report.push_back({"model", std::to_string(model.state_names().size()) + " states: " + states});
+  report.push_back({"model", std::to_string(model.state_names().size()) +
+                                 " states: " + joined(model.state_names())});
   for (const model::Note& note : model::explain(scenario, model)) {
     report.push_back({"  " + note.part, note.reason});
   }

@@ -12,7 +12,7 @@
 #include "api/loop_text.hpp"
 #include "api/probe.hpp"
 #include "base/number_text.hpp"
-#include "base/short_number.hpp"
+#include "base/text.hpp"
 #include "record/linear_text.hpp"
 #include "study/operating_point.hpp"
 #include "yaml/quantity.hpp"
@@ -51,11 +51,7 @@ std::string text_of(const model::Margins& margins) {
 }
 
 std::string names_line(const std::vector<model::LinearSignal>& signals) {
-  std::string line;
-  for (const model::LinearSignal& signal : signals) {
-    line += (line.empty() ? "" : ", ") + signal.name + " (" + signal.unit + ")";
-  }
-  return line;
+  return joined(signals, [](const auto& its) { return its.name + " (" + its.unit + ")"; });
 }
 
 std::string values_line(const model::Eigenvalues& values) {
@@ -155,12 +151,10 @@ Report margin_lines(const model::Linearization& linearization) {
     lines.push_back({"  " + loop.command.substr(0, loop.command.find('_')), text_of(loop.margins)});
   }
   const auto bandwidths = [&linearization](double model::Bandwidth::*of) {
-    std::string text;
-    for (const model::Bandwidth& bandwidth : linearization.bandwidths) {
-      text += (text.empty() ? "" : ", ") + bandwidth.output + " " +
-              (std::isfinite(bandwidth.*of) ? three_digits(bandwidth.*of) + " rad/s" : "none");
-    }
-    return text;
+    return joined(linearization.bandwidths, [of](const model::Bandwidth& its) {
+      return its.output + " " +
+             (std::isfinite(its.*of) ? three_digits(its.*of) + " rad/s" : "none");
+    });
   };
   const auto all_end = [&linearization](double model::Bandwidth::*of) {
     return std::ranges::all_of(linearization.bandwidths, [of](const auto& bandwidth) {

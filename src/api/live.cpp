@@ -14,8 +14,6 @@
 #include "base/number_text.hpp"
 #include "model/control/open_loops.hpp"
 #include "record/linear_text.hpp"
-#include "scenario/exercise.hpp"
-#include "scenario/family.hpp"
 #include "scenario/keys.hpp"
 #include "scenario/measures.hpp"
 #include "scenario/variation.hpp"

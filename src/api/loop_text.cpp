@@ -9,9 +9,8 @@
 #include <cstddef>
 #include <optional>
 
-#include "base/short_number.hpp"
-#include "model/control/common_cycle.hpp"
-#include "model/spectrum.hpp"
+#include "base/number_text.hpp"
+#include "model/control/sample_times.hpp"
 
 namespace bbsim::api {
 

@@ -11,20 +11,17 @@
 #include <functional>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "api/linearize.hpp"
 #include "api/loop_text.hpp"
 #include "base/error.hpp"
-#include "base/short_number.hpp"
+#include "base/number_text.hpp"
 #include "model/control/derivatives.hpp"
 #include "model/control/external_controller.hpp"
 #include "model/control/identified_law.hpp"
-#include "model/control/linearize.hpp"
 #include "model/control/sampled_controller.hpp"
 #include "model/dense.hpp"
 #include "model/hybrid/switched_model.hpp"

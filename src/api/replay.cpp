@@ -4,20 +4,119 @@
 #include "api/replay.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
+#include "api/check.hpp"
 #include "api/inputs.hpp"
 #include "api/live.hpp"
-#include "api/picture.hpp"
-#include "api/place_log.hpp"
+#include "api/measure.hpp"
 #include "api/version.hpp"
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "file/format.hpp"
+#include "record/log_distance.hpp"
 #include "replay/sources.hpp"
 #include "scenario/reader.hpp"
 
 namespace bbsim::api {
 namespace {
+
+// Name of a file without its folder, as scenes show it.
+std::string short_name(const std::string& file) {
+  return file == "-" ? "standard input" : std::filesystem::path(file).filename().string();
+}
+
+// Adds facts about the scene: its plate, ball and signals, and, if `checked`, the report of
+// `bbsim check`.
+void describe_scene(replay::Run& run, const Scenario& scenario, bool checked = true) {
+  replay::describe(run, scenario);
+  if (checked) run.check = lines_of(to_text(describe(scenario)));
+}
+
+}  // namespace
+
+std::vector<const scenario::Column*> with_pictured(
+    const std::vector<const scenario::Column*>& columns, const Scenario& scenario) {
+  std::vector<std::string> names{"t",       "x",       "y",       "phi",    "theta",
+                                 "ball_qw", "ball_qx", "ball_qy", "ball_qz"};
+  if (scenario.controller) {
+    for (const char* name : {"x_reference", "y_reference", "phi_command", "theta_command"}) {
+      names.emplace_back(name);
+    }
+    if (scenario.controller->sampling) {
+      names.emplace_back("x_measured");
+      names.emplace_back("y_measured");
+    }
+  }
+  std::vector<const scenario::Column*> all = columns;
+  for (const scenario::Column* column : scenario::columns_named(names)) {
+    if (std::ranges::find(all, column) == all.end()) all.push_back(column);
+  }
+  return all;
+}
+
+replay::Run run_of(const Scenario& scenario, file::TableData rows, record::RunSummary summary,
+                   const std::vector<double>& end_row, bool checked) {
+  for (std::size_t c = 0; c < end_row.size(); ++c) rows.columns[c].push_back(end_row[c]);
+  replay::Run run = replay::run_of_table(std::move(rows), short_name(scenario.source.file));
+  run.has_end_row = !end_row.empty();
+  run.reached = summary.end_time;
+  describe_scene(run, scenario, checked);
+  run.status = summary.status;
+  run.reason = summary.reason;
+  run.version = summary.version;
+  for (const record::EventRecord& event : summary.events) {
+    run.events.push_back({event.t, event.name, event.action, event.x, event.y});
+  }
+  summary.scenario_text.clear();  // replay::Run holds it separately
+  run.summary = record::to_json(summary);
+  return run;
+}
+
+namespace {
+
+file::TableData table_of(const replay::Run& run) {
+  file::TableData table;
+  for (const replay::Series& column : run.columns) {
+    table.names.push_back(column.name);
+    table.columns.push_back(column.values);
+  }
+  return table;
+}
+
+bool have_in_common(const replay::Run& log, const replay::Run& run) {
+  return std::ranges::any_of(log.columns, [&](const replay::Series& column) {
+    return column.name != "t" && replay::find_series(run, column.name) != nullptr;
+  });
+}
+
+// Aligns the scene's last run, which is a log, with the first one if `align`. Returns sentences
+// about the shift and the distance to that run.
+std::vector<std::string> place_log(replay::Scene& scene, bool align) {
+  replay::Run& log = scene.runs.back();
+  const replay::Run& first_run = scene.runs.front();
+  std::vector<std::string> notes;
+  file::TableData log_table = table_of(log);
+  const file::TableData run_table = table_of(first_run);
+  const auto t = std::ranges::find(log.columns, "t", &replay::Series::name);
+  if (align) {
+    const double offset = record::time_offset(log_table, log.name, run_table, first_run.name);
+    for (double& time : t->values) time += offset;
+    log_table = table_of(log);
+    notes.push_back(moved_text(log.name, offset));
+  }
+  if (t == log.columns.end() || !have_in_common(log, first_run)) return notes;
+  try {
+    notes.push_back(
+        record::to_text(record::log_distance(log_table, log.name, run_table, first_run.name),
+                        log.name, first_run.name));
+    notes.back().pop_back();
+  } catch (const InputError& error) {  // no time in common; the log can still be shown
+    notes.push_back("warning: " + std::string(error.what()));
+  }
+  return notes;
+}
 
 // One of the files after reading; a scenario is run later.
 struct SourceFile {
@@ -214,7 +313,7 @@ replay::Run run_of(results::Result result, const std::string& name) {
   if (!scenario) return run;
   const Source& source = scenario->source;
   try {
-    api::describe(run, parse_scenario(source.text, source.file, source.overrides));
+    describe_scene(run, parse_scenario(source.text, source.file, source.overrides));
   } catch (const InputError&) {  // its tables are gone, for example, or another version wrote it
     replay::describe_sight(run, *scenario);
   }

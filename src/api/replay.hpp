@@ -12,11 +12,24 @@
 #include "api/run.hpp"
 #include "api/watch.hpp"
 #include "file/outputs.hpp"
+#include "file/table_writer.hpp"
+#include "record/summary.hpp"
 #include "replay/scene.hpp"
 #include "results/log.hpp"
 #include "results/read_result.hpp"
+#include "scenario/columns.hpp"
+#include "scenario/scenario.hpp"
 
 namespace bbsim::api {
+
+// These columns, followed by others that a picture of the scene needs.
+[[nodiscard]] std::vector<const scenario::Column*> with_pictured(
+    const std::vector<const scenario::Column*>& columns, const Scenario& scenario);
+
+// Run of the scenario for a page; `end_row` is that of record::Recorder.
+[[nodiscard]] replay::Run run_of(const Scenario& scenario, file::TableData rows,
+                                 record::RunSummary summary, const std::vector<double>& end_row,
+                                 bool checked);
 
 struct ReplayRequest {
   // A scenario, whose file ends in .yaml or .yml, or a result: a file, or one in memory with its

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "api/assemble.hpp"
-#include "api/picture.hpp"
+#include "api/replay.hpp"
 #include "api/run_sensitivity.hpp"
 #include "api/simulation.hpp"
 #include "base/number_text.hpp"

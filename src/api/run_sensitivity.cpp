@@ -5,18 +5,15 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <limits>
 #include <string_view>
-#include <thread>
 #include <utility>
 
 #include "api/assemble.hpp"
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
-#include "base/short_number.hpp"
+#include "base/real.hpp"
 #include "model/model.hpp"
 #include "scenario/keys.hpp"
 #include "sweep/sweep.hpp"
@@ -30,8 +27,6 @@ namespace {
 constexpr std::array state_columns = {
     "x",     "y",        "vx",         "vy",        "spin",        "gamma",      "phi",
     "theta", "phi_rate", "theta_rate", "servo_phi", "servo_theta", "servo_third"};
-
-constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 // The neighbors of a key are at these many steps from its value.
 constexpr std::array offsets = {-2, -1, 1, 2};
@@ -237,12 +232,10 @@ Sensitivity::Runs Sensitivity::run_neighbors(Watch& watch) const {
   const auto append = [](std::vector<double>& into, const std::vector<double>& numbers) {
     into.insert(into.end(), numbers.begin(), numbers.end());
   };
-  static constexpr std::atomic<bool> never{false};
   watch.start(0);
   runs.interrupted = !sweep::run_sweep(
-      sweep::choose_engine(task), {0, cases.size()},
-      std::max(1U, std::thread::hardware_concurrency()),
-      watch.stop() != nullptr ? *watch.stop() : never, [](sweep::CaseResults&) {},
+      sweep::choose_engine(task), {0, cases.size()}, threads_of(0), stop_of(watch),
+      [](sweep::CaseResults&) {},
       [&](const sweep::CaseResults& results) {
         runs.status.insert(runs.status.end(), results.status.begin(), results.status.end());
         for (std::size_t i = 0; i < results.count; ++i) {  // the time reached comes first
@@ -257,8 +250,8 @@ Sensitivity::Runs Sensitivity::run_neighbors(Watch& watch) const {
       });
   watch.end();
   runs.status.resize(cases.size());
-  runs.measures.resize(cases.size() * measures_.size(), no_value);
-  for (auto& column : runs.columns) column.resize(cases.size() * grid_.size(), no_value);
+  runs.measures.resize(cases.size() * measures_.size(), no_number);
+  for (auto& column : runs.columns) column.resize(cases.size() * grid_.size(), no_number);
   return runs;
 }
 
@@ -309,8 +302,8 @@ std::vector<std::vector<double>> Sensitivity::find(RunResult& run, Watch& watch)
         largest = std::max(largest, std::abs(f[i] - f[i - 1]) / step);
       }
       const bool good = all && is_reliable(estimate, largest, std::abs(f[2]), step);
-      summary.gradients[m].second.emplace_back(key, good ? estimate.value : no_value);
-      if (!good) doubt(measures_[m].name, no_value);
+      summary.gradients[m].second.emplace_back(key, good ? estimate.value : no_number);
+      if (!good) doubt(measures_[m].name, no_number);
     }
     if (doubts.empty()) continue;
     summary.warnings.push_back(

@@ -5,7 +5,6 @@
 // (docs/explanation/sensitivity.md).
 #pragma once
 
-#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>

@@ -1,22 +1,17 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The core of a run, with its model assembled and its files open; and sentences about the run
-// (run_text.cpp).
+// The core of a run, with its model assembled and its files open; and sentences about the run.
 #pragma once
 
 #include <cstddef>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "api/run.hpp"
 #include "file/table_writer.hpp"
 #include "model/model.hpp"
-#include "record/edge_note.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/measures.hpp"
-#include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
 
 namespace bbsim::api {
@@ -40,20 +35,5 @@ struct Simulation {
 [[nodiscard]] Simulation simulate(const Scenario& scenario, const model::Model& model,
                                   const solve::OutputGrid& grid, const RowsAndMeasures& wanted,
                                   file::TableWriter& writer, Watch& watch);
-
-// Why a run failed: when, what the integrator reported, what grew, and what to do.
-[[nodiscard]] std::string failure_text(const Scenario& scenario, const model::Model& model,
-                                       const solve::Outcome& outcome);
-
-// Why a run stopped: when, at which event, which key asks for it, and how the scene would run on.
-[[nodiscard]] std::string stopped_text(const Scenario& scenario, const solve::Outcome& outcome);
-
-// How often each event was noted, and when first; one line each, empty if none was.
-[[nodiscard]] std::string noted_text(const std::vector<model::Occurrence>& occurrences);
-
-// Remarks on the scenario, an unstable loop, and a ball that left its plate without an event.
-[[nodiscard]] std::vector<std::string> warnings_of(const Scenario& scenario,
-                                                   const model::Model& model, bool failed,
-                                                   const std::optional<record::OffPlate>& left);
 
 }  // namespace bbsim::api

@@ -7,15 +7,13 @@
 #include <chrono>
 #include <functional>
 #include <memory>
-#include <thread>
 #include <utility>
 
 #include "api/assemble.hpp"
 #include "api/inputs.hpp"
 #include "api/sweep_text.hpp"
+#include "base/number_text.hpp"
 #include "base/quoted.hpp"
-#include "base/short_number.hpp"
-#include "base/whole.hpp"
 #include "file/atomic_file.hpp"
 #include "file/default_name.hpp"
 #include "scenario/measures.hpp"
@@ -27,12 +25,6 @@
 
 namespace bbsim::api {
 namespace {
-
-const std::atomic<bool>& stop_of(Watch& watch) {
-  static constexpr std::atomic<bool> never{false};
-  const std::atomic<bool>* const stop = watch.stop();
-  return stop != nullptr ? *stop : never;
-}
 
 std::vector<scenario::Measure> measures_of(const Sweep& sweep, const ScenarioFamily& family,
                                            const sweep::SweepPlan& plan, const Scenario& first) {
@@ -220,9 +212,7 @@ SweepResult sweep(const SweepRequest& request, Watch& watch) {
     return result;
   }
 
-  const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
-  const std::size_t threads =
-      request.threads > 0 ? static_cast<std::size_t>(request.threads) : processors;
+  const std::size_t threads = threads_of(request.threads);
   const auto interrupted = [&result] {
     result.code = ExitCode::interrupted;
     result.reason = "interrupted after " + std::to_string(result.rows) + " of " +

@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Observer of long work, which may end it.
+// Observer of long work, which may end it; and the threads of such work.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <thread>
 
 namespace bbsim::api {
 
@@ -31,5 +34,18 @@ class Watch {
   // Requested when work begins; work ends soon after it becomes true. May be null.
   [[nodiscard]] virtual const std::atomic<bool>* stop() { return nullptr; }
 };
+
+// The watch's request to stop, or one that never comes.
+[[nodiscard]] inline const std::atomic<bool>& stop_of(Watch& watch) {
+  static constexpr std::atomic<bool> never{false};
+  const std::atomic<bool>* const stop = watch.stop();
+  return stop != nullptr ? *stop : never;
+}
+
+// A request for threads, or one for each processor if it is 0.
+[[nodiscard]] inline std::size_t threads_of(double request) {
+  return request > 0 ? static_cast<std::size_t>(request)
+                     : std::max(1U, std::thread::hardware_concurrency());
+}
 
 }  // namespace bbsim::api

@@ -6,6 +6,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace bbsim {
@@ -59,5 +60,13 @@ class OutputError : public std::runtime_error {
 class ReaderGone : public OutputError {
   using OutputError::OutputError;
 };
+
+// Parts of a message about a key: "ball.radius: found -1; allowed: a length greater than 0".
+struct KeyAndHint {
+  std::string key;   // ball.radius; empty if the message begins with no key
+  std::string hint;  // "did you mean radius?", "allowed: ..."; may be empty
+};
+
+[[nodiscard]] KeyAndHint key_and_hint(std::string_view message);
 
 }  // namespace bbsim

@@ -6,7 +6,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <string_view>
+
+#include "base/error.hpp"
 
 namespace bbsim {
 
@@ -14,6 +18,37 @@ char* write_number(char* to, double value) {
   constexpr std::string_view nan = "nan";  // without the sign that to_chars writes
   if (std::isnan(value)) return std::ranges::copy(nan, to).out;
   return std::to_chars(to, to + longest_number, value).ptr;
+}
+
+std::string short_number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+std::string rounded(double value, int digits) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  if (!(std::abs(value) >= 1 && std::abs(value) < 1e15)) return text;
+  const double kept = std::strtod(text, nullptr);
+  const int before_point = static_cast<int>(std::log10(std::abs(kept))) + 1;
+  std::snprintf(text, sizeof text, "%.*f", std::max(0, digits - before_point), kept);
+  return text;
+}
+
+bool is_whole(double value, double least, double most) {
+  return value >= least && value <= most && value == std::floor(value);
+}
+
+std::string whole_numbers(double least, double most) {
+  return "a whole number from " + short_number(least) +
+         (most < largest_whole ? " to " + short_number(most) : " up");
+}
+
+void require_whole(const std::string& name, double value, double least, double most) {
+  if (is_whole(value, least, most)) return;
+  throw InputError(name + ": found " + short_number(value) +
+                   "; allowed: " + whole_numbers(least, most));
 }
 
 }  // namespace bbsim

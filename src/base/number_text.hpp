@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Numbers as text: the shortest form that reads back to the same double.
+// Numbers as text: exactly, or short for people; and numbers without a fraction, from options,
+// scenarios and callers of the API.
 #pragma once
 
 #include <cstddef>
@@ -20,5 +21,24 @@ inline std::string number_text(double value) {
   char text[longest_number];
   return {text, write_number(text, value)};
 }
+
+// The number with up to six significant digits.
+[[nodiscard]] std::string short_number(double value);
+
+// The number with `digits` digits; from 1 to 1e15 without an exponent: 12.3, 1230000.
+[[nodiscard]] std::string rounded(double value, int digits);
+
+// 2^53: doubles hold all whole numbers up to it.
+inline constexpr double largest_whole = 9007199254740992.0;
+
+// Also false for NaN.
+[[nodiscard]] bool is_whole(double value, double least, double most = largest_whole);
+
+// "a whole number from 1 up", "a whole number from 1 to 1024"
+[[nodiscard]] std::string whole_numbers(double least, double most = largest_whole);
+
+// Throws InputError with the name of the number.
+void require_whole(const std::string& name, double value, double least,
+                   double most = largest_whole);
 
 }  // namespace bbsim

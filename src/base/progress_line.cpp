@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "base/text.hpp"
+
 namespace bbsim {
 namespace {
 
@@ -50,7 +52,7 @@ std::string end_of(const std::string& text, std::size_t columns) {
   std::size_t from = text.size(), room = columns - dots;
   while (from > 0) {
     std::size_t before = from - 1;  // start of the character before
-    while (before > 0 && (static_cast<unsigned char>(text[before]) & 0xC0U) == 0x80U) --before;
+    while (before > 0 && continues_character(text[before])) --before;
     const std::size_t width = is_ascii(text[before]) ? 1 : 2;
     if (width > room) break;
     room -= width;
@@ -64,8 +66,7 @@ std::string end_of(const std::string& text, std::size_t columns) {
 std::size_t widest(const std::string& text) {
   std::size_t columns = 0;
   for (const char c : text) {
-    const bool continues = (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
-    columns += is_ascii(c) ? 1 : continues ? 0 : 2;
+    columns += is_ascii(c) ? 1 : continues_character(c) ? 0 : 2;
   }
   return columns;
 }

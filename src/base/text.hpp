@@ -1,11 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Common operations on text.
+// Common operations on text, which may be invalid UTF-8.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace bbsim {
@@ -28,14 +32,35 @@ namespace bbsim {
   return lines;
 }
 
-// The texts in one line, with ", " between them.
-[[nodiscard]] inline std::string joined(const std::vector<std::string>& texts) {
+// The texts in one line, with ", " between them; of other items, the texts that `as` makes of them.
+template <class Items, class As = std::identity>
+[[nodiscard]] std::string joined(const Items& items, As as = {}) {
   std::string all;
-  for (const std::string& text : texts) {
-    if (&text != texts.data()) all += ", ";
-    all += text;
+  bool first = true;
+  for (const auto& item : items) {
+    if (!std::exchange(first, false)) all += ", ";
+    all += std::invoke(as, item);
   }
   return all;
 }
+
+// "1 row", "2 rows"
+[[nodiscard]] inline std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + ' ' + noun + (count == 1 ? "" : "s");
+}
+
+// Whether a byte of UTF-8 continues a character.
+[[nodiscard]] inline bool continues_character(char byte) {
+  return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
+}
+
+// A character of text that may be invalid UTF-8.
+struct Utf8Character {
+  std::uint32_t code = 0;
+  std::size_t length = 0;  // 0: no valid character
+};
+
+// The first character of a nonempty text.
+[[nodiscard]] Utf8Character first_character(std::string_view text);
 
 }  // namespace bbsim

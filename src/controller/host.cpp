@@ -5,17 +5,58 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
 #include "base/error.hpp"
 #include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "controller/library.hpp"
 #include "controller/program.hpp"
 #include "controller/serial_line.hpp"
 #include "scenario/columns.hpp"
-#include "yaml/nearest.hpp"
+#include "yaml/spelling.hpp"
 
 namespace bbsim::controller {
+namespace {
+
+Setup setup_of(const Scenario& scenario) {
+  const Controller& controller = *scenario.controller;
+  const Sampling& sampling = *controller.sampling;
+  Setup setup;
+  setup.drives = controller.drives;
+  setup.period = sampling.period;
+  setup.delay = sampling.delay;
+  setup.resolution = sampling.resolution;
+  setup.derivative_filter = sampling.derivative_filter;
+  // The tighter limit, if those of the axes differ.
+  setup.limit = std::numeric_limits<double>::infinity();
+  for (const std::size_t axis : {0U, 1U}) {
+    setup.limit = std::min(setup.limit, controller.limit_of(axis).value_or(setup.limit));
+  }
+  if (controller.sensor) setup.seed = controller.sensor->seed;
+  for (std::size_t i = 0; scenario.gimbal.servo && i < setup.commands(); ++i) {
+    const auto& stepper = scenario.gimbal.servo_of(i).stepper;
+    if (stepper) setup.microstep[i] = stepper->microstep();
+  }
+  setup.end = scenario.time.end;
+  setup.parameters = controller.own->parameters;
+  setup.columns = scenario::own_columns(scenario);
+  return setup;
+}
+
+// The setup of a program at a sketch's serial line, which the scene must have.
+Setup serial_setup_of(const Scenario& scenario) {
+  const SerialProgram& serial = *serial_program(*scenario.controller->own);
+  Setup setup = setup_of(scenario);
+  setup.serial = true;
+  if (serial.period > 0) setup.period = serial.period;
+  setup.delay = serial.delay;
+  setup.parameters = serial.parameters;
+  return setup;
+}
+
+}  // namespace
 
 Host::Host(Report report, const std::atomic<bool>* stop)
     : report_(std::move(report)), stop_(stop) {}
@@ -75,16 +116,11 @@ void Host::require_columns(const std::vector<std::string>& asked) const {
   for (const auto& [name, unit] : *given) names.push_back(name);
   for (const std::string& name : asked) {
     if (std::ranges::find(names, name) != names.end()) continue;
-    std::string allowed;
-    for (const std::string_view one : names) {
-      allowed += (allowed.empty() ? "" : ", ") + shown(one);
-    }
+    const auto allowed = joined(names, [](std::string_view its) { return shown(its); });
     for (const scenario::Column& column : scenario::catalogue) names.push_back(column.name);
-    const std::string nearest = shown(yaml::nearest_name(name, names));
     throw KeyError("output.columns",
                    "found " + name + ", which neither bbsim nor the controller gives" +
-                       (nearest.empty() ? "" : " (did you mean " + nearest + "?)") +
-                       "; allowed: those of bbsim columns" +
+                       yaml::hint(name, names) + "; allowed: those of bbsim columns" +
                        (allowed.empty() ? "" : ", and the controller's " + allowed));
   }
 }
@@ -118,15 +154,11 @@ std::vector<std::string> Host::describe() const {
   lines.emplace_back("the program starts, and answers");
   lines.emplace_back(ready.reset ? "it can reset: a sweep starts one per thread"
                                  : "it does not declare a reset: a sweep starts one per case");
-  std::string columns;
-  if (ready.columns) {
-    for (const auto& [name, unit] : *ready.columns) {
-      columns += (columns.empty() ? "" : ", ") + shown(name) + " (" + shown(unit) + ")";
-    }
-  }
-  if (!columns.empty()) {
+  if (ready.columns && !ready.columns->empty()) {
     lines.push_back((line_ ? "besides its bytes it gives " : "besides its commands it gives ") +
-                    columns);
+                    joined(*ready.columns, [](const auto& column) {
+                      return shown(column.first) + " (" + shown(column.second) + ")";
+                    }));
   }
   return lines;
 }

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "controller/child.hpp"
-#include "controller/setup.hpp"
+#include "controller/protocol.hpp"
 #include "model/model.hpp"
 
 namespace bbsim::controller {

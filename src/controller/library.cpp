@@ -10,12 +10,11 @@
 #include <cmath>
 #include <filesystem>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "controller/foreign_code.hpp"
 
 namespace bbsim::controller {
@@ -295,12 +294,10 @@ model::Commands Library::command(const model::ControllerSample& sample, double* 
   if (code != 0) throw fail("it returned " + std::to_string(code) + ": " + last_error());
   const std::span<const double> given_back(command.data(), sample.servo.size());
   if (!std::ranges::all_of(given_back, [](double one) { return std::isfinite(one); })) {
-    std::string all;
-    for (const double one : given_back) all += (all.empty() ? "" : ", ") + number_text(one);
     // Commands that the library does not write stay NaN.
     const bool lacks_third =
         given_back.size() == 3 && std::isnan(given_back[2]) && std::isfinite(given_back[1]);
-    throw fail("its command is [" + all + "]; allowed: finite numbers" +
+    throw fail("its command is [" + joined(given_back, number_text) + "]; allowed: finite numbers" +
                (lacks_third ? ", and three of them: define BBSIM_CONTROLLER_COMMANDS 3 and write "
                               "command[2]"
                             : ""));

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "controller/child.hpp"
-#include "controller/setup.hpp"
+#include "controller/protocol.hpp"
 #include "model/control/external_controller.hpp"
 #include "sketch/wiring.hpp"
 

@@ -30,6 +30,11 @@ std::string at_sample(const model::ControllerSample& sample) {
 
 }  // namespace
 
+const SerialProgram* serial_program(const OwnController& own) {
+  const auto* const library = std::get_if<ControllerLibrary>(&own.by);
+  return library != nullptr && library->serial ? &*library->serial : nullptr;
+}
+
 Program::Program(const OwnController& own, const Setup& setup, Report report,
                  const std::atomic<bool>* stop)
     : program_(program_of(own)),

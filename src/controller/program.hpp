@@ -11,9 +11,11 @@
 
 #include "controller/child.hpp"
 #include "controller/protocol.hpp"
-#include "controller/serial_protocol.hpp"
 
 namespace bbsim::controller {
+
+// The program at a sketch's serial line; null without one.
+[[nodiscard]] const SerialProgram* serial_program(const OwnController& own);
 
 class Program : public model::ExternalController {
  public:

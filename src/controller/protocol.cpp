@@ -13,7 +13,8 @@
 #include "base/json.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
-#include "yaml/nearest.hpp"
+#include "base/text.hpp"
+#include "yaml/spelling.hpp"
 
 namespace bbsim::controller {
 namespace {
@@ -124,7 +125,7 @@ std::string misspelt(std::string_view line, const std::string& lacks) {
   if (!answer.is_object()) return "";
   const std::string_view wanted[] = {lacks};
   for (const auto& [name, value] : answer.items()) {
-    const std::string meant = name == "command" ? "" : hint(name, wanted);
+    const std::string meant = name == "command" ? "" : yaml::hint(name, wanted);
     if (!meant.empty()) return ", but " + bbsim::quoted(name) + meant;
   }
   return "";
@@ -145,12 +146,6 @@ std::optional<std::string> error_of(std::string_view line) {
 }
 
 }  // namespace
-
-std::string hint(std::string_view found, std::span<const std::string_view> names) {
-  const std::string_view nearest = yaml::nearest_name(found, names);
-  if (nearest.empty() || nearest == found) return "";
-  return " (did you mean " + shown(nearest) + "?)";
-}
 
 std::string refusal(std::string_view line, const std::string& why) {
   if (const auto error = error_of(line))
@@ -227,7 +222,7 @@ Ready read_ready(std::string_view line) {
           std::vector<std::string_view> known{"sample"};
           for (const Field& one : fields) known.push_back(one.name);
           const bool is_text = name.is_string();
-          const std::string meant = is_text ? hint(name.get<std::string>(), known) : "";
+          const std::string meant = is_text ? yaml::hint(name.get<std::string>(), known) : "";
           return refuse(
               "found a field " +
               (is_text ? bbsim::quoted(name.get<std::string>()) : "that is not a string") + meant +
@@ -243,7 +238,7 @@ Ready read_ready(std::string_view line) {
       }
     } else {
       constexpr std::string_view known[] = {"protocol", "reset", "columns", "fields"};
-      return refuse("found " + bbsim::quoted(key) + hint(key, known) + "; " + wanted);
+      return refuse("found " + bbsim::quoted(key) + yaml::hint(key, known) + "; " + wanted);
     }
   }
   return ready;
@@ -310,7 +305,7 @@ std::string read_answer(std::string_view line, std::span<const std::string> name
       if (!reader.take_number(number)) {
         std::vector<std::string_view> known{"command", "error"};
         known.insert(known.end(), names.begin(), names.end());
-        const std::string meant = hint(name, known);
+        const std::string meant = yaml::hint(name, known);
         const char* const kind =
             name == "error" ? " that is not a string" : " that is not a number";
         return refuse_form("found " + bbsim::quoted(name) + (meant.empty() ? kind : meant) + "; ");
@@ -337,6 +332,70 @@ std::string read_answer(std::string_view line, std::span<const std::string> name
     }
   }
   return {};
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The bytes of a text whose characters are U+0000 to U+00FF; false: it has others.
+bool bytes_of(std::string_view text, std::string& bytes) {
+  while (!text.empty()) {
+    const Utf8Character next = first_character(text);
+    if (next.length == 0 || next.code > 0xFF) return false;
+    bytes += static_cast<char>(next.code);
+    text.remove_prefix(next.length);
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string with_serial(std::string_view sample_line, std::string_view bytes) {
+  std::string text;  // UTF-8
+  for (const char one : bytes) {
+    const auto byte = static_cast<unsigned char>(one);
+    if (byte >= 0x80) text += static_cast<char>(0xC0 | (byte >> 6));
+    text += static_cast<char>(byte < 0x80 ? byte : 0x80 | (byte & 0x3F));
+  }
+  std::string line(sample_line.substr(0, sample_line.rfind('}')));
+  return line + ",\"serial\":" + json_text(Json(text)) + "}\n";
+}
+
+SerialAnswer read_serial_answer(std::string_view line, std::span<const std::string> names,
+                                double* own) {
+  SerialAnswer result;
+  const auto refuse = [&](const std::string& why) {
+    result.fault = refusal(line, why);
+    return result;
+  };
+  const std::string form =
+      "allowed: {\"serial\": \"BYTES\"}, optionally with \"baud\": NUMBER, \"NAME\": NUMBER";
+  const Json answer = parse_json(line);
+  if (!answer.is_object()) return refuse(form);
+  std::vector<std::string_view> known{"serial", "baud", "error"};
+  known.insert(known.end(), names.begin(), names.end());
+  for (const auto& [name, value] : answer.items()) {
+    if (name == "serial" && value.is_string()) {
+      const auto& text = value.get_ref<const std::string&>();
+      if (!bytes_of(text, result.bytes)) {
+        return refuse("found a character beyond U+00FF in \"serial\", which is no byte; " + form);
+      }
+    } else if (name == "baud" && value.is_number() && value.get<double>() > 0) {
+      result.baud = value.get<double>();
+    } else if (name == "serial" || name == "baud" || !value.is_number()) {
+      const std::string meant = yaml::hint(name, known);
+      return refuse("found " + bbsim::quoted(name) +
+                    (meant.empty() ? " with a value that is not allowed" : meant) + "; " + form);
+    } else if (const auto wanted = std::ranges::find(names, name); wanted != names.end()) {
+      own[wanted - names.begin()] = value.get<double>();
+    }
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::isfinite(own[i])) continue;
+    return refuse("found no finite " + bbsim::quoted(names[i]) + ", which output.columns asks for");
+  }
+  return result;
 }
 
 }  // namespace bbsim::controller

@@ -15,6 +15,7 @@
 #include <array>
 #include <bitset>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,12 +24,28 @@
 #include <vector>
 
 #include "base/pair.hpp"
-#include "controller/setup.hpp"
 #include "model/control/external_controller.hpp"
+#include "scenario/scenario.hpp"
 
 namespace bbsim::controller {
 
 inline constexpr int protocol_version = 1;
+
+// The facts about a run that your own controller receives before its first sample. SI units and
+// radians.
+struct Setup {
+  Drives drives = Drives::angle;
+  double period = 0, delay = 0, resolution = 0, derivative_filter = 0;  // as in Sampling
+  double limit = 0;  // of the command; infinite if there is none
+  double end = 0;    // of the run, s
+  std::vector<Parameter> parameters;
+  // The number of commands that it gives, and of servos whose state it receives.
+  [[nodiscard]] std::size_t commands() const { return drives == Drives::legs ? 3 : 2; }
+  std::uint64_t seed = 1;             // of random parts beside the controller's sensor
+  std::array<double, 3> microstep{};  // of each axis or leg, rad; 0: not a stepper
+  std::vector<std::string> columns;   // names of the numbers that bbsim wants from it
+  bool serial = false;                // a program at a sketch's serial line
+};
 
 // The line that begins a run, with its line break.
 [[nodiscard]] std::string hello_line(const Setup& setup);
@@ -67,9 +84,6 @@ inline constexpr std::size_t longest_sample = 1024;
 [[nodiscard]] std::size_t write_sample(const model::ControllerSample& sample, Fields wanted,
                                        char (&line)[longest_sample]);
 
-// " (did you mean command?)" if another one of the names is near; otherwise empty.
-[[nodiscard]] std::string hint(std::string_view found, std::span<const std::string_view> names);
-
 // What is wrong with an answer: `why`, or the reason with which the controller gave up.
 [[nodiscard]] std::string refusal(std::string_view line, const std::string& why);
 
@@ -82,5 +96,25 @@ inline constexpr std::size_t longest_sample = 1024;
 // answer, which shows what the controller gives; throws KeyError for a name that it lacks.
 [[nodiscard]] std::string read_answer(std::string_view line, std::span<const std::string> names,
                                       std::span<double> command, double* own, bool first = false);
+
+// The messages of a program at a sketch's serial line (docs/reference/controllers.md): samples with
+// what the sketch printed, and answers with bytes for it. The rest is as in protocol.hpp.
+//
+//     bbsim    {"sample":1,"t":0.033,"ball":[-0.03,0.0],...,"serial":"ok\r\n"}
+//     program  {"serial": "93,87\n"}
+struct SerialAnswer {
+  std::string bytes;             // for the sketch
+  std::optional<double> baud{};  // at which the program opened the line, if it says so
+  std::string fault;             // what is wrong with the answer; empty if nothing is
+};
+
+// Adds the bytes that arrived from the sketch to the line of a sample, each as a character U+0000
+// to U+00FF.
+[[nodiscard]] std::string with_serial(std::string_view sample_line, std::string_view bytes);
+
+// Reads an answer, a line without its line break, and the numbers of these names into `own`.
+// Numbers that the answer lacks stay.
+[[nodiscard]] SerialAnswer read_serial_answer(std::string_view line,
+                                              std::span<const std::string> names, double* own);
 
 }  // namespace bbsim::controller

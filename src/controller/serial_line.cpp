@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/short_number.hpp"
+#include "base/number_text.hpp"
 
 namespace bbsim::controller {
 

@@ -8,7 +8,6 @@
 
 #include "api/cases.hpp"
 #include "api/check.hpp"
-#include "api/fault.hpp"
 #include "api/inputs.hpp"
 #include "api/linearize.hpp"
 #include "api/run.hpp"
@@ -50,7 +49,7 @@ auto guarded(const Work& work) {
   } catch (const InputError& error) {
     std::vector<Fault> faults;
     for (const Problem& problem : error.problems()) {
-      const api::KeyAndHint found = api::key_and_hint(problem.message);
+      const KeyAndHint found = key_and_hint(problem.message);
       faults.push_back({problem.where, problem.message, found.key, found.hint});
     }
     throw ScenarioError(error.what(), std::move(faults));
@@ -62,7 +61,7 @@ auto guarded(const Work& work) {
 }
 
 [[noreturn]] void refuse(const std::string& message) {
-  const api::KeyAndHint found = api::key_and_hint(message);
+  const KeyAndHint found = key_and_hint(message);
   throw ScenarioError(message, {{"", message, found.key, found.hint}});
 }
 

@@ -2,17 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Makes a Model from a Scenario (model.hpp): chooses the system, its states and its stops.
+#include "model/assemble.hpp"
+
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "base/instant.hpp"
-#include "model/assemble_coupled.hpp"
-#include "model/assemble_rig.hpp"
-#include "model/model.hpp"
 #include "model/servo/linkages.hpp"
-#include "model/signals/given_motion.hpp"
-#include "model/signals/reference_path.hpp"
+#include "model/signals/signal_pair.hpp"
 #include "scenario/coupled.hpp"
 
 namespace bbsim::model {

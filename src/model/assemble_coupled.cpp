@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "model/assemble_coupled.hpp"
-
+// Builds the systems of scenes with couples, sliding, pushes or torques.
 #include <algorithm>
 #include <type_traits>
 #include <utility>
 
-#include "model/assemble_rig.hpp"
+#include "model/assemble.hpp"
 #include "model/control/derivatives.hpp"
 #include "scenario/coupled.hpp"
 

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "model/assemble_rig.hpp"
-
+// Builds the rig of a scene with a controller.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "model/assemble.hpp"
 #include "model/control/derivatives.hpp"
 #include "model/control/riccati.hpp"
 #include "model/servo/linkages.hpp"

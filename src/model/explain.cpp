@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "model/explain.hpp"
-
+// Explains what the model of a scene includes and omits, for `bbsim check` and the summary.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
 #include <type_traits>
 #include <variant>
 
-#include "base/short_number.hpp"
-#include "model/assemble_rig.hpp"
+#include "base/number_text.hpp"
+#include "base/text.hpp"
+#include "model/assemble.hpp"
+#include "model/model.hpp"
 #include "model/servo/linkages.hpp"
 #include "scenario/coupled.hpp"
 
@@ -385,7 +385,7 @@ std::string sensor_note(const Sensor& sensor) {
              short_number((*sensor.area)[1]) + " m");
   }
   const std::size_t zones = sensor.dead_zones.size();
-  list.add_if(zones > 0, std::to_string(zones) + (zones == 1 ? " dead zone" : " dead zones"));
+  list.add_if(zones > 0, counted(zones, "dead zone"));
   list.add_if(sensor.contact_force > 0,
               "feels " + short_number(sensor.contact_force) + " N or more");
   list.add_if(sensor.on_miss == OnMiss::last, "repeats its last reading if it misses the ball");

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "model/events/event_monitors.hpp"
@@ -97,5 +96,14 @@ enum class Form { reduced, full };
 // Index of u = r gamma' among the states, or -1 if symmetry keeps it zero.
 template <class AnySystem>
 inline constexpr int spin_index = AnySystem::moves == Shape::full ? 4 : -1;
+
+// A part of the physics, and why the model has it or not.
+struct Note {
+  std::string part, reason;
+};
+
+// What the model of a scene, from assemble(), includes and omits, for `bbsim check` and the
+// summary.
+[[nodiscard]] std::vector<Note> explain(const Scenario& scene, const Model& model);
 
 }  // namespace bbsim::model

@@ -7,6 +7,8 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "base/real.hpp"
 #include "scenario/scenario.hpp"
@@ -63,6 +65,15 @@ struct Sample {
   // Numbers that an external controller returned with its last command, in the order of
   // SampledLoop::own_columns. Points into the row; null without such numbers.
   const double* own = nullptr;
+};
+
+// An event that occurred.
+struct Occurrence {
+  double t = 0;               // s
+  std::string name;           // the key in the scenario's events
+  bool stopped = false;       // whether it stopped the run
+  Sample sample;              // without Sample::own; see `own`
+  std::vector<double> own{};  // numbers of an external controller
 };
 
 }  // namespace bbsim::model

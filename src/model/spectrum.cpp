@@ -4,15 +4,13 @@
 #include "model/spectrum.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "model/control/derivatives.hpp"
 #include "model/control/sampled_cycle.hpp"
 #include "model/eigenvalues.hpp"
-#include "model/exact_eigenvalues.hpp"
-#include "model/systems/any_jacobian.hpp"
+#include "model/systems/jacobian.hpp"
 
 namespace bbsim::model {
 namespace {

@@ -84,4 +84,10 @@ struct Comparison {
 [[nodiscard]] std::string to_text(const Comparison& comparison, const std::string& name_a,
                                   const std::string& name_b, const Allowances& allowances);
 
+// Rounds to three digits, which suffice to judge an error.
+[[nodiscard]] std::string rounded(double value);
+
+// Aligns lines of equal length: the first field to the left, the others to the right.
+[[nodiscard]] std::string aligned(const std::vector<std::vector<std::string>>& lines);
+
 }  // namespace bbsim::record

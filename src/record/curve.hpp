@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/chebyshev.hpp"
+#include "base/maxima.hpp"
 #include "scenario/measures.hpp"
 
 namespace bbsim::record {

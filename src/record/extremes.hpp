@@ -8,7 +8,6 @@
 #include <optional>
 #include <vector>
 
-#include "base/chebyshev.hpp"
 #include "base/maxima.hpp"
 #include "model/model.hpp"
 #include "record/rows.hpp"

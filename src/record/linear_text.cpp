@@ -8,7 +8,7 @@
 
 #include "base/json.hpp"
 #include "base/number_text.hpp"
-#include "base/printable.hpp"
+#include "base/quoted.hpp"
 
 namespace bbsim::record {
 namespace {

@@ -13,8 +13,9 @@
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
-#include "record/aligned.hpp"
-#include "scenario/unit_doubts.hpp"
+#include "base/text.hpp"
+#include "record/compare.hpp"
+#include "scenario/log_columns.hpp"
 
 namespace bbsim::record {
 namespace {
@@ -86,9 +87,7 @@ std::vector<Pair> pairs_of(const file::TableData& log, const std::string& log_na
   const auto require = [](const file::TableData& table, const std::string& name,
                           const std::string& column) {
     if (const Numbers* const found = find(table, column)) return found;
-    std::string known;
-    for (const std::string& listed : table.names)
-      known += (known.empty() ? "" : ", ") + shown(listed);
+    const auto known = joined(table.names, [](const auto& listed) { return shown(listed); });
     throw InputError(name + ": has no column " + shown(column) + "; it has " + known +
                      (column == "t" ? ". --map t=NAME:UNIT names the time" : ""));
   };

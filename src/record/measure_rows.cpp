@@ -13,7 +13,6 @@
 #include "base/number_text.hpp"
 #include "base/real.hpp"
 #include "record/curve.hpp"
-#include "record/instants.hpp"
 #include "record/square_sum.hpp"
 
 namespace bbsim::record {

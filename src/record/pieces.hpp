@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "scenario/window.hpp"
+#include "scenario/measures.hpp"
 #include "solve/piece.hpp"
 
 namespace bbsim::record {

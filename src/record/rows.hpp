@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "model/model.hpp"
-#include "record/ball_turn.hpp"
 #include "record/column_values.hpp"
 #include "solve/piece.hpp"
 

@@ -9,7 +9,6 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
-#include "base/quantile.hpp"
 #include "base/real.hpp"
 #include "base/text.hpp"
 
@@ -43,6 +42,16 @@ std::vector<std::string> all_measures(const CellTable& table) {
     }
   }
   return names;
+}
+
+// The value below which `part` (0 to 1) of the sorted values lies, by linear interpolation as in
+// numpy.quantile; NaN if there are none.
+double quantile(const std::vector<double>& sorted, double part) {
+  if (sorted.empty()) return no_number;
+  const double place = part * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
 }
 
 GroupFigures figures_of(const std::string& measure, std::vector<double> values,

@@ -12,7 +12,7 @@
 
 #include "base/maxima.hpp"
 #include "file/table_writer.hpp"
-#include "model/events/occurrence.hpp"
+#include "model/sample.hpp"
 
 namespace bbsim::record {
 

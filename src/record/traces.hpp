@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "base/chebyshev.hpp"
+#include "base/maxima.hpp"
 #include "model/model.hpp"
 #include "record/curve.hpp"
 #include "record/rows.hpp"

@@ -8,11 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json.hpp"
-#include "replay/kept_rows.hpp"
+#include "replay/kept.hpp"
 #include "replay/numbers.hpp"
-#include "replay/rotation.hpp"
-#include "replay/stage.hpp"
-#include "replay/sweep_cases.hpp"
 #include "replay/template.hpp"
 #include "scenario/columns.hpp"
 

@@ -101,4 +101,133 @@ void check_scene(const Scene& scene) {
   for (const Sweep& sweep : scene.sweeps) check_sweep(sweep);
 }
 
+namespace {
+
+// The greatest distances of the runs and their references from home, along each axis.
+struct Extent {
+  double x = 0, y = 0;
+
+  void include(double at_x, double at_y) {
+    if (!(std::abs(at_x) <= largest_drawn && std::abs(at_y) <= largest_drawn)) return;
+    x = std::max(x, std::abs(at_x));
+    y = std::max(y, std::abs(at_y));
+  }
+};
+
+Extent extent(const Scene& scene) {
+  Extent all;
+  for (const Run& run : scene.runs) {
+    const std::vector<double> x = coordinate(run, "x"), y = coordinate(run, "y");
+    for (std::size_t row = 0; row < x.size(); ++row) all.include(x[row], y[row]);
+    for (const auto& point : run.reference) all.include(point[0], point[1]);
+  }
+  return all;
+}
+
+// Makes a plate with some margin around the paths, for a ball of this radius.
+void fit_plate(Stage& stage, const Extent& paths, double ball) {
+  constexpr double margin = 1.2, thin = 1e-6, beam = 1.0 / 8;
+  const double far = std::max(paths.x, paths.y);
+  if (far == 0 && ball == 0) {
+    stage.width = stage.depth = 0.3;
+    return;
+  }
+  stage.width = stage.depth = 2 * std::max(margin * far, 6 * ball);
+  const double across = std::max(beam * stage.width, std::min(4 * ball, stage.width));
+  if (paths.y < thin * paths.x) stage.depth = across;
+  if (paths.x < thin * paths.y) stage.width = across;
+}
+
+}  // namespace
+
+Stage stage_of(const Scene& scene) {
+  Stage stage;
+  for (const Run& run : scene.runs) {
+    if (run.plate.size) {
+      stage.width = (*run.plate.size)[0];
+      stage.depth = (*run.plate.size)[1];
+    } else if (run.plate.diameter) {
+      stage.width = stage.depth = *run.plate.diameter;
+      stage.round = true;
+    } else {
+      continue;
+    }
+    stage.plate_given = true;
+    break;
+  }
+  const auto sized = std::find_if(scene.runs.begin(), scene.runs.end(),
+                                  [](const Run& run) { return run.ball_radius.has_value(); });
+  stage.ball_given = sized != scene.runs.end();
+  if (!stage.plate_given) {
+    fit_plate(stage, extent(scene), stage.ball_given ? *sized->ball_radius : 0);
+  }
+  // On a beam, the ball may be as large as on a plate of the same length.
+  constexpr double ball_part = 1.0 / 30;
+  const double side =
+      stage.plate_given ? std::min(stage.width, stage.depth) : std::max(stage.width, stage.depth);
+  stage.ball_radius = stage.ball_given ? *sized->ball_radius : ball_part * side;
+  return stage;
+}
+
+std::vector<Quaternion> rolled(const std::vector<double>& x, const std::vector<double>& y,
+                               const std::vector<double>* gamma, double radius) {
+  std::vector<Quaternion> result;
+  result.reserve(x.size());
+  Quaternion now{1, 0, 0, 0};
+  for (std::size_t row = 0; row < x.size(); ++row) {
+    if (row > 0) {
+      const double dgamma = gamma == nullptr ? 0 : (*gamma)[row] - (*gamma)[row - 1];
+      const std::array<double, 3> turn{-(y[row] - y[row - 1]) / radius,
+                                       (x[row] - x[row - 1]) / radius, dgamma};
+      if (std::isfinite(turn[0] + turn[1] + turn[2])) {
+        now = normalised(product(rotation_by(turn), now));
+      }
+    }
+    result.push_back(now);
+  }
+  return result;
+}
+
+namespace {
+
+// The integral from the first row on, by trapezoids. Rows that are not finite add nothing.
+std::vector<double> integral(const std::vector<double>& t, const std::vector<double>& rate) {
+  std::vector<double> sum(t.size(), 0);
+  for (std::size_t row = 1; row < t.size(); ++row) {
+    const double more = (t[row] - t[row - 1]) * (rate[row] / 2 + rate[row - 1] / 2);
+    sum[row] = sum[row - 1] + (std::isfinite(more) ? more : 0);
+  }
+  return sum;
+}
+
+// The part of the ball's path that its rotation covers: the path minus the slip.
+std::vector<double> way_rolled(const Run& run, const char* axis, const char* slip) {
+  std::vector<double> way = coordinate(run, axis);
+  if (const Series* const rate = find_series(run, slip)) {
+    const std::vector<double> slipped = integral(find_series(run, "t")->values, rate->values);
+    for (std::size_t row = 0; row < way.size(); ++row) way[row] -= slipped[row];
+  }
+  return way;
+}
+
+}  // namespace
+
+std::vector<Quaternion> orientation_of(const Run& run, double radius) {
+  if (!run.orientation.empty()) return run.orientation;
+  const Series* const gamma = find_series(run, "gamma");
+  const Series* const spin = find_series(run, "spin");
+  const bool slip_known = find_series(run, "slip_x") != nullptr &&
+                          find_series(run, "slip_y") != nullptr &&
+                          (gamma != nullptr || spin != nullptr) && run.ball_radius.has_value();
+  if (!run.rolls && !slip_known) return {};
+  std::vector<double> turned;
+  if (gamma != nullptr) {
+    turned = gamma->values;
+  } else if (spin != nullptr) {
+    turned = integral(find_series(run, "t")->values, spin->values);
+  }
+  return rolled(way_rolled(run, "x", "slip_x"), way_rolled(run, "y", "slip_y"),
+                turned.empty() ? nullptr : &turned, run.rolling_radius.value_or(radius));
+}
+
 }  // namespace bbsim::replay

@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The content of a replay, as plain data from any source.
-//
-// Frames as in docs/explanation/model.md, (M15): R = R_x(base_tilt) R_y(phi) R_z(skew) R_x(theta)
-// R_z(yaw - skew) turns the world's frame into the plane's about the gimbal's center. SI units and
-// radians.
+// The content of a replay, as plain data from any source; the sizes of plate and ball in its
+// picture, and the ball's rotation.
 #pragma once
 
 #include <array>
@@ -118,5 +115,33 @@ struct Scene {
 // Throws InputError if a scene cannot be shown: it is empty, a run has no t, neither x nor y or no
 // rows, columns differ in length, or times do not increase.
 void check_scene(const Scene& scene);
+
+// The page draws with floats, which cannot hold the square of a larger distance.
+inline constexpr double largest_drawn = 1e15;  // m
+
+struct Stage {
+  double width = 0, depth = 0;  // of the plate along x and y, m
+  bool round = false;
+  bool plate_given = false;  // otherwise it fits the paths
+  double ball_radius = 0;    // of the leading run, m
+  bool ball_given = false;   // otherwise a thirtieth of the plate
+};
+
+// The stage for all runs of the scene. The first run with a plate defines the plate. Otherwise the
+// plate fits all paths and references that are drawn; if these stay on an axis, it is a beam.
+[[nodiscard]] Stage stage_of(const Scene& scene);
+
+// Orientations of a rolling ball in the plane's frame, with the identity in the first row. Between
+// two rows the ball rolls straight and pivots evenly, by the rotation (-dy/r, dx/r, dgamma). The
+// error is of second order in the distance of rows; a run's integrated rotation is better. A null
+// `gamma` means no pivoting. Rows with a value that is not finite repeat the last orientation.
+[[nodiscard]] std::vector<Quaternion> rolled(const std::vector<double>& x,
+                                             const std::vector<double>& y,
+                                             const std::vector<double>* gamma, double radius);
+
+// The recorded orientations of the run, if it has them. Otherwise rolled() with this radius, the
+// pivoting of gamma or spin, and the slip of columns slip_x and slip_y; the error of the slip is of
+// second order in the distance of rows. Empty if the columns do not determine the rotation.
+[[nodiscard]] std::vector<Quaternion> orientation_of(const Run& run, double radius);
 
 }  // namespace bbsim::replay

@@ -10,11 +10,10 @@
 #include <string_view>
 #include <utility>
 
-#include "model/control/common_cycle.hpp"
+#include "model/control/sample_times.hpp"
 #include "model/model.hpp"
-#include "model/signals/reference_path.hpp"
+#include "model/signals/signal_pair.hpp"
 #include "model/spectrum.hpp"
-#include "replay/rotation.hpp"
 #include "results/sweep_table.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/measures.hpp"

@@ -16,10 +16,9 @@
 #include "base/text.hpp"
 #include "results/read_result.hpp"
 #include "scenario/columns.hpp"
-#include "scenario/log_clock.hpp"
-#include "scenario/log_names.hpp"
-#include "yaml/nearest.hpp"
+#include "scenario/log_columns.hpp"
 #include "yaml/quantity.hpp"
+#include "yaml/spelling.hpp"
 
 namespace bbsim::results {
 namespace {

@@ -9,10 +9,10 @@
 #include <functional>
 #include <numbers>
 #include <numeric>
-#include <utility>
 #include <vector>
 
-#include "base/short_number.hpp"
+#include "base/number_text.hpp"
+#include "base/text.hpp"
 
 namespace bbsim::scenario {
 namespace {
@@ -43,10 +43,6 @@ bool strictly_falls(const std::vector<double>& of) {
 
 std::string degrees(double angle) {
   return short_number(angle * 180 / std::numbers::pi) + " deg";
-}
-
-std::string counted(std::size_t count, const char* singular, const char* plural) {
-  return std::to_string(count) + (count == 1 ? singular : plural);
 }
 
 void add(std::string& done, const std::string& what) {
@@ -147,8 +143,7 @@ Calibration calibrate(CurveLinkage& curve) {
     add(calibration.done, "rows sorted by the servo's angle");
   }
   if (repeated > 0) {
-    add(calibration.done,
-        counted(repeated, " repeated angle averaged", " repeated angles averaged"));
+    add(calibration.done, counted(repeated, "repeated angle") + " averaged");
   }
   const auto put = [&curve](const auto& all) {
     curve.servo.clear();

@@ -9,10 +9,8 @@
 #include <string>
 
 #include "base/number_text.hpp"
-#include "base/short_number.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/coupled.hpp"
-#include "scenario/groove.hpp"
 #include "scenario/relations.hpp"
 #include "scenario/sections.hpp"
 

@@ -10,7 +10,6 @@
 #include <string_view>
 
 #include "base/error.hpp"
-#include "yaml/check_text.hpp"
 #include "yaml/document.hpp"
 #include "yaml/schema.hpp"
 

@@ -10,7 +10,6 @@
 #include "scenario/expectation.hpp"
 #include "scenario/keys.hpp"
 #include "scenario/sections.hpp"
-#include "yaml/nearest.hpp"
 #include "yaml/rules.hpp"
 #include "yaml/spelling.hpp"
 
@@ -36,11 +35,9 @@ void check_expect(const yaml::Value& expect, const Scenario& scenario) {
 bool refuse_unknown(const yaml::Value& key) {
   const std::vector<std::string> paths = key_paths();
   const std::vector<std::string_view> names(paths.begin(), paths.end());
-  const std::string_view nearest = yaml::nearest_name(yaml::american(key.node->text), names);
-  const bool known = nearest == yaml::american(key.node->text);
-  return key.refuse(nearest.empty() ? ""
-                    : known         ? ", which is neither"
-                                    : " (did you mean " + std::string(nearest) + "?)",
+  const std::string name = yaml::american(key.node->text);
+  const bool known = std::ranges::find(names, name) != names.end();
+  return key.refuse(known ? ", which is neither" : yaml::hint(name, names),
                     "a key that is a number or one of several names, such as controller.pd.kp");
 }
 

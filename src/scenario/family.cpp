@@ -3,10 +3,8 @@
 
 #include "scenario/family.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <map>
-#include <utility>
 
 #include "base/fnv1a.hpp"
 #include "scenario/sections.hpp"

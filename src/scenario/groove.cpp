@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "scenario/groove.hpp"
-
+// A ball in a groove or between rails, which rolls along one axis.
 #include <algorithm>
-#include <cmath>
+
+#include "scenario/sections.hpp"
 
 namespace bbsim::scenario {
 namespace {

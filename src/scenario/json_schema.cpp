@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "scenario/json_schema.hpp"
-
+// The JSON Schema of scenarios, from their declared keys and relations.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -14,12 +13,10 @@
 #include "scenario/relations.hpp"
 #include "yaml/spelling.hpp"
 
-namespace bbsim {
+namespace bbsim::scenario {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using scenario::Condition;
-using scenario::KeyRelation;
 using yaml::Choice;
 using yaml::Declared;
 using yaml::DeclaredKey;
@@ -251,9 +248,9 @@ Json holds(const Condition& condition) {
   return {{"anyOf", {there, unless(at(condition.path, nullptr, true))}}};
 }
 
-Json hold(std::string_view conditions) {
+Json hold(std::string_view text) {
   std::vector<Json> alternatives;
-  for (const auto& alternative : scenario::conditions(conditions)) {
+  for (const auto& alternative : conditions(text)) {
     std::vector<Json> all;
     for (const Condition& condition : alternative) all.push_back(holds(condition));
     alternatives.push_back(all_of(std::move(all)));
@@ -268,7 +265,7 @@ Json schema_of(const KeyRelation& relation) {
 }
 
 const Declared& declared_at(std::string_view path) {
-  const Declared* value = &scenario::declared_keys();
+  const Declared* value = &declared_keys();
   while (!path.empty()) {
     const std::string_view key = path.substr(0, path.find('.'));
     value = &std::ranges::find(value->keys, key, &DeclaredKey::name)->value;
@@ -308,15 +305,15 @@ Json known_columns() {
 
 }  // namespace
 
-std::string scenario_json_schema() {
+std::string json_schema() {
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                  {"title", "Scenario of bbsim"}};
-  schema.update(schema_of(scenario::declared_keys()));
+  schema.update(schema_of(declared_keys()));
   for (const char* path : {"gimbal.motion.phi", "gimbal.torque.phi", "ball.push.x"}) {
     const Declared& profile = declared_at(path);
     schema["definitions"][profile.definition] = schema_of(profile);
   }
-  for (const auto& group : scenario::relations()) {
+  for (const auto& group : relations()) {
     for (const KeyRelation& relation : group) schema["allOf"].push_back(schema_of(relation));
   }
   schema["allOf"].push_back(limit_of_numbers());
@@ -325,4 +322,4 @@ std::string scenario_json_schema() {
   return json_text(schema, 1);
 }
 
-}  // namespace bbsim
+}  // namespace bbsim::scenario

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// All keys of a scenario, as its readers declare them.
+// All keys of a scenario, as its readers declare them, and their JSON Schema.
 #pragma once
 
 #include <optional>
@@ -50,5 +50,9 @@ struct NamedNumber {
 // Throws InputError, starting with the option, for a key that takes no single number.
 [[nodiscard]] NamedNumber number_named(const std::string& option, std::string name,
                                        const ScenarioFamily& family);
+
+// The JSON Schema (draft-07) of the declared keys and their relations (relations.hpp), for editors
+// and validators.
+[[nodiscard]] std::string json_schema();
 
 }  // namespace bbsim::scenario

@@ -10,10 +10,67 @@
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/text.hpp"
-#include "yaml/nearest.hpp"
+#include "scenario/coupled.hpp"
 #include "yaml/quantity.hpp"
+#include "yaml/spelling.hpp"
 
 namespace bbsim::scenario {
+namespace {
+
+// Returns null for an unknown name.
+const LoopMeasure* find_loop_measure(std::string_view name) {
+  const auto* const found = std::ranges::find(loop_measures, name, &LoopMeasure::name);
+  return found == loop_measures.end() ? nullptr : found;
+}
+
+// Removes " WORD TIME" from the end of the text, if present.
+std::optional<double> take_last(std::string_view& text, std::string_view word) {
+  const std::size_t place = text.rfind(word);
+  if (place == std::string_view::npos || place == 0) return {};
+  const std::optional<double> time = yaml::value_in(text.substr(place + word.size()), "s");
+  if (time) text = trimmed(text.substr(0, place));
+  return time;
+}
+
+}  // namespace
+
+WindowedName split_window(std::string_view name) {
+  name = trimmed(name);
+  WindowedName split{name};
+  split.window.to = take_last(split.base, " to ");
+  split.window.from = take_last(split.base, " from ");
+  split.text = trimmed(name.substr(split.base.size()));
+  return split;
+}
+
+std::string window_fault(const Window& window, double start, double end) {
+  if (window.from && window.to && !(*window.from < *window.to)) {
+    return "the window is empty; allowed: from a time to a later time";
+  }
+  const double rounding = rounding_of(end);
+  const bool within = (!window.from || (*window.from >= start && *window.from < end)) &&
+                      (!window.to || (*window.to > start && *window.to <= end + rounding));
+  if (within) return "";
+  return "the run is from " + number_text(start) + " to " + number_text(end) +
+         " s; allowed: a window within it";
+}
+
+Missing missing(const LoopMeasure& measure, const Scenario& scenario) {
+  const char* const instead = "measures of the motion, such as max_tilt";
+  if (!scenario.controller) return {"there is no controller", instead};
+  if (scenario.controller->law == Law::commands) return {"commands close no loop", instead};
+  if (scenario.controller->own) {
+    return {"only the controller knows its law; `bbsim check` tries to identify it", instead};
+  }
+  if (measure.kind == LoopMeasure::Kind::spectral_radius && !scenario.controller->sampling) {
+    return {"the controller takes no samples", "spectral_abscissa; or give controller.sampling"};
+  }
+  if (measure.of_response() && dry_part(scenario) != nullptr) {
+    return {"dry friction has no linear equations", "viscous losses alone"};
+  }
+  return {};
+}
+
 namespace {
 
 using Kind = Measure::Kind;
@@ -53,7 +110,7 @@ const Metric& metric_of(StepMetric metric) {
 }
 
 // Removes `word` and the blanks after it from the front of the text.
-bool take(std::string_view& text, std::string_view word) {
+bool take_word(std::string_view& text, std::string_view word) {
   if (!text.starts_with(word)) return false;
   const std::string_view rest = text.substr(word.size());
   if (!rest.empty() && rest.front() != ' ' && rest.front() != '\t') return false;
@@ -83,9 +140,9 @@ std::optional<Instant> read_condition(std::string_view text, const FindColumn& f
   if (stays != std::string_view::npos) {
     instant.column = find(trimmed(text.substr(0, stays)));
     std::string_view rest = trimmed(text.substr(stays + 7));
-    if (take(rest, "below")) {
+    if (take_word(rest, "below")) {
       instant.kind = Instant::Kind::stays_below;
-    } else if (take(rest, "above")) {
+    } else if (take_word(rest, "above")) {
       instant.kind = Instant::Kind::stays_above;
     } else {
       return {};
@@ -135,14 +192,14 @@ std::string text_of(const Instant& instant) {
 std::optional<Measure> read_when_or_find(std::string_view text, const FindColumn& find) {
   Measure measure;
   measure.kind = Kind::when;
-  if (take(text, "find")) {
+  if (take_word(text, "find")) {
     measure.kind = Kind::find;
     const std::size_t blank = text.find_first_of(" \t");
     if (blank == std::string_view::npos) return {};
     measure.column = find(text.substr(0, blank));
     if (!is_usable(measure.column)) return {};
     text = trimmed(text.substr(blank));
-    if (take(text, "at")) {
+    if (take_word(text, "at")) {
       const std::optional<double> time = yaml::value_in(text, "s");
       if (!time) return {};
       measure.instant.kind = Instant::Kind::at;
@@ -151,7 +208,7 @@ std::optional<Measure> read_when_or_find(std::string_view text, const FindColumn
       return measure;
     }
   }
-  if (!take(text, "when")) return {};
+  if (!take_word(text, "when")) return {};
   const std::optional<Instant> instant = read_condition(text, find);
   if (!instant) return {};
   measure.instant = *instant;
@@ -288,8 +345,7 @@ std::string measure_hint(std::string_view name, std::span<const std::string_view
   std::vector<std::string> measures = measures_of(columns);
   for (const LoopMeasure& loop : loop_measures) measures.emplace_back(loop.name);
   const std::vector<std::string_view> known(measures.begin(), measures.end());
-  const std::string_view nearest = yaml::nearest_name(name, known);
-  return nearest.empty() ? "" : " (did you mean " + std::string(nearest) + "?)";
+  return yaml::hint(name, known);
 }
 
 std::string measure_hint(std::string_view name) {

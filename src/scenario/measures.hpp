@@ -5,19 +5,111 @@
 // loop near home.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/instant.hpp"
 #include "scenario/columns.hpp"
-#include "scenario/loop_measures.hpp"
-#include "scenario/window.hpp"
+#include "scenario/scenario.hpp"
 
 namespace bbsim::scenario {
+
+// A missing bound means the start or the end of the run.
+struct Window {
+  std::optional<double> from{}, to{};  // s
+
+  [[nodiscard]] bool is_whole() const { return !from && !to; }
+  [[nodiscard]] double begin() const {
+    return from.value_or(-std::numeric_limits<double>::infinity());
+  }
+  [[nodiscard]] double end() const { return to.value_or(std::numeric_limits<double>::infinity()); }
+  // Times within rounding of a bound belong to the window.
+  [[nodiscard]] bool holds(double t) const {
+    return (!from || t >= *from - rounding_of(*from)) && (!to || t <= *to + rounding_of(*to));
+  }
+
+  friend bool operator==(const Window&, const Window&) = default;
+};
+
+// Splits a name that ends in "from TIME", "to TIME" or both into the rest, the window, and the
+// window's text. Other names have the whole run as their window.
+struct WindowedName {
+  std::string_view base;
+  Window window{};
+  std::string_view text{};
+};
+[[nodiscard]] WindowedName split_window(std::string_view name);
+
+// Why the window does not fit a run from `start` to `end` (s): "the window is empty; allowed: ...".
+// Empty if it fits.
+[[nodiscard]] std::string window_fault(const Window& window, double start, double end);
+
+// A measure of the control loop near home: stability, margins and bandwidths. It depends on the
+// scenario, but not on its motion.
+struct LoopMeasure {
+  enum class Kind {
+    stable,
+    spectral_radius,
+    spectral_abscissa,
+    gain_margin,
+    gain_reduction,
+    phase_margin,
+    delay_margin,
+    bandwidth,
+    feedback_bandwidth
+  } kind;
+  std::size_t axis;  // 0: phi and x, or stability and spectra; 1: theta and y
+  std::string_view name, unit, meaning;
+
+  // Whether it comes from the loop's frequency response rather than from its poles.
+  [[nodiscard]] bool of_response() const { return kind > Kind::spectral_abscissa; }
+};
+
+inline constexpr std::array loop_measures = {
+    LoopMeasure{LoopMeasure::Kind::stable, 0, "stable", "1",
+                "1 if all modes of the loop near home decay, otherwise 0"},
+    LoopMeasure{LoopMeasure::Kind::spectral_radius, 0, "spectral_radius", "1",
+                "of a sampled loop near home: factor of its slowest mode per sample"},
+    LoopMeasure{LoopMeasure::Kind::spectral_abscissa, 0, "spectral_abscissa", "1/s",
+                "greatest real part of the loop's poles near home; of a sampled loop, "
+                "ln(spectral_radius) per period"},
+    LoopMeasure{LoopMeasure::Kind::gain_margin, 0, "phi_gain_margin", "1",
+                "smallest factor above 1 on phi's command that makes the loop unstable"},
+    LoopMeasure{LoopMeasure::Kind::gain_reduction, 0, "phi_gain_reduction", "1",
+                "greatest factor below 1 on phi's command that makes the loop unstable; 0: none"},
+    LoopMeasure{LoopMeasure::Kind::phase_margin, 0, "phi_phase_margin", "rad",
+                "smallest turn of phase, lag or lead, of phi's command that makes the loop "
+                "unstable"},
+    LoopMeasure{LoopMeasure::Kind::delay_margin, 0, "phi_delay_margin", "s",
+                "shortest further delay of phi's command that makes the loop unstable"},
+    LoopMeasure{LoopMeasure::Kind::gain_margin, 1, "theta_gain_margin", "1",
+                "smallest factor above 1 on theta's command that makes the loop unstable"},
+    LoopMeasure{LoopMeasure::Kind::gain_reduction, 1, "theta_gain_reduction", "1",
+                "greatest factor below 1 on theta's command that makes the loop unstable; 0: none"},
+    LoopMeasure{LoopMeasure::Kind::phase_margin, 1, "theta_phase_margin", "rad",
+                "smallest turn of phase, lag or lead, of theta's command that makes the loop "
+                "unstable"},
+    LoopMeasure{LoopMeasure::Kind::delay_margin, 1, "theta_delay_margin", "s",
+                "shortest further delay of theta's command that makes the loop unstable"},
+    LoopMeasure{LoopMeasure::Kind::bandwidth, 0, "x_bandwidth", "rad/s",
+                "where the response of x to x_reference first falls to 1/sqrt(2)"},
+    LoopMeasure{LoopMeasure::Kind::feedback_bandwidth, 0, "x_feedback_bandwidth", "rad/s",
+                "the bandwidth of x without the reference's accelerations"},
+    LoopMeasure{LoopMeasure::Kind::bandwidth, 1, "y_bandwidth", "rad/s",
+                "where the response of y to y_reference first falls to 1/sqrt(2)"},
+    LoopMeasure{LoopMeasure::Kind::feedback_bandwidth, 1, "y_feedback_bandwidth", "rad/s",
+                "the bandwidth of y without the reference's accelerations"},
+};
+
+// Why the scene lacks the measure, as far as its keys tell.
+[[nodiscard]] Missing missing(const LoopMeasure& measure, const Scenario& scenario);
 
 // The metrics of a step response, named as in python-control's step_info() (RiseTime). The step
 // goes from y_0, the column's value at the start, to y_f, the final value of its reference. A
@@ -83,7 +175,7 @@ struct Measure {
 //   when COLUMN=VALUE [rise=N|fall=N|cross=N]: N is from 1, or `last`; default: the first crossing
 //   when COLUMN stays below VALUE, when COLUMN stays above VALUE
 //   find COLUMN when ..., find COLUMN at TIME
-//   a measure of the loop, such as phi_delay_margin (loop_measures.hpp); it has no window
+//   a measure of the loop, such as phi_delay_margin (LoopMeasure); it has no window
 //   any of these with "from TIME", "to TIME" or both: for that part of the run
 // A VALUE may have a unit of the column's dimension: "5 cm". The measure's own name has numbers in
 // SI instead, except those of the window.

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "scenario/profile.hpp"
-
+// Reads profiles.
 #include <algorithm>
 #include <utility>
 
+#include "scenario/sections.hpp"
 #include "scenario/table_rows.hpp"
 #include "yaml/rules.hpp"
 

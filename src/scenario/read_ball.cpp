@@ -3,7 +3,6 @@
 
 // Reads `ball` and `plate`: sizes, masses, losses, pushes, the start.
 #include "base/number_text.hpp"
-#include "scenario/profile.hpp"
 #include "scenario/sections.hpp"
 #include "yaml/rules.hpp"
 

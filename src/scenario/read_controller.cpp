@@ -2,14 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Reads `controller`: laws, sampling, delays, sensors, limits.
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
 
-#include "scenario/period.hpp"
-#include "scenario/profile.hpp"
 #include "scenario/sections.hpp"
 #include "scenario/table_rows.hpp"
 #include "yaml/rules.hpp"
@@ -105,8 +101,7 @@ void read_law(yaml::Keys& keys, Controller& controller) {
   }
   keys.one_of(names);
   if (given.empty()) {
-    keys.missing("pd", yaml::MappingOf(read_pd).allowed() +
-                           "; or another law: " + yaml::comma_separated(names));
+    keys.missing("pd", yaml::MappingOf(read_pd).allowed() + "; or another law: " + joined(names));
     return;
   }
   if (given.size() > 1) {

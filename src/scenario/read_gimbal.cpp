@@ -11,7 +11,6 @@
 
 #include "base/number_text.hpp"
 #include "scenario/calibration.hpp"
-#include "scenario/profile.hpp"
 #include "scenario/sections.hpp"
 #include "scenario/table_rows.hpp"
 #include "yaml/quantity.hpp"

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "scenario/columns.hpp"
-#include "scenario/period.hpp"
 #include "scenario/sections.hpp"
 #include "yaml/rules.hpp"
 

@@ -1,13 +1,18 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reads `time`, `solver` and `output`.
+// Reads `time`, `solver`, `output`, `events` and `sweep`.
 #include <algorithm>
 #include <set>
+#include <string>
 
+#include "base/error.hpp"
 #include "scenario/columns.hpp"
+#include "scenario/measures.hpp"
 #include "scenario/sections.hpp"
+#include "scenario/variation.hpp"
 #include "yaml/rules.hpp"
+#include "yaml/spelling.hpp"
 
 namespace bbsim::scenario {
 namespace {
@@ -32,7 +37,7 @@ struct Columns {
     return columns;
   }
   [[nodiscard]] static std::string text_of(const std::vector<std::string>& columns) {
-    return '[' + yaml::comma_separated({columns.begin(), columns.end()}) + ']';
+    return '[' + joined(columns) + ']';
   }
   static bool read(const yaml::Value& value, std::vector<std::string>& into) {
     if (value.node->kind != yaml::Node::Kind::sequence || value.node->items.empty()) {
@@ -134,6 +139,165 @@ void read_solver(yaml::Keys& keys, Solver& solver) {
 void read_output(yaml::Keys& keys, Output& output) {
   keys.optional("columns", Columns{}, output.columns,
                 {"[columns](columns.md) of the result, each once"});
+}
+
+namespace {
+
+yaml::NameOf<OnEvent> action() {
+  return {{{OnEvent::stop, "stop"}, {OnEvent::note, "note"}}};
+}
+
+enum class OnSlip { stop, note, slide };
+
+void read_slip(yaml::Keys& keys, SlipEvent& slip) {
+  keys.required(
+      "friction", yaml::Number{yaml::Dimension::number, {.above = 0}, "0.3"}, slip.friction,
+      {"coefficient of static friction: the friction force exceeds it times the normal force"});
+  OnSlip action = slip.action == OnEvent::stop ? OnSlip::stop : OnSlip::note;
+  keys.optional("action",
+                yaml::NameOf<OnSlip>{
+                    {{OnSlip::stop, "stop"}, {OnSlip::note, "note"}, {OnSlip::slide, "slide"}}},
+                action, {"`slide`: the ball slides: [losses and sliding](#losses-and-sliding)"});
+  slip.action = action == OnSlip::stop ? OnEvent::stop : OnEvent::note;
+  const yaml::Number sliding{yaml::Dimension::number, {.at_least = 0}, "0.25"};
+  std::optional<double> given;
+  keys.optional("sliding_friction", sliding, given,
+                {.meaning = "coefficient of sliding friction",
+                 .standard = "required with `slide`",
+                 .range = "0 to `friction`"});
+  if (action != OnSlip::slide) return;
+  slip.sliding = given.value_or(0);
+  if (*slip.sliding > slip.friction && slip.friction > 0) {
+    keys.find("sliding_friction")
+        ->report(
+            "found more than friction, at which the ball starts to slide; allowed: at most "
+            "friction");
+  }
+}
+
+void read_tilt(yaml::Keys& keys, TiltEvent& tilt) {
+  keys.required("limit", yaml::angle_limit({.above = 0}), tilt.limit,
+                {"the angle between the plate's normal and the vertical exceeds it"});
+  keys.optional("action", action(), tilt.action);
+}
+
+void read_singularity(yaml::Keys& keys, SingularityEvent& singularity) {
+  keys.optional("distance",
+                yaml::Number{yaml::Dimension::number, {.above = 0, .at_most = 1}, "0.1"},
+                singularity.distance, {"the column `singularity_distance` falls below it"});
+  keys.optional("action", action(), singularity.action);
+}
+
+}  // namespace
+
+void read_events(yaml::Keys& keys, Events& events) {
+  keys.optional("edge", action(), events.edge, {"the contact point leaves the plate"});
+  keys.optional("slip", yaml::MappingOf(read_slip), events.slip);
+  keys.optional("lift_off", action(), events.lift_off, {"the normal force is no longer positive"});
+  keys.optional("tilt", yaml::MappingOf(read_tilt), events.tilt);
+  keys.optional("singularity", yaml::MappingOf(read_singularity), events.singularity);
+  keys.optional("rest", action(), events.rest,
+                {"rolling resistance brings the ball to rest, or holds it at the start"});
+  keys.optional(
+      "stick", action(), events.stick,
+      {"dry friction of its motor holds an axis; recorded as `stick_phi` or `stick_theta`"});
+  keys.optional("steps_lost", action(), events.steps_lost,
+                {"a stepper with `torque` loses steps; noted, unless this is `stop`"});
+}
+
+namespace {
+
+// A mapping from keys of the scenario to the values they take.
+struct Variations {
+  [[nodiscard]] static std::string allowed() {
+    return "a mapping from keys to values, such as ball.radius: linear:0.005:0.02:16";
+  }
+  [[nodiscard]] static yaml::Declared declared() {
+    yaml::Declared variations(yaml::Declared::Kind::names);
+    variations.parts.push_back(yaml::Declared::Kind::text);
+    return variations;
+  }
+  static bool read(const yaml::Value& value, std::vector<Variation>& into) {
+    if (value.node->kind != yaml::Node::Kind::mapping || value.node->entries.empty()) {
+      return value.refuse("", allowed());
+    }
+    bool fine = true;
+    for (const yaml::Entry& entry : value.node->entries) {
+      if (entry.value->absent) continue;
+      const yaml::Value spec{entry.value, value.path + '.' + entry.key, entry.position,
+                             value.context};
+      const auto same = [&](const Variation& variation) {
+        return yaml::american(variation.key) == yaml::american(entry.key);
+      };
+      if (spec.node->kind != yaml::Node::Kind::scalar) {
+        fine = spec.refuse("", "a text such as linear:0.005:0.02:16");
+      } else if (std::ranges::any_of(into, same)) {
+        fine = spec.report("found again; allowed: each key once");
+      } else {
+        into.push_back({entry.key, spec.node->text});
+        fine = understood(spec, into.back()) && fine;
+      }
+    }
+    return fine;
+  }
+
+ private:
+  static bool understood(const yaml::Value& spec, const Variation& variation) {
+    try {
+      static_cast<void>(parse_variation(variation));
+      static_cast<void>(tied_keys(variation));
+      return true;
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      return spec.report(text.substr(text.find(": ") + 2));
+    }
+  }
+};
+
+struct MeasureNames {
+  [[nodiscard]] static std::string allowed() {
+    return "a list of measures, such as [max_tilt, end_x]";
+  }
+  [[nodiscard]] static yaml::Declared declared() {
+    yaml::Declared measures =
+        yaml::Declared::list(1, yaml::Declared::unbounded, yaml::Declared::Kind::text);
+    measures.distinct = true;
+    return measures;
+  }
+  static bool read(const yaml::Value& value, std::vector<std::string>& into) {
+    if (value.node->kind != yaml::Node::Kind::sequence || value.node->items.empty()) {
+      return value.refuse("", allowed());
+    }
+    bool fine = true;
+    for (std::size_t i = 0; i < value.node->items.size(); ++i) {
+      const yaml::Value item = value.item(i);
+      if (!find_measure(item.node->text)) {
+        fine = item.refuse(measure_hint(item.node->text), allowed_measures());
+      } else if (std::ranges::find(into, item.node->text) != into.end()) {
+        fine = item.refuse(" again", "each measure once");
+      } else {
+        into.push_back(item.node->text);
+      }
+    }
+    return fine;
+  }
+};
+
+}  // namespace
+
+void read_sweep(yaml::Keys& keys, Sweep& sweep) {
+  keys.optional("vary", Variations{}, sweep.vary,
+                {"from keys to [value specifications](commands.md#values-of-a-sweep), such as "
+                 "`ball.radius: linear:0.005:0.02:16`"});
+  keys.optional("combine", yaml::NameOf<Combine>{{{Combine::grid, "grid"}, {Combine::zip, "zip"}}},
+                sweep.combine,
+                {"`grid`: every combination; `zip`: first values together, then second ones"});
+  keys.optional("samples", yaml::Whole{1, "1000"}, sweep.samples,
+                {"cases to draw where values are drawn"});
+  keys.optional("seed", yaml::Whole{0, "1000"}, sweep.seed, {"seed of drawn values"});
+  keys.optional("measure", MeasureNames{}, sweep.measure,
+                {.meaning = "[measures](measures.md) to keep, such as `max_tilt`, `x.RiseTime`",
+                 .standard = "the [default measures](measures.md#default-measures-of-a-sweep)"});
 }
 
 }  // namespace bbsim::scenario

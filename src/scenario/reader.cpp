@@ -6,9 +6,8 @@
 #include <filesystem>
 
 #include "scenario/exercise.hpp"
-#include "scenario/groove.hpp"
 #include "scenario/sections.hpp"
-#include "yaml/check_text.hpp"
+#include "yaml/document.hpp"
 #include "yaml/override.hpp"
 #include "yaml/rules.hpp"
 #include "yaml/text_file.hpp"

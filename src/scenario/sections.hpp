@@ -1,13 +1,57 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The readers of a scenario's sections, one function each (schema.hpp).
+// The readers of a scenario's sections, one function each (schema.hpp), and what they share.
 #pragma once
 
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "scenario/scenario.hpp"
-#include "yaml/schema.hpp"
+#include "yaml/rules.hpp"
 
 namespace bbsim::scenario {
+
+inline constexpr std::string_view period_example = "0.02, \"20 ms\" or \"30 Hz\"";
+
+// A period, or a number per second: "30 Hz".
+struct Period {
+  yaml::Usual time;
+
+  [[nodiscard]] std::string allowed() const { return time.allowed(); }
+  [[nodiscard]] yaml::Declared declared() const {
+    return yaml::Declared::any(
+        {time.declared(), yaml::Declared::number(yaml::Dimension::angular_rate, {.above = 0})});
+  }
+  bool read(const yaml::Value& value, double& into) const {
+    if (value.node->kind != yaml::Node::Kind::scalar) return time.read(value, into);
+    std::string_view text = value.node->text;
+    if (!text.ends_with("Hz")) return time.read(value, into);
+    text.remove_suffix(2);
+    const bool kilo = text.ends_with('k');
+    if (kilo) text.remove_suffix(1);
+    while (text.ends_with(' ')) text.remove_suffix(1);
+    const double rate = yaml::read_quantity(text, false, yaml::Dimension::number).value.value_or(0);
+    if (!(rate > 0 && rate < std::numeric_limits<double>::infinity())) {
+      return value.refuse("", allowed());
+    }
+    into = 1 / (kilo ? 1e3 * rate : rate);
+    return true;
+  }
+};
+
+enum class ProfileOf { angle, torque, force };
+
+// A profile of a gimbal angle, a motor's torque or a force: a number, a shape of ProfileTerm, or a
+// list of these, which are summed.
+struct ProfileRule {
+  ProfileOf of = ProfileOf::angle;
+  [[nodiscard]] std::string allowed() const;
+  [[nodiscard]] yaml::Declared declared() const;
+  bool read(const yaml::Value& value, Profile& into) const;
+};
 
 void read_ball(yaml::Keys& keys, Ball& ball);
 // Takes the keys of the scenario. Call it after read_ball and read_time.
@@ -44,5 +88,12 @@ void read_sections(yaml::Keys& keys, Scenario& scenario);
 
 // Checks what lies between keys: their relations, and values that do not go together.
 void check_rig(const yaml::Value& root, const Scenario& scenario);
+
+// Why the scene does not move along x (0) or y (1) alone; empty if it does.
+[[nodiscard]] std::string why_not_along(int axis, const Scenario& scene);
+
+// Sets the axis of a ball in a groove or between rails and the coordinate that its sensor measures.
+// Call it after all sections are read.
+void place_groove(Scenario& scene);
 
 }  // namespace bbsim::scenario

@@ -10,10 +10,9 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
+#include "base/text.hpp"
 #include "file/cell_table.hpp"
 #include "file/format.hpp"
-#include "scenario/log_clock.hpp"
-#include "scenario/log_names.hpp"
 #include "yaml/rules.hpp"
 
 namespace bbsim::scenario {
@@ -150,8 +149,7 @@ std::string fault(const TableRows& table, const std::vector<std::string_view>& v
                   std::string_view noun) {
   const std::size_t rows = table.times.size();
   if (rows < fewest_rows) {
-    return "found " + std::to_string(rows) + (rows == 1 ? " row" : " rows") +
-           "; allowed: at least " + std::to_string(fewest_rows);
+    return "found " + counted(rows, "row") + "; allowed: at least " + std::to_string(fewest_rows);
   }
   for (std::size_t i = 0; i < rows; ++i) {
     const std::string row = " in row " + std::to_string(i + 1) + " below the header";

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scenario/unit_doubts.hpp"
+#include "scenario/log_columns.hpp"
 #include "yaml/schema.hpp"
 
 namespace bbsim::scenario {

@@ -9,7 +9,6 @@
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/text.hpp"
-#include "yaml/decimal.hpp"
 #include "yaml/problems.hpp"
 #include "yaml/quantity.hpp"
 

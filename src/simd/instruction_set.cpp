@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 
 #if defined(BBSIM_X86_KERNELS) && !defined(__clang__) && __has_include(<sys/platform/x86.h>)
 // Use the features that the C library found when the program started. The compiler's
@@ -48,12 +49,9 @@ const Candidate candidates[] = {
 };
 
 std::string names() {
-  std::string list;
-  for (const Candidate& candidate : candidates) {
-    list += (list.empty() ? "" : ", ") + std::string(candidate.name);
-    if (!candidate.runs_here()) list += " (not on this processor)";
-  }
-  return list;
+  return joined(candidates, [](const Candidate& candidate) {
+    return std::string(candidate.name) + (candidate.runs_here() ? "" : " (not on this processor)");
+  });
 }
 
 }  // namespace

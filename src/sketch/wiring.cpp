@@ -4,7 +4,6 @@
 #include "sketch/wiring.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <utility>
@@ -12,7 +11,7 @@
 #include "base/error.hpp"
 #include "file/whole_file.hpp"
 #include "sketch/wiring_rules.hpp"
-#include "yaml/check_text.hpp"
+#include "yaml/document.hpp"
 #include "yaml/text_file.hpp"
 
 namespace bbsim::sketch {
@@ -168,8 +167,7 @@ bool read_pins(Keys& keys, const char* key, const std::string_view (&names)[coun
   if (!value) return false;
   screen.kind = kind;
   if (value->node->kind != yaml::Node::Kind::mapping) {
-    value->refuse("",
-                  "a mapping with " + yaml::comma_separated({std::begin(names), std::end(names)}));
+    value->refuse("", "a mapping with " + bbsim::joined(names));
     return true;
   }
   Keys pins(*value);

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "model/events/occurrence.hpp"
+#include "model/sample.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim::solve {

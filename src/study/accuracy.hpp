@@ -65,4 +65,10 @@ struct BestChoice {
 // point into `study`, which must outlive them.
 [[nodiscard]] std::vector<BestChoice> best_by_decade(const AccuracyStudy& study);
 
+// Every point, then the best choice for each decade of error.
+[[nodiscard]] std::string accuracy_table(const AccuracyStudy& study);
+
+// method,rtol,atol,error_m,time_us,steps,rhs_evaluations,jacobian_evaluations,status
+[[nodiscard]] std::string accuracy_csv(const AccuracyStudy& study);
+
 }  // namespace bbsim::study

@@ -3,7 +3,6 @@
 
 #include "study/operating_point.hpp"
 
-#include <algorithm>
 #include <type_traits>
 #include <variant>
 #include <vector>

@@ -14,9 +14,8 @@
 #include <utility>
 #include <variant>
 
-#include "base/quad.hpp"
 #include "model/spectrum.hpp"
-#include "model/systems/any_jacobian.hpp"
+#include "model/systems/jacobian.hpp"
 #include "solve/integrate.hpp"
 #include "study/checks.hpp"
 #include "study/quad_step.hpp"

@@ -7,11 +7,17 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <tuple>
 #include <utility>
+#include <variant>
 
+#include "base/error.hpp"
 #include "base/real.hpp"
+#include "model/ball/rolling.hpp"
 #include "model/model.hpp"
+#include "scenario/coupled.hpp"
 #include "scenario/reader.hpp"
+#include "solve/cvode/derivative.hpp"
 #include "solve/integrate.hpp"
 #include "solve/output_grid.hpp"
 
@@ -231,6 +237,129 @@ Verification verify(const solve::Watch& watch) {
 
 std::vector<Scenario> paper_scenes(const std::vector<std::string>& overrides) {
   return {parse_scenario(fig2a, "fig2a", overrides), parse_scenario(fig2b, "fig2b", overrides)};
+}
+
+namespace {
+
+using solve::Trajectory;
+
+constexpr solve::Tolerances tolerances{1e-9, 1e-11};
+
+// Simpler equations of motion than (27), to measure what the full equation adds. Each is a policy
+// for the systems of model/systems/system.hpp and replaces Equation27. In both, the spin stays
+// constant.
+
+// The ball rolls down the current slope as if the plane stood still.
+struct SlopeOnly {
+  template <class Real, class Phi, class Theta, class Ball>
+  static Real x(const Phi& phi, const Theta&, const Ball&, double, double g) {
+    return 5 * g * phi.sin / 7;
+  }
+  template <class Real, class Phi, class Theta, class Ball>
+  static Real y(const Phi& phi, const Theta& theta, const Ball&, double, double g) {
+    return -(5 * g * phi.cos * theta.sin) / 7;
+  }
+  template <class Real, class Phi, class Theta, class Ball>
+  static Real u(const Phi&, const Theta&, const Ball&, double) {
+    return Real(0.0);
+  }
+};
+
+// The textbook ball and plate: slope and centrifugal terms, without the effect of the plane's
+// rotation on the rolling inertia, without the spin, and without the gimbal's accelerations.
+struct BallAndPlate {
+  template <class Real, class Phi, class Theta, class Ball>
+  static Real x(const Phi& phi, const Theta& theta, const Ball& ball, double, double g) {
+    return 5 * (g * phi.sin + ball.x * (phi.rate * phi.rate) + ball.y * (phi.rate * theta.rate)) /
+           7;
+  }
+  template <class Real, class Phi, class Theta, class Ball>
+  static Real y(const Phi& phi, const Theta& theta, const Ball& ball, double, double g) {
+    return 5 *
+           (ball.y * (theta.rate * theta.rate) + ball.x * (phi.rate * theta.rate) - g * theta.sin) /
+           7;
+  }
+  template <class Real, class Phi, class Theta, class Ball>
+  static Real u(const Phi&, const Theta&, const Ball&, double) {
+    return Real(0.0);
+  }
+};
+
+template <class Equation>
+solve::Derivative simpler_derivative(const model::Model& model) {
+  return std::visit(
+      [](const auto& system) -> solve::Derivative {
+        if constexpr (requires { system.template with_equation<Equation>(); }) {
+          return [simpler = system.template with_equation<Equation>()](
+                     double t, const double* z, double* dz) { simpler.derivative(t, z, dz); };
+        } else {
+          throw InputError("verify: simpler models are compared over scenarios without switches");
+        }
+      },
+      model.system);
+}
+
+struct Position {
+  double x, y;
+};
+
+Position position(const model::Model& model, double t, const double* row) {
+  const model::BallMotion ball = model.sample(t, row).ball;
+  return {ball.x, ball.y};
+}
+
+SimplerModel compare(std::string name, std::string equation, const Trajectory& full,
+                     const Trajectory& simpler, const model::Model& model,
+                     const solve::OutputGrid& grid) {
+  SimplerModel result{std::move(name), std::move(equation)};
+  const std::size_t rows = std::min(full.rows(), simpler.rows());
+  for (std::size_t i = 0; i < rows; ++i) {
+    const Position a = position(model, grid[i], full.row(i));
+    const Position b = position(model, grid[i], simpler.row(i));
+    const double dx = std::abs(a.x - b.x), dy = std::abs(a.y - b.y);
+    if (dx > result.dx) std::tie(result.dx, result.at_dx) = std::pair(dx, grid[i]);
+    if (dy > result.dy) std::tie(result.dy, result.at_dy) = std::pair(dy, grid[i]);
+    result.reached = grid[i];
+  }
+  return result;
+}
+
+}  // namespace
+
+void require_comparable(const Scenario& scenario) {
+  const model::Model model = model::assemble(scenario, false);
+  if (model.hybrid() || model.rig || scenario::is_coupled(scenario) ||
+      !model::is_the_papers(scenario)) {
+    throw InputError(
+        scenario.source.file +
+        ": simpler models are compared over scenarios with the paper's gimbal and ball, "
+        "with prescribed motion or under pd, without events and limits; try --set "
+        "events=null, or run `bbsim verify` without a scenario");
+  }
+}
+
+FullModelStudy compare_simpler(const Scenario& scenario, const solve::Watch& watch) {
+  require_comparable(scenario);
+  const model::Model model = model::assemble(scenario, false);
+  const solve::OutputGrid grid(scenario.time);
+  Trajectory full(model.size());
+  const solve::Outcome outcome =
+      solve::integrate(model, Method::automatic, tolerances, grid, full, watch);
+  FullModelStudy study;
+  study.reached = outcome.reached;
+  const auto add = [&](std::string name, std::string equation, solve::Derivative derivative) {
+    const Trajectory rows =
+        solve::integrate_by_bdf(std::move(derivative), model, tolerances, grid, watch);
+    study.simpler.push_back(compare(std::move(name), std::move(equation), full, rows, model, grid));
+  };
+  add("slope only", "x'' = (5/7) g sin phi, y'' = -(5/7) g cos phi sin theta",
+      simpler_derivative<SlopeOnly>(model));
+  add("ball and plate",
+      "x'' = (5/7)(g sin phi + x phi'^2 + y phi' theta'), "
+      "y'' = (5/7)(-g sin theta + y theta'^2 + x phi' theta')",
+      simpler_derivative<BallAndPlate>(model));
+  study.interrupted = watch.stop != nullptr && watch.stop->load(std::memory_order_relaxed);
+  return study;
 }
 
 }  // namespace bbsim::study

@@ -11,8 +11,7 @@
 #include <variant>
 
 #include "model/model.hpp"
-#include "model/signals/add_profile.hpp"
-#include "model/signals/given_motion.hpp"
+#include "model/signals/signal_pair.hpp"
 #include "record/rows.hpp"
 #include "solve/choose.hpp"
 #include "solve/ensemble/ensemble.hpp"

@@ -8,7 +8,7 @@
 #include <iterator>
 
 #include "base/error.hpp"
-#include "base/whole.hpp"
+#include "base/number_text.hpp"
 #include "file/hdf5_table.hpp"
 #include "sweep/merge_parts.hpp"
 

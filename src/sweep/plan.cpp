@@ -13,7 +13,6 @@
 #include "base/fnv1a.hpp"
 #include "base/noise.hpp"
 #include "base/number_text.hpp"
-#include "base/whole.hpp"
 #include "scenario/independent.hpp"
 #include "yaml/problems.hpp"
 #include "yaml/quantity.hpp"

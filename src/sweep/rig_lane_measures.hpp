@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "base/chebyshev.hpp"
+#include "base/maxima.hpp"
 #include "file/table_writer.hpp"
 #include "record/rows.hpp"
 #include "record/square_sum.hpp"

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "base/short_number.hpp"
+#include "base/number_text.hpp"
 #include "model/model.hpp"
-#include "model/signals/reference_path.hpp"
+#include "model/signals/signal_pair.hpp"
 #include "solve/integrate.hpp"
 #include "sweep/clock_shift.hpp"
 

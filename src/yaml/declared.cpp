@@ -4,7 +4,6 @@
 #include "yaml/declared.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "base/number_text.hpp"
 

@@ -10,9 +10,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <sstream>
 #include <utility>
+
+#include "base/text.hpp"
 
 namespace bbsim::yaml {
 namespace {
@@ -256,7 +259,6 @@ const Node* parse_yaml(std::string_view text, int source, Nodes& nodes) {
 
 std::string flow_text(const Node& node) {
   std::string text;
-  const auto separate = [&text] { text += text.empty() ? "" : ", "; };
   switch (node.kind) {
     case Node::Kind::null:
       return "null";
@@ -267,17 +269,84 @@ std::string flow_text(const Node& node) {
       return '\'' + text + '\'';
     }
     case Node::Kind::sequence:
-      for (const Node* const item : node.items) {
-        separate();
-        text += flow_text(*item);
-      }
-      return '[' + text + ']';
+      return '[' + joined(node.items, [](const Node* item) { return flow_text(*item); }) + ']';
     case Node::Kind::mapping:
-      for (const Entry& entry : node.entries) {
-        separate();
-        text += entry.key + ": " + flow_text(*entry.value);
+      return '{' +
+             joined(node.entries,
+                    [](const Entry& entry) { return entry.key + ": " + flow_text(*entry.value); }) +
+             '}';
+  }
+  return text;
+}
+
+namespace {
+
+std::string hexadecimal(unsigned value) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  return {'0', 'x', digits[value >> 4U], digits[value & 15U]};
+}
+
+bool is_control(unsigned value) {
+  return (value < 0x20 && value != '\t' && value != '\n' && value != '\r') || value == 0x7F;
+}
+
+bool is_utf16(std::string_view text) {
+  return text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
+}
+
+// The place of a tab in the indentation of the line that begins at `line`, or npos. Blank lines and
+// comments have no significant indentation.
+std::size_t indenting_tab(std::string_view text, std::size_t line) {
+  const std::size_t end = text.find_first_not_of(" \t", line);
+  if (end == std::string_view::npos || text[end] == '\n' || text[end] == '\r' || text[end] == '#') {
+    return std::string_view::npos;
+  }
+  const std::size_t tab = text.substr(line, end - line).find('\t');
+  return tab == std::string_view::npos ? tab : line + tab;
+}
+
+Position position(std::string_view text, std::size_t at, int source) {
+  Position result{source, 1, 1};
+  for (std::size_t i = 0; i < at; ++i) {
+    ++result.column;
+    if (text[i] == '\n') {
+      ++result.line;
+      result.column = 1;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string_view without_byte_order_mark(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  return text;
+}
+
+std::string_view check_text(std::string_view text, int source) {
+  if (is_utf16(text)) {
+    throw TextFault({source, 1, 1}, "found UTF-16; allowed: text saved as UTF-8");
+  }
+  text = without_byte_order_mark(text);
+
+  std::size_t line = std::string_view::npos;  // one before the first
+  for (std::size_t i = 0; i < text.size();) {
+    if (i == line + 1) {
+      const std::size_t tab = indenting_tab(text, i);
+      if (tab != std::string_view::npos) {
+        throw TextFault(position(text, tab, source),
+                        "found a tab in the indentation; allowed: spaces");
       }
-      return '{' + text + '}';
+    }
+    const unsigned value = static_cast<unsigned char>(text[i]);
+    const std::size_t length = first_character(text.substr(i)).length;
+    if (length == 0 || is_control(value)) {
+      throw TextFault(position(text, i, source),
+                      "found the byte " + hexadecimal(value) + "; allowed: text in UTF-8");
+    }
+    if (value == '\n') line = i;
+    i += length;
   }
   return text;
 }

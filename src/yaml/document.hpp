@@ -54,7 +54,13 @@ struct TextFault : std::runtime_error {
 inline constexpr int deepest = 32;
 
 // Parses one YAML document; returns nullptr if the text holds none. Refuses tags and shares the
-// nodes of aliases. Throws TextFault. The text must have passed check_text (check_text.hpp).
+// nodes of aliases. Throws TextFault. The text must have passed check_text().
 [[nodiscard]] const Node* parse_yaml(std::string_view text, int source, Nodes& nodes);
+
+[[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
+
+// Returns the text without a byte order mark. Throws TextFault unless the text is
+// UTF-8 without control characters and without tabs in indentation.
+[[nodiscard]] std::string_view check_text(std::string_view text, int source);
 
 }  // namespace bbsim::yaml

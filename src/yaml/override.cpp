@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "yaml/check_text.hpp"
 #include "yaml/problems.hpp"
 #include "yaml/spelling.hpp"
 #include "yaml/text_file.hpp"
@@ -31,7 +30,7 @@ std::vector<std::string_view> split(std::string_view path) {
   }
 }
 
-std::string joined(Path names) {
+std::string path_text(Path names) {
   std::string text;
   for (const std::string_view name : names) {
     if (!text.empty()) text += '.';
@@ -58,7 +57,7 @@ class Setter {
     }
     if (old->kind == Node::Kind::mapping) return set_entry(nodes_.emplace_back(*old), level);
     if (old->kind == Node::Kind::sequence) return set_item(nodes_.emplace_back(*old), level);
-    fail(joined(path_.first(level)) + ": found " + shown(*old) +
+    fail(path_text(path_.first(level)) + ": found " + shown(*old) +
          ", which has no keys; allowed: a path through mappings and lists");
   }
 
@@ -101,12 +100,12 @@ class Setter {
                         (name.size() == 1 || name.front() != '0');
     const std::size_t size = list.items.size();
     if (value_.absent && (!number || index >= size)) {
-      fail(joined(path_.first(level)) + ": found the position " + shown(name) + " in a list" +
+      fail(path_text(path_.first(level)) + ": found the position " + shown(name) + " in a list" +
            (size == 0 ? ", which has none to remove"
                       : "; allowed: 0 to " + std::to_string(size - 1)));
     }
     if (!number || index > size) {
-      fail(joined(path_.first(level)) + ": found the position " + shown(name) +
+      fail(path_text(path_.first(level)) + ": found the position " + shown(name) +
            " in a list; allowed: 0 to " + std::to_string(size) + ", where the last appends");
     }
     if (value_.absent && level + 1 == path_.size()) {

@@ -8,16 +8,13 @@
 #include <tuple>
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 
 namespace bbsim::yaml {
 namespace {
 
 constexpr std::size_t most_shown = 50;         // problems
 constexpr std::size_t longest_override = 200;  // bytes
-
-bool continues_character(char c) {
-  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
-}
 
 // Converts a column in bytes to a column in characters.
 int character_column(std::string_view text, const Position& position) {

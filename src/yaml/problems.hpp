@@ -4,7 +4,6 @@
 // Collects all faults of a scenario to report them together.
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>

@@ -7,13 +7,20 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "base/text.hpp"
-#include "yaml/decimal.hpp"
 
 namespace bbsim::yaml {
 namespace {
+
+// `fine` for a normal double. `zero` says that the exact value is zero, which is also fine.
+Magnitude magnitude_of(double value, bool zero) {
+  if (!std::isfinite(value)) return Magnitude::too_large;
+  const bool lossy = std::abs(value) < std::numeric_limits<double>::min();
+  return lossy && !zero ? Magnitude::too_small : Magnitude::fine;
+}
 
 // 1 unit = 10^power (factor + rest) in SI. `rest` is the rounding error of `factor`; with it, one
 // fused multiplication rounds the converted value correctly in all but rare cases.
@@ -113,15 +120,6 @@ std::string plain_spelling(std::string_view unit) {
   return result;
 }
 
-std::string list_of(std::span<const Unit> units) {
-  std::string text;
-  for (const Unit& unit : units) {
-    if (!text.empty()) text += ", ";
-    text += unit.name;
-  }
-  return text;
-}
-
 std::string size_fault(Magnitude magnitude) {
   if (magnitude == Magnitude::too_large) return ", too large for a double (at most 1.8e308)";
   return ", too small for a double (0, or at least 2.3e-308 in size)";
@@ -156,7 +154,7 @@ std::string unit_fault(std::string_view unit, Dimension dimension) {
   if (dimension == Dimension::number) return "";
   const Description& wanted = description(dimension);
   return ", in an unknown unit (units of " + std::string(wanted.noun) +
-         " are: " + list_of(wanted.units) + ")";
+         " are: " + joined(wanted.units, &Unit::name) + ")";
 }
 
 }  // namespace
@@ -181,7 +179,7 @@ Dimension dimension_of(std::string_view unit) {
 }
 
 std::string unit_names(Dimension dimension) {
-  return list_of(description(dimension).units);
+  return joined(description(dimension).units, &Unit::name);
 }
 
 double UnitScale::in_si(double number) const {
@@ -227,6 +225,58 @@ std::optional<double> value_in(std::string_view text, std::string_view unit) {
   }
   const std::optional<double> value = read_quantity(text, false, dimension).value;
   return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+namespace {
+
+// Larger exponents overflow or underflow with every mantissa that a file of bounded size can hold.
+constexpr long exponent_limit = 100'000'000;
+
+// The power of ten just above the decimal mantissa: 2 for 12.3, -1 for 0.012.
+long leading_power(std::string_view mantissa) {
+  const auto first = static_cast<long>(mantissa.find_first_of("123456789"));
+  const auto point = static_cast<long>(std::min(mantissa.find('.'), mantissa.size()));
+  return first < point ? point - first : point + 1 - first;
+}
+
+}  // namespace
+
+Decimal leading_decimal(std::string_view text) {
+  // from_chars takes no plus sign, and reads words such as "inf", too.
+  const bool plus = text.starts_with('+');
+  const std::string_view digits = text.substr(plus || text.starts_with('-') ? 1 : 0);
+  if (digits.find_first_of("0123456789.") != 0) return {};
+  const char *const begin = text.data() + (plus ? 1 : 0), *const end = text.data() + text.size();
+  double value = 0;
+  const auto [point, error] = std::from_chars(begin, end, value, std::chars_format::fixed);
+  if (error == std::errc::invalid_argument) return {};
+  const char* const last = std::from_chars(begin, end, value).ptr;
+
+  Decimal decimal{{begin, static_cast<std::size_t>(point - begin)},
+                  0,
+                  static_cast<std::size_t>(last - text.data())};
+  if (last == point) return decimal;
+  const char* const exponent = point + (point[1] == '+' ? 2 : 1);
+  if (std::from_chars(exponent, last, decimal.exponent).ec != std::errc{}) {
+    decimal.exponent = *exponent == '-' ? -exponent_limit : exponent_limit;
+  }
+  decimal.exponent = std::clamp(decimal.exponent, -exponent_limit, exponent_limit);
+  return decimal;
+}
+
+DecimalValue to_double(const Decimal& decimal, int shift) {
+  if (decimal.mantissa.find_first_of("123456789") == std::string_view::npos) {
+    return {decimal.mantissa.front() == '-' ? -0.0 : 0.0, Magnitude::fine};
+  }
+  const long exponent = decimal.exponent + shift;
+  const std::string text = std::string(decimal.mantissa) + 'e' + std::to_string(exponent);
+  double value = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (result.ec == std::errc::result_out_of_range) {
+    const bool large = exponent + leading_power(decimal.mantissa) > 0;
+    return {0, large ? Magnitude::too_large : Magnitude::too_small};
+  }
+  return {value, magnitude_of(value, false)};
 }
 
 }  // namespace bbsim::yaml

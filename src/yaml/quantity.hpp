@@ -4,6 +4,7 @@
 // Reads numbers and quantities ("10 cm") as doubles in SI units and radians.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -69,5 +70,27 @@ struct Quantity {
 // The finite number in SI units, or the quantity with a unit of the same dimension: "5 cm" for "m".
 // A unit without a dimension of its own, such as "%", may follow the number.
 [[nodiscard]] std::optional<double> value_in(std::string_view text, std::string_view unit);
+
+// The decimal number at the start of a text.
+// [+-] digits [. digits] [e [+-] digits], with a digit on at least one side of the point.
+struct Decimal {
+  std::string_view mantissa;  // with a minus sign, without a plus sign
+  long exponent = 0;          // after the e, within 1e8
+  std::size_t length = 0;     // of the number in the text; 0 if the text starts with no number
+};
+
+[[nodiscard]] Decimal leading_decimal(std::string_view text);
+
+enum class Magnitude { fine, too_large, too_small };
+
+// `value` is valid only if the magnitude is fine. Too small: a double would lose digits (a
+// denormal) or become zero.
+struct DecimalValue {
+  double value = 0;
+  Magnitude magnitude = Magnitude::fine;
+};
+
+// The double nearest to decimal * 10^shift.
+[[nodiscard]] DecimalValue to_double(const Decimal& decimal, int shift);
 
 }  // namespace bbsim::yaml

@@ -4,7 +4,6 @@
 #include "yaml/rules.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace bbsim::yaml {
 
@@ -182,9 +181,7 @@ bool Text::read(const Value& value, std::string& into) const {
 }
 
 bool refuse_name(const Value& value, const std::vector<std::string_view>& names) {
-  const std::string_view nearest = nearest_name(value.node->text, names);
-  const std::string hint = nearest.empty() ? "" : " (did you mean " + std::string(nearest) + "?)";
-  return value.refuse(hint, "one of " + comma_separated(names));
+  return value.refuse(hint(value.node->text, names), "one of " + joined(names));
 }
 
 }  // namespace bbsim::yaml

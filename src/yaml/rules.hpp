@@ -9,16 +9,15 @@
 #include <concepts>
 #include <iterator>
 #include <numbers>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/number_text.hpp"
 #include "base/pair.hpp"
-#include "yaml/nearest.hpp"
 #include "yaml/quantity.hpp"
 #include "yaml/schema.hpp"
+#include "yaml/spelling.hpp"
 
 namespace bbsim::yaml {
 
@@ -191,7 +190,7 @@ struct NameOf {
     std::ranges::transform(choices, std::back_inserter(list), &Named::name);
     return list;
   }
-  [[nodiscard]] std::string allowed() const { return "one of " + comma_separated(names()); }
+  [[nodiscard]] std::string allowed() const { return "one of " + joined(names()); }
   [[nodiscard]] Declared declared() const {
     Declared name(Declared::Kind::name);
     for (const Named& choice : choices) name.names.emplace_back(choice.name);

@@ -3,10 +3,8 @@
 
 #include "yaml/schema.hpp"
 
-#include <algorithm>
 #include <unordered_map>
 
-#include "yaml/nearest.hpp"
 #include "yaml/spelling.hpp"
 
 namespace bbsim::yaml {
@@ -139,10 +137,9 @@ bool Keys::exactly_one(const std::vector<std::string_view>& keys) {
     if (find(key)) found.push_back(key);
   }
   if (found.size() == 1) return true;
-  const std::string what = found.empty() ? "none" : comma_separated(found);
-  context().problems.add(
-      mapping_.position,
-      mapping_.path + ": found " + what + "; allowed: exactly one of " + comma_separated(keys));
+  const std::string what = found.empty() ? "none" : joined(found);
+  context().problems.add(mapping_.position, mapping_.path + ": found " + what +
+                                                "; allowed: exactly one of " + joined(keys));
   return false;
 }
 
@@ -154,7 +151,7 @@ void Keys::report_unknown(const Entry& entry) const {
   }
   std::vector<std::string_view> names = known_;
   names.insert(names.end(), others.begin(), others.end());
-  std::string hint = "known keys here: " + comma_separated(known_);
+  std::string hint = "known keys here: " + joined(known_);
   std::string_view meant = synonym(entry.key, known_);
   if (meant.empty()) meant = nearest_name(entry.key, names);
   const bool from_the_top = meant.find('.') != std::string_view::npos;
@@ -187,15 +184,6 @@ void Keys::report_again(const Entry& entry, const Entry& first) const {
   context().problems.add(
       entry.position, mapping_.path_of(entry.key) + ": found again (first on line " +
                           std::to_string(first.position.line) + as + "); allowed: each key once");
-}
-
-std::string comma_separated(const std::vector<std::string_view>& words) {
-  std::string text;
-  for (const std::string_view word : words) {
-    if (!text.empty()) text += ", ";
-    text += word;
-  }
-  return text;
 }
 
 }  // namespace bbsim::yaml

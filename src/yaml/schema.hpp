@@ -27,6 +27,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text.hpp"
 #include "file/table_writer.hpp"
 #include "yaml/declared.hpp"
 #include "yaml/document.hpp"
@@ -209,8 +210,6 @@ class Keys {
 
 [[nodiscard]] const Node& empty_mapping();
 
-[[nodiscard]] std::string comma_separated(const std::vector<std::string_view>& words);
-
 // The rule for a mapping that `reader` reads.
 template <class T>
 class MappingOf {
@@ -221,7 +220,7 @@ class MappingOf {
   [[nodiscard]] std::string allowed() const {
     std::vector<std::string_view> known;
     read_empty(nullptr, known);
-    return "a mapping with " + comma_separated(known);
+    return "a mapping with " + joined(known);
   }
 
   // A key that is known but not declared has the kind `none`.

@@ -13,28 +13,12 @@
 #include <system_error>
 
 #include "base/error.hpp"
+#include "file/descriptor.hpp"
 
 namespace bbsim::yaml {
 namespace {
 
 constexpr int patience = 5000;  // ms
-
-class File {
- public:
-  // Non-blocking, because opening a pipe without a writer would block.
-  explicit File(const std::string& name)
-      : descriptor_(name == "-" ? STDIN_FILENO
-                                : ::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
-  ~File() {
-    if (descriptor_ > STDIN_FILENO) ::close(descriptor_);
-  }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  [[nodiscard]] int get() const { return descriptor_; }
-
- private:
-  int descriptor_;
-};
 
 [[noreturn]] void refuse(const std::string& file, const std::string& message) {
   throw InputError({Problem{name_in_messages(file), message}});
@@ -49,8 +33,8 @@ class File {
                    std::to_string(largest_text) + " bytes");
 }
 
-void wait_for_data(const File& input, const std::string& file) {
-  pollfd event{input.get(), POLLIN, 0};
+void wait_for_data(int input, const std::string& file) {
+  pollfd event{input, POLLIN, 0};
   const int ready = ::poll(&event, 1, file == "-" ? -1 : patience);
   if (ready == 0) refuse(file, "found nothing within 5 s; allowed: a file, or a pipe in use");
   if (ready < 0 && errno != EINTR) refuse_unreadable(file, errno);
@@ -62,30 +46,33 @@ std::string name_in_messages(const std::string& file) {
   return file == "-" ? "standard input" : file;
 }
 
-std::string read_text(const std::string& file) {
-  const File input(file);
-  if (input.get() < 0) refuse_unreadable(file, errno);
+std::string read_text(const std::string& name) {
+  // Non-blocking, because opening a pipe without a writer would block.
+  const file::Descriptor opened(
+      name == "-" ? -1 : ::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  const int input = name == "-" ? STDIN_FILENO : opened.get();
+  if (input < 0) refuse_unreadable(name, errno);
 
   struct stat status {};
-  if (::fstat(input.get(), &status) != 0) refuse_unreadable(file, errno);
-  if (S_ISDIR(status.st_mode)) refuse(file, "found a folder; allowed: a scenario file");
+  if (::fstat(input, &status) != 0) refuse_unreadable(name, errno);
+  if (S_ISDIR(status.st_mode)) refuse(name, "found a folder; allowed: a scenario file");
   const bool regular = S_ISREG(status.st_mode);
   if (regular && status.st_size > static_cast<off_t>(largest_text)) {
-    refuse_size(file, std::to_string(status.st_size));
+    refuse_size(name, std::to_string(status.st_size));
   }
 
   std::string text;
   std::array<char, 16384> buffer;
   while (true) {
-    if (!regular) wait_for_data(input, file);
-    const ssize_t count = ::read(input.get(), buffer.data(), buffer.size());
+    if (!regular) wait_for_data(input, name);
+    const ssize_t count = ::read(input, buffer.data(), buffer.size());
     if (count == 0) return text;
     if (count < 0) {
       if (errno == EINTR || errno == EAGAIN) continue;
-      refuse_unreadable(file, errno);
+      refuse_unreadable(name, errno);
     }
     text.append(buffer.data(), static_cast<std::size_t>(count));
-    if (text.size() > largest_text) refuse_size(file, "more than " + std::to_string(largest_text));
+    if (text.size() > largest_text) refuse_size(name, "more than " + std::to_string(largest_text));
   }
 }
 

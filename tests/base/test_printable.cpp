@@ -4,7 +4,7 @@
 // Text for terminals, with escapes in place of control characters.
 #include <string>
 
-#include "base/printable.hpp"
+#include "base/quoted.hpp"
 #include "catch.hpp"
 
 namespace bbsim_test::test_printable {

@@ -20,7 +20,6 @@
 
 #include "controller/foreign_code.hpp"
 #include "fuzz.hpp"
-#include "yaml/check_text.hpp"
 #include "yaml/document.hpp"
 
 namespace {

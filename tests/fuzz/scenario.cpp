@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "fuzz.hpp"
-#include "model/explain.hpp"
 #include "model/model.hpp"
 #include "scenario/reader.hpp"
 

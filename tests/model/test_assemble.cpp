@@ -11,7 +11,7 @@
 #include "model/model.hpp"
 #include "model/random_states.hpp"
 #include "model/spectrum.hpp"
-#include "model/systems/any_jacobian.hpp"
+#include "model/systems/jacobian.hpp"
 #include "support/scenes.hpp"
 
 namespace bbsim_test::test_assemble {

@@ -13,10 +13,10 @@
 #include "base/error.hpp"
 #include "base/quad.hpp"
 #include "catch.hpp"
-#include "model/assemble_rig.hpp"
+#include "model/assemble.hpp"
 #include "model/control/linearize.hpp"
 #include "model/control/transmission_zeros.hpp"
-#include "model/systems/any_jacobian.hpp"
+#include "model/systems/jacobian.hpp"
 #include "support/reading.hpp"
 #include "support/scenes.hpp"
 

@@ -8,9 +8,9 @@
 
 #include "base/error.hpp"
 #include "catch.hpp"
-#include "model/assemble_rig.hpp"
-#include "model/control/common_cycle.hpp"
+#include "model/assemble.hpp"
 #include "model/control/riccati.hpp"
+#include "model/control/sample_times.hpp"
 #include "model/control/sampled_cycle.hpp"
 #include "model/dense.hpp"
 #include "model/spectrum.hpp"

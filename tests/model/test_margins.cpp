@@ -13,7 +13,7 @@
 #include "model/control/linearize.hpp"
 #include "model/control/sampled_cycle.hpp"
 #include "model/control/transmission_zeros.hpp"
-#include "model/exact_eigenvalues.hpp"
+#include "model/eigenvalues.hpp"
 #include "support/reading.hpp"
 #include "support/sanitizers.hpp"
 #include "support/scenes.hpp"

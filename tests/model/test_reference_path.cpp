@@ -9,10 +9,9 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "model/explain.hpp"
 #include "model/model.hpp"
 #include "model/random_states.hpp"
-#include "model/signals/reference_path.hpp"
+#include "model/signals/signal_pair.hpp"
 #include "support/scenes.hpp"
 
 namespace bbsim_test::test_reference_path {

@@ -10,7 +10,7 @@
 #include "catch.hpp"
 #include "file/memory_table.hpp"
 #include "model/model.hpp"
-#include "record/ball_turn.hpp"
+#include "record/column_values.hpp"
 #include "record/recorder.hpp"
 #include "scenario/reader.hpp"
 #include "solve/integrate.hpp"

@@ -7,9 +7,8 @@
 
 #include "catch.hpp"
 #include "make_scene.hpp"
-#include "replay/kept_rows.hpp"
-#include "replay/rotation.hpp"
-#include "replay/sweep_cases.hpp"
+#include "replay/kept.hpp"
+#include "replay/scene.hpp"
 
 namespace bbsim_test::test_kept_rows {
 

@@ -13,7 +13,7 @@
 #include "read_page.hpp"
 #include "replay/numbers.hpp"
 #include "replay/page.hpp"
-#include "replay/stage.hpp"
+#include "replay/scene.hpp"
 #include "replay/template.hpp"
 #include "scenario/columns.hpp"
 

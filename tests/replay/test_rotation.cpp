@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "catch.hpp"
-#include "replay/rotation.hpp"
+#include "replay/scene.hpp"
 
 namespace bbsim_test::test_rotation {
 

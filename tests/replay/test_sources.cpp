@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "catch.hpp"
-#include "replay/rotation.hpp"
+#include "replay/scene.hpp"
 #include "replay/sources.hpp"
 #include "results/read_result.hpp"
 #include "scenario/reader.hpp"

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "catch.hpp"
-#include "scenario/unit_doubts.hpp"
+#include "scenario/log_columns.hpp"
 #include "support/reading.hpp"
 
 namespace bbsim_test::test_units {

@@ -7,7 +7,7 @@
 
 #include "app/process.hpp"
 #include "catch.hpp"
-#include "sketch/libraries.hpp"
+#include "sketch/compile.hpp"
 #include "sketch/source.hpp"
 
 namespace bbsim_test::test_source {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "model/control/integral_limit.hpp"
+#include "model/control/law.hpp"
 #include "support/largest.hpp"
 #include "support/reading.hpp"
 #include "support/run_in_memory.hpp"

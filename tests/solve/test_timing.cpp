@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "catch.hpp"
+#include "model/control/sample_exchange.hpp"
 #include "model/control/sample_times.hpp"
 #include "model/control/sampled_controller.hpp"
-#include "model/control/sensor_faults.hpp"
 #include "support/run_in_memory.hpp"
 #include "support/scenes.hpp"
 

@@ -14,7 +14,6 @@
 #include "scenario/reader.hpp"
 #include "solve/integrate.hpp"
 #include "study/accuracy.hpp"
-#include "study/accuracy_text.hpp"
 
 namespace bbsim_test::test_accuracy {
 

@@ -10,7 +10,6 @@
 
 #include "catch.hpp"
 #include "scenario/reader.hpp"
-#include "study/full_model.hpp"
 #include "study/verify.hpp"
 
 namespace bbsim_test::test_verify {

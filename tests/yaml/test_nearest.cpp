@@ -4,7 +4,7 @@
 #include <array>
 
 #include "catch.hpp"
-#include "yaml/nearest.hpp"
+#include "yaml/spelling.hpp"
 
 namespace bbsim_test::test_nearest {
 

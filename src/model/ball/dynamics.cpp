@@ -4,13 +4,31 @@
 #include "model/ball/dynamics.hpp"
 
 #include <Eigen/Geometry>
-#include <cmath>
 
 #include "model/ball/rolling.hpp"
 
 namespace bbsim::model {
 
 using Eigen::Vector3d;
+
+bool is_the_papers(const Scenario& scene) {
+  return scene.gimbal.mounting == Mounting{} && scene.ball.inertia_factor == 0.4;
+}
+
+GeneralRolling general_rolling(const Scenario& scene) {
+  const Mounting& mounting = scene.gimbal.mounting;
+  const double turn = mounting.yaw - mounting.skew;
+  GeneralRolling rolling;
+  rolling.k = scene.ball.inertia_factor;
+  rolling.height = mounting.height;
+  rolling.cos_skew = std::cos(mounting.skew);
+  rolling.sin_skew = std::sin(mounting.skew);
+  rolling.cos_turn = std::cos(turn);
+  rolling.sin_turn = std::sin(turn);
+  rolling.cos_base = std::cos(mounting.base_tilt);
+  rolling.sin_base = std::sin(mounting.base_tilt);
+  return rolling;
+}
 
 BallConstants constants_of(const Scenario& scene) {
   BallConstants constants{scene.ball.radius, scene.ball.mass, scene.gravity};

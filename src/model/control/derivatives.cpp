@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "model/assemble_rig.hpp"
+#include "model/assemble.hpp"
 #include "model/control/sampled_controller.hpp"
 #include "model/dense.hpp"
-#include "model/signals/reference_path.hpp"
+#include "model/signals/signal_pair.hpp"
 #include "scenario/coupled.hpp"
 #include "simd/gradient.hpp"
 

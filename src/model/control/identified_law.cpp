@@ -4,7 +4,6 @@
 #include "model/control/identified_law.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "model/dense.hpp"
 

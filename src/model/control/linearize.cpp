@@ -7,11 +7,10 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <string>
 #include <utility>
 
 #include "base/error.hpp"
-#include "model/control/common_cycle.hpp"
+#include "model/control/sample_times.hpp"
 #include "model/control/sampled_cycle.hpp"
 #include "model/control/transmission_zeros.hpp"
 #include "model/dense.hpp"

@@ -56,7 +56,7 @@ struct LoopParts {
 };
 
 // Linearizes without limits, dead band, backlash, rounding and noise. If samples see a sensor's
-// frames at different ages (common_cycle.hpp), each sample gets a frame of its own instead. The
+// frames at different ages (common_cycle()), each sample gets a frame of its own instead. The
 // spin is a state if it acts on others, and so are the law's integrals. `model` is that of the
 // scene and says what symmetry leaves out. Throws InputError if the scene has nothing of that kind.
 [[nodiscard]] Linearization linearize(const Scenario& scene, const Model& model, LinearKind kind,

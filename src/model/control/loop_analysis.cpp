@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <string_view>
 
-#include "model/control/common_cycle.hpp"
+#include "base/real.hpp"
+#include "model/control/sample_times.hpp"
 
 namespace bbsim::model {
 
@@ -17,7 +17,6 @@ using Kind = scenario::LoopMeasure::Kind;
 
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* one_axis = "the ball moves along the other axis only";
 
 }  // namespace
@@ -69,7 +68,7 @@ LoopAnalysis::Value LoopAnalysis::pole_value(Kind kind) {
 LoopAnalysis::Value LoopAnalysis::margin(const scenario::LoopMeasure& measure) {
   const std::string_view command = measure.axis == 0 ? "phi_command" : "theta_command";
   const auto found = std::ranges::find(loop_->margins, command, &LoopMargins::command);
-  if (found == loop_->margins.end()) return {nothing, one_axis};
+  if (found == loop_->margins.end()) return {no_number, one_axis};
   const Margins& margins = found->margins;
   switch (measure.kind) {
     case Kind::gain_margin:
@@ -86,22 +85,22 @@ LoopAnalysis::Value LoopAnalysis::margin(const scenario::LoopMeasure& measure) {
 LoopAnalysis::Value LoopAnalysis::bandwidth(const scenario::LoopMeasure& measure) {
   const std::string_view output = measure.axis == 0 ? "x" : "y";
   const auto found = std::ranges::find(loop_->bandwidths, output, &Bandwidth::output);
-  if (found == loop_->bandwidths.end()) return {nothing, one_axis};
+  if (found == loop_->bandwidths.end()) return {no_number, one_axis};
   return {measure.kind == Kind::bandwidth ? found->value : found->of_feedback};
 }
 
 LoopAnalysis::Value LoopAnalysis::value_of(const scenario::LoopMeasure& measure) {
-  if (poles().empty()) return {nothing, "the loop has no linear equations about home"};
+  if (poles().empty()) return {no_number, "the loop has no linear equations about home"};
   if (!measure.of_response()) return pole_value(measure.kind);
-  if (!is_stable()) return {nothing, "the loop is not stable"};
+  if (!is_stable()) return {no_number, "the loop is not stable"};
   if (sampled()) {
     const SampledLoop& loop = *model_.rig->sampled;
     if (common_cycle(loop.sampling, loop.sensor).samples > 1) {
-      return {nothing, "the loop differs from sample to sample because of the sensor's frames"};
+      return {no_number, "the loop differs from sample to sample because of the sensor's frames"};
     }
   }
   if (!loop_) loop_ = linearize(scene_, model_, LinearKind::loop, home_point(), parts_);
-  if (!loop_->stable) return {nothing, "the loop is not stable"};
+  if (!loop_->stable) return {no_number, "the loop is not stable"};
   const bool is_width = measure.kind == Kind::bandwidth || measure.kind == Kind::feedback_bandwidth;
   return is_width ? bandwidth(measure) : margin(measure);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Measures of the loop about home (scenario/loop_measures.hpp), for `bbsim check` and `bbsim
+// Measures of the loop about home (scenario/measures.hpp), for `bbsim check` and `bbsim
 // linearize`.
 #pragma once
 

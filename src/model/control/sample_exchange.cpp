@@ -5,9 +5,8 @@
 
 #include <cmath>
 
-#include "model/control/common_cycle.hpp"
-
 namespace bbsim::model {
+
 SampleExchange::SampleExchange(const SampledLoop& loop)
     : even_(loop.sampling.is_even()),
       period_(loop.sampling.period),

@@ -4,7 +4,6 @@
 #include "model/control/sampled_controller.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace bbsim::model {
 

@@ -8,7 +8,7 @@
 #include <deque>
 #include <utility>
 
-#include "model/control/common_cycle.hpp"
+#include "model/control/sample_times.hpp"
 #include "model/dense.hpp"
 
 namespace bbsim::model {

@@ -57,7 +57,7 @@ struct SampledMap {
 };
 
 // A sampled loop, linear, from a sample until the pattern of samples and frames repeats: to the
-// next sample, without frames or with one for each (common_cycle.hpp). Its states in order: the
+// next sample, without frames or with one for each (common_cycle()). Its states in order: the
 // plant's; measurements still needed; the controller's position and velocity; the commands'
 // integral parts, if the law has them; commands not yet applied; the held command, if the cycle
 // begins with it.

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "model/eigenvalues.hpp"
-#include "model/exact_eigenvalues.hpp"
 
 namespace bbsim::model {
 namespace {

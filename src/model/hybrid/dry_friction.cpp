@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "base/instant.hpp"
-#include "model/hybrid/start_angle.hpp"
 
 namespace bbsim::model {
 namespace {
@@ -31,6 +31,47 @@ DryDirection against(const double* v) {
   const double length = size(v);
   if (!(length > 0)) return {};
   return {0, {-v[0] / length, -v[1] / length}};
+}
+
+// Angles closer than this count as equal: rounding is 1e-16 of the accelerations that cancel.
+constexpr double equal_angles = 1e-14;
+
+// Angle of a motion from rest that is parallel to its acceleration, rad; `last` if none is found.
+// turned(a) is the angle from a motion at angle a to its acceleration; turned(last) is f_last.
+template <class Turned>
+double start_angle(const Turned& turned, double last, double f_last) {
+  constexpr double half_turn = std::numbers::pi;
+  const double at = last;
+  // The direction of the acceleration is often the solution; the secant method starts there.
+  double next = last + f_last;
+  for (int i = 0; i < 12 && std::abs(f_last) > equal_angles; ++i) {
+    const double f = turned(next), slope = (f - f_last) / (next - last);
+    last = std::exchange(next, next - f / slope);
+    f_last = f;
+    if (!(std::abs(next - last) < half_turn)) break;
+  }
+  if (std::abs(f_last) <= equal_angles || std::abs(next - last) <= equal_angles) return last;
+  // Otherwise searches the whole circle for a sign change by less than half a turn (no jump).
+  constexpr int parts = 32;
+  double from = at, f_from = turned(from);
+  for (int i = 1; i <= parts; ++i) {
+    double to = at + 2 * half_turn * i / parts, f_to = turned(to);
+    if (f_from * f_to <= 0 && std::abs(f_from - f_to) < half_turn) {
+      for (int k = 0; k < 100 && to - from > equal_angles; ++k) {
+        const double middle = from + (to - from) / 2, f = turned(middle);
+        if (f_from * f > 0) {
+          from = middle;
+          f_from = f;
+        } else {
+          to = middle;
+        }
+      }
+      return from;
+    }
+    from = to;
+    f_from = f_to;
+  }
+  return at;
 }
 
 // Decides whether the direction of a motion follows its velocity v or is held.

@@ -3,8 +3,6 @@
 
 #include "model/hybrid/hybrid_system.hpp"
 
-#include <cmath>
-
 #include "model/systems/given_plate.hpp"
 
 namespace bbsim::model {

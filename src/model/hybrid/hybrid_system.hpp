@@ -4,8 +4,8 @@
 // A run of a scene with switches: the model in its present mode, the next event, and its effect.
 // The integrator needs to know nothing else about a rig.
 //
-// Each kind of switch is a Part (part.hpp) in a file of this folder. HybridSystem holds the parts
-// that the scene needs, concatenates their guards, and resets all of them together.
+// Each kind of switch is a Part (part.hpp), most in a file of this folder. HybridSystem holds the
+// parts that the scene needs, concatenates their guards, and resets all of them together.
 #pragma once
 
 #include <algorithm>
@@ -15,16 +15,36 @@
 #include <vector>
 
 #include "base/instant.hpp"
-#include "model/hybrid/command_limits.hpp"
-#include "model/hybrid/curve_pieces.hpp"
 #include "model/hybrid/dry_friction.hpp"
+#include "model/hybrid/limits.hpp"
 #include "model/hybrid/monitors.hpp"
-#include "model/hybrid/motor_limits.hpp"
+#include "model/hybrid/part.hpp"
 #include "model/hybrid/sampling.hpp"
 #include "model/hybrid/servos.hpp"
-#include "model/hybrid/stops.hpp"
 
 namespace bbsim::model {
+
+// The stops of the input: times at which the input or one of its derivatives jumps.
+class Stops : public Part {
+ public:
+  explicit Stops(const std::vector<double>& times) : times_(times) { put(); }
+
+  [[nodiscard]] double next_time() const { return time_; }
+  [[nodiscard]] double next_change() const { return time_; }
+  void observe(double t, const double* /*z*/) {
+    while (time_ <= t) {
+      ++next_;
+      put();
+    }
+  }
+
+ private:
+  void put() { time_ = next_ < times_.size() ? times_[next_] : unlimited; }
+
+  const std::vector<double>& times_;
+  std::size_t next_ = 0;
+  double time_ = unlimited;  // the next stop, s
+};
 
 // Part of a given type in a tuple of optional parts; null if absent.
 template <class Part, class Parts>

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "model/events/occurrence.hpp"
 #include "model/hybrid/part.hpp"
 #include "model/hybrid/sampling.hpp"
+#include "model/sample.hpp"
 
 namespace bbsim::model {
 

@@ -4,7 +4,6 @@
 // A model in its present mode, as the parts that switch see it.
 #pragma once
 
-#include <array>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>

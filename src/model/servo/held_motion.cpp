@@ -4,12 +4,9 @@
 #include "model/servo/held_motion.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
-
-#include "model/servo/impulse_series.hpp"
 
 namespace bbsim::model {
 namespace {

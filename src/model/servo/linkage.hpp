@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 #include "base/real.hpp"
 #include "model/ball/rolling.hpp"

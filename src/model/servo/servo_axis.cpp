@@ -3,9 +3,6 @@
 
 #include "model/servo/servo_axis.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace bbsim::model {
 
 AxisMargin ServoAxis::push() const {

@@ -6,6 +6,8 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "model/ball/rolling.hpp"
@@ -13,6 +15,29 @@
 #include "scenario/scenario.hpp"
 
 namespace bbsim::model {
+
+// Adds a profile's constants, sinusoids and ramps to `to`, with add_constant(component, ...) and so
+// on. Passes all other terms, which lanes share (SharedTerms), to add_shared(part).
+template <class Signals, class Component, class AddShared>
+void add_profile(const Profile& profile, Component component, Signals& to, AddShared add_shared) {
+  for (const ProfileTerm& term : profile) {
+    std::visit(
+        [&](const auto& part) {
+          using Part = std::decay_t<decltype(part)>;
+          if constexpr (std::is_same_v<Part, double>) {
+            to.add_constant(component, part);
+          } else if constexpr (std::is_same_v<Part, Sinusoid>) {
+            to.add_constant(component, part.offset);
+            to.add_sinusoid(component, part.amplitude, part.frequency, part.phase);
+          } else if constexpr (std::is_same_v<Part, Ramp>) {
+            to.add_ramp(component, part.start, part.rate);
+          } else {
+            add_shared(part);
+          }
+        },
+        term);
+  }
+}
 
 // A sinusoid in both components: sine[i] sin(frequency t) + cosine[i] cos(frequency t). Here and
 // below, Scalar is double, or a pack with one signal per lane.
@@ -139,5 +164,12 @@ class SignalPair {
   std::vector<Spline> splines_;
   std::vector<Tabulated> tables_;  // the same splines, as views
 };
+
+// phi and theta of a scene with gimbal.motion, including the mounting's offsets.
+[[nodiscard]] SignalPair given_motion(const Scenario& scenario);
+
+// x and y (m), or phi and theta (rad), of the reference as functions of time (s) for a run until
+// `end`, with the jumps before the end. A square wave jumps at most most_jumps times in a run.
+[[nodiscard]] SignalPair reference_path(const Reference& reference, double end);
 
 }  // namespace bbsim::model

@@ -4,7 +4,6 @@
 #include "model/signals/spline.hpp"
 
 #include <cmath>
-#include <utility>
 
 #include "base/instant.hpp"
 

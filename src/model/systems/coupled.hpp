@@ -23,7 +23,7 @@ struct MotorMode {
   double free = 1;       // 0: dry friction holds the axis
   double integrate = 1;  // 0: the position loop's integral waits at a limit
   double side = 0;       // 1 or -1: the torque asked is above or below the torque given
-  double along = 0;      // 1: the torque asked moves along a limit (control/integral_limit.hpp)
+  double along = 0;      // 1: the torque asked moves along a limit (control/law.hpp)
 };
 
 // The torque asked of a motor, N m: from_command u - from_angle q - from_rate q' + from_integral

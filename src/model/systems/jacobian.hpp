@@ -1,28 +1,16 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The exact Jacobian of a system, by forward-mode automatic differentiation.
+// The exact Jacobian of any system, by forward-mode automatic differentiation, in one source file,
+// because its instantiation for all systems takes longer to compile than all its callers.
 #pragma once
 
-#include <Eigen/Core>
-
-#include "simd/gradient.hpp"
+#include "model/systems/list.hpp"
 
 namespace bbsim::model {
 
-template <class System>
-using JacobianOf = Eigen::Matrix<double, System::size, System::size>;
-
-// J(i, j) = d f_i / d z_j at (t, z). Allocates nothing.
-template <class System>
-[[nodiscard]] JacobianOf<System> jacobian(const System& system, double t, const double* z) {
-  constexpr int n = System::size;
-  simd::WithGradient<n> state[n], rate[n];
-  for (int i = 0; i < n; ++i) state[i] = simd::WithGradient<n>::variable(z[i], i);
-  system.derivative_of(system.inputs(t), state, rate);
-  JacobianOf<System> matrix;
-  for (int i = 0; i < n; ++i) matrix.row(i) = rate[i].gradient.transpose();
-  return matrix;
-}
+// Writes d f_i / d z_j at (t, z) to matrix[i + size j] for a system of `size` states. Allocates
+// nothing.
+void jacobian(const System& system, double t, const double* z, double* matrix);
 
 }  // namespace bbsim::model

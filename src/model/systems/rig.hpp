@@ -4,7 +4,6 @@
 // The data of a rig that its right-hand side does not hold: switches and sampling.
 #pragma once
 
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>

@@ -47,7 +47,7 @@ struct AxisMode {
   double command_factor = 1, set_command = 0;
   double integrate = 1;  // 0: the command's integral part waits at the limit
   double side = 0;       // 1 or -1: the command is at its upper or lower limit
-  double along = 0;      // 1: the command moves along the limit (control/integral_limit.hpp)
+  double along = 0;      // 1: the command moves along the limit (control/law.hpp)
 };
 
 struct RigMode {

@@ -44,7 +44,7 @@ struct Motions {
 };
 
 // The ball's equation of motion, a parameter of the systems below: (27), or a simpler equation for
-// comparison (model/ball/simpler_equations.hpp).
+// comparison (study/verify.cpp).
 struct Equation27 {
   template <class Real, class Phi, class Theta, class Ball, class Scalar>
   static Real x(const Phi& phi, const Theta& theta, const Ball& ball, const Scalar& r,

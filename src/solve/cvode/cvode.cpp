@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <variant>
 
-#include "model/systems/any_jacobian.hpp"
+#include "model/systems/jacobian.hpp"
 #include "solve/cvode/sundials.hpp"
 
 namespace bbsim::solve {

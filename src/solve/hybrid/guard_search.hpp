@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/chebyshev.hpp"
+#include "base/maxima.hpp"
 #include "model/hybrid/hybrid_system.hpp"
 #include "solve/stepper.hpp"
 

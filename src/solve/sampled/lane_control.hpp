@@ -7,7 +7,6 @@
 #include <array>
 #include <type_traits>
 
-#include "simd/arcsine.hpp"
 #include "simd/compare.hpp"
 #include "solve/sampled/lane_kernel.hpp"
 
