@@ -188,6 +188,22 @@ void Extremes::find_open(const solve::Piece& piece) {
   }
 }
 
+// A piece counts if a value exceeds the greatest one so far, or if there is none yet.
+bool Extremes::may_miss(solve::BoundsOfColumns& within) const {
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (!bounded_[i]) return false;
+    solve::Bounds& bounds = within[static_cast<std::size_t>(*bounded_[i])];
+    const bool none = std::isnan(greatest_[i].value);
+    const double most = none ? -std::numeric_limits<double>::infinity() : greatest_[i].value;
+    if (signs_[i] > 0) {
+      bounds.most = std::min(bounds.most, most);
+    } else {
+      bounds.least = std::max(bounds.least, -most);
+    }
+  }
+  return true;
+}
+
 void Extremes::accept(const solve::Piece& piece) {
   find_open(piece);
   if (open_.empty()) return;

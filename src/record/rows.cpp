@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/systems/given_plate.hpp"
+
 namespace bbsim::record {
 namespace {
 
@@ -70,11 +72,27 @@ void Rows::evaluate(const double* times, const double* rows, std::size_t count) 
   resize(count);
   const std::size_t row_size = model_->row_size();
   for (std::size_t first = 0; first < count; first += strip) {
-    const std::size_t many = std::min(strip, count - first);
-    samples_.resize(many);
-    model_->samples(times + first, rows + first * row_size, many, detail_, samples_.data());
+    take_samples(times + first, rows + first * row_size, std::min(strip, count - first));
     fill(first);
   }
+}
+
+void Rows::take_samples(const double* times, const double* rows, std::size_t count) {
+  samples_.resize(count);
+  if (shared_reference_ == nullptr || detail_ > Detail::path) {
+    model_->samples(times, rows, count, detail_, samples_.data());
+    return;
+  }
+  model::with_given_plate(model_->system, [&](const auto& loop) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double t = times[i];
+      const auto& [x, y] =
+          shared_reference_->entry(t).at(t, [&] { return loop.reference().at(t); });
+      samples_[i].t = t;
+      samples_[i].ball = loop.ball(rows + i * model_->row_size());
+      samples_[i].reference = {x.value, y.value};
+    }
+  });
 }
 
 void Rows::evaluate(const solve::Piece& piece, const double* times, std::size_t count) {

@@ -23,6 +23,9 @@ class Rows {
   // Begins a run. Both arguments must outlive it.
   void begin(const model::Model& model, const model::BallConstants& constants);
 
+  // Lets runs with one reference compute it once. The cache must outlive this object.
+  void share_reference(model::SharedSignals& shared) { shared_reference_ = &shared; }
+
   // Evaluates `count` rows (Model::row_size() numbers each) at their times (s). Orientations
   // continue from the row before.
   void evaluate(const double* times, const double* rows, std::size_t count);
@@ -31,6 +34,8 @@ class Rows {
 
   [[nodiscard]] const std::vector<const scenario::Column*>& columns() const { return columns_; }
   [[nodiscard]] bool need_dynamics() const { return needs_dynamics_; }
+  // Whether only the ball's states of a row count.
+  [[nodiscard]] bool need_ball_only() const { return needs_ball_only_; }
   // Evaluates a piece of the motion at times (s).
   void evaluate(const solve::Piece& piece, const double* times, std::size_t count);
   // A column of the rows evaluated last.
@@ -44,6 +49,7 @@ class Rows {
   static constexpr std::size_t strip = 32;
 
   void resize(std::size_t count);
+  void take_samples(const double* times, const double* rows, std::size_t count);
   // Fills the columns from the samples; the first one is row `first` of the block.
   void fill(std::size_t first);
 
@@ -53,6 +59,7 @@ class Rows {
   bool needs_dynamics_ = false, needs_orientation_ = false, needs_ball_only_ = false;
   const model::Model* model_ = nullptr;
   const model::BallConstants* constants_ = nullptr;
+  model::SharedSignals* shared_reference_ = nullptr;
   std::optional<BallTurn> turn_;
 
   std::size_t count_ = 0;               // of the block
