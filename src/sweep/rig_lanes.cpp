@@ -68,8 +68,8 @@ class RigLaneRunner : public LaneRunner {
         tolerances_{first.solver.rtol, first.solver.atol},
         lanes_(tolerances_, grid_) {
     for (std::size_t lane = 0; lane < solve::sampled::group; ++lane) {
-      recorders_[lane] = std::make_unique<record::Recorder>(
-          record::RecordRequest{task.series, task.measures});
+      recorders_[lane] =
+          std::make_unique<record::Recorder>(record::RecordRequest{task.series, task.measures});
       recorders_[lane]->share_reference(lanes_.shared_reference());
     }
   }

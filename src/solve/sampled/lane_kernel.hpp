@@ -92,11 +92,11 @@ struct alignas(64) LaneScene {
   double known_least[lane_quantity_count][group], known_most[lane_quantity_count][group];
   double rtol, atol;
   bool force, sizes;  // whether contact forces, and the sizes of motions, are wanted
-  bool papers;  // whether all lanes have the paper's rolling
+  bool papers;        // whether all lanes have the paper's rolling
 };
 
-// Whether an event may occur. If sizes are wanted, also the quantities at the start and at all nodes
-// but the first, and their ranges there.
+// Whether an event may occur. If sizes are wanted, also the quantities at the start and at all
+// nodes but the first, and their ranges there.
 struct alignas(64) LaneQuantities {
   double at[lane_quantity_count][nodes][group];
   double least[lane_quantity_count][group], most[lane_quantity_count][group];
