@@ -4,6 +4,7 @@
 #include "model/model.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <new>
@@ -20,7 +21,11 @@ bool Model::jumps_at(double t) const {
 }
 
 double Model::just_before(double t) const {
-  if (!jumps_at(t)) return std::nextafter(t, -std::numeric_limits<double>::infinity());
+  if (!jumps_at(t)) {
+    // The double before a positive one has the number before in its bits. std::nextafter is slow.
+    return t > 0 ? std::bit_cast<double>(std::bit_cast<std::int64_t>(t) - 1)
+                 : std::nextafter(t, -std::numeric_limits<double>::infinity());
+  }
   // A jump starts one rounding error before its time, which may lie one before t. The third is for
   // sums of times.
   return t - 3 * rounding_of(t);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -93,16 +95,16 @@ void Extremes::note(const model::Sample& sample) {
   for (std::size_t i = 0; i < size(); ++i) take(i, signs_[i] * columns_[i][0], sample.t);
 }
 
-// Evaluates the columns at all points, or with a stride of 2 at each second one: the others have
-// the values of half as many points.
+// Evaluates the open columns at all points, or with a stride of 2 at each second one: the others
+// have the values of half as many points.
 void Extremes::sample(const solve::Piece& piece, const ChebyshevPoints& points,
                       std::size_t stride) {
   const std::size_t count = points.size(), before = (count + 1) / 2, first = stride - 1;
   times_.clear();
   for (std::size_t p = first; p < count; p += stride) times_.push_back(time_of(piece, points, p));
-  columns_.evaluate(piece, times_.data(), times_.size());
+  columns_.evaluate(piece, times_.data(), times_.size(), open_);
   values_.resize(count * size());
-  for (std::size_t i = size(); i-- > 0;) {
+  for (const std::size_t i : open_ | std::views::reverse) {
     double* const values = &values_[i * count];
     for (std::size_t p = before; stride == 2 && p-- > 0;) values[2 * p] = values_[i * before + p];
     for (std::size_t k = 0; k < times_.size(); ++k) {
@@ -137,7 +139,7 @@ void Extremes::climb_within(std::size_t i, const solve::Piece& piece,
   for (std::size_t p = 0; p < points.size(); ++p) take(i, values[p], time_of(piece, points, p));
   const auto value_at = [&](double s) {
     const double t = std::min(piece.from() + length * s, piece.to());
-    columns_.evaluate(piece, &t, 1);
+    columns_.evaluate(piece, &t, 1, std::span(&i, 1));
     return signs_[i] * columns_[i][0];
   };
   const auto climb_there = [&](Bracket bracket) {
@@ -186,6 +188,22 @@ void Extremes::find_open(const solve::Piece& piece) {
     close = true;
     if (may_exceed(i, bounds)) open_.push_back(i);
   }
+}
+
+// A piece counts if a value exceeds the greatest one so far, or if there is none yet.
+bool Extremes::may_miss(solve::BoundsOfColumns& within) const {
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (!bounded_[i]) return false;
+    solve::Bounds& bounds = within[static_cast<std::size_t>(*bounded_[i])];
+    const bool none = std::isnan(greatest_[i].value);
+    const double most = none ? -std::numeric_limits<double>::infinity() : greatest_[i].value;
+    if (signs_[i] > 0) {
+      bounds.most = std::min(bounds.most, most);
+    } else {
+      bounds.least = std::max(bounds.least, -most);
+    }
+  }
+  return true;
 }
 
 void Extremes::accept(const solve::Piece& piece) {

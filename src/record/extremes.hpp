@@ -42,6 +42,7 @@ class Extremes : public solve::PieceSink {
 
   void begin_run() override;
   void accept(const solve::Piece& piece) override;
+  [[nodiscard]] bool may_miss(solve::BoundsOfColumns& within) const override;
 
   [[nodiscard]] std::size_t size() const { return greatest_.size(); }
   // NaN until there is a value.

@@ -4,6 +4,7 @@
 // Passes the pieces of one run to several sinks, or the parts of them within a window of time.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "scenario/measures.hpp"
@@ -21,6 +22,10 @@ class PieceFan : public solve::PieceSink {
   }
   void accept(const solve::Piece& piece) override {
     for (solve::PieceSink* const sink : sinks_) sink->accept(piece);
+  }
+  [[nodiscard]] bool may_miss(solve::BoundsOfColumns& within) const override {
+    return std::ranges::all_of(
+        sinks_, [&](const solve::PieceSink* sink) { return sink->may_miss(within); });
   }
   // The sink for the pieces; null if there is none.
   [[nodiscard]] solve::PieceSink* sink() {
@@ -40,6 +45,9 @@ class WindowPieces : public solve::PieceSink {
       : window_(window), sink_(sink) {}
   void begin_run() override { sink_.begin_run(); }
   void accept(const solve::Piece& piece) override;
+  [[nodiscard]] bool may_miss(solve::BoundsOfColumns& within) const override {
+    return window_.is_whole() && sink_.may_miss(within);
+  }
 
  private:
   const scenario::Window& window_;

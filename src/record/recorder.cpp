@@ -113,8 +113,7 @@ void Recorder::accept(std::size_t first, std::size_t count, const double* values
     for (const auto& window : windows_) window->accept_start(times_[0], values);
   }
   last_time_ = times_.back();
-  const double* const last = values + (count - 1) * model_->row_size();
-  last_.assign(last, last + model_->row_size());
+  std::copy_n(values + (count - 1) * last_.size(), last_.size(), last_.begin());
   if (!rows_.columns().empty()) take_rows(count, values);
 }
 

@@ -47,10 +47,14 @@ class Recorder : public solve::StateSink {
   void begin(const model::Model& model, const model::BallConstants& constants,
              const solve::OutputGrid& grid, file::TableWriter* table = nullptr);
 
+  // For runs that all have the same reference (Rows).
+  void share_reference(model::SharedSignals& shared) { rows_.share_reference(shared); }
+
   // Throws OutputError.
   void accept(std::size_t first, std::size_t count, const double* values) override;
   [[nodiscard]] solve::PieceSink* pieces() override { return fan_.sink(); }
   [[nodiscard]] bool wants_rows() const override { return !rows_.columns().empty(); }
+  [[nodiscard]] bool wants_ball_only() const override { return rows_.need_ball_only(); }
 
   // Writes the measures of the run, one after the other.
   void finish(const solve::Outcome& outcome, double* results);

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "model/model.hpp"
@@ -23,6 +24,9 @@ class Rows {
   // Begins a run. Both arguments must outlive it.
   void begin(const model::Model& model, const model::BallConstants& constants);
 
+  // Lets runs with one reference compute it once. The cache must outlive this object.
+  void share_reference(model::SharedSignals& shared) { shared_reference_ = &shared; }
+
   // Evaluates `count` rows (Model::row_size() numbers each) at their times (s). Orientations
   // continue from the row before.
   void evaluate(const double* times, const double* rows, std::size_t count);
@@ -30,9 +34,14 @@ class Rows {
   void evaluate(const model::Sample& sample);
 
   [[nodiscard]] const std::vector<const scenario::Column*>& columns() const { return columns_; }
-  [[nodiscard]] bool need_dynamics() const { return needs_dynamics_; }
+  [[nodiscard]] bool need_dynamics() const { return of_all_.dynamics; }
+  // Whether only the ball's states of a row count.
+  [[nodiscard]] bool need_ball_only() const { return of_all_.ball_only(); }
   // Evaluates a piece of the motion at times (s).
   void evaluate(const solve::Piece& piece, const double* times, std::size_t count);
+  // Evaluates only some of the columns, by their indices. The others then have no values.
+  void evaluate(const solve::Piece& piece, const double* times, std::size_t count,
+                std::span<const std::size_t> which);
   // A column of the rows evaluated last.
   [[nodiscard]] const double* operator[](std::size_t column) const {
     return numbers_.data() + column * count_;
@@ -43,16 +52,32 @@ class Rows {
   // program's memory small at its start.
   static constexpr std::size_t strip = 32;
 
+  // What columns are computed from.
+  struct Sources {
+    model::Detail detail = model::Detail::ball;
+    bool controller = false, dynamics = false, own = false;
+
+    void add(scenario::Needs needs);
+    [[nodiscard]] model::Detail all_details() const;
+    [[nodiscard]] bool ball_only() const;
+  };
+
   void resize(std::size_t count);
-  // Fills the columns from the samples; the first one is row `first` of the block.
-  void fill(std::size_t first);
+  void evaluate_some(const double* times, const double* rows, std::size_t count,
+                     const Sources& from, std::span<const std::size_t> which);
+  void take_samples(const double* times, const double* rows, std::size_t count,
+                    model::Detail detail);
+  // Fills columns from the samples; the first one is row `first` of the block.
+  void fill(std::size_t first, bool with_dynamics, std::span<const std::size_t> which);
 
   std::vector<const scenario::Column*> columns_;
   std::vector<FillColumn> fills_;
-  model::Detail detail_ = model::Detail::ball;
-  bool needs_dynamics_ = false, needs_orientation_ = false, needs_ball_only_ = false;
+  Sources of_all_;
+  std::vector<std::size_t> all_;  // the indices of all columns
   const model::Model* model_ = nullptr;
+  std::size_t row_size_ = 0;
   const model::BallConstants* constants_ = nullptr;
+  model::SharedSignals* shared_reference_ = nullptr;
   std::optional<BallTurn> turn_;
 
   std::size_t count_ = 0;               // of the block

@@ -35,6 +35,8 @@ class StateSink {
   [[nodiscard]] virtual PieceSink* pieces() { return nullptr; }
   // If false, the run may skip rows, but neither its first nor its last one.
   [[nodiscard]] virtual bool wants_rows() const { return true; }
+  // Whether only the ball's states of rows need be right, except of the first and the last one.
+  [[nodiscard]] virtual bool wants_ball_only() const { return false; }
 };
 
 // Lets the caller observe and stop a long run.

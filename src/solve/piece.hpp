@@ -4,7 +4,9 @@
 // The motion between rows: the smooth pieces of a run.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 #include "model/ball/dynamics.hpp"
@@ -26,9 +28,13 @@ enum class Bounded {
   motor_power
 };
 
+inline constexpr std::size_t bounded_count = 11;
+
 struct Bounds {
-  double least, most;
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
 };
+using BoundsOfColumns = std::array<Bounds, bounded_count>;
 
 // A step of the integrator, or the part of a step before a switch. Valid only until the run
 // continues.
@@ -69,6 +75,8 @@ class PieceSink {
   // Begins a run. Pieces of an earlier attempt, which was given up, no longer count.
   virtual void begin_run() = 0;
   virtual void accept(const Piece& piece) = 0;
+  // Whether this sink may miss pieces in which no column leaves its bounds. Narrows the bounds.
+  [[nodiscard]] virtual bool may_miss(BoundsOfColumns& /*within*/) const { return false; }
 };
 
 }  // namespace bbsim::solve

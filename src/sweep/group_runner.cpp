@@ -58,7 +58,7 @@ class GroupRunner : public CaseRunner {
         if (group_case.unbounded_at) {
           status = {"failed", solve::Shrinking::reason.text};
         } else {
-          judge_done(task_, group_case.measures, status);
+          judge_done(task_, group_case.measures, status, group_case.whys);
         }
         continue;
       }

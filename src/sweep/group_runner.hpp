@@ -23,7 +23,8 @@ struct GroupCase {
   // The series of all cases, and where this one's begin.
   std::vector<std::vector<double>>* series;
   std::size_t place;
-  bool is_done = false;  // run to its end, with its measures and series written
+  bool is_done = false;      // run to its end, with its measures and series written
+  scenario::Whys whys = {};  // why measures are not finite, if known
   // Time at which the motion grew without bound, s; empty if it reached the end.
   std::optional<double> unbounded_at = {};
 };

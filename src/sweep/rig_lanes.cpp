@@ -13,11 +13,10 @@
 
 #include "base/error.hpp"
 #include "model/model.hpp"
+#include "record/recorder.hpp"
 #include "solve/choose.hpp"
 #include "sweep/case_scenario.hpp"
 #include "sweep/group_runner.hpp"
-#include "sweep/lane_measures.hpp"
-#include "sweep/rig_lane_measures.hpp"
 #include "sweep/runners.hpp"
 
 namespace bbsim::sweep {
@@ -35,13 +34,6 @@ model::Model model_of(const Scenario& scenario, const SweepTask& task) {
   return model::assemble(scenario, integrals);
 }
 
-const model::SignalPair& reference_of(const model::Model& model) {
-  const model::SignalPair* reference = nullptr;
-  solve::sampled::with_given_plate(model.system,
-                                   [&](const auto& loop) { reference = &loop.reference(); });
-  return *reference;
-}
-
 bool share_reference(const SweepPlan& plan) {
   return std::none_of(plan.axes().begin(), plan.axes().end(), [](const PlanAxis& axis) {
     return axis.key == "controller" || axis.key.starts_with("controller.reference") ||
@@ -53,7 +45,17 @@ bool share_reference(const SweepPlan& plan) {
 bool is_in_rows(const scenario::Column* column) {
   using scenario::Needs;
   const auto lacks = {Needs::gamma, Needs::orientation, Needs::work, Needs::own};
-  return std::ranges::find(lacks, column->needs) == lacks.end();
+  return column == nullptr || std::ranges::find(lacks, column->needs) == lacks.end();
+}
+
+// Whether lanes can take the measure. Their pieces do not end at samples, where the columns of
+// samples jump.
+bool is_in_lanes(const scenario::Measure& measure) {
+  const auto has = [&](const scenario::Column* column) {
+    return is_in_rows(column) && (column == nullptr || column->needs != scenario::Needs::samples ||
+                                  measure.kind == scenario::Measure::Kind::end);
+  };
+  return has(measure.column) && has(measure.instant.column) && has(measure.reference);
 }
 
 class RigLaneRunner : public LaneRunner {
@@ -64,25 +66,36 @@ class RigLaneRunner : public LaneRunner {
         timed_(timed_rows(task, first)),
         grid_(timed_ ? timed_->grid : solve::OutputGrid(first.time)),
         tolerances_{first.solver.rtol, first.solver.atol},
-        measures_(task.measures, task.series, grid_),
-        lanes_(tolerances_, grid_, measures_.asks_for()) {}
+        lanes_(tolerances_, grid_) {
+    for (std::size_t lane = 0; lane < solve::sampled::group; ++lane) {
+      recorders_[lane] =
+          std::make_unique<record::Recorder>(record::RecordRequest{task.series, task.measures});
+      recorders_[lane]->share_reference(lanes_.shared_reference());
+    }
+  }
 
   void run(std::span<GroupCase> cases, const std::atomic<bool>& stop) override {
     rigs_.clear();
     for (GroupCase& group_case : cases) take(group_case);
     if (rigs_.empty()) return;
-    std::array<const model::Model*, solve::sampled::group> models{};
-    for (std::size_t lane = 0; lane < rigs_.size(); ++lane) models[lane] = &rigs_[lane].model;
-    measures_.begin(reference_of(rigs_.front().model));
-    const auto done = lanes_.integrate(models.data(), rigs_.size(), measures_, stop);
+    std::array<solve::sampled::RigLanes::Rig, solve::sampled::group> in_lanes{};
+    std::array<std::optional<SeriesWriter>, solve::sampled::group> series;
     for (std::size_t lane = 0; lane < rigs_.size(); ++lane) {
       const Rig& rig = rigs_[lane];
-      rig.of->is_done =
-          done[lane] && measures_.finish(lane, rig.model, rig.constants, rig.of->measures);
-      if (rig.of->is_done && !task_.series.empty()) {
-        SeriesWriter writer(*rig.of->series, rig.of->place, timed_ ? &*timed_ : nullptr);
-        measures_.write_series(lane, rig.model, rig.constants, writer);
-      }
+      series[lane].emplace(*rig.of->series, rig.of->place, timed_ ? &*timed_ : nullptr);
+      recorders_[lane]->begin(rig.model, rig.constants, grid_, &*series[lane]);
+      in_lanes[lane] = {&rig.model, recorders_[lane].get()};
+    }
+    const auto done = lanes_.integrate(std::span(in_lanes).first(rigs_.size()), stop);
+    solve::Outcome whole;
+    whole.reached = grid_.end();
+    whole.rows = grid_.size();
+    for (std::size_t lane = 0; lane < rigs_.size(); ++lane) {
+      GroupCase& of = *rigs_[lane].of;
+      of.is_done = done[lane];
+      if (!of.is_done) continue;
+      recorders_[lane]->finish(whole, of.measures);
+      of.whys = recorders_[lane]->whys();
     }
   }
 
@@ -125,7 +138,7 @@ class RigLaneRunner : public LaneRunner {
   std::optional<TimedRows> timed_;
   solve::OutputGrid grid_;
   solve::Tolerances tolerances_;
-  RigLaneMeasures measures_;
+  std::array<std::unique_ptr<record::Recorder>, solve::sampled::group> recorders_;
   solve::sampled::RigLanes lanes_;
   std::vector<Rig> rigs_;
 };
@@ -135,7 +148,7 @@ class RigLaneRunner : public LaneRunner {
 bool can_use_rig_lanes(const SweepTask& task) {
   // Fewer cases would leave lanes empty, and single runs match `bbsim run` bit for bit.
   if (task.plan.cases() < solve::sampled::group || !can_share_rows(task) ||
-      !are_usual_measures(task.measures) || !share_reference(task.plan) ||
+      !share_reference(task.plan) || !std::ranges::all_of(task.measures, is_in_lanes) ||
       !std::ranges::all_of(task.series, is_in_rows)) {
     return false;
   }

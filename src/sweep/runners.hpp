@@ -23,8 +23,8 @@ namespace bbsim::sweep {
 // The number of cases in a group.
 [[nodiscard]] std::size_t lane_group();
 
-// Whether solve::sampled::RigLanes can run most of 16 cases from all over the sweep, and all
-// measures are usual measures.
+// Whether solve::sampled::RigLanes can run most of 16 cases from all over the sweep, with all
+// measures and series.
 [[nodiscard]] bool can_use_rig_lanes(const SweepTask& task);
 // Requires this. A case is run singly if it does not fit into its group or if an event happens in
 // it.

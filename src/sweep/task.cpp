@@ -46,10 +46,11 @@ void judge(const SweepTask& task, const Scenario& scenario, double* measures, Ca
   status.reason = scenario::why_not_finite(task.measures, measures, reasons);
 }
 
-void judge_done(const SweepTask& task, const double* measures, CaseStatus& status) {
+void judge_done(const SweepTask& task, const double* measures, CaseStatus& status,
+                const scenario::Whys& whys) {
   if (status.word != "done" || !status.reason.empty()) status = {};
   if (are_finite(task, measures)) return;
-  status.reason = scenario::why_not_finite(task.measures, measures, {});
+  status.reason = scenario::why_not_finite(task.measures, measures, whys);
 }
 
 }  // namespace bbsim::sweep

@@ -72,7 +72,8 @@ void judge(const SweepTask& task, const Scenario& scenario, double* measures, Ca
 
 // Does the same for a case that is done and whose scene has all measures; most of these need no
 // reason. The previous content of `status` does not matter.
-void judge_done(const SweepTask& task, const double* measures, CaseStatus& status);
+void judge_done(const SweepTask& task, const double* measures, CaseStatus& status,
+                const scenario::Whys& whys = {});
 
 // Runs cases on one thread.
 class CaseRunner {

@@ -373,7 +373,7 @@ TEST_CASE("windows of time within the whole run work with every engine") {
   }
   const Setup parts(one.scene, one.vary, one.set, windows);
   const Engine other = choose_engine(parts.task);
-  CHECK(other.name == "single runs");
+  CHECK(other.name == (part == "rig lanes" ? part : "single runs"));
   const CaseResults of_parts = run_all(*other.runner(), parts.task);
   std::size_t different = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -387,7 +387,7 @@ TEST_CASE("windows of time within the whole run work with every engine") {
     }
   }
   CHECK(different > 0);
-  CHECK(of_parts.numbers == one_by_one(parts.task).numbers);
+  CHECK(largest_difference(of_parts, one_by_one(parts.task)) <= (part == "rig lanes" ? 1e-10 : 0));
 }
 
 TEST_CASE("a measure unknown to the first case may exist in another") {
@@ -606,6 +606,15 @@ TEST_CASE("rigs in lanes are those of single runs") {
                            {"gimbal.mounting.height", "uniform:0:4 cm"}},
                           {"time.end=4", "gimbal.mounting={yaw: 20 deg}"}, loop_measures, 14));
   }
+  SECTION("measures of forces, crossings, windows and given times") {
+    const std::string scene = GENERATE("rig", "three-servos");
+    check_rig_lanes(
+        Setup("configs/" + scene + ".yaml", {{"ball.position.0", "linear:-3 cm:-2 cm:11"}},
+              {"time.end=4", "controller.reference={step: {from: [0, 0], to: [3 cm, 1 cm], at: 1}}",
+               "plate.inertia=[1e-3, 1e-3, 2e-3]"},
+              {"max_normal_force", "max_motor_power", "min_vx", "rms_phi_command", "x.RiseTime",
+               "x.Overshoot", "find y when x=1 cm", "max_tilt from 2 s", "rms_x to 3 s"}));
+  }
   SECTION("a controller's command at the end") {
     check_rig_lanes(Setup("configs/rig.yaml", gains_and_seeds, {"time.end=2.005"},
                           {"end_phi_command", "end_x_measured", "end_vx", "end_phi", "end_x"}, 5));
@@ -709,8 +718,7 @@ TEST_CASE("rigs in lanes do not depend on the distribution of their groups") {
   }
 }
 
-TEST_CASE(
-    "few rigs, ones whose reference varies and ones that are watched for more are run singly") {
+TEST_CASE("few rigs, ones whose reference varies and ones watched at samples are run singly") {
   CHECK(choose_engine(Setup("configs/rig.yaml", {{"controller.sensor.seed", "list:1,2,3,4,5,6,7"}},
                             {"time.end=1"}, loop_measures)
                           .task)
@@ -721,8 +729,7 @@ TEST_CASE(
                           .task)
             .name == "single runs");
   CHECK(choose_engine(
-            Setup("configs/rig.yaml", gains_and_seeds, {"time.end=1"}, {"max_motor_torque_phi"}, 3)
-                .task)
+            Setup("configs/rig.yaml", gains_and_seeds, {"time.end=1"}, {"max_x_measured"}, 3).task)
             .name == "single runs");
 }
 

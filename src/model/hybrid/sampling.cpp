@@ -61,12 +61,11 @@ double Sampling::normal_force(double t, const double* z) const {
 }
 
 const std::array<Jet<double>, 2>& Sampling::reference_at(double t) {
-  KnownReference& known =
-      shared_reference_ != nullptr ? shared_reference_->at(t) : known_reference_;
-  if (known.t != t) {
-    known = {t, model_.with_loop([t](const auto& loop) { return loop.reference().at(t); })};
-  }
-  return known.value;
+  KnownSignals& known =
+      shared_reference_ != nullptr ? shared_reference_->entry(t) : known_reference_;
+  return known.at(t, [&] {
+    return model_.with_loop([t](const auto& loop) { return loop.reference().at(t); });
+  });
 }
 
 void Sampling::take(double t, double end, const double* z) {

@@ -5,8 +5,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -16,25 +14,6 @@
 #include "model/hybrid/part.hpp"
 
 namespace bbsim::model {
-
-// The reference at a time.
-struct KnownReference {
-  double t = -1;  // s
-  std::array<Jet<double>, 2> value{};
-};
-
-// A cache of references for runs that advance together.
-class SharedReference {
- public:
-  // The cache entry for t, which may hold another time.
-  [[nodiscard]] KnownReference& at(double t) {
-    return known_[std::bit_cast<std::uint64_t>(t) * 0x9e3779b97f4a7c15u >> (64 - bits)];
-  }
-
- private:
-  static constexpr int bits = 5;
-  std::array<KnownReference, std::size_t{1} << bits> known_;
-};
 
 class Sampling : public Part {
  public:
@@ -61,7 +40,7 @@ class Sampling : public Part {
   }
   void take(double t, double end, const double* z);
   [[nodiscard]] const std::array<Jet<double>, 2>& reference_at(double t);
-  void share_reference(SharedReference& shared) { shared_reference_ = &shared; }
+  void share_reference(SharedSignals& shared) { shared_reference_ = &shared; }
 
   // Takes the next command that arrives by `end`. Returns the commands to the servos.
   [[nodiscard]] bool commands_by(double end) const { return exchange_.commands_by(end); }
@@ -87,8 +66,8 @@ class Sampling : public Part {
   SampleExchange exchange_;
   SampledController controller_;
   std::vector<double> own_;
-  KnownReference known_reference_;  // used without a shared cache
-  SharedReference* shared_reference_ = nullptr;
+  KnownSignals known_reference_;  // used without a shared cache
+  SharedSignals* shared_reference_ = nullptr;
 };
 
 }  // namespace bbsim::model

@@ -5,7 +5,9 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -163,6 +165,32 @@ class SignalPair {
   std::vector<Harmonic> harmonics_;
   std::vector<Spline> splines_;
   std::vector<Tabulated> tables_;  // the same splines, as views
+};
+
+// Two signals at a time.
+struct KnownSignals {
+  double t = -1;  // s
+  std::array<Jet<double>, 2> value{};
+
+  // evaluate() gives the value at `time`, if it is not the known one.
+  template <class Evaluate>
+  const std::array<Jet<double>, 2>& at(double time, Evaluate evaluate) {
+    if (t != time) *this = {time, evaluate()};
+    return value;
+  }
+};
+
+// A cache of signals for runs that advance together.
+class SharedSignals {
+ public:
+  // The entry for t, which may hold another time.
+  [[nodiscard]] KnownSignals& entry(double t) {
+    return known_[std::bit_cast<std::uint64_t>(t) * 0x9e3779b97f4a7c15u >> (64 - bits)];
+  }
+
+ private:
+  static constexpr int bits = 7;
+  std::array<KnownSignals, std::size_t{1} << bits> known_;
 };
 
 // phi and theta of a scene with gimbal.motion, including the mounting's offsets.

@@ -350,11 +350,14 @@ class RigLoop {
     }
   }
 
+  [[nodiscard]] BallMotion ball(const double* z) const {
+    return ball_motion<Shape::full>(Layout::unpack(z), r_);
+  }
   [[nodiscard]] Sample sample(double t, const double* z, const RigExtras& with,
                               Detail detail = Detail::all) const {
     Sample sample;
     sample.t = t;
-    sample.ball = ball_motion<Shape::full>(Layout::unpack(z), r_);
+    sample.ball = ball(z);
     if (detail == Detail::ball) return sample;
     if (detail == Detail::path || detail == Detail::all) {
       const auto reference = reference_.at(t);

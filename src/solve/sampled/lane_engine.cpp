@@ -340,7 +340,6 @@ void LaneEngine::judge() {
     const bool needs = lane.steps.needs_growth(lane.step, arrives);
     lane.steps.accept(lane.step, arrives, needs ? step_growth(error, nodes) : 1);
     step_.from_[l] = lane.time;
-    step_.whole_[l] = lane.until <= lane.end;
     const model::Model& model = lane.run->model();
     const double to = model.jumps_at(lane.until) ? model.just_before(lane.until) : lane.until;
     step_.to_[l] = std::min(to, lane.end);

@@ -11,7 +11,6 @@
 #include "model/control/sampled_law.hpp"
 #include "model/signals/signal_pair.hpp"
 #include "solve/sampled/kernel.hpp"
-#include "solve/size.hpp"
 
 namespace bbsim::solve::sampled {
 
@@ -81,24 +80,28 @@ struct alignas(64) LaneServos {
 };
 
 inline constexpr int rolling_numbers = sizeof(model::GeneralRolling) / sizeof(double);
+// Lanes have no motors' loads.
+inline constexpr int lane_quantity_count = Quantity::error_squared + 1;
+
 struct alignas(64) LaneScene {
   double radius[group], gravity[group], friction[group];
   double rolling[rolling_numbers][group];  // the numbers of a model::GeneralRolling
   // For each Quantity up to the grip, the range in which no event occurs.
   double least[Quantity::grip + 1][group], most[Quantity::grip + 1][group];
+  // For each quantity, the range in which a piece tells nothing new.
+  double known_least[lane_quantity_count][group], known_most[lane_quantity_count][group];
   double rtol, atol;
-  // Whether to evaluate the contact force, the plate's tilt and rate, and the distance from the
-  // reference.
-  bool force, gimbal, reference;
-  bool papers;  // whether all lanes have the paper's rolling
+  bool force, sizes;  // whether contact forces, and the sizes of motions, are wanted
+  bool papers;        // whether all lanes have the paper's rolling
 };
 
-// The sizes at the start and at all nodes but the first, their ranges, and whether an event may
-// occur.
+// Whether an event may occur. If sizes are wanted, also the quantities at the start and at all
+// nodes but the first, and their ranges there.
 struct alignas(64) LaneQuantities {
-  double size[size_count][nodes][group], least_size[size_count][group],
-      most_size[size_count][group];
+  double at[lane_quantity_count][nodes][group];
+  double least[lane_quantity_count][group], most[lane_quantity_count][group];
   double quiet[group];  // 1 if bounds exclude every event; otherwise 0
+  double known[group];  // 1 if bounds exclude that the piece tells something new; otherwise 0
 };
 // A reference (x, y) at the start and at all nodes but the first.
 struct alignas(64) LaneReference {
@@ -131,8 +134,8 @@ struct LaneKernels {
   void (*attempt)(LanePieces& pieces, const LaneScene& scene);
   void (*evaluate_quantities)(const LanePieces& pieces, const LaneScene& scene,
                               const LaneReference& reference, LaneQuantities& quantities);
-  // The range of a lane's size over Chebyshev points (close_overshoot).
-  Range (*narrow)(const LaneQuantities& quantities, Size size, int lane);
+  // The range of a lane's quantity over Chebyshev points (close_overshoot).
+  Range (*narrow)(const LaneQuantities& quantities, Quantity quantity, int lane);
   // The values of a reference (x, y) at the start and at all nodes but the first of a piece.
   void (*reference)(const model::SignalView& of, double from, double length, double (*at)[nodes]);
   // Computes the controllers' commands at a sample.

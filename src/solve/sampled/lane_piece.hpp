@@ -243,20 +243,14 @@ struct LaneKernel {
       }
     }
     ();
-    constexpr int ranges = Quantity::grip + 1;
-    P least[ranges], most[ranges], least_size[size_count], most_size[size_count];
+    P least[lane_quantity_count], most[lane_quantity_count];
 #pragma GCC unroll 1
     for (int n = 0; n < nodes; ++n) {
       const bool start = n == 0;
       const auto take = [&](int i, P value) __attribute__((always_inline)) {
+        if (scene.sizes) value.store(quantities.at[i][n] + first);
         least[i] = start ? value : smaller_of(least[i], value);
         most[i] = start ? value : larger_of(most[i], value);
-      };
-      const auto take_size = [&](Size size, P value) __attribute__((always_inline)) {
-        const int i = static_cast<int>(size);
-        value.store(quantities.size[i][n] + first);
-        least_size[i] = start ? value : smaller_of(least_size[i], value);
-        most_size[i] = start ? value : larger_of(most_size[i], value);
       };
       model::RollingState<P, P, P> ball;
       P acceleration[2];
@@ -293,19 +287,14 @@ struct LaneKernel {
       }
       take(Quantity::x, ball.x);
       take(Quantity::y, ball.y);
-      const P distance_squared = ball.x * ball.x + ball.y * ball.y;
-      take(Quantity::distance_squared, distance_squared);
-      take_size(Size::distance_squared, distance_squared);
+      take(Quantity::distance_squared, ball.x * ball.x + ball.y * ball.y);
       const auto plane = model::moving_plane(rolling, axis[0], axis[1]);
       take(Quantity::up, plane.up.z);
-      if (scene.gimbal) {
-        // 1 - cos a cos b = A + B - A B, with the versines A and B, each sin^2 / (1 + cos).
-        const P a = axis[0].sin * axis[0].sin / (P(1.0) + axis[0].cos);
-        const P b = axis[1].sin * axis[1].sin / (P(1.0) + axis[1].cos);
-        take_size(Size::versine, small || !direct ? a + b - a * b : P(1.0) - plane.up.z);
-        take_size(Size::rate_squared, axis[0].rate * axis[0].rate + axis[1].rate * axis[1].rate);
-      }
-      if (scene.reference) {
+      if (scene.sizes) {
+        take(Quantity::vx, ball.x_dot);
+        take(Quantity::vy, ball.y_dot);
+        const auto& turn = plane.omega;
+        take(Quantity::rate_squared, turn.x * turn.x + turn.y * turn.y + turn.z * turn.z);
         P x = ball.x, y = ball.y;
         if (reference.shared) {
           x -= P(reference.common[0][n]);
@@ -314,7 +303,7 @@ struct LaneKernel {
           x -= of(reference.at[0][n]);
           y -= of(reference.at[1][n]);
         }
-        take_size(Size::error_squared, x * x + y * y);
+        take(Quantity::error_squared, x * x + y * y);
       }
       if (!scene.force) continue;
       const model::Vector3<P> by_mass =
@@ -324,21 +313,25 @@ struct LaneKernel {
       const P held = of(scene.friction) * by_mass.z;
       take(Quantity::grip, held * held - (by_mass.x * by_mass.x + by_mass.y * by_mass.y));
     }
-    const int asked = scene.force ? ranges : Quantity::up + 1;
+    const int monitored = scene.force ? Quantity::grip + 1 : Quantity::up + 1;
     Mask quiet = Mask{} - 1;
-    for (int i = 0; i < asked; ++i) {
+    for (int i = 0; i < monitored; ++i) {
       const P beyond = P(overshoot) * (most[i] - least[i]);
       quiet &= simd::exceeds(least[i] - beyond, of(scene.least[i])) &
                simd::exceeds(of(scene.most[i]), most[i] + beyond);
     }
     simd::choose(quiet, P(1.0), P(0.0)).store(quantities.quiet + first);
-    for (int i = 0; i < size_count; ++i) {
-      const auto size = static_cast<Size>(i);
-      const bool of_gimbal = size == Size::versine || size == Size::rate_squared;
-      if (of_gimbal ? !scene.gimbal : size == Size::error_squared && !scene.reference) continue;
-      least_size[i].store(quantities.least_size[i] + first);
-      most_size[i].store(quantities.most_size[i] + first);
+    if (!scene.sizes) return;
+    Mask known = Mask{} - 1;
+    for (int i = 0; i < lane_quantity_count; ++i) {
+      if (i >= monitored && i <= Quantity::grip) continue;
+      least[i].store(quantities.least[i] + first);
+      most[i].store(quantities.most[i] + first);
+      const P beyond = P(overshoot) * (most[i] - least[i]);
+      known &= ~simd::exceeds(of(scene.known_least[i]), least[i] - beyond) &
+               ~simd::exceeds(most[i] + beyond, of(scene.known_most[i]));
     }
+    simd::choose(known, P(1.0), P(0.0)).store(quantities.known + first);
   }
 
   static void evaluate_quantities(const LanePieces& pieces, const LaneScene& scene,
@@ -349,8 +342,8 @@ struct LaneKernel {
     }
   }
 
-  static Range narrow(const LaneQuantities& quantities, Size size, int lane) {
-    const auto& at = quantities.size[static_cast<int>(size)];
+  static Range narrow(const LaneQuantities& quantities, Quantity quantity, int lane) {
+    const auto& at = quantities.at[quantity];
     return One::close_range([&](int j) __attribute__((always_inline)) { return at[j][lane]; });
   }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "solve/sampled/column_bounds.hpp"
 #include "solve/sampled/held_plate.hpp"
 
 namespace bbsim::solve::sampled {
@@ -14,10 +15,17 @@ constexpr std::size_t angle_state = model::RigLayout::angle;
 
 }  // namespace
 
-Range LaneStep::bounds(Size size, std::size_t lane) const {
-  const Range range = lane_kernels_->narrow(quantities_, size, static_cast<int>(lane));
-  const double beyond = close_overshoot * (range.most - range.least);
-  return {range.least - beyond, range.most + beyond};
+bool LaneStep::loses_motion() const {
+  return std::any_of(pieces_->axis, pieces_->axis + pieces_->servos,
+                     [](const LaneAxis& axis) { return axis.lost; });
+}
+
+std::optional<Bounds> LaneStep::bounds(std::size_t lane, Bounded column, bool closely) const {
+  if (loses_motion()) return {};
+  return column_bounds(column, [&](Quantity of) {
+    if (!closely) return widened({quantities_.least[of][lane], quantities_.most[of][lane]});
+    return widened_closely(lane_kernels_->narrow(quantities_, of, static_cast<int>(lane)));
+  });
 }
 
 model::HeldMotion LaneStep::servo(std::size_t lane, std::size_t i) const {
@@ -37,8 +45,8 @@ model::HeldMotions LaneStep::servos(std::size_t lane) const {
   return motions;
 }
 
-void LaneStep::evaluate(std::size_t lane, const double* times, std::size_t count,
-                        double* rows) const {
+void LaneStep::evaluate(std::size_t lane, const double* times, std::size_t count, double* rows,
+                        std::size_t row_size) const {
   const LanePieces& of = *pieces_;
   Piece piece;
   for (int i = 0; i < 3; ++i) {
@@ -57,7 +65,7 @@ void LaneStep::evaluate(std::size_t lane, const double* times, std::size_t count
     for (std::size_t i = 0; i < some; ++i) after[i] = times[first + i] - from_[lane];
     kernels_->evaluate(piece, after, some, ball);
     for (std::size_t i = 0; i < some; ++i) {
-      double* const row = rows + (first + i) * size;
+      double* const row = rows + (first + i) * row_size;
       // States beside the ball's and the servos' stay.
       std::copy_n(rigs_[lane].z, size, row);
       std::copy_n(ball[i], 5, row);
@@ -70,27 +78,6 @@ void LaneStep::evaluate(std::size_t lane, const double* times, std::size_t count
         row[angle_state + servo_count + k] = now.rate;
       }
     }
-  }
-}
-
-void LaneStep::evaluate(std::size_t lane, const double* times, std::size_t count,
-                        Track* track) const {
-  constexpr std::size_t together = 32;
-  double rows[together * most_states];
-  const model::Model& model = *rigs_[lane].model;
-  for (std::size_t first = 0; first < count; first += together) {
-    const std::size_t some = std::min(together, count - first);
-    evaluate(lane, times + first, some, rows);
-    with_given_plate(model.system, [&](const auto& loop) {
-      const double none[std::decay_t<decltype(loop)>::servos] = {};
-      for (std::size_t i = 0; i < some; ++i) {
-        const double* const row = rows + i * model.size();
-        model::RigExtras plate{};
-        loop.fill(row, none, plate);
-        track[first + i] = {row[0],         row[1],        plate.angle[0],
-                            plate.angle[1], plate.rate[0], plate.rate[1]};
-      }
-    });
   }
 }
 

@@ -19,30 +19,23 @@ namespace bbsim::solve::sampled {
 // A piece of each lane. Valid only until the next pieces.
 class LaneStep {
  public:
-  // The position of the ball and the angles and rates of the plate.
-  struct Track {
-    double x, y, phi, theta, phi_rate, theta_rate;
-  };
-
-  // Whether the lane has a piece, and its times, s. to() is at most the end of the run. If the
-  // piece extends beyond it, is_whole() is false, and at_nodes() includes the part beyond.
+  // Whether the lane has a piece, and its times, s. to() is at most the end of the run.
   [[nodiscard]] bool has(std::size_t lane) const { return has_[lane]; }
   [[nodiscard]] double from(std::size_t lane) const { return from_[lane]; }
   [[nodiscard]] double to(std::size_t lane) const { return to_[lane]; }
-  [[nodiscard]] bool is_whole(std::size_t lane) const { return whole_[lane]; }
 
-  // The range of a size at the lane's start and nodes, and bounds over the whole piece.
-  [[nodiscard]] Range at_nodes(Size size, std::size_t lane) const {
-    const auto i = static_cast<std::size_t>(size);
-    return {quantities_.least_size[i][lane], quantities_.most_size[i][lane]};
-  }
-  [[nodiscard]] Range bounds(Size size, std::size_t lane) const;
+  // Whether a servo may move unseen between two nodes of a piece.
+  [[nodiscard]] bool loses_motion() const;
+  // Bounds of a column over a lane's piece, if the sizes of motions were evaluated (Piece::bounds).
+  [[nodiscard]] std::optional<Bounds> bounds(std::size_t lane, Bounded column, bool closely) const;
 
-  // Evaluates the motion at `count` times (s) within a lane's piece.
-  void evaluate(std::size_t lane, const double* times, std::size_t count, Track* track) const;
-  // The same as states, packed as in the system: rows of Model::size() numbers.
-  void evaluate(std::size_t lane, const double* times, std::size_t count, double* rows) const;
+  // Evaluates the motion at `count` times (s) within a lane's piece: rows of `row` numbers that
+  // begin with the states, packed as in the system.
+  void evaluate(std::size_t lane, const double* times, std::size_t count, double* rows,
+                std::size_t row) const;
   static constexpr std::size_t most_states = model::CoupledLayout<model::most_servos>::states;
+  // The rig in a lane, in its present mode.
+  [[nodiscard]] const model::Model& model(std::size_t lane) const { return *rigs_[lane].model; }
   // The motions of one servo and of all from the start of the lane's piece.
   [[nodiscard]] model::HeldMotion servo(std::size_t lane, std::size_t axis) const;
   [[nodiscard]] model::HeldMotions servos(std::size_t lane) const;
@@ -63,7 +56,7 @@ class LaneStep {
     const double* z;
   };
   std::array<Rig, group> rigs_{};
-  std::array<bool, group> has_{}, whole_{};
+  std::array<bool, group> has_{};
   std::array<double, group> from_{}, to_{};
 };
 
@@ -73,7 +66,7 @@ class LaneMotion : public Stepper {
   LaneMotion(const LaneStep& step, std::size_t lane) : step_(step), lane_(lane) {}
 
   void evaluate(const double* times, std::size_t count, double* rows) override {
-    step_.evaluate(lane_, times, count, rows);
+    step_.evaluate(lane_, times, count, rows, step_.model(lane_).size());
   }
   [[nodiscard]] double time() const override { return step_.to(lane_); }
   [[nodiscard]] std::size_t detail() const override { return nodes; }

@@ -7,15 +7,9 @@
 #include <cmath>
 
 #include "model/events/event_monitors.hpp"
-#include "solve/sampled/kernel.hpp"
+#include "solve/sampled/column_bounds.hpp"
 
 namespace bbsim::solve::sampled {
-
-// The range of a smooth quantity over the whole piece, from its range at the nodes.
-[[nodiscard]] inline Range widened(const Range& at_nodes) {
-  const double beyond = overshoot * (at_nodes.most - at_nodes.least);
-  return {at_nodes.least - beyond, at_nodes.most + beyond};
-}
 
 // Calls use(Quantity, least, most) for each quantity of a monitor, with the range in which nothing
 // happens. Returns false if these quantities cannot decide this monitor.

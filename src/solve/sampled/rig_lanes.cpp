@@ -6,19 +6,13 @@
 #include <algorithm>
 #include <vector>
 
+#include "solve/sampled/column_bounds.hpp"
+
 namespace bbsim::solve::sampled {
 
 bool fits_sweep_lanes(const model::Model& model) {
-  if (!fits_lanes(model) || model.rig->sampled->external ||
-      model.rig->sampled->law.kind == model::LawKind::held) {
-    return false;
-  }
-  // The sizes of the plate's motion suppose axes that are square and a level base.
-  bool square = false;
-  with_given_plate(model.system, [&](const auto& loop) {
-    square = loop.rolling().sin_skew == 0 && loop.rolling().sin_base == 0;
-  });
-  return square;
+  return fits_lanes(model) && !model.rig->sampled->external &&
+         model.rig->sampled->law.kind != model::LawKind::held;
 }
 
 bool go_together(const model::Model& first, const model::Model& second) {
@@ -27,18 +21,52 @@ bool go_together(const model::Model& first, const model::Model& second) {
          first.system.index() == second.system.index();
 }
 
-RigLanes::RigLanes(Tolerances tolerances, const OutputGrid& grid, const LaneAsked& asked)
+// A lane's piece, for the sink of its rig.
+class RigLanes::LanePart : public solve::Piece {
+ public:
+  LanePart(RigLanes& of, std::size_t lane)
+      : Piece(of.step_.from(lane), of.step_.to(lane), parts), of_(of), lane_(lane) {}
+
+  void evaluate(const double* times, std::size_t count, double* rows) const override {
+    evaluate_ball(times, count, rows);
+    const std::size_t row = of_.step_.model(lane_).row_size();
+    for (std::size_t i = 0; i < count; ++i) of_.write_extras(lane_, times[i], rows + i * row);
+  }
+  void evaluate_ball(const double* times, std::size_t count, double* rows) const override {
+    of_.step_.evaluate(lane_, times, count, rows, of_.step_.model(lane_).row_size());
+  }
+  [[nodiscard]] std::optional<Bounds> bounds(Bounded column, const model::BallConstants&,
+                                             bool closely) const override {
+    return of_.bounds(lane_, column, closely);
+  }
+
+ private:
+  // Enough if 8 nodes just resolve the motion.
+  static constexpr std::size_t parts = 2 * nodes;
+
+  RigLanes& of_;
+  std::size_t lane_;
+};
+
+RigLanes::RigLanes(Tolerances tolerances, const OutputGrid& grid)
     : LaneEngine(tolerances),
       grid_(grid),
-      asked_(asked),
       reference_(std::make_unique<LaneReference>()),
       controllers_(kernels_) {
-  scene_.gimbal = asked.gimbal;
-  scene_.reference = asked.reference;
+  for (int quantity = 0; quantity < lane_quantity_count; ++quantity) {
+    std::fill_n(scene_.known_least[quantity], group, -model::unlimited);
+    std::fill_n(scene_.known_most[quantity], group, model::unlimited);
+  }
 }
 
-void RigLanes::begin(std::size_t l, const model::Model& model, LaneSink& sink) {
+void RigLanes::begin(std::size_t l, const Rig& rig) {
+  const model::Model& model = *rig.model;
   Lane& lane = lanes_[l];
+  sinks_[l] = rig.sink;
+  if (PieceSink* const pieces = rig.sink->pieces()) pieces->begin_run();
+  take_bounds(l);
+  constexpr std::size_t rows_together = 32;  // those of all lanes fit into a cache
+  rows_[l].emplace(*rig.sink, model.row_size(), rows_together);
   open(l, model, grid_.end(), false);
   lane.run->sampling()->share_reference(shared_reference_);
   feeds_servos_back_[l] = model.rig->sampled->law.feeds_servos_back();
@@ -48,7 +76,7 @@ void RigLanes::begin(std::size_t l, const model::Model& model, LaneSink& sink) {
   const std::vector<char>& occurring = lane.run->occurring();
   lane.alive = lane.run->check_events(0, lane.z.data()) == model::Effect::none &&
                std::find(occurring.begin(), occurring.end(), 1) == occurring.end();
-  pass_row(l, sink);
+  pass_row(l);
   start(l);
 }
 
@@ -88,33 +116,69 @@ void RigLanes::take_reference(std::size_t l) {
 }
 
 void RigLanes::evaluate_quantities() {
-  if (asked_.reference) fill_reference();
+  if (scene_.sizes) fill_reference();
   kernels_.evaluate_quantities(*pieces_, scene_, *reference_, step_.quantities_);
+}
+
+std::optional<Bounds> RigLanes::bounds(std::size_t l, Bounded column, bool closely) {
+  if (column >= Bounded::motor_torque_phi) return {};
+  if (!scene_.sizes) {  // from the first question on, all pieces have them
+    scene_.sizes = true;
+    evaluate_quantities();
+  }
+  return step_.bounds(l, column, closely);
+}
+
+// Gives up the rigs in which an event occurs.
+void RigLanes::check_events() {
   for (std::size_t l = 0; l < group; ++l) {
     if (!step_.has_[l] || is_quiet(l) || !has_event(l)) continue;
     lanes_[l].alive = lanes_[l].moved = step_.has_[l] = false;
   }
 }
 
-std::vector<double> RigLanes::whole_row(std::size_t l, double t) const {
-  const Lane& lane = lanes_[l];
-  std::vector<double> row(lane.run->model().row_size());
-  const std::size_t size = lane.run->model().size();
-  std::copy_n(lane.z.begin(), size, row.begin());
-  lane.run->write_extras(t, lane.z.data(), row.data() + size);
-  return row;
+void RigLanes::write_extras(std::size_t l, double t, double* row) const {
+  const model::HybridSystem& run = *lanes_[l].run;
+  run.write_extras(t, row, row + run.model().size());
+}
+
+// Passes a lane's piece to its sink. Call it before the mode changes.
+void RigLanes::publish(std::size_t l) {
+  PieceSink* const pieces = sinks_[l]->pieces();
+  if (pieces == nullptr || !step_.has(l)) return;
+  if (misses_[l] && step_.quantities_.known[l] != 0 && !step_.loses_motion()) return;
+  const LanePart part(*this, l);
+  if (!(part.to() > part.from())) return;
+  pieces->accept(part);
+  if (misses_[l]) take_bounds(l);
+}
+
+// Takes the bounds within which the lane's sink may miss pieces.
+void RigLanes::take_bounds(std::size_t l) {
+  PieceSink* const pieces = sinks_[l]->pieces();
+  BoundsOfColumns within;
+  misses_[l] = pieces != nullptr && pieces->may_miss(within);
+  if (!misses_[l]) return;
+  scene_.sizes = true;
+  for_each_bound(within, [&](Quantity quantity, double least, double most) {
+    scene_.known_least[quantity][l] = least;
+    scene_.known_most[quantity][l] = most;
+  });
 }
 
 // Passes on the next row of a lane, which has its state.
-void RigLanes::pass_row(std::size_t l, LaneSink& sink) {
+void RigLanes::pass_row(std::size_t l) {
   const std::size_t row = next_row_[l]++;
-  sink.accept_row(l, row, lanes_[l].z[0], lanes_[l].z[1]);
-  if (asked_.rows) sink.accept_whole(l, whole_row(l, grid_[row]));
+  const bool is_end = row == 0 || next_row_[l] == grid_.size();
+  if (!is_end && !sinks_[l]->wants_rows()) return rows_[l]->skip(1);
+  double* const values = rows_[l]->next();
+  std::copy_n(lanes_[l].z.begin(), lanes_[l].run->model().size(), values);
+  if (is_end || !sinks_[l]->wants_ball_only()) write_extras(l, grid_[row], values);
 }
 
 // Takes samples, applies commands and passes rows on, each at its time, up to the ends of the
 // pieces.
-void RigLanes::pass_instants(LaneSink& sink) {
+void RigLanes::pass_instants() {
   const auto row_time = [this](std::size_t l) { return grid_[next_row_[l]]; };
   NextInstants next;
   while (find_instants(row_time, next)) {
@@ -123,7 +187,8 @@ void RigLanes::pass_instants(LaneSink& sink) {
       if (!lane.moved || lane.settled) continue;
       const double t = next.when[l];
       const bool last = grid_.end() - t <= lane.run->rounding(t);
-      const bool is_row = asked_.rows && grid_[next_row_[l]] - t <= lane.run->rounding(t);
+      const bool is_row = sinks_[l]->wants_rows() && !sinks_[l]->wants_ball_only() &&
+                          grid_[next_row_[l]] - t <= lane.run->rounding(t);
       state_at(l, t, next.ball, (next.is_event[l] && feeds_servos_back_[l]) || is_row || last);
       if (!next.is_event[l]) continue;
       lane.run->observe(t, lane.z.data());
@@ -141,10 +206,10 @@ void RigLanes::pass_instants(LaneSink& sink) {
       }
       while (next_row_[l] < grid_.size() &&
              grid_[next_row_[l]] - t <= (next.is_event[l] ? lane.run->rounding(t) : 0)) {
-        pass_row(l, sink);
+        pass_row(l);
       }
       if (next_row_[l] == grid_.size()) {
-        sink.accept_end(l, grid_.end(), whole_row(l, grid_.end()));
+        rows_[l]->flush();
         lane.alive = lane.moved = false;
       } else if (lane.restarts) {
         lane.until = t;
@@ -153,15 +218,15 @@ void RigLanes::pass_instants(LaneSink& sink) {
   }
 }
 
-std::array<bool, group> RigLanes::integrate(const model::Model* const* models, std::size_t count,
-                                            LaneSink& sink, const std::atomic<bool>& stop) {
+std::array<bool, group> RigLanes::integrate(std::span<const Rig> rigs,
+                                            const std::atomic<bool>& stop) {
   scene_.force = false;
   controllers_.begin();
   shared_reference_ = {};
-  make_room(*models[0]);
+  make_room(*rigs.front().model);
   for (std::size_t l = 0; l < group; ++l) {
-    if (l < count) {
-      begin(l, *models[l], sink);
+    if (l < rigs.size()) {
+      begin(l, rigs[l]);
     } else {
       lanes_[l].alive = lanes_[l].moved = false;
     }
@@ -171,17 +236,16 @@ std::array<bool, group> RigLanes::integrate(const model::Model* const* models, s
     kernels_.attempt(*pieces_, scene_);
     judge();
     evaluate_quantities();
-    sink.accept(step_);
-    pass_instants(sink);
+    check_events();
+    for (std::size_t l = 0; l < rigs.size(); ++l) publish(l);
+    pass_instants();
     for (std::size_t l = 0; l < group; ++l) {
       if (lanes_[l].moved) go_on(l);
     }
   }
-  std::array<bool, group> carried{};
-  for (std::size_t l = 0; l < count; ++l) {
-    carried[l] = next_row_[l] == grid_.size();
-  }
-  return carried;
+  std::array<bool, group> done{};
+  for (std::size_t l = 0; l < rigs.size(); ++l) done[l] = next_row_[l] == grid_.size();
+  return done;
 }
 
 }  // namespace bbsim::solve::sampled

@@ -8,40 +8,22 @@
 #include <atomic>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "solve/output_grid.hpp"
+#include "solve/row_block.hpp"
 #include "solve/sampled/lane_controllers.hpp"
 #include "solve/sampled/lane_engine.hpp"
 
 namespace bbsim::solve::sampled {
 
-// Whether RigLanes can integrate the model: it passes fits_lanes(), its law is built in, its axes
-// are square and its base is level.
+// Whether RigLanes can integrate the model: it passes fits_lanes(), and its law is built in.
 [[nodiscard]] bool fits_sweep_lanes(const model::Model& model);
 
 // Whether two such rigs can share a group: the same kind of law, mechanism and stops. Their periods
 // and delays may differ. Their references must be the same, which is not checked.
 [[nodiscard]] bool go_together(const model::Model& first, const model::Model& second);
-
-// Receives the motion of the rigs of a group. Data of a lane that is given up later mean nothing.
-class LaneSink {
- public:
-  virtual ~LaneSink() = default;
-  virtual void accept(const LaneStep& step) = 0;
-  // Output row `row` of a lane: only x and y of the ball.
-  virtual void accept_row(std::size_t lane, std::size_t row, double x, double y) = 0;
-  // The same row, complete: Model::row_size() numbers. Only if LaneAsked::rows.
-  virtual void accept_whole(std::size_t /*lane*/, std::span<const double> /*row*/) {}
-  // The lane's last row, complete: Model::row_size() numbers.
-  virtual void accept_end(std::size_t lane, double t, std::span<const double> row) = 0;
-};
-
-// What a sink needs besides the ball's position.
-struct LaneAsked {
-  bool gimbal = false, reference = false;  // the plate's tilt and rate; the tracking error
-  bool rows = false;                       // complete rows
-};
 
 // Integrates groups of rigs from t = 0 over an output grid (LaneEngine). Laws are computed together
 // (LaneControllers).
@@ -50,28 +32,42 @@ struct LaneAsked {
 // object allocates little. Use one object per thread.
 class RigLanes : private LaneEngine {
  public:
-  RigLanes(Tolerances tolerances, const OutputGrid& grid, const LaneAsked& asked);
+  RigLanes(Tolerances tolerances, const OutputGrid& grid);
 
-  // Integrates the first `count` models, 1 <= count <= group. fits_sweep_lanes() and go_together()
-  // must hold for them, and they must have the same reference. Returns for each whether it reached
-  // the end. Stops early once `stop` is true.
-  std::array<bool, group> integrate(const model::Model* const* models, std::size_t count,
-                                    LaneSink& sink, const std::atomic<bool>& stop);
+  struct Rig {
+    const model::Model* model;
+    StateSink* sink;  // what it receives of a rig that is given up later means nothing
+  };
+  // Integrates rigs, at least one and at most `group`. fits_sweep_lanes() and go_together() must
+  // hold for them, and they must have the same reference. Returns for each whether it reached the
+  // end. Stops early once `stop` is true.
+  std::array<bool, group> integrate(std::span<const Rig> rigs, const std::atomic<bool>& stop);
+
+  // The reference of the present group, for its sinks.
+  [[nodiscard]] model::SharedSignals& shared_reference() { return shared_reference_; }
 
  private:
-  void begin(std::size_t lane, const model::Model& model, LaneSink& sink);
+  class LanePart;
+
+  void begin(std::size_t lane, const Rig& rig);
   void evaluate_quantities();
+  void check_events();
   void fill_reference();
   void take_reference(std::size_t lane);
-  void pass_instants(LaneSink& sink);
-  void pass_row(std::size_t lane, LaneSink& sink);
-  [[nodiscard]] std::vector<double> whole_row(std::size_t lane, double t) const;
+  void publish(std::size_t lane);
+  void take_bounds(std::size_t lane);
+  [[nodiscard]] std::optional<Bounds> bounds(std::size_t lane, Bounded column, bool closely);
+  void pass_instants();
+  void pass_row(std::size_t lane);
+  void write_extras(std::size_t lane, double t, double* row) const;
 
   OutputGrid grid_;
-  LaneAsked asked_;
+  std::array<StateSink*, group> sinks_{};
+  std::array<bool, group> misses_{};  // whether the lane's sink may miss pieces
+  std::array<std::optional<RowBlock>, group> rows_;
   std::unique_ptr<LaneReference> reference_;  // aligned
   LaneControllers controllers_;
-  model::SharedReference shared_reference_;
+  model::SharedSignals shared_reference_;
   std::array<std::size_t, group> next_row_{};
   std::array<bool, group> feeds_servos_back_{};
 };

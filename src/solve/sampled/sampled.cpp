@@ -334,50 +334,10 @@ std::optional<Bounds> HeldStepper::bounds(Bounded column, const model::BallConst
   // A value between the nodes exceeds the bounds by no more than the tolerance, unless a servo
   // moves there unseen.
   if (!is_load && loses_motion_) return {};
-  const auto range_of = [&](Quantity quantity) {
-    if (!closely) return widened(range(quantity));
-    range(quantity);
-    const Range close = kernels_.narrow(at_points_.at[quantity]);
-    const double beyond = close_overshoot * (close.most - close.least);
-    return Range{close.least - beyond, close.most + beyond};
-  };
-  const auto same = [&](Quantity quantity) {
-    const Range of = range_of(quantity);
-    return Bounds{of.least, of.most};
-  };
-  const auto root = [&](Quantity squared) {
-    const Range of = range_of(squared);
-    return Bounds{std::sqrt(std::max(of.least, 0.0)), std::sqrt(std::max(of.most, 0.0))};
-  };
-  switch (column) {
-    case Bounded::x:
-      return same(Quantity::x);
-    case Bounded::y:
-      return same(Quantity::y);
-    case Bounded::vx:
-      return same(Quantity::vx);
-    case Bounded::vy:
-      return same(Quantity::vy);
-    case Bounded::distance:
-      return root(Quantity::distance_squared);
-    case Bounded::tracking_error:
-      return root(Quantity::error_squared);
-    case Bounded::tilt_rate:
-      return root(Quantity::rate_squared);
-    case Bounded::tilt: {
-      constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-      const Range up = range_of(Quantity::up);
-      const auto angle = [](double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); };
-      return Bounds{angle(up.most + rounding), angle(up.least - rounding)};
-    }
-    case Bounded::motor_torque_phi:
-      return same(Quantity::torque_phi);
-    case Bounded::motor_torque_theta:
-      return same(Quantity::torque_theta);
-    case Bounded::motor_power:
-      return same(Quantity::power);
-  }
-  return {};
+  return column_bounds(column, [&](Quantity of) {
+    const Range at_nodes = range(of);
+    return closely ? widened_closely(kernels_.narrow(at_points_.at[of])) : widened(at_nodes);
+  });
 }
 
 }  // namespace bbsim::solve::sampled

@@ -77,7 +77,6 @@ class HeldStepper : public Stepper {
   void evaluate_some(const double* times, std::size_t count, double* rows, bool servos);
   [[nodiscard]] const Shares* shares(double after);
   const Range& range(Quantity of);
-  [[nodiscard]] Range closer_range(Quantity of);
   void take_reference();
 
   const model::Model* model_;
