@@ -125,10 +125,14 @@ class Page(Live):
         free = self.js("bbsim.data.scene.live.free")
         self.assertEqual(self.js("[...document.querySelectorAll('.slider input[type=range]')].map((one) => one.dataset.key)"),
                          [key for key in sorted(free) if key in self.js("bbsim.data.scene.live.keys.map(({key}) => key)")])
+        # A learner opens it unsolved, and can solve it within the sliders' ranges.
+        self.assertEqual(self.js("bbsim.live.tasks"), [False, False])
+        for key in free:
+            self.run_js("const slider = document.querySelector(`[data-key='${args[0]}']`);"
+                        "slider.value = 3; slider.dispatchEvent(new Event('input')); slider.dispatchEvent(new Event('change'))", key)
         self.run_js("await bbsim.live.set('gravity', 9.81)")
-        tasks = self.js("bbsim.live.tasks")
-        self.assertEqual(len(tasks), self.js("bbsim.data.scene.live.tasks.length"))
-        self.assertEqual(self.js("document.querySelectorAll('.tasks .holds').length"), tasks.count(True))
+        self.assertEqual(self.js("bbsim.live.tasks"), [True, True])
+        self.assertEqual(self.js("document.querySelectorAll('.tasks .holds').length"), 2)
 
     def test_a_slider_changes_the_run(self):
         self.open(page("configs/fig2b.yaml"))
