@@ -17,7 +17,7 @@ bbsim.makeLive = (container) => {
   const original = {text: lead.scenario.text, set: lead.scenario.overrides.map(keyAndValue), script: '', pokes: []};
   const same = (a, b) => a.text === b.text && a.script === b.script && JSON.stringify(a.set) === JSON.stringify(b.set);
   let wanted = original;
-  const history = [];
+  const history = [], broken = new WeakSet();  // states before gestures; states that an error stopped
 
   // What the page shows of the last run.
   let offered = data.scene.live, yaml = original.text, columns = null;
@@ -60,6 +60,7 @@ bbsim.makeLive = (container) => {
       keysDue = false;
       sliders.fill(offered);
     }
+    if (state.script !== '' && run.status === 'failed') broken.add(state);
     editing.show(yaml);
     showFaults(answer.warnings.map((message) => ({place: '', message})));
     showNumbers();
@@ -100,6 +101,7 @@ bbsim.makeLive = (container) => {
       else requestAnimationFrame(() => setTimeout(drawn, 0));
       calm = setTimeout(() => describe(state), 500);
     } catch (error) {
+      broken.add(state);
       status.textContent = error.message === 'stopped' ? 'stopped' : 'not run';
       if (!told) showFaults([{place: '', message: error.message}]);
       for (const {reject} of asked) reject(error);
@@ -166,7 +168,8 @@ bbsim.makeLive = (container) => {
   }
   function undo() {
     editing.flush();
-    while (history.length > 0 && same(history[history.length - 1], wanted)) history.pop();
+    const useless = (state) => broken.has(state) || same(state, wanted);
+    while (history.length > 0 && useless(history[history.length - 1])) history.pop();
     if (history.length > 0) restore(history.pop());
   }
   function reset() {

@@ -71,6 +71,13 @@ class Live(unittest.TestCase):
                       f"(async () => {{ {script} }})().then(done, (error) => done({{fault: error.message}}));",
             "args": list(arguments)})
 
+    def until(self, condition):
+        found = self.run_js(f"const begun = performance.now(); while (!({condition})) {{"
+                            "  if (performance.now() - begun > 20000) throw new Error('it never came');"
+                            "  await new Promise((resolve) => setTimeout(resolve, 50));"
+                            "}")
+        self.assertIsNone(found, condition)
+
     def columns_of(self, text, **keys):
         found = self.run_js("await bbsim.live.edit(args[0]);"
                             "for (const [key, value] of Object.entries(args[1])) await bbsim.live.set(key, value);"
@@ -409,6 +416,18 @@ class Controllers(Live):
                              ("let a = 1;", "step is not defined")]:
             with self.subTest(script):
                 self.assertIn(said, self.run_js("await bbsim.live.control(args[0])", script)["fault"])
+
+    def test_undo_leaves_out_what_an_error_stopped(self):
+        self.open(page("configs/rig.yaml"))
+        self.run_js("await bbsim.live.set('gravity', 9.7)")
+        for script in ["let a = 1;", "function step({t}) { if (t > 3) throw new Error('late'); return [0, 0]; }"]:
+            with self.subTest(script):
+                self.run_js("await bbsim.live.control(args[0]).catch(() => {}); await bbsim.live.control('');"
+                            "await bbsim.live.set('gravity', 9.6); await bbsim.live.control(args[0]).catch(() => {});"
+                            "await bbsim.live.set('gravity', 9.5).catch(() => {})", script)
+                self.js("bbsim.live.undo()")
+                self.until("document.querySelector('.faults').textContent === '' && bbsim.data.runs[0].status === 'done'")
+                self.assertIn("gravity: 9.6", self.js("bbsim.live.yaml"))
 
     def test_an_endless_one_can_be_stopped(self):
         self.open(page("configs/rig.yaml"))
