@@ -155,6 +155,21 @@ class Page(Live):
         self.assertAlmostEqual(max(self.js("[...bbsim.data.runs[0].path]")), 0.08, 3)
         self.assertIn("x before", self.js("document.getElementById('plots').textContent"))
 
+    def test_a_slider_at_zero_has_its_neighbors_range(self):
+        self.open(page("configs/rig.yaml"))
+        slide = ("const slider = document.querySelector(`[data-key='${args[0]}']`); slider.value = args[1];"
+                 "slider.dispatchEvent(new Event('input')); slider.dispatchEvent(new Event('change'));"
+                 "return [slider.min, slider.max].map(Number)")
+        self.assertEqual(self.run_js(slide, "ball.position.1", 3), [-12.5, 12.5])  # that of 5 cm
+        low, high = self.run_js(slide, "controller.sensor.seed", 99)
+        self.assertEqual(high, int(high))
+        self.assertIsNone(self.run_js("await bbsim.live.set('gravity', '9.8')"))
+        self.assertIn("3 cm]", self.js("bbsim.live.yaml"))
+        self.assertIn(f"seed: {high}", self.js("bbsim.live.yaml"))
+        self.run_js(slide, "ball.position.1", 0)
+        self.run_js("bbsim.live.undo(); await bbsim.live.set('gravity', '9.7')")
+        self.assertEqual(float(self.js("document.querySelector('[data-key=\"ball.position.1\"]').value")), 3)
+
     def test_a_poke_moves_the_ball(self):
         """towards the point, by the speed that would take it there in half a second"""
         self.open(page("configs/rig.yaml", "--set", "controller.sensor.noise=0"))
