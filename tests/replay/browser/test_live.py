@@ -284,6 +284,10 @@ class Loops(Live):
                                       stdout=subprocess.PIPE, check=True, text=True).stdout
                 self.assertIn(f"({decibels:.3g} dB)", said)
                 self.assertGreater(self.js("document.querySelectorAll('.bode .curve').length"), 1)
+                # No label covers another one.
+                self.assertEqual(self.run_js("const boxes = [...document.querySelectorAll('.bode text')].map((one) => one.getBBox());"
+                                             "return boxes.filter((a, i) => boxes.slice(0, i).some((b) => a.x < b.x + b.width && "
+                                             "b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height)).length"), 0)
 
     def margins(self, name, *options):
         file = os.path.join(FOLDER, "linear.json")
