@@ -292,13 +292,17 @@ bbsim.makeLive = (container) => {
     apply: setKeys,
   });
 
-  container.append(element('div', {class: 'live-head'}, element('h2', {}, 'Change it'), status, stop), link.root,
+  // The sliders stay in sight beside what follows them: plots and numbers.
+  const plots = document.getElementById('plots');
+  container.append(element('div', {class: 'card'}, element('div', {class: 'live-head'}, element('h2', {}, 'Change it'), status, stop), link.root,
                    element('p', {class: 'buttons'}, undoing, button('Back to the file', 'Undo all changes', reset), pin, poking, tilting, fanning,
                            button('YAML', 'Save the scenario with its changes', () => {
                              editing.flush();
                              bbsim.save.offer(new Blob([yaml], {type: 'application/yaml'}), bbsim.save.fileName(name, '.yaml'));
-                           }), fan.status),
-                   faults, exercise, sliders.root, element('div', {class: 'live-numbers'}, numbers, poles, bode.root), map.root, controller.root, editing.root);
+                           }), fan.status)),
+                   faults,
+                   element('div', {class: 'tuned'}, element('div', {class: 'card tuning'}, exercise, sliders.root), plots, element('div', {class: 'card live-numbers'}, numbers, poles, bode.root)),
+                   map.root, controller.root, editing.root);
   sliders.fill(offered);
   showNumbers();
   showButtons();

@@ -74,7 +74,7 @@ bbsim.makeSliders = ({remember, change, valueOf}) => {
       change(key.key, field.value);
     });
     const row = element('div', {class: 'slider'},
-                        element('label', {for: id, title: key.key}, parts.length > 0 ? element('small', {}, `${parts.join('.')}.`) : null, last),
+                        element('label', {for: id, title: key.key}, element('small', {}, ...parts.flatMap((part) => [`${part}.`, element('wbr')])), last),
                         input, field);
     place(words);
     return Object.assign(row, {key: key.key, fits, place});

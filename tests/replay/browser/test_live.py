@@ -261,6 +261,38 @@ class Page(Live):
         self.assertIn("gravity: 5", self.js("bbsim.live.yaml"))
 
 
+class Sight(unittest.TestCase):
+    def test_sliders_and_curves_are_on_one_screen(self):
+        """and the sliders stay in sight down to the Bode plot"""
+        url = page("configs/rig.yaml")
+        for width, height in [(1280, 800), (390, 844)]:
+            with self.subTest(width), Browser(width, height, phone=width < 500) as browser:
+                browser.open(url)
+                box = ("return ['.tuning', arguments[0]].map((one) => document.querySelector(one).getBoundingClientRect())"
+                       ".map(({top, bottom}) => [top, bottom])")
+                if width < 500:
+                    browser.run("document.querySelector('.tuning').scrollIntoView()")
+                (top, bottom), (first, last) = browser.run(box, "#plots .frame")
+                self.assertGreaterEqual(top, 0)
+                self.assertLess(bottom, first)
+                self.assertLessEqual(last, height)
+                browser.run("document.querySelector('.live-bode').scrollIntoView({block: 'end'})")
+                (top, bottom), (first, last) = browser.run(box, ".live-bode")
+                self.assertGreaterEqual(top, 0)
+                self.assertLess(bottom, first)
+                self.assertLessEqual(last, height + 1)
+                self.assertEqual(browser.run("return document.documentElement.scrollWidth"), width)
+
+    def test_a_printed_page_has_the_bode_plot(self):
+        with Browser(1280, 800) as browser:
+            seen = ("return arguments[0].map((one) => document.querySelector(one).checkVisibility())", [".bode", ".plot canvas", ".sliders", ".live .buttons"])
+            browser.open(page("configs/rig.yaml"))
+            browser.run("bbsim.print.begin()")
+            self.assertEqual(browser.run(*seen), [True, True, False, False])
+            browser.run("bbsim.print.end()")
+            self.assertEqual(browser.run(*seen), [True, True, True, True])
+
+
 class Loops(Live):
     def test_margins_follow_a_slider(self):
         """those of `bbsim linearize` and `bbsim check`; the curves cross 0 dB and -180 degrees there"""
