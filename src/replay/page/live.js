@@ -301,7 +301,7 @@ bbsim.makeLive = (container) => {
                              bbsim.save.offer(new Blob([yaml], {type: 'application/yaml'}), bbsim.save.fileName(name, '.yaml'));
                            }), fan.status)),
                    faults,
-                   element('div', {class: 'tuned'}, element('div', {class: 'card tuning'}, exercise, sliders.root), plots, element('div', {class: 'card live-numbers'}, numbers, poles, bode.root)),
+                   element('div', {class: 'tuned'}, element('div', {class: 'card tuning'}, exercise, sliders.root, sliders.meaning), plots, element('div', {class: 'card live-numbers'}, numbers, poles, bode.root)),
                    map.root, controller.root, editing.root);
   sliders.fill(offered);
   showNumbers();

@@ -31,6 +31,8 @@ bbsim.rangeOf = ({value, least, most, open, whole}, {number, unit}, like) => {
 bbsim.makeSliders = ({remember, change, valueOf}) => {
   const {element, number: numberText} = bbsim.text;
   const root = element('div', {class: 'sliders'});
+  // What the key in hand means: for fingers, which see no titles.
+  const meaning = element('p', {class: 'fine meaning'});
 
   // "2 cm" -> {number: 2, unit: 'cm'}
   function parsed(words) {
@@ -48,7 +50,8 @@ bbsim.makeSliders = ({remember, change, valueOf}) => {
     const {low, high, step} = bbsim.rangeOf(key, {number: begun.number, unit: unit || key.unit}, like && like.unit === unit ? like : null);
     const id = `live-${key.key}`, parts = key.key.split('.'), last = parts.pop();
     // Steps count from the value, so that the slider can come back to it.
-    const input = element('input', {type: 'range', id, min: Math.min(low, begun.number), max: Math.max(high, begun.number), step: 'any', 'data-key': key.key});
+    const title = key.meaning ? `${key.key}: ${key.meaning}` : key.key;
+    const input = element('input', {type: 'range', id, title, min: Math.min(low, begun.number), max: Math.max(high, begun.number), step: 'any', 'data-key': key.key});
     const field = element('input', {type: 'text', class: 'value', 'aria-label': `${key.key}, as text`, spellcheck: 'false'});
     const textOf = (value) => `${Number(value.toPrecision(12))} ${unit}`.trim();
     function place(now) {
@@ -74,14 +77,15 @@ bbsim.makeSliders = ({remember, change, valueOf}) => {
       change(key.key, field.value);
     });
     const row = element('div', {class: 'slider'},
-                        element('label', {for: id, title: key.key}, element('small', {}, ...parts.flatMap((part) => [`${part}.`, element('wbr')])), last),
+                        element('label', {for: id, title}, element('small', {}, ...parts.flatMap((part) => [`${part}.`, element('wbr')])), last),
                         input, field);
     place(words);
+    for (const touch of ['pointerdown', 'focusin']) row.addEventListener(touch, () => meaning.replaceChildren(bbsim.text.visible(title)));
     return Object.assign(row, {key: key.key, fits, place});
   }
 
   return {
-    root,
+    root, meaning,
     // Shows these keys, or only the free ones. Rows of the same key and unit stay, with their focus.
     fill({keys, free}) {
       const wanted = keys.filter(({key}) => free.length === 0 || free.includes(key)), rows = [...root.children];

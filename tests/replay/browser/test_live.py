@@ -170,6 +170,22 @@ class Page(Live):
         self.run_js("bbsim.live.undo(); await bbsim.live.set('gravity', '9.7')")
         self.assertEqual(float(self.js("document.querySelector('[data-key=\"ball.position.1\"]').value")), 3)
 
+    def test_a_slider_tells_what_its_key_means(self):
+        """in the words of the JSON Schema: when the page opens, and from the engine when keys come"""
+        schema = json.loads(subprocess.run([BBSIM, "--schema"], check=True, capture_output=True, text=True).stdout)
+        keys = schema["properties"]["ball"]["properties"]
+        self.open(page("configs/rig.yaml"))
+        for keys_of_the_engine in [False, True]:
+            if keys_of_the_engine:
+                self.run_js("await bbsim.live.edit(bbsim.live.yaml.replace('mass:', 'inertia_factor: 0.4, mass:'))")
+            for key, name in [("ball.mass", "mass"), ("ball.position.1", "position")]:
+                # A finger sees no title.
+                self.run_js("document.querySelector(`[data-key='${args[0]}']`).dispatchEvent(new Event('pointerdown', {bubbles: true}))", key)
+                said = self.js("document.querySelector('.meaning').textContent")
+                self.assertEqual(said, self.js("document.querySelector(`[data-key='${arguments[0]}']`).title", key))
+                self.assertEqual(said[:len(key) + 2], key + ": ")
+                self.assertTrue(keys[name]["description"].startswith(said[len(key) + 2:]), said)
+
     def test_a_poke_moves_the_ball(self):
         """towards the point, by the speed that would take it there in half a second"""
         self.open(page("configs/rig.yaml", "--set", "controller.sensor.noise=0"))
