@@ -262,8 +262,15 @@ bbsim.makeLive = (container) => {
     pinned = on;
     if (on) data.before = data.copyOf(lead);
   });
-  const poking = toggle('Poke', 'Then click the plate: the ball is poked there and then');
-  document.getElementById('screen').addEventListener('pointerdown', (event) => {
+  // A finger sees no titles, and perhaps no picture.
+  const screen = document.getElementById('screen'), byFinger = matchMedia('(pointer: coarse)').matches;
+  const hint = (words) => {
+    screen.scrollIntoView({block: 'nearest'});
+    bbsim.hint(words);
+  };
+  const toPoke = `${byFinger ? 'Touch' : 'Click'} the plate: the ball is poked there and then.`;
+  const poking = toggle('Poke', toPoke, (on) => on && hint(toPoke));
+  screen.addEventListener('pointerdown', (event) => {
     if (poking.getAttribute('aria-pressed') !== 'true' || !(event.target instanceof HTMLCanvasElement)) return;
     event.stopPropagation();
     event.preventDefault();
@@ -283,7 +290,11 @@ bbsim.makeLive = (container) => {
     showFaults([{place: '', message: error.message}]);
     tilting.setAttribute('aria-pressed', 'false');
   });
-  const tilting = toggle('Tilt by hand', 'Then drag across the picture, or press the arrow keys: the ball rolls as the plate tilts. Press again for the scenario\'s run', (on) => (on ? hand.start() : hand.stop()));
+  const toTilt = `Drag across the picture${byFinger ? '' : ', or press the arrow keys'}: the ball rolls as the plate tilts. Press the button again for the scenario's run.`;
+  const tilting = toggle('Tilt by hand', toTilt, (on) => {
+    if (on) hint(toTilt);
+    return on ? hand.start() : hand.stop();
+  });
   const fanning = toggle('100 rigs', 'Show rigs within the tolerances of this one, in the plots', (on) => (on ? fan.show(wanted) : fan.hide()));
 
   const link = bbsim.makeLink({

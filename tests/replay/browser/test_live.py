@@ -299,6 +299,26 @@ class Sight(unittest.TestCase):
                 self.assertLessEqual(last, height + 1)
                 self.assertEqual(browser.run("return document.documentElement.scrollWidth"), width)
 
+    def test_hints_for_fingers_name_no_mouse(self):
+        url = page("configs/rig.yaml")
+        for phone, width in [(True, 390), (False, 1280)]:
+            with self.subTest(phone), Browser(width, 844, phone=phone) as browser:
+                browser.devtools("Emulation.setTouchEmulationEnabled", {"enabled": phone})
+                browser.open(url)
+                for name in ["Poke", "Tilt by hand"]:
+                    browser.run("document.querySelector('.live').scrollIntoView();"
+                                "[...document.querySelectorAll('.live button')].find((one) => one.textContent === arguments[0]).click()", name)
+                    said = browser.run("const hint = document.getElementById('hint'); return hint.checkVisibility() && hint.textContent")
+                    self.assertEqual([word in said.lower() for word in ["click", "arrow keys"]],
+                                     [not phone and name == "Poke", not phone and name != "Poke"])
+                    self.assertEqual(said, browser.run("return [...document.querySelectorAll('.live button')]"
+                                                       ".find((one) => one.textContent === arguments[0]).title", name))
+                    top, bottom = browser.run("const {top, bottom} = document.getElementById('screen').getBoundingClientRect(); return [top, bottom]")
+                    self.assertGreaterEqual(top, -1)
+                    self.assertLessEqual(bottom, 845)
+                # A finger that tilts does not scroll.
+                self.assertEqual(browser.run("return getComputedStyle(document.getElementById('canvas')).touchAction"), "none")
+
     def test_a_printed_page_has_the_bode_plot(self):
         with Browser(1280, 800) as browser:
             seen = ("return arguments[0].map((one) => document.querySelector(one).checkVisibility())", [".bode", ".plot canvas", ".sliders", ".live .buttons"])
