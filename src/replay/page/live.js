@@ -299,8 +299,8 @@ bbsim.makeLive = (container) => {
 
   const link = bbsim.makeLink({
     // The changes, if they fit into an address.
-    changes: () => (wanted.text === original.text && !same(wanted, original) ? wanted.set : []),
-    apply: setKeys,
+    changes: () => (wanted.text === original.text && !same(wanted, original) ? wanted : {set: [], script: ''}),
+    apply: setKeys, bring: controller.offer,
   });
 
   // The sliders stay in sight beside what follows them: plots and numbers.
@@ -309,7 +309,7 @@ bbsim.makeLive = (container) => {
                    element('p', {class: 'buttons'}, undoing, button('Back to the file', 'Undo all changes', reset), pin, poking, tilting, fanning,
                            button('YAML', 'Save the scenario with its changes', () => {
                              editing.flush();
-                             bbsim.save.offer(new Blob([yaml], {type: 'application/yaml'}), bbsim.save.fileName(name, '.yaml'));
+                             bbsim.save.offer(new Blob([bbsim.withController(yaml, wanted.script)], {type: 'application/yaml'}), bbsim.save.fileName(name, '.yaml'));
                            }), fan.status)),
                    faults,
                    element('div', {class: 'tuned'}, element('div', {class: 'card tuning'}, exercise, sliders.root, sliders.meaning), plots, element('div', {class: 'card live-numbers'}, numbers, poles, bode.root)),

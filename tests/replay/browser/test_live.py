@@ -18,6 +18,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import urllib.parse
 
 from webdriver import Browser
 
@@ -516,6 +517,40 @@ class Controllers(Live):
                 self.until("document.querySelector('.faults').textContent === '' && bbsim.data.runs[0].status === 'done'")
                 self.assertIn("gravity: 9.6", self.js("bbsim.live.yaml"))
 
+    def test_a_link_brings_it_and_the_reader_runs_it(self):
+        url = page("configs/rig.yaml")
+        self.open(url)
+        script = "// 5 % & <b>\nfunction step({ball}) { return ball ? [-0.3 * ball[0], 0.3 * ball[1]] : [0, 0]; }"
+        for key in ["", "gravity"]:
+            with self.subTest(key):
+                self.run_js("bbsim.live.reset(); if (args[1]) await bbsim.live.set(args[1], '9.5');"
+                            "await bbsim.live.control(args[0]); await new Promise((resolve) => setTimeout(resolve, 400))", script, key)
+                self.assertIn("controller=", self.js("location.href"))
+                error = self.js("bbsim.live.measures.max_tracking_error")
+                self.open(self.js("location.href"))
+                self.assertIn(script, self.js("document.querySelector('.offer').textContent"))
+                ours = self.js("bbsim.live.measures.max_tracking_error")
+                self.js("document.querySelector('.offer button').click()")
+                self.run_js("await bbsim.live.set('ball.radius', '2 cm')")
+                # It stands there as text, and the scenario's law goes on.
+                self.assertEqual(self.js("document.querySelector('.editor[aria-label*=JavaScript]').value"), script)
+                self.assertLess(self.js("bbsim.live.measures.max_tracking_error"), 2 * ours)
+                self.js("[...document.querySelectorAll('.live button')].find((one) => one.textContent === 'Use this controller').click()")
+                self.until(f"Math.abs(bbsim.live.measures.max_tracking_error / {error} - 1) < 1e-9")
+
+    def test_the_saved_scenario_has_it_as_comments(self):
+        self.open(page("configs/rig.yaml"))
+        self.js("bbsim.save.offer = (blob) => { window.saved = blob.text(); }")
+        script = "/* one\rtitle: two\u2028title: three\x85title: four */\n\n  function step() { return [0, 0]; }\n"
+        self.assertIsNone(self.run_js("await bbsim.live.control(args[0])", script))
+        self.js("[...document.querySelectorAll('.live button')].find((one) => one.textContent === 'YAML').click()")
+        saved = self.run_js("return window.saved")
+        self.assertIn("\n#\n#   function step() { return [0, 0]; }\n", saved)
+        file = os.path.join(FOLDER, "saved.yaml")
+        with open(file, "w", encoding="utf-8") as stream:
+            stream.write(saved)
+        self.assertEqual(native(file), native("configs/rig.yaml"))
+
     def test_an_endless_one_can_be_stopped(self):
         self.open(page("configs/rig.yaml"))
         said = self.run_js("const run = bbsim.live.control('function step() { for (;;); }').catch((error) => error.message);"
@@ -551,12 +586,15 @@ class Hostile(Live):
                 stream.write("\n".join(lines) + f"\ntitle: {quoted}\n{tasks}\n# {words.splitlines()[0]}\n")
             with self.subTest(words):
                 self.open(page(file) + "#set=" + "%5B%5B%22gravity%22%2C" + "".join(
-                    f"%{byte:02X}" for byte in ('"' + words.replace("\\", "\\\\").replace('"', '\\"') + '"').encode()) + "%5D%5D")
+                    f"%{byte:02X}" for byte in ('"' + words.replace("\\", "\\\\").replace('"', '\\"') + '"').encode()) + "%5D%5D&controller=" + urllib.parse.quote(words + "; window.broken = 1"))
                 self.run_js("for (const key of ['title', 'gravity', args[0]]) await bbsim.live.set(key, args[0]).catch(() => {});"
                             "await bbsim.live.edit(args[0]).catch(() => {});"
                             "for (const button of document.querySelectorAll('.offer button')) button.click();"
                             "await new Promise((resolve) => setTimeout(resolve, 300))", words)
                 self.assertIsNone(self.js("window.broken || null"))
+                # A link's controller is text until the reader uses it.
+                self.assertIn(words, self.js("document.querySelector('.editor[aria-label*=JavaScript]').value"))
+                self.assertEqual(self.js("[...document.querySelectorAll('.live button')].find((one) => one.textContent.includes('law')).ariaDisabled"), "true")
 
     def test_no_title_of_two_hundred_runs_as_code(self):
         ends = ["", "\">", "'>", "-->", "</style>", "</title>", "]]>", "*/", "`", "\\"]
