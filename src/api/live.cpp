@@ -37,7 +37,7 @@ std::vector<LiveKey> keys_of(const ScenarioFamily& family) {
       text = number_text(*value) + ' ' + unit;
     }
     keys.push_back({path, text, unit, *value, range.at_least ? range.at_least : range.above,
-                    range.at_most, !range.at_least && range.above, number->whole});
+                    range.at_most, !range.at_least && range.above, number->whole, number->meaning});
   }
   return keys;
 }

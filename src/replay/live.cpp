@@ -44,7 +44,8 @@ Json live_json(const Live& live, const Numbers& numbers) {
                     {"least", bound(key.least)},
                     {"most", bound(key.most)},
                     {"open", key.open},
-                    {"whole", key.whole}});
+                    {"whole", key.whole},
+                    {"meaning", key.meaning}});
   }
   for (const Live::Task& task : live.tasks) {
     tasks.push_back({{"text", task.text}, {"expect", task.expect}, {"holds", task.holds}});

@@ -19,6 +19,7 @@ struct LiveKey {
   std::optional<double> least, most;  // the range of allowed values, SI; empty: unbounded
   bool open = false;                  // `least` itself is not allowed
   bool whole = false;                 // without fractions
+  std::string meaning;                // one phrase; may be empty
 };
 
 struct Live {

@@ -27,18 +27,6 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
   }
 }
 
-// Removes the marks of Markdown: [text](link), $formula$, `code`.
-std::string plain(std::string text) {
-  for (auto link = text.find("]("); link != std::string::npos; link = text.find("](")) {
-    text.erase(link, text.find(')', link) - link + 1);
-    text.erase(text.rfind('[', link), 1);
-  }
-  std::erase(text, '`');
-  std::erase(text, '$');
-  std::erase(text, '\\');
-  return text;
-}
-
 // A pattern for a number with a unit. It checks only bounds at zero.
 std::string pattern_of(const Declared& number) {
   const yaml::Range& range = number.range;
@@ -136,7 +124,7 @@ std::optional<Json> standard_of(const DeclaredKey& key) {
 }
 
 std::string description_of(const DeclaredKey& key) {
-  std::string text = plain(std::string(key.about.meaning));
+  std::string text = plain_meaning(key.about);
   const bool si = key.about.unit.empty() && key.value.kind == Declared::Kind::number;
   const std::string unit(si ? yaml::si_unit(key.value.dimension) : key.about.unit);
   if (!unit.empty() && unit != "-" && unit != "below") text += " (" + unit + ')';

@@ -49,33 +49,35 @@ void add(const Declared& value, const std::string& path, std::set<std::string>& 
 
 struct Leaf {
   const Declared* value;
-  std::string standard;
+  std::string standard{};
+  yaml::About about{};  // of the nearest key that has a meaning
 };
 
-// The declaration of this kind at the path.
-std::optional<Leaf> find_leaf(const Declared& declared, std::string_view path,
-                              const std::string& standard, Declared::Kind kind) {
+// The declaration of this kind at the path from a value.
+std::optional<Leaf> find_leaf(const Leaf& from, std::string_view path, Declared::Kind kind) {
+  const Declared& declared = *from.value;
   if (declared.kind == Declared::Kind::any) {
     for (const Declared& part : declared.parts) {
-      if (const auto found = find_leaf(part, path, standard, kind)) return found;
+      if (const auto found = find_leaf({&part, from.standard, from.about}, path, kind)) {
+        return found;
+      }
     }
     return {};
   }
-  if (path.empty()) {
-    return declared.kind == kind ? std::optional(Leaf{&declared, standard}) : std::nullopt;
-  }
+  if (path.empty()) return declared.kind == kind ? std::optional(from) : std::nullopt;
   const std::size_t dot = path.find('.');
   const std::string_view name = path.substr(0, dot);
   const std::string_view rest = dot == std::string_view::npos ? "" : path.substr(dot + 1);
   if (declared.kind == Declared::Kind::mapping) {
     const auto key = std::ranges::find(declared.keys, name, &yaml::DeclaredKey::name);
     if (key == declared.keys.end()) return {};
-    return find_leaf(key->value, rest, key->standard, kind);
+    const yaml::About& about = key->about.meaning.empty() ? from.about : key->about;
+    return find_leaf({&key->value, key->standard, about}, rest, kind);
   }
   const bool holds_any =
       declared.kind == Declared::Kind::list || declared.kind == Declared::Kind::names;
   if (!holds_any || declared.parts.empty()) return {};
-  return find_leaf(declared.parts.front(), rest, "", kind);
+  return find_leaf({&declared.parts.front(), "", from.about}, rest, kind);
 }
 
 // What a servo has without its key: by its model, by its speed, or in common for both axes. Empty
@@ -110,17 +112,27 @@ std::vector<std::string> key_paths() {
   return {paths.begin(), paths.end()};
 }
 
+std::string plain_meaning(const yaml::About& about) {
+  std::string text(about.meaning);
+  for (auto link = text.find("]("); link != std::string::npos; link = text.find("](")) {
+    text.erase(link, text.find(')', link) - link + 1);
+    text.erase(text.rfind('[', link), 1);
+  }
+  std::erase_if(text, [](char c) { return c == '`' || c == '$' || c == '*' || c == '\\'; });
+  return text;
+}
+
 std::optional<NumberKey> number_key(std::string_view path) {
-  const auto leaf = find_leaf(declared_keys(), yaml::american(path), "", Declared::Kind::number);
+  const auto leaf = find_leaf({&declared_keys()}, yaml::american(path), Declared::Kind::number);
   if (!leaf) return {};
   return NumberKey{leaf->value->dimension, leaf->value->range,
                    yaml::read_quantity(leaf->standard, false, leaf->value->dimension).value,
-                   leaf->value->whole};
+                   leaf->value->whole, plain_meaning(leaf->about)};
 }
 
 std::optional<std::string> scalar_default(std::string_view path) {
   for (const auto kind : {Declared::Kind::number, Declared::Kind::name}) {
-    const auto leaf = find_leaf(declared_keys(), yaml::american(path), "", kind);
+    const auto leaf = find_leaf({&declared_keys()}, yaml::american(path), kind);
     if (leaf) return leaf->standard;
   }
   return {};

@@ -22,12 +22,16 @@ namespace bbsim::scenario {
 // controller.program.parameters., stands for names that the user chooses.
 [[nodiscard]] std::vector<std::string> key_paths();
 
-// Unit, range and default of a key that is a number.
+// What the documents say of a key, without the marks of Markdown.
+[[nodiscard]] std::string plain_meaning(const yaml::About& about);
+
+// Unit, range, default and meaning of a key that is a number.
 struct NumberKey {
   yaml::Dimension dimension = yaml::Dimension::number;
   yaml::Range range{};
   std::optional<double> standard{};  // default, SI
   bool whole = false;                // without fractions
+  std::string meaning{};             // of the key, or of the nearest section that says something
 };
 
 // The default as text, if any, of a key that is a single number or one of several names. Empty for

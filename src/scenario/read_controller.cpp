@@ -14,26 +14,36 @@ namespace bbsim::scenario {
 namespace {
 
 void read_pd(yaml::Keys& keys, Controller& controller) {
-  keys.required("kv", yaml::GainMatrix{}, controller.kv,
-                {"2x2; rows phi, theta; columns x, y: [[k, 0], [0, -k]] (*Signs*, below). A number "
-                 "k stands for [[k, 0], [0, k]]; under `drives: angle`, only 0 is allowed",
-                 "below"});
+  keys.required(
+      "kv", yaml::GainMatrix{}, controller.kv,
+      {"gains of the error (`kp`) and of its rate (`kv`): 2x2; rows phi, theta; columns x, "
+       "y: [[k, 0], [0, -k]] (*Signs*, below). A number k stands for [[k, 0], [0, k]]; under "
+       "`drives: angle`, only 0 is allowed",
+       "below"});
   keys.required("kp", yaml::GainMatrix{}, controller.kp, yaml::same);
 }
 
 void read_pid(yaml::Keys& keys, Controller& controller) {
-  keys.about({"kv"}, {"the same", "below"});
+  keys.about(
+      {"kv"},
+      {"gains of the error (`kp`), of its rate (`kv`) and of its integral (`ki`), as in `pd`",
+       "below"});
   read_pd(keys, controller);
   keys.required("ki", yaml::GainMatrix{}, controller.ki, yaml::same);
 }
 
 void read_gravity_compensation(yaml::Keys& keys, Controller& controller) {
-  keys.about({"kv"}, {"a number or 2x2; rows x, y; columns x, y", "1/s, 1/s²"});
+  keys.about(
+      {"kv"},
+      {"gains of the error (`kp`) and of its rate (`kv`): a number or 2x2; rows x, y; columns x, y",
+       "1/s, 1/s²"});
   read_pd(keys, controller);
 }
 
 void read_feedback_linearisation(yaml::Keys& keys, Controller& controller) {
-  keys.about({"kv"}, {"the same", "1/s, 1/s²"});
+  keys.about({"kv"},
+             {"gains of the error (`kp`) and of its rate (`kv`), as in `gravity_compensation`",
+              "1/s, 1/s²"});
   read_pd(keys, controller);
 }
 

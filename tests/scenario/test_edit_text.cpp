@@ -130,7 +130,7 @@ TEST_CASE("a value of a scenario as YAML in one line") {
   CHECK(family.text_at("ball.mass").empty());
 }
 
-TEST_CASE("the unit, range and default of a number") {
+TEST_CASE("the unit, range, default and meaning of a number") {
   using scenario::number_key;
   const auto factor = number_key("ball.inertia_factor");
   REQUIRE(factor);
@@ -143,7 +143,9 @@ TEST_CASE("the unit, range and default of a number") {
   CHECK(number_key("gimbal.motion.phi.table.scale")->standard == 1.0);
   CHECK(number_key("gimbal.motion.theta.0.table.delay")->standard == 0.0);
   CHECK(number_key("gimbal.motion.phi.0.table.delay")->dimension == yaml::Dimension::time);
-  CHECK(number_key("controller.pd.kp.0.1"));
+  REQUIRE(number_key("controller.pd.kp.0.1"));
+  CHECK(number_key("controller.pd.kp.0.1")->meaning == number_key("controller.pd.kp")->meaning);
+  CHECK(number_key("ball.position.1")->meaning == "contact point (x, y) at t = 0");
   CHECK_FALSE(number_key("ball.raduis"));
   CHECK_FALSE(number_key("title"));
 }

@@ -52,7 +52,7 @@ bbsim.makeBode = (loops, ask) => {
 // `frequencies` and {phi_command: {gain, phase}} as arrays.
 bbsim.drawBode = ({frequencies, curves, margins}) => {
   const {element, svg, number} = bbsim.text;
-  const width = 340, left = 36, right = 6, high = 96, gap = 8, top = 6;
+  const width = 340, left = 36, right = 6, high = 96, gap = 16, top = 6;
   const degrees = (angle) => angle * bbsim.text.degrees, decibels = (gain) => 20 * Math.log10(gain);
   const named = {phi_command: 'φ', theta_command: 'θ'};
   const alike = (a, b) => a.every((value, i) => Math.abs(value - b[i]) <= 1e-6 * Math.abs(value));

@@ -4,6 +4,15 @@
 'use strict';
 // The viewer's own controller in a live page: a script with step(sample), as in
 // docs/reference/controllers.md. `use(script)` lets it control, and use('') the scenario's law.
+
+// The text of a scenario with this script as comments, since no key of bbsim holds it.
+bbsim.withController = (yaml, script) => {
+  if (script === '') return yaml;
+  const lines = script.trimEnd().split('\n').map((line) => `# ${bbsim.text.visible(line)}`.trimEnd());
+  return ['# A controller of the page ran in place of the law, which bbsim runs from this file. The controller is at the end.',
+          yaml.trimEnd(), '', '# The controller of the page, JavaScript:', ...lines, ''].join('\n');
+};
+
 bbsim.makeControllerCard = (use) => {
   const {element} = bbsim.text;
   const {examples} = bbsim;
@@ -24,6 +33,14 @@ bbsim.makeControllerCard = (use) => {
                        element('p', {class: 'fine'}, 'step(sample) gets {sample, t, ball, reference, reference_rate, reference_acceleration, servo, servo_rate, period} in SI units, once a sampling period, and returns [phi, theta]. It runs in this page alone, without network.'));
   return {
     root,
+    // Shows a script from elsewhere. It runs when the viewer uses it.
+    offer(script) {
+      area.value = mine = script;
+      own.hidden = false;
+      choice.value = '';
+      root.open = true;
+      root.scrollIntoView({block: 'nearest'});
+    },
     // The script that controls now.
     show(script) {
       off.setAttribute('aria-disabled', String(script === ''));

@@ -39,6 +39,7 @@ bbsim.makeHand = (ask, fault) => {
       fault(error);
     }
     on = false;
+    box.classList.remove('held');
     delete lead.hand;
     screen.show('trail', true);
     clock.seek(clock.now);
@@ -88,6 +89,7 @@ bbsim.makeHand = (ask, fault) => {
     step: ask,
     start() {
       on = true;
+      box.classList.add('held');  // a finger tilts, and does not scroll
       pressed.clear();
       lean(0, 0);
       clock.pause();

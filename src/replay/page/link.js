@@ -2,40 +2,55 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// The changes of a live page in its address. A link's changes are shown before they are applied.
-// `changes()` returns [[key, value], ...]; `apply` makes them.
-bbsim.makeLink = ({changes, apply}) => {
+// The changes of a live page in its address: keys, and the viewer's controller. A link's changes are
+// shown before they are applied. `changes()` returns {set: [[key, value], ...], script}; `apply(set)`
+// sets keys, and `bring(script)` shows a controller, which is not run.
+bbsim.makeLink = ({changes, apply, bring}) => {
   const {element} = bbsim.text;
   const root = element('div', {});
   let offered = '';  // a link's part of the address, until it is applied or ignored
+  const fragmentOf = ({set, script}) => [set.length > 0 ? `set=${encodeURIComponent(JSON.stringify(set))}` : '',
+                                         script ? `controller=${encodeURIComponent(script)}` : ''].filter(Boolean).join('&');
 
-  function read(part) {
+  // What the address has as this name; '' if it cannot be read.
+  function part(name) {
+    const [, words] = new RegExp(`[#&]${name}=([^&]*)`).exec(location.hash) || [];
+    try {
+      return decodeURIComponent(words || '');
+    } catch {
+      return '';
+    }
+  }
+  function readSet() {
     let wanted;
     try {
-      wanted = JSON.parse(decodeURIComponent(part));
+      wanted = JSON.parse(part('set'));
     } catch {
-      return null;
+      return [];
     }
     const valid = Array.isArray(wanted) && wanted.length > 0 && wanted.length <= 100 &&
         wanted.every((one) => Array.isArray(one) && one.length === 2 && one.every((words) => typeof words === 'string' && words.length <= 1000));
-    return valid ? wanted : null;
+    return valid ? wanted : [];
   }
 
   function offer() {
-    const [, part] = /(?:^|[#&])set=([^&]*)/.exec(location.hash) || [], wanted = part === undefined ? null : read(part);
-    if (!wanted) return;
-    offered = `set=${part}`;
+    const set = readSet(), script = part('controller');
+    if (set.length === 0 && !script) return;
+    offered = fragmentOf({set, script});
     const end = () => {
       offered = '';
       root.replaceChildren();
     };
     const button = (words, action) => element('button', {type: 'button', onclick: action}, words);
     root.replaceChildren(element('div', {class: 'offer', role: 'group', 'aria-label': 'Changes of this link'},
-                                 element('p', {}, 'This link changes the scenario:'),
-                                 element('ul', {}, ...wanted.map(([key, value]) => element('li', {}, element('code', {}, `${key} = ${value}`)))),
+                                 ...(set.length > 0 ? [element('p', {}, 'This link changes the scenario:'),
+                                                       element('ul', {}, ...set.map(([key, value]) => element('li', {}, element('code', {}, `${key} = ${value}`))))] : []),
+                                 ...(script ? [element('p', {}, 'This link brings a controller. Apply it to have it in Your controller; press Use this controller there to run it.'),
+                                               element('pre', {}, script)] : []),
                                  element('p', {class: 'buttons'}, button('Apply', () => {
                                    end();
-                                   apply(wanted);
+                                   if (set.length > 0) apply(set);
+                                   if (script) bring(script);
                                  }), button('Ignore', end))));
   }
   offer();
@@ -44,10 +59,6 @@ bbsim.makeLink = ({changes, apply}) => {
   return {
     root,
     // A part of the page's address; may be empty.
-    fragment() {
-      if (offered) return offered;
-      const set = changes();
-      return set.length > 0 ? `set=${encodeURIComponent(JSON.stringify(set))}` : '';
-    },
+    fragment: () => offered || fragmentOf(changes()),
   };
 };

@@ -17,7 +17,7 @@ bbsim.makeLive = (container) => {
   const original = {text: lead.scenario.text, set: lead.scenario.overrides.map(keyAndValue), script: '', pokes: []};
   const same = (a, b) => a.text === b.text && a.script === b.script && JSON.stringify(a.set) === JSON.stringify(b.set);
   let wanted = original;
-  const history = [];
+  const history = [], broken = new WeakSet();  // states before gestures; states that an error stopped
 
   // What the page shows of the last run.
   let offered = data.scene.live, yaml = original.text, columns = null;
@@ -60,6 +60,7 @@ bbsim.makeLive = (container) => {
       keysDue = false;
       sliders.fill(offered);
     }
+    if (state.script !== '' && run.status === 'failed') broken.add(state);
     editing.show(yaml);
     showFaults(answer.warnings.map((message) => ({place: '', message})));
     showNumbers();
@@ -100,6 +101,7 @@ bbsim.makeLive = (container) => {
       else requestAnimationFrame(() => setTimeout(drawn, 0));
       calm = setTimeout(() => describe(state), 500);
     } catch (error) {
+      broken.add(state);
       status.textContent = error.message === 'stopped' ? 'stopped' : 'not run';
       if (!told) showFaults([{place: '', message: error.message}]);
       for (const {reject} of asked) reject(error);
@@ -166,7 +168,8 @@ bbsim.makeLive = (container) => {
   }
   function undo() {
     editing.flush();
-    while (history.length > 0 && same(history[history.length - 1], wanted)) history.pop();
+    const useless = (state) => broken.has(state) || same(state, wanted);
+    while (history.length > 0 && useless(history[history.length - 1])) history.pop();
     if (history.length > 0) restore(history.pop());
   }
   function reset() {
@@ -259,8 +262,15 @@ bbsim.makeLive = (container) => {
     pinned = on;
     if (on) data.before = data.copyOf(lead);
   });
-  const poking = toggle('Poke', 'Then click the plate: the ball is poked there and then');
-  document.getElementById('screen').addEventListener('pointerdown', (event) => {
+  // A finger sees no titles, and perhaps no picture.
+  const screen = document.getElementById('screen'), byFinger = matchMedia('(pointer: coarse)').matches;
+  const hint = (words) => {
+    screen.scrollIntoView({block: 'nearest'});
+    bbsim.hint(words);
+  };
+  const toPoke = `${byFinger ? 'Touch' : 'Click'} the plate: the ball is poked there and then.`;
+  const poking = toggle('Poke', toPoke, (on) => on && hint(toPoke));
+  screen.addEventListener('pointerdown', (event) => {
     if (poking.getAttribute('aria-pressed') !== 'true' || !(event.target instanceof HTMLCanvasElement)) return;
     event.stopPropagation();
     event.preventDefault();
@@ -280,22 +290,30 @@ bbsim.makeLive = (container) => {
     showFaults([{place: '', message: error.message}]);
     tilting.setAttribute('aria-pressed', 'false');
   });
-  const tilting = toggle('Tilt by hand', 'Then drag across the picture, or press the arrow keys: the ball rolls as the plate tilts. Press again for the scenario\'s run', (on) => (on ? hand.start() : hand.stop()));
+  const toTilt = `Drag across the picture${byFinger ? '' : ', or press the arrow keys'}: the ball rolls as the plate tilts. Press the button again for the scenario's run.`;
+  const tilting = toggle('Tilt by hand', toTilt, (on) => {
+    if (on) hint(toTilt);
+    return on ? hand.start() : hand.stop();
+  });
   const fanning = toggle('100 rigs', 'Show rigs within the tolerances of this one, in the plots', (on) => (on ? fan.show(wanted) : fan.hide()));
 
   const link = bbsim.makeLink({
     // The changes, if they fit into an address.
-    changes: () => (wanted.text === original.text && !same(wanted, original) ? wanted.set : []),
-    apply: setKeys,
+    changes: () => (wanted.text === original.text && !same(wanted, original) ? wanted : {set: [], script: ''}),
+    apply: setKeys, bring: controller.offer,
   });
 
-  container.append(element('div', {class: 'live-head'}, element('h2', {}, 'Change it'), status, stop), link.root,
+  // The sliders stay in sight beside what follows them: plots and numbers.
+  const plots = document.getElementById('plots');
+  container.append(element('div', {class: 'card'}, element('div', {class: 'live-head'}, element('h2', {}, 'Change it'), status, stop), link.root,
                    element('p', {class: 'buttons'}, undoing, button('Back to the file', 'Undo all changes', reset), pin, poking, tilting, fanning,
                            button('YAML', 'Save the scenario with its changes', () => {
                              editing.flush();
-                             bbsim.save.offer(new Blob([yaml], {type: 'application/yaml'}), bbsim.save.fileName(name, '.yaml'));
-                           }), fan.status),
-                   faults, exercise, sliders.root, element('div', {class: 'live-numbers'}, numbers, poles, bode.root), map.root, controller.root, editing.root);
+                             bbsim.save.offer(new Blob([bbsim.withController(yaml, wanted.script)], {type: 'application/yaml'}), bbsim.save.fileName(name, '.yaml'));
+                           }), fan.status)),
+                   faults,
+                   element('div', {class: 'tuned'}, element('div', {class: 'card tuning'}, exercise, sliders.root, sliders.meaning), plots, element('div', {class: 'card live-numbers'}, numbers, poles, bode.root)),
+                   map.root, controller.root, editing.root);
   sliders.fill(offered);
   showNumbers();
   showButtons();

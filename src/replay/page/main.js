@@ -47,8 +47,9 @@
     get('hint').textContent = words;
     get('hint').hidden = false;
     clearTimeout(hinting);
-    hinting = setTimeout(() => { get('hint').hidden = true; }, 2500);
+    hinting = setTimeout(() => { get('hint').hidden = true; }, Math.max(2500, 50 * words.length));
   }
+  bbsim.hint = hint;
 
   bbsim.ready = new Promise((resolve, reject) => { Object.assign(bbsim, {isReady: resolve, isNot: reject}); });
   if (!hasRuns) {

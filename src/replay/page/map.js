@@ -35,7 +35,8 @@ bbsim.makeMap = (cases, requestOf, load) => {
 
   // `count` values up to the end of the key's slider, SI.
   function valuesOf(name, count) {
-    const key = offered.keys.find(({key: one}) => one === name), {low, high} = bbsim.rangeOf(key, key.value);
+    const key = offered.keys.find(({key: one}) => one === name), neighbor = bbsim.neighborOf(key, offered.keys);
+    const {low, high} = bbsim.rangeOf(key, {number: key.value, unit: key.unit}, neighbor && {value: neighbor.value, number: neighbor.value});
     return Array.from({length: count}, (_, i) => Number((low + (i + 1) / count * (high - low)).toPrecision(12)));
   }
 

@@ -18,6 +18,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import urllib.parse
 
 from webdriver import Browser
 
@@ -70,6 +71,13 @@ class Live(unittest.TestCase):
             "script": "const done = arguments[arguments.length - 1], args = [...arguments];"
                       f"(async () => {{ {script} }})().then(done, (error) => done({{fault: error.message}}));",
             "args": list(arguments)})
+
+    def until(self, condition):
+        found = self.run_js(f"const begun = performance.now(); while (!({condition})) {{"
+                            "  if (performance.now() - begun > 20000) throw new Error('it never came');"
+                            "  await new Promise((resolve) => setTimeout(resolve, 50));"
+                            "}")
+        self.assertIsNone(found, condition)
 
     def columns_of(self, text, **keys):
         found = self.run_js("await bbsim.live.edit(args[0]);"
@@ -125,10 +133,14 @@ class Page(Live):
         free = self.js("bbsim.data.scene.live.free")
         self.assertEqual(self.js("[...document.querySelectorAll('.slider input[type=range]')].map((one) => one.dataset.key)"),
                          [key for key in sorted(free) if key in self.js("bbsim.data.scene.live.keys.map(({key}) => key)")])
+        # A learner opens it unsolved, and can solve it within the sliders' ranges.
+        self.assertEqual(self.js("bbsim.live.tasks"), [False, False])
+        for key in free:
+            self.run_js("const slider = document.querySelector(`[data-key='${args[0]}']`);"
+                        "slider.value = 3; slider.dispatchEvent(new Event('input')); slider.dispatchEvent(new Event('change'))", key)
         self.run_js("await bbsim.live.set('gravity', 9.81)")
-        tasks = self.js("bbsim.live.tasks")
-        self.assertEqual(len(tasks), self.js("bbsim.data.scene.live.tasks.length"))
-        self.assertEqual(self.js("document.querySelectorAll('.tasks .holds').length"), tasks.count(True))
+        self.assertEqual(self.js("bbsim.live.tasks"), [True, True])
+        self.assertEqual(self.js("document.querySelectorAll('.tasks .holds').length"), 2)
 
     def test_a_slider_changes_the_run(self):
         self.open(page("configs/fig2b.yaml"))
@@ -143,6 +155,37 @@ class Page(Live):
         # The picture has the new path, and the plots the former run beside it.
         self.assertAlmostEqual(max(self.js("[...bbsim.data.runs[0].path]")), 0.08, 3)
         self.assertIn("x before", self.js("document.getElementById('plots').textContent"))
+
+    def test_a_slider_at_zero_has_its_neighbors_range(self):
+        self.open(page("configs/rig.yaml"))
+        slide = ("const slider = document.querySelector(`[data-key='${args[0]}']`); slider.value = args[1];"
+                 "slider.dispatchEvent(new Event('input')); slider.dispatchEvent(new Event('change'));"
+                 "return [slider.min, slider.max].map(Number)")
+        self.assertEqual(self.run_js(slide, "ball.position.1", 3), [-12.5, 12.5])  # that of 5 cm
+        low, high = self.run_js(slide, "controller.sensor.seed", 99)
+        self.assertEqual(high, int(high))
+        self.assertIsNone(self.run_js("await bbsim.live.set('gravity', '9.8')"))
+        self.assertIn("3 cm]", self.js("bbsim.live.yaml"))
+        self.assertIn(f"seed: {high}", self.js("bbsim.live.yaml"))
+        self.run_js(slide, "ball.position.1", 0)
+        self.run_js("bbsim.live.undo(); await bbsim.live.set('gravity', '9.7')")
+        self.assertEqual(float(self.js("document.querySelector('[data-key=\"ball.position.1\"]').value")), 3)
+
+    def test_a_slider_tells_what_its_key_means(self):
+        """in the words of the JSON Schema: when the page opens, and from the engine when keys come"""
+        schema = json.loads(subprocess.run([BBSIM, "--schema"], check=True, capture_output=True, text=True).stdout)
+        keys = schema["properties"]["ball"]["properties"]
+        self.open(page("configs/rig.yaml"))
+        for keys_of_the_engine in [False, True]:
+            if keys_of_the_engine:
+                self.run_js("await bbsim.live.edit(bbsim.live.yaml.replace('mass:', 'inertia_factor: 0.4, mass:'))")
+            for key, name in [("ball.mass", "mass"), ("ball.position.1", "position")]:
+                # A finger sees no title.
+                self.run_js("document.querySelector(`[data-key='${args[0]}']`).dispatchEvent(new Event('pointerdown', {bubbles: true}))", key)
+                said = self.js("document.querySelector('.meaning').textContent")
+                self.assertEqual(said, self.js("document.querySelector(`[data-key='${arguments[0]}']`).title", key))
+                self.assertEqual(said[:len(key) + 2], key + ": ")
+                self.assertTrue(keys[name]["description"].startswith(said[len(key) + 2:]), said)
 
     def test_a_poke_moves_the_ball(self):
         """towards the point, by the speed that would take it there in half a second"""
@@ -235,6 +278,58 @@ class Page(Live):
         self.assertIn("gravity: 5", self.js("bbsim.live.yaml"))
 
 
+class Sight(unittest.TestCase):
+    def test_sliders_and_curves_are_on_one_screen(self):
+        """and the sliders stay in sight down to the Bode plot"""
+        url = page("configs/rig.yaml")
+        for width, height in [(1280, 800), (390, 844)]:
+            with self.subTest(width), Browser(width, height, phone=width < 500) as browser:
+                browser.open(url)
+                box = ("return ['.tuning', arguments[0]].map((one) => document.querySelector(one).getBoundingClientRect())"
+                       ".map(({top, bottom}) => [top, bottom])")
+                if width < 500:
+                    browser.run("document.querySelector('.tuning').scrollIntoView()")
+                (top, bottom), (first, last) = browser.run(box, "#plots .frame")
+                self.assertGreaterEqual(top, 0)
+                self.assertLess(bottom, first)
+                self.assertLessEqual(last, height)
+                browser.run("document.querySelector('.live-bode').scrollIntoView({block: 'end'})")
+                (top, bottom), (first, last) = browser.run(box, ".live-bode")
+                self.assertGreaterEqual(top, 0)
+                self.assertLess(bottom, first)
+                self.assertLessEqual(last, height + 1)
+                self.assertEqual(browser.run("return document.documentElement.scrollWidth"), width)
+
+    def test_hints_for_fingers_name_no_mouse(self):
+        url = page("configs/rig.yaml")
+        for phone, width in [(True, 390), (False, 1280)]:
+            with self.subTest(phone), Browser(width, 844, phone=phone) as browser:
+                browser.devtools("Emulation.setTouchEmulationEnabled", {"enabled": phone})
+                browser.open(url)
+                for name in ["Poke", "Tilt by hand"]:
+                    browser.run("document.querySelector('.live').scrollIntoView();"
+                                "[...document.querySelectorAll('.live button')].find((one) => one.textContent === arguments[0]).click()", name)
+                    said = browser.run("const hint = document.getElementById('hint'); return hint.checkVisibility() && hint.textContent")
+                    self.assertEqual([word in said.lower() for word in ["click", "arrow keys"]],
+                                     [not phone and name == "Poke", not phone and name != "Poke"])
+                    self.assertEqual(said, browser.run("return [...document.querySelectorAll('.live button')]"
+                                                       ".find((one) => one.textContent === arguments[0]).title", name))
+                    top, bottom = browser.run("const {top, bottom} = document.getElementById('screen').getBoundingClientRect(); return [top, bottom]")
+                    self.assertGreaterEqual(top, -1)
+                    self.assertLessEqual(bottom, 845)
+                # A finger that tilts does not scroll.
+                self.assertEqual(browser.run("return getComputedStyle(document.getElementById('canvas')).touchAction"), "none")
+
+    def test_a_printed_page_has_the_bode_plot(self):
+        with Browser(1280, 800) as browser:
+            seen = ("return arguments[0].map((one) => document.querySelector(one).checkVisibility())", [".bode", ".plot canvas", ".sliders", ".live .buttons"])
+            browser.open(page("configs/rig.yaml"))
+            browser.run("bbsim.print.begin()")
+            self.assertEqual(browser.run(*seen), [True, True, False, False])
+            browser.run("bbsim.print.end()")
+            self.assertEqual(browser.run(*seen), [True, True, True, True])
+
+
 class Loops(Live):
     def test_margins_follow_a_slider(self):
         """those of `bbsim linearize` and `bbsim check`; the curves cross 0 dB and -180 degrees there"""
@@ -258,6 +353,10 @@ class Loops(Live):
                                       stdout=subprocess.PIPE, check=True, text=True).stdout
                 self.assertIn(f"({decibels:.3g} dB)", said)
                 self.assertGreater(self.js("document.querySelectorAll('.bode .curve').length"), 1)
+                # No label covers another one.
+                self.assertEqual(self.run_js("const boxes = [...document.querySelectorAll('.bode text')].map((one) => one.getBBox());"
+                                             "return boxes.filter((a, i) => boxes.slice(0, i).some((b) => a.x < b.x + b.width && "
+                                             "b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height)).length"), 0)
 
     def margins(self, name, *options):
         file = os.path.join(FOLDER, "linear.json")
@@ -406,6 +505,52 @@ class Controllers(Live):
             with self.subTest(script):
                 self.assertIn(said, self.run_js("await bbsim.live.control(args[0])", script)["fault"])
 
+    def test_undo_leaves_out_what_an_error_stopped(self):
+        self.open(page("configs/rig.yaml"))
+        self.run_js("await bbsim.live.set('gravity', 9.7)")
+        for script in ["let a = 1;", "function step({t}) { if (t > 3) throw new Error('late'); return [0, 0]; }"]:
+            with self.subTest(script):
+                self.run_js("await bbsim.live.control(args[0]).catch(() => {}); await bbsim.live.control('');"
+                            "await bbsim.live.set('gravity', 9.6); await bbsim.live.control(args[0]).catch(() => {});"
+                            "await bbsim.live.set('gravity', 9.5).catch(() => {})", script)
+                self.js("bbsim.live.undo()")
+                self.until("document.querySelector('.faults').textContent === '' && bbsim.data.runs[0].status === 'done'")
+                self.assertIn("gravity: 9.6", self.js("bbsim.live.yaml"))
+
+    def test_a_link_brings_it_and_the_reader_runs_it(self):
+        url = page("configs/rig.yaml")
+        self.open(url)
+        script = "// 5 % & <b>\nfunction step({ball}) { return ball ? [-0.3 * ball[0], 0.3 * ball[1]] : [0, 0]; }"
+        for key in ["", "gravity"]:
+            with self.subTest(key):
+                self.run_js("bbsim.live.reset(); if (args[1]) await bbsim.live.set(args[1], '9.5');"
+                            "await bbsim.live.control(args[0]); await new Promise((resolve) => setTimeout(resolve, 400))", script, key)
+                self.assertIn("controller=", self.js("location.href"))
+                error = self.js("bbsim.live.measures.max_tracking_error")
+                self.open(self.js("location.href"))
+                self.assertIn(script, self.js("document.querySelector('.offer').textContent"))
+                ours = self.js("bbsim.live.measures.max_tracking_error")
+                self.js("document.querySelector('.offer button').click()")
+                self.run_js("await bbsim.live.set('ball.radius', '2 cm')")
+                # It stands there as text, and the scenario's law goes on.
+                self.assertEqual(self.js("document.querySelector('.editor[aria-label*=JavaScript]').value"), script)
+                self.assertLess(self.js("bbsim.live.measures.max_tracking_error"), 2 * ours)
+                self.js("[...document.querySelectorAll('.live button')].find((one) => one.textContent === 'Use this controller').click()")
+                self.until(f"Math.abs(bbsim.live.measures.max_tracking_error / {error} - 1) < 1e-9")
+
+    def test_the_saved_scenario_has_it_as_comments(self):
+        self.open(page("configs/rig.yaml"))
+        self.js("bbsim.save.offer = (blob) => { window.saved = blob.text(); }")
+        script = "/* one\rtitle: two\u2028title: three\x85title: four */\n\n  function step() { return [0, 0]; }\n"
+        self.assertIsNone(self.run_js("await bbsim.live.control(args[0])", script))
+        self.js("[...document.querySelectorAll('.live button')].find((one) => one.textContent === 'YAML').click()")
+        saved = self.run_js("return window.saved")
+        self.assertIn("\n#\n#   function step() { return [0, 0]; }\n", saved)
+        file = os.path.join(FOLDER, "saved.yaml")
+        with open(file, "w", encoding="utf-8") as stream:
+            stream.write(saved)
+        self.assertEqual(native(file), native("configs/rig.yaml"))
+
     def test_an_endless_one_can_be_stopped(self):
         self.open(page("configs/rig.yaml"))
         said = self.run_js("const run = bbsim.live.control('function step() { for (;;); }').catch((error) => error.message);"
@@ -441,12 +586,15 @@ class Hostile(Live):
                 stream.write("\n".join(lines) + f"\ntitle: {quoted}\n{tasks}\n# {words.splitlines()[0]}\n")
             with self.subTest(words):
                 self.open(page(file) + "#set=" + "%5B%5B%22gravity%22%2C" + "".join(
-                    f"%{byte:02X}" for byte in ('"' + words.replace("\\", "\\\\").replace('"', '\\"') + '"').encode()) + "%5D%5D")
+                    f"%{byte:02X}" for byte in ('"' + words.replace("\\", "\\\\").replace('"', '\\"') + '"').encode()) + "%5D%5D&controller=" + urllib.parse.quote(words + "; window.broken = 1"))
                 self.run_js("for (const key of ['title', 'gravity', args[0]]) await bbsim.live.set(key, args[0]).catch(() => {});"
                             "await bbsim.live.edit(args[0]).catch(() => {});"
                             "for (const button of document.querySelectorAll('.offer button')) button.click();"
                             "await new Promise((resolve) => setTimeout(resolve, 300))", words)
                 self.assertIsNone(self.js("window.broken || null"))
+                # A link's controller is text until the reader uses it.
+                self.assertIn(words, self.js("document.querySelector('.editor[aria-label*=JavaScript]').value"))
+                self.assertEqual(self.js("[...document.querySelectorAll('.live button')].find((one) => one.textContent.includes('law')).ariaDisabled"), "true")
 
     def test_no_title_of_two_hundred_runs_as_code(self):
         ends = ["", "\">", "'>", "-->", "</style>", "</title>", "]]>", "*/", "`", "\\"]
