@@ -17,6 +17,7 @@ from ._scenario import Array, fault
 
 _MEASURED_STROKE: Stroke = {"color": "#f2c45c", "lw": 2.4}
 _COMMAND_STROKE: Stroke = {"color": "#707070", "lw": 0.7}
+_EDGE: Stroke = {"color": "#404040", "lw": 0.9}  # of a plate
 _MOST_UPRIGHTS = 40  # with more events, marks stand at the panels' top only, without lines
 
 
@@ -25,11 +26,10 @@ class _Abscissa:
 
     def __init__(self, runs: Runs) -> None:
         self.is_time = all("t" in run.names and not run.is_text("t") for run in runs.runs)
+        range_: Any = (0.0, max(run.rows for run in runs.runs) - 1.0)
         if self.is_time:
             ends = [event.t for run in runs.runs for event in run.events]
             range_ = covered(ends, *(run.numbers("t") for run in runs.runs))
-        else:
-            range_ = (0.0, max(run.rows for run in runs.runs) - 1.0)
         self.scale = choose_scale(runs.unit("t") if self.is_time else Unit(), range_)
         self.limits = linear_limits(self.scale.of(range_), 0)
 
@@ -49,16 +49,13 @@ class _Marks:
         return mark(("^", "D", "s", " s", "+")[self.kinds.index(kind) % 5], color, 3.5)
 
     def legend(self) -> Legend:
-        entries = []
+        entries, one = [], self.runs.one
         for kind in self.kinds:
             events = [event for run in self.runs.runs for event in run.events if event.name == kind]
             text = kind + (f", {len(events)} times" if len(events) > 1 else "")
+            text += " (stops)" if one and any(event.stopped for event in events) else ""
             look = self.stroke(self.runs.runs[0], kind)
-            if self.runs.one:
-                text += " (stops)" if any(event.stopped for event in events) else ""
-            else:
-                look = {**look, "color": "#000000"}
-            entries.append((text, look))
+            entries.append((text, look if one else {**look, "color": "#000000"}))
         return entries
 
 
@@ -71,18 +68,15 @@ def _line(axes: Any, x: Any, y: Any, **look: Any) -> None:
         axes.plot(x[lone], y[lone], **mark("o", look["color"], 2.0))
 
 
-def _time_panel(
-    sheet: Sheet, box: Box, runs: Runs, planned: Panel, abscissa: _Abscissa, marks: _Marks, lowest: bool
-) -> None:
+def _time_panel(sheet: Sheet, box: Box, runs: Runs, planned: Panel, abscissa: _Abscissa, marks: _Marks,
+                lowest: bool) -> None:  # fmt: skip
     range_ = covered(*(runs.range(line.column) or [] for line in planned.lines))
     demanded = any(line.column == "friction_demand" for line in planned.lines)
     limits = sorted({run.friction for run in runs.runs if run.friction is not None}) if demanded else []
     shown = covered(range_ or [], limits)
     in_sight = width(shown) < 20 * width(range_)  # a limit far away appears only in the legend
-    if not in_sight:
-        shown = range_
+    shown = shown if in_sight else range_
     scale = choose_scale(planned.unit, shown)
-
     legend, curves = [], []
     for run in runs.runs:
         mains = 0
@@ -102,7 +96,6 @@ def _time_panel(
     label = abscissa.scale.heading("t" if abscissa.is_time else "row")
     linear(axes.xaxis, *abscissa.limits, label, numbered=lowest)
     linear(axes.yaxis, *linear_limits(scale.of(shown)))
-
     # References and measurements are bands below the thin lines of commands and the motion.
     order = [REFERENCE, MEASURED, COMMAND, MAIN]
     for run, line, look in sorted(curves, key=lambda curve: order.index(curve[1].role)):
@@ -170,8 +163,7 @@ class _Path:
     def legend(self) -> Legend:
         entries: Dict[str, Stroke] = {"path": stroke(0)} if self._runs.one else {}
         entries.update(("reference", look) for _, look in self._references)
-        if self._edges:
-            entries["plate's edge"] = {"color": "#404040", "lw": 0.9}
+        entries.update([("plate's edge", _EDGE)] if self._edges else [])
         return [*entries.items(), ("start", mark(" o")), ("end", mark("o", size=4))]
 
     def draw(self, sheet: Sheet, box: Box, marks: _Marks) -> None:
@@ -199,7 +191,7 @@ class _Path:
             if look is BAND:
                 line(reference, look)
         for edge in self._edges:
-            line(edge, {"color": "#404040", "lw": 0.9})
+            line(edge, _EDGE)
         for run in runs.runs:
             line(_points(run), runs.stroke(run))
         for reference, look in self._references:
@@ -240,10 +232,8 @@ def _layout(path: bool, panels: int, wide: Optional[float]) -> Tuple[float, floa
 def _status(run: _bbsim.Stored) -> str:
     if run.status in ("", "done"):
         return ""
-    text = run.status
-    if run.end_time is not None:
-        text += f" at t = {number(run.end_time, 6)} s"
-    return text + (f": {run.events[-1].name}" if run.status == "stopped" and run.events else "")
+    when = "" if run.end_time is None else f" at t = {number(run.end_time, 6)} s"
+    return run.status + when + (f": {run.events[-1].name}" if run.status == "stopped" and run.events else "")
 
 
 def _titles(runs: Runs) -> Tuple[str, str, Legend]:
@@ -254,9 +244,8 @@ def _titles(runs: Runs) -> Tuple[str, str, Legend]:
         names = [run.file if shown.count(run.shown_file) > 1 else run.shown_file for run in runs.runs]
         if not any(names):
             names = [run.title if not title and run.title else f"run {i + 1}" for i, run in enumerate(runs.runs)]
-        return title, "", [
-            (", ".join(filter(None, [name, _status(run)])), runs.stroke(run)) for name, run in zip(names, runs.runs)
-        ]
+        texts = [", ".join(filter(None, [name, _status(run)])) for name, run in zip(names, runs.runs)]
+        return title, "", list(zip(texts, map(runs.stroke, runs.runs)))
     title, subtitle = (title, first.shown_file) if title else (first.shown_file, "")
     return title, ", ".join(filter(None, [subtitle, _status(first)])), []
 
@@ -271,9 +260,7 @@ def draw_runs(results: Sequence[_bbsim.Stored], asked: Sequence[Sequence[str]], 
     panels = runs.asked(lists) if asked else runs.planned()
     with_path = len(lists) < len(asked) if asked else path.exists and (not panels or not path.is_along_an_axis)
     if not panels and not with_path:
-        name = results[0].file or "the result"
-        raise fault(f"{name}: nothing to draw: no column but t holds finite numbers")
-
+        raise fault(f"{results[0].file or 'the result'}: nothing to draw: no column but t holds finite numbers")
     sheet_width, pitch, path_height, counts = _layout(with_path, len(panels), wide)
     abscissa, marks = _Abscissa(runs), _Marks(runs)
     title, subtitle, legend = _titles(runs)

@@ -12,7 +12,7 @@ from functools import cached_property
 from numbers import Real
 from pathlib import Path
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -37,18 +37,12 @@ class Result(Columns):
     def __init__(self, run: Any) -> None:
         super().__init__(run.rows)
         self._run = run
-        self.units: Dict[str, str] = dict(zip(run.columns, run.units))
-        """The unit of each column, such as ``"m"``; ``"1"`` for a number without a unit."""
+        self.units: Dict[str, str] = dict(zip(run.columns, run.units))  # "1" for a number without a unit
         self.measures: Dict[str, float] = dict(run.measures)
-        """The measures that were asked for, or the usual ones."""
-        self.status: str = run.status
-        """``done``, ``stopped`` by an event, or ``failed``."""
-        self.reason: str = run.reason
-        """Why the run ended early; empty if it did not."""
+        self.status: str = run.status  # done, stopped by an event, or failed
+        self.reason: str = run.reason  # why the run ended early
         self.warnings: List[str] = run.warnings
-        """What may not be as you meant it."""
-        self.unmet: List[str] = run.unmet
-        """The conditions of ``expect`` that do not hold."""
+        self.unmet: List[str] = run.unmet  # conditions of `expect` that do not hold
 
     @cached_property
     def summary(self) -> Dict[str, Any]:
@@ -65,7 +59,6 @@ class Result(Columns):
         return Result, (SimpleNamespace(**{name: getattr(self._run, name) for name in names}),)
 
     def __len__(self) -> int:
-        """The number of rows."""
         return len(self[self.columns[0]])
 
     def keys(self) -> List[str]:
@@ -93,22 +86,14 @@ class Result(Columns):
         return plot(self, columns=columns, **options)
 
     def _repr_html_(self) -> str:
-        rows = [("status", self.status)]
-        if self.reason:
-            rows.append(("reason", self.reason))
-        rows.append(("rows", str(len(self))))
+        rows = [("status", self.status), *[("reason", self.reason)] * bool(self.reason), ("rows", str(len(self)))]
         rows += [(name, f"{value:.6g}") for name, value in self.measures.items()]
         rows += [("warning", text) for text in self.warnings]
-        table = "".join(
-            f"<tr><th style='text-align:left'>{html.escape(name)}</th>"
-            f"<td style='text-align:left'>{html.escape(text)}</td></tr>"
-            for name, text in rows
-        )
+        cell = "<t{0} style='text-align:left'>{1}</t{0}>".format
+        table = "".join(f"<tr>{cell('h', html.escape(name))}{cell('d', html.escape(text))}</tr>" for name, text in rows)
         title = f"<caption>{html.escape(self._run.title)}</caption>" if self._run.title else ""
-        return (
-            "<div style='display:flex;gap:2em;align-items:flex-start'>"
-            f"<table>{title}{table}</table>{self._path()}</div>"
-        )
+        style = "display:flex;gap:2em;align-items:flex-start"
+        return f"<div style='{style}'><table>{title}{table}</table>{self._path()}</div>"
 
     def _path(self) -> str:
         """The ball's path from above, as SVG; empty without the columns x and y."""
@@ -133,30 +118,24 @@ class _StateSpace:
     """dz = A z + B u, y = C z + D u: dz is z', or z after one period ``dt``."""
 
     def __init__(self, made: Any) -> None:
-        self.A: Array = made.A
-        self.B: Array = made.B
-        self.C: Array = made.C
-        self.D: Array = made.D
+        self._matrices: Tuple[Array, Array, Array, Array] = (made.A, made.B, made.C, made.D)
+        self.A, self.B, self.C, self.D = self._matrices
         self.dt: Optional[float] = made.dt
-        self.states, self.inputs, self.outputs = (
-            [name for name, _ in signals] for signals in (made.states, made.inputs, made.outputs)
-        )
+        signals = (made.states, made.inputs, made.outputs)
+        self.states, self.inputs, self.outputs = ([name for name, _ in its] for its in signals)
 
     def to_scipy(self) -> Any:
         """A ``scipy.signal.StateSpace``."""
         from scipy.signal import StateSpace
 
-        matrices = (self.A, self.B, self.C, self.D)
-        return StateSpace(*matrices, dt=self.dt) if self.dt else StateSpace(*matrices)
+        return StateSpace(*self._matrices, dt=self.dt) if self.dt else StateSpace(*self._matrices)
 
     def to_control(self) -> Any:
         """A state space of python-control."""
         import control
 
-        return control.ss(
-            self.A, self.B, self.C, self.D, self.dt or 0,
-            states=self.states, inputs=self.inputs, outputs=self.outputs,
-        )
+        names = {"states": self.states, "inputs": self.inputs, "outputs": self.outputs}
+        return control.ss(*self._matrices, self.dt or 0, **names)
 
 
 class OpenLoop(_StateSpace):
@@ -177,7 +156,7 @@ class OpenLoop(_StateSpace):
     def response(self, frequencies: Any) -> "np.ndarray[Any, np.dtype[np.complex128]]":
         """The frequency response at these angular frequencies (rad/s); not finite at a pole."""
         w = np.asarray(frequencies, dtype=np.float64)
-        return np.reshape(_bbsim.response(self.A, self.B, self.C, self.D, self.dt, w.ravel()), w.shape)
+        return np.reshape(_bbsim.response(*self._matrices, self.dt, w.ravel()), w.shape)
 
     def __repr__(self) -> str:
         time = f"every {self.dt} s" if self.dt else "in continuous time"
@@ -185,17 +164,12 @@ class OpenLoop(_StateSpace):
 
 
 class Linearization(_StateSpace):
-    """A scenario as a linear system: dz = A z + B u, y = C z + D u.
-
-    In continuous time ``dt`` is None and dz is z'; otherwise dz is z after one period ``dt``.
-    """
+    """A scenario as a linear system. In continuous time ``dt`` is None."""
 
     def __init__(self, made: Any) -> None:
         super().__init__(made.system)
         self.units: Dict[str, str] = dict([*made.system.states, *made.system.inputs, *made.system.outputs])
-        self.kind: str = made.kind
-        self.at: str = made.at
-        self.note: str = made.note
+        self.kind, self.at, self.note = (str(its) for its in (made.kind, made.at, made.note))
         self._json: Dict[str, Any] = json.loads(made.json)
         self._report: str = made.report.rstrip("\n")
         self._loops = {name: OpenLoop(loop) for name, loop in made.open_loops.items()}
@@ -212,15 +186,11 @@ class Linearization(_StateSpace):
 
     @property
     def margins(self) -> Dict[str, Any]:
-        """The margins of each command's loop, as ``bbsim linearize`` writes them; {} for a plant."""
+        """As ``bbsim linearize`` writes them, for each command's loop; {} for a plant."""
         return self._json.get("margins") or {}
 
     def open_loop(self, axis: str) -> OpenLoop:
-        """The loop broken at the command of this axis, ``"phi"`` or ``"theta"``, the other one closed.
-
-        It has the margins of ``margins[f"{axis}_command"]``. Raises InputError for a plant, and for an axis
-        along which no command moves the ball.
-        """
+        """The loop with ``margins[f"{axis}_command"]``. Raises InputError if this axis, "phi" or "theta", has none."""
         if axis not in ("phi", "theta"):
             raise fault(f"axis: found {axis!r}; allowed: phi, theta")
         if f"{axis}_command" not in self._loops:
@@ -261,15 +231,12 @@ class Compared:
 
 
 def replay(
-    *files: Union[File, Result], output: Optional[File] = None, data: Union[Log, Sequence[Log]] = (), map: Texts = (), header: Texts = (),
-    period: str = "", time_offset: str = "", missing: Any = None, title: str = "", summary: File = "",
-    scenario: File = "", set: Settings = None,
+    *files: Union[File, Result], output: Optional[File] = None, data: Union[Log, Sequence[Log]] = (), map: Texts = (),
+    header: Texts = (), period: str = "", time_offset: str = "", missing: Any = None, title: str = "",
+    summary: File = "", scenario: File = "", set: Settings = None,
 ) -> Page:  # fmt: skip
-    """A page that plays results of runs or sweeps, or scenarios. The keywords are the options of ``bbsim replay``.
-
-    files     files, or results of ``bbsim.run``
-    output    also writes the page to this file, NAME.html
-    data      logs to show beside a scenario: files, dicts of arrays or DataFrames
+    """A page that plays files or results of runs or sweeps, or scenarios; ``data``: logs beside a scenario, as files,
+    dicts of arrays or DataFrames. ``output`` is NAME.html. The other keywords are the options of ``bbsim replay``.
     """
     shown = [file._stored() if isinstance(file, Result) else os.fspath(file) for file in files]
     log = log_choice(map, header, period, time_offset, missing)
@@ -289,9 +256,8 @@ def compare(
     map: Texts = (), header: Texts = (), period: str = "", time_offset: str = "", missing: Any = None,
     set: Settings = None,
 ) -> Compared:  # fmt: skip
-    """Compares two files of results, or a log with a run or a scenario. The keywords are the options of ``bbsim compare``.
-
-    a, b      files; a log may be a dict of arrays or a DataFrame
+    """Compares two files of results, or a log (also a dict of arrays or a DataFrame) with a run or a scenario. The
+    keywords are the options of ``bbsim compare``.
     """
     log = log_choice(map, header, period, time_offset, missing)
     for name, found in (("rtol", rtol), ("atol", atol)):

@@ -26,39 +26,27 @@ class Error(Exception):
 class Problem:
     """One fault of a scenario or an argument."""
 
-    message: str
-    """The key, what was found, and what is allowed."""
-    place: str = ""
-    """``file:line:column``, or the setting; empty for a dict."""
-    key: Optional[str] = None
-    """The path of the key, such as ``ball.radius``."""
-    hint: str = ""
-    """What to write instead."""
+    message: str  # the key, what was found, and what is allowed
+    place: str = ""  # file:line:column, or the setting; empty for a dict
+    key: Optional[str] = None  # its path, such as ball.radius
+    hint: str = ""  # what to write instead
 
     def __str__(self) -> str:
         return f"{self.place}: {self.message}" if self.place else self.message
 
 
 class InputError(Error, ValueError):
-    """The scenario or an argument is wrong."""
-
-    problems: List[Problem]
-    """All problems, in the order of the scenario."""
-    key: Optional[str]
-    """The key of the first problem; None if no key is at fault."""
-    hint: str
-    """What to write instead, for the first problem."""
+    """The scenario or an argument is wrong: ``problems``, in order, and ``key`` and ``hint`` of the first."""
 
     def __init__(self, problems: Iterable[Tuple[str, str]]) -> None:
-        self.problems = []
+        self.problems: List[Problem] = []
         for place, message in problems:
             key, hint = _bbsim.key_and_hint(message.removeprefix("--set "))
             its_place = "" if place.startswith("<dict>") else place.removeprefix("--set ")
             self.problems.append(Problem(message.removeprefix("--set "), its_place, key or None, hint))
         super().__init__("\n".join(str(problem) for problem in self.problems))
         first = self.problems[0] if self.problems else Problem("")
-        self.key = first.key
-        self.hint = first.hint
+        self.key, self.hint = first.key, first.hint
 
     def __reduce__(self):
         return type(self), ([(p.place, p.message) for p in self.problems],)
@@ -81,10 +69,7 @@ class ControllerError(Error, RuntimeError):
 
 
 class Columns:
-    """Arrays by name."""
-
-    columns: List[str]
-    """The names, in order."""
+    """Arrays by name; ``columns``: the names, in order."""
 
     def __init__(self, arrays: Mapping[str, Array]) -> None:
         self._arrays, self.columns = arrays, list(arrays)

@@ -25,7 +25,6 @@ class Simulated(Columns):
         self.reason: List[str] = made[3]
 
     def __len__(self) -> int:
-        """The number of cases."""
         return len(self.status)
 
     def __repr__(self) -> str:
@@ -73,16 +72,12 @@ def simulate(
     """Runs a scenario at many values of its keys; returns arrays.
 
     cases     {KEY: array of n values}, or a list of n dicts; {} if only begin, end or start differ
-    columns   the columns to keep
-    times     when: one array of m times in s, or an array (n, m); by default the scenario's rows
-    measures  the measures to take
-    begin     for each case, the time from which it covers the scenario (s); by default 0
-    end       and the time until which it does; by default the scenario's end
-    start     for each case the state at its begin: x, y, vx, vy, phi, theta, phi_rate, theta_rate, spin
+    times     one array of m times in s, or an array (n, m); by default the scenario's rows
+    begin     n times from which the cases cover the scenario (s), and in ``end`` those until which they do
+    start     an array (n, 9) of states at the begins: x, y, vx, vy, phi, theta, phi_rate, theta_rate, spin (SI)
     events    False: without the events that stop a run or only observe it
-    threads   by default the number of processors; always 1 for a scenario with a callable
 
-    A case that does not run to its end says why in ``status`` and ``reason``.
+    A case that does not run to its end says why in ``status`` and ``reason``. Raises InputError.
     """
     count, keys = _keys(cases)
     parts = {"begin": begin, "end": end}
