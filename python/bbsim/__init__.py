@@ -21,11 +21,10 @@ import numpy as np
 from . import _bbsim
 from ._bbsim import Sample, __version__
 from ._environments import Env, VectorEnv
-from ._result import Compared, Linearization, OpenLoop, Page, Result, compare, examples, replay
-from ._scenario import (
-    ControllerError, Error, InputError, OutputError, Problem, Scenario, Settings, given, listed, specification,
-)  # fmt: skip
-from ._simulate import Simulated, simulate
+from ._result import (Compared, Linearization, OpenLoop, Page, Result, Simulated, compare, examples, replay,
+                      simulate)  # fmt: skip
+from ._scenario import (ControllerError, Error, InputError, OutputError, Problem, Scenario, Settings, given, listed,
+                        specification)  # fmt: skip
 
 __all__ = [
     "Compared", "ControllerError", "Env", "Error", "InputError", "Linearization", "OpenLoop", "OutputError", "Page",
@@ -53,11 +52,9 @@ def __dir__() -> List[str]:
     return __all__
 
 
-def run(
-    scenario: Scenario, set: Settings = None, error: Union[float, str, None] = None, *,
-    measures: Union[str, Sequence[str], None] = None, expect: Union[str, Sequence[str]] = (),
-    output: Union[str, "os.PathLike[str]", None] = None,
-) -> Result:  # fmt: skip
+def run(scenario: Scenario, set: Settings = None, error: Union[float, str, None] = None, *,
+        measures: Union[str, Sequence[str], None] = None, expect: Union[str, Sequence[str]] = (),
+        output: Union[str, "os.PathLike[str]", None] = None) -> Result:  # fmt: skip
     """Runs a scenario; if an event stops it, the result has the rows until then.
 
     set       values of keys in place of the scenario's: ``{"ball.radius": "2 cm"}``; None removes a key

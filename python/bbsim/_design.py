@@ -193,8 +193,8 @@ def section_of(rig: _bbsim.Given, sketch: Optional[str]) -> str:
                     "reference")  # fmt: skip
     refuse_own_controller(rig, "a design", "a law of bbsim, controller.commands, or gimbal.motion")
     if sketch:
-        raise fault("sketch: the scenario has a controller with a reference; allowed: with gimbal.motion or "
-                    "controller.commands, whose tilts a sketch can play; --table writes the reference for your own firmware")
+        raise fault("sketch: the scenario has a controller with a reference; allowed: with gimbal.motion or controller."
+                    "commands, whose tilts a sketch can play; --table writes the reference for your own firmware")
     return "controller.reference"
 
 
@@ -297,13 +297,11 @@ def text_of(value: float) -> str:
     return repr(float(value)).removesuffix(".0")
 
 
-def design(
-    scenario: Union[Scenario, _bbsim.Given], free: Union[str, Sequence[str]], *, set: Settings = None,
-    length: Size = None, rate: Size = None, noise: Union[str, Sequence[str]] = (), window: Size = None,
-    max_tilt: Size = None, max_tilt_rate: Size = None, margin: Size = None, output: Optional[str] = None,
-    table: Optional[str] = None, json: Optional[str] = None, sketch: Optional[str] = None,
-    threads: Optional[int] = None, progress: Progress = silent,
-) -> SimpleNamespace:  # fmt: skip
+def design(scenario: Union[Scenario, _bbsim.Given], free: Union[str, Sequence[str]], *, set: Settings = None,
+           length: Size = None, rate: Size = None, noise: Union[str, Sequence[str]] = (), window: Size = None,
+           max_tilt: Size = None, max_tilt_rate: Size = None, margin: Size = None, output: Optional[str] = None,
+           table: Optional[str] = None, json: Optional[str] = None, sketch: Optional[str] = None,
+           threads: Optional[int] = None, progress: Progress = silent) -> SimpleNamespace:  # fmt: skip
     """Chooses the motion whose log determines keys of a scenario best. Keywords are options of ``bbsim design``; sizes
     are numbers in SI units, or texts with a unit; ``noise`` is a text or a list, such as "x=0.5mm".
 

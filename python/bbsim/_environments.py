@@ -71,8 +71,8 @@ def _one_at_a_time(method: _Method) -> _Method:
     @functools.wraps(method)
     def turn(self: "VectorEnv", *args: Any, **rest: Any) -> Any:
         if not self._turn.acquire(blocking=False):
-            found = f"{method.__name__}: found within another call, as from another thread"
-            raise RuntimeError(f"{found}; allowed: one call of an environment at a time")
+            raise RuntimeError(f"{method.__name__}: found within another call, as from another thread; allowed: one call "
+                               "of an environment at a time")  # fmt: skip
         try:
             return method(self, *args, **rest)
         finally:
@@ -108,10 +108,9 @@ class VectorEnv(_VectorBase):
     observation_columns: List[Tuple[str, str, str]] = _bbsim.OBSERVATIONS  # name, unit and meaning of each
     render_mode, spec, closed = None, None, False
 
-    def __init__(
-        self, scenario: Scenario, n: int, randomize: Optional[Mapping[str, Distribution]] = None, seed: int = 0, *,
-        set: Settings = None, reward: Optional[Reward] = None, record: bool = False,
-    ) -> None:  # fmt: skip
+    def __init__(self, scenario: Scenario, n: int, randomize: Optional[Mapping[str, Distribution]] = None,
+                 seed: int = 0, *, set: Settings = None, reward: Optional[Reward] = None,
+                 record: bool = False) -> None:  # fmt: skip
         count = operator.index(n)
         if not 1 <= count <= _MOST_RUNS:
             raise refuse("n", n, f"a whole number from 1 to {_MOST_RUNS}")
@@ -167,7 +166,7 @@ class VectorEnv(_VectorBase):
         for key in fixed:
             if key not in self._randomize:
                 raise refuse("options", key, f"the keys of randomize, which are: {', '.join(self._randomize) or 'none'}")
-        self._runs.begin(*self._beginnings(which, random, fixed))
+        self._runs.advance(None, *self._beginnings(which, random, fixed))
         self._random, self._options = random, fixed
         self._over[which], self._begun[which] = False, True
         return self._runs.observations.copy(), {}
@@ -179,7 +178,7 @@ class VectorEnv(_VectorBase):
             raise RuntimeError("step: found a run that has not begun; allowed: reset() first")
         commands = np.ascontiguousarray(actions, dtype=np.float64)
         begins = self._over
-        self._runs.step(commands, *self._beginnings(np.flatnonzero(begins), self._random, self._options))
+        self._runs.advance(commands, *self._beginnings(np.flatnonzero(begins), self._random, self._options))
         terminated, truncated = self._runs.terminated, self._runs.truncated
         self._over = terminated | truncated
         observations = self._runs.observations.copy()
@@ -211,10 +210,9 @@ class Env(_EnvBase):
     metadata: Dict[str, Any] = {"render_modes": []}
     render_mode = None
 
-    def __init__(
-        self, scenario: Scenario, randomize: Optional[Mapping[str, Distribution]] = None, seed: int = 0, *,
-        set: Settings = None, reward: Optional[Reward] = None, record: bool = False, render_mode: None = None,
-    ) -> None:  # fmt: skip
+    def __init__(self, scenario: Scenario, randomize: Optional[Mapping[str, Distribution]] = None, seed: int = 0, *,
+                 set: Settings = None, reward: Optional[Reward] = None, record: bool = False,
+                 render_mode: None = None) -> None:  # fmt: skip
         self._all = VectorEnv(scenario, 1, randomize, seed, set=set, reward=reward, record=record)
         self.observation_space = self._all.single_observation_space
         self.action_space = self._all.single_action_space

@@ -15,12 +15,10 @@ from . import _bbsim, _fit_text
 from ._fit_search import Search
 from ._fit_servos import compare_delays
 from ._fit_windows import Log, LogKey, Windows, WindowsFit, cut, start_coordinates
-from ._logs import as_files, log_choice, without_folders
-from ._scenario import Array, InputError, Scenario, Settings, counted, fault, given as given_of, listed, refuse
-from ._task import (
-    ROUGH, FreeKey, Progress, carry_out, files_of, read_bounds, read_free_key, read_free_keys, refuse_free,
-    refuse_own_controller, refuse_twice, silent, usual_scale, write_all,
-)  # fmt: skip
+from ._scenario import (Array, InputError, Scenario, Settings, as_files, counted, fault, given as given_of, listed,
+                        log_choice, refuse, without_folders)  # fmt: skip
+from ._task import (ROUGH, FreeKey, Progress, carry_out, files_of, read_bounds, read_free_key, read_free_keys,
+                    refuse_free, refuse_own_controller, refuse_twice, silent, usual_scale, write_all)  # fmt: skip
 
 _USUAL_WINDOW = 2.0  # s; short, because a plate makes the ball a double integrator
 _USUAL_DELAY = 0.2  # s; a camera's delay is at most that
@@ -347,12 +345,10 @@ def _estimate(made: Any, search: Search) -> List[str]:
     return notes
 
 
-def fit(
-    scenario: Scenario, logs: Any, free: Any, *, set: Settings = None, map: Any = (), header: Any = (),
-    period: Any = None, time_offset: Any = None, missing: Any = None, window: Any = None, hold_out: float = 0,
-    loss: str = "squares", starts: Optional[int] = None, output: Any = None, json: Any = None, report: Any = None,
-    threads: int = 0,
-) -> Any:  # fmt: skip
+def fit(scenario: Scenario, logs: Any, free: Any, *, set: Settings = None, map: Any = (), header: Any = (),
+        period: Any = None, time_offset: Any = None, missing: Any = None, window: Any = None, hold_out: float = 0,
+        loss: str = "squares", starts: Optional[int] = None, output: Any = None, json: Any = None, report: Any = None,
+        threads: int = 0) -> Any:  # fmt: skip
     """Finds the values of a scenario's keys at which its runs are closest to logs of a rig. Keywords are the options of
     ``bbsim fit``.
 

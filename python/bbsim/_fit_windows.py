@@ -14,8 +14,8 @@ from scipy.sparse import block_diag, csr_matrix, hstack
 
 from . import _bbsim
 from ._fit_servos import deaf_windows
+from ._result import simulate
 from ._scenario import Array, InputError
-from ._simulate import simulate
 from ._task import FreeKey
 
 FAR = 1e6  # the residual of a window that does not run, in standard deviations

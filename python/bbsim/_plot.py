@@ -14,12 +14,12 @@ import numpy as np
 
 from . import _bbsim
 from ._loops import KINDS, draw_accuracy, draw_loop
-from ._logs import Log, as_files, is_table, log_choice, tables_named, without_folders
 from ._plot_runs import draw_runs
 from ._plot_sheet import FONT, Figure, require_font, style
 from ._plot_sweeps import draw_sweep
 from ._result import File, Result, Texts
-from ._scenario import InputError, counted, fault, given, listed, overrides, refuse
+from ._scenario import (InputError, Log, as_files, counted, fault, given, is_table, listed, log_choice, overrides,
+                        refuse, tables_named, without_folders)  # fmt: skip
 
 Drawn = Union[Log, Result, "np.ndarray[Any, np.dtype[np.void]]"]
 
@@ -130,16 +130,13 @@ class _Options:
         return figure, content
 
 
-def plot(
-    files: Union[Drawn, Sequence[Drawn]], *, columns: Texts = (), over: Texts = (), summary: Optional[File] = None,
-    scenario: Optional[File] = None, set: Union[Mapping[str, Any], Texts, None] = None, map: Texts = (),
-    header: Texts = (), period: Optional[str] = None, time_offset: Optional[str] = None,
-    missing: Union[float, str, None] = None, accuracy: bool = False,
-    bode: bool = False, nyquist: bool = False, poles: bool = False, step: bool = False,
-    root_locus: Union[str, Tuple[str, Any, Any], None] = None, csv: Optional[File] = None,
-    width: Union[float, str, None] = None, font: Optional[str] = None, output: Optional[File] = None,
-    format: Optional[str] = None,
-) -> Figure:  # fmt: skip
+def plot(files: Union[Drawn, Sequence[Drawn]], *, columns: Texts = (), over: Texts = (), summary: Optional[File] = None,
+         scenario: Optional[File] = None, set: Union[Mapping[str, Any], Texts, None] = None, map: Texts = (),
+         header: Texts = (), period: Optional[str] = None, time_offset: Optional[str] = None,
+         missing: Union[float, str, None] = None, accuracy: bool = False, bode: bool = False, nyquist: bool = False,
+         poles: bool = False, step: bool = False, root_locus: Union[str, Tuple[str, Any, Any], None] = None,
+         csv: Optional[File] = None, width: Union[float, str, None] = None, font: Optional[str] = None,
+         output: Optional[File] = None, format: Optional[str] = None) -> Figure:  # fmt: skip
     """Draws runs, a sweep or a log; returns a matplotlib figure. The keywords are the options of ``bbsim plot``.
 
     files    CSV or HDF5 files, results of ``bbsim.run``, an array of ``bbsim.sweep``, or logs as dicts of arrays or

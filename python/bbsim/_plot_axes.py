@@ -10,9 +10,8 @@ from collections import Counter
 from typing import Any, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
-from matplotlib.ticker import (
-    FixedFormatter, FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullLocator, ScalarFormatter,
-)  # fmt: skip
+from matplotlib.ticker import (FixedFormatter, FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullLocator,
+                               ScalarFormatter)  # fmt: skip
 
 from ._plot_sheet import MM, SMALL, TEXT, cut, number
 

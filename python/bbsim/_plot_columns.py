@@ -12,7 +12,7 @@ import numpy as np
 
 from . import _bbsim
 from ._plot_axes import Range, Unit, Units, covered, is_wide, width
-from ._plot_sheet import Stroke, clean, stroke
+from ._plot_sheet import ORANGE, Stroke, clean, mark, stroke
 from ._scenario import fault
 
 MAIN, REFERENCE, MEASURED, COMMAND = range(4)  # roles of columns
@@ -37,8 +37,8 @@ class Panel:
 
 def _command_unit(run: _bbsim.Stored) -> str:
     """From the scenario; without one, angles or accelerations, whichever fits the commands better."""
-    if run.command_unit is not None:
-        return run.command_unit
+    if run.controller is not None:
+        return run.controller[0]
     misfits = np.zeros(2)  # sums of squares
     for axis in ("phi", "theta"):
         if {"t", axis, f"{axis}_command"} <= set(run.names) and run.rows > 1:
@@ -53,8 +53,8 @@ class Runs:
     """The runs of a picture, and how their columns are drawn."""
 
     def __init__(self, runs: Sequence[_bbsim.Stored]) -> None:
-        self.runs = runs
-        self.one = len(runs) == 1
+        self.runs, self.one = runs, len(runs) == 1
+        self.kinds = list(dict.fromkeys(event.name for run in runs for event in run.events))  # of events
         self.units = Units(next((run.scenario_text for run in runs if run.scenario_text), ""))
         self.known = {one[0]: Known(*one) for one in _bbsim.known_columns(_command_unit(runs[0]))}
 
@@ -83,6 +83,11 @@ class Runs:
 
     def stroke(self, run: _bbsim.Stored) -> Stroke:
         return stroke(next(i for i, other in enumerate(self.runs) if other is run))
+
+    def mark(self, run: _bbsim.Stored, kind: str) -> Stroke:
+        """That of a kind of event, the same in all panels."""
+        color = ORANGE if self.one else self.stroke(run)["color"]
+        return mark(("^", "D", "s", " s", "+")[self.kinds.index(kind) % 5], color, 3.5)
 
     def planned(self) -> List[Panel]:
         """A panel for each quantity, in an order that suits a control engineer; own columns last."""

@@ -12,9 +12,8 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm, Normalize
 
 from . import _bbsim
-from ._plot_axes import (
-    CLOSE, Unit, Units, better_by_log, choose_scale, covered, fitted, is_wide, linear, linear_limits, width, words,
-)  # fmt: skip
+from ._plot_axes import (CLOSE, Unit, Units, better_by_log, choose_scale, covered, fitted, is_wide, linear,
+                         linear_limits, width, words)  # fmt: skip
 from ._plot_sheet import ORANGE, Box, Sheet, Stroke, mark, number, stroke
 from ._scenario import counted, fault, refuse
 

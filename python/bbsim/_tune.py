@@ -14,11 +14,10 @@ import numpy as np
 from scipy.optimize import minimize
 
 from . import _bbsim
+from ._result import simulate
 from ._scenario import Array, InputError, Scenario, Settings, counted, fault, given, listed
-from ._simulate import simulate
-from ._task import (
-    Progress, as_json, carry_out, files_of, read_free_key, refuse_free, refuse_twice, silent, write_all,
-)  # fmt: skip
+from ._task import (Progress, as_json, carry_out, files_of, read_free_key, refuse_free, refuse_twice, silent,
+                    write_all)  # fmt: skip
 
 _CASES, _MORE, _ROUNDS = 16, 8, 9  # cases of the first search, those that a round adds, rounds
 _SCANNED, _STEPS, _RUNS = 8, 10, 8  # points of the scan, for each number and 1; steps from a point; least runs of one
@@ -346,11 +345,9 @@ def _count(rigs: Any) -> int:
     return len(next(iter(rigs.values()), [0]))
 
 
-def tune(
-    scenario: Scenario, free: Any, minimize: str, require: Any = (), vary: Any = (), samples: Any = None,
-    hold_out: Any = None, quantile: float = 1, *, set: Settings = None, output: Any = None, json: Any = None,
-    threads: int = 0,
-) -> Any:  # fmt: skip
+def tune(scenario: Scenario, free: Any, minimize: str, require: Any = (), vary: Any = (), samples: Any = None,
+         hold_out: Any = None, quantile: float = 1, *, set: Settings = None, output: Any = None, json: Any = None,
+         threads: int = 0) -> Any:  # fmt: skip
     """Finds the values of keys at which a measure is smallest on the worst of many rigs. Arguments are the options of
     ``bbsim tune``; `free` and `vary` may be dicts.
 
