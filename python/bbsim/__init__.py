@@ -21,11 +21,10 @@ import numpy as np
 from . import _bbsim
 from ._bbsim import Sample, __version__
 from ._environments import Env, VectorEnv
-from ._result import Compared, Linearization, OpenLoop, Page, Result, compare, examples, replay
-from ._scenario import (
-    ControllerError, Error, InputError, OutputError, Problem, Scenario, Settings, given, listed, specification,
-)  # fmt: skip
-from ._simulate import Simulated, simulate
+from ._result import (Compared, Linearization, OpenLoop, Page, Result, Simulated, compare, examples, replay,
+                      simulate)  # fmt: skip
+from ._scenario import (ControllerError, Error, InputError, OutputError, Problem, Scenario, Settings, given, listed,
+                        specification)  # fmt: skip
 
 __all__ = [
     "Compared", "ControllerError", "Env", "Error", "InputError", "Linearization", "OpenLoop", "OutputError", "Page",
@@ -53,21 +52,18 @@ def __dir__() -> List[str]:
     return __all__
 
 
-def run(
-    scenario: Scenario, set: Settings = None, error: Union[float, str, None] = None, *,
-    measures: Union[str, Sequence[str], None] = None, expect: Union[str, Sequence[str]] = (),
-    output: Union[str, "os.PathLike[str]", None] = None,
-) -> Result:  # fmt: skip
-    """Runs a scenario.
+def run(scenario: Scenario, set: Settings = None, error: Union[float, str, None] = None, *,
+        measures: Union[str, Sequence[str], None] = None, expect: Union[str, Sequence[str]] = (),
+        output: Union[str, "os.PathLike[str]", None] = None) -> Result:  # fmt: skip
+    """Runs a scenario; if an event stops it, the result has the rows until then.
 
     set       values of keys in place of the scenario's: ``{"ball.radius": "2 cm"}``; None removes a key
     error     bounds the error of x and y: 1e-9 (m) or "1 um"; replaces the scenario's tolerances
-    measures  the measures to take; by default the usual ones of ``bbsim sweep``
-    expect    conditions such as "max_tilt < 5 deg"; those that do not hold are in ``Result.unmet``
-    output    also writes the rows to this file, .csv or .h5
+    measures  by default the usual ones of ``bbsim sweep``
+    expect    conditions such as "max_tilt < 5 deg"
+    output    a .csv or .h5 file that also gets the rows
 
-    If an event stops the run, the result has the rows until then (``Result.status``). Raises
-    InputError, OutputError, and ControllerError if a callable raises or a controller does not start.
+    Raises InputError, OutputError, and ControllerError if a callable raises or a controller does not start.
     """
     asked = None if measures is None else listed(measures)
     file = "" if output is None else os.fspath(output)
@@ -82,11 +78,8 @@ def check(scenario: Scenario, set: Settings = None) -> str:
 def linearize(
     scenario: Scenario, set: Settings = None, *, kind: Optional[str] = None, at: Union[str, float] = "home"
 ) -> Linearization:
-    """The scenario as a linear system.
-
-    kind  "plant", "loop" or "sampled"; by default that of ``bbsim linearize``
-    at    "home", "equilibrium", or a time of the run: a number of seconds, or a text such as "2 s"
-    """
+    """The scenario as a linear system. `kind`: "plant", "loop" or "sampled"; `at`: "home", "equilibrium" or a time of
+    the run, a number (s) or a text such as "2 s". Raises InputError."""
     at = at if isinstance(at, str) else f"{float(at)!r} s"
     return Linearization(_bbsim.linearize(given(scenario, set), kind, at))
 
@@ -100,15 +93,11 @@ def sweep(
     """Runs a scenario at many values of its keys; returns a structured array, one row per case.
 
     vary      {KEY: values}: a sequence, or a SPEC such as "linear:0:1:11" or "normal:0:2 mm"
-    measures  the measures to take; by default the usual ones
     combine   "grid": all combinations (default); "zip": the first values together, then the second
     samples   the number of cases to draw for "uniform" and "normal"
-    seed      the seed of drawn values
-    threads   by default the number of processors; always 1 for a scenario with a callable
-    expect    conditions such as "max_tilt < 5 deg"; each adds a field "expect: max_tilt < 5 deg" of 1 and 0
 
-    The fields are those of ``bbsim sweep``: case, the keys, status, reason, end_time, the measures, and those of
-    ``expect``.
+    The fields are those of ``bbsim sweep``: case, the keys, status, reason, end_time, the measures, and 1 or 0 for each
+    condition of ``expect``. Raises InputError.
     """
     pairs = [(key, specification(values)) for key, values in (vary or {}).items()]
     drawn = (combine, samples, seed)

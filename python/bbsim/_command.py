@@ -19,7 +19,7 @@ from typing import Any, Dict, List, NoReturn, Optional, Sequence
 from . import _bbsim
 from ._scenario import ControllerError, InputError, OutputError, fault
 
-_DONE, _ENDED_EARLY, _INPUT_AT_FAULT, _OUTPUT_FAILED, _INTERRUPTED = 0, 1, 2, 3, 130
+_ENDED_EARLY, _INPUT_AT_FAULT, _OUTPUT_FAILED, _INTERRUPTED = 1, 2, 3, 130
 
 
 class _Parser(argparse.ArgumentParser):
@@ -46,10 +46,8 @@ def _number(option: Dict[str, Any], text: str) -> float:
 
 
 def _parsed(name: str, table: Dict[str, Any], words: Sequence[str]) -> Dict[str, Any]:
-    parser = _Parser(
-        prog=f"bbsim {name}", description=table["description"], epilog=table["footer"], allow_abbrev=False,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )  # fmt: skip
+    parser = _Parser(prog=f"bbsim {name}", description=table["description"], epilog=table["footer"],
+                     allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter)  # fmt: skip
     quiet = "print results and the reason why a run ended early; no messages, no progress"
     parser.add_argument("-q", "--quiet", action="store_true", help=quiet)
     known = ["quiet", "help"]
@@ -63,20 +61,19 @@ def _parsed(name: str, table: Dict[str, Any], words: Sequence[str]) -> Dict[str,
             how.update(metavar=names[0], nargs="+" if option.get("repeatable") else None)
             names = [_name_of(option)]
         else:
-            how.update(metavar=option["takes"], dest=_name_of(option), choices=option.get("choices"))
-            how.update(required=option.get("required", False))
-            if option.get("repeatable"):
-                how.update(action="append", default=[])
+            how.update(metavar=option["takes"], dest=_name_of(option), choices=option.get("choices"),
+                       required=option.get("required", False))  # fmt: skip
+            how.update({"action": "append", "default": []} if option.get("repeatable") else {})
         parser.add_argument(*names, **how)
     parsed, rest = parser.parse_known_intermixed_args(words)
     for word in rest:
         word = word.split("=")[0]
         near = _bbsim.nearest(word.lstrip("-"), known)
         parser.error(f"unknown option {word} of bbsim {name}" + (f"; did you mean --{near}?" if near else ""))
-    for key, value in vars(parsed).items():
+    values = vars(parsed)
+    for key, value in values.items():
         if "" in (value if isinstance(value, list) else [value]):
             parser.error(f"--{key}: found nothing; allowed: a value, or leave the option out")
-    values = vars(parsed)
     for option in table["options"]:
         if ("whole" in option or option.get("number")) and values[_name_of(option)] is not None:
             values[_name_of(option)] = _number(option, values[_name_of(option)])
@@ -97,9 +94,8 @@ def main(name: str, words: Optional[List[str]] = None) -> int:
     table = json.loads((Path(__file__).parent / "commands.json").read_text("utf-8"))[name]
     try:
         options = _parsed(name, table, sys.argv[1:] if words is None else words)
-        quiet = options["quiet"]
         command = importlib.import_module(f"bbsim._{name}").command
-        return command(options, (lambda text: None) if quiet else _say) or _DONE
+        return command(options, (lambda text: None) if options["quiet"] else _say) or 0
     except InputError as error:
         # Options are named as on a command line.
         names = [option["names"].split(",")[-1] for option in table["options"]]

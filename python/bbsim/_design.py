@@ -18,7 +18,7 @@ from scipy.optimize import minimize
 from . import _bbsim
 from ._experiment import Experiment, Motions
 from ._scenario import Array, InputError, Scenario, Settings, counted, fault, given, listed, refuse
-from ._task import Progress, as_json, carry_out, files_of, read_free_keys, silent
+from ._task import Progress, as_json, carry_out, files_of, read_free_keys, refuse_own_controller, silent
 
 Size = Union[float, str, None]
 
@@ -40,8 +40,7 @@ _PARTS = (1, 0.3, 0.1)  # of the way to the best motion nearby
 def merits(slopes: Array) -> Array:
     """The logarithm of the determinant of Fisher's information, for each motion. Its floor ranks motions that determine
     all keys above all others."""
-    information = np.swapaxes(slopes, -1, -2) @ slopes
-    return np.linalg.slogdet(information + _FLOOR * np.eye(slopes.shape[-1]))[1]
+    return np.linalg.slogdet(np.swapaxes(slopes, -1, -2) @ slopes + _FLOOR * np.eye(slopes.shape[-1]))[1]
 
 
 def deviations(slopes: Array) -> Array:
@@ -190,15 +189,12 @@ def section_of(rig: _bbsim.Given, sketch: Optional[str]) -> str:
         if rig.has(tilts):
             return tilts
     if not rig.has("controller"):
-        allowed = "gimbal.motion, or a controller with a reference"
-        raise fault(f"gimbal.torque: found, which a design cannot choose; allowed: {allowed}")
-    if rig.has("controller.program") or rig.has("controller.library"):
-        allowed = "a law of bbsim, controller.commands, or gimbal.motion"
-        raise fault(f"controller: found a program or library of your own; allowed in a design: {allowed}")
+        raise fault("gimbal.torque: found, which a design cannot choose; allowed: gimbal.motion, or a controller with a "
+                    "reference")  # fmt: skip
+    refuse_own_controller(rig, "a design", "a law of bbsim, controller.commands, or gimbal.motion")
     if sketch:
-        allowed = "with gimbal.motion or controller.commands, whose tilts a sketch can play"
-        more = "--table writes the reference for your own firmware"
-        raise fault(f"sketch: the scenario has a controller with a reference; allowed: {allowed}; {more}")
+        raise fault("sketch: the scenario has a controller with a reference; allowed: with gimbal.motion or controller."
+                    "commands, whose tilts a sketch can play; --table writes the reference for your own firmware")
     return "controller.reference"
 
 
@@ -225,8 +221,8 @@ def limits_of(rig: _bbsim.Given, tilt: Optional[float], rate: Optional[float], m
     """Limits on a motion: kind, name, size, source; and columns with factors, whose products are at most 1."""
     sides = [side for side in (rig.value(f"plate.{key}") for key in ("size.0", "size.1", "diameter")) if side]
     if not sides:
-        allowed = 'allowed: with plate.size or plate.diameter, such as --set "plate.size=[30 cm, 30 cm]"'
-        raise fault(f"plate: has no size, but the ball must stay on it; {allowed}")
+        raise fault("plate: has no size, but the ball must stay on it; allowed: with plate.size or plate.diameter, such as "
+                    '--set "plate.size=[30 cm, 30 cm]"')  # fmt: skip
     half, short, rounded = min(sides) / 2, _bbsim.short_number, _bbsim.rounded
     margin = half / 5 if margin is None else margin
     if margin >= half:
@@ -273,8 +269,8 @@ def noise_of(rig: _bbsim.Given, axes: List[int], texts: Sequence[str], units: Di
         name, _, deviation = (part.strip() for part in text.partition("="))
         size = _bbsim.value_in(deviation, units[name]) if name in units and name != "t" else None
         if not size or size < 0:
-            allowed = "COLUMN=SIZE, a column of `bbsim columns` and a standard deviation greater than 0"
-            raise refuse("noise", f'"{text}"', f"{allowed}, such as x=0.5mm")
+            allowed = "COLUMN=SIZE, a column of `bbsim columns` and a standard deviation greater than 0, such as x=0.5mm"
+            raise refuse("noise", f'"{text}"', allowed)
         why, _ = rig.lacks(name)
         if why:
             raise refuse("noise", f"{name}, {why}", "columns that the scenario has")
@@ -301,19 +297,15 @@ def text_of(value: float) -> str:
     return repr(float(value)).removesuffix(".0")
 
 
-def design(
-    scenario: Union[Scenario, _bbsim.Given], free: Union[str, Sequence[str]], *, set: Settings = None,
-    length: Size = None, rate: Size = None, noise: Union[str, Sequence[str]] = (), window: Size = None,
-    max_tilt: Size = None, max_tilt_rate: Size = None, margin: Size = None, output: Optional[str] = None,
-    table: Optional[str] = None, json: Optional[str] = None, sketch: Optional[str] = None,
-    threads: Optional[int] = None, progress: Progress = silent,
-) -> SimpleNamespace:  # fmt: skip
-    """Chooses the motion whose log determines keys of a scenario best. Keywords are options of ``bbsim design``.
+def design(scenario: Union[Scenario, _bbsim.Given], free: Union[str, Sequence[str]], *, set: Settings = None,
+           length: Size = None, rate: Size = None, noise: Union[str, Sequence[str]] = (), window: Size = None,
+           max_tilt: Size = None, max_tilt_rate: Size = None, margin: Size = None, output: Optional[str] = None,
+           table: Optional[str] = None, json: Optional[str] = None, sketch: Optional[str] = None,
+           threads: Optional[int] = None, progress: Progress = silent) -> SimpleNamespace:  # fmt: skip
+    """Chooses the motion whose log determines keys of a scenario best. Keywords are options of ``bbsim design``; sizes
+    are numbers in SI units, or texts with a unit; ``noise`` is a text or a list, such as "x=0.5mm".
 
     free      the keys: "KEY" or "KEY=FROM:TO", or a dict {KEY: (FROM, TO)}
-    length    and other sizes: a number in SI units, or a text with its unit
-    noise     standard deviations of columns: "x=0.5mm"
-    output    also writes the scenario that plays the motion to this file; likewise ``table``, ``json`` and ``sketch``
 
     The result has the names of the JSON as attributes, and ``report``. Raises InputError and OutputError.
     """
@@ -403,8 +395,8 @@ def design(
     sines: Dict[str, List[Any]] = {name: [] for name in experiment.names}
     for i in axes:
         cosine, sine = chosen.motion.numbers[0, 8 * i : 8 * i + 8].reshape(2, 4)
-        for one in zip(np.hypot(cosine, sine), chosen.motion.waves[0, i], np.arctan2(cosine, sine)):
-            sines[experiment.names[i]].append(dict(zip(("amplitude", "frequency", "phase"), map(float, one))))
+        waves = np.stack([np.hypot(cosine, sine), chosen.motion.waves[0, i], np.arctan2(cosine, sine)], 1).tolist()
+        sines[experiment.names[i]] = [dict(zip(("amplitude", "frequency", "phase"), one)) for one in waves]
     result = {
         "parameters": [dict(zip(("key", "value", "sd", "circle_sd", "step_sd"), (key.name, float(key.value(0)), *its)))
                        for key, *its in zip(keys, *sds)],
@@ -413,8 +405,8 @@ def design(
     }  # fmt: skip
     begin = f"begin with the ball at rest at x = {short(100 * place[0])} cm, y = {short(100 * place[1])} cm"
     shown = [[f"{sd:.3g}" if np.isfinite(sd) else "-" for sd in its] for its in zip(*sds)]
-    comments = f"# Designed by bbsim {_bbsim.__version__}: plays {name_of_table}, {short(seconds)} s; {begin}\n"
-    comments += "# Standard deviations to expect from a fit:\n"
+    comments = (f"# Designed by bbsim {_bbsim.__version__}: plays {name_of_table}, {short(seconds)} s; {begin}\n"
+                "# Standard deviations to expect from a fit:\n")  # fmt: skip
     for key, (designed, *_) in zip(keys, shown):
         comments += f"#   {key.name}: {designed}" + f" {key.unit}" * (designed != "-" and key.unit != "") + "\n"
     commands = experiment.commands(final)[0]
@@ -447,12 +439,12 @@ def design(
     return made
 
 
-def _carry_out(rig: _bbsim.Given, options: Dict[str, Any], progress: Progress, say: Any) -> SimpleNamespace:
-    for remark in rig.remarks():
-        say(remark)
-    return design(rig, **options, progress=progress)
-
-
 def command(options: Dict[str, Any], say: Any) -> int:
     """`bbsim design`; `say` prints a message unless -q is given."""
-    return 130 if carry_out("design", _carry_out, options, say) is None else 0
+
+    def task(rig: _bbsim.Given, options: Dict[str, Any], progress: Progress, say: Any) -> SimpleNamespace:
+        for remark in rig.remarks():
+            say(remark)
+        return design(rig, **options, progress=progress)
+
+    return 130 if carry_out("design", task, options, say) is None else 0

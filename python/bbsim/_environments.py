@@ -14,7 +14,7 @@ import numpy as np
 
 from . import _bbsim
 from ._result import Result
-from ._scenario import Array, Scenario, Settings, as_yaml, fault, given, refuse
+from ._scenario import Array, Scenario, Settings, as_yaml, given, refuse
 
 try:
     import gymnasium
@@ -71,19 +71,14 @@ def _one_at_a_time(method: _Method) -> _Method:
     @functools.wraps(method)
     def turn(self: "VectorEnv", *args: Any, **rest: Any) -> Any:
         if not self._turn.acquire(blocking=False):
-            found = f"{method.__name__}: found within another call, as from another thread"
-            raise RuntimeError(f"{found}; allowed: one call of an environment at a time")
+            raise RuntimeError(f"{method.__name__}: found within another call, as from another thread; allowed: one call "
+                               "of an environment at a time")  # fmt: skip
         try:
             return method(self, *args, **rest)
         finally:
             self._turn.release()
 
     return turn  # type: ignore[return-value]
-
-
-def minus_squared_distance(observations: Array, actions: Array, terminated: Array) -> Array:
-    """Minus the squared distance of the ball, as measured, from its reference, m^2."""
-    return -((observations[:, 0] - observations[:, 3]) ** 2 + (observations[:, 1] - observations[:, 4]) ** 2)
 
 
 def _require_range(key: str, found: Any) -> None:
@@ -99,56 +94,45 @@ def _require_range(key: str, found: Any) -> None:
 class VectorEnv(_VectorBase):
     """``n`` runs of a scenario with Gymnasium's API of vector environments.
 
-    An action has the commands for phi and theta of each run, an array of shape (n, 2), in ``command_unit``. It
-    replaces the scenario's law. A step is a sample of the controller, and an episode is a run: truncated at
-    ``time.end``, terminated if an event or a failure ends it earlier. The step after the end begins the next
-    episode, with a reward of zero (``AutoresetMode.NEXT_STEP``). One call at a time.
+    An action has the commands for phi and theta of each run, an array of shape (n, 2), in ``command_unit``. A step is a
+    sample of the controller, and an episode is a run: truncated at ``time.end``, terminated if an event or a failure
+    ends it earlier. The step after the end begins the next episode, with a reward of zero. One call at a time.
 
     randomize  {KEY: (low, high)}: drawn uniformly for each episode; or a function of a numpy Generator
-    seed       the seed of drawn values; ``reset(seed=)`` begins anew
-    reward     a function of the arrays observations, actions and terminated that returns an array of n; by
-               default minus the squared distance of the measured ball from its reference, m^2, where a
-               termination costs as much as the rest of the episode at the far end of the plate
+    reward     a function of the arrays observations, actions and terminated that returns an array of n; by default
+               minus the squared distance of the measured ball from its reference, m^2, and more at a termination
     record     keeps the rows of each episode for ``result()``
     """
 
     metadata: Dict[str, Any] = {"render_modes": [], "autoreset_mode": "NextStep"}
-    observation_columns: List[Tuple[str, str, str]] = _bbsim.OBSERVATIONS
-    """Name, unit and meaning of each column of an observation."""
+    observation_columns: List[Tuple[str, str, str]] = _bbsim.OBSERVATIONS  # name, unit and meaning of each
+    render_mode, spec, closed = None, None, False
 
-    render_mode = None
-    spec = None
-    closed = False
-
-    def __init__(
-        self, scenario: Scenario, n: int, randomize: Optional[Mapping[str, Distribution]] = None, seed: int = 0, *,
-        set: Settings = None, reward: Optional[Reward] = None, record: bool = False,
-    ) -> None:  # fmt: skip
+    def __init__(self, scenario: Scenario, n: int, randomize: Optional[Mapping[str, Distribution]] = None,
+                 seed: int = 0, *, set: Settings = None, reward: Optional[Reward] = None,
+                 record: bool = False) -> None:  # fmt: skip
         count = operator.index(n)
         if not 1 <= count <= _MOST_RUNS:
-            raise fault(f"n: found {n}; allowed: a whole number from 1 to {_MOST_RUNS}")
+            raise refuse("n", n, f"a whole number from 1 to {_MOST_RUNS}")
         for key, distribution in (randomize or {}).items():
             if not callable(distribution):
                 _require_range(key, distribution)
-        if gymnasium is not None:
-            modes = getattr(gymnasium.vector, "AutoresetMode", None)  # from Gymnasium 1.1 on
-            if modes is not None:
-                self.metadata = {**self.metadata, "autoreset_mode": modes.NEXT_STEP}
-        self.num_envs = count
+        modes = gymnasium and getattr(gymnasium.vector, "AutoresetMode", None)  # from Gymnasium 1.1 on
+        if modes is not None:
+            self.metadata = {**self.metadata, "autoreset_mode": modes.NEXT_STEP}
+        self.num_envs, self._randomize, self._reward = count, dict(randomize or {}), reward
         self._turn = threading.Lock()
-        self._randomize = dict(randomize or {})
-        self._reward = reward
-        self._runs = _bbsim.Environments(given(scenario, set), self.num_envs, list(self._randomize), record)
+        self._runs = _bbsim.Environments(given(scenario, set), count, list(self._randomize), record)
         self._random = np.random.default_rng(seed)
         self._options: Dict[str, Any] = {}
-        self._over = np.zeros(self.num_envs, dtype=bool)
-        self._begun = np.zeros(self.num_envs, dtype=bool)
+        self._over, self._begun = np.zeros((2, count), dtype=bool)
         width = len(self.observation_columns)
         limit = np.array([np.inf if one is None else one for one in self._runs.limits])
+        limits = np.tile(limit, (count, 1))
         self.single_observation_space = Box(-np.inf, np.inf, (width,), np.float64)
-        self.observation_space = Box(-np.inf, np.inf, (self.num_envs, width), np.float64)
+        self.observation_space = Box(-np.inf, np.inf, (count, width), np.float64)
         self.single_action_space = Box(-limit, limit, dtype=np.float64)
-        self.action_space = Box(np.tile(-limit, (self.num_envs, 1)), np.tile(limit, (self.num_envs, 1)), dtype=np.float64)
+        self.action_space = Box(-limits, limits, dtype=np.float64)
 
     @property
     def command_unit(self) -> str:
@@ -166,32 +150,25 @@ class VectorEnv(_VectorBase):
 
     def _which(self, mask: Any) -> Array:
         """The runs that a ``reset_mask`` names."""
-        if mask is None:
-            return np.arange(self.num_envs)
-        flags = np.asarray(mask)
+        flags = np.full(self.num_envs, True) if mask is None else np.asarray(mask)
         if flags.shape != (self.num_envs,) or flags.dtype != bool:
-            allowed = f"allowed: an array of {self.num_envs} booleans"
-            raise fault(f"reset_mask: found shape {flags.shape} and type {flags.dtype}; {allowed}")
+            found = f"shape {flags.shape} and type {flags.dtype}"
+            raise refuse("reset_mask", found, f"an array of {self.num_envs} booleans")
         return np.flatnonzero(flags)
 
     @_one_at_a_time
     def reset(self, *, seed: Optional[int] = None, options: _Options = None) -> Tuple[Array, Dict[str, Any]]:
-        """Begins an episode of each run.
-
-        ``options`` fix values of keys of ``randomize`` until the next ``reset()``;
-        ``{"reset_mask": mask}`` begins only some runs. A reset that raises changes no run.
-        """
+        """Begins an episode of each run, or of those of ``{"reset_mask": mask}``. Other ``options`` fix values of keys
+        of ``randomize`` until the next ``reset()``. A reset that raises changes no run."""
         random = self._random if seed is None else np.random.default_rng(seed)
         fixed = dict(options or {})
         which = self._which(fixed.pop("reset_mask", None))
         for key in fixed:
             if key not in self._randomize:
-                names = ", ".join(self._randomize) or "none"
-                raise fault(f"options: found {key}; allowed: the keys of randomize, which are: {names}")
-        self._runs.begin(*self._beginnings(which, random, fixed))
+                raise refuse("options", key, f"the keys of randomize, which are: {', '.join(self._randomize) or 'none'}")
+        self._runs.advance(None, *self._beginnings(which, random, fixed))
         self._random, self._options = random, fixed
-        self._over[which] = False
-        self._begun[which] = True
+        self._over[which], self._begun[which] = False, True
         return self._runs.observations.copy(), {}
 
     @_one_at_a_time
@@ -201,14 +178,13 @@ class VectorEnv(_VectorBase):
             raise RuntimeError("step: found a run that has not begun; allowed: reset() first")
         commands = np.ascontiguousarray(actions, dtype=np.float64)
         begins = self._over
-        self._runs.step(commands, *self._beginnings(np.flatnonzero(begins), self._random, self._options))
+        self._runs.advance(commands, *self._beginnings(np.flatnonzero(begins), self._random, self._options))
         terminated, truncated = self._runs.terminated, self._runs.truncated
         self._over = terminated | truncated
         observations = self._runs.observations.copy()
-        if self._reward is None:
-            rewards = minus_squared_distance(observations, commands, terminated)
-            if terminated.any():
-                rewards = np.where(terminated, -self._runs.costs_of_ending, rewards)
+        if self._reward is None:  # minus the squared distance of the ball, as measured, from its reference, m^2
+            distances = (observations[:, 0] - observations[:, 3]) ** 2 + (observations[:, 1] - observations[:, 4]) ** 2
+            rewards = np.where(terminated, -self._runs.costs_of_ending, -distances) if terminated.any() else -distances
         else:
             rewards = np.asarray(self._reward(observations, commands, terminated), dtype=np.float64)
         return observations, np.where(begins, 0.0, rewards), terminated, truncated, {}
@@ -234,10 +210,9 @@ class Env(_EnvBase):
     metadata: Dict[str, Any] = {"render_modes": []}
     render_mode = None
 
-    def __init__(
-        self, scenario: Scenario, randomize: Optional[Mapping[str, Distribution]] = None, seed: int = 0, *,
-        set: Settings = None, reward: Optional[Reward] = None, record: bool = False, render_mode: None = None,
-    ) -> None:  # fmt: skip
+    def __init__(self, scenario: Scenario, randomize: Optional[Mapping[str, Distribution]] = None, seed: int = 0, *,
+                 set: Settings = None, reward: Optional[Reward] = None, record: bool = False,
+                 render_mode: None = None) -> None:  # fmt: skip
         self._all = VectorEnv(scenario, 1, randomize, seed, set=set, reward=reward, record=record)
         self.observation_space = self._all.single_observation_space
         self.action_space = self._all.single_action_space
@@ -255,7 +230,6 @@ class Env(_EnvBase):
         return observations[0], float(rewards[0]), bool(terminated[0]), bool(truncated[0]), info
 
     def result(self) -> Optional[Result]:
-        """The episode that has just ended; None if it has not."""
         return self._all.result(0)
 
     def close(self) -> None:

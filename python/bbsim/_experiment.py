@@ -11,8 +11,8 @@ from typing import Any, Dict, List, NamedTuple, Tuple
 import numpy as np
 
 from . import _bbsim
+from ._result import simulate
 from ._scenario import Array
-from ._simulate import simulate
 from ._task import ROUGH, FreeKey, Progress
 
 _STEP = 1e-3  # of keys' numbers u and of starts (SI), for differences

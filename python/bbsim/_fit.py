@@ -15,12 +15,10 @@ from . import _bbsim, _fit_text
 from ._fit_search import Search
 from ._fit_servos import compare_delays
 from ._fit_windows import Log, LogKey, Windows, WindowsFit, cut, start_coordinates
-from ._logs import as_files, log_choice, without_folders
-from ._scenario import Array, InputError, Scenario, Settings, counted, fault, given as given_of, listed, refuse
-from ._task import (
-    ROUGH, FreeKey, Progress, carry_out, files_of, read_bounds, read_free_key, read_free_keys, refuse_free, refuse_twice,
-    silent, usual_scale, write_all,
-)  # fmt: skip
+from ._scenario import (Array, InputError, Scenario, Settings, as_files, counted, fault, given as given_of, listed,
+                        log_choice, refuse, without_folders)  # fmt: skip
+from ._task import (ROUGH, FreeKey, Progress, carry_out, files_of, read_bounds, read_free_key, read_free_keys,
+                    refuse_free, refuse_own_controller, refuse_twice, silent, usual_scale, write_all)  # fmt: skip
 
 _USUAL_WINDOW = 2.0  # s; short, because a plate makes the ball a double integrator
 _USUAL_DELAY = 0.2  # s; a camera's delay is at most that
@@ -35,16 +33,15 @@ _CANDIDATES = ("ball.inertia_factor", "ball.losses.rolling", "ball.losses.viscou
 def _compared(given: _bbsim.Given, maps: Sequence[str], log: _bbsim.Stored, notes: List[str]) -> List[str]:
     """The columns that the user maps, else those that the log has."""
     moved = _GIMBAL if given.has("gimbal.motion") else ()
-    names = [one.partition("=")[0].replace(" ", "") for text in maps for one in text.split(",")]
-    names = [name for name in dict.fromkeys(names) if name != "t"]
+    mapped = [one.partition("=")[0].replace(" ", "") for text in maps for one in text.split(",")]
+    names = [name for name in dict.fromkeys(mapped) if name != "t"]
     names = names or [name for name in _BALL + _GIMBAL if name in log.names and name not in moved]
-    why = "is given by gimbal.motion, and not compared with the log"
-    notes += [f"note: {name} {why}" for name in names if name in moved]
+    notes += [f"note: {name} is given by gimbal.motion, and not compared with the log" for name in names if name in moved]
     names = [name for name in names if name not in moved]
     for name in names:
         why = given.lacks(name)[0]
         if why:
-            raise fault(f"--map: found {name}, {why}; allowed: columns that the scenario has")
+            raise refuse("--map", f"{name}, {why}", "columns that the scenario has")
     if not names:
         allowed = "x, y, vx or vy by name, or --map x=NAME:UNIT"
         raise fault(f"{log.shown_file}: has no column to compare; allowed: {allowed}")
@@ -59,9 +56,9 @@ def _log(given: _bbsim.Given, stored: _bbsim.Stored, columns: Sequence[str], not
         if stored.is_text(name):
             raise fault(f"{file}: column {name}: found texts; allowed: numbers, or an empty field")
         values.append(np.array(stored.numbers(name), dtype=float))
-        doubt = name != "t" and _bbsim.unit_doubt(name, float(np.nanmax(np.abs(values[-1]), initial=0)))
+        largest = float(np.nanmax(np.abs(values[-1]), initial=0))
+        doubt = name != "t" and _bbsim.unit_doubt(name, largest)
         if doubt:
-            largest = float(np.nanmax(np.abs(values[-1])))
             notes.append(f"warning: {file}: {name} goes up to {largest!r}, read in SI: it looks like {doubt}")
     times = values[0]
     wrong = np.flatnonzero(~np.isfinite(times) | (np.diff(times, prepend=-np.inf) <= 0))
@@ -114,16 +111,15 @@ def _candidates(task: "_Task") -> List[FreeKey]:
 def _ideal(given: _bbsim.Given) -> Optional[_bbsim.Given]:
     """A solid ball that rolls without losses on a perfectly mounted plate, which follows the motion or the commands
     without lag. None for scenarios with feedback or torques."""
-    changes = [("controller", "null")] if given.has("controller") else []
+    parts, motion = ["controller", "ball.losses", "events", "output"], []
     if given.has("controller.commands"):
         phi, theta = (given.text_at(f"controller.commands.{axis}") or "0" for axis in ("phi", "theta"))
-        changes += [("gimbal.motion", f"{{phi: {phi}, theta: {theta}}}")]
+        motion = [("gimbal.motion", f"{{phi: {phi}, theta: {theta}}}")]
     elif not given.has("gimbal.motion"):
         return None
-    parts = [f"gimbal.{name}" for name in ("servo", "linkage", "three_servos", "mounting")]
-    parts += ["ball.losses", "events", "output"]
+    parts += [f"gimbal.{name}" for name in ("servo", "linkage", "three_servos", "mounting")]
     parts += [] if given.has("ball.groove") else ["ball.inertia_factor"]
-    return given.changed(changes + [(part, "null") for part in parts if given.has(part)])
+    return given.changed(motion + [(part, "null") for part in parts if given.has(part)])
 
 
 def _closes_a_loop(given: _bbsim.Given) -> bool:
@@ -150,9 +146,7 @@ class _Task:
         ):  # fmt: skip
             if wrong:
                 raise refuse(option, found, allowed)
-        if given.has("controller.program") or given.has("controller.library"):
-            allowed = "a law of bbsim, or controller.commands or gimbal.motion from the log's table"
-            raise fault(f"controller: found a program or library of your own; allowed in a fit: {allowed}")
+        refuse_own_controller(given, "a fit", "a law of bbsim, or controller.commands or gimbal.motion from the log's table")
         self.keys: List[FreeKey] = read_free_keys(free, given)
         run = given.changed([("solver.error", "null"), ("solver.rtol", "1e-10"), ("solver.atol", "1e-12")])
         run, self.warnings = self._without_noise(run), list(given.remarks())
@@ -167,8 +161,8 @@ class _Task:
             self.columns = self.columns or _compared(given, maps, stored, self.warnings)
             its = [(key, f"'{os.path.abspath(file)}'") for key in tables if len(self.files) > 1]
             self.logs.append(_log(run.changed(its), stored, self.columns, self.warnings))
-        known = {column[0]: column[2] for column in _bbsim.known_columns("rad")}
-        self.units: List[str] = [known[name] for name in self.columns]
+        units = {column[0]: column[2] for column in _bbsim.known_columns("rad")}
+        self.units: List[str] = [units[name] for name in self.columns]
         self.keys += [_log_key(text, self.columns, self.units) for text in free if text.strip().startswith("log.")]
         refuse_twice([key.name for key in self.keys])
 
@@ -228,7 +222,7 @@ def _other(search: Search, windows: Windows, u: Array, ideal: bool = False) -> O
 
 
 def _rms(fit: Optional[WindowsFit]) -> Dict[str, float]:
-    return {} if fit is None else dict(zip(fit.columns, map(float, fit.sizes().rms)))
+    return {} if fit is None else dict(zip(fit.columns, map(float, fit.sizes()[0])))
 
 
 def _series(fit: WindowsFit, held: bool) -> List[Any]:
@@ -297,16 +291,16 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
 
 def _describe(made: Any, search: Search) -> List[str]:
     """What the residuals tell: whether they are white; notes on outliers."""
-    fit, sizes = search.windows, search.windows.sizes()
+    fit, (rms, usual, counts) = search.windows, search.windows.sizes()
     errors = np.nan_to_num(fit.point.differences).reshape(fit.windows.values.shape)
     weighted = errors * fit.weights.reshape(errors.shape)
     products = (weighted[..., 1:] * weighted[..., :-1]).sum((0, 2)) / np.maximum((weighted**2).sum((0, 2)), 1e-300)
-    exact = sizes.rms <= 1e-6 * search.spreads
+    exact = rms <= 1e-6 * search.spreads
     # Fitting the starts reduces correlation, so white residuals rarely reach this.
-    made.white = bool(np.all(exact | (products < 3 / np.sqrt(np.maximum(sizes.counts, 1)))))
+    made.white = bool(np.all(exact | (products < 3 / np.sqrt(np.maximum(counts, 1)))))
     made.exact = bool(exact.all())
     made.correlated = ", ".join(f"{name}: {_bbsim.rounded(one, 2)}" for name, one in zip(fit.columns, products))
-    far, notes = (np.abs(errors) > 5 * sizes.usual[:, None]) & ~exact[:, None], []
+    far, notes = (np.abs(errors) > 5 * usual[:, None]) & ~exact[:, None], []
     made.outliers = dict(zip(fit.columns, map(int, far.sum((0, 2)))))
     for c, (name, count) in enumerate(made.outliers.items()):
         if count:
@@ -351,22 +345,18 @@ def _estimate(made: Any, search: Search) -> List[str]:
     return notes
 
 
-def fit(
-    scenario: Scenario, logs: Any, free: Any, *, set: Settings = None, map: Any = (), header: Any = (),
-    period: Any = None, time_offset: Any = None, missing: Any = None, window: Any = None, hold_out: float = 0,
-    loss: str = "squares", starts: Optional[int] = None, output: Any = None, json: Any = None, report: Any = None,
-    threads: int = 0,
-) -> Any:  # fmt: skip
-    """Finds the values of a scenario's keys at which its runs are closest to logs of a rig.
+def fit(scenario: Scenario, logs: Any, free: Any, *, set: Settings = None, map: Any = (), header: Any = (),
+        period: Any = None, time_offset: Any = None, missing: Any = None, window: Any = None, hold_out: float = 0,
+        loss: str = "squares", starts: Optional[int] = None, output: Any = None, json: Any = None, report: Any = None,
+        threads: int = 0) -> Any:  # fmt: skip
+    """Finds the values of a scenario's keys at which its runs are closest to logs of a rig. Keywords are the options of
+    ``bbsim fit``.
 
-    logs      files, as `bbsim fit` reads them, or dicts of arrays or DataFrames with such columns
-    free      the keys to fit, "KEY" or "KEY=FROM:TO", or a dict {KEY: (FROM, TO)}; also log.x.scale, log.x.offset
-              and log.delay
-    others    the options of `bbsim fit`; output, json and report are files to write
+    logs      files, or dicts of arrays or DataFrames with such columns; one or a list
+    free      the keys, "KEY" or "KEY=FROM:TO", or a dict {KEY: (FROM, TO)}; also log.x.scale, log.x.offset, log.delay
 
-    The result has the names of the JSON: parameters (key, estimate, sd, interval, at_bound), residual_rms,
-    hold_out_rms, identifiable, correlations, white, suggestion, outliers, notes; `report` is the printed text. An
-    interrupted fit gives the best values so far, or raises KeyboardInterrupt if there are none.
+    The result has the names of the JSON, in SI units, and `report`. An interrupted fit gives the best values so far, or
+    raises KeyboardInterrupt if there are none. Raises InputError and OutputError.
     """
     options = dict(locals())
     with as_files(options["logs"]) as options["logs"]:

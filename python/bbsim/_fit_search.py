@@ -61,8 +61,7 @@ class Search:
 
     def minimize(self, exact: bool) -> None:
         """Moves u to the nearby least sum of squares. Directions that the logs do not determine stay."""
-        first, windows = self.u.copy(), self.windows
-        low, high = self.bounds()
+        first, windows, (low, high) = self.u.copy(), self.windows, self.bounds()
         jacobian, norms = windows.derivatives(first)
         sizes = np.maximum(norms, 1e-300)
         _, values, directions = np.linalg.svd(jacobian / sizes, full_matrices=False)
@@ -70,8 +69,7 @@ class Search:
         weak = np.where(values[:, None] > _UNTOLD * values[0], 0.0, values[0] * directions * sizes)
 
         def residuals(x: Array) -> Array:
-            made = windows.residuals(first + x - 1)
-            return np.concatenate([made, weak @ (x - 1)])
+            return np.concatenate([windows.residuals(first + x - 1), weak @ (x - 1)])
 
         def derivatives(x: Array) -> Array:
             u = first + x - 1
@@ -102,12 +100,11 @@ class Search:
         """Keys and starts side by side, where residuals have kinks, and starts that follow the keys would be lost."""
         windows, count = self.windows, len(self.u)
         windows.residuals(self.u)
-        shape = (len(windows.windows), len(windows.free))
         x = np.concatenate([self.u, windows.point.starts[:, windows.free].ravel()])
 
         def move(x: Array, derivatives: bool) -> Array:
             starts = windows.point.starts.copy()
-            starts[:, windows.free] = x[count:].reshape(shape)
+            starts[:, windows.free] = x[count:].reshape(-1, len(windows.free))
             return windows.at(x[:count], starts, derivatives)
 
         def slopes(x: Array) -> Array:
@@ -124,11 +121,9 @@ class Search:
         move(found.x, True)
 
     def _advance(self, u: Array) -> None:
-        self.u = u
-        self.iterations += 1
-        rms = math.sqrt(float(np.mean(self.windows.residuals(u) ** 2)))
-        count = self.iterations
-        self.progress(count / (count + 5), f"iteration {count}, rms residual {_bbsim.rounded(rms, 4)} noise")
+        self.u, self.iterations = u, self.iterations + 1
+        rms = _bbsim.rounded(math.sqrt(float(np.mean(self.windows.residuals(u) ** 2))), 4)
+        self.progress(self.iterations / (self.iterations + 5), f"iteration {self.iterations}, rms residual {rms} noise")
 
     def begin(self, starts: Optional[int]) -> None:
         """Chooses where to start."""
@@ -145,8 +140,8 @@ class Search:
         # no other key.
         for k, key in enumerate(self.keys):
             if isinstance(key, LogKey) and key.of == "scale" and not key.logarithmic and -key.start >= key.lower:
-                cost, before, self.u = self.cost(), self.u, self.u.copy()
-                self.u[k] = key.number(-key.start)
+                cost, before = self.cost(), self.u
+                self.u = np.where(np.arange(len(before)) == k, key.number(-key.start), before)
                 self.windows.restart()  # the slopes by the starts are mirrored, too
                 self.u = self.u if self.cost() < cost else before
                 self.windows.restart()
@@ -156,11 +151,10 @@ class Search:
 
     def _try_starts(self, count: int, ends: Sequence[Tuple[float, Array, Array]] = ()) -> None:
         """Continues from the best of several starts, or of what is known; the first start is the present one."""
-        low, high = self.bounds()
+        bounds = self.bounds()
         # Without bounds: a factor of two, or the key's scale.
         reach = np.array([math.log(2) if key.logarithmic else 1.0 for key in self.keys])
-        bounded = np.isfinite(high - low)
-        low, high = np.where(bounded, low, self.u - reach), np.where(bounded, high, self.u + reach)
+        low, high = np.where(np.isfinite(bounds[1] - bounds[0]), bounds, [self.u - reach, self.u + reach])
         low, high = np.where(self.windows.deaf.all(0), self.u, [low, high])
         random, first, ends = np.random.default_rng(1), self.u, list(ends)
         for start in range(count):
@@ -259,9 +253,9 @@ class Search:
     def _reweigh(self) -> float:
         """Estimates each column's noise from its residuals. Returns how much weights change."""
         windows = self.windows
-        residuals, sizes = windows.residuals(self.u), windows.sizes()
+        residuals, (rms, usual, _) = windows.residuals(self.u), windows.sizes()
         share = self.degrees_of_freedom() / windows.size
-        noise = np.maximum((sizes.usual if self.robust else sizes.rms) / math.sqrt(share), 1e-9 * self.spreads)
+        noise = np.maximum((usual if self.robust else rms) / math.sqrt(share), 1e-9 * self.spreads)
         changes, weights, most = noise / windows.noise, None, 0.0
         if self.robust:
             weights = np.ones(windows.weights.shape)
@@ -282,8 +276,7 @@ class Search:
     def suggestion(self, candidates: Sequence[FreeKey]) -> Optional[Tuple[str, float]]:
         """The candidate that, free together with the keys, would reduce the residuals most, and by which share; None if
         each removes less than 5 %. A linear model ranks the candidates, and fits decide among the best."""
-        now, count = self.windows.residuals(self.u), len(self.u)
-        search = self._with(candidates)
+        now, count, search = self.windows.residuals(self.u), len(self.u), self._with(candidates)
         search.scale_keys()
         slopes, norms = search.windows.derivatives(search.u)
         # The keys get the credit for what they can do themselves.
@@ -351,8 +344,8 @@ class Search:
             if not key.logarithmic:
                 size = f"{_bbsim.rounded(abs(by) * key.scale, 3)} {key.unit}".rstrip()
             changes.append(f"{key.name} {'-' if by < 0 else '+'}{size}")
-        together = f"{', '.join(names[:-1])} and {names[-1]} cannot be told apart"
-        return f"{together}: the log stays the same with {', '.join(changes)}"
+        together = f"{', '.join(names[:-1])} and {names[-1]}"
+        return f"{together} cannot be told apart: the log stays the same with {', '.join(changes)}"
 
     def interval(self, k: int, linear: "Linear", profiled: bool) -> List[float]:
         """By profile likelihood, 95 %: how far a key can move, with the others at their best, before the sum of squares

@@ -11,8 +11,8 @@ from typing import Any, Iterator, List, Sequence, Tuple
 import numpy as np
 
 from . import _bbsim
+from ._result import simulate
 from ._scenario import Array
-from ._simulate import simulate
 
 _FORGET = 1.0  # s; a servo comes to rest in less
 _SCANNED, _DELAYS = 201, 0.2  # delays in a scan, and how far it goes without bounds (s)

@@ -67,17 +67,13 @@ def report(fitted: Any) -> str:
 def as_document(fitted: Any, _: Any) -> str:
     """The JSON."""
     keys = ("key", "estimate", "sd", "interval", "at_bound")
-    made: Dict[str, Any] = {"parameters": [{key: getattr(one, key) for key in keys} for one in fitted.parameters]}
-    for name in ("residual_rms", "hold_out_rms", "ideal_rms", "hold_out_ideal_rms"):
-        if getattr(fitted, name) or name in ("residual_rms", "hold_out_rms"):
-            made[name] = getattr(fitted, name)
-    made.update(identifiable=fitted.identifiable, correlations=fitted.correlations.tolist(), white=fitted.white)
-    if fitted.suggestion:
-        made["suggestion"] = fitted.suggestion
-    made.update(outliers=fitted.outliers, notes=fitted.notes)
-    if fitted.interrupted:
-        made["interrupted"] = True
-    return as_json(made)
+    made = {"parameters": [{key: getattr(one, key) for key in keys} for one in fitted.parameters],
+            "residual_rms": fitted.residual_rms, "hold_out_rms": fitted.hold_out_rms, "ideal_rms": fitted.ideal_rms,
+            "hold_out_ideal_rms": fitted.hold_out_ideal_rms, "identifiable": fitted.identifiable,
+            "correlations": fitted.correlations.tolist(), "white": fitted.white, "suggestion": fitted.suggestion,
+            "outliers": fitted.outliers, "notes": fitted.notes, "interrupted": fitted.interrupted}  # fmt: skip
+    optional = ("ideal_rms", "hold_out_ideal_rms", "suggestion", "interrupted")
+    return as_json({name: value for name, value in made.items() if value or name not in optional})
 
 
 def scenario(fitted: Any, given: _bbsim.Given) -> str:

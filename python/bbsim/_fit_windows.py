@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from typing import Any, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
@@ -14,8 +14,8 @@ from scipy.sparse import block_diag, csr_matrix, hstack
 
 from . import _bbsim
 from ._fit_servos import deaf_windows
+from ._result import simulate
 from ._scenario import Array, InputError
-from ._simulate import simulate
 from ._task import FreeKey
 
 FAR = 1e6  # the residual of a window that does not run, in standard deviations
@@ -40,8 +40,7 @@ class LogKey(FreeKey):
     column: int = 0  # of a scale or an offset
 
 
-@dataclass
-class Log:
+class Log(NamedTuple):
     name: str
     times: Array  # s, by the scenario's clock; increasing
     values: Array  # for each compared column; NaN where a row has no number
@@ -86,38 +85,28 @@ def cut(logs: Sequence[Log], length: float, share: float, fewest: int, delay: fl
 def _windows(parts: Sequence[Tuple[int, Array, Array]], delay: float) -> Windows:
     kept = [(log, t[0], t[t - t[0] >= delay], values[:, t - t[0] >= delay]) for log, t, values in parts]
     kept = [part for part in kept if len(part[2]) > 1]
-    most = max((len(part[2]) for part in kept), default=0)
-    columns = len(kept[0][3]) if kept else 0
+    rows = np.array([len(part[2]) for part in kept], int)
+    most = rows.max(initial=0)
     times = np.array([np.pad(t, (0, most - len(t)), "edge") for _, _, t, _ in kept]).reshape(len(kept), most)
-    values = np.full((len(kept), columns, most), np.nan)
+    values = np.full((len(kept), len(kept[0][3]) if kept else 0, most), np.nan)
     for into, (_, _, t, its) in zip(values, kept):
         into[:, : len(t)] = its
-    logs, begin, rows = ([f(part) for part in kept] for f in (lambda p: p[0], lambda p: p[1], lambda p: len(p[2])))
-    return Windows(np.array(logs, int), np.array(begin), times[:, -1:].ravel(), np.array(rows, int), times, values)
+    logs, begin = np.array([part[0] for part in kept], int), np.array([part[1] for part in kept], float)
+    return Windows(logs, begin, times[:, -1:].ravel(), rows, times, values)
 
 
 def start_coordinates(columns: Sequence[str], given: _bbsim.Given, from_within: bool) -> List[int]:
     """The coordinates of a start that the columns determine. Columns of the position or the velocity concern one axis.
     A log that is one window begins with the scenario's spin and gimbal."""
-    x, y = ([name in ("v" + axis, axis, axis + "_measured") for name in columns] for axis in "xy")
-    other = not all(a or b for a, b in zip(x, y))
-    axes = [axis for axis, along in enumerate((any(x), any(y))) if along or other]
+    along = np.array([[name in ("v" + axis, axis, axis + "_measured") for name in columns] for axis in "xy"])
+    axes = [axis for axis in (0, 1) if along[axis].any() or not along.any(0).all()]
     made = [*axes, *(2 + axis for axis in axes)]
     if from_within and given.begins_anywhere():
         made += [4, 5, 6, 7]
     return made + ([_SPIN] if from_within and len(axes) == 2 else [])
 
 
-class Sizes(NamedTuple):
-    """Of each column's differences, in SI units."""
-
-    rms: Array
-    usual: Array  # robust: 1.4826 times the median size
-    counts: Array
-
-
-@dataclass
-class _Point:
+class _Point(NamedTuple):
     """The windows at values u, with their starts. Differences are in SI units, windows x numbers."""
 
     u: Array
@@ -125,9 +114,9 @@ class _Point:
     differences: Array
     runs: "np.ndarray[Any, np.dtype[np.bool_]]"
     why: List[str]
-    by_key: Array = field(default_factory=lambda: np.empty(0))  # windows x numbers x keys
-    by_start: Array = field(default_factory=lambda: np.empty(0))
-    least: Array = field(default_factory=lambda: np.empty(0))  # deviations of keys: the steps, where they act by jumps alone
+    by_key: Array = np.empty(0)  # windows x numbers x keys
+    by_start: Array = np.empty(0)
+    least: Array = np.empty(0)  # deviations of keys: the steps, where they act by jumps alone
 
 
 class WindowsFit:
@@ -136,18 +125,17 @@ class WindowsFit:
     def __init__(self, logs: Sequence[Log], columns: Sequence[str], windows: Windows, keys: Sequence[FreeKey],
                  free: Sequence[int], threads: int) -> None:  # fmt: skip
         self.logs, self.columns, self.windows, self.keys = logs, columns, windows, keys
-        self.free, self.threads = list(free), threads
+        self.free, self.threads, self.kinked = list(free), threads, False
         count, width = len(windows), windows.values[0].size if len(windows) else 0
         self.measured = windows.values.reshape(count, width)
         self.there = np.isfinite(self.measured)
         self.column_of = np.repeat(np.arange(len(columns)), width // max(len(columns), 1))
         self.size = int(self.there.sum())
-        self.noise = np.ones(len(columns))
-        self.weights = np.ones((count, width))
-        self.base: Any = None  # a _Point with derivatives
-        self.point: Any = None  # the last one
-        self._solvers: Optional[Tuple[Array, Array]] = None
-        self.kinked = False
+        self.noise, self.weights = np.ones(len(columns)), np.ones((count, width))
+        self.base: Any  # a _Point with derivatives
+        self.point: Any  # the last one
+        self._solvers: Optional[Tuple[Array, Array]]
+        self.restart()
         given = logs[0].given
         self.jumps = bool(given.value("controller.sampling.resolution")) or any(
             given.value(f"gimbal.servo{axis}.dead_band") for axis in ("", ".phi", ".theta"))
@@ -160,8 +148,7 @@ class WindowsFit:
 
     def reweigh(self, noise: Array, weights: Optional[Array] = None) -> None:
         self.noise, self.point, self._solvers = noise, None, None
-        if weights is not None:
-            self.weights = weights
+        self.weights = self.weights if weights is None else weights
 
     def restart(self) -> None:
         self.base = self.point = self._solvers = None
@@ -170,9 +157,7 @@ class WindowsFit:
         """Starts: the first measurement, at rest; and what the scenario says."""
         facts = [f"ball.{name}.{axis}" for name in ("position", "velocity") for axis in (0, 1)]
         facts += [f"gimbal.start.{name}" for name in _bbsim.START[4:8]] + ["ball.spin"]
-        given = self.logs[0].given
-        start = [given.value(name) or 0.0 for name in facts]
-        starts = np.tile(start, (len(self.windows), 1))
+        starts = np.tile([self.logs[0].given.value(name) or 0.0 for name in facts], (len(self.windows), 1))
         for place in self.free:
             if place in (2, 3):
                 starts[:, place] = 0.0
@@ -202,17 +187,14 @@ class WindowsFit:
             its = which[rows]
             cases = {key.name: value[rows] for key, value in zip(self.keys, values) if not isinstance(key, LogKey)}
             try:
-                made = simulate(
-                    self.logs[log].given, cases, self.columns, times[rows], begin=windows.begin[its],
-                    end=windows.end[its], start=starts[rows], events=False, threads=self.threads,
-                )  # fmt: skip
+                made = simulate(self.logs[log].given, cases, self.columns, times[rows], begin=windows.begin[its],
+                                end=windows.end[its], start=starts[rows], events=False, threads=self.threads)
+                reasons = made.reason
+                shown[rows] = np.stack([made[name] for name in self.columns], 1)
+                runs[rows] = (made.status == "done") & np.isfinite(shown[rows]).all((1, 2))
             except InputError as error:  # of all cases
-                for row in rows:
-                    why[row] = str(error)
-                continue
-            shown[rows] = np.stack([made[name] for name in self.columns], 1)
-            runs[rows] = (made.status == "done") & np.isfinite(shown[rows]).all((1, 2))
-            for row, reason in zip(rows, made.reason):
+                reasons = [str(error)] * len(rows)
+            for row, reason in zip(rows, reasons):
                 why[row] = reason or "the run does not reach the window's end"
         shown = (offsets + scales * shown).reshape(count, -1)
         if not zero:
@@ -306,11 +288,9 @@ class WindowsFit:
     def _settle(self, u: Array, starts: Array) -> bool:
         """Newton's method for the best starts with known slopes: the motion depends on its start almost linearly.
         Returns whether a few rounds suffice."""
-        slopes, inverse = self._solve()
-        factors = self.over_noise()
+        (slopes, inverse), factors = self._solve(), self.over_noise()
         differences, runs, why = self._run_all(u, starts)
-        starts = starts.copy()
-        busy = np.flatnonzero(runs)
+        starts, busy = starts.copy(), np.flatnonzero(runs)
         for rounds in range(12):
             rest = differences[busy] * factors[busy]
             step = _times(inverse[busy], rest)
@@ -372,7 +352,7 @@ class WindowsFit:
         if self.kinked:
             # Such runs take long, and larger steps allow larger errors.
             loose = [("solver.rtol", "1e-7"), ("solver.atol", "1e-9")]
-            self.logs = [replace(log, given=log.given.changed(loose)) for log in self.logs]
+            self.logs = [log._replace(given=log.given.changed(loose)) for log in self.logs]
             self.linearize(u, self.base.starts)
         else:
             self.base, self._solvers = smooth, None
@@ -432,13 +412,12 @@ class WindowsFit:
         """What the model shows at the last point: windows x columns x rows."""
         return self._run_all(self.point.u, self.point.starts, True)[0].reshape(self.windows.values.shape)
 
-    def sizes(self) -> Sizes:
-        """Of the differences at the last point."""
+    def sizes(self) -> Array:
+        """Of each column's differences at the last point, in SI units: rms; robust, 1.4826 times the median; number."""
         places = np.broadcast_to(self.column_of, self.there.shape)
         its = [np.abs(self.point.differences[self.there & (places == c)]) for c in range(len(self.columns))]
-        rms = [math.sqrt(np.mean(one**2)) if one.size else 0.0 for one in its]
-        usual = [1.4826 * float(np.sort(one)[one.size // 2]) if one.size else 0.0 for one in its]
-        return Sizes(np.array(rms), np.array(usual), np.array([one.size for one in its]))
+        return np.array([(math.sqrt(np.mean(one**2)), 1.4826 * np.sort(one)[one.size // 2], one.size)
+                         if one.size else (0, 0, 0) for one in its], float).T  # fmt: skip
 
 
 def _times(matrices: Array, vectors: Array) -> Array:

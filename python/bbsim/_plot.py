@@ -13,28 +13,18 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from . import _bbsim
-from ._loop_pictures import KINDS, draw_accuracy, draw_loop
-from ._logs import Log, as_files, is_table, log_choice, tables_named, without_folders
+from ._loops import KINDS, draw_accuracy, draw_loop
 from ._plot_runs import draw_runs
 from ._plot_sheet import FONT, Figure, require_font, style
 from ._plot_sweeps import draw_sweep
 from ._result import File, Result, Texts
-from ._scenario import InputError, counted, fault, given, listed, overrides, refuse
+from ._scenario import (InputError, Log, as_files, counted, fault, given, is_table, listed, log_choice, overrides,
+                        refuse, tables_named, without_folders)  # fmt: skip
 
 Drawn = Union[Log, Result, "np.ndarray[Any, np.dtype[np.void]]"]
 
-_FORMATS = ("svg", "png", "pdf")
 _MARK = "drawn by bbsim plot"  # identifies pictures of bbsim
 _OF_SCENARIO = ("accuracy", *KINDS)
-
-
-def _settings(settings: Union[Mapping[str, Any], Texts, None]) -> Mapping[str, Any]:
-    if isinstance(settings, Mapping):
-        return settings
-    for text in listed(settings):
-        if "=" not in text:
-            raise fault(f"set: found {text}; allowed: KEY=VALUE")
-    return dict(text.split("=", 1) for text in listed(settings))
 
 
 def _parts(texts: Optional[Texts], separator: str) -> List[str]:
@@ -48,7 +38,7 @@ def _millimeters(width: Union[float, str, None]) -> Optional[float]:
         return None
     size = 1000 * (_bbsim.value_in(str(width), "m") or 0.0)
     if not 50 <= size <= 600:
-        raise fault(f'width: found {width}; allowed: a length from 50 mm to 600 mm, such as "88 mm"')
+        raise refuse("width", width, 'a length from 50 mm to 600 mm, such as "88 mm"')
     return size
 
 
@@ -80,13 +70,17 @@ class _Options:
         locus, self.csv = options["root_locus"] or "", options["csv"]
         self.locus = locus if isinstance(locus, str) else "{}={}:{}".format(*locus)
         self.scenario, self.summary = (os.fspath(options[name] or "") for name in ("scenario", "summary"))
-        self.set = _settings(options["set"])
-        header = _parts(options["header"], ",")
+        self.set, header = options["set"], _parts(options["header"], ",")
+        if not isinstance(self.set, Mapping):
+            for text in listed(self.set):
+                if "=" not in text:
+                    raise refuse("set", text, "KEY=VALUE")
+            self.set = dict(text.split("=", 1) for text in listed(self.set))
         self.log = log_choice(options["map"], header, options["period"], options["time_offset"], options["missing"])
         require_font(self.font)
         if self.csv and not self.kind:
-            allowed = ", ".join(f"--{name.replace('_', '-')}" for name in _OF_SCENARIO)
-            raise fault(f"csv: allowed with the pictures of a scenario, {allowed}")
+            names = ", --".join(_OF_SCENARIO).replace("_", "-")
+            raise fault(f"csv: allowed with the pictures of a scenario, --{names}")
         if self.set and not self.scenario and not self.kind:
             raise fault("set: allowed with --scenario, in which it sets a key")
 
@@ -108,8 +102,7 @@ class _Options:
         with style(self.font):
             if not any(result.is_sweep for result in results):
                 if self.over:
-                    name = results[0].file or "the result"
-                    raise fault(f"over: {name} is not a sweep; bbsim draws a run over time")
+                    raise fault(f"over: {results[0].file or 'the result'} is not a sweep; bbsim draws a run over time")
                 asked = [[name.strip() for name in panel.split(",")] for panel in self.columns]
                 figure, panels = draw_runs(results, asked, self.width)
                 rows, what = sum(result.rows - result.has_end_row for result in results), "rows"
@@ -121,15 +114,15 @@ class _Options:
         return figure, f"{rows} {what}, {counted(panels, 'panel')}"
 
     def draw_scenario(self, scenario: Any) -> Tuple[Figure, str]:
+        figure: Any
         with style(self.font):
             if self.kind != "accuracy":
                 text, figure, content = draw_loop(self.kind, scenario, self.set, self.locus, self.width)
             else:
                 title, text = _bbsim.accuracy(given(scenario, self.set), "1e-3:1e-13")
-                figure, content = None, ""
-                if ",done\n" in text or ",stopped\n" in text:
-                    figure, points = draw_accuracy(text, title, self.width)
-                    content = f"{points} points"
+                ends = ",done\n" in text or ",stopped\n" in text
+                figure, points = draw_accuracy(text, title, self.width) if ends else (None, 0)
+                content = f"{points} points"
         if self.csv:
             _bbsim.write_file(os.fspath(self.csv), text)
         if figure is None:
@@ -137,38 +130,31 @@ class _Options:
         return figure, content
 
 
-def plot(
-    files: Union[Drawn, Sequence[Drawn]], *, columns: Texts = (), over: Texts = (), summary: Optional[File] = None,
-    scenario: Optional[File] = None, set: Union[Mapping[str, Any], Texts, None] = None, map: Texts = (),
-    header: Texts = (), period: Optional[str] = None, time_offset: Optional[str] = None,
-    missing: Union[float, str, None] = None, accuracy: bool = False,
-    bode: bool = False, nyquist: bool = False, poles: bool = False, step: bool = False,
-    root_locus: Union[str, Tuple[str, Any, Any], None] = None, csv: Optional[File] = None,
-    width: Union[float, str, None] = None, font: Optional[str] = None, output: Optional[File] = None,
-    format: Optional[str] = None,
-) -> Figure:  # fmt: skip
+def plot(files: Union[Drawn, Sequence[Drawn]], *, columns: Texts = (), over: Texts = (), summary: Optional[File] = None,
+         scenario: Optional[File] = None, set: Union[Mapping[str, Any], Texts, None] = None, map: Texts = (),
+         header: Texts = (), period: Optional[str] = None, time_offset: Optional[str] = None,
+         missing: Union[float, str, None] = None, accuracy: bool = False, bode: bool = False, nyquist: bool = False,
+         poles: bool = False, step: bool = False, root_locus: Union[str, Tuple[str, Any, Any], None] = None,
+         csv: Optional[File] = None, width: Union[float, str, None] = None, font: Optional[str] = None,
+         output: Optional[File] = None, format: Optional[str] = None) -> Figure:  # fmt: skip
     """Draws runs, a sweep or a log; returns a matplotlib figure. The keywords are the options of ``bbsim plot``.
 
-    files    CSV or HDF5 files, results of ``bbsim.run``, an array of ``bbsim.sweep``, or logs as dicts of
-             arrays or DataFrames; several runs are compared in one figure. With ``accuracy``, ``bode``, ``nyquist``, ``poles``, ``step`` or
-             ``root_locus="KEY=FROM:TO"`` or ``(KEY, FROM, TO)``: a scenario
-    columns  the panels: ``["path", "x,x_reference", "phi"]`` or ``["path", ["x", "x_reference"]]``; of a sweep,
-             measures
-    over     for a sweep, the keys to draw over
-    width    the width of the figure: 0.088 (m) or "88 mm"
-    font     the font of all texts, in place of DejaVu Sans
-    output   also writes the figure to this file, .svg, .png or .pdf
+    files    CSV or HDF5 files, results of ``bbsim.run``, an array of ``bbsim.sweep``, or logs as dicts of arrays or
+             DataFrames; several runs are compared in one figure. With ``accuracy``, ``bode``, ``nyquist``, ``poles``,
+             ``step`` or ``root_locus="KEY=FROM:TO"`` or ``(KEY, FROM, TO)``: a scenario
+    columns  the panels, ``["path", "x,x_reference"]`` or ``["path", ["x", "x_reference"]]``; of a sweep, measures
+    width    0.088 (m) or "88 mm"
 
     Raises InputError and OutputError.
     """
     options = _Options(dict(locals()))
     chosen = _format(None if output is None else os.fspath(output), format)
+    all_files = files if isinstance(files, (list, tuple)) else [files]
     if options.kind:
         figure, _ = options.draw_scenario(files)
+    elif not all_files:
+        raise refuse("files", "none", "a file, a result, or a list of them")
     else:
-        all_files = files if isinstance(files, (list, tuple)) else [files]
-        if not all_files:
-            raise fault("files: found none; allowed: a file, a result, or a list of them")
         with tables_named():
             figure, _ = options.draw(options.read(all_files, lambda note: None))
     if output is not None:
@@ -177,9 +163,8 @@ def plot(
 
 
 def _format(output: Optional[str], asked: Optional[str]) -> str:
-    """From `format`, else from the ending of the output."""
     name = asked or ("svg" if output in (None, "-") else Path(str(output)).suffix[1:].lower())
-    if name not in _FORMATS:
+    if name not in ("svg", "png", "pdf"):
         allowed = ("output", output, "a name that ends in .svg, .png or .pdf")
         raise refuse("format", asked, "svg, png and pdf") if asked else refuse(*allowed)
     return name
@@ -198,19 +183,19 @@ def _tasks(files: List[str], kind: str, options: Dict[str, Any], ending: str) ->
     """The files of each picture, its name, and what names it in messages."""
     output, kind, several = options["output"], kind.replace("_", "-"), len(files) > 1
     if several and kind:
-        raise fault(f"{kind}: found several files; allowed: one scenario")
+        raise refuse(kind, "several files", "one scenario")
     together = kind or "overlay" * (several and options["overlay"])
     if several and not together and output:
-        raise fault(f"output: found {output} for several files; allowed: with --overlay, which draws them in one picture")
+        raise refuse("output", f"{output} for several files", "with --overlay, which draws them in one picture")
     if output:
         return [(files, str(output), "-o")]
     tasks = []
     for its in [files] if together else [[file] for file in files]:
         if its[0] == "-":
             raise fault("output: missing; standard input (-) gives the picture no name")
-        name = str(Path(Path(its[0]).name if kind else its[0]).with_suffix(""))
-        name = f"{name}-{together}.{ending}" if together else f"{name}.{ending}"
-        tasks.append((its, name, f"the picture of {its[0]}, without -o"))
+        name = Path(Path(its[0]).name if kind else its[0]).with_suffix("")
+        ends = f"-{together}.{ending}" if together else f".{ending}"
+        tasks.append((its, f"{name}{ends}", f"the picture of {its[0]}, without -o"))
     return tasks
 
 
@@ -222,11 +207,9 @@ def _declare(tasks: Sequence[Tuple[List[str], str, str]], options: Dict[str, Any
         summary = _bbsim.summary_beside(file)
         if summary:
             outputs.reads(summary, f"the summary of {file}")
-    for name in ("summary", "scenario"):
+    for name, does in (("summary", outputs.reads), ("scenario", outputs.reads), ("csv", outputs.writes)):
         if options[name]:
-            outputs.reads(options[name], f"--{name}")
-    if options["csv"]:
-        outputs.writes(options["csv"], "--csv")
+            does(options[name], f"--{name}")
     for _, output, what in tasks:
         outputs.writes(output, what)
 
@@ -234,12 +217,10 @@ def _declare(tasks: Sequence[Tuple[List[str], str, str]], options: Dict[str, Any
 def command(options: Dict[str, Any], say: Any) -> None:
     """`bbsim plot`; `say` prints a message unless -q is given."""
     _bbsim.end_at_signals()
-    files = options["files"]
-    format = _format(options["output"], options["format"])
-    shared = _Options(options)
+    files, format, shared = options["files"], _format(options["output"], options["format"]), _Options(options)
     tasks = _tasks(files, shared.kind, options, format)
     if len(files) > 1 and options["summary"]:
-        raise fault("summary: found several files; allowed: one run, to which the summary belongs")
+        raise refuse("summary", "several files", "one run, to which the summary belongs")
     _declare(tasks, options)
     # Draw what can be drawn, even if other files have faults.
     problems: List[Tuple[str, str]] = []

@@ -7,13 +7,11 @@ from __future__ import annotations
 import math
 import re
 from collections import Counter
-from dataclasses import dataclass
-from typing import Any, Optional, Sequence, Tuple
+from typing import Any, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
-from matplotlib.ticker import (
-    FixedFormatter, FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullLocator, ScalarFormatter,
-)  # fmt: skip
+from matplotlib.ticker import (FixedFormatter, FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullLocator,
+                               ScalarFormatter)  # fmt: skip
 
 from ._plot_sheet import MM, SMALL, TEXT, cut, number
 
@@ -49,8 +47,7 @@ def is_wide(range_: Range) -> bool:
     return range_ is not None and range_[1] / 2 - range_[0] / 2 > max(_ROUNDING / 2 * largest(range_), _SMALLEST)
 
 
-@dataclass(frozen=True)
-class Unit:
+class Unit(NamedTuple):
     """The unit in which a quantity is drawn: times `factor`, a value in SI has it. Empty for a plain number."""
 
     text: str = ""
@@ -58,8 +55,7 @@ class Unit:
     prefix: Optional[str] = None  # the scenario's own; None: chosen by the size of the values
 
 
-@dataclass(frozen=True)
-class Scale:
+class Scale(NamedTuple):
     """The drawn value is (value - offset) * factor."""
 
     factor: float = 1.0
@@ -78,7 +74,7 @@ class Scale:
 
 
 class Units:
-    """How a scenario writes lengths and angles; both None if it does not tell."""
+    """How a scenario writes lengths and angles."""
 
     def __init__(self, text: str = "") -> None:
         text = re.sub("#.*", "", text)
@@ -88,20 +84,15 @@ class Units:
 
     def drawn(self, unit: str, turns: bool = False) -> Unit:
         """The unit in which values in an SI unit are drawn; `turns` stay in radians."""
-        if unit in ("", "1"):
-            return Unit()
         if unit in ("rad", "rad/s", "rad/s^2"):
             superscript = unit.replace("^2", "²")
             in_degrees = self.degrees and (not turns or unit == "rad/s^2")
             return Unit(superscript.replace("rad", "°"), 180 / math.pi) if in_degrees else Unit(superscript)
-        return Unit(unit, 1.0, self.prefix if unit in ("m", "m/s") else None)
-
-
-_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+        return Unit("" if unit == "1" else unit, 1.0, self.prefix if unit in ("m", "m/s") else None)
 
 
 def power_of_ten(exponent: int) -> str:
-    return "10" + str(exponent).translate(_SUPERSCRIPTS)
+    return "10" + str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
 
 
 def _prefixed(unit: Unit, most: float) -> Scale:
@@ -112,10 +103,9 @@ def _prefixed(unit: Unit, most: float) -> Scale:
         return Scale(unit.factor, 0.0, unit.text)
     prefixes = _AUTO.get(unit.text, [("", 1, 0)])
     prefix, size, _ = [one for one in prefixes if most >= one[2]][-1]
-    if unit.prefix is not None:
-        own = next(one for one in prefixes if one[0] == unit.prefix)
-        if 0.5 <= most / own[1] < 1e4:
-            prefix, size, _ = own
+    for own, its, _ in prefixes:
+        if own == unit.prefix and 0.5 <= most / its < 1e4:
+            prefix, size = own, its
     factor = unit.factor / size
     if 1e-2 <= most * factor < 1e5:
         return Scale(factor, 0.0, prefix + unit.text)
@@ -146,11 +136,8 @@ def choose_scales(unit: Unit, x: Range, y: Range) -> Tuple[Scale, Scale]:
     wide, size = max(width(x), width(y)), max(largest(x), largest(y))
     far = [range_ is not None and wide <= CLOSE * largest(range_) for range_ in (x, y)]
     if wide <= _ROUNDING * size or not any(far):
-        scale = _prefixed(unit, size)
-        return scale, scale
-    one, other = (
-        _shifted(unit, range_, wide) if off and range_ else _prefixed(unit, wide) for range_, off in zip((x, y), far)
-    )
+        return (_prefixed(unit, size),) * 2
+    one, other = (_shifted(unit, its, wide) if off and its else _prefixed(unit, wide) for its, off in zip((x, y), far))
     return one, other
 
 
@@ -158,14 +145,12 @@ def linear_limits(range_: Range, air: float = 0.06) -> Tuple[float, float]:
     """The ends of an axis over a range, with free space at both."""
     if range_ is None:
         return 0.0, 1.0
-    more = air * width(range_)
-    if not is_wide(range_):  # a constant, with its value in the middle
-        more = largest(range_) / 2 if largest(range_) > _SMALLEST else 1.0
+    constant = largest(range_) / 2 if largest(range_) > _SMALLEST else 1.0  # with its value in the middle
+    more = air * width(range_) if is_wide(range_) else constant
     return range_[0] - more, range_[1] + more
 
 
 def _millimeters(axis: Any) -> float:
-    """The length of an axis."""
     size = axis.axes.bbox.width if axis.axis_name == "x" else axis.axes.bbox.height
     return float(size / axis.figure.dpi / MM)
 
@@ -197,7 +182,7 @@ def better_by_log(range_: Range, decades: float = 3) -> bool:
     return range_ is not None and range_[0] > 0 and range_[1] / range_[0] > 10**decades
 
 
-def _of_decade(value: float, _position: int) -> str:
+def _of_decade(value: float, _: int) -> str:
     exponent = math.floor(math.log10(value) + 1e-9)
     mantissa, ten = round(value / 10.0**exponent), power_of_ten(exponent)
     return number(value) if -3 <= exponent <= 3 else ten if mantissa == 1 else f"{mantissa}·{ten}"
@@ -205,7 +190,7 @@ def _of_decade(value: float, _position: int) -> str:
 
 def logarithmic(axis: Any, range_: Range, label: str = "", *, air: float = 0.0, numbered: bool = True) -> None:
     """An axis over positive values, with ticks at decades, and between them if there is room."""
-    low, high = range_ if range_ is not None else (1.0, 10.0)
+    low, high = range_ or (1.0, 10.0)
     more = (high / low) ** air if is_wide(range_) else 2.0
     low, high = low / more, high * more
     most, decades = _most_ticks(axis), math.log10(high) - math.log10(low)

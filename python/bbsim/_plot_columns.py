@@ -4,30 +4,21 @@
 
 from __future__ import annotations
 
+from collections import namedtuple
 from dataclasses import dataclass
-from typing import Dict, List, NamedTuple, Optional, Sequence
+from typing import Dict, List, Optional, Sequence
 
 import numpy as np
 
 from . import _bbsim
 from ._plot_axes import Range, Unit, Units, covered, is_wide, width
-from ._plot_sheet import Stroke, clean, stroke
+from ._plot_sheet import ORANGE, Stroke, clean, mark, stroke
 from ._scenario import fault
 
 MAIN, REFERENCE, MEASURED, COMMAND = range(4)  # roles of columns
 
 
-class Known(NamedTuple):
-    """What bbsim knows of a column."""
-
-    name: str
-    symbol: str
-    unit: str
-    panel: int
-    heading: str
-    role: int
-    beside: str
-    axis: int
+Known = namedtuple("Known", "name symbol unit panel heading role beside axis")  # what bbsim knows of a column
 
 
 @dataclass
@@ -43,14 +34,11 @@ class Panel:
     lines: List[Line]
     name: str = ""
 
-    def count(self, role: int) -> int:
-        return sum(line.role == role for line in self.lines)
-
 
 def _command_unit(run: _bbsim.Stored) -> str:
     """From the scenario; without one, angles or accelerations, whichever fits the commands better."""
-    if run.command_unit is not None:
-        return run.command_unit
+    if run.controller is not None:
+        return run.controller[0]
     misfits = np.zeros(2)  # sums of squares
     for axis in ("phi", "theta"):
         if {"t", axis, f"{axis}_command"} <= set(run.names) and run.rows > 1:
@@ -65,8 +53,8 @@ class Runs:
     """The runs of a picture, and how their columns are drawn."""
 
     def __init__(self, runs: Sequence[_bbsim.Stored]) -> None:
-        self.runs = runs
-        self.one = len(runs) == 1
+        self.runs, self.one = runs, len(runs) == 1
+        self.kinds = list(dict.fromkeys(event.name for run in runs for event in run.events))  # of events
         self.units = Units(next((run.scenario_text for run in runs if run.scenario_text), ""))
         self.known = {one[0]: Known(*one) for one in _bbsim.known_columns(_command_unit(runs[0]))}
 
@@ -81,14 +69,13 @@ class Runs:
         if not all(run.units_known or run.unit(column) for run in self.having(column)):
             return Unit()
         known = self.known.get(column)
-        if known is not None:
-            if known.role == COMMAND and not all(run.units_known for run in self.runs):
-                known = Known(*next(one for one in _bbsim.known_columns("rad") if one[0] == column))
-            return self.units.drawn(known.unit, column in ("gamma", "spin"))
-        return self.units.drawn(next((run.unit(column) for run in self.having(column) if run.unit(column)), ""))
+        if known is None:
+            return self.units.drawn(next((run.unit(column) for run in self.having(column) if run.unit(column)), ""))
+        if known.role == COMMAND and not all(run.units_known for run in self.runs):
+            known = Known(*next(one for one in _bbsim.known_columns("rad") if one[0] == column))
+        return self.units.drawn(known.unit, column in ("gamma", "spin"))
 
     def facts(self, column: str) -> Known:
-        """What is known of a column; of others little."""
         return self.known.get(column) or Known(column, clean(column), "", 0, "", MAIN, "", 0)
 
     def line(self, column: str) -> Line:
@@ -97,7 +84,10 @@ class Runs:
     def stroke(self, run: _bbsim.Stored) -> Stroke:
         return stroke(next(i for i, other in enumerate(self.runs) if other is run))
 
-    # Panels
+    def mark(self, run: _bbsim.Stored, kind: str) -> Stroke:
+        """That of a kind of event, the same in all panels."""
+        color = ORANGE if self.one else self.stroke(run)["color"]
+        return mark(("^", "D", "s", " s", "+")[self.kinds.index(kind) % 5], color, 3.5)
 
     def planned(self) -> List[Panel]:
         """A panel for each quantity, in an order that suits a control engineer; own columns last."""
@@ -108,8 +98,7 @@ class Runs:
         for name, known in self.known.items():
             if name in names and known.panel != last_place:
                 places.setdefault(known.panel, Panel(self.unit(name), [])).lines.append(self.line(name))
-        for place in sorted(places):
-            panel = places[place]
+        for _, panel in sorted(places.items()):
             # x and y, or phi and theta, share a panel if it has no other quantity.
             alone = [one.lines[0].column for one in panels[-1:] + [panel] if len(one.lines) == 1]
             if alone in (["x", "y"], ["phi", "theta"]):
@@ -119,11 +108,8 @@ class Runs:
         planned = {line.column for panel in panels for line in panel.lines} | {"t"}
         # A column of a log from which another was made would be the same line again.
         planned |= {column for run in self.runs for column in run.raw} - set(self.known)
-        for run in self.runs:
-            for column in run.names:
-                if column in names - planned:
-                    planned.add(column)
-                    panels.append(Panel(self.unit(column), [self.line(column)]))
+        own = dict.fromkeys(column for run in self.runs for column in run.names if column in names - planned)
+        panels += [Panel(self.unit(column), [self.line(column)]) for column in own]
         return self._finished(panels, may_split=True)
 
     def asked(self, lists: Sequence[Sequence[str]]) -> List[Panel]:
@@ -148,20 +134,19 @@ class Runs:
         return self._finished(panels, may_split=False)
 
     def _allowed(self, name: str) -> str:
-        names = self.runs[0].names
+        names, source = self.runs[0].names, self.runs[0].file or "the result"
         near = _bbsim.nearest(name, [*names, "path"])
-        source = self.runs[0].file or "the result"
-        return (f"; did you mean {near}?" if near else "") + (
-            f"; {source} has {', '.join(names)}, and path is their picture in the plane"
-        )
+        hint = f"; did you mean {near}?" if near else ""
+        return f"{hint}; {source} has {', '.join(names)}, and path is their picture in the plane"
 
     def _finished(self, wanted: Sequence[Panel], may_split: bool) -> List[Panel]:
         panels: List[Panel] = []
         for panel in wanted:
+            roles = [line.role for line in panel.lines]
             if not self.one:
                 # Lines of a panel differ by run, so two quantities cannot share one. References can: they are bands.
                 panels += self._split(panel, [line for line in panel.lines if line.role != REFERENCE])
-            elif may_split and panel.count(MAIN) > 1 and (panel.count(COMMAND) or self._flattens(panel)):
+            elif may_split and roles.count(MAIN) > 1 and (COMMAND in roles or self._flattens(panel)):
                 panels += self._split(panel, [line for line in panel.lines if line.role == MAIN])
             else:
                 panels.append(panel)
@@ -173,7 +158,7 @@ class Runs:
         """Whether one of the lines would look flat beside another."""
         ranges = [self.range(line.column) for line in panel.lines if line.role == MAIN]
         widths = [width(range_) for range_ in ranges if is_wide(range_)]
-        return bool(widths) and max(widths) > 50 * min(widths)
+        return max(widths, default=0.0) > 50 * min(widths, default=0.0)
 
     def _split(self, panel: Panel, leaders: List[Line]) -> List[Panel]:
         """A panel for each leader; other lines join that of their axis, or else the first one."""

@@ -12,11 +12,12 @@ import numpy as np
 from . import _bbsim
 from ._plot_axes import Unit, choose_scale, choose_scales, covered, is_wide, largest, linear, linear_limits, width
 from ._plot_columns import COMMAND, MAIN, MEASURED, REFERENCE, Panel, Runs
-from ._plot_sheet import BAND, ORANGE, Box, Legend, Sheet, Stroke, mark, number, stroke
+from ._plot_sheet import BAND, Box, Legend, Sheet, Stroke, mark, number, stroke
 from ._scenario import Array, fault
 
 _MEASURED_STROKE: Stroke = {"color": "#f2c45c", "lw": 2.4}
 _COMMAND_STROKE: Stroke = {"color": "#707070", "lw": 0.7}
+_EDGE: Stroke = {"color": "#404040", "lw": 0.9}  # of a plate
 _MOST_UPRIGHTS = 40  # with more events, marks stand at the panels' top only, without lines
 
 
@@ -25,11 +26,10 @@ class _Abscissa:
 
     def __init__(self, runs: Runs) -> None:
         self.is_time = all("t" in run.names and not run.is_text("t") for run in runs.runs)
+        range_: Any = (0.0, max(run.rows for run in runs.runs) - 1.0)
         if self.is_time:
             ends = [event.t for run in runs.runs for event in run.events]
             range_ = covered(ends, *(run.numbers("t") for run in runs.runs))
-        else:
-            range_ = (0.0, max(run.rows for run in runs.runs) - 1.0)
         self.scale = choose_scale(runs.unit("t") if self.is_time else Unit(), range_)
         self.limits = linear_limits(self.scale.of(range_), 0)
 
@@ -37,29 +37,15 @@ class _Abscissa:
         return self.scale(run.numbers("t") if self.is_time else np.arange(run.rows))
 
 
-class _Marks:
-    """The mark of each kind of event, the same in all panels."""
-
-    def __init__(self, runs: Runs) -> None:
-        self.runs = runs
-        self.kinds = list(dict.fromkeys(event.name for run in self.runs.runs for event in run.events))
-
-    def stroke(self, run: _bbsim.Stored, kind: str) -> Stroke:
-        color = ORANGE if self.runs.one else self.runs.stroke(run)["color"]
-        return mark(("^", "D", "s", " s", "+")[self.kinds.index(kind) % 5], color, 3.5)
-
-    def legend(self) -> Legend:
-        entries = []
-        for kind in self.kinds:
-            events = [event for run in self.runs.runs for event in run.events if event.name == kind]
-            text = kind + (f", {len(events)} times" if len(events) > 1 else "")
-            look = self.stroke(self.runs.runs[0], kind)
-            if self.runs.one:
-                text += " (stops)" if any(event.stopped for event in events) else ""
-            else:
-                look = {**look, "color": "#000000"}
-            entries.append((text, look))
-        return entries
+def _legend_of_events(runs: Runs) -> Legend:
+    entries = []
+    for kind in runs.kinds:
+        events = [event for run in runs.runs for event in run.events if event.name == kind]
+        text = kind + (f", {len(events)} times" if len(events) > 1 else "")
+        text += " (stops)" if runs.one and any(event.stopped for event in events) else ""
+        look = runs.mark(runs.runs[0], kind)
+        entries.append((text, look if runs.one else {**look, "color": "#000000"}))
+    return entries
 
 
 def _line(axes: Any, x: Any, y: Any, **look: Any) -> None:
@@ -71,18 +57,14 @@ def _line(axes: Any, x: Any, y: Any, **look: Any) -> None:
         axes.plot(x[lone], y[lone], **mark("o", look["color"], 2.0))
 
 
-def _time_panel(
-    sheet: Sheet, box: Box, runs: Runs, planned: Panel, abscissa: _Abscissa, marks: _Marks, lowest: bool
-) -> None:
+def _time_panel(sheet: Sheet, box: Box, runs: Runs, planned: Panel, abscissa: _Abscissa, lowest: bool) -> None:
     range_ = covered(*(runs.range(line.column) or [] for line in planned.lines))
     demanded = any(line.column == "friction_demand" for line in planned.lines)
     limits = sorted({run.friction for run in runs.runs if run.friction is not None}) if demanded else []
     shown = covered(range_ or [], limits)
     in_sight = width(shown) < 20 * width(range_)  # a limit far away appears only in the legend
-    if not in_sight:
-        shown = range_
+    shown = shown if in_sight else range_
     scale = choose_scale(planned.unit, shown)
-
     legend, curves = [], []
     for run in runs.runs:
         mains = 0
@@ -102,27 +84,26 @@ def _time_panel(
     label = abscissa.scale.heading("t" if abscissa.is_time else "row")
     linear(axes.xaxis, *abscissa.limits, label, numbered=lowest)
     linear(axes.yaxis, *linear_limits(scale.of(shown)))
-
     # References and measurements are bands below the thin lines of commands and the motion.
     order = [REFERENCE, MEASURED, COMMAND, MAIN]
     for run, line, look in sorted(curves, key=lambda curve: order.index(curve[1].role)):
         x, y = abscissa.of(run), scale(run.numbers(line.column))
         # A sampled controller holds each command until the next one; a sensor holds its value.
-        held = line.role == MEASURED or (line.role == COMMAND and run.sampled is not False)
+        held = line.role == MEASURED or (line.role == COMMAND and (run.controller is None or run.controller[1]))
         _line(axes, x, y, drawstyle="steps-post" if held else "default", **look)
     if in_sight:
         for value in limits:
             axes.axhline(float(scale(value)), **edge)
     for run in runs.runs if abscissa.is_time else []:
-        _mark_events(axes, run, abscissa, marks)
+        _mark_events(axes, runs, run, abscissa)
 
 
-def _mark_events(axes: Any, run: _bbsim.Stored, abscissa: _Abscissa, marks: _Marks) -> None:
+def _mark_events(axes: Any, runs: Runs, run: _bbsim.Stored, abscissa: _Abscissa) -> None:
     """Marks events at the top of the panel, with vertical lines if they are few."""
     above = axes.get_xaxis_transform()
     for kind in dict.fromkeys(event.name for event in run.events):
         times = abscissa.scale([event.t for event in run.events if event.name == kind])
-        look = marks.stroke(run, kind)
+        look = runs.mark(run, kind)
         if len(run.events) <= _MOST_UPRIGHTS:
             upright = np.tile([0.0, 1.0, np.nan], len(times))
             axes.plot(np.repeat(times, 3), upright, transform=above, color=look["color"], lw=0.6, ls=":", marker="")
@@ -170,11 +151,10 @@ class _Path:
     def legend(self) -> Legend:
         entries: Dict[str, Stroke] = {"path": stroke(0)} if self._runs.one else {}
         entries.update(("reference", look) for _, look in self._references)
-        if self._edges:
-            entries["plate's edge"] = {"color": "#404040", "lw": 0.9}
+        entries.update([("plate's edge", _EDGE)] if self._edges else [])
         return [*entries.items(), ("start", mark(" o")), ("end", mark("o", size=4))]
 
-    def draw(self, sheet: Sheet, box: Box, marks: _Marks) -> None:
+    def draw(self, sheet: Sheet, box: Box) -> None:
         runs = self._runs
         x_scale, y_scale = choose_scales(runs.unit("x"), self._x, self._y)
         x, y = x_scale.of(self._x) or (0.0, 1.0), y_scale.of(self._y) or (0.0, 1.0)
@@ -199,7 +179,7 @@ class _Path:
             if look is BAND:
                 line(reference, look)
         for edge in self._edges:
-            line(edge, {"color": "#404040", "lw": 0.9})
+            line(edge, _EDGE)
         for run in runs.runs:
             line(_points(run), runs.stroke(run))
         for reference, look in self._references:
@@ -210,7 +190,7 @@ class _Path:
             spot(_points(run), 0, mark(" o", color))
             spot(_points(run), -1, mark("o", color, 4))
             for event in run.events:
-                axes.plot(x_scale(event.x), y_scale(event.y), **marks.stroke(run, event.name))
+                axes.plot(x_scale(event.x), y_scale(event.y), **runs.mark(run, event.name))
 
 
 _LEFT, _RIGHT, _BETWEEN = 12.0, 4.0, 16.0  # mm: beside the panels, and between two columns of them
@@ -240,10 +220,8 @@ def _layout(path: bool, panels: int, wide: Optional[float]) -> Tuple[float, floa
 def _status(run: _bbsim.Stored) -> str:
     if run.status in ("", "done"):
         return ""
-    text = run.status
-    if run.end_time is not None:
-        text += f" at t = {number(run.end_time, 6)} s"
-    return text + (f": {run.events[-1].name}" if run.status == "stopped" and run.events else "")
+    when = "" if run.end_time is None else f" at t = {number(run.end_time, 6)} s"
+    return run.status + when + (f": {run.events[-1].name}" if run.status == "stopped" and run.events else "")
 
 
 def _titles(runs: Runs) -> Tuple[str, str, Legend]:
@@ -254,9 +232,8 @@ def _titles(runs: Runs) -> Tuple[str, str, Legend]:
         names = [run.file if shown.count(run.shown_file) > 1 else run.shown_file for run in runs.runs]
         if not any(names):
             names = [run.title if not title and run.title else f"run {i + 1}" for i, run in enumerate(runs.runs)]
-        return title, "", [
-            (", ".join(filter(None, [name, _status(run)])), runs.stroke(run)) for name, run in zip(names, runs.runs)
-        ]
+        texts = [", ".join(filter(None, [name, _status(run)])) for name, run in zip(names, runs.runs)]
+        return title, "", list(zip(texts, map(runs.stroke, runs.runs)))
     title, subtitle = (title, first.shown_file) if title else (first.shown_file, "")
     return title, ", ".join(filter(None, [subtitle, _status(first)])), []
 
@@ -271,13 +248,10 @@ def draw_runs(results: Sequence[_bbsim.Stored], asked: Sequence[Sequence[str]], 
     panels = runs.asked(lists) if asked else runs.planned()
     with_path = len(lists) < len(asked) if asked else path.exists and (not panels or not path.is_along_an_axis)
     if not panels and not with_path:
-        name = results[0].file or "the result"
-        raise fault(f"{name}: nothing to draw: no column but t holds finite numbers")
-
+        raise fault(f"{results[0].file or 'the result'}: nothing to draw: no column but t holds finite numbers")
     sheet_width, pitch, path_height, counts = _layout(with_path, len(panels), wide)
-    abscissa, marks = _Abscissa(runs), _Marks(runs)
     title, subtitle, legend = _titles(runs)
-    legend = [*legend, *(path.legend() if with_path else ()), *marks.legend()]
+    legend = [*legend, *(path.legend() if with_path else ()), *_legend_of_events(runs)]
     part = (sheet_width - _LEFT - _RIGHT - _BETWEEN * (len(counts) - 1)) / len(counts)
     path_room = _ABOVE + path_height + _BELOW if with_path else 0.0
     # Below the path stand the labels of its axis, if panels follow there.
@@ -285,11 +259,11 @@ def draw_runs(results: Sequence[_bbsim.Stored], asked: Sequence[Sequence[str]], 
     tallest = max(top + pitch * count for top, count in zip(tops, counts))
     sheet = Sheet(sheet_width, tallest + _UNDER, title, subtitle, legend)
     if with_path:
-        path.draw(sheet, Box(_LEFT, _ABOVE, _LEFT + part, path_room - _BELOW), marks)
-    waiting = iter(panels)
+        path.draw(sheet, Box(_LEFT, _ABOVE, _LEFT + part, path_room - _BELOW))
+    waiting, abscissa = iter(panels), _Abscissa(runs)
     for column in sorted(range(len(counts)), reverse=with_path):  # with a path, panels fill the right column first
         for i in range(counts[column]):
             left, top = _LEFT + column * (part + _BETWEEN), tops[column] + i * pitch
             box = Box(left, top + _ABOVE, left + part, top + pitch - _BELOW)
-            _time_panel(sheet, box, runs, next(waiting), abscissa, marks, lowest=i + 1 == counts[column])
+            _time_panel(sheet, box, runs, next(waiting), abscissa, lowest=i + 1 == counts[column])
     return sheet.figure, len(panels) + with_path

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import io
 import math
 import re
 import warnings
@@ -17,7 +18,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure as _Figure
 from matplotlib.lines import Line2D
 
-from ._scenario import fault
+from ._scenario import refuse
 
 MM = 1 / 25.4  # inches
 TITLE, TEXT, SMALL = 9.5, 8.0, 7.0  # points
@@ -81,8 +82,7 @@ def require_font(font: str) -> None:
     try:
         _face(font)
     except ValueError:
-        allowed = f"allowed: a font that matplotlib finds, such as {FONT}"
-        raise fault(f"font: found {font}; {allowed}") from None
+        raise refuse("font", font, f"a font that matplotlib finds, such as {FONT}") from None
 
 
 class Figure(_Figure):
@@ -95,8 +95,6 @@ class Figure(_Figure):
             super().savefig(file, **options)
 
     def _repr_svg_(self) -> str:
-        import io
-
         drawn = io.StringIO()
         self.savefig(drawn, format="svg", metadata={"Date": None})
         return drawn.getvalue()
@@ -122,12 +120,8 @@ def cut(text: str, room: float, size: float) -> str:
     text = clean(text)
     if width_of(text, size) <= room:
         return text
-    for keep in range(len(text) - 1, 0, -1):
-        after = keep // 2
-        kept = text[: keep - after] + "…" + text[len(text) - after :]
-        if width_of(kept, size) <= room:
-            return kept
-    return "…"
+    kept = (text[: keep - keep // 2] + "…" + text[len(text) - keep // 2 :] for keep in range(len(text) - 1, 0, -1))
+    return next((short for short in kept if width_of(short, size) <= room), "…")
 
 
 def _cut_all(texts: Sequence[str], room: float) -> List[str]:
@@ -172,10 +166,9 @@ class Sheet:
         self.width, room = width, width - 8
         names = [cut(name, room - self._SAMPLE, SMALL) for name, _ in legend]
         widest = max((width_of(name, SMALL) for name in names), default=0.0) + self._SAMPLE + self._GAP
-        columns = max(1, min(int((room + self._GAP) / widest), len(names))) if names else 1
+        columns = max(1, min(int((room + self._GAP) / widest), len(names)))
         rows = math.ceil(len(names) / columns)
-        top = 2.0
-        lines = []
+        top, lines = 2.0, []
         for text, size, color, step in ((title, TITLE, "#202020", 5.2), (subtitle, SMALL, "#505050", 4.0)):
             if clean(text):
                 lines.append((top, cut(text, room, size), size, color))
@@ -191,11 +184,9 @@ class Sheet:
 
     def _legend(self, owner: Any, legend: Legend, names: List[str], columns: int, where: str, anchor: Any) -> None:
         em, handles = SMALL / 72 / MM, [Line2D([], [], **line) for _, line in legend]
-        owner.legend(
-            handles, names, ncol=columns, loc=where, bbox_to_anchor=anchor, frameon=False, borderpad=0,
-            borderaxespad=0, handlelength=self._LINE / em, handletextpad=self._PAD / em, columnspacing=self._GAP / em,
-            labelspacing=0.35, numpoints=1,
-        )  # fmt: skip
+        owner.legend(handles, names, ncol=columns, loc=where, bbox_to_anchor=anchor, frameon=False, borderpad=0,
+                     borderaxespad=0, handlelength=self._LINE / em, handletextpad=self._PAD / em,
+                     columnspacing=self._GAP / em, labelspacing=0.35, numpoints=1)  # fmt: skip
 
     def axes(self, box: Box) -> Axes:
         corner = box.left / self.width, 1 - (self._heading + box.bottom) / self.height

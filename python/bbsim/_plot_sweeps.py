@@ -5,19 +5,17 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm, Normalize
 
 from . import _bbsim
-from ._plot_axes import (
-    CLOSE, Unit, Units, better_by_log, choose_scale, covered, fitted, is_wide, linear, linear_limits, width, words,
-)  # fmt: skip
+from ._plot_axes import (CLOSE, Unit, Units, better_by_log, choose_scale, covered, fitted, is_wide, linear,
+                         linear_limits, width, words)  # fmt: skip
 from ._plot_sheet import ORANGE, Box, Sheet, Stroke, mark, number, stroke
-from ._scenario import counted, fault
+from ._scenario import counted, fault, refuse
 
 _MOST_GROUPS = 5  # more values make a map instead of a line for each
 _MOST_BANDS = 3  # more would hide each other
@@ -29,8 +27,7 @@ _MOST_CELLS = 160  # of a map along one side; more values share cells
 
 class _Sweep:
     def __init__(self, stored: _bbsim.Stored) -> None:
-        self.stored = stored
-        self.table = _bbsim.sweep_table(stored)
+        self.stored, self.table = stored, _bbsim.sweep_table(stored)
         self.status = np.array(self.table.status)
         self.done = self.status == "done"
         self.units = Units(stored.scenario_text)
@@ -64,8 +61,7 @@ class _Key:
 
     def __init__(self, sweep: _Sweep, key: _bbsim.SweepKey) -> None:
         self.key, self.distinct, self.is_text = key, key.distinct, bool(key.labels)
-        followers = sweep.table.followers(key)
-        self.label = key.name + (", with " + ", ".join(followers) if followers else "")
+        self.label = ", with ".join(filter(None, [key.name, ", ".join(sweep.table.followers(key))]))
         self.log, self.scale = False, choose_scale(Unit(), None)
         if not self.is_text:
             low, high = self.distinct[[0, -1]]
@@ -98,8 +94,7 @@ class _Key:
 # Panels; `lowest` of its column: the others have no labels below
 
 def _group_stroke(group: int) -> Stroke:
-    marker = mark(("o", "^", "s", "D", " o")[group % 5], stroke(group)["color"], 3)
-    return {**marker, **stroke(group)}
+    return {**mark(("o", "^", "s", "D", " o")[group % 5], stroke(group)["color"], 3), **stroke(group)}
 
 
 def _bundles(places: Any, values: Any) -> Tuple[Any, List[Any]]:
@@ -130,9 +125,9 @@ def _lines(sweep: _Sweep, name: str, over: _bbsim.SweepKey, group: Optional[_bbs
         good = mine & sweep.done & np.isfinite(up.values)
         at, bundles = _bundles(over.values[good], up.scale(up.values[good]))
         present = np.unique(over.values[mine])
-        low, middle, high = np.full((3, len(present)), np.nan)
+        low, middle, high = levels = np.full((3, len(present)), np.nan)
         for i, bundle in zip(np.searchsorted(present, at), bundles):
-            low[i], middle[i], high[i] = np.quantile(bundle, [0.05, 0.5, 0.95])
+            levels[:, i] = np.quantile(bundle, [0.05, 0.5, 0.95])
         x = along.place(present)
         if any(len(bundle) > 1 for bundle in bundles) and len(groups) <= _MOST_BANDS:
             axes.fill_between(x, low, high, color=look["color"], alpha=0.25, lw=0)
@@ -142,13 +137,14 @@ def _lines(sweep: _Sweep, name: str, over: _bbsim.SweepKey, group: Optional[_bbs
         axes.plot(x, np.zeros(len(x)), transform=axes.get_xaxis_transform(), clip_on=False, **sweep.mark(other))
 
 
-def _shared(key: _Key) -> Tuple[Any, Any]:
-    """Edges of a map's cells along a key, and the cell of each case; -1 for cases without a value."""
+def _shared(key: _Key) -> Tuple[Any, Any, Any]:
+    """Edges of a map's cells along a key; the cell of each case, -1 without a value; and the cells' middles."""
     values, distinct = key.key.values, key.distinct
     cells = min(len(distinct), _MOST_CELLS)
     edges = key.edges()[[-(-cell * len(distinct) // cells) for cell in range(cells + 1)]]
     found = np.searchsorted(distinct, np.nan_to_num(values)) * cells // len(distinct)
-    return edges, np.where(np.isnan(values), -1, np.minimum(found, cells - 1))
+    middles = np.sqrt(edges[1:] * edges[:-1]) if key.log else (edges[1:] + edges[:-1]) / 2
+    return edges, np.where(np.isnan(values), -1, np.minimum(found, cells - 1)), middles
 
 
 def _map(sweep: _Sweep, name: str, over: _bbsim.SweepKey, against: _bbsim.SweepKey, sheet: Sheet, box: Box,
@@ -170,11 +166,8 @@ def _map(sweep: _Sweep, name: str, over: _bbsim.SweepKey, against: _bbsim.SweepK
         sheet.figure.colorbar(ScalarMappable(norm, "viridis"), scale).solids.set_rasterized(True)
         colors.set(scale.yaxis, 0.0)
     if scattered:
-        _points(sweep, axes, colors, norm, along, up)
-        return
-    x_edges, columns = _shared(along)
-    y_edges, rows = _shared(up)
-    x, y = _middles(x_edges, along.log), _middles(y_edges, up.log)
+        return _points(sweep, axes, colors, norm, along, up)
+    (x_edges, columns, x), (y_edges, rows, y) = _shared(along), _shared(up)
     shape = len(y), len(x)
     there = (columns >= 0) & (rows >= 0)
     cells = np.where(there, rows * shape[1] + columns, -1)
@@ -190,11 +183,10 @@ def _map(sweep: _Sweep, name: str, over: _bbsim.SweepKey, against: _bbsim.SweepK
         drawn = np.ma.masked_invalid(medians)
         axes.pcolormesh(x_edges, y_edges, drawn, cmap="viridis", norm=norm, rasterized=many)
         if box.across / shape[1] >= 7 and box.up / shape[0] >= 3.2:
-            for (row, column), value in np.ndenumerate(medians):
-                if np.isfinite(value):
-                    color = "#ffffff" if norm(value) < 0.55 else "#000000"  # readable on both halves of the colors
-                    shown = number(value, 3)
-                    axes.text(x[column], y[row], shown, size=6, ha="center", va="center_baseline", color=color)
+            for row, column in np.argwhere(np.isfinite(medians)):
+                value = medians[row, column]
+                color = "#ffffff" if norm(value) < 0.55 else "#000000"  # readable on both halves of the colors
+                axes.text(x[column], y[row], number(value, 3), size=6, ha="center", va="center_baseline", color=color)
     _mark_cells(sweep, axes, cells, x, y, min(box.across / shape[1], box.up / shape[0]))
 
 
@@ -208,10 +200,6 @@ def _points(sweep: _Sweep, axes: Any, colors: _Measure, norm: Any, along: _Key, 
     axes.scatter(x[none], y[none], size, _NO_VALUE["color"], lw=0, rasterized=many)
     for other, _ in sweep.table.others:
         axes.plot(x[sweep.status == other], y[sweep.status == other], **sweep.mark(other))
-
-
-def _middles(edges: Any, log: bool) -> Any:
-    return np.sqrt(edges[1:] * edges[:-1]) if log else (edges[1:] + edges[:-1]) / 2
 
 
 def _mark_cells(sweep: _Sweep, axes: Any, cells: Any, x: Any, y: Any, size: float) -> None:
@@ -233,7 +221,7 @@ def _histogram(sweep: _Sweep, name: str, sheet: Sheet, box: Box) -> None:
     legend: List[Tuple[str, Stroke]] = []
     edges, counts, at = np.empty(0), np.ones(1), np.empty(0)
     median: Stroke = {"color": "#000000", "lw": 0.9}
-    tail: Stroke = {**median, "lw": 0.7, "ls": (0, (4, 2))}
+    tail: Stroke = {"color": "#000000", "lw": 0.7, "ls": (0, (4, 2))}
     if len(values):
         counts, edges = _bars(values, is_wide(along.range), along)
         at = np.quantile(values, [0.05, 0.5, 0.95])
@@ -266,8 +254,7 @@ def _bars(values: Any, wide: bool, along: _Measure) -> Tuple[Any, Any]:
 
 # What is drawn over what
 
-@dataclass
-class _Form:
+class _Form(NamedTuple):
     """The keys on the axes: two for a map, one for lines, none for histograms."""
 
     over: Optional[_bbsim.SweepKey] = None
@@ -275,16 +262,15 @@ class _Form:
     group: Optional[_bbsim.SweepKey] = None  # a line for each of its values
 
 
-def _makes_groups(key: _bbsim.SweepKey) -> bool:
-    return len(key.distinct) <= _MOST_GROUPS or bool(key.labels)
-
-
 def _choose_form(table: _bbsim.SweepTable, names: Sequence[str]) -> _Form:
+    def makes_groups(key: _bbsim.SweepKey) -> bool:
+        return len(key.distinct) <= _MOST_GROUPS or bool(key.labels)
+
     # Keys with listed values, except those that vary with another key.
     listed = [key for k, key in enumerate(table.keys) if not key.drawn and key.leader == k]
     if names:
         if len(names) > 2:
-            raise fault(f"over: found {', '.join(names)}; allowed: one key, or two")
+            raise refuse("over", ", ".join(names), "one key, or two")
         if len(set(names)) < len(names):
             raise fault(f"over: found {names[0]} twice")
         keys = {key.name: key for key in table.keys}
@@ -294,16 +280,14 @@ def _choose_form(table: _bbsim.SweepTable, names: Sequence[str]) -> _Form:
         first = keys[names[0]]
         if len(names) == 2:
             return _Form(first, keys[names[1]])
-        groups = [key for key in listed if key.leader != first.leader and _makes_groups(key)]
+        groups = [key for key in listed if key.leader != first.leader and makes_groups(key)]
         return _Form(first, group=groups[0] if groups and not first.drawn else None)
     # The two with the most values, in the file's order.
     by_count = sorted(listed, key=lambda key: -len(key.distinct))
-    if not by_count:
-        return _Form()
-    if len(by_count) == 1:
-        return _Form(by_count[0])
+    if len(by_count) < 2:
+        return _Form(*by_count)
     first, second = by_count[:2]
-    if _makes_groups(second) and not first.labels:
+    if makes_groups(second) and not first.labels:
         return _Form(first, group=second)
     return _Form(*sorted((first, second), key=lambda key: key.leader))
 
@@ -322,26 +306,22 @@ def _taken_over(table: _bbsim.SweepTable, form: _Form) -> str:
     """Describes medians over the keys that are not on an axis."""
     if form.over is None or form.over.drawn:
         return ""
-    axes = {key.leader for key in (form.over, form.against, form.group) if key is not None}
+    axes = {key.leader for key in form if key is not None}
     rest = [key for key in table.keys if key.leader not in axes]
     listed = ", ".join(key.name for key in rest if not key.drawn)
     drawn = ", ".join(key.name for key in rest if key.drawn)
-    if not rest:
-        return ""
     bands = form.against is None and (form.group is None or len(form.group.distinct) <= _MOST_BANDS)
     how = "median, and 5 to 95 % as a band, over " if bands else "median over "
-    return "; " + how + " and ".join(filter(None, [listed, drawn and f"draws of {drawn}"]))
+    return "; " + how + " and ".join(filter(None, [listed, drawn and f"draws of {drawn}"])) if rest else ""
 
 
 def draw_sweep(stored: _bbsim.Stored, asked: Sequence[str], over: Sequence[str], wide: Optional[float]) -> Tuple[Any, int]:
     """The figure of a sweep, without cases that are not done, which marks show; and its number of panels."""
     sweep = _Sweep(stored)
-    source = stored.file or "the sweep"
-    if not sweep.table.keys:
-        raise fault(f"{source}: nothing to draw: no key varies")
-    measures = _choose_measures(sweep, asked)
+    measures = _choose_measures(sweep, asked) if sweep.table.keys else []
     if not measures:
-        raise fault(f"{source}: nothing to draw: it has no measures")
+        why = "it has no measures" if sweep.table.keys else "no key varies"
+        raise fault(f"{stored.file or 'the sweep'}: nothing to draw: {why}")
     form = _choose_form(sweep.table, over)
     histogram, is_map = form.over is None, form.against is not None
     one = len(measures) == 1
@@ -351,7 +331,6 @@ def draw_sweep(stored: _bbsim.Stored, asked: Sequence[str], over: Sequence[str],
     part = (sheet_width - left - right - between * (columns - 1)) / columns
     pitch = 0.42 * part + 20 if one else 0.5 * part + 11 if is_map else 34.5 if histogram else 30.5
     rows = -(-len(measures) // columns)
-    title, subtitle = (stored.title, stored.shown_file) if stored.title else (stored.shown_file, "")
     cases = f"{stored.rows} cases{_taken_over(sweep.table, form)}"
     others = [(f"{word}: {counted(n, 'case')}", sweep.mark(word)) for word, n in sweep.table.others]
     none = sum(not np.isfinite(sweep.stored.numbers(name)[sweep.done]).all() for name in measures)
@@ -361,12 +340,12 @@ def draw_sweep(stored: _bbsim.Stored, asked: Sequence[str], over: Sequence[str],
     if form.group is not None:
         names = form.group.labels or [number(value) for value in form.group.distinct]
         legend = [(f"{form.group.name} = {name}", _group_stroke(g)) for g, name in enumerate(names)]
-    subtitle = ", ".join(filter(None, [subtitle, cases]))
+    title = stored.title or stored.shown_file
+    subtitle = ", ".join(filter(None, [stored.shown_file if stored.title else "", cases]))
     sheet = Sheet(sheet_width, pitch * rows + (1 if histogram else 8.5), title, subtitle, legend + others)
     for m, name in enumerate(measures):
         x, y = left + (m % columns) * (part + between), pitch * (m // columns)
-        box = Box(x, y + 5.0, x + part, y + pitch - (9.5 if histogram else 1.5))
-        lowest = m + columns >= len(measures)
+        box, lowest = Box(x, y + 5.0, x + part, y + pitch - (9.5 if histogram else 1.5)), m + columns >= len(measures)
         if form.over is None:
             _histogram(sweep, name, sheet, box)
         elif form.against is not None:

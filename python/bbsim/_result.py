@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The results of runs: of one, as a linear system, on pages, compared; and the example scenarios."""
+"""The results of runs: of one, of many as arrays, as a linear system, on pages, compared; and the example scenarios."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from functools import cached_property
 from numbers import Real
 from pathlib import Path
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _bbsim
-from ._logs import Log, as_files, log_choice, without_folders
-from ._scenario import Array, Columns, Settings, fault, listed, overrides, refuse
+from ._scenario import (Array, Columns, Log, Scenario, Settings, as_files, as_yaml, fault, given, listed, log_choice,
+                        overrides, refuse, without_folders)  # fmt: skip
 
 if TYPE_CHECKING:
     import matplotlib.figure
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 File = Union[str, "os.PathLike[str]"]
 Texts = Union[str, Sequence[str]]
+Cases = Union[Mapping[str, Any], Sequence[Mapping[str, Any]]]
 
 
 class Result(Columns):
@@ -37,18 +38,12 @@ class Result(Columns):
     def __init__(self, run: Any) -> None:
         super().__init__(run.rows)
         self._run = run
-        self.units: Dict[str, str] = dict(zip(run.columns, run.units))
-        """The unit of each column, such as ``"m"``; ``"1"`` for a number without a unit."""
+        self.units: Dict[str, str] = dict(zip(run.columns, run.units))  # "1" for a number without a unit
         self.measures: Dict[str, float] = dict(run.measures)
-        """The measures that were asked for, or the usual ones."""
-        self.status: str = run.status
-        """``done``, ``stopped`` by an event, or ``failed``."""
-        self.reason: str = run.reason
-        """Why the run ended early; empty if it did not."""
+        self.status: str = run.status  # done, stopped by an event, or failed
+        self.reason: str = run.reason  # why the run ended early
         self.warnings: List[str] = run.warnings
-        """What may not be as you meant it."""
-        self.unmet: List[str] = run.unmet
-        """The conditions of ``expect`` that do not hold."""
+        self.unmet: List[str] = run.unmet  # conditions of `expect` that do not hold
 
     @cached_property
     def summary(self) -> Dict[str, Any]:
@@ -65,7 +60,6 @@ class Result(Columns):
         return Result, (SimpleNamespace(**{name: getattr(self._run, name) for name in names}),)
 
     def __len__(self) -> int:
-        """The number of rows."""
         return len(self[self.columns[0]])
 
     def keys(self) -> List[str]:
@@ -93,22 +87,14 @@ class Result(Columns):
         return plot(self, columns=columns, **options)
 
     def _repr_html_(self) -> str:
-        rows = [("status", self.status)]
-        if self.reason:
-            rows.append(("reason", self.reason))
-        rows.append(("rows", str(len(self))))
+        rows = [("status", self.status), *[("reason", self.reason)] * bool(self.reason), ("rows", str(len(self)))]
         rows += [(name, f"{value:.6g}") for name, value in self.measures.items()]
         rows += [("warning", text) for text in self.warnings]
-        table = "".join(
-            f"<tr><th style='text-align:left'>{html.escape(name)}</th>"
-            f"<td style='text-align:left'>{html.escape(text)}</td></tr>"
-            for name, text in rows
-        )
+        cell = "<t{0} style='text-align:left'>{1}</t{0}>".format
+        table = "".join(f"<tr>{cell('h', html.escape(name))}{cell('d', html.escape(text))}</tr>" for name, text in rows)
         title = f"<caption>{html.escape(self._run.title)}</caption>" if self._run.title else ""
-        return (
-            "<div style='display:flex;gap:2em;align-items:flex-start'>"
-            f"<table>{title}{table}</table>{self._path()}</div>"
-        )
+        style = "display:flex;gap:2em;align-items:flex-start"
+        return f"<div style='{style}'><table>{title}{table}</table>{self._path()}</div>"
 
     def _path(self) -> str:
         """The ball's path from above, as SVG; empty without the columns x and y."""
@@ -129,34 +115,114 @@ class Result(Columns):
         )
 
 
+class Simulated(Columns):
+    """The columns, measures and status of each case; ``made["x"]`` has a row for each case."""
+
+    def __init__(self, made: Any, columns: Sequence[str], measures: Sequence[str]) -> None:
+        super().__init__(dict(zip(columns, made[0])))
+        self.measures: Dict[str, Array] = dict(zip(measures, made[1]))
+        self.status: "np.ndarray[Any, np.dtype[np.str_]]" = np.array(made[2], dtype=np.str_)
+        self.reason: List[str] = made[3]
+
+    def __len__(self) -> int:
+        return len(self.status)
+
+    def __repr__(self) -> str:
+        words, counts = np.unique(self.status, return_counts=True)
+        ends = ", ".join(f"{count} {word}" for word, count in zip(words, counts))
+        return f"<bbsim.Simulated {len(self)} cases ({ends}): {', '.join([*self.columns, *self.measures])}>"
+
+
+def _numbers(what: str, values: Any) -> Array:
+    try:
+        return np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise refuse(what, f"{values!r:.60}", "an array of numbers") from None
+
+
+def _key(key: str, values: Any) -> Tuple[str, Array, List[str]]:
+    """The name of a key, and its numbers or texts."""
+    what = f"cases: {key}"
+    if isinstance(values, (str, bytes, Mapping)) or not hasattr(values, "__len__"):
+        raise refuse(what, f"{values!r:.60}", "an array or list with a value for each case")
+    plain = isinstance(values, np.ndarray) or all(isinstance(one, (float, int)) for one in values)
+    array = np.asarray(values) if plain else None
+    if array is not None and array.ndim == 1 and array.dtype.kind in "fiu":
+        return key, _numbers(what, array), []
+    return key, np.empty(0), [as_yaml(one) for one in values]
+
+
+def _keys(cases: Cases) -> Tuple[Optional[int], List[Any]]:
+    """The number of cases, if the keys tell it, and their values."""
+    if isinstance(cases, Mapping):
+        keys = [_key(str(key), values) for key, values in cases.items()]
+        lengths = [len(values) for values in cases.values()]
+        return (lengths[0] if lengths else None), keys
+    if isinstance(cases, (str, bytes)) or not all(isinstance(one, Mapping) for one in cases):
+        raise refuse("cases", f"{cases!r:.60}", "{KEY: array}, or a list of {KEY: value}")
+    names = dict.fromkeys(str(key) for one in cases for key in one)
+    lists = {name: [one.get(name, "") for one in cases] for name in names}
+    return len(cases), [_key(name, values) for name, values in lists.items()]
+
+
+def simulate(scenario: Scenario, cases: Cases, columns: Texts, times: Any = None, measures: Texts = (),
+             begin: Any = None, end: Any = None, start: Any = None, events: bool = True, *, set: Settings = None,
+             threads: int = 0) -> Simulated:  # fmt: skip
+    """Runs a scenario at many values of its keys; returns arrays.
+
+    cases     {KEY: array of n values}, or a list of n dicts; {} if only begin, end or start differ
+    times     one array of m times in s, or an array (n, m); by default the scenario's rows
+    begin     n times from which the cases cover the scenario (s), and in ``end`` those until which they do
+    start     an array (n, 9) of states at the begins: x, y, vx, vy, phi, theta, phi_rate, theta_rate, spin (SI)
+    events    False: without the events that stop a run or only observe it
+
+    A case that does not run to its end says why in ``status`` and ``reason``. Raises InputError.
+    """
+    count, keys = _keys(cases)
+    parts = {"begin": begin, "end": end}
+    arrays = {name: _numbers(name, () if value is None else value) for name, value in parts.items()}
+    states = _numbers("start", np.empty((0, len(_bbsim.START))) if start is None else start)
+    if states.ndim != 2 or states.shape[1] != len(_bbsim.START):
+        raise refuse("start", f"an array of shape {states.shape}", f"(n, {len(_bbsim.START)}): {', '.join(_bbsim.START)}")
+    at = None if times is None else _numbers("times", times)
+    if at is not None and at.ndim not in (1, 2):
+        raise refuse("times", f"an array of shape {at.shape}", "(m,), or (n, m) for n cases")
+    if count is None:
+        lists = [*arrays.values(), states] + ([at] if at is not None and at.ndim == 2 else [])
+        count = max(len(one) for one in lists if one.ndim > 0) or 1
+    for name, array in arrays.items():
+        if array.ndim == 0:
+            arrays[name] = np.full(count, array)
+        elif array.ndim != 1:
+            raise refuse(name, f"an array of shape {array.shape}", "(n,) for n cases")
+    names, asked = listed(columns), listed(measures)
+    windows = (at, arrays["begin"], arrays["end"], states, events)
+    made = _bbsim.simulate(given(scenario, set), count, keys, names, asked, *windows, threads)
+    return Simulated(made, names, asked)
+
+
 class _StateSpace:
     """dz = A z + B u, y = C z + D u: dz is z', or z after one period ``dt``."""
 
     def __init__(self, made: Any) -> None:
-        self.A: Array = made.A
-        self.B: Array = made.B
-        self.C: Array = made.C
-        self.D: Array = made.D
+        self._matrices: Tuple[Array, Array, Array, Array] = (made.A, made.B, made.C, made.D)
+        self.A, self.B, self.C, self.D = self._matrices
         self.dt: Optional[float] = made.dt
-        self.states, self.inputs, self.outputs = (
-            [name for name, _ in signals] for signals in (made.states, made.inputs, made.outputs)
-        )
+        signals = (made.states, made.inputs, made.outputs)
+        self.states, self.inputs, self.outputs = ([name for name, _ in its] for its in signals)
 
     def to_scipy(self) -> Any:
         """A ``scipy.signal.StateSpace``."""
         from scipy.signal import StateSpace
 
-        matrices = (self.A, self.B, self.C, self.D)
-        return StateSpace(*matrices, dt=self.dt) if self.dt else StateSpace(*matrices)
+        return StateSpace(*self._matrices, dt=self.dt) if self.dt else StateSpace(*self._matrices)
 
     def to_control(self) -> Any:
         """A state space of python-control."""
         import control
 
-        return control.ss(
-            self.A, self.B, self.C, self.D, self.dt or 0,
-            states=self.states, inputs=self.inputs, outputs=self.outputs,
-        )
+        names = {"states": self.states, "inputs": self.inputs, "outputs": self.outputs}
+        return control.ss(*self._matrices, self.dt or 0, **names)
 
 
 class OpenLoop(_StateSpace):
@@ -177,7 +243,7 @@ class OpenLoop(_StateSpace):
     def response(self, frequencies: Any) -> "np.ndarray[Any, np.dtype[np.complex128]]":
         """The frequency response at these angular frequencies (rad/s); not finite at a pole."""
         w = np.asarray(frequencies, dtype=np.float64)
-        return np.reshape(_bbsim.response(self.A, self.B, self.C, self.D, self.dt, w.ravel()), w.shape)
+        return np.reshape(_bbsim.response(*self._matrices, self.dt, w.ravel()), w.shape)
 
     def __repr__(self) -> str:
         time = f"every {self.dt} s" if self.dt else "in continuous time"
@@ -185,17 +251,12 @@ class OpenLoop(_StateSpace):
 
 
 class Linearization(_StateSpace):
-    """A scenario as a linear system: dz = A z + B u, y = C z + D u.
-
-    In continuous time ``dt`` is None and dz is z'; otherwise dz is z after one period ``dt``.
-    """
+    """A scenario as a linear system. In continuous time ``dt`` is None."""
 
     def __init__(self, made: Any) -> None:
         super().__init__(made.system)
         self.units: Dict[str, str] = dict([*made.system.states, *made.system.inputs, *made.system.outputs])
-        self.kind: str = made.kind
-        self.at: str = made.at
-        self.note: str = made.note
+        self.kind, self.at, self.note = (str(its) for its in (made.kind, made.at, made.note))
         self._json: Dict[str, Any] = json.loads(made.json)
         self._report: str = made.report.rstrip("\n")
         self._loops = {name: OpenLoop(loop) for name, loop in made.open_loops.items()}
@@ -212,15 +273,11 @@ class Linearization(_StateSpace):
 
     @property
     def margins(self) -> Dict[str, Any]:
-        """The margins of each command's loop, as ``bbsim linearize`` writes them; {} for a plant."""
+        """As ``bbsim linearize`` writes them, for each command's loop; {} for a plant."""
         return self._json.get("margins") or {}
 
     def open_loop(self, axis: str) -> OpenLoop:
-        """The loop broken at the command of this axis, ``"phi"`` or ``"theta"``, the other one closed.
-
-        It has the margins of ``margins[f"{axis}_command"]``. Raises InputError for a plant, and for an axis
-        along which no command moves the ball.
-        """
+        """The loop with ``margins[f"{axis}_command"]``. Raises InputError if this axis, "phi" or "theta", has none."""
         if axis not in ("phi", "theta"):
             raise fault(f"axis: found {axis!r}; allowed: phi, theta")
         if f"{axis}_command" not in self._loops:
@@ -260,16 +317,11 @@ class Compared:
         return self.alike
 
 
-def replay(
-    *files: Union[File, Result], output: Optional[File] = None, data: Union[Log, Sequence[Log]] = (), map: Texts = (), header: Texts = (),
-    period: str = "", time_offset: str = "", missing: Any = None, title: str = "", summary: File = "",
-    scenario: File = "", set: Settings = None,
-) -> Page:  # fmt: skip
-    """A page that plays results of runs or sweeps, or scenarios. The keywords are the options of ``bbsim replay``.
-
-    files     files, or results of ``bbsim.run``
-    output    also writes the page to this file, NAME.html
-    data      logs to show beside a scenario: files, dicts of arrays or DataFrames
+def replay(*files: Union[File, Result], output: Optional[File] = None, data: Union[Log, Sequence[Log]] = (),
+           map: Texts = (), header: Texts = (), period: str = "", time_offset: str = "", missing: Any = None,
+           title: str = "", summary: File = "", scenario: File = "", set: Settings = None) -> Page:  # fmt: skip
+    """A page that plays files or results of runs or sweeps, or scenarios; ``data``: logs beside a scenario, as files,
+    dicts of arrays or DataFrames. ``output`` is NAME.html. The other keywords are the options of ``bbsim replay``.
     """
     shown = [file._stored() if isinstance(file, Result) else os.fspath(file) for file in files]
     log = log_choice(map, header, period, time_offset, missing)
@@ -284,14 +336,11 @@ def replay(
     return Page(made[0], made[1], [without_folders(note) for note in made[2]])
 
 
-def compare(
-    a: Log, b: Log, *, rtol: Optional[float] = None, atol: Optional[float] = None, columns: Texts = (),
-    map: Texts = (), header: Texts = (), period: str = "", time_offset: str = "", missing: Any = None,
-    set: Settings = None,
-) -> Compared:  # fmt: skip
-    """Compares two files of results, or a log with a run or a scenario. The keywords are the options of ``bbsim compare``.
-
-    a, b      files; a log may be a dict of arrays or a DataFrame
+def compare(a: Log, b: Log, *, rtol: Optional[float] = None, atol: Optional[float] = None, columns: Texts = (),
+            map: Texts = (), header: Texts = (), period: str = "", time_offset: str = "", missing: Any = None,
+            set: Settings = None) -> Compared:  # fmt: skip
+    """Compares two files of results, or a log (also a dict of arrays or a DataFrame) with a run or a scenario. The
+    keywords are the options of ``bbsim compare``.
     """
     log = log_choice(map, header, period, time_offset, missing)
     for name, found in (("rtol", rtol), ("atol", atol)):

@@ -1,12 +1,19 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scenarios: a path, YAML text or a dict; and the exceptions of bbsim."""
+"""What users hand in: scenarios (a path, YAML text or a dict), settings, and logs (files, or tables in memory); and the
+exceptions of bbsim."""
 
 from __future__ import annotations
 
+import contextlib
+import csv
+import io
 import json
 import os
+import re
+import tempfile
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Callable, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -16,6 +23,11 @@ from . import _bbsim
 Array = np.ndarray  # of numbers
 Scenario = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 Settings = Optional[Mapping[str, Any]]
+# A file, or a table in memory: a dict of arrays, a pandas DataFrame, or anything else with `columns`, each by its name.
+Log = Union[str, "os.PathLike[str]", Mapping[str, Any], Any]
+
+_PREFIX = "bbsim-logs-"
+_GAPS = ("nan", "None", "NaT", "<NA>")  # pandas has several
 
 
 class Error(Exception):
@@ -26,39 +38,27 @@ class Error(Exception):
 class Problem:
     """One fault of a scenario or an argument."""
 
-    message: str
-    """The key, what was found, and what is allowed."""
-    place: str = ""
-    """``file:line:column``, or the setting; empty for a dict."""
-    key: Optional[str] = None
-    """The path of the key, such as ``ball.radius``."""
-    hint: str = ""
-    """What to write instead."""
+    message: str  # the key, what was found, and what is allowed
+    place: str = ""  # file:line:column, or the setting; empty for a dict
+    key: Optional[str] = None  # its path, such as ball.radius
+    hint: str = ""  # what to write instead
 
     def __str__(self) -> str:
         return f"{self.place}: {self.message}" if self.place else self.message
 
 
 class InputError(Error, ValueError):
-    """The scenario or an argument is wrong."""
-
-    problems: List[Problem]
-    """All problems, in the order of the scenario."""
-    key: Optional[str]
-    """The key of the first problem; None if no key is at fault."""
-    hint: str
-    """What to write instead, for the first problem."""
+    """The scenario or an argument is wrong: ``problems``, in order, and ``key`` and ``hint`` of the first."""
 
     def __init__(self, problems: Iterable[Tuple[str, str]]) -> None:
-        self.problems = []
+        self.problems: List[Problem] = []
         for place, message in problems:
             key, hint = _bbsim.key_and_hint(message.removeprefix("--set "))
             its_place = "" if place.startswith("<dict>") else place.removeprefix("--set ")
             self.problems.append(Problem(message.removeprefix("--set "), its_place, key or None, hint))
         super().__init__("\n".join(str(problem) for problem in self.problems))
         first = self.problems[0] if self.problems else Problem("")
-        self.key = first.key
-        self.hint = first.hint
+        self.key, self.hint = first.key, first.hint
 
     def __reduce__(self):
         return type(self), ([(p.place, p.message) for p in self.problems],)
@@ -81,10 +81,7 @@ class ControllerError(Error, RuntimeError):
 
 
 class Columns:
-    """Arrays by name."""
-
-    columns: List[str]
-    """The names, in order."""
+    """Arrays by name; ``columns``: the names, in order."""
 
     def __init__(self, arrays: Mapping[str, Array]) -> None:
         self._arrays, self.columns = arrays, list(arrays)
@@ -201,3 +198,74 @@ def specification(values: Union[str, Sequence[Any]]) -> str:
     if isinstance(values, str):
         return values
     return "list:" + ",".join(map(as_yaml, [values] if np.isscalar(values) else values))
+
+
+# Logs
+
+def log_choice(map: Any, header: Any, period: Any, time_offset: Any, missing: Any) -> _bbsim.LogChoice:
+    """How to read a log; None and "" leave an option out."""
+    gone = "" if missing is None else str(missing)
+    return _bbsim.LogChoice(listed(map), listed(header), str(period or ""), str(time_offset or ""), gone)
+
+
+def is_table(log: Any) -> bool:
+    return isinstance(log, Mapping) or (hasattr(log, "columns") and hasattr(log, "__getitem__"))
+
+
+@contextlib.contextmanager
+def as_files(logs: Any) -> Iterator[List[str]]:
+    """The files of one log or several. Tables in memory become temporary files, for the one reader of logs."""
+    logs = [logs] if is_table(logs) else listed(logs)
+    if not any(map(is_table, logs)):
+        yield [os.fspath(log) for log in logs]
+        return
+    with tempfile.TemporaryDirectory(prefix=_PREFIX) as folder, tables_named():
+        files = [f"{folder}/log-{i}.csv" if is_table(log) else os.fspath(log) for i, log in enumerate(logs, 1)]
+        for log, file in zip(logs, files):
+            if is_table(log):
+                _write(log, file)
+        yield files
+
+
+@contextlib.contextmanager
+def tables_named() -> Iterator[None]:
+    """Within it, errors name tables in memory without the folders of their files."""
+    try:
+        yield
+    except InputError as error:
+        texts = [(without_folders(its.place), without_folders(its.message)) for its in error.problems]
+        raise InputError(texts) from None
+
+
+def without_folders(text: str) -> str:
+    """The text without the folders of temporary files, which differ each time."""
+    return re.sub(f"{re.escape(tempfile.gettempdir())}/{_PREFIX}[^/]+/", "", text)
+
+
+def _write(table: Any, file: str) -> None:
+    names = list(getattr(table, "columns", table))
+    columns = [_fields(str(name), table[name]) for name in names]
+    for name, fields in zip(names, columns):
+        if len(fields) != len(columns[0]):
+            raise refuse(f"a log's column {name}", f"{len(fields)} values", f"{len(columns[0])}, as in {names[0]}")
+    text = io.StringIO()
+    csv.writer(text).writerows([names, *zip(*columns)])
+    Path(file).write_bytes(whole(text.getvalue()).encode())
+
+
+def _fields(name: str, values: Any) -> List[str]:
+    """Numbers with all their digits; a gap is empty."""
+    try:
+        array = np.asarray(values)
+        found = f"an array of shape {array.shape}"
+    except ValueError:
+        array, found = np.empty(()), "rows of different lengths"
+    if array.ndim != 1:
+        raise refuse(f"a log's column {name}", found, "one value for each row")
+    if array.dtype.kind == "M":
+        array = np.datetime_as_string(array, "us")
+    elif array.dtype.kind == "m":
+        array = array / np.timedelta64(1, "s")
+    elif array.dtype.kind == "b":
+        array = array.astype(int)
+    return ["" if text in _GAPS else text for text in map(str, array.tolist())]

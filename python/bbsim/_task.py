@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What fits, tuning and designs have in common: free keys, `--free KEY=FROM:TO`; the files that they write, a report,
-its JSON, and a scenario with the numbers that they found; and their progress on the terminal."""
+"""What fits, tuning and designs have in common: free keys, the files that they write, and progress on the terminal."""
 
 from __future__ import annotations
 
@@ -13,7 +12,6 @@ import shutil
 import sys
 import time
 from dataclasses import dataclass
-from types import SimpleNamespace
 from typing import Any, Callable, Dict, List, NoReturn, Optional, Sequence, Tuple
 
 import numpy as np
@@ -40,9 +38,12 @@ def refuse_twice(names: Sequence[str]) -> None:
 
 
 def usual_scale(start: float, unit: str) -> float:
-    if unit in _USUAL:
-        return max(abs(start), _USUAL[unit])
-    return abs(start) or 0.1
+    return max(abs(start), _USUAL[unit]) if unit in _USUAL else abs(start) or 0.1
+
+
+def refuse_own_controller(given: _bbsim.Given, task: str, allowed: str) -> None:
+    if given.has("controller.program") or given.has("controller.library"):
+        raise fault(f"controller: found a program or library of your own; allowed in {task}: {allowed}")
 
 
 @dataclass
@@ -69,7 +70,6 @@ class FreeKey:
         return math.log(value / self.start) if self.logarithmic else (value - self.start) / self.scale
 
     def ends(self) -> Tuple[float, float]:
-        """The numbers of the bounds."""
         low = -math.inf if self.logarithmic and self.lower <= 0 else self.number(self.lower)
         return low, self.number(self.upper)
 
@@ -78,7 +78,6 @@ class FreeKey:
         return float(self.value(u)) if self.logarithmic else self.scale
 
     def text(self, value: float) -> str:
-        """A value as a scenario writes it."""
         return f"{float(value)!r} {self.unit}".strip()
 
 
@@ -88,14 +87,14 @@ def read_bounds(text: str, key: FreeKey) -> None:
     unit = re.fullmatch(r"[-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?\s*(.*)", last)
     if unit and re.fullmatch(r"[-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?", first):
         first += " " + unit[1]
-    low: Optional[float] = _bbsim.value_in(first, key.unit) if colon else None
-    high: Optional[float] = _bbsim.value_in(last, key.unit) if colon else None
+    low, high = (_bbsim.value_in(end, key.unit) if colon else None for end in (first, last))
+    allowed = ""
     if low is None or high is None or not low < high:
-        units = f" of {key.unit}" if key.unit else ""
-        allowed = f"FROM:TO with FROM below TO, numbers in SI units or with a unit{units}"
+        allowed = "FROM:TO with FROM below TO, numbers in SI units or with a unit" + f" of {key.unit}" * bool(key.unit)
+    elif low < key.lower or high > key.upper:
+        allowed = f"values from {key.lower:g} to {key.upper:g}"
+    if allowed:
         refuse_free(f"{key.name}: found '{text}'; allowed: {allowed}")
-    if low < key.lower or high > key.upper:
-        refuse_free(f"{key.name}: found '{text}'; allowed: values from {key.lower:g} to {key.upper:g}")
     key.lower, key.upper = low, high
 
 
@@ -129,25 +128,16 @@ def read_free_keys(texts: Sequence[str], given: _bbsim.Given) -> List[FreeKey]:
         if name.startswith("log."):
             continue
         if name.startswith(("ball.position", "ball.velocity")):
-            allowed = "any other key that is a number"
-            refuse_free(f"{name}: each window's start is fitted anyway; allowed: {allowed}")
+            refuse_free(f"{name}: each window's start is fitted anyway; allowed: any other key that is a number")
         refuse_twice([*(key.name for key in keys), name])
         keys.append(read_free_key(text, given))
     return keys
 
 
-def _plain(value: Any) -> Any:
-    """JSON has no numbers that are not finite."""
-    value = vars(value) if isinstance(value, SimpleNamespace) else value
-    if isinstance(value, dict):
-        return {key: _plain(one) for key, one in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_plain(one) for one in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
 def as_json(value: Dict[str, Any]) -> str:
-    return json.dumps(_plain(value), indent=2, ensure_ascii=False) + "\n"
+    """With null for numbers that are not finite, which JSON does not have."""
+    plain = json.loads(json.dumps(value, default=vars), parse_constant=lambda name: None)
+    return json.dumps(plain, indent=2, ensure_ascii=False) + "\n"
 
 
 def files_of(options: Dict[str, Any], given: _bbsim.Given, reads: Dict[str, str], *names: str) -> Dict[str, str]:
@@ -203,10 +193,8 @@ class Bar:
     """Draws a bar on standard error if that is a terminal; `with Bar(name, quiet) as progress: ...`."""
 
     def __init__(self, label: str, quiet: bool) -> None:
-        self._label = label
-        self._draws = not quiet and sys.stderr.isatty()
+        self._label, self._draws, self._drawn = label, not quiet and sys.stderr.isatty(), False
         self._start = self._last = time.monotonic()
-        self._drawn = False
 
     def __enter__(self) -> Progress:
         return self

@@ -36,7 +36,7 @@ std::string text_at(const Given& given, const std::string& key) {
 }
 
 Scenario scenario_of(const Given& given) {
-  return shared_family(given).read({});
+  return first_of(shared_family(given));
 }
 
 // Of each axis: the limits of its command, and of its servo's angle and rate.
@@ -59,10 +59,9 @@ std::string edited(const Given& given, const Pairs& pairs, const std::string& co
 }
 
 Pairs tables(const Given& given) {
-  Scenario scenario = scenario_of(given);
-  scenario.source = shared_family(given).source();
   Pairs files;
-  for (const TableFile& table : table_files(scenario)) files.emplace_back(table.key, table.path);
+  for (const TableFile& its : table_files(scenario_of(given)))
+    files.emplace_back(its.key, its.path);
   return files;
 }
 

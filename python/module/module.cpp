@@ -35,12 +35,6 @@
 namespace bbsim::python {
 namespace {
 
-Scenario first_of(const ScenarioFamily& family) {
-  Scenario scenario = family.read({});
-  scenario.source = family.source();
-  return scenario;
-}
-
 // Common to the functions below: a callable, a watch, and exceptions raised meanwhile.
 class Work {
  public:
@@ -164,12 +158,9 @@ py::list sweep(const Given& given, const Pairs& vary, const std::string& combine
   });
   py::list columns;
   for (const api::SweepTable::Column& one : made.table.columns) {
-    py::object values = py::cast(one.texts);
-    if (!one.is_text) {
-      const auto count = static_cast<py::ssize_t>(one.numbers.size());
-      values = py::array_t<double>(count, one.numbers.data());
-    }
-    columns.append(py::make_tuple(one.name, values));
+    const auto count = static_cast<py::ssize_t>(one.numbers.size());
+    const py::object numbers = py::array_t<double>(count, one.numbers.data());
+    columns.append(py::make_tuple(one.name, one.is_text ? py::cast(one.texts) : numbers));
   }
   return columns;
 }
@@ -291,34 +282,24 @@ void define_linearize(py::module_& module) {
 }
 
 using api::Environments;
-
 using Indices = std::vector<std::size_t>;
-
 using Drawn = std::vector<std::pair<Texts, std::size_t>>;  // values as texts, and a seed
 
-std::vector<Environments::Beginning> beginnings(const Drawn& drawn) {
-  std::vector<Environments::Beginning> all;
-  for (const auto& [values, seed] : drawn) all.push_back({values, seed});
-  return all;
-}
-
-void begin(Environments& its, const Indices& which, const Drawn& drawn) {
-  const auto how = beginnings(drawn);
-  const WithoutLock unlocked;
-  its.begin(which, how);
-}
-
-// Steps the runs that do not begin.
-void step(Environments& its, const Numbers& commands, const Indices& which, const Drawn& drawn) {
+// Begins some runs; with commands, steps the others.
+void advance(Environments& its, const std::optional<Numbers>& commands, const Indices& which,
+             const Drawn& drawn) {
   const auto count = static_cast<py::ssize_t>(its.count());
-  if (commands.ndim() != 2 || commands.shape(0) != count || commands.shape(1) != 2) {
+  if (commands &&
+      (commands->ndim() != 2 || commands->shape(0) != count || commands->shape(1) != 2)) {
     throw py::value_error("actions: found another shape; allowed: (" + std::to_string(count) +
                           ", 2)");
   }
-  const std::span of(commands.data(), 2 * its.count());
-  const auto how = beginnings(drawn);
+  std::vector<Environments::Beginning> how;
+  for (const auto& [values, seed] : drawn) how.push_back({values, seed});
+  const double* const of = commands ? commands->data() : nullptr;
   const WithoutLock unlocked;
-  its.step(of, which, how);
+  if (of == nullptr) return its.begin(which, how);
+  its.step(std::span(of, 2 * its.count()), which, how);
 }
 
 void define_environments(py::module_& module) {
@@ -348,8 +329,7 @@ void define_environments(py::module_& module) {
       .def(py::init([](const Given& given, std::size_t count, Texts keys, bool keeps_rows) {
         return std::make_unique<Environments>(family_of(given), count, std::move(keys), keeps_rows);
       }))
-      .def("begin", &begin)
-      .def("step", &step)
+      .def("advance", &advance)
       .def("result", [](Environments& its, std::size_t which) -> std::shared_ptr<api::RunResult> {
         const api::RunResult* const made = which < its.count() ? its.result(which) : nullptr;
         return made == nullptr ? nullptr : std::make_shared<api::RunResult>(*made);

@@ -105,8 +105,9 @@ std::pair<std::string, std::string> measure_unit(const std::string& name) {
   return {measure->unit(), of_column ? std::string(measure->column->name) : ""};
 }
 
-// Of the scenario; empty without one, or if it has none.
-std::vector<double> plate_of(const Result& one) {  // the diameter, or the sides, m
+// The diameter, or the sides, m. This and the following: empty without a scenario, or if it has
+// none.
+std::vector<double> plate_of(const Result& one) {
   if (!one.scenario) return {};
   if (one.scenario->plate.diameter) return {*one.scenario->plate.diameter};
   const auto& size = one.scenario->plate.size;
@@ -118,14 +119,11 @@ std::optional<double> friction_of(const Result& one) {
   return one.scenario->events.slip->friction;
 }
 
-std::optional<std::string> command_unit_of(const Result& one) {
+// Of the commands: their unit, and whether a sampled controller gives them.
+std::optional<std::pair<std::string, bool>> controller_of(const Result& one) {
   if (!one.scenario || !one.scenario->controller) return {};
-  return std::string(command_unit(one.scenario->controller->drives));
-}
-
-std::optional<bool> is_sampled(const Result& one) {
-  if (!one.scenario || !one.scenario->controller) return {};
-  return one.scenario->controller->sampling.has_value();
+  const Controller& its = *one.scenario->controller;
+  return std::pair(std::string(command_unit(its.drives)), its.sampling.has_value());
 }
 
 // A page, why a scenario's run ended early, and notes.
@@ -156,17 +154,16 @@ Page replay(const std::vector<Shown>& shown, const Texts& logs, const results::L
       if (!output.empty()) outputs.writes(output, "output");
     };
     const api::ReplayResult made = api::replay(request, outputs, watch);
-    std::string reason;
-    Texts notes;
+    Page all(replay::page(made.scene, page_template), "", {});
+    auto& [text, reason, notes] = all;
     for (const api::RunResult& run : made.runs) {
       if (reason.empty()) reason = run.summary.reason;
       notes.insert(notes.end(), run.summary.warnings.begin(), run.summary.warnings.end());
     }
-    return Page(replay::page(made.scene, page_template), reason, notes);
+    notes.insert(notes.end(), watch.notes().begin(), watch.notes().end());
+    return all;
   });
   watch.throw_if_interrupted();
-  auto& notes = std::get<Texts>(page);
-  notes.insert(notes.end(), watch.notes().begin(), watch.notes().end());
   return page;
 }
 
@@ -224,7 +221,7 @@ void define_results(py::module_& module) {
       "shown_file", &Result::shown_file, "is_sweep", &Result::is_sweep, "names", &Result::names,
       "raw", &Result::raw, "scenario_text",
       [](const Result& one) { return one.scenario ? one.scenario->source.text : ""; }, "plate",
-      &plate_of, "friction", &friction_of, "command_unit", &command_unit_of, "sampled", &is_sampled)
+      &plate_of, "friction", &friction_of, "controller", &controller_of)
       .def(py::init(&in_memory))
       .def("unit",
            [](const Result& one, const std::string& name) { return column_of(one, name).unit; })

@@ -1037,22 +1037,18 @@ class OpenLoops(unittest.TestCase):
             _loops.step(estimate)
 
     def test_pictures(self):
-        try:
-            from bbsim import _loop_pictures as pictures
-        except ImportError as lacking:
-            self.skipTest(str(lacking))
         key = "controller.gravity_compensation.kp"
         for scene in (CONFIGS / "rig.yaml", CONFIGS / "fig2b.yaml", CONFIGS / "beam.yaml"):
             loop = _loops.linearized(scene)
-            bode = pictures.bode(_loops.bode(loop), loop)
+            bode = _loops.draw_bode(_loops.bode(loop), loop)
             texts = {text.get_text() for axes in bode.axes for text in axes.texts}
             for its in loop.margins.values():
                 self.assertIn(f"{math.degrees(its['phase']):.3g}°", texts)
                 self.assertIn(f"{20 * math.log10(its['gain']):+.3g} dB", texts)
-            figures = [bode, pictures.nyquist(_loops.nyquist(loop), loop), pictures.poles(_loops.poles(loop), loop)]
-            figures.append(pictures.step(_loops.step(loop), loop))
+            figures = [bode, _loops.draw_nyquist(_loops.nyquist(loop), loop), _loops.draw_poles(_loops.poles(loop), loop)]
+            figures.append(_loops.draw_step(_loops.step(loop), loop))
             if scene.stem == "rig":
-                locus = pictures.root_locus(_loops.root_locus(scene, None, key, ("2", "8"), 3), loop, key)
+                locus = _loops.draw_root_locus(_loops.root_locus(scene, None, key, ("2", "8"), 3), loop, key)
                 self.assertEqual(len(locus.axes), 2)
                 figures.append(locus)
             for figure in figures:

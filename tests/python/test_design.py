@@ -16,7 +16,7 @@ from unittest import mock
 import numpy as np
 
 import bbsim
-from bbsim import _design, _simulate
+from bbsim import _design, _result
 from bbsim._command import main
 from bbsim._experiment import Motions
 
@@ -292,7 +292,7 @@ class Command(Case):
         self.bbsim("run", "designed.yaml", "-q")
 
     def test_interrupted(self):
-        with mock.patch.object(_simulate._bbsim, "simulate", side_effect=KeyboardInterrupt):
+        with mock.patch.object(_result._bbsim, "simulate", side_effect=KeyboardInterrupt):
             _, said = self.design("rig.yaml", "--free", INERTIA, "--table", "a.csv", code=130)
         self.assertEqual(said, "design: interrupted before the first result; nothing is written\n")
         self.assertEqual(os.listdir(self.folder), ["rig.yaml"])

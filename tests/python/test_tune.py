@@ -20,7 +20,7 @@ import numpy as np
 import bbsim
 from bbsim import _bbsim, _tune
 from bbsim._command import main
-from bbsim._worst_case import Search, worst_of
+from bbsim._tune import Search, worst_of
 
 PROGRAM = os.environ["BBSIM"]
 RIG = Path(os.environ["BBSIM_SOURCE"]) / "configs" / "rig.yaml"
