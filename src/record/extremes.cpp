@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ranges>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -104,7 +103,8 @@ void Extremes::sample(const solve::Piece& piece, const ChebyshevPoints& points,
   for (std::size_t p = first; p < count; p += stride) times_.push_back(time_of(piece, points, p));
   columns_.evaluate(piece, times_.data(), times_.size(), open_);
   values_.resize(count * size());
-  for (const std::size_t i : open_ | std::views::reverse) {
+  for (auto open = open_.rbegin(); open != open_.rend(); ++open) {
+    const std::size_t i = *open;
     double* const values = &values_[i * count];
     for (std::size_t p = before; stride == 2 && p-- > 0;) values[2 * p] = values_[i * before + p];
     for (std::size_t k = 0; k < times_.size(); ++k) {
