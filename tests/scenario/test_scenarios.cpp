@@ -43,57 +43,31 @@ void check_sinusoid(const Profile& profile, const Sinusoid& expected) {
   CHECK(sinusoid.offset == expected.offset);
 }
 
-void check_motion(const Scenario& scenario, const Sinusoid& phi, const Sinusoid& theta) {
+}  // namespace
+
+TEST_CASE("scenarios of prescribed motions") {
+  struct Motion {
+    std::string name;
+    double radius;
+    Pair position;
+    Sinusoid phi, theta;
+  };
+  const auto [name, radius, position, phi, theta] = GENERATE(values<Motion>({
+      {"fig2a", 0.01, {0, -0.1}, {0.01, 1, quarter_turn, 0}, {-0.01, 1, 0, 0}},
+      {"fast", 0.01, {0, -0.1}, {0.3, 5, quarter_turn, 0}, {-0.3, 5, 0, 0}},
+      {"small-ball", 1e-5, {0, -0.1}, {0.01, 1, quarter_turn, 0}, {-0.01, 1, 0, 0}},
+      {"spin", 0.01, {0.1, -0.05}, {0.05, 3, quarter_turn, 0.01}, {-0.04, 2, 0, 0}},
+  }));
+  CAPTURE(name);
+  const Scenario scenario = read(name);
+  check_common(scenario, radius, position, {10, 0.1});
   REQUIRE(scenario.gimbal.motion);
   check_sinusoid(scenario.gimbal.motion->phi, phi);
   check_sinusoid(scenario.gimbal.motion->theta, theta);
   CHECK_FALSE(scenario.gimbal.servo);
-}
-
-void check_controller(const Scenario& scenario, const Matrix2& kv, const Matrix2& kp,
-                      Drives drives) {
-  REQUIRE(scenario.controller);
-  CHECK(scenario.controller->kv == kv);
-  CHECK(scenario.controller->kp == kp);
-  CHECK(scenario.controller->drives == drives);
-  const auto& circle = std::get<CircleReference>(scenario.controller->reference);
-  CHECK(circle.radius == 0.05);
-  CHECK(circle.rate == -0.3);
-  CHECK(circle.phase == 0);
-  CHECK(scenario.gimbal.start.phi == 0);
-  CHECK(scenario.gimbal.start.theta == 0);
-  CHECK(scenario.gimbal.start.phi_rate == 0);
-  CHECK(scenario.gimbal.start.theta_rate == 0);
-  CHECK(scenario.gimbal.servo.has_value() == (drives == Drives::angle));
-}
-
-}  // namespace
-
-TEST_CASE("fig2a") {
-  const Scenario scenario = read("fig2a");
-  CHECK(scenario.title == "Fig. 2(a), open loop");
-  check_common(scenario, 0.01, {0, -0.1}, {10, 0.1});
-  check_motion(scenario, {0.01, 1, quarter_turn, 0}, {-0.01, 1, 0, 0});
-}
-
-TEST_CASE("fast") {
-  const Scenario scenario = read("fast");
-  check_common(scenario, 0.01, {0, -0.1}, {10, 0.1});
-  check_motion(scenario, {0.3, 5, quarter_turn, 0}, {-0.3, 5, 0, 0});
-}
-
-TEST_CASE("small-ball") {
-  const Scenario scenario = read("small-ball");
-  check_common(scenario, 1e-5, {0, -0.1}, {10, 0.1});
-  check_motion(scenario, {0.01, 1, quarter_turn, 0}, {-0.01, 1, 0, 0});
-}
-
-TEST_CASE("spin") {
-  const Scenario scenario = read("spin");
-  check_common(scenario, 0.01, {0.1, -0.05}, {10, 0.1});
-  CHECK(scenario.ball.velocity == Pair{0.2, 0});
-  CHECK(scenario.ball.spin == 50);
-  check_motion(scenario, {0.05, 3, quarter_turn, 0.01}, {-0.04, 2, 0, 0});
+  CHECK(scenario.ball.velocity == (name == "spin" ? Pair{0.2, 0} : Pair{0, 0}));
+  CHECK(scenario.ball.spin == (name == "spin" ? 50 : 0));
+  CHECK((scenario.title == "Fig. 2(a), open loop") == (name == "fig2a"));
 }
 
 TEST_CASE("tumble") {
@@ -110,25 +84,36 @@ TEST_CASE("tumble") {
   CHECK(std::get<double>(scenario.gimbal.motion->theta[0]) == 0);
 }
 
-TEST_CASE("fig2b") {
-  const Scenario scenario = read("fig2b");
-  check_common(scenario, 0.01, {0.05, 0}, {21, 0.1});
-  check_controller(scenario, {{{1, 0}, {0, -1}}}, {{{0.001, 0}, {0, -0.001}}}, Drives::angle);
-  CHECK(scenario.gimbal.servo->natural_frequency == 10);
-  CHECK(scenario.gimbal.servo->damping == 1);
-}
-
-TEST_CASE("fig2b-literal") {
-  const Scenario scenario = read("fig2b-literal");
-  check_common(scenario, 0.01, {0.05, 0}, {21, 0.01});
-  check_controller(scenario, {{{100, 0}, {0, 100}}}, {{{0.1, 0}, {0, 0.1}}}, Drives::acceleration);
-}
-
-TEST_CASE("stiff-servo") {
-  const Scenario scenario = read("stiff-servo");
-  check_common(scenario, 0.01, {0.05, 0}, {21, 0.1});
-  check_controller(scenario, {{{0.05, 0}, {0, -0.05}}}, {{{0.05, 0}, {0, -0.05}}}, Drives::angle);
-  CHECK(scenario.gimbal.servo->natural_frequency == 2000);
+TEST_CASE("scenarios of closed loops") {
+  struct Loop {
+    std::string name;
+    double step, kv, kp;
+    int theta;  // sign of theta's gains
+    std::optional<double> natural_frequency;
+  };
+  const auto [name, step, kv, kp, theta, frequency] = GENERATE(values<Loop>({
+      {"fig2b", 0.1, 1, 0.001, -1, 10},
+      {"fig2b-literal", 0.01, 100, 0.1, 1, {}},
+      {"stiff-servo", 0.1, 0.05, 0.05, -1, 2000},
+  }));
+  CAPTURE(name);
+  const Scenario scenario = read(name);
+  check_common(scenario, 0.01, {0.05, 0}, {21, step});
+  REQUIRE(scenario.controller);
+  CHECK(scenario.controller->kv == Matrix2{{{kv, 0}, {0, theta * kv}}});
+  CHECK(scenario.controller->kp == Matrix2{{{kp, 0}, {0, theta * kp}}});
+  CHECK(scenario.controller->drives == (frequency ? Drives::angle : Drives::acceleration));
+  const auto& circle = std::get<CircleReference>(scenario.controller->reference);
+  CHECK(circle.radius == 0.05);
+  CHECK(circle.rate == -0.3);
+  CHECK(circle.phase == 0);
+  const GimbalStart& start = scenario.gimbal.start;
+  for (const double zero : {start.phi, start.theta, start.phi_rate, start.theta_rate}) {
+    CHECK(zero == 0);
+  }
+  REQUIRE(scenario.gimbal.servo.has_value() == frequency.has_value());
+  if (!frequency) return;
+  CHECK(scenario.gimbal.servo->natural_frequency == *frequency);
   CHECK(scenario.gimbal.servo->damping == 1);
 }
 
