@@ -204,12 +204,34 @@ const std::vector<std::string> coarse{"solver.rtol=1e-6", "solver.atol=1e-8"};
 
 }  // namespace
 
-TEST_CASE("planar cases do not determine how the others are computed") {
-  // The scene is planar if the ball starts on the x axis.
-  const char* const spec =
-      GENERATE("linear:0:5 cm:11", "linear:5 cm:0:11", "list:0,0,0,0,0,0,0,0,1 cm");
-  CAPTURE(spec);
-  check_lanes(Setup("configs/beam.yaml", {{"ball.position.1", spec}}, coarse, loop_measures));
+TEST_CASE("loops of all servos, references and tolerances run in lanes") {
+  // The scene is planar if the ball starts on the x axis; planar cases must not decide for others.
+  for (const char* spec : {"linear:0:5 cm:11", "linear:5 cm:0:11", "list:0,0,0,0,0,0,0,0,1 cm"}) {
+    CAPTURE(spec);
+    check_lanes(Setup("configs/beam.yaml", {{"ball.position.1", spec}}, coarse, loop_measures));
+  }
+  check_lanes(
+      Setup("configs/lissajous.yaml",
+            {{"controller.pd.kv.0.0", "linear:0.5:0.7:3"}, {"ball.position.1", "linear:0:2 cm:3"}},
+            coarse, loop_measures));
+  for (const char* rtol : {"1e-4", "1e-8", "1e-12"}) {
+    CAPTURE(rtol);
+    check_lanes(Setup("tests/data/scenarios/stiff-servo.yaml",
+                      {{"gimbal.servo.natural_frequency", "list:10,2000,100,500"},
+                       {"ball.position.0", "linear:0.01:0.05:4"}},
+                      {std::string("solver.rtol=") + rtol}, loop_measures));
+  }
+}
+
+TEST_CASE("splines and sweeps of planar cases only use single runs") {
+  const auto [scene, key, values] = GENERATE(table<std::string, std::string, std::string>({
+      {"configs/waypoints.yaml", "ball.radius", "linear:0.01:0.02:9"},
+      {"configs/beam.yaml", "ball.position.0", "linear:0:5 cm:11"},
+      {"configs/beam.yaml", "ball.position.1,ball.velocity.1", "list:0,0,0"},
+  }));
+  CAPTURE(scene, key);
+  const Setup setup(scene, {{key, values}}, coarse, loop_measures);
+  CHECK(choose_engine(setup.task).name == "single runs");
 }
 
 TEST_CASE("loops that diverge in lanes end as single runs do, without affecting others") {
@@ -259,34 +281,6 @@ TEST_CASE("loops that diverge in lanes end as single runs do, without affecting 
   for (std::size_t i = 0; i < ends.numbers.size(); ++i) {
     CHECK(ends.numbers[i] == Approx(expected.numbers[i]).epsilon(1e-6).margin(1e-7));
   }
-}
-
-TEST_CASE("references that are sums of sinusoids have lanes") {
-  check_lanes(
-      Setup("configs/lissajous.yaml",
-            {{"controller.pd.kv.0.0", "linear:0.5:0.7:3"}, {"ball.position.1", "linear:0:2 cm:3"}},
-            coarse, loop_measures));
-  const Setup splines("configs/waypoints.yaml", {{"ball.radius", "linear:0.01:0.02:9"}}, coarse,
-                      loop_measures);
-  CHECK(choose_engine(splines.task).name == "single runs");
-}
-
-TEST_CASE("a sweep of planar cases only uses single runs") {
-  const Setup setup("configs/beam.yaml", {{"ball.position.0", "linear:0:5 cm:11"}}, coarse,
-                    loop_measures);
-  CHECK(choose_engine(setup.task).name == "single runs");
-  const Setup zeros("configs/beam.yaml", {{"ball.position.1,ball.velocity.1", "list:0,0,0"}},
-                    coarse, loop_measures);
-  CHECK(choose_engine(zeros.task).name == "single runs");
-}
-
-TEST_CASE("loops use lanes for all servos and tolerances") {
-  const std::string rtol = GENERATE("1e-4", "1e-8", "1e-12");
-  CAPTURE(rtol);
-  check_lanes(Setup("tests/data/scenarios/stiff-servo.yaml",
-                    {{"gimbal.servo.natural_frequency", "list:10,2000,100,500"},
-                     {"ball.position.0", "linear:0.01:0.05:4"}},
-                    {"solver.rtol=" + rtol}, loop_measures));
 }
 
 TEST_CASE("every engine computes tied keys") {
@@ -424,26 +418,21 @@ TEST_CASE("a measure unknown to the first case may exist in another") {
   }
 }
 
-TEST_CASE("a measure that overflows has its reason, with every engine") {
-  SECTION("single runs, row by row and many rows together") {
-    for (const char* measure : {"max_normal_force", "end_normal_force"}) {
-      const Setup setup("configs/fig2a.yaml", {{"ball.mass", "list:1,1e308"}}, {}, {measure});
-      const CaseResults results = run_all(*single_runner(setup.task), setup.task);
-      CHECK(results.status[0].word == "done");
-      CHECK(results.status[0].reason.empty());
-      CHECK(results.status[1].reason == measure + std::string(" is infinite"));
-    }
-  }
-  SECTION("lanes") {
-    const Setup setup("configs/fig2b.yaml", {{"ball.mass", "list:1,1e308"}}, coarse,
-                      {"end_normal_force"});
-    const Engine engine = choose_engine(setup.task);
-    REQUIRE(engine.name == "lanes");
-    const CaseResults results = run_all(*engine.runner(), setup.task);
-    CHECK(results.status[0].word == "done");
-    CHECK(results.status[0].reason.empty());
-    CHECK(results.status[1].reason == "end_normal_force is infinite");
-  }
+TEST_CASE("a measure that overflows has its reason, by single runs and in lanes") {
+  // Row by row, many rows together, and in lanes.
+  const auto [scene, measure, engine] = GENERATE(table<std::string, std::string, std::string>({
+      {"configs/fig2a.yaml", "max_normal_force", "single runs"},
+      {"configs/fig2a.yaml", "end_normal_force", "single runs"},
+      {"configs/fig2b.yaml", "end_normal_force", "lanes"},
+  }));
+  CAPTURE(scene, measure);
+  const Setup setup(scene, {{"ball.mass", "list:1,1e308"}}, coarse, {measure});
+  const Engine chosen = choose_engine(setup.task);
+  REQUIRE(chosen.name == engine);
+  const CaseResults results = run_all(*chosen.runner(), setup.task);
+  CHECK(results.status[0].word == "done");
+  CHECK(results.status[0].reason.empty());
+  CHECK(results.status[1].reason == measure + " is infinite");
 }
 
 namespace {

@@ -76,62 +76,48 @@ double error_of(const CaseResults& results, const SweepTask& task) {
 }  // namespace
 
 TEST_CASE("maxima between rows a second apart, by single runs and in lanes") {
-  struct Sweep {
-    std::string scene;
-    std::vector<Variation> vary;
-    std::vector<std::string> set, names;
-    double samples, close;
-    bool in_lanes = false;
-  };
   const std::vector<std::string> tight{"time.step=1", "solver.rtol=1e-11", "solver.atol=1e-13"};
-  const Sweep sweeps[] = {
-      // Rates up to 0.2 rad/s; between step ends the error is a hundred times the tolerance.
-      {"configs/fig2b.yaml",
-       {{"controller.pd.kv.0.0", "uniform:0.8:1.2"},
-        {"gimbal.servo.natural_frequency", "uniform:8:30"}},
-       tight,
-       loop_extremes,
-       6,
-       1e-9},
-      {"configs/fig2a.yaml",
-       {{"gimbal.motion.phi.sinusoid.amplitude", "uniform:0.005:0.5"},
-        {"gimbal.motion.theta.sinusoid.frequency", "uniform:0.5:3"},
-        {"ball.velocity.0", "uniform:-1:1"}},
-       tight,
-       extremes,
-       8,
-       1e-9},
-      {"configs/fig2b.yaml",
-       {{"controller.pd.kv.0.0", "uniform:0.8:1.2"}},
-       tight,
-       {"max_x", "max_friction_force", "max_phi_rate", "max_spin", "max_power"},
-       3,
-       1e-9},
-      // A planar scene.
-      {"configs/fig2a.yaml",
-       {{"gimbal.motion.theta.sinusoid.phase", "uniform:0:3"}},
-       {"gimbal.motion.phi=0", "time.step=1", "solver.rtol=1e-11", "solver.atol=1e-13",
-        "ball.position=[0, 0.1]"},
-       extremes,
-       4,
-       1e-10},
-      // The fastest mode of these loops still allows lanes at a fine enough tolerance.
-      {"tests/data/scenarios/stiff-servo.yaml",
-       {{"controller.pd.kv.0.0", "uniform:0.035:0.065"},
-        {"controller.pd.kp.1.1", "uniform:-0.065:-0.035"}},
-       {"time.step=1", "solver.rtol=1e-9", "solver.atol=1e-11"},
-       {"max_distance", "max_tilt", "max_tracking_error"},
-       11,
-       1e-8,
-       true},
+  const auto check = [](const Setup& setup, double close) {
+    CHECK(error_of(run_all(*single_runner(setup.task), setup.task), setup.task) < close);
   };
-  for (const Sweep& one : sweeps) {
-    const Setup setup(one.scene, one.vary, one.set, one.names, one.samples);
-    CAPTURE(one.scene, one.names);
-    if (one.in_lanes) REQUIRE(can_use_lanes(setup.task));
-    const auto runner = one.in_lanes ? lane_runner(setup.task) : single_runner(setup.task);
-    CHECK(error_of(run_all(*runner, setup.task), setup.task) < one.close);
-  }
+  // Rates up to 0.2 rad/s; between step ends the error is a hundred times the tolerance.
+  check({"configs/fig2b.yaml",
+         {{"controller.pd.kv.0.0", "uniform:0.8:1.2"},
+          {"gimbal.servo.natural_frequency", "uniform:8:30"}},
+         tight,
+         loop_extremes,
+         6},
+        1e-9);
+  check({"configs/fig2a.yaml",
+         {{"gimbal.motion.phi.sinusoid.amplitude", "uniform:0.005:0.5"},
+          {"gimbal.motion.theta.sinusoid.frequency", "uniform:0.5:3"},
+          {"ball.velocity.0", "uniform:-1:1"}},
+         tight,
+         extremes,
+         8},
+        1e-9);
+  check({"configs/fig2b.yaml",
+         {{"controller.pd.kv.0.0", "uniform:0.8:1.2"}},
+         tight,
+         {"max_x", "max_friction_force", "max_phi_rate", "max_spin", "max_power"},
+         3},
+        1e-9);
+  std::vector<std::string> planar = tight;
+  planar.insert(planar.end(), {"gimbal.motion.phi=0", "ball.position=[0, 0.1]"});
+  check({"configs/fig2a.yaml",
+         {{"gimbal.motion.theta.sinusoid.phase", "uniform:0:3"}},
+         planar,
+         extremes,
+         4},
+        1e-10);
+  // The fastest mode of these loops still allows lanes at a fine enough tolerance.
+  const Setup stiff("tests/data/scenarios/stiff-servo.yaml",
+                    {{"controller.pd.kv.0.0", "uniform:0.035:0.065"},
+                     {"controller.pd.kp.1.1", "uniform:-0.065:-0.035"}},
+                    {"time.step=1", "solver.rtol=1e-9", "solver.atol=1e-11"},
+                    {"max_distance", "max_tilt", "max_tracking_error"}, 11);
+  REQUIRE(can_use_lanes(stiff.task));
+  CHECK(error_of(run_all(*lane_runner(stiff.task), stiff.task), stiff.task) < 1e-8);
 }
 
 TEST_CASE("a mean over the rows changes no maximum between them") {

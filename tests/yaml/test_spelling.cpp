@@ -42,6 +42,9 @@ TEST_CASE("the nearest name has the fewest typing errors") {
   for (const char* wrong : {"raduis", "radus", "radiuss"}) {
     CHECK(nearest_name(wrong, names) == "radius");
   }
+  // Two swapped letters are one error.
+  constexpr std::array<std::string_view, 2> close = {"velocaai", "velocity"};
+  CHECK(nearest_name("velocyti", close) == "velocity");
   CHECK(nearest_name("Mass", names) == "mass");
   CHECK(nearest_name("MASS", names) == "mass");
   CHECK(nearest_name("poistion", names) == "position");
