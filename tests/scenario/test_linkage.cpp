@@ -63,69 +63,65 @@ TEST_CASE("a linkage is read for both axes or for each one") {
 }
 
 TEST_CASE("a calibration is cleaned, and says how") {
-  const auto calibrated = [](std::vector<double> servo, std::vector<double> plate) {
-    CurveLinkage curve{"", std::move(servo), std::move(plate)};
-    const scenario::Calibration made = scenario::calibrate(curve);
-    return std::pair{curve, made};
+  struct Cleaned {
+    std::vector<double> servo, plate;  // as measured
+    std::string done;                  // part of what is said
+    std::vector<double> to_servo, to_plate;
+    bool changes = false, smoothed = false;
   };
   const std::vector<double> five{-2, -1, 0, 1, 2};
-  SECTION("strictly monotone: unchanged") {
-    for (const double sign : {1.0, -1.0}) {
-      std::vector<double> plate{-0.9, -0.5, 0, 0.4, 0.7};
-      for (double& one : plate) one *= sign;
-      const auto [curve, made] = calibrated(five, plate);
-      CHECK(made.done.empty());
-      CHECK(curve.servo == five);
-      CHECK(curve.plate == plate);
-    }
+  const std::vector<double> rising{-0.9, -0.5, 0, 0.4, 0.7}, falling{0.9, 0.5, 0, -0.4, -0.7};
+  const std::vector<double> back{-1, 0, 1, 0.5, 0};
+  const Cleaned all[] = {
+      {five, rising, "", five, rising},
+      {five, falling, "", five, falling},
+      {five, back, "", five, back},  // turns back: left for the model to refuse
+      {{2, 1, 0, 0, -1, -2},
+       {0.7, 0.4, 0.1, -0.1, -0.5, -0.9},
+       "rows sorted by the servo's angle, 1 repeated angle averaged",
+       five,
+       rising},
+      {{-3, -2, -1, 0, 1, 2, 3},
+       {0.75, 0.75, 0.5, 0, -0.5, -0.75, -0.75},
+       "flat up to -114.592 deg: a stop, flat from 114.592 deg: a stop",
+       five,
+       {0.75, 0.5, 0, -0.5, -0.75},
+       true},
+      // A flat end with its own noise.
+      {{-2, -1, 0, 1, 2, 3, 4, 5},
+       {-2, -1, 0, 1, 2.01, 2.03, 1.99, 2.02},
+       "flat from 114.592 deg: a stop",
+       five,
+       {-2, -1, 0, 1, 2.0125},
+       true},
+      {{-3, -2, -1, 0, 0.25, 1, 2, 3},
+       {-3, -2, -1, 0.25, 0.125, 1, 2, 3},
+       "2 rows of noise smoothed by at most 3.58099 deg",
+       {-3, -2, -1, 0.125, 1, 2, 3},
+       {-3, -2, -1, 0.1875, 1, 2, 3},
+       true,
+       true},
+  };
+  for (const Cleaned& one : all) {
+    CurveLinkage curve{"", one.servo, one.plate};
+    const scenario::Calibration made = scenario::calibrate(curve);
+    CAPTURE(one.done);
+    CHECK(made.done.empty() == one.done.empty());
+    CHECK_THAT(made.done, Contains(one.done));
+    CHECK(made.changes == one.changes);
+    CHECK(curve.smoothed == one.smoothed);
+    CHECK(curve.servo == one.to_servo);
+    CHECK_THAT(curve.plate, Catch::Matchers::Approx(one.to_plate).epsilon(1e-15));
   }
-  SECTION("falling and repeated angles") {
-    const auto [curve, made] = calibrated({2, 1, 0, 0, -1, -2}, {0.7, 0.4, 0.1, -0.1, -0.5, -0.9});
-    CHECK(made.done == "rows sorted by the servo's angle, 1 repeated angle averaged");
-    CHECK_FALSE(made.changes);
-    CHECK(curve.servo == five);
-    CHECK(curve.plate == std::vector<double>{-0.9, -0.5, 0, 0.4, 0.7});
-  }
-  SECTION("flat ends") {
-    const auto [curve, made] =
-        calibrated({-3, -2, -1, 0, 1, 2, 3}, {0.75, 0.75, 0.5, 0, -0.5, -0.75, -0.75});
-    CHECK(made.done == "flat up to -114.592 deg: a stop, flat from 114.592 deg: a stop");
-    CHECK(curve.servo == five);
-    CHECK(curve.plate == std::vector<double>{0.75, 0.5, 0, -0.5, -0.75});
-  }
-  SECTION("a flat end with its own noise") {
-    const auto [curve, made] =
-        calibrated({-2, -1, 0, 1, 2, 3, 4, 5}, {-2, -1, 0, 1, 2.01, 2.03, 1.99, 2.02});
-    CHECK_THAT(made.done, Contains("flat from 114.592 deg: a stop"));
-    CHECK(curve.servo == five);
-    CHECK(curve.plate.back() == Approx(2.0125));
-    CHECK_FALSE(curve.smoothed);
-  }
-  SECTION("noise") {
-    const auto [curve, made] =
-        calibrated({-3, -2, -1, 0, 0.25, 1, 2, 3}, {-3, -2, -1, 0.25, 0.125, 1, 2, 3});
-    CHECK(made.done == "2 rows of noise smoothed by at most 3.58099 deg");
-    CHECK(made.changes);
-    CHECK(curve.smoothed);
-    CHECK(curve.servo == std::vector<double>{-3, -2, -1, 0.125, 1, 2, 3});
-    CHECK(curve.plate == std::vector<double>{-3, -2, -1, 0.1875, 1, 2, 3});
-  }
-  SECTION("a curve that turns back is left for the model to refuse") {
-    const std::vector<double> plate{-1, 0, 1, 0.5, 0};
-    const auto [curve, made] = calibrated(five, plate);
-    CHECK(made.done.empty());
-    CHECK(curve.plate == plate);
-  }
-  SECTION("from a scenario, in degrees because of a column's name") {
-    TemporaryFolder folder;
-    const std::string table = folder.write(
-        "curve.csv", "servo_deg,plate [deg]\n40,10\n30,10\n20,8\n0,0\n0,0.5\n-20,-8\n-30,-10\n");
-    const Scenario scene =
-        parse(base, {"gimbal.linkage.table={file: " + table + ", servo: servo, plate: plate}"});
-    const CurveLinkage& curve = std::get<CurveLinkage>(*scene.gimbal.linkage[0]);
-    CHECK(curve.servo.size() == 5);
-    CHECK(curve.servo.back() == Approx(0.5235987755982988));
-  }
+  // From a scenario, in degrees because of a column's name.
+  const TemporaryFolder folder;
+  const std::string table = folder.write(
+      "curve.csv", "servo_deg,plate [deg]\n40,10\n30,10\n20,8\n0,0\n0,0.5\n-20,-8\n-30,-10\n");
+  const Scenario scene =
+      parse(base, {"gimbal.linkage.table={file: " + table + ", servo: servo, plate: plate}"});
+  const CurveLinkage& curve = std::get<CurveLinkage>(*scene.gimbal.linkage[0]);
+  CHECK(curve.servo.size() == 5);
+  CHECK(curve.servo.back() == Approx(0.5235987755982988));
 }
 
 TEST_CASE("an axis may have its own servo keys") {
