@@ -7,6 +7,7 @@
 
 #include "catch.hpp"
 #include "scenario/calibration.hpp"
+#include "support/folder.hpp"
 #include "support/reading.hpp"
 
 namespace bbsim_test::test_linkage {
@@ -44,8 +45,8 @@ TEST_CASE("a linkage is read for both axes or for each one") {
   }
   CHECK(both.controller->assumes == Assumes::exact);
 
-  TemporaryFolder folder;
-  const std::string table = folder.write("curve.csv", "a,b\n-1,-0.3\n-0.4,-0.1\n0.4,0.1\n1,0.3\n");
+  Folder folder;
+  const std::string table = folder.put("curve.csv", "a,b\n-1,-0.3\n-0.4,-0.1\n0.4,0.1\n1,0.3\n");
   const Scenario apart =
       parse(base, {"gimbal.linkage={phi: {horn: 0.02, arm: 0.05, rod: 0.1, offset: [0, 0.1]}, "
                    "theta: {table: {file: " +
@@ -114,8 +115,8 @@ TEST_CASE("a calibration is cleaned, and says how") {
     CHECK_THAT(curve.plate, Catch::Matchers::Approx(one.to_plate).epsilon(1e-15));
   }
   // From a scenario, in degrees because of a column's name.
-  const TemporaryFolder folder;
-  const std::string table = folder.write(
+  const Folder folder;
+  const std::string table = folder.put(
       "curve.csv", "servo_deg,plate [deg]\n40,10\n30,10\n20,8\n0,0\n0,0.5\n-20,-8\n-30,-10\n");
   const Scenario scene =
       parse(base, {"gimbal.linkage.table={file: " + table + ", servo: servo, plate: plate}"});
@@ -152,8 +153,8 @@ TEST_CASE("an axis may have its own limit of commands") {
 }
 
 TEST_CASE("clocks, frames and sensors are read in SI units") {
-  TemporaryFolder folder;
-  const std::string periods = folder.write("periods.csv", "dt\n0.02\n0.021\n");
+  Folder folder;
+  const std::string periods = folder.put("periods.csv", "dt\n0.02\n0.021\n");
   const Scenario scene = parse(
       base, {"controller.sampling={period: 0.02, jitter: {file: " + periods + ", period: dt}}",
              "controller.sensor={rotation: \"2 deg\", offset: [\"1 mm\", 0], scale: 1.02, period: "

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "catch.hpp"
+#include "support/folder.hpp"
 #include "support/reading.hpp"
 
 namespace bbsim_test::test_profile {
@@ -58,10 +59,10 @@ TEST_CASE("the shapes of a profile have units and defaults, and a list is their 
 }
 
 TEST_CASE("a table is read relative to the scenario") {
-  const TemporaryFolder folder;
-  static_cast<void>(folder.write("motion.csv", five_rows("5,3,4")));
+  const Folder folder;
+  folder.put("motion.csv", five_rows("5,3,4"));
   const std::string scenario =
-      folder.write("scenario.yaml", with_phi("{table: {file: motion.csv, time: t, value: b}}"));
+      folder.put("scenario.yaml", with_phi("{table: {file: motion.csv, time: t, value: b}}"));
   const Scenario read = read_scenario(scenario);
   const auto& table = std::get<Table>(read.gimbal.motion->phi[0]);
   CHECK(table.file == "motion.csv");
@@ -70,15 +71,15 @@ TEST_CASE("a table is read relative to the scenario") {
 }
 
 TEST_CASE("a table is moved, scaled and delayed") {
-  const TemporaryFolder folder;
-  static_cast<void>(folder.write("log.csv",
-                                 "millis;mode;servo [deg]\n-1000;a;90\n4000;b;100\n9000;c;\n"
-                                 "14000;d;110\n19000;e;120\n"));
+  const Folder folder;
+  folder.put("log.csv",
+             "millis;mode;servo [deg]\n-1000;a;90\n4000;b;100\n9000;c;\n"
+             "14000;d;110\n19000;e;120\n");
   const auto read = [&](const std::string& keys) {
-    const std::string scenario = folder.write(
-        "scenario.yaml",
-        with_phi("{table: {file: log.csv, time: millis, time_unit: ms, value: servo, " + keys +
-                 "}}"));
+    const std::string scenario =
+        folder.put("scenario.yaml",
+                   with_phi("{table: {file: log.csv, time: millis, time_unit: ms, value: servo, " +
+                            keys + "}}"));
     return std::get<Table>(read_scenario(scenario).gimbal.motion->phi[0]);
   };
   constexpr double degree = std::numbers::pi / 180;
@@ -97,9 +98,9 @@ TEST_CASE("a table is moved, scaled and delayed") {
 }
 
 TEST_CASE("a header may name the columns of a file without one") {
-  const TemporaryFolder folder;
-  static_cast<void>(folder.write("log.csv", "0,1,2\n5,3,4\n10,5,6\n15,7,8\n"));
-  const std::string scenario = folder.write(
+  const Folder folder;
+  folder.put("log.csv", "0,1,2\n5,3,4\n10,5,6\n15,7,8\n");
+  const std::string scenario = folder.put(
       "scenario.yaml", with_phi("{table: {file: log.csv, unit: rad, header: [t, a, b], time: t, "
                                 "value: b}}"));
   const Scenario read = read_scenario(scenario);
@@ -107,21 +108,20 @@ TEST_CASE("a header may name the columns of a file without one") {
 }
 
 TEST_CASE("a wrapping 32-bit clock drives a scene") {
-  const TemporaryFolder folder;
-  static_cast<void>(
-      folder.write("log.csv", "us,a\n4290000000,1\n4294000000,2\n32704,3\n9032704,4\n"));
+  const Folder folder;
+  folder.put("log.csv", "us,a\n4290000000,1\n4294000000,2\n32704,3\n9032704,4\n");
   const std::string scenario =
-      folder.write("scenario.yaml",
-                   with_phi("{table: {file: log.csv, time: us, value: a, unit: rad, time_unit: us, "
-                            "time_offset: start}}"));
+      folder.put("scenario.yaml",
+                 with_phi("{table: {file: log.csv, time: us, value: a, unit: rad, time_unit: us, "
+                          "time_offset: start}}"));
   const Scenario read = read_scenario(scenario);
   CHECK(std::get<Table>(read.gimbal.motion->phi[0]).times == std::vector<double>{0, 4, 5, 14});
 }
 
 TEST_CASE("a log's last row holds until the end, for one period of the log") {
-  const TemporaryFolder folder;
-  static_cast<void>(folder.write("motion.csv", five_rows("5,3,4")));
-  const std::string scenario = folder.write(
+  const Folder folder;
+  folder.put("motion.csv", five_rows("5,3,4"));
+  const std::string scenario = folder.put(
       "scenario.yaml", with_phi("{table: {file: motion.csv, time: t, value: b, unit: rad}}"));
   CHECK(read_scenario(scenario, {"time.end=9"}).remarks.empty());
   const Scenario held = read_scenario(scenario, {"time.end=11"});
@@ -133,10 +133,10 @@ TEST_CASE("a log's last row holds until the end, for one period of the log") {
 }
 
 TEST_CASE("the tables read are reported under the scenario's names") {
-  const TemporaryFolder folder;
+  const Folder folder;
   const std::string table = "t,angle,other\n0,0,1\n1,0.1,2\n2,0,3\n3,0.1,4\n";
-  static_cast<void>(folder.write("a.csv", table));
-  static_cast<void>(folder.write("b.csv", table));
+  folder.put("a.csv", table);
+  folder.put("b.csv", table);
   const std::string text =
       "ball: {radius: 0.01}\n"
       "time: {end: 3, step: 1}\n"
@@ -144,7 +144,7 @@ TEST_CASE("the tables read are reported under the scenario's names") {
       "                  theta: [{table: {file: ./b.csv, time: t, value: angle}},\n"
       "                          {table: {file: a.csv, time: t, value: other}}]}}\n";
   std::vector<file::InputTable> inputs;
-  static_cast<void>(parse_scenario(text, folder.file("scene.yaml"), {}, &inputs));
+  static_cast<void>(parse_scenario(text, folder / "scene.yaml", {}, &inputs));
   REQUIRE(inputs.size() == 2);
   CHECK(inputs[0].file == "./b.csv");
   CHECK(inputs[1].file == "a.csv");

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "support/folder.hpp"
 #include "support/reading.hpp"
 
 namespace bbsim_test::test_reference {
@@ -88,10 +89,10 @@ TEST_CASE("waypoints, steps, square waves and staircases have units and defaults
 }
 
 TEST_CASE("a reference table is found beside its scenario") {
-  const TemporaryFolder folder;
-  static_cast<void>(folder.write("path.csv", "t,a,b\n0,1,2\n2.5,2,3\n5,3,4\n10,5,6\n"));
+  const Folder folder;
+  folder.put("path.csv", "t,a,b\n0,1,2\n2.5,2,3\n5,3,4\n10,5,6\n");
   const std::vector<std::string> set{key + "={table: {file: path.csv, time: t, x: a, y: b}}"};
-  const Scenario read = parse_scenario(closed_loop, folder.file("scenario.yaml"), set);
+  const Scenario read = parse_scenario(closed_loop, folder / "scenario.yaml", set);
   const auto& table = std::get<TableReference>(read.controller->reference);
   CHECK(table.file == "path.csv");
   CHECK(table.times == std::vector<double>{0, 2.5, 5, 10});

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "support/folder.hpp"
 #include "support/reading.hpp"
 
 namespace bbsim_test::test_refused {
@@ -57,14 +58,14 @@ struct Refused {
   }
 
   // The problems found; places in the scenario without its folder.
-  [[nodiscard]] std::vector<Problem> problems(const test::TemporaryFolder& folder) const {
+  [[nodiscard]] std::vector<Problem> problems(const Folder& folder) const {
     try {
-      static_cast<void>(parse_scenario(text, folder.file("scenario.yaml"), overrides));
+      static_cast<void>(parse_scenario(text, folder / "scenario.yaml", overrides));
     } catch (const InputError& error) {
       std::vector<Problem> found = error.problems();
       for (Problem& one : found) {
-        const std::size_t path = one.where.find(folder.file(""));
-        if (path == 0) one.where.erase(0, folder.file("").size());
+        const std::size_t path = one.where.find(folder / "");
+        if (path == 0) one.where.erase(0, (folder / "").size());
       }
       return found;
     }
@@ -96,14 +97,13 @@ TEST_CASE("bad scenarios are refused at their place, with what is allowed") {
   for (const auto& entry :
        std::filesystem::directory_iterator(BBSIM_SOURCE_DIR "/tests/scenario/refused")) {
     const YAML::Node page = YAML::LoadFile(entry.path());
-    const test::TemporaryFolder folder;
+    const Folder folder;
     for (const YAML::Node& one : page["refused"]) {
       const Refused refused(page["bases"], one);
       for (const YAML::Node& files : {page["files"], one[3]}) {
         if (!files) continue;
         for (const auto& file : files) {
-          static_cast<void>(
-              folder.write(file.first.as<std::string>(), file.second.as<std::string>()));
+          folder.put(file.first.as<std::string>(), file.second.as<std::string>());
         }
       }
       CAPTURE(entry.path().filename(), refused.text, refused.overrides);

@@ -7,6 +7,7 @@
 
 #include "catch.hpp"
 #include "scenario/log_columns.hpp"
+#include "support/folder.hpp"
 #include "support/reading.hpp"
 
 namespace bbsim_test::test_units {
@@ -24,12 +25,12 @@ const char* const rows =
     "0,0,0,-30,0\n2500,2,100,0,5\n5000,-4,50,30,10\n7500,1,0,0,5\n10000,0,0,0,0\n";
 
 struct Scene {
-  explicit Scene(const std::string& table) { static_cast<void>(folder.write("log.csv", table)); }
+  explicit Scene(const std::string& table) { folder.put("log.csv", table); }
 
   [[nodiscard]] Scenario read(const std::string& key, const std::string& extra) const {
     const std::string text =
         "ball: {radius: 0.01, mass: 0.1}\ntime: {end: 10, step: 0.1}\n" + scene(key, extra);
-    return parse_scenario(text, folder.file("scene.yaml"));
+    return parse_scenario(text, folder / "scene.yaml");
   }
   [[nodiscard]] static std::string scene(const std::string& key, const std::string& extra) {
     const std::string table = "{table: {file: log.csv, time: t" + extra;
@@ -39,7 +40,7 @@ struct Scene {
            table + ", x: x, y: y}}}\n";
   }
 
-  TemporaryFolder folder;
+  Folder folder;
 };
 
 std::string told(const Scenario& scenario) {
@@ -67,15 +68,15 @@ TEST_CASE("a table is read in its units, without a warning") {
 }
 
 TEST_CASE("torques and forces of a table have units too") {
-  const TemporaryFolder folder;
-  static_cast<void>(folder.write("log.csv", "t,f\n0,0\n1,5\n2,10\n3,500\n"));
+  const Folder folder;
+  folder.put("log.csv", "t,f\n0,0\n1,5\n2,10\n3,500\n");
   const Scenario scenario = parse_scenario(
       "ball: {radius: 0.01, mass: 0.1, push: {x: {table: {file: log.csv, time: t, value: f, unit: "
       "mN}}}}\n"
       "plate: {inertia: [1e-3, 1e-3, 2e-3]}\n"
       "gimbal: {torque: {phi: {table: {file: log.csv, time: t, value: f, unit: mN m}}}}\n"
       "time: {end: 3, step: 1}\n",
-      folder.file("scene.yaml"));
+      folder / "scene.yaml");
   CHECK(std::get<Table>(scenario.ball.push->x[0]).values ==
         std::vector<double>{0, 0.005, 0.01, 0.5});
   CHECK(std::get<Table>(scenario.gimbal.torque->phi[0]).values ==
@@ -108,9 +109,9 @@ TEST_CASE("a table without units gives a warning if it looks like another unit")
 }
 
 TEST_CASE("a clock's periods and a linkage's angles are read in their units") {
-  const TemporaryFolder folder;
-  static_cast<void>(folder.write("periods.csv", "dt\n19\n21\n20\n"));
-  static_cast<void>(folder.write("curve.csv", "a,b\n-60,-20\n-20,-6\n20,6\n60,20\n"));
+  const Folder folder;
+  folder.put("periods.csv", "dt\n19\n21\n20\n");
+  folder.put("curve.csv", "a,b\n-60,-20\n-20,-6\n20,6\n60,20\n");
   const auto read = [&](const std::string& of_periods, const std::string& of_curve) {
     return parse_scenario(
         "ball: {radius: 0.01}\n"
@@ -128,7 +129,7 @@ TEST_CASE("a clock's periods and a linkage's angles are read in their units") {
             of_periods +
             "}}\n"
             "time: {end: 10, step: 0.1}\n",
-        folder.file("scene.yaml"));
+        folder / "scene.yaml");
   };
   for (const char* unit : {", unit: ms", ", time_unit: ms"}) {
     const Scenario scenario = read(unit, ", unit: deg");

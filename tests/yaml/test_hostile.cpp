@@ -8,6 +8,7 @@
 #include <random>
 
 #include "catch.hpp"
+#include "support/folder.hpp"
 #include "support/reading.hpp"
 
 namespace bbsim_test::test_hostile {
@@ -76,30 +77,29 @@ TEST_CASE("more values than a scenario has") {
 }
 
 TEST_CASE("files that are not scenarios") {
-  const TemporaryFolder folder;
-  CHECK(file_error(folder.file("absent")) ==
-        folder.file("absent") + ": cannot be read: No such file or directory");
-  CHECK(file_error(folder.file("")) ==
-        folder.file("") + ": found a folder; allowed: a scenario file");
+  const Folder folder;
+  CHECK(file_error(folder / "absent") ==
+        (folder / "absent") + ": cannot be read: No such file or directory");
+  CHECK(file_error(folder / "") == (folder / "") + ": found a folder; allowed: a scenario file");
   CHECK(file_error("/dev/zero") ==
         "/dev/zero: found more than 1048576 bytes; allowed: a scenario of at most 1048576 bytes");
   CHECK(file_error("/dev/null").starts_with("/dev/null:1:1: found an empty file;"));
 
-  const std::string sparse = folder.write("sparse", "");
+  const std::string sparse = folder.put("sparse", "");
   std::filesystem::resize_file(sparse, 200'000'000);
   CHECK(file_error(sparse) ==
         sparse + ": found 200000000 bytes; allowed: a scenario of at most 1048576 bytes");
 
-  const std::string pipe = folder.file("pipe");
+  const std::string pipe = folder / "pipe";
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
   CHECK(file_error(pipe) == pipe + ": found nothing within 5 s; allowed: a file, or a pipe in use");
 }
 
 TEST_CASE("the largest file") {
-  const TemporaryFolder folder;
+  const Folder folder;
   const std::string padding(1048576 - open_loop.size() - 1, '#');
-  CHECK(file_error(folder.write("largest", open_loop + padding + "\n")).empty());
-  CHECK_THAT(file_error(folder.write("larger", open_loop + padding + "#\n")),
+  CHECK(file_error(folder.put("largest", open_loop + padding + "\n")).empty());
+  CHECK_THAT(file_error(folder.put("larger", open_loop + padding + "#\n")),
              Contains("found 1048577 bytes"));
 }
 
