@@ -16,9 +16,8 @@
 
 #include "base/error.hpp"
 #include "catch.hpp"
-#include "record/recorder.hpp"
 #include "solve/integrate.hpp"
-#include "support/largest.hpp"
+#include "support/measured.hpp"
 #include "support/run_in_memory.hpp"
 #include "support/sweep_setup.hpp"
 #include "sweep/runners.hpp"
@@ -42,17 +41,6 @@ const std::vector<std::string> loop_measures{"end_x",
                                              "rms_tracking_error",
                                              "max_tracking_error"};
 
-// Largest difference between two sweeps' numbers, relative for numbers above 1.
-double largest_difference(const CaseResults& a, const CaseResults& b) {
-  REQUIRE(a.numbers.size() == b.numbers.size());
-  double largest = 0;
-  for (std::size_t i = 0; i < a.numbers.size(); ++i) {
-    const double size = std::max(1.0, std::abs(a.numbers[i]));
-    largest = bbsim_test::largest_finite(largest, {std::abs(a.numbers[i] - b.numbers[i]) / size});
-  }
-  return largest;
-}
-
 // Measures from the rows of solve::integrate.
 CaseResults one_by_one(const SweepTask& task) {
   CaseResults results;
@@ -60,16 +48,10 @@ CaseResults one_by_one(const SweepTask& task) {
   const std::size_t numbers = 1 + task.measures.size();
   for (std::size_t i = 0; i < task.plan.cases(); ++i) {
     const Scenario scenario = task.family.read(task.plan.settings(i));
-    const model::Model model = model::assemble(scenario, false);
-    const model::BallConstants constants = model::constants_of(scenario);
-    const solve::OutputGrid grid(scenario.time);
-    record::Recorder recorder({{}, task.measures});
-    recorder.begin(model, constants, grid);
-    const solve::Outcome outcome =
-        solve::integrate(model, scenario.solver.method,
-                         {scenario.solver.rtol, scenario.solver.atol}, grid, recorder);
-    results.numbers[i * numbers] = outcome.reached;
-    recorder.finish(outcome, &results.numbers[i * numbers + 1]);
+    const MeasuredRun run = measured(scenario, task.measures, scenario.solver.method,
+                                     {scenario.solver.rtol, scenario.solver.atol});
+    results.numbers[i * numbers] = run.outcome.reached;
+    std::ranges::copy(run.values, &results.numbers[i * numbers + 1]);
   }
   return results;
 }
@@ -309,21 +291,6 @@ TEST_CASE("every engine computes tied keys") {
   }
 }
 
-TEST_CASE("a case that lacks what a measure needs has no number for it, and a reason") {
-  const std::string second = GENERATE("{size: [0.3, 0.3]}", "{diameter: 0.3}");
-  const Setup setup("configs/fig2a.yaml",
-                    {{"plate", "list:{inertia: [1e-4, 1e-4, 2e-4]}," + second}}, {},
-                    {"end_motor_torque_phi", "end_x"});
-  const CaseResults results = run_all(*single_runner(setup.task), setup.task);
-  CHECK(results.status[0].word == "done");
-  CHECK(results.status[0].reason.empty());
-  CHECK(std::isfinite(results.numbers[1]));
-  CHECK(std::isnan(results.numbers[4]));
-  CHECK(std::isfinite(results.numbers[5]));
-  CHECK(results.status[1].reason ==
-        "end_motor_torque_phi is not a number: plate.inertia is not known");
-}
-
 TEST_CASE("windows of time within the whole run work with every engine") {
   struct Case {
     std::string scene, engine;
@@ -384,9 +351,10 @@ TEST_CASE("windows of time within the whole run work with every engine") {
   CHECK(of_parts.numbers == one_by_one(parts.task).numbers);
 }
 
-TEST_CASE("a measure unknown to the first case may exist in another") {
+TEST_CASE("a case that lacks a measure has a reason, and another may have it") {
+  const std::string first = GENERATE("{size: [0.3, 0.3]}", "{diameter: 0.3}");
   const std::vector<Variation> plates{
-      {"plate", "list:{diameter: 0.3},{inertia: [1e-4, 1e-4, 2e-4]}"}};
+      {"plate", "list:" + first + ",{inertia: [1e-4, 1e-4, 2e-4]}"}};
   const Setup setup("configs/fig2a.yaml", plates, {}, {"end_x"});
   const std::vector<std::string> names{"end_motor_torque_phi", "end_x"};
   const auto found = sweep_measures(names, setup.family, setup.plan);
@@ -395,13 +363,16 @@ TEST_CASE("a measure unknown to the first case may exist in another") {
   const CaseResults results = run_all(*single_runner(task), task);
   CHECK(results.status[0].reason ==
         "end_motor_torque_phi is not a number: plate.inertia is not known");
+  CHECK(results.status[1].word == "done");
+  CHECK(results.status[1].reason.empty());
   CHECK(std::isnan(results.numbers[1]));
+  CHECK(std::isfinite(results.numbers[2]));
   CHECK(std::isfinite(results.numbers[4]));
   // A measure that no case knows is an error, and so is a window that no case has.
-  CHECK_THROWS_AS(sweep_measures({"max_tracking_error"}, setup.family, setup.plan), InputError);
-  CHECK_THROWS_AS(sweep_measures({"max_x from 11 s"}, setup.family, setup.plan), InputError);
-  CHECK_THROWS_AS(sweep_measures({"end_x", "end_x"}, setup.family, setup.plan), InputError);
-  CHECK_THROWS_AS(sweep_measures({"max_z"}, setup.family, setup.plan), InputError);
+  for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{
+           {"max_tracking_error"}, {"max_x from 11 s"}, {"end_x", "end_x"}, {"max_z"}}) {
+    CHECK_THROWS_AS(sweep_measures(wrong, setup.family, setup.plan), InputError);
+  }
   const Setup ends("configs/fig2a.yaml", {{"time.end", "list:1,12"}}, {}, {"end_x"});
   CHECK(sweep_measures({"max_x from 11 s"}, ends.family, ends.plan).size() == 1);
   // Rigs in lanes, of which only the first lacks the measure.
