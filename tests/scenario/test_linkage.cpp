@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Keys of linkages, three servos, servos by axis, clocks, frames and pushes.
-#include <utility>
 #include <vector>
 
 #include "catch.hpp"
