@@ -3,9 +3,6 @@
 
 // What the reader of HDF5 refuses: data in other files, and sizes that the file cannot hold.
 // Threads may read at once, and no file content reaches a terminal raw.
-#include <hdf5.h>
-
-#include <array>
 #include <atomic>
 #include <filesystem>
 #include <thread>
@@ -15,6 +12,7 @@
 #include "file/hdf5_table.hpp"
 #include "file/table_writer.hpp"
 #include "support/folder.hpp"
+#include "support/hdf5.hpp"
 #include "support/tables.hpp"
 
 namespace bbsim_test::test_hdf5_reader {
@@ -28,28 +26,20 @@ using Catch::Matchers::Contains;
 
 namespace {
 
+// Why both readers refuse a file.
 std::string refusal(const std::string& file) {
-  return message_of<InputError>([&] { (void)read_table(file); });
+  const std::string why = message_of<InputError>([&] { (void)read_table(file); });
+  CHECK(message_of<InputError>([&] { Hdf5TableReader{file}; }) == why);
+  return why;
 }
 
-// A file of one dataset, created by `make`.
+// A file that `make` fills.
 template <class Make>
 std::string foreign(const Folder& folder, const std::string& name, Make make) {
-  const std::string file = folder / name;
-  const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT);
-  const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
-  make(id, creation);
-  H5Pclose(creation);
-  H5Fclose(id);
-  return file;
-}
-
-hid_t dataset_of(hid_t file, const char* name, hsize_t rows, hid_t creation) {
-  const hid_t space = H5Screate_simple(1, &rows, nullptr);
-  const hid_t id =
-      H5Dcreate2(file, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, H5P_DEFAULT);
-  H5Sclose(space);
-  return id;
+  const Handle file = created(folder / name);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  make(file, creation);
+  return folder / name;
 }
 
 }  // namespace
@@ -91,13 +81,42 @@ TEST_CASE("concurrent threads each read their own rows") {
   CHECK(wrong == 0);
 }
 
-TEST_CASE("a truncated file is an error, and the next one is read") {
+TEST_CASE("files that are no tables are refused, and the next one is read") {
   const Folder folder;
+  const std::string none = folder / "none.h5";
+  CHECK(refusal(none) == "cannot read " + none + ": no such file or directory");
+  CHECK_THAT(refusal(folder.put("text.h5", "t,x\n1,2\n")), Contains("it is not an HDF5 file"));
+  CHECK_THAT(refusal(folder.put("empty.h5", "")), Contains("it is not an HDF5 file"));
+  std::filesystem::create_directory(folder / "folder.h5");
+  CHECK_THAT(refusal(folder / "folder.h5"), Contains("it is not a regular file"));
+  CHECK_THAT(message_of<InputError>([] { Hdf5TableReader{"/dev/null"}; }),
+             Contains("it is not a regular file"));
+
   write_table(folder / "a.h5", random_table(3, 3000));
   const std::string whole = content_of(folder / "a.h5");
-  const std::string cut = folder.put("cut.h5", whole.substr(0, whole.size() / 2));
-  CHECK_THAT(refusal(cut), Contains("opening the file failed"));
+  for (const std::size_t bytes : {whole.size() / 2, whole.size() - 1}) {
+    CHECK_THAT(refusal(folder.put("cut.h5", whole.substr(0, bytes))),
+               Contains("cannot read " + (folder / "cut.h5") + ": opening the file failed"));
+  }
   CHECK(refusal(folder / "a.h5").empty());
+  const std::string bare = foreign(folder, "bare.h5", [](hid_t, hid_t) {});
+  CHECK_THAT(refusal(bare), Contains("it holds no column at its root"));
+  const std::string uneven = foreign(folder, "uneven.h5", [](hid_t id, hid_t) {
+    put_dataset(id, "t", H5T_IEEE_F64LE, {2});
+    put_dataset(id, "x", H5T_IEEE_F64LE, {5});
+  });
+  CHECK_THAT(refusal(uneven), Contains("dataset x has 5 rows, t has 2"));
+
+  // Columns for a table of cases, but not for one of numbers.
+  const auto of = [&](const std::string& name, hid_t type, const Sizes& sizes) {
+    const std::string file =
+        foreign(folder, name, [&](hid_t id, hid_t) { put_dataset(id, "it", type, sizes); });
+    return message_of<InputError>([&] { (void)read_table(file); });
+  };
+  CHECK_THAT(of("image.h5", H5T_NATIVE_DOUBLE, {4, 4}), Contains("dataset it is not a column"));
+  CHECK_THAT(of("text-1.h5", H5T_C_S1, {4}), Contains("dataset it is not a column"));
+  CHECK(of("int.h5", H5T_STD_I32BE, {4}).empty());
+  CHECK(read_table(folder / "int.h5").columns == std::vector<std::vector<double>>{{0, 0, 0, 0}});
 }
 
 TEST_CASE("a dataset that declares more than the file can contain is refused with its sizes") {
@@ -105,7 +124,8 @@ TEST_CASE("a dataset that declares more than the file can contain is refused wit
   const std::string file = foreign(folder, "a.h5", [](hid_t id, hid_t creation) {
     const hsize_t chunk = 1024;
     H5Pset_chunk(creation, 1, &chunk);
-    for (const char* name : {"t", "x", "y"}) H5Dclose(dataset_of(id, name, 40000000, creation));
+    for (const char* name : {"t", "x", "y"})
+      put_dataset(id, name, H5T_IEEE_F64LE, {40000000}, nullptr, creation);
   });
   const std::uintmax_t size = std::filesystem::file_size(file);
   CHECK(size < 5000);
@@ -118,7 +138,7 @@ TEST_CASE("a dataset that declares more than the file can contain is refused wit
   const std::string most = foreign(folder, "most.h5", [](hid_t id, hid_t creation) {
     const hsize_t chunk = 1024;
     H5Pset_chunk(creation, 1, &chunk);
-    H5Dclose(dataset_of(id, "x", ~hsize_t{0} / 2, creation));
+    put_dataset(id, "x", H5T_IEEE_F64LE, {~hsize_t{0} / 2}, nullptr, creation);
   });
   CHECK_THAT(refusal(most), Contains("declares 9223372036854775807 rows, 18446744073709551615 "));
 }
@@ -131,16 +151,12 @@ TEST_CASE("a compressed dataset may be larger than the file, but only by a bound
       const hsize_t chunk = 500000;
       H5Pset_chunk(creation, 1, &chunk);
       H5Pset_deflate(creation, 6);
-      const hid_t dataset = dataset_of(id, "x", declared, creation);
+      const Handle dataset = put_dataset(id, "x", H5T_IEEE_F64LE, {declared}, nullptr, creation);
       const std::vector<double> numbers(rows, 1.5);
-      const hid_t memory = H5Screate_simple(1, &rows, nullptr);
-      const hid_t space = H5Dget_space(dataset);
+      const Handle space(H5Dget_space(dataset), H5Sclose);
       const hsize_t first = 0;
       H5Sselect_hyperslab(space, H5S_SELECT_SET, &first, nullptr, &rows, nullptr);
-      H5Dwrite(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, numbers.data());
-      H5Sclose(space);
-      H5Sclose(memory);
-      H5Dclose(dataset);
+      H5Dwrite(dataset, H5T_NATIVE_DOUBLE, space_of({rows}), space, H5P_DEFAULT, numbers.data());
     });
   };
   const std::string sound = packed("sound.h5", rows);
@@ -156,16 +172,14 @@ TEST_CASE("external data in other files are not read") {
   write_table(folder / "other.h5", {{"x"}, {{1, 2}}});
   const std::string raw = foreign(folder, "raw.h5", [&](hid_t id, hid_t creation) {
     H5Pset_external(creation, (folder / "secret").c_str(), 0, 800);
-    H5Dclose(dataset_of(id, "x", 100, creation));
+    put_dataset(id, "x", H5T_IEEE_F64LE, {100}, nullptr, creation);
   });
   CHECK_THAT(refusal(raw), Contains("dataset x is not a column: its numbers are in other files"));
 
   const std::string mapped = foreign(folder, "mapped.h5", [&](hid_t id, hid_t creation) {
-    const hsize_t rows = 2;
-    const hid_t space = H5Screate_simple(1, &rows, nullptr);
+    const Handle space = space_of({2});
     H5Pset_virtual(creation, space, (folder / "other.h5").c_str(), "x", space);
-    H5Sclose(space);
-    H5Dclose(dataset_of(id, "x", 2, creation));
+    put_dataset(id, "x", H5T_IEEE_F64LE, {2}, nullptr, creation);
   });
   CHECK_THAT(refusal(mapped), Contains("its numbers are in other files"));
 
@@ -183,7 +197,7 @@ TEST_CASE("external data in other files are not read") {
   CHECK_THAT(refusal(way_round), Contains("opening x failed"));
 
   const std::string within = foreign(folder, "within.h5", [&](hid_t id, hid_t creation) {
-    H5Dclose(dataset_of(id, "x", 2, creation));
+    put_dataset(id, "x", H5T_IEEE_F64LE, {2}, nullptr, creation);
     H5Lcreate_soft("/x", id, "y", H5P_DEFAULT, H5P_DEFAULT);
   });
   CHECK(read_table(within).names == std::vector<std::string>{"x", "y"});
@@ -192,11 +206,7 @@ TEST_CASE("external data in other files are not read") {
 TEST_CASE("dataset names are shown safe for a terminal") {
   const Folder folder;
   const std::string file = foreign(folder, "a\x1b[2J.h5", [](hid_t id, hid_t) {
-    const std::array<hsize_t, 3> sizes{2, 2, 2};
-    const hid_t space = H5Screate_simple(3, sizes.data(), nullptr);
-    H5Dclose(H5Dcreate2(id, "x\x1b]0;title\x07\n", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT,
-                        H5P_DEFAULT));
-    H5Sclose(space);
+    put_dataset(id, "x\x1b]0;title\x07\n", H5T_IEEE_F64LE, {2, 2, 2});
   });
   CHECK(refusal(file) == "cannot read " + (folder / "a\\x1b[2J.h5") +
                              ": dataset x\\x1b]0;title\\x07\\n is not a column: it has 3 "

@@ -3,10 +3,7 @@
 
 // Tables of cases: numbers, text and series, read back bit for bit and block by block. The same
 // rows give the same bytes for any block size, also when parts are merged.
-#include <hdf5.h>
-#include <hdf5_hl.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -16,6 +13,7 @@
 #include "catch.hpp"
 #include "file/hdf5_table.hpp"
 #include "support/folder.hpp"
+#include "support/hdf5.hpp"
 #include "support/limits.hpp"
 #include "support/tables.hpp"
 
@@ -94,24 +92,18 @@ bool same_files(const std::string& a, const std::string& b) {
   return bytes_of(a) == bytes_of(b);
 }
 
-std::string refusal(const std::string& file) {
-  return message_of<InputError>([&] { (void)Hdf5TableReader(file); });
-}
-
 // Properties of a dataset, from HDF5 itself.
 struct Facts {
-  std::vector<hsize_t> size, most, chunk;
+  Sizes size, most, chunk;
   bool text, utf8, number, axis;
 };
 
 Facts facts_of(hid_t file, const char* name) {
-  const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
-  const hid_t space = H5Dget_space(dataset);
-  const hid_t type = H5Dget_type(dataset);
-  const hid_t creation = H5Dget_create_plist(dataset);
+  const Handle dataset = dataset_of(file, name), type = type_of(dataset);
+  const Handle space(H5Dget_space(dataset), H5Sclose);
+  const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
   const auto rank = static_cast<std::size_t>(H5Sget_simple_extent_ndims(space));
-  Facts facts{
-      std::vector<hsize_t>(rank), std::vector<hsize_t>(rank), {}, false, false, false, false};
+  Facts facts{Sizes(rank), Sizes(rank), {}, false, false, false, false};
   H5Sget_simple_extent_dims(space, facts.size.data(), facts.most.data());
   if (H5Pget_layout(creation) == H5D_CHUNKED) {
     facts.chunk.resize(rank);
@@ -121,10 +113,6 @@ Facts facts_of(hid_t file, const char* name) {
   facts.utf8 = facts.text && H5Tget_cset(type) == H5T_CSET_UTF8;
   facts.number = H5Tequal(type, H5T_IEEE_F64LE) > 0;
   facts.axis = H5Aexists(dataset, "axis") > 0;
-  H5Pclose(creation);
-  H5Tclose(type);
-  H5Sclose(space);
-  H5Dclose(dataset);
   return facts;
 }
 
@@ -133,28 +121,22 @@ Facts facts_of(hid_t file, const char* name) {
 TEST_CASE("a table of cases as HDF5 sees it") {
   const Folder folder;
   write_cases(folder / "a.h5", 5, 3, 5);
-  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const Handle file = opened(folder / "a.h5");
   REQUIRE(file >= 0);
-  using Sizes = std::vector<hsize_t>;
-
-  const Facts gain = facts_of(file, "gain");
-  CHECK((gain.number && !gain.axis));
-  CHECK(gain.size == Sizes{5});
-  CHECK(gain.most == Sizes{H5S_UNLIMITED});
-  CHECK(gain.chunk == Sizes{1024});
-
-  const Facts ending = facts_of(file, "ending");
-  CHECK((ending.text && ending.utf8 && !ending.axis));
-  CHECK(ending.size == Sizes{5});
-  CHECK(ending.most == Sizes{H5S_UNLIMITED});
-  CHECK(ending.chunk == Sizes{1024});
-
+  for (const char* name : {"gain", "ending"}) {
+    CAPTURE(name);
+    const bool text = std::string(name) == "ending";
+    const Facts facts = facts_of(file, name);
+    CHECK((facts.text == text && facts.utf8 == text && facts.number == !text && !facts.axis));
+    CHECK(facts.size == Sizes{5});
+    CHECK(facts.most == Sizes{H5S_UNLIMITED});
+    CHECK(facts.chunk == Sizes{1024});
+  }
   const Facts x = facts_of(file, "x");
   CHECK((x.number && !x.axis));
   CHECK(x.size == Sizes{5, 3});
   CHECK(x.most == Sizes{H5S_UNLIMITED, 3});
   CHECK(x.chunk == Sizes{4096, 3});  // 96 KiB
-
   const Facts t = facts_of(file, "t");
   CHECK((t.number && t.axis));
   CHECK(t.size == Sizes{3});
@@ -162,8 +144,7 @@ TEST_CASE("a table of cases as HDF5 sees it") {
   CHECK(t.chunk.empty());
 
   // Stored as strings, and none of zero length.
-  const hid_t dataset = H5Dopen2(file, "ending", H5P_DEFAULT);
-  const hid_t type = H5Dget_type(dataset);
+  const Handle dataset = dataset_of(file, "ending"), type = type_of(dataset);
   std::vector<char*> texts(5, nullptr);
   REQUIRE(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, static_cast<void*>(texts.data())) >=
           0);
@@ -171,9 +152,6 @@ TEST_CASE("a table of cases as HDF5 sees it") {
   CHECK((texts[1] == nullptr || *texts[1] == '\0'));
   CHECK(std::string(texts[2]) == "Kugel fällt: ψ > 90°");
   for (char* text : texts) H5free_memory(text);
-  H5Tclose(type);
-  H5Dclose(dataset);
-  H5Fclose(file);
 }
 
 TEST_CASE("case numbers are integers and the scale of all rows; times are that of trajectories") {
@@ -188,30 +166,23 @@ TEST_CASE("case numbers are integers and the scale of all rows; times are that o
     writer.append(block);
     writer.finish({});
   }
-  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  REQUIRE(file >= 0);
-  const hid_t number = H5Dopen2(file, "case", H5P_DEFAULT);
-  const hid_t type = H5Dget_type(number);
-  CHECK(H5Tequal(type, H5T_STD_I64LE) > 0);
-  std::vector<std::int64_t> numbers(5);
-  H5Dread(number, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data());
-  CHECK(numbers == std::vector<std::int64_t>{7, 8, 9, 10, 9007199254740992});
-  H5Tclose(type);
-
-  const hid_t t = H5Dopen2(file, "t", H5P_DEFAULT);
-  CHECK(H5DSis_scale(number) > 0);
-  CHECK(H5DSis_scale(t) > 0);
-  for (const char* name : {"gain", "ending", "x"}) {
-    const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
-    CHECK(H5DSis_scale(dataset) == 0);
-    CHECK(H5DSis_attached(dataset, number, 0) > 0);
-    if (std::string(name) == "x") CHECK(H5DSis_attached(dataset, t, 1) > 0);
-    H5Dclose(dataset);
+  {
+    const Handle file = opened(folder / "a.h5");
+    REQUIRE(file >= 0);
+    const Handle number = dataset_of(file, "case"), t = dataset_of(file, "t");
+    CHECK(H5Tequal(type_of(number), H5T_STD_I64LE) > 0);
+    std::vector<std::int64_t> numbers(5);
+    H5Dread(number, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data());
+    CHECK(numbers == std::vector<std::int64_t>{7, 8, 9, 10, 9007199254740992});
+    CHECK(H5DSis_scale(number) > 0);
+    CHECK(H5DSis_scale(t) > 0);
+    for (const char* name : {"gain", "ending", "x"}) {
+      const Handle dataset = dataset_of(file, name);
+      CHECK(H5DSis_scale(dataset) == 0);
+      CHECK(H5DSis_attached(dataset, number, 0) > 0);
+      if (std::string(name) == "x") CHECK(H5DSis_attached(dataset, t, 1) > 0);
+    }
   }
-  H5Dclose(t);
-  H5Dclose(number);
-  H5Fclose(file);
-
   Hdf5TableReader reader(folder / "a.h5");
   CHECK(reader.columns() == columns);
   Hdf5Block back;
@@ -241,13 +212,11 @@ TEST_CASE("tables of cases are compressed, and texts of equal length stored cont
     writer.append(block);
     writer.finish({});
   }
-  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  REQUIRE(file >= 0);
   for (const Hdf5Column& column : columns) {
     CAPTURE(column.name);
-    const hid_t dataset = H5Dopen2(file, column.name.c_str(), H5P_DEFAULT);
-    const hid_t creation = H5Dget_create_plist(dataset);
-    const hid_t type = H5Dget_type(dataset);
+    const Handle file = opened(folder / "a.h5");
+    const Handle dataset = dataset_of(file, column.name), type = type_of(dataset);
+    const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
     unsigned flags = 0, level = 0;
     std::size_t count = 1;
     CHECK(H5Pget_filter_by_id2(creation, H5Z_FILTER_DEFLATE, &flags, &count, &level, 0, nullptr,
@@ -258,11 +227,7 @@ TEST_CASE("tables of cases are compressed, and texts of equal length stored cont
     CHECK(H5Dget_storage_size(dataset) < rows * H5Tget_size(type) * width / part);
     if (column.name == "status") CHECK(H5Tis_variable_str(type) == 0);
     if (column.name == "reason") CHECK(H5Tis_variable_str(type) > 0);
-    H5Tclose(type);
-    H5Pclose(creation);
-    H5Dclose(dataset);
   }
-  H5Fclose(file);
   Hdf5TableReader reader(folder / "a.h5");
   CHECK(reader.columns() == columns);
   Hdf5Block back;
@@ -284,42 +249,40 @@ TEST_CASE("chunks of series are whole rows of about 100 KiB") {
                                            {"b", "1", "", Hdf5Kind::series, 5000},
                                            {"c", "1", "", Hdf5Kind::series, 100000}});
   writer.finish({});
-  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  CHECK(facts_of(file, "a").chunk == std::vector<hsize_t>{16384, 1});
-  CHECK(facts_of(file, "b").chunk == std::vector<hsize_t>{2, 5000});
-  CHECK(facts_of(file, "c").chunk == std::vector<hsize_t>{1, 100000});
-  H5Fclose(file);
+  const Handle file = opened(folder / "a.h5");
+  CHECK(facts_of(file, "a").chunk == Sizes{16384, 1});
+  CHECK(facts_of(file, "b").chunk == Sizes{2, 5000});
+  CHECK(facts_of(file, "c").chunk == Sizes{1, 100000});
 }
 
-TEST_CASE("a table of cases reads back: columns, units, axes, attributes, rows") {
+TEST_CASE("a table of cases reads back, whole and in blocks, also if its series are wide") {
   const Folder folder;
-  write_cases(folder / "a.h5", 2500, 3, 700);
+  using Table = std::pair<std::size_t, std::size_t>;
+  const auto [rows, width] = GENERATE(Table{2500, 3}, Table{700, 5000});
+  write_cases(folder / "a.h5", rows, width, 300);
   Hdf5TableReader reader(folder / "a.h5");
-  CHECK(reader.columns() == three_kinds(3));
+  CHECK(reader.columns() == three_kinds(width));
   REQUIRE(reader.head().axes.size() == 1);
   CHECK(reader.head().axes[0].first == some_axes[0].first);
   CHECK(reader.head().axes[0].second == some_axes[0].second);
   CHECK(reader.head().attributes == some_attributes);
-  CHECK(reader.rows() == 2500);
 
   Hdf5Block block;
-  CHECK(reader.read(block));
-  CHECK(same(block, cases(0, 2500, 3)));
-  CHECK_FALSE(reader.read(block));
-  CHECK(same(block, cases(0, 0, 3)));
-
-  // In blocks, of which the last may be smaller.
-  for (const std::size_t a_block : {1, 341, 1024, 2499, 2500, 2501}) {
-    CAPTURE(a_block);
-    Hdf5TableReader in_blocks(folder / "a.h5", a_block);
-    CHECK(in_blocks.rows() == 2500);
+  for (const std::size_t a_block :
+       {std::size_t{0}, std::size_t{341}, std::size_t{1024}, rows - 1, rows, rows + 1}) {
+    CAPTURE(rows, a_block);
+    Hdf5TableReader in_blocks =
+        a_block == 0 ? Hdf5TableReader(folder / "a.h5") : Hdf5TableReader(folder / "a.h5", a_block);
+    CHECK(in_blocks.rows() == rows);
+    const std::size_t most = a_block == 0 ? rows : a_block;
     std::size_t first = 0;
     bool equal = true;
     for (; in_blocks.read(block); first += block.rows) {
-      equal = equal && same(block, cases(first, std::min(a_block, 2500 - first), 3));
+      equal = equal && same(block, cases(first, std::min(most, rows - first), width));
     }
     CHECK(equal);
-    CHECK(first == 2500);
+    CHECK(first == rows);
+    CHECK(same(block, cases(0, 0, width)));
   }
   CHECK(folder.entries() == 1);
 }
@@ -403,87 +366,6 @@ TEST_CASE("merged parts give the bytes of the whole") {
   CHECK(equal);
 }
 
-TEST_CASE("a hundred thousand cases") {
-  const Folder folder;
-  const std::size_t rows = 100000;
-  const std::size_t width = 4;
-  Hdf5TableWriter writer(folder / "a.h5", three_kinds(width));
-  Hdf5Block block = cases(0, 10000, width);
-  for (std::size_t first = 0; first < rows; first += block.rows) writer.append(block);
-  writer.finish({});
-  Hdf5TableReader reader(folder / "a.h5", block.rows);
-  REQUIRE(reader.rows() == rows);
-  Hdf5Block back;
-  bool equal = true;
-  std::size_t blocks = 0;
-  for (; reader.read(back); ++blocks) equal = equal && same(back, block);
-  CHECK(equal);
-  CHECK(blocks == rows / block.rows);
-}
-
-TEST_CASE("wide series") {
-  const Folder folder;
-  write_cases(folder / "a.h5", 700, 5000, 64);
-  Hdf5TableReader reader(folder / "a.h5");
-  Hdf5Block back;
-  CHECK(reader.read(back));
-  const bool equal = same(back, cases(0, 700, 5000));
-  CHECK(equal);
-  Hdf5TableReader in_blocks(folder / "a.h5", 699);
-  CHECK(in_blocks.read(back));
-  CHECK(in_blocks.read(back));
-  CHECK(same(back, cases(699, 1, 5000)));
-}
-
-TEST_CASE("an unfinished table of cases leaves no file") {
-  const Folder folder;
-  folder.put("a.h5", "old");
-  {
-    Hdf5TableWriter writer(folder / "a.h5", three_kinds(3));
-    writer.append(cases(0, 2000, 3));
-  }
-  CHECK(content_of(folder / "a.h5") == "old");
-  CHECK(folder.entries() == 1);
-}
-
-// The disk gets full in the header, the rows, the strings, the attributes or at closing.
-TEST_CASE("a disk that fills up while cases are written is an error and keeps the old file") {
-  const Folder folder;
-  const std::size_t rows = 3000;
-  write_cases(folder / "whole.h5", rows, 50, rows);
-  const std::uintmax_t size = std::filesystem::file_size(folder / "whole.h5");
-  const std::string file = folder.put("a.h5", "old");
-  constexpr std::uintmax_t steps = 61;
-  for (std::uintmax_t i = 0; i <= steps; ++i) {
-    const FileSizeLimit limit((size - 1) * i / steps);
-    CAPTURE(i);
-    CHECK_THAT(message_of<OutputError>([&] { write_cases(file, rows, 50, 500); }),
-               Contains("cannot write " + file + ": file too large"));
-  }
-  CHECK(content_of(file) == "old");
-  CHECK(folder.entries() == 2);
-  write_cases(file, rows, 50, 500);  // HDF5 still works afterwards
-  const bool equal = same_files(folder / "whole.h5", file);
-  CHECK(equal);
-}
-
-TEST_CASE("a process that met a full disk while it wrote cases ends normally") {
-  const Folder folder;
-  for (const rlim_t bytes : {1000, 20000, 400000}) {
-    const pid_t child = fork();
-    if (child == 0) {
-      const FileSizeLimit limit(bytes);
-      const std::string message =
-          message_of<OutputError>([&] { write_cases(folder / "a.h5", 3000, 50, 3000); });
-      std::exit(message.empty() ? 1 : 0);  // runs HDF5's exit handlers
-    }
-    int status = -1;
-    waitpid(child, &status, 0);
-    CHECK(status == 0);
-  }
-  CHECK(folder.entries() == 0);
-}
-
 TEST_CASE("after a failure a table of cases cannot be completed") {
   const Folder folder;
   Hdf5TableWriter writer(folder / "a.h5", three_kinds(50));
@@ -562,103 +444,40 @@ TEST_CASE("a table of cases is read as a table if it has only numbers") {
         start + "t is not a column of numbers: it holds the axis of other datasets");
 }
 
-TEST_CASE("files that are no table of cases are refused") {
+TEST_CASE("attributes and texts of other types and of fixed length are read") {
   const Folder folder;
-  const std::string none = folder / "none.h5";
-  CHECK(refusal(none) == "cannot read " + none + ": no such file or directory");
-  CHECK_THAT(refusal(folder.put("text.h5", "t,x\n1,2\n")), Contains("it is not an HDF5 file"));
-  CHECK_THAT(refusal(folder.put("empty.h5", "")), Contains("it is not an HDF5 file"));
-  CHECK_THAT(refusal(folder.name()), Contains("it is not a regular file"));
-  CHECK_THAT(refusal("/dev/null"), Contains("it is not a regular file"));
-
-  write_cases(folder / "a.h5", 3000, 3, 3000);
-  const std::string whole = content_of(folder / "a.h5");
-  for (const std::size_t bytes : {whole.size() / 2, whole.size() - 1}) {
-    CHECK_THAT(refusal(folder.put("cut.h5", whole.substr(0, bytes))),
-               Contains("cannot read " + (folder / "cut.h5") + ": opening the file failed"));
+  {
+    const Handle file = created(folder / "a.h5");
+    const double number = 1.5;
+    put_attribute(file, "number", H5T_NATIVE_DOUBLE, &number);
+    put_attribute(file, "fixed", text_type(4), "abc");
+    put_dataset(file, "s", text_type(4), {3}, "done\0\0\0\0ab\0\0");
   }
-
-  H5Fclose(H5Fcreate((folder / "bare.h5").c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT));
-  CHECK_THAT(refusal(folder / "bare.h5"), Contains("it holds no column at its root"));
-
-  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-  const hsize_t rows = 3001;
-  const hid_t dataset = H5Dopen2(file, "ending", H5P_DEFAULT);
-  H5Dset_extent(dataset, &rows);
-  H5Dclose(dataset);
-  H5Fclose(file);
-  CHECK_THAT(refusal(folder / "a.h5"), Contains("dataset ending has 3001 rows, gain has 3000"));
-
-  const std::vector<hsize_t> cube = {2, 2, 2};
-  const hid_t third =
-      H5Fcreate((folder / "cube.h5").c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT);
-  const hid_t space = H5Screate_simple(3, cube.data(), nullptr);
-  H5Dclose(
-      H5Dcreate2(third, "cube", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
-  H5Sclose(space);
-  H5Fclose(third);
-  CHECK_THAT(
-      refusal(folder / "cube.h5"),
-      Contains("dataset cube is not a column: it has 3 dimensions; numbers may have 1 or 2"));
+  Hdf5TableReader reader(folder / "a.h5");
+  CHECK(reader.head().attributes == Attributes{{"fixed", "abc"}, {"number", 1.5}});
+  REQUIRE(reader.columns()[0].kind == Hdf5Kind::text);
+  Hdf5Block block;
+  CHECK(reader.read(block));
+  CHECK(block.texts[0] == std::vector<std::string>{"done", "", "ab"});
 }
 
-TEST_CASE("attributes of other types and of fixed length") {
+TEST_CASE("files of bbsim 0.3 are read: texts of any length, numbers as texts") {
   const Folder folder;
-  write_cases(folder / "a.h5", 3, 3, 3);
-  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-  const hid_t scalar = H5Screate(H5S_SCALAR);
-  const double number = 1.5;
-  const hid_t first =
-      H5Acreate2(file, "number", H5T_NATIVE_DOUBLE, scalar, H5P_DEFAULT, H5P_DEFAULT);
-  H5Awrite(first, H5T_NATIVE_DOUBLE, &number);
-  H5Aclose(first);
-  const hid_t type = H5Tcopy(H5T_C_S1);
-  H5Tset_size(type, 4);
-  const hid_t second = H5Acreate2(file, "fixed", type, scalar, H5P_DEFAULT, H5P_DEFAULT);
-  H5Awrite(second, type, "abc");
-  H5Aclose(second);
-  H5Tclose(type);
-  H5Sclose(scalar);
-  H5Fclose(file);
-  Attributes expected = some_attributes;
-  expected.emplace_back("number", 1.5);
-  expected.emplace_back("fixed", "abc");
-  CHECK(Hdf5TableReader(folder / "a.h5").head().attributes == expected);
-}
-
-TEST_CASE("files of earlier versions are read: texts of any length, numbers as texts") {
-  const Folder folder;
-  const std::string file = folder / "old.h5";
-  const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT);
-  const hid_t text = H5Tcopy(H5T_C_S1);
-  H5Tset_size(text, H5T_VARIABLE);
-  H5Tset_cset(text, H5T_CSET_UTF8);
-  const hid_t scalar = H5Screate(H5S_SCALAR);
-  const auto put = [&](hid_t object, const char* name, const char* value) {
-    const hid_t attribute = H5Acreate2(object, name, text, scalar, H5P_DEFAULT, H5P_DEFAULT);
-    H5Awrite(attribute, text, &value);
-    H5Aclose(attribute);
-  };
-  const hsize_t rows = 2;
-  const hid_t space = H5Screate_simple(1, &rows, nullptr);
-  const hid_t number =
-      H5Dcreate2(id, "case", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  const std::array<double, 2> numbers{0, 1};
-  H5Dwrite(number, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data());
-  put(number, "unit", "1");
-  put(number, "description", "number of the case");
-  H5Dclose(number);
-  const hid_t status = H5Dcreate2(id, "status", text, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  const std::array<const char*, 2> texts{"done", "failed at 1 s"};
-  H5Dwrite(status, text, H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data());
-  H5Dclose(status);
-  put(id, "cases", "2");
-  H5Sclose(space);
-  H5Sclose(scalar);
-  H5Tclose(text);
-  H5Fclose(id);
-
-  Hdf5TableReader reader(file);
+  {
+    const Handle file = created(folder / "old.h5"), text = text_type();
+    H5Tset_cset(text, H5T_CSET_UTF8);
+    const auto put = [&](hid_t object, const char* name, const char* value) {
+      put_attribute(object, name, text, &value);
+    };
+    const std::array<double, 2> numbers{0, 1};
+    const Handle number = put_dataset(file, "case", H5T_IEEE_F64LE, {2}, numbers.data());
+    put(number, "unit", "1");
+    put(number, "description", "number of the case");
+    const std::array<const char*, 2> texts{"done", "failed at 1 s"};
+    put_dataset(file, "status", text, {2}, static_cast<const void*>(texts.data()));
+    put(file, "cases", "2");
+  }
+  Hdf5TableReader reader(folder / "old.h5");
   CHECK(reader.columns() ==
         Columns{{"case", "1", "number of the case"}, {"status", "", "", Hdf5Kind::text}});
   CHECK(reader.head().attributes == Attributes{{"cases", "2"}});
@@ -667,26 +486,6 @@ TEST_CASE("files of earlier versions are read: texts of any length, numbers as t
   CHECK(block.values[0] == std::vector<double>{0, 1});
   CHECK(block.texts[1] == std::vector<std::string>{"done", "failed at 1 s"});
   CHECK(reader.read_inputs().empty());
-}
-
-TEST_CASE("texts of equal length are read as texts") {
-  const Folder folder;
-  const hid_t id = H5Fcreate((folder / "a.h5").c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT);
-  const hid_t text = H5Tcopy(H5T_C_S1);
-  H5Tset_size(text, 4);
-  const hsize_t rows = 3;
-  const hid_t space = H5Screate_simple(1, &rows, nullptr);
-  const hid_t dataset = H5Dcreate2(id, "s", text, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  H5Dwrite(dataset, text, H5S_ALL, H5S_ALL, H5P_DEFAULT, "done\0\0\0\0ab\0\0");
-  H5Dclose(dataset);
-  H5Sclose(space);
-  H5Tclose(text);
-  H5Fclose(id);
-  Hdf5Block block;
-  Hdf5TableReader reader(folder / "a.h5");
-  REQUIRE(reader.columns()[0].kind == Hdf5Kind::text);
-  CHECK(reader.read(block));
-  CHECK(block.texts[0] == std::vector<std::string>{"done", "", "ab"});
 }
 
 TEST_CASE("attributes and names of all kinds round-trip") {

@@ -4,14 +4,12 @@
 // No output of a command may be another of its files, whatever its name.
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
-
-#include <functional>
 
 #include "base/error.hpp"
 #include "catch.hpp"
 #include "file/outputs.hpp"
+#include "support/child.hpp"
 #include "support/folder.hpp"
 
 namespace bbsim_test::test_outputs {
@@ -30,15 +28,6 @@ std::string refusal(const std::string& read, const std::string& written, const s
     if (!written.empty()) outputs.writes(written, "-o");
     outputs.writes(file, "--summary");
   });
-}
-
-// Runs `action` in a child process and returns whether it returned true.
-bool in_child(const std::function<bool()>& action) {
-  const pid_t child = fork();
-  if (child == 0) _exit(action() ? 0 : 1);
-  int status = -1;
-  waitpid(child, &status, 0);
-  return status == 0;
 }
 
 }  // namespace
@@ -91,17 +80,21 @@ TEST_CASE("devices and pipes never conflict") {
 TEST_CASE("a standard stream redirected to a file counts as that file") {
   const Folder folder;
   const std::string file = folder.put("a.yaml", "x");
-  CHECK(in_child([&] {
-    dup2(open(file.c_str(), O_WRONLY | O_APPEND), STDOUT_FILENO);
-    for (const char* name : {"-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}) {
-      if (refusal(file, "", name).find("same file") == std::string::npos) return false;
-    }
-    return refusal("", "-", "/dev/stdout").find("standard output (-o)") != std::string::npos;
-  }));
-  CHECK(in_child([&] {
-    dup2(open(file.c_str(), O_RDONLY), STDIN_FILENO);
-    return refusal("-", "", file).find("standard input (the scenario)") != std::string::npos;
-  }));
+  CHECK(status_of_child([&] {
+          dup2(open(file.c_str(), O_WRONLY | O_APPEND), STDOUT_FILENO);
+          for (const char* name : {"-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}) {
+            if (refusal(file, "", name).find("same file") == std::string::npos) return 1;
+          }
+          return refusal("", "-", "/dev/stdout").find("standard output (-o)") == std::string::npos
+                     ? 2
+                     : 0;
+        }) == 0);
+  CHECK(status_of_child([&] {
+          dup2(open(file.c_str(), O_RDONLY), STDIN_FILENO);
+          return refusal("-", "", file).find("standard input (the scenario)") == std::string::npos
+                     ? 1
+                     : 0;
+        }) == 0);
 }
 
 }  // namespace bbsim_test::test_outputs

@@ -15,6 +15,7 @@
 #include "record/recorder.hpp"
 #include "scenario/reader.hpp"
 #include "solve/integrate.hpp"
+#include "support/measured.hpp"
 
 namespace bbsim_test::test_instants {
 
@@ -48,17 +49,20 @@ struct SecondOrder {
 
 std::vector<double> measure_run(const Scenario& scene, const std::vector<std::string>& names,
                                 solve::Tolerances tolerances) {
-  std::vector<Measure> measures = scenario::measures_named(names, scene);
-  const model::Model model = model::assemble(scene, false);
-  const model::BallConstants constants = model::constants_of(scene);
-  const solve::OutputGrid grid(scene.time);
-  Recorder recorder({{}, measures});
-  recorder.begin(model, constants, grid);
-  const auto outcome = solve::integrate(model, Method::automatic, tolerances, grid, recorder);
-  REQUIRE(outcome.ending == solve::Ending::done);
-  std::vector<double> values(measures.size());
-  recorder.finish(outcome, values.data());
-  return values;
+  const bbsim_test::MeasuredRun made =
+      measured(scene, scenario::measures_named(names, scene), Method::automatic, tolerances);
+  REQUIRE(made.outcome.ending == solve::Ending::done);
+  return made.values;
+}
+
+// Adds a piece of a curve: f of the part of the time between two times.
+template <class Function>
+void add(Curve& curve, double from, double to, Function f) {
+  static ChebyshevTables tables;  // the curve refers to them
+  const ChebyshevPoints& points = tables.points(8);
+  std::vector<double> values;
+  for (std::size_t i = 0; i < points.size(); ++i) values.push_back(f(points[i]));
+  curve.add_piece(from, to, points, values.data());
 }
 
 // The command stays at its limit, 0.1 rad: the servo gives its step response.
@@ -154,17 +158,9 @@ TEST_CASE("a response that starts in the wrong direction has an undershoot") {
 
 TEST_CASE("crossings are counted, touches are not") {
   // -(t - 1)^2 + 1 on [0, 2] touches 1; then a jump to 2, and down to -1 on [2, 5].
-  ChebyshevTables tables;
-  const ChebyshevPoints& points = tables.points(8);
-  const auto add = [&](Curve& curve, double from, double to, auto f) {
-    std::vector<double> values;
-    for (std::size_t i = 0; i < points.size(); ++i)
-      values.push_back(f(from + (to - from) * points[i]));
-    curve.add_piece(from, to, points, values.data());
-  };
   Curve curve;
-  add(curve, 0, 2, [](double t) { return 1 - (t - 1) * (t - 1); });
-  add(curve, 2, 5, [](double t) { return 2 - (t - 2); });
+  add(curve, 0, 2, [](double s) { return 1 - (2 * s - 1) * (2 * s - 1); });
+  add(curve, 2, 5, [](double s) { return 2 - 3 * s; });
   using Way = scenario::Instant::Way;
   CHECK_FALSE(curve.crossing(1, Way::rise, 2));
   CHECK(curve.crossing(1, Way::rise, 1)->t == 2);  // the jump
@@ -316,20 +312,13 @@ TEST_CASE("stays above mirrors stays below, also from the level itself") {
 }
 
 TEST_CASE("a level exceeded only by rounding counts as touched") {
-  ChebyshevTables tables;
-  const ChebyshevPoints& points = tables.points(8);
   using Way = scenario::Instant::Way;
   // Up to the level, switched late by `too_much`, along it, and down again.
   const auto plateau = [&](double too_much) {
     Curve curve;
-    const auto add = [&](double from, double to, auto f) {
-      std::vector<double> values;
-      for (std::size_t i = 0; i < points.size(); ++i) values.push_back(f(points[i]));
-      curve.add_piece(from, to, points, values.data());
-    };
-    add(10, 10.01, [&](double s) { return s * (1 + too_much); });
-    add(10.01, 11, [](double) { return 1.0; });
-    add(11, 11.01, [](double s) { return 1 - s; });
+    add(curve, 10, 10.01, [&](double s) { return s * (1 + too_much); });
+    add(curve, 10.01, 11, [](double) { return 1.0; });
+    add(curve, 11, 11.01, [](double s) { return 1 - s; });
     return curve;
   };
   // A time of 10 s is rounded to 1e-15 s, in which the curve moves 1e-13.

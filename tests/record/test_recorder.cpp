@@ -10,12 +10,13 @@
 #include "record/recorder.hpp"
 #include "record/square_sum.hpp"
 #include "scenario/reader.hpp"
-#include "solve/integrate.hpp"
+#include "support/measured.hpp"
 
 namespace bbsim_test::test_recorder {
 
 using namespace bbsim;
 using namespace bbsim::record;
+using bbsim_test::MeasuredRun;
 using namespace bbsim::scenario;
 
 namespace {
@@ -24,6 +25,11 @@ double root_mean_square(const std::vector<double>& values) {
   SquareSum sum;
   for (const double value : values) sum.add(value);
   return sum.root_mean(values.size());
+}
+
+MeasuredRun run(const std::string& text, const std::vector<std::string>& names) {
+  const Scenario scene = parse_scenario(text, "scene.yaml");
+  return measured(scene, measures_named(names, scene), Method::automatic, {1e-8, 1e-10});
 }
 
 }  // namespace
@@ -47,19 +53,11 @@ TEST_CASE("the root mean square neither overflows nor underflows") {
 }
 
 TEST_CASE("rms_ of a motion of 1e234 m is finite") {
-  const Scenario scene = parse_scenario(
-      "gravity: 0\nball: {radius: 0.01, position: [1e234, 0]}\n"
-      "gimbal: {motion: {}}\ntime: {end: 1, step: 0.5}\n",
-      "far.yaml");
-  const model::Model model = model::assemble(scene, false);
-  const model::BallConstants constants = model::constants_of(scene);
-  const solve::OutputGrid grid(scene.time);
-  Recorder recorder({{}, {*find_measure("rms_x")}});
-  recorder.begin(model, constants, grid);
-  const auto outcome = solve::integrate(model, Method::automatic, {1e-8, 1e-10}, grid, recorder);
-  double rms = 0;
-  recorder.finish(outcome, &rms);
-  CHECK(rms == Approx(1e234).epsilon(1e-15));
+  const MeasuredRun made =
+      run("gravity: 0\nball: {radius: 0.01, position: [1e234, 0]}\n"
+          "gimbal: {motion: {}}\ntime: {end: 1, step: 0.5}\n",
+          {"rms_x"});
+  CHECK(made.values[0] == Approx(1e234).epsilon(1e-15));
 }
 
 TEST_CASE("a nonfinite measure has its reason") {
@@ -76,21 +74,11 @@ TEST_CASE("a nonfinite measure has its reason") {
 }
 
 TEST_CASE("a recorder knows why a measure has no value") {
-  const Scenario scene = parse_scenario(
-      "ball: {radius: 0.01}\ngimbal: {motion: {}}\ntime: {end: 1, step: 0.5}\n", "still.yaml");
-  const std::vector<Measure> measures =
-      scenario::measures_named({"x.Overshoot", "when x=1", "rms_x from 0.6 s to 0.9 s", "max_x",
-                                "when x stays above 0", "find x at 3"},
-                               scene);
-  const model::Model model = model::assemble(scene, false);
-  const model::BallConstants constants = model::constants_of(scene);
-  const solve::OutputGrid grid(scene.time);
-  Recorder recorder({{}, measures});
-  recorder.begin(model, constants, grid);
-  const auto outcome = solve::integrate(model, Method::automatic, {1e-8, 1e-10}, grid, recorder);
-  std::vector<double> values(measures.size());
-  recorder.finish(outcome, values.data());
-  CHECK(why_not_finite(measures, values.data(), recorder.whys()) ==
+  const MeasuredRun made =
+      run("ball: {radius: 0.01}\ngimbal: {motion: {}}\ntime: {end: 1, step: 0.5}\n",
+          {"x.Overshoot", "when x=1", "rms_x from 0.6 s to 0.9 s", "max_x", "when x stays above 0",
+           "find x at 3"});
+  CHECK(made.why ==
         "x.Overshoot is not a number: it should end where it starts, so its step is 0; "
         "when x=1 cross=1 is not a number: it does not happen; "
         "rms_x from 0.6 s to 0.9 s is not a number: no row is within its window; "

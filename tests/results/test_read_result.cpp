@@ -45,25 +45,19 @@ TEST_CASE("CSV of any origin: gaps, quotes, byte order marks and line ends, text
   CHECK_FALSE(result.is_sweep());
 }
 
-TEST_CASE("invalid CSV is refused with its place") {
+TEST_CASE("a result that is no table is refused with its place") {
   const Folder folder;
-  const auto refused = [&](const std::string& content) {
-    try {
-      static_cast<void>(read(folder.put("a.csv", content)));
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("taken");
-  };
-  CHECK_THAT(refused(""), Contains("a.csv:1:1: found no header"));
-  CHECK_THAT(refused("t,x\n"), Contains("has a header and no rows"));
-  CHECK_THAT(refused("1,2\n3,4\n"), Contains("a.csv:1:1: found the number"));
-  CHECK_THAT(refused("t,x\n1,2\n3\n4,5\n"),
-             Contains("a.csv:3:1: found 1 number; the header names 2"));
-  CHECK_THAT(refused("t,t\n1,2\n"), Contains("column \"t\" appears twice"));
-  CHECK_THAT(refused("t,\n1,2\n"), Contains("a column's name is empty"));
-  CHECK_THAT(refused("t,x\n1,\"2\n"), Contains("a.csv:2:1: found a quotation mark"));
-  CHECK_THAT(refused(std::string("\0\1\2", 3)), Contains("a control character in the header"));
+  const auto [content, said] = GENERATE(table<std::string, std::string>({
+      {"", "a.csv:1:1: found no header"},
+      {"t,x\n", "has a header and no rows"},
+      {"1,2\n3,4\n", "a.csv:1:1: found the number"},
+      {"t,x\n1,2\n3\n4,5\n", "a.csv:3:1: found 1 number; the header names 2"},
+      {"t,t\n1,2\n", "column \"t\" appears twice"},
+      {"t,\n1,2\n", "a column's name is empty"},
+      {"t,x\n1,\"2\n", "a.csv:2:1: found a quotation mark"},
+      {{"\0\1\2", 3}, "a control character in the header"},
+  }));
+  CHECK_THROWS_WITH(read(folder.put("a.csv", content)), Contains(said));
   CHECK_THROWS_WITH(read("/dev/zero"), Contains("more than 1048576 bytes"));
   CHECK_THROWS_WITH(read(folder / "none.csv"), Contains("no such file"));
   CHECK_THROWS_WITH(read(folder.name()), Contains("is a directory"));

@@ -20,51 +20,31 @@ using namespace bbsim::scenario;
 using Kind = Measure::Kind;
 
 TEST_CASE("measures have names in SI, whatever the units given") {
-  const auto name = [](const char* text) {
-    const auto measure = find_measure(text);
-    return measure ? measure->name : "none";
-  };
-  CHECK(name("x.RiseTime") == "x.RiseTime");
-  CHECK(name("when x=5 cm") == "when x=0.05 cross=1");
-  CHECK(name(" when x = 5 cm  rise=2 ") == "when x=0.05 rise=2");
-  CHECK(name("when phi=-1e-3 fall=last") == "when phi=-0.001 fall=last");
-  CHECK(name("when tracking_error stays below 2 mm") == "when tracking_error stays below 0.002");
-  CHECK(name("find vy when x stays above 0.1") == "find vy when x stays above 0.1");
-  CHECK(name("find y at 20 ms") == "find y at 0.02");
-  // A window's text is unchanged.
-  CHECK(name(" rms_x from 5 s ") == "rms_x from 5 s");
-  CHECK(name("x.Overshoot to 20 s") == "x.Overshoot to 20 s");
-  CHECK(name("when x=5 cm from 500 ms to 20 s") == "when x=0.05 cross=1 from 500 ms to 20 s");
-  for (const char* wrong : {"x.Risetime",
-                            "z.RiseTime",
-                            "ball_qw.Peak",
-                            "RiseTime",
-                            "when x",
-                            "when x=",
-                            "when z=1",
-                            "when x=1 rise=0",
-                            "when x=1 rise=-1",
-                            "when x=1 rise=one",
-                            "when x=5 deg",
-                            "when x=nan",
-                            "when x stays 1",
-                            "when x stays below",
-                            "find x",
-                            "find x at",
-                            "find x at 5 cm",
-                            "find z at 1",
-                            "find x of y",
-                            "find ball_qw at 1",
-                            "rms_x from",
-                            "rms_x from 5 cm",
-                            "rms_x from 5 s to",
-                            "rms_x to 5 s from 1 s",
-                            "from 5 s",
-                            "max_",
-                            "when",
-                            "find"}) {
-    CAPTURE(wrong);
-    CHECK_FALSE(find_measure(wrong));
+  const auto [text, name] = GENERATE(table<std::string, std::string>({
+      {"x.RiseTime", "x.RiseTime"},
+      {"when x=5 cm", "when x=0.05 cross=1"},
+      {" when x = 5 cm  rise=2 ", "when x=0.05 rise=2"},
+      {"when phi=-1e-3 fall=last", "when phi=-0.001 fall=last"},
+      {"when tracking_error stays below 2 mm", "when tracking_error stays below 0.002"},
+      {"find vy when x stays above 0.1", "find vy when x stays above 0.1"},
+      {"find y at 20 ms", "find y at 0.02"},
+      // A window's text is unchanged.
+      {" rms_x from 5 s ", "rms_x from 5 s"},
+      {"x.Overshoot to 20 s", "x.Overshoot to 20 s"},
+      {"when x=5 cm from 500 ms to 20 s", "when x=0.05 cross=1 from 500 ms to 20 s"},
+  }));
+  CAPTURE(text);
+  REQUIRE(find_measure(text));
+  CHECK(find_measure(text)->name == name);
+  const std::string wrong[] = {
+      "x.Risetime, z.RiseTime, ball_qw.Peak, RiseTime, when x, when x=, when z=1, when x=1 rise=0",
+      "when x=1 rise=-1, when x=1 rise=one, when x=5 deg, when x=nan, when x stays 1",
+      "when x stays below, find x, find x at, find x at 5 cm, find z at 1, find x of y",
+      "find ball_qw at 1, rms_x from, rms_x from 5 cm, rms_x from 5 s to, rms_x to 5 s from 1 s",
+      "from 5 s, max_, when, find"};
+  for (const std::string& one : split_measures({std::begin(wrong), std::end(wrong)})) {
+    CAPTURE(one);
+    CHECK_FALSE(find_measure(one));
   }
 }
 
@@ -92,15 +72,15 @@ TEST_CASE("measures have units and meanings, and know their requirements") {
 }
 
 TEST_CASE("an unknown measure gets a hint at the likely one") {
-  CHECK(measure_hint("x.RizeTime") == " (did you mean x.RiseTime?)");
-  CHECK(measure_hint("x.risetime") == " (did you mean x.RiseTime?)");
-  CHECK(measure_hint(" max_titl") == " (did you mean max_tilt?)");
-  CHECK(measure_hint("x") == " (did you mean end_x?)");
-  CHECK(measure_hint("ball_qw") == "");
-  CHECK(measure_hint("nothing like that") == "");
   const std::string_view columns[] = {"t", "level"};
-  CHECK(measure_hint("max_levle", columns) == " (did you mean max_level?)");
-  CHECK(measure_hint("max_titl", columns) == "");
+  const auto hint = [](const std::string& text) { return " (did you mean " + text + "?)"; };
+  CHECK(measure_hint("x.RizeTime") == hint("x.RiseTime"));
+  CHECK(measure_hint("x.risetime") == hint("x.RiseTime"));
+  CHECK(measure_hint(" max_titl") == hint("max_tilt"));
+  CHECK(measure_hint("x") == hint("end_x"));
+  CHECK(measure_hint("max_levle", columns) == hint("max_level"));
+  CHECK(measure_hint("max_titl", columns).empty());
+  for (const char* none : {"ball_qw", "nothing like that"}) CHECK(measure_hint(none).empty());
 }
 
 TEST_CASE("a window is read, and refused if it is outside the run") {

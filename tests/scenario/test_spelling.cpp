@@ -54,42 +54,6 @@ TEST_CASE("both spellings of a key are read") {
   }
 }
 
-TEST_CASE("the two spellings of a key count as a duplicate") {
-  CHECK(
-      errors(scene("      centre: [0, 0]\n      center: [0, 1]\n")) ==
-      "scenario.yaml:10:7: " + circle +
-          "center: found again (first on line 9 as centre, the same key); allowed: each key once");
-  CHECK(
-      errors(scene("      center: [0, 0]\n      centre: [0, 1]\n")) ==
-      "scenario.yaml:10:7: " + circle +
-          "centre: found again (first on line 9 as center, the same key); allowed: each key once");
-}
-
-TEST_CASE("a message names the key as it is written") {
-  const std::string allowed = "found 2; allowed: two lengths [x, y], such as [0.1, 0]";
-  CHECK(errors(scene("      center: 2\n")) ==
-        "scenario.yaml:9:15: " + circle + "center: " + allowed);
-  CHECK(errors(scene("      centre: 2\n")) ==
-        "scenario.yaml:9:15: " + circle + "centre: " + allowed);
-  for (const std::string law : {"feedback_linearization", "feedback_linearisation"}) {
-    CHECK(errors("ball: {radius: 0.01, mass: 1, push: {x: 1}}\ntime: {end: 1, step: 0.1}\n"
-                 "controller: {" +
-                 law + ": {kv: 1, kp: 1}, reference: {point: [0, 0]}}\n")
-              .find("ball.push: found beside " + law + ",") != std::string::npos);
-  }
-}
-
-TEST_CASE("a misspelled key gets the nearest spelling") {
-  const auto hint = [](const std::string& key, const std::string& nearest) {
-    return errors(scene("      " + key + ": [0, 0]\n")) == "scenario.yaml:9:7: " + circle + key +
-                                                               ": unknown key; did you mean " +
-                                                               circle + nearest + "?";
-  };
-  CHECK(hint("cemter", "center"));
-  CHECK(hint("cemtre", "centre"));
-  CHECK(hint("cent", "center"));
-}
-
 TEST_CASE("an override and the text may spell a key differently") {
   for (const std::string& text : {in_american, in_british}) {
     for (const std::string key : {"center", "centre"}) {

@@ -7,6 +7,7 @@
 
 #include "catch.hpp"
 #include "scenario/log_columns.hpp"
+#include "support/folder.hpp"
 #include "support/reading.hpp"
 
 namespace bbsim_test::test_units {
@@ -24,12 +25,12 @@ const char* const rows =
     "0,0,0,-30,0\n2500,2,100,0,5\n5000,-4,50,30,10\n7500,1,0,0,5\n10000,0,0,0,0\n";
 
 struct Scene {
-  explicit Scene(const std::string& table) { static_cast<void>(folder.write("log.csv", table)); }
+  explicit Scene(const std::string& table) { folder.put("log.csv", table); }
 
   [[nodiscard]] Scenario read(const std::string& key, const std::string& extra) const {
     const std::string text =
         "ball: {radius: 0.01, mass: 0.1}\ntime: {end: 10, step: 0.1}\n" + scene(key, extra);
-    return parse_scenario(text, folder.file("scene.yaml"));
+    return parse_scenario(text, folder / "scene.yaml");
   }
   [[nodiscard]] static std::string scene(const std::string& key, const std::string& extra) {
     const std::string table = "{table: {file: log.csv, time: t" + extra;
@@ -39,7 +40,7 @@ struct Scene {
            table + ", x: x, y: y}}}\n";
   }
 
-  TemporaryFolder folder;
+  Folder folder;
 };
 
 std::string told(const Scenario& scenario) {
@@ -50,7 +51,7 @@ std::string told(const Scenario& scenario) {
 
 }  // namespace
 
-TEST_CASE("a table has the units that it declares") {
+TEST_CASE("a table is read in its units, without a warning") {
   const Scene scene(rows);
   const Scenario motion = scene.read("motion", ", unit: deg, time_unit: ms");
   const auto& phi = std::get<Table>(motion.gimbal.motion->phi[0]);
@@ -64,35 +65,18 @@ TEST_CASE("a table has the units that it declares") {
   CHECK(reference.y == std::vector<double>{-0.03, 0, 0.03, 0, 0});
   CHECK(reference.times.back() == 10);
   CHECK(told(path).empty());
-
-  const auto wrong = [&](const std::string& key, const std::string& extra) {
-    try {
-      static_cast<void>(scene.read(key, extra));
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  CHECK_THAT(wrong("motion", ", unit: mm"),
-             Contains("gimbal.motion.phi.table.unit: found mm; allowed: one of rad, mrad, deg"));
-  CHECK_THAT(wrong("reference", ", unit: [m]"), Contains("table.unit: found a list of 1; allowed: "
-                                                         "one of m, km, cm, mm, um, nm"));
-  CHECK_THAT(wrong("motion", ", time_unit: Hz"),
-             Contains("table.time_unit: found Hz; allowed: one of s, ms, us, ns, min, h"));
-  // Read in microseconds, the same times do not cover the run.
-  CHECK_THAT(wrong("motion", ", time_unit: us"), Contains("found times from 0 to 0.01 s"));
 }
 
 TEST_CASE("torques and forces of a table have units too") {
-  const TemporaryFolder folder;
-  static_cast<void>(folder.write("log.csv", "t,f\n0,0\n1,5\n2,10\n3,500\n"));
+  const Folder folder;
+  folder.put("log.csv", "t,f\n0,0\n1,5\n2,10\n3,500\n");
   const Scenario scenario = parse_scenario(
       "ball: {radius: 0.01, mass: 0.1, push: {x: {table: {file: log.csv, time: t, value: f, unit: "
       "mN}}}}\n"
       "plate: {inertia: [1e-3, 1e-3, 2e-3]}\n"
       "gimbal: {torque: {phi: {table: {file: log.csv, time: t, value: f, unit: mN m}}}}\n"
       "time: {end: 3, step: 1}\n",
-      folder.file("scene.yaml"));
+      folder / "scene.yaml");
   CHECK(std::get<Table>(scenario.ball.push->x[0]).values ==
         std::vector<double>{0, 0.005, 0.01, 0.5});
   CHECK(std::get<Table>(scenario.gimbal.torque->phi[0]).values ==
@@ -103,17 +87,11 @@ TEST_CASE("torques and forces of a table have units too") {
 TEST_CASE("a table without units gives a warning if it looks like another unit") {
   const Scene scene(rows);
   const std::string motion = told(scene.read("motion", ""));
-  CHECK_THAT(motion, Contains("warning: gimbal.motion.phi.table: log.csv: value goes up to 4, read "
-                              "in rad: it looks like degrees; say unit: deg, or unit: rad if that "
-                              "is right"));
-  CHECK_THAT(motion, Contains("warning: gimbal.motion.phi.table: log.csv: time spans 10000, for a "
-                              "run of 10 s, read in s: it looks like milliseconds; say time_unit: "
-                              "ms, or time_unit: s if that is right"));
+  CHECK_THAT(motion,
+             Contains("phi.table: log.csv: value goes up to 4, ") && Contains("say unit: deg, or"));
+  CHECK_THAT(motion, Contains("time spans 10000, ") && Contains("say time_unit: ms, or"));
   const std::string path = told(scene.read("reference", ""));
-  CHECK_THAT(
-      path,
-      Contains("controller.reference.table: log.csv: x goes up to 100, read in m: it looks like "
-               "millimeters or centimeters; say unit: mm or cm, or unit: m if that is right"));
+  CHECK_THAT(path, Contains("x goes up to 100, ") && Contains("say unit: mm or cm, or"));
   CHECK_THAT(path, Contains("time_unit: ms"));
   // A declared unit is believed; the other column still gives a warning.
   CHECK_THAT(told(scene.read("motion", ", unit: rad")), !Contains("degrees"));
@@ -130,10 +108,10 @@ TEST_CASE("a table without units gives a warning if it looks like another unit")
   CHECK_THAT(told(beyond.read("reference", "")), Contains("y goes up to 1.01"));
 }
 
-TEST_CASE("periods of a clock and angles of a linkage have units") {
-  const TemporaryFolder folder;
-  static_cast<void>(folder.write("periods.csv", "dt\n19\n21\n20\n"));
-  static_cast<void>(folder.write("curve.csv", "a,b\n-60,-20\n-20,-6\n20,6\n60,20\n"));
+TEST_CASE("a clock's periods and a linkage's angles are read in their units") {
+  const Folder folder;
+  folder.put("periods.csv", "dt\n19\n21\n20\n");
+  folder.put("curve.csv", "a,b\n-60,-20\n-20,-6\n20,6\n60,20\n");
   const auto read = [&](const std::string& of_periods, const std::string& of_curve) {
     return parse_scenario(
         "ball: {radius: 0.01}\n"
@@ -151,7 +129,7 @@ TEST_CASE("periods of a clock and angles of a linkage have units") {
             of_periods +
             "}}\n"
             "time: {end: 10, step: 0.1}\n",
-        folder.file("scene.yaml"));
+        folder / "scene.yaml");
   };
   for (const char* unit : {", unit: ms", ", time_unit: ms"}) {
     const Scenario scenario = read(unit, ", unit: deg");
@@ -161,14 +139,10 @@ TEST_CASE("periods of a clock and angles of a linkage have units") {
     CHECK(told(scenario).empty());
   }
   const std::string warned = told(read("", ""));
-  CHECK_THAT(warned,
-             Contains("controller.sampling.jitter: periods.csv: the mean period is 20, for one of "
-                      "0.02 s, read in s: it looks like milliseconds; say unit: ms"));
-  CHECK_THAT(warned, Contains("gimbal.linkage.table: curve.csv: an angle is 60, read in rad: it "
-                              "looks like degrees; say unit: deg"));
-  CHECK_THROWS_WITH(read(", unit: ms, time_unit: ms", ""),
-                    Contains("jitter.time_unit: found beside unit; allowed: one of them"));
-  CHECK_THROWS_WITH(read(", unit: deg", ""), Contains("jitter.unit: found deg; allowed: one of s"));
+  CHECK_THAT(warned, Contains("controller.sampling.jitter: periods.csv: ") &&
+                         Contains("looks like milliseconds; say unit: ms"));
+  CHECK_THAT(warned, Contains("gimbal.linkage.table: curve.csv: an angle is 60, ") &&
+                         Contains("looks like degrees; say unit: deg"));
 }
 
 TEST_CASE("log columns are checked for other units by their names") {

@@ -4,7 +4,9 @@
 // A sweep of a scenario of this project, for tests of engines.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "catch.hpp"
 #include "scenario/family.hpp"
 #include "scenario/measures.hpp"
+#include "support/largest.hpp"
 #include "sweep/plan.hpp"
 #include "sweep/task.hpp"
 
@@ -57,6 +60,28 @@ inline bbsim::sweep::CaseResults run_all(bbsim::sweep::CaseRunner& runner,
   bbsim::sweep::CaseResults results;
   REQUIRE(runner.run(0, task.plan.cases(), results, goes_on) == task.plan.cases());
   return results;
+}
+
+// Largest difference between two sweeps' numbers, relative for numbers above 1.
+inline double largest_difference(const bbsim::sweep::CaseResults& a,
+                                 const bbsim::sweep::CaseResults& b) {
+  REQUIRE(a.numbers.size() == b.numbers.size());
+  double largest = 0;
+  for (std::size_t i = 0; i < a.numbers.size(); ++i) {
+    const double size = std::max(1.0, std::abs(a.numbers[i]));
+    largest = largest_finite(largest, {std::abs(a.numbers[i] - b.numbers[i]) / size});
+  }
+  return largest;
+}
+
+// All cases end in the same way, and for the same reason.
+inline void check_endings(const bbsim::sweep::CaseResults& a, const bbsim::sweep::CaseResults& b) {
+  REQUIRE(a.status.size() == b.status.size());
+  for (std::size_t i = 0; i < a.status.size(); ++i) {
+    CAPTURE(i);
+    CHECK(a.status[i].word == b.status[i].word);
+    CHECK(a.status[i].reason == b.status[i].reason);
+  }
 }
 
 }  // namespace bbsim_test

@@ -16,9 +16,8 @@
 
 #include "base/error.hpp"
 #include "catch.hpp"
-#include "record/recorder.hpp"
 #include "solve/integrate.hpp"
-#include "support/largest.hpp"
+#include "support/measured.hpp"
 #include "support/run_in_memory.hpp"
 #include "support/sweep_setup.hpp"
 #include "sweep/runners.hpp"
@@ -42,17 +41,6 @@ const std::vector<std::string> loop_measures{"end_x",
                                              "rms_tracking_error",
                                              "max_tracking_error"};
 
-// Largest difference between two sweeps' numbers, relative for numbers above 1.
-double largest_difference(const CaseResults& a, const CaseResults& b) {
-  REQUIRE(a.numbers.size() == b.numbers.size());
-  double largest = 0;
-  for (std::size_t i = 0; i < a.numbers.size(); ++i) {
-    const double size = std::max(1.0, std::abs(a.numbers[i]));
-    largest = bbsim_test::largest_finite(largest, {std::abs(a.numbers[i] - b.numbers[i]) / size});
-  }
-  return largest;
-}
-
 // Measures from the rows of solve::integrate.
 CaseResults one_by_one(const SweepTask& task) {
   CaseResults results;
@@ -60,16 +48,10 @@ CaseResults one_by_one(const SweepTask& task) {
   const std::size_t numbers = 1 + task.measures.size();
   for (std::size_t i = 0; i < task.plan.cases(); ++i) {
     const Scenario scenario = task.family.read(task.plan.settings(i));
-    const model::Model model = model::assemble(scenario, false);
-    const model::BallConstants constants = model::constants_of(scenario);
-    const solve::OutputGrid grid(scenario.time);
-    record::Recorder recorder({{}, task.measures});
-    recorder.begin(model, constants, grid);
-    const solve::Outcome outcome =
-        solve::integrate(model, scenario.solver.method,
-                         {scenario.solver.rtol, scenario.solver.atol}, grid, recorder);
-    results.numbers[i * numbers] = outcome.reached;
-    recorder.finish(outcome, &results.numbers[i * numbers + 1]);
+    const MeasuredRun run = measured(scenario, task.measures, scenario.solver.method,
+                                     {scenario.solver.rtol, scenario.solver.atol});
+    results.numbers[i * numbers] = run.outcome.reached;
+    std::ranges::copy(run.values, &results.numbers[i * numbers + 1]);
   }
   return results;
 }
@@ -204,12 +186,34 @@ const std::vector<std::string> coarse{"solver.rtol=1e-6", "solver.atol=1e-8"};
 
 }  // namespace
 
-TEST_CASE("planar cases do not determine how the others are computed") {
-  // The scene is planar if the ball starts on the x axis.
-  const char* const spec =
-      GENERATE("linear:0:5 cm:11", "linear:5 cm:0:11", "list:0,0,0,0,0,0,0,0,1 cm");
-  CAPTURE(spec);
-  check_lanes(Setup("configs/beam.yaml", {{"ball.position.1", spec}}, coarse, loop_measures));
+TEST_CASE("loops of all servos, references and tolerances run in lanes") {
+  // The scene is planar if the ball starts on the x axis; planar cases must not decide for others.
+  for (const char* spec : {"linear:0:5 cm:11", "linear:5 cm:0:11", "list:0,0,0,0,0,0,0,0,1 cm"}) {
+    CAPTURE(spec);
+    check_lanes(Setup("configs/beam.yaml", {{"ball.position.1", spec}}, coarse, loop_measures));
+  }
+  check_lanes(
+      Setup("configs/lissajous.yaml",
+            {{"controller.pd.kv.0.0", "linear:0.5:0.7:3"}, {"ball.position.1", "linear:0:2 cm:3"}},
+            coarse, loop_measures));
+  for (const char* rtol : {"1e-4", "1e-8", "1e-12"}) {
+    CAPTURE(rtol);
+    check_lanes(Setup("tests/data/scenarios/stiff-servo.yaml",
+                      {{"gimbal.servo.natural_frequency", "list:10,2000,100,500"},
+                       {"ball.position.0", "linear:0.01:0.05:4"}},
+                      {std::string("solver.rtol=") + rtol}, loop_measures));
+  }
+}
+
+TEST_CASE("splines and sweeps of planar cases only use single runs") {
+  const auto [scene, key, values] = GENERATE(table<std::string, std::string, std::string>({
+      {"configs/waypoints.yaml", "ball.radius", "linear:0.01:0.02:9"},
+      {"configs/beam.yaml", "ball.position.0", "linear:0:5 cm:11"},
+      {"configs/beam.yaml", "ball.position.1,ball.velocity.1", "list:0,0,0"},
+  }));
+  CAPTURE(scene, key);
+  const Setup setup(scene, {{key, values}}, coarse, loop_measures);
+  CHECK(choose_engine(setup.task).name == "single runs");
 }
 
 TEST_CASE("loops that diverge in lanes end as single runs do, without affecting others") {
@@ -261,34 +265,6 @@ TEST_CASE("loops that diverge in lanes end as single runs do, without affecting 
   }
 }
 
-TEST_CASE("references that are sums of sinusoids have lanes") {
-  check_lanes(
-      Setup("configs/lissajous.yaml",
-            {{"controller.pd.kv.0.0", "linear:0.5:0.7:3"}, {"ball.position.1", "linear:0:2 cm:3"}},
-            coarse, loop_measures));
-  const Setup splines("configs/waypoints.yaml", {{"ball.radius", "linear:0.01:0.02:9"}}, coarse,
-                      loop_measures);
-  CHECK(choose_engine(splines.task).name == "single runs");
-}
-
-TEST_CASE("a sweep of planar cases only uses single runs") {
-  const Setup setup("configs/beam.yaml", {{"ball.position.0", "linear:0:5 cm:11"}}, coarse,
-                    loop_measures);
-  CHECK(choose_engine(setup.task).name == "single runs");
-  const Setup zeros("configs/beam.yaml", {{"ball.position.1,ball.velocity.1", "list:0,0,0"}},
-                    coarse, loop_measures);
-  CHECK(choose_engine(zeros.task).name == "single runs");
-}
-
-TEST_CASE("loops use lanes for all servos and tolerances") {
-  const std::string rtol = GENERATE("1e-4", "1e-8", "1e-12");
-  CAPTURE(rtol);
-  check_lanes(Setup("tests/data/scenarios/stiff-servo.yaml",
-                    {{"gimbal.servo.natural_frequency", "list:10,2000,100,500"},
-                     {"ball.position.0", "linear:0.01:0.05:4"}},
-                    {"solver.rtol=" + rtol}, loop_measures));
-}
-
 TEST_CASE("every engine computes tied keys") {
   SECTION("lanes") {
     check_lanes(Setup("configs/fig2b.yaml",
@@ -313,21 +289,6 @@ TEST_CASE("every engine computes tied keys") {
       }
     }
   }
-}
-
-TEST_CASE("a case that lacks what a measure needs has no number for it, and a reason") {
-  const std::string second = GENERATE("{size: [0.3, 0.3]}", "{diameter: 0.3}");
-  const Setup setup("configs/fig2a.yaml",
-                    {{"plate", "list:{inertia: [1e-4, 1e-4, 2e-4]}," + second}}, {},
-                    {"end_motor_torque_phi", "end_x"});
-  const CaseResults results = run_all(*single_runner(setup.task), setup.task);
-  CHECK(results.status[0].word == "done");
-  CHECK(results.status[0].reason.empty());
-  CHECK(std::isfinite(results.numbers[1]));
-  CHECK(std::isnan(results.numbers[4]));
-  CHECK(std::isfinite(results.numbers[5]));
-  CHECK(results.status[1].reason ==
-        "end_motor_torque_phi is not a number: plate.inertia is not known");
 }
 
 TEST_CASE("windows of time within the whole run work with every engine") {
@@ -390,9 +351,10 @@ TEST_CASE("windows of time within the whole run work with every engine") {
   CHECK(largest_difference(of_parts, one_by_one(parts.task)) <= (part == "rig lanes" ? 1e-10 : 0));
 }
 
-TEST_CASE("a measure unknown to the first case may exist in another") {
+TEST_CASE("a case that lacks a measure has a reason, and another may have it") {
+  const std::string first = GENERATE("{size: [0.3, 0.3]}", "{diameter: 0.3}");
   const std::vector<Variation> plates{
-      {"plate", "list:{diameter: 0.3},{inertia: [1e-4, 1e-4, 2e-4]}"}};
+      {"plate", "list:" + first + ",{inertia: [1e-4, 1e-4, 2e-4]}"}};
   const Setup setup("configs/fig2a.yaml", plates, {}, {"end_x"});
   const std::vector<std::string> names{"end_motor_torque_phi", "end_x"};
   const auto found = sweep_measures(names, setup.family, setup.plan);
@@ -401,13 +363,16 @@ TEST_CASE("a measure unknown to the first case may exist in another") {
   const CaseResults results = run_all(*single_runner(task), task);
   CHECK(results.status[0].reason ==
         "end_motor_torque_phi is not a number: plate.inertia is not known");
+  CHECK(results.status[1].word == "done");
+  CHECK(results.status[1].reason.empty());
   CHECK(std::isnan(results.numbers[1]));
+  CHECK(std::isfinite(results.numbers[2]));
   CHECK(std::isfinite(results.numbers[4]));
   // A measure that no case knows is an error, and so is a window that no case has.
-  CHECK_THROWS_AS(sweep_measures({"max_tracking_error"}, setup.family, setup.plan), InputError);
-  CHECK_THROWS_AS(sweep_measures({"max_x from 11 s"}, setup.family, setup.plan), InputError);
-  CHECK_THROWS_AS(sweep_measures({"end_x", "end_x"}, setup.family, setup.plan), InputError);
-  CHECK_THROWS_AS(sweep_measures({"max_z"}, setup.family, setup.plan), InputError);
+  for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{
+           {"max_tracking_error"}, {"max_x from 11 s"}, {"end_x", "end_x"}, {"max_z"}}) {
+    CHECK_THROWS_AS(sweep_measures(wrong, setup.family, setup.plan), InputError);
+  }
   const Setup ends("configs/fig2a.yaml", {{"time.end", "list:1,12"}}, {}, {"end_x"});
   CHECK(sweep_measures({"max_x from 11 s"}, ends.family, ends.plan).size() == 1);
   // Rigs in lanes, of which only the first lacks the measure.
@@ -424,26 +389,21 @@ TEST_CASE("a measure unknown to the first case may exist in another") {
   }
 }
 
-TEST_CASE("a measure that overflows has its reason, with every engine") {
-  SECTION("single runs, row by row and many rows together") {
-    for (const char* measure : {"max_normal_force", "end_normal_force"}) {
-      const Setup setup("configs/fig2a.yaml", {{"ball.mass", "list:1,1e308"}}, {}, {measure});
-      const CaseResults results = run_all(*single_runner(setup.task), setup.task);
-      CHECK(results.status[0].word == "done");
-      CHECK(results.status[0].reason.empty());
-      CHECK(results.status[1].reason == measure + std::string(" is infinite"));
-    }
-  }
-  SECTION("lanes") {
-    const Setup setup("configs/fig2b.yaml", {{"ball.mass", "list:1,1e308"}}, coarse,
-                      {"end_normal_force"});
-    const Engine engine = choose_engine(setup.task);
-    REQUIRE(engine.name == "lanes");
-    const CaseResults results = run_all(*engine.runner(), setup.task);
-    CHECK(results.status[0].word == "done");
-    CHECK(results.status[0].reason.empty());
-    CHECK(results.status[1].reason == "end_normal_force is infinite");
-  }
+TEST_CASE("a measure that overflows has its reason, by single runs and in lanes") {
+  // Row by row, many rows together, and in lanes.
+  const auto [scene, measure, engine] = GENERATE(table<std::string, std::string, std::string>({
+      {"configs/fig2a.yaml", "max_normal_force", "single runs"},
+      {"configs/fig2a.yaml", "end_normal_force", "single runs"},
+      {"configs/fig2b.yaml", "end_normal_force", "lanes"},
+  }));
+  CAPTURE(scene, measure);
+  const Setup setup(scene, {{"ball.mass", "list:1,1e308"}}, coarse, {measure});
+  const Engine chosen = choose_engine(setup.task);
+  REQUIRE(chosen.name == engine);
+  const CaseResults results = run_all(*chosen.runner(), setup.task);
+  CHECK(results.status[0].word == "done");
+  CHECK(results.status[0].reason.empty());
+  CHECK(results.status[1].reason == measure + " is infinite");
 }
 
 namespace {

@@ -75,60 +75,63 @@ double error_of(const CaseResults& results, const SweepTask& task) {
 
 }  // namespace
 
-TEST_CASE("maxima between rows a second apart, with single runs") {
-  SECTION("a loop") {
-    const Setup setup("configs/fig2b.yaml",
-                      {{"controller.pd.kv.0.0", "uniform:0.8:1.2"},
-                       {"gimbal.servo.natural_frequency", "uniform:8:30"}},
-                      {"time.step=1", "solver.rtol=1e-11", "solver.atol=1e-13"}, loop_extremes, 6);
-    // Error of rates up to 0.2 rad/s; between step ends it is a hundred times the tolerance.
-    CHECK(error_of(run_all(*single_runner(setup.task), setup.task), setup.task) < 1e-9);
-  }
-  SECTION("a loop, together with a mean over the rows") {
-    std::vector<std::string> names = loop_extremes;
-    const std::vector<std::string> set{"time.step=1", "solver.rtol=1e-10", "solver.atol=1e-12"};
-    const std::vector<Variation> vary{{"controller.pd.kv.0.0", "uniform:0.8:1.2"}};
-    const Setup without("configs/fig2b.yaml", vary, set, names, 4);
-    names.emplace_back("rms_tracking_error");
-    const Setup with("configs/fig2b.yaml", vary, set, names, 4);
-    const CaseResults a = run_all(*single_runner(without.task), without.task);
-    const CaseResults b = run_all(*single_runner(with.task), with.task);
-    for (std::size_t i = 0; i < 4; ++i) {
-      for (std::size_t m = 0; m < 5; ++m) CHECK(a.numbers[i * 5 + m] == b.numbers[i * 6 + m]);
-    }
-  }
-  SECTION("a prescribed motion") {
-    const Setup setup("configs/fig2a.yaml",
-                      {{"gimbal.motion.phi.sinusoid.amplitude", "uniform:0.005:0.5"},
-                       {"gimbal.motion.theta.sinusoid.frequency", "uniform:0.5:3"},
-                       {"ball.velocity.0", "uniform:-1:1"}},
-                      {"time.step=1", "solver.rtol=1e-11", "solver.atol=1e-13"}, extremes, 8);
-    CHECK(error_of(run_all(*single_runner(setup.task), setup.task), setup.task) < 1e-9);
-  }
-  SECTION("other measures") {
-    const Setup setup("configs/fig2b.yaml", {{"controller.pd.kv.0.0", "uniform:0.8:1.2"}},
-                      {"time.step=1", "solver.rtol=1e-11", "solver.atol=1e-13"},
-                      {"max_x", "max_friction_force", "max_phi_rate", "max_spin", "max_power"}, 3);
-    CHECK(error_of(run_all(*single_runner(setup.task), setup.task), setup.task) < 1e-9);
-  }
-  SECTION("a planar scene") {
-    const Setup setup("configs/fig2a.yaml", {{"gimbal.motion.theta.sinusoid.phase", "uniform:0:3"}},
-                      {"gimbal.motion.phi=0", "time.step=1", "solver.rtol=1e-11",
-                       "solver.atol=1e-13", "ball.position=[0, 0.1]"},
-                      extremes, 4);
-    CHECK(error_of(run_all(*single_runner(setup.task), setup.task), setup.task) < 1e-10);
-  }
-}
-
-TEST_CASE("maxima between rows a second apart, in lanes") {
+TEST_CASE("maxima between rows a second apart, by single runs and in lanes") {
+  const std::vector<std::string> tight{"time.step=1", "solver.rtol=1e-11", "solver.atol=1e-13"};
+  const auto check = [](const Setup& setup, double close) {
+    CHECK(error_of(run_all(*single_runner(setup.task), setup.task), setup.task) < close);
+  };
+  // Rates up to 0.2 rad/s; between step ends the error is a hundred times the tolerance.
+  check({"configs/fig2b.yaml",
+         {{"controller.pd.kv.0.0", "uniform:0.8:1.2"},
+          {"gimbal.servo.natural_frequency", "uniform:8:30"}},
+         tight,
+         loop_extremes,
+         6},
+        1e-9);
+  check({"configs/fig2a.yaml",
+         {{"gimbal.motion.phi.sinusoid.amplitude", "uniform:0.005:0.5"},
+          {"gimbal.motion.theta.sinusoid.frequency", "uniform:0.5:3"},
+          {"ball.velocity.0", "uniform:-1:1"}},
+         tight,
+         extremes,
+         8},
+        1e-9);
+  check({"configs/fig2b.yaml",
+         {{"controller.pd.kv.0.0", "uniform:0.8:1.2"}},
+         tight,
+         {"max_x", "max_friction_force", "max_phi_rate", "max_spin", "max_power"},
+         3},
+        1e-9);
+  std::vector<std::string> planar = tight;
+  planar.insert(planar.end(), {"gimbal.motion.phi=0", "ball.position=[0, 0.1]"});
+  check({"configs/fig2a.yaml",
+         {{"gimbal.motion.theta.sinusoid.phase", "uniform:0:3"}},
+         planar,
+         extremes,
+         4},
+        1e-10);
   // The fastest mode of these loops still allows lanes at a fine enough tolerance.
-  const Setup setup("tests/data/scenarios/stiff-servo.yaml",
+  const Setup stiff("tests/data/scenarios/stiff-servo.yaml",
                     {{"controller.pd.kv.0.0", "uniform:0.035:0.065"},
                      {"controller.pd.kp.1.1", "uniform:-0.065:-0.035"}},
                     {"time.step=1", "solver.rtol=1e-9", "solver.atol=1e-11"},
                     {"max_distance", "max_tilt", "max_tracking_error"}, 11);
-  REQUIRE(can_use_lanes(setup.task));
-  CHECK(error_of(run_all(*lane_runner(setup.task), setup.task), setup.task) < 1e-8);
+  REQUIRE(can_use_lanes(stiff.task));
+  CHECK(error_of(run_all(*lane_runner(stiff.task), stiff.task), stiff.task) < 1e-8);
+}
+
+TEST_CASE("a mean over the rows changes no maximum between them") {
+  std::vector<std::string> names = loop_extremes;
+  const std::vector<std::string> set{"time.step=1", "solver.rtol=1e-10", "solver.atol=1e-12"};
+  const std::vector<Variation> vary{{"controller.pd.kv.0.0", "uniform:0.8:1.2"}};
+  const Setup without("configs/fig2b.yaml", vary, set, names, 4);
+  names.emplace_back("rms_tracking_error");
+  const Setup with("configs/fig2b.yaml", vary, set, names, 4);
+  const CaseResults a = run_all(*single_runner(without.task), without.task);
+  const CaseResults b = run_all(*single_runner(with.task), with.task);
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t m = 0; m < 5; ++m) CHECK(a.numbers[i * 5 + m] == b.numbers[i * 6 + m]);
+  }
 }
 
 TEST_CASE("extremes in lanes agree with single runs within the tolerance") {

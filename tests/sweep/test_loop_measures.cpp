@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Measures of the loop in sweeps: stability maps, and margins together with measures of motion.
-#include <atomic>
 #include <cmath>
 #include <string>
 #include <vector>
 
-#include "base/error.hpp"
 #include "catch.hpp"
 #include "model/control/loop_analysis.hpp"
+#include "support/sweep_setup.hpp"
 #include "sweep/sweep.hpp"
 #include "sweep/sweep_measures.hpp"
 
@@ -20,25 +19,10 @@ using namespace bbsim::sweep;
 
 namespace {
 
-const std::atomic<bool> goes_on{false};
-
-struct Setup {
-  Setup(const std::string& scene, std::vector<Variation> vary,
-        const std::vector<std::string>& names, const std::vector<std::string>& set = {})
-      : family(BBSIM_SOURCE_DIR "/configs/" + scene + ".yaml", set),
-        plan(family, sweep(std::move(vary))),
-        task{family, plan, sweep_measures(names, family, plan)} {}
-
-  static Sweep sweep(std::vector<Variation> vary) {
-    Sweep made;
-    made.vary = std::move(vary);
-    return made;
-  }
-
-  ScenarioFamily family;
-  SweepPlan plan;
-  SweepTask task;
-};
+Setup setup_of(const std::string& scene, std::vector<Variation> vary,
+               const std::vector<std::string>& names, const std::vector<std::string>& set = {}) {
+  return {"configs/" + scene + ".yaml", std::move(vary), set, names};
+}
 
 // Results as delivered by `threads` threads.
 CaseResults run(const SweepTask& task, std::size_t threads = 2) {
@@ -63,25 +47,16 @@ bool same(double a, double b) {
   return a == b || (std::isnan(a) && std::isnan(b));
 }
 
-std::string fault(const std::string& scene, const Variation& vary, const std::string& name) {
-  try {
-    static_cast<void>(Setup(scene, {vary}, {name}));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 }  // namespace
 
 TEST_CASE("the border of a stability map satisfies Routh-Hurwitz") {
   // A PD law with a second-order servo. Near home, x'' = 5/7 g phi - r phi'': gravity, and the
   // contact point under a turning plate. The loop's poles are then the zeros of
   //   s^4 + (2 zeta w - w^2 r kv) s^3 + w^2 (1 - r kp) s^2 + w^2 c kv s + w^2 c kp, c = 5/7 g.
-  const Setup setup("hold",
-                    {{"controller.pd.kp.0.0,-controller.pd.kp.1.1", "linear:0.1:12:40"},
-                     {"controller.pd.kv.0.0,-controller.pd.kv.1.1", "linear:0.05:6:40"}},
-                    {"stable", "spectral_abscissa"});
+  const Setup setup = setup_of("hold",
+                               {{"controller.pd.kp.0.0,-controller.pd.kp.1.1", "linear:0.1:12:40"},
+                                {"controller.pd.kv.0.0,-controller.pd.kv.1.1", "linear:0.05:6:40"}},
+                               {"stable", "spectral_abscissa"});
   const Engine engine = choose_engine(setup.task);
   CHECK(engine.name == "linear analysis");
   const CaseResults results = run(setup.task);
@@ -112,9 +87,9 @@ TEST_CASE("the border of a stability map satisfies Routh-Hurwitz") {
 TEST_CASE("margins added to measures of motion do not change these, and keep the lanes") {
   const std::vector<Variation> vary{{kp, "linear:2:40:6"}, {kv, "linear:2:14:6"}};
   const std::vector<std::string> set{"time.end=4"};
-  const Setup both("rig", vary,
-                   {"phi_delay_margin", "rms_tracking_error", "stable", "max_tilt", "end_x"}, set);
-  const Setup motion("rig", vary, {"rms_tracking_error", "max_tilt", "end_x"}, set);
+  const Setup both = setup_of(
+      "rig", vary, {"phi_delay_margin", "rms_tracking_error", "stable", "max_tilt", "end_x"}, set);
+  const Setup motion = setup_of("rig", vary, {"rms_tracking_error", "max_tilt", "end_x"}, set);
   CHECK(choose_engine(both.task).name == "rig lanes");
   CHECK(choose_engine(both.task).group == choose_engine(motion.task).group);
   const CaseResults a = run(both.task), b = run(motion.task);
@@ -145,8 +120,8 @@ TEST_CASE("margins added to measures of motion do not change these, and keep the
 }
 
 TEST_CASE("any number of threads gives the same numbers") {
-  const Setup setup("rig", {{kp, "linear:2:40:9"}, {kv, "linear:2:14:9"}},
-                    {"phi_phase_margin", "spectral_radius", "x_feedback_bandwidth"});
+  const Setup setup = setup_of("rig", {{kp, "linear:2:40:9"}, {kv, "linear:2:14:9"}},
+                               {"phi_phase_margin", "spectral_radius", "x_feedback_bandwidth"});
   const CaseResults one = run(setup.task, 1), three = run(setup.task, 3);
   REQUIRE(one.numbers.size() == three.numbers.size());
   for (std::size_t i = 0; i < one.numbers.size(); ++i)
@@ -154,15 +129,17 @@ TEST_CASE("any number of threads gives the same numbers") {
 }
 
 TEST_CASE("a measure of the loop is refused if no case has it, but not if some do") {
-  CHECK(fault("fig2a", {"ball.radius", "list:0.01,0.02"}, "stable") ==
-        "measure: found stable, but there is no controller");
-  CHECK(fault("fig2b", {"ball.radius", "list:0.01,0.02"}, "spectral_radius") ==
-        "measure: found spectral_radius, but the controller takes no samples");
-  CHECK(fault("sags", {"ball.radius", "list:0.01,0.02"}, "phi_gain_margin") ==
-        "measure: found phi_gain_margin, but dry friction has no linear equations");
+  const auto [scene, name, why] = GENERATE(table<std::string, std::string, std::string>({
+      {"fig2a", "stable", "there is no controller"},
+      {"fig2b", "spectral_radius", "the controller takes no samples"},
+      {"sags", "phi_gain_margin", "dry friction has no linear equations"},
+  }));
+  const Setup none = setup_of(scene, {{"ball.radius", "list:0.01,0.02"}}, {"end_x"});
+  CHECK_THROWS_WITH(sweep_measures({name}, none.family, none.plan),
+                    "measure: found " + name + ", but " + why);
 
-  const Setup some("fig2b", {{"controller.sampling", "list:null,{period: 0.02}"}},
-                   {"spectral_radius", "spectral_abscissa"});
+  const Setup some = setup_of("fig2b", {{"controller.sampling", "list:null,{period: 0.02}"}},
+                              {"spectral_radius", "spectral_abscissa"});
   const CaseResults results = run(some.task);
   CHECK(std::isnan(results.numbers[1]));
   CHECK(results.status[0].reason ==

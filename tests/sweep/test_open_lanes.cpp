@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "support/largest.hpp"
 #include "support/sweep_setup.hpp"
 #include "sweep/runners.hpp"
 #include "sweep/sweep.hpp"
@@ -36,85 +35,63 @@ std::vector<std::string> with(std::vector<std::string> set, const std::string& m
   return set;
 }
 
-// Largest difference from single runs, relative for numbers above 1.
 double difference_from_single(const Setup& setup) {
   const Engine engine = choose_engine(setup.task);
   REQUIRE(engine.name == "open lanes");
   const CaseResults lanes = run_all(*engine.runner(), setup.task);
   const CaseResults runs = run_all(*single_runner(setup.task), setup.task);
-  double largest = 0;
-  for (std::size_t i = 0; i < lanes.numbers.size(); ++i) {
-    const double size = std::max(1.0, std::abs(runs.numbers[i]));
-    largest =
-        bbsim_test::largest_finite(largest, {std::abs(lanes.numbers[i] - runs.numbers[i]) / size});
-  }
   CHECK(lanes.values == runs.values);
-  for (std::size_t i = 0; i < setup.plan.cases(); ++i) {
-    CHECK(lanes.status[i].word == runs.status[i].word);
-    CHECK(lanes.status[i].reason == runs.status[i].reason);
-  }
-  return largest;
+  check_endings(lanes, runs);
+  return largest_difference(runs, lanes);
 }
 
 }  // namespace
 
-TEST_CASE("prescribed motions in lanes agree with single runs") {
-  // Both have a tolerance of 1e-12, over distances up to some meters.
-  constexpr double agree = 2e-11;
-  SECTION("amplitude and phase") {
-    CHECK(difference_from_single(Setup("configs/fig2a.yaml", {amplitude, phase}, fine)) < agree);
+TEST_CASE("prescribed motions of every kind in lanes agree with single runs") {
+  const auto check = [](const Setup& setup) {
+    // Both have a tolerance of 1e-12, over distances up to some meters.
+    CHECK(difference_from_single(setup) < 2e-11);
+  };
+  const std::string fig2a = "configs/fig2a.yaml";
+  check({fig2a, {amplitude, phase}, fine});
+  // Frequencies share no sines.
+  check({fig2a,
+         {{"gimbal.motion.phi.sinusoid.frequency", "uniform:0.3:4"},
+          {"gimbal.motion.theta.sinusoid.frequency", "uniform:0.3:4"}},
+         fine});
+  // Large angles and all initial values of a ball.
+  check({fig2a,
+         {{"gimbal.motion.phi.sinusoid.amplitude", "uniform:-2:2"},
+          {"ball.velocity.0", "uniform:-0.2:0.2"},
+          {"ball.spin", "uniform:-20:20"},
+          {"ball.radius", "uniform:0.005:0.05"},
+          {"gravity", "uniform:1:20"}},
+         with(fine, "time.end=3")});
+  const std::string sums =
+      "gimbal.motion={phi: [{sinusoid: {amplitude: 0.01, frequency: 1}}, {sinusoid: {amplitude: "
+      "0.01, frequency: 2.5}}], theta: [{ramp: {start: 0, rate: 0.001}}, 0.001]}";
+  check({fig2a,
+         {{"gimbal.motion.phi.0.sinusoid.offset", "uniform:-0.002:0.002"},
+          {"gimbal.motion.phi.1.sinusoid.amplitude", "uniform:0:0.01"},
+          {"gimbal.motion.theta.0.ramp.rate", "uniform:-0.001:0.001"},
+          {"gimbal.motion.theta.1", "uniform:-0.001:0.001"}},
+         with(fine, sums)});
+  // Planar scenes, all or some.
+  for (const char* still : {"uniform:0:0.05", "list:0,0.05"}) {
+    check({"configs/incline.yaml",
+           {{"gimbal.motion.phi.ramp.rate", "uniform:0.01:0.02"}, {"ball.position.1", still}},
+           with(with(fine, "gimbal.motion.phi={ramp: {start: 0, rate: 0.01}}"), "time.end=2")});
   }
-  SECTION("frequencies, which share no sines") {
-    CHECK(
-        difference_from_single(Setup("configs/fig2a.yaml",
-                                     {{"gimbal.motion.phi.sinusoid.frequency", "uniform:0.3:4"},
-                                      {"gimbal.motion.theta.sinusoid.frequency", "uniform:0.3:4"}},
-                                     fine)) < agree);
-  }
-  SECTION("large angles and all initial values of a ball") {
-    CHECK(difference_from_single(Setup("configs/fig2a.yaml",
-                                       {{"gimbal.motion.phi.sinusoid.amplitude", "uniform:-2:2"},
-                                        {"ball.velocity.0", "uniform:-0.2:0.2"},
-                                        {"ball.spin", "uniform:-20:20"},
-                                        {"ball.radius", "uniform:0.005:0.05"},
-                                        {"gravity", "uniform:1:20"}},
-                                       with(fine, "time.end=3"))) < agree);
-  }
-  SECTION("offsets, ramps and more than one sinusoid") {
-    CHECK(difference_from_single(
-              Setup("configs/fig2a.yaml",
-                    {{"gimbal.motion.phi.0.sinusoid.offset", "uniform:-0.002:0.002"},
-                     {"gimbal.motion.phi.1.sinusoid.amplitude", "uniform:0:0.01"},
-                     {"gimbal.motion.theta.0.ramp.rate", "uniform:-0.001:0.001"},
-                     {"gimbal.motion.theta.1", "uniform:-0.001:0.001"}},
-                    with(fine,
-                         "gimbal.motion={phi: [{sinusoid: {amplitude: 0.01, frequency: 1}}, "
-                         "{sinusoid: {amplitude: 0.01, frequency: 2.5}}], theta: [{ramp: {start: "
-                         "0, rate: 0.001}}, 0.001]}"))) < agree);
-  }
-  SECTION("planar scenes, all or some") {
-    const std::string still = GENERATE("uniform:0:0.05", "list:0,0.05");
-    CHECK(difference_from_single(Setup(
-              "configs/incline.yaml",
-              {{"gimbal.motion.phi.ramp.rate", "uniform:0.01:0.02"}, {"ball.position.1", still}},
-              with(with(fine, "gimbal.motion.phi={ramp: {start: 0, rate: 0.01}}"), "time.end=2"))) <
-          agree);
-  }
-  SECTION("any column at the end") {
-    CHECK(difference_from_single(Setup("configs/fig2a.yaml", {amplitude, phase}, fine,
-                                       {"end_vx", "end_spin", "end_normal_force", "end_phi",
-                                        "end_x", "end_energy", "max_tilt"})) < agree);
-  }
-}
-
-TEST_CASE("prescribed motions with tables run in lanes between the tables' knots") {
-  // Tables together with a varying sinusoid.
-  const Setup setup("configs/recorded.yaml",
-                    {{"ball.spin", "uniform:-3:3"},
-                     {"gimbal.motion.theta.1.sinusoid.amplitude", "uniform:0.001:0.002"}},
-                    fine,
-                    {"end_x", "end_y", "end_vx", "max_distance", "max_tilt", "max_tilt_rate"});
-  CHECK(difference_from_single(setup) < 2e-11);
+  check({fig2a,
+         {amplitude, phase},
+         fine,
+         {"end_vx", "end_spin", "end_normal_force", "end_phi", "end_x", "end_energy", "max_tilt"}});
+  // Between the knots of tables, together with a varying sinusoid.
+  check({"configs/recorded.yaml",
+         {{"ball.spin", "uniform:-3:3"},
+          {"gimbal.motion.theta.1.sinusoid.amplitude", "uniform:0.001:0.002"}},
+         fine,
+         {"end_x", "end_y", "end_vx", "max_distance", "max_tilt", "max_tilt_rate"}});
 }
 
 TEST_CASE("coarse tolerances are met in lanes as in single runs") {
@@ -134,27 +111,29 @@ TEST_CASE("coarse tolerances are met in lanes as in single runs") {
   }
 }
 
-TEST_CASE("prescribed motions that lanes cannot compute use another engine") {
-  const auto engine = [](const std::string& scene, Variation vary,
-                         const std::vector<std::string>& set, const std::vector<std::string>& names,
-                         double samples = 100) {
-    const Setup setup(scene, {std::move(vary)}, set, names, samples);
-    return choose_engine(setup.task).name;
+TEST_CASE("sweeps in open lanes are those of many simple motions, without events") {
+  struct Sweep {
+    std::string engine;
+    Variation vary = phase;
+    std::vector<std::string> set{}, names = usual;
+    double samples = 100;
+    std::string scene = "configs/fig2a.yaml";
   };
-  const std::string open = "configs/fig2a.yaml";
-  CHECK(engine(open, phase, {}, usual) == "open lanes");
-  CHECK(engine(open, phase, {"solver.rtol=1e-13"}, usual) == "open lanes");
-  CHECK(engine(open, phase, {}, usual, 31) ==
-        "single runs");  // few cases, which keep the bits of a run
-  CHECK(engine(open, phase, {}, {"min_x"}) == "single runs");
-  CHECK(engine(open, phase, {}, {"end_gamma"}) == "single runs");
-  CHECK(engine(open, phase, {"ball.inertia_factor=0.5"}, usual) == "single runs");
-  CHECK(engine(open, phase, {"events.lift_off=note"}, usual) == "single runs");
-  CHECK(engine(open, phase, {"solver.method=bdf"}, usual) == "single runs");
-  CHECK(engine(open, phase, {"solver.error=1e-6"}, usual) == "single runs");
-  CHECK(engine(open, {"gimbal.mounting.height", "uniform:0:0.01"}, {}, usual) == "single runs");
-  CHECK(engine(open, {"gravity", "uniform:1:2"}, {}, usual) == "open lanes");
-  CHECK(engine("configs/fig2b.yaml", {"gravity", "uniform:1:2"}, {}, {"end_x"}) != "open lanes");
+  const std::string open = "open lanes", single = "single runs";
+  for (const Sweep& one :
+       {Sweep{open}, Sweep{open, phase, {"solver.rtol=1e-13"}},
+        Sweep{open, {"gravity", "uniform:1:2"}},
+        Sweep{single, phase, {}, usual, 31},  // few cases, which keep the bits of a run
+        Sweep{single, phase, {}, {"min_x"}}, Sweep{single, phase, {}, {"end_gamma"}},
+        Sweep{single, phase, {"ball.inertia_factor=0.5"}},
+        Sweep{single, phase, {"events.lift_off=note"}}, Sweep{single, phase, {"solver.method=bdf"}},
+        Sweep{single, phase, {"solver.error=1e-6"}},
+        Sweep{single, {"gimbal.mounting.height", "uniform:0:0.01"}},
+        Sweep{"lanes", {"gravity", "uniform:1:2"}, {}, {"end_x"}, 100, "configs/fig2b.yaml"}}) {
+    const Setup setup(one.scene, {one.vary}, one.set, one.names, one.samples);
+    CAPTURE(one.vary.key, one.set, one.names, one.samples);
+    CHECK(choose_engine(setup.task).name == one.engine);
+  }
 }
 
 TEST_CASE("results in lanes do not depend on threads or on shards") {
@@ -194,9 +173,8 @@ TEST_CASE("cases that diverge under a prescribed motion run singly") {
   const CaseResults runs = run_all(*single_runner(setup.task), setup.task);
   const std::size_t numbers = 1 + usual.size();
   int failed = 0;
+  check_endings(lanes, runs);
   for (std::size_t i = 0; i < setup.plan.cases(); ++i) {
-    CHECK(lanes.status[i].word == runs.status[i].word);
-    CHECK(lanes.status[i].reason == runs.status[i].reason);
     if (runs.status[i].word == "done") continue;
     ++failed;
     for (std::size_t n = 0; n < numbers; ++n) {

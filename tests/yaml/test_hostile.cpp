@@ -8,6 +8,7 @@
 #include <random>
 
 #include "catch.hpp"
+#include "support/folder.hpp"
 #include "support/reading.hpp"
 
 namespace bbsim_test::test_hostile {
@@ -38,16 +39,15 @@ std::string file_error(const std::string& file) {
 TEST_CASE("endless nesting") {
   const std::string refused = "found nesting deeper than 32 levels; allowed: at most 32";
   const int depth = 100'000;
-  CHECK_THAT(errors("a: " + repeated("[", 50) + repeated("]", 50)), Contains(refused));
-  CHECK_THAT(errors("a: " + repeated("[", depth) + repeated("]", depth)), Contains(refused));
-  CHECK_THAT(errors("a: " + repeated("{a: ", depth) + repeated("}", depth)), Contains(refused));
-  CHECK_THAT(errors(repeated("- ", depth)), Contains(refused));
-  CHECK_FALSE(errors(repeated("[", depth)).empty());
-  CHECK_FALSE(errors(repeated("{", depth)).empty());
-  CHECK_FALSE(errors(repeated("? ", depth)).empty());
   std::string block;
   for (int i = 0; i < 1000; ++i) block += std::string(static_cast<std::size_t>(i), ' ') + "a:\n";
-  CHECK_THAT(errors(block), Contains(refused));
+  for (const std::string& text :
+       {"a: " + repeated("[", 50) + repeated("]", 50),
+        "a: " + repeated("[", depth) + repeated("]", depth),
+        "a: " + repeated("{a: ", depth) + repeated("}", depth), repeated("- ", depth), block}) {
+    CHECK_THAT(errors(text), Contains(refused));
+  }
+  for (const char* open : {"[", "{", "? "}) CHECK_FALSE(errors(repeated(open, depth)).empty());
   CHECK_THAT(errors(open_loop, {"a=" + repeated("[", 50) + repeated("]", 50)}), Contains(refused));
 }
 
@@ -77,30 +77,29 @@ TEST_CASE("more values than a scenario has") {
 }
 
 TEST_CASE("files that are not scenarios") {
-  const TemporaryFolder folder;
-  CHECK(file_error(folder.file("absent")) ==
-        folder.file("absent") + ": cannot be read: No such file or directory");
-  CHECK(file_error(folder.file("")) ==
-        folder.file("") + ": found a folder; allowed: a scenario file");
+  const Folder folder;
+  CHECK(file_error(folder / "absent") ==
+        (folder / "absent") + ": cannot be read: No such file or directory");
+  CHECK(file_error(folder / "") == (folder / "") + ": found a folder; allowed: a scenario file");
   CHECK(file_error("/dev/zero") ==
         "/dev/zero: found more than 1048576 bytes; allowed: a scenario of at most 1048576 bytes");
   CHECK(file_error("/dev/null").starts_with("/dev/null:1:1: found an empty file;"));
 
-  const std::string sparse = folder.write("sparse", "");
+  const std::string sparse = folder.put("sparse", "");
   std::filesystem::resize_file(sparse, 200'000'000);
   CHECK(file_error(sparse) ==
         sparse + ": found 200000000 bytes; allowed: a scenario of at most 1048576 bytes");
 
-  const std::string pipe = folder.file("pipe");
+  const std::string pipe = folder / "pipe";
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
   CHECK(file_error(pipe) == pipe + ": found nothing within 5 s; allowed: a file, or a pipe in use");
 }
 
 TEST_CASE("the largest file") {
-  const TemporaryFolder folder;
+  const Folder folder;
   const std::string padding(1048576 - open_loop.size() - 1, '#');
-  CHECK(file_error(folder.write("largest", open_loop + padding + "\n")).empty());
-  CHECK_THAT(file_error(folder.write("larger", open_loop + padding + "#\n")),
+  CHECK(file_error(folder.put("largest", open_loop + padding + "\n")).empty());
+  CHECK_THAT(file_error(folder.put("larger", open_loop + padding + "#\n")),
              Contains("found 1048577 bytes"));
 }
 
