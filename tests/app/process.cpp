@@ -10,9 +10,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <stdexcept>
 #include <thread>
 
@@ -22,13 +20,6 @@ namespace bbsim_test {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string contents(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 void redirect(int target, const std::string& file) {
   const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
@@ -87,34 +78,14 @@ Result bbsim(const Launch& launch) {
   for (const std::string& word : launch.arguments) result.line += word + ' ';
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  result.out = contents(out);
-  result.err = contents(err);
+  result.out = content_of(out);
+  result.err = content_of(err);
   return result;
-}
-
-Folder::Folder() {
-  std::string pattern = fs::temp_directory_path() / "bbsim-test-XXXXXX";
-  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("cannot make " + pattern);
-  path_ = pattern;
-}
-
-Folder::~Folder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
-std::string Folder::write(const std::string& name, const std::string& text) const {
-  std::ofstream(path_ / name, std::ios::binary) << text;
-  return path_ / name;
-}
-
-std::string Folder::read(const std::string& name) const {
-  return contents(path_ / name);
 }
 
 std::vector<std::string> Folder::files() const {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(path_)) names.push_back(entry.path().filename());
+  for (const auto& entry : fs::directory_iterator(path())) names.push_back(entry.path().filename());
   std::sort(names.begin(), names.end());
   return names;
 }

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "support/folder.hpp"
 #include "support/rights.hpp"
 #include "support/sanitizers.hpp"
 #include "support/text.hpp"
@@ -39,25 +40,20 @@ inline Result bbsim(std::vector<std::string> arguments, std::filesystem::path fo
 }
 
 // A test's own folder, removed when the object is destroyed.
-class Folder {
+class Folder : public ::Folder {
  public:
-  Folder();
-  ~Folder();
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  [[nodiscard]] std::string operator/(const std::string& name) const { return path_ / name; }
+  [[nodiscard]] std::filesystem::path path() const { return name(); }
 
   // Writes a file into the folder and returns its path.
-  std::string write(const std::string& name,
-                    const std::string& text) const;  // NOLINT(modernize-use-nodiscard)
-  [[nodiscard]] std::string read(const std::string& name) const;
+  std::string write(const std::string& file,
+                    const std::string& text) const {  // NOLINT(modernize-use-nodiscard)
+    return put(file, text);
+  }
+  [[nodiscard]] std::string read(const std::string& file) const {
+    return content_of(path() / file);
+  }
   // Sorted names of all files in the folder, including hidden ones.
   [[nodiscard]] std::vector<std::string> files() const;
-
- private:
-  std::filesystem::path path_;
 };
 
 // Path of a scenario in configs/.

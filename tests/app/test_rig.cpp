@@ -78,7 +78,8 @@ TEST_CASE("the motors' peaks are in the summary if the plate's inertia is known"
   const Result run = expect(0, "run @rig.yaml -o - --summary rig.json", folder);
   const auto motors = summary_of(folder, "rig.json").at("motors");
   double peak = 0;
-  for (const double torque : columns_of(run.out).at("motor_torque_phi")) {
+  const auto columns = columns_of(run.out);
+  for (const double torque : columns.at("motor_torque_phi")) {
     peak = std::max(peak, std::abs(torque));
   }
   // Rows precede each command; the peak follows it.

@@ -4,15 +4,12 @@
 // Shared by the tests of the scenario reader.
 #pragma once
 
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
 #include "scenario/reader.hpp"
+#include "support/folder.hpp"
 
 namespace bbsim::test {
 
@@ -42,29 +39,12 @@ inline const std::string closed_loop =
     "time: {end: 10, step: 0.1}\n"
     "controller: {pd: {kv: 100, kp: 0.1}, reference: {point: [0, 0]}}\n";
 
-// A folder of this process, removed when the test ends.
-class TemporaryFolder {
- public:
-  TemporaryFolder()
-      : path_(std::filesystem::temp_directory_path() /
-              ("bbsim-scenario-" + std::to_string(::getpid()))) {
-    std::filesystem::create_directory(path_);
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  [[nodiscard]] std::string file(const std::string& name) const { return path_ / name; }
+// A folder of its own, removed when the test ends.
+struct TemporaryFolder : ::Folder {
+  [[nodiscard]] std::string file(const std::string& name) const { return *this / name; }
   [[nodiscard]] std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(file(name), std::ios::binary) << text;
-    return file(name);
+    return put(name, text);
   }
-
- private:
-  std::filesystem::path path_;
 };
 
 }  // namespace bbsim::test
