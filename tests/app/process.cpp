@@ -10,22 +10,16 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <thread>
+
+#include "catch.hpp"
 
 namespace bbsim_test {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string contents(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 void redirect(int target, const std::string& file) {
   const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
@@ -81,42 +75,82 @@ Result bbsim(const Launch& launch) {
   int status = 0;
   waitpid(child, &status, 0);
   Result result;
+  for (const std::string& word : launch.arguments) result.line += word + ' ';
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  result.out = contents(out);
-  result.err = contents(err);
+  result.out = content_of(out);
+  result.err = content_of(err);
   return result;
-}
-
-Folder::Folder() {
-  std::string pattern = fs::temp_directory_path() / "bbsim-test-XXXXXX";
-  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("cannot make " + pattern);
-  path_ = pattern;
-}
-
-Folder::~Folder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
-std::string Folder::write(const std::string& name, const std::string& text) const {
-  std::ofstream(path_ / name, std::ios::binary) << text;
-  return path_ / name;
-}
-
-std::string Folder::read(const std::string& name) const {
-  return contents(path_ / name);
 }
 
 std::vector<std::string> Folder::files() const {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(path_)) names.push_back(entry.path().filename());
+  for (const auto& entry : fs::directory_iterator(path())) names.push_back(entry.path().filename());
   std::sort(names.begin(), names.end());
   return names;
 }
 
 std::string config(const std::string& name) {
   return std::string(BBSIM_SOURCE_DIR) + "/configs/" + name;
+}
+
+std::vector<std::string> words_of(const std::string& line) {
+  std::vector<std::string> words;
+  std::string word;
+  bool quoted = false, begun = false;
+  for (const char c : line + ' ') {
+    if (c == '\'') {
+      quoted = !quoted;
+      begun = true;
+    } else if (c != ' ' || quoted) {
+      word += c;
+      begun = true;
+    } else if (begun) {
+      const char sign = word.empty() ? ' ' : word.front();
+      if (sign == '@') word = config(word.substr(1));
+      if (sign == '%') word = BBSIM_SOURCE_DIR "/" + word.substr(1);
+      words.push_back(word);
+      word.clear();
+      begun = false;
+    }
+  }
+  return words;
+}
+
+Result call_with(const std::string& variable, const std::string& value, const std::string& line,
+                 const Folder& folder) {
+  return call(line, folder, [&] { setenv(variable.c_str(), value.c_str(), 1); });
+}
+
+Result signal_once(const Folder& folder, const std::string& file, std::uintmax_t bytes, int signal,
+                   const std::string& line) {
+  Launch launch{words_of(line), folder.path(), signal};
+  launch.signal_when = [&] {
+    std::error_code none;
+    const std::uintmax_t size = fs::file_size(folder / file, none);
+    return !none && size >= bytes;
+  };
+  return bbsim(launch);
+}
+
+nlohmann::json summary_of(const Folder& folder, const std::string& name) {
+  return nlohmann::json::parse(folder.read(name));
+}
+
+Result expect(int exit_code, Result result, const std::vector<std::string>& errors,
+              const std::vector<std::string>& output) {
+  CAPTURE(result.line, result.out, result.err);
+  REQUIRE(result.exit_code == exit_code);
+  const auto check = [](const std::string& text, const std::vector<std::string>& parts) {
+    for (const std::string& part : parts) {
+      CAPTURE(part);
+      const bool absent = part.starts_with('!');
+      CHECK(contains(text, part.substr(absent ? 1 : 0)) != absent);
+    }
+  };
+  check(result.err, errors);
+  check(result.out, output);
+  return result;
 }
 
 }  // namespace bbsim_test

@@ -13,6 +13,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <stdexcept>
+#include <vector>
 
 namespace bbsim_test {
 namespace {
@@ -27,38 +28,38 @@ namespace {
 
 }  // namespace
 
-Result shell(const std::string& line, const std::filesystem::path& folder) {
+Result shell(const std::string& line, const Folder& folder) {
   const Folder streams;
   const std::string out = streams / "out", err = streams / "err";
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("cannot fork");
   if (child == 0) {
     setenv("BBSIM", BBSIM_PROGRAM, 1);
-    if (chdir(folder.c_str()) != 0) _exit(126);
+    if (chdir(folder.path().c_str()) != 0) _exit(126);
     execute({"bash", "-o", "pipefail", "-c", "{ " + line + "\n} > '" + out + "' 2> '" + err + "'"});
   }
   int status = 0;
   waitpid(child, &status, 0);
   Result result;
+  result.line = line;
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   result.out = streams.read("out");
   result.err = streams.read("err");
   return result;
 }
 
-std::string on_terminal(const std::vector<std::string>& arguments, unsigned short columns,
-                        const std::filesystem::path& folder, double seconds,
-                        const std::string& awaited, const std::string& kind,
+std::string on_terminal(const std::string& command, unsigned short columns, const Folder& folder,
+                        double seconds, const std::string& awaited, const std::string& kind,
                         const std::string& typed) {
   const winsize size{24, columns, 0, 0};
   int terminal = -1;
   const pid_t child = forkpty(&terminal, nullptr, nullptr, &size);
   if (child < 0) throw std::runtime_error("cannot open a terminal");
   if (child == 0) {
-    if (chdir(folder.c_str()) != 0) _exit(126);
+    if (chdir(folder.path().c_str()) != 0) _exit(126);
     setenv("TERM", kind.c_str(), 1);
     std::vector<std::string> words{BBSIM_PROGRAM};
-    words.insert(words.end(), arguments.begin(), arguments.end());
+    for (const std::string& word : words_of(command)) words.push_back(word);
     execute(words);
   }
   if (write(terminal, typed.data(), typed.size()) != static_cast<ssize_t>(typed.size())) {

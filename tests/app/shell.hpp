@@ -4,9 +4,7 @@
 // Runs the program from a shell line, with pipes and redirections, or on a terminal.
 #pragma once
 
-#include <filesystem>
 #include <string>
-#include <vector>
 
 #include "process.hpp"
 
@@ -14,14 +12,13 @@ namespace bbsim_test {
 
 // Runs a line in bash, with the program as $BBSIM. The exit code is that of the first process that
 // failed in the last pipe, or 0.
-Result shell(const std::string& line, const std::filesystem::path& folder);
+Result shell(const std::string& line, const Folder& folder);
 
 // Returns what the program sends to a terminal of the given width until it ends or is interrupted:
 // after the given seconds or, if `awaited` is not empty, once it has sent that. `kind` is the
 // terminal type, TERM; `typed` is the input, sent at the start.
-std::string on_terminal(const std::vector<std::string>& arguments, unsigned short columns,
-                        const std::filesystem::path& folder, double seconds,
-                        const std::string& awaited = "", const std::string& kind = "xterm",
-                        const std::string& typed = "");
+std::string on_terminal(const std::string& command, unsigned short columns, const Folder& folder,
+                        double seconds, const std::string& awaited = "",
+                        const std::string& kind = "xterm", const std::string& typed = "");
 
 }  // namespace bbsim_test

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 
 #include "catch.hpp"
@@ -20,47 +19,42 @@ namespace {
 // Parses "measure,value" lines.
 std::map<std::string, double> values_of(const std::string& text) {
   std::map<std::string, double> values;
-  std::istringstream lines(text);
-  std::string line;
-  REQUIRE(std::getline(lines, line));
-  CHECK(line == "measure,value");
-  while (std::getline(lines, line)) {
-    const std::size_t comma = line.rfind(',');
-    values[line.substr(0, comma)] = std::stod(line.substr(comma + 1));
+  for (const auto& row : rows(text)) {
+    if (row.at(0) != "measure") values[row[0]] = std::stod(row.at(1));
   }
+  CHECK(text.starts_with("measure,value\n"));
   return values;
+}
+
+// Runs a command that prints measures.
+std::map<std::string, double> measured(const std::string& line, const Folder& folder) {
+  return values_of(expect(0, line, folder).out);
 }
 
 }  // namespace
 
 TEST_CASE("run prints measures of the motion, and measure prints those of its rows") {
   const Folder folder;
-  const std::string names =
-      "x.RiseTime,x.SettlingTime,x.SettlingMin,x.SettlingMax,x.Overshoot,"
-      "x.Undershoot,x.Peak,x.PeakTime,x.SteadyStateValue,max_tilt,end_x";
-  const Result run =
-      bbsim({"run", config("step.yaml"), "-o", "step.h5", "--summary", "step.json", "--measure",
-             names, "--measure", "when tracking_error stays below 2 mm"},
-            folder.path());
-  CAPTURE(run.err);
-  REQUIRE(run.exit_code == 0);
-  const auto motion = values_of(run.out);
+  const auto motion = measured(
+      "run @step.yaml -o step.h5 --summary step.json --measure "
+      "x.RiseTime,x.SettlingTime,x.SettlingMin,x.SettlingMax,x.Overshoot,x.Undershoot,x.Peak,"
+      "x.PeakTime,x.SteadyStateValue,max_tilt,end_x --measure "
+      "'when tracking_error stays below 2 mm'",
+      folder);
   CHECK(motion.size() == 12);
   CHECK(motion.at("x.RiseTime") > 0);
   CHECK(motion.at("x.Peak") >= motion.at("x.SettlingMax"));
   CHECK(motion.at("x.SteadyStateValue") == motion.at("end_x"));
   CHECK(motion.at("when tracking_error stays below 0.002") > 0);
 
-  const auto summary = nlohmann::json::parse(folder.read("step.json"));
-  CHECK(summary["measures"].size() == 12);
-  CHECK(summary["measures"]["x.RiseTime"] == motion.at("x.RiseTime"));
+  const auto measures = summary_of(folder, "step.json")["measures"];
+  CHECK(measures.size() == 12);
+  CHECK(measures["x.RiseTime"] == motion.at("x.RiseTime"));
 
-  const Result stored = bbsim({"measure", "step.h5", "--measure",
-                               "x.RiseTime,x.SettlingTime,x.Overshoot,x.Peak,x.PeakTime,end_x"},
-                              folder.path());
-  CAPTURE(stored.err);
-  REQUIRE(stored.exit_code == 0);
-  for (const auto& [name, value] : values_of(stored.out)) {
+  for (const auto& [name, value] :
+       measured("measure step.h5 --measure x.RiseTime,x.SettlingTime,x.Overshoot,x.Peak,"
+                "x.PeakTime,end_x",
+                folder)) {
     CAPTURE(name);
     // Rows are at most 10 ms apart.
     CHECK(value == Approx(motion.at(name)).epsilon(0.02));
@@ -69,60 +63,51 @@ TEST_CASE("run prints measures of the motion, and measure prints those of its ro
 
 TEST_CASE("unavailable measures are refused with the list of allowed ones") {
   const Folder folder;
-  const auto code = [&](std::vector<std::string> arguments) {
-    return bbsim(std::move(arguments), folder.path()).exit_code;
-  };
-  CHECK(code({"run", config("step.yaml"), "--measure", "x.Rise"}) == 2);
-  CHECK(code({"run", config("step.yaml"), "--measure", "x.Peak,x.Peak"}) == 2);
-  CHECK(code({"run", config("fig2a.yaml"), "--measure", "x_reference.Peak"}) == 2);
-  CHECK(code({"run", config("step.yaml"), "--measure", "x.Peak", "-o", "-"}) == 2);
-  CHECK(code({"run", config("step.yaml"), "--measure", "x.Peak", "--summary", "-"}) == 2);
+  for (const std::string line :
+       {"run @step.yaml --measure x.Rise", "run @step.yaml --measure x.Peak,x.Peak",
+        "run @fig2a.yaml --measure x_reference.Peak", "run @step.yaml --measure x.Peak -o -",
+        "run @step.yaml --measure x.Peak --summary -"}) {
+    expect(2, line, folder);
+  }
   CHECK(folder.files().empty());
   folder.write("rows.csv", "t,u\n0,0\n1,1\n");
-  CHECK(code({"measure", "rows.csv", "--measure", "x.Peak"}) == 2);
-  CHECK(code({"measure", "rows.csv"}) == 2);
-  CHECK(code({"measure", "none.csv", "--measure", "x.Peak"}) == 2);
-  CHECK(bbsim({"measure", "rows.csv", "--measure", "u.Peak"}, folder.path()).out ==
-        "measure,value\nu.Peak,1\n");
-  CHECK(shell("$BBSIM measure - --measure 'when u=0.25' < rows.csv", folder.path()).out ==
-        "measure,value\nwhen u=0.25 cross=1,0.25\n");
+  for (const std::string line : {"measure rows.csv --measure x.Peak", "measure rows.csv",
+                                 "measure none.csv --measure x.Peak"}) {
+    expect(2, line, folder);
+  }
+  CHECK(measured("measure rows.csv --measure u.Peak", folder).at("u.Peak") == 1);
+  const Result piped = shell("$BBSIM measure - --measure 'when u=0.25' < rows.csv", folder);
+  CHECK(values_of(piped.out).at("when u=0.25 cross=1") == 0.25);
 }
 
 TEST_CASE("a switch at a run's last instant counts in its extremes") {
   const Folder folder;
-  const std::string first_order = "gimbal.servo={time_constant: 0.05}";
-  const std::string names =
-      "max_tilt_rate,end_tilt_rate,max_motor_torque_theta,end_motor_torque_theta";
+  const std::string first_order =
+      " @rig.yaml -q --set 'gimbal.servo={time_constant: 0.05}' --set time.end=0.01 --measure "
+      "max_tilt_rate";
   // The first command arrives at 10 ms.
-  const Result run = bbsim({"run", config("rig.yaml"), "-q", "-o", "end.csv", "--set", first_order,
-                            "--set", "time.end=0.01", "--measure", names, "--summary", "end.json"},
-                           folder.path());
-  CAPTURE(run.err);
-  REQUIRE(run.exit_code == 0);
-  const auto at_end = values_of(run.out);
+  const auto at_end = measured(
+      "run" + first_order + ",end_tilt_rate,max_motor_torque_theta,end_motor_torque_theta -o " +
+          "end.csv --summary end.json",
+      folder);
   CHECK(at_end.at("end_tilt_rate") > 0.1);
   CHECK(at_end.at("max_tilt_rate") == at_end.at("end_tilt_rate"));
   CHECK(at_end.at("max_motor_torque_theta") >= at_end.at("end_motor_torque_theta"));
-  const auto summary = nlohmann::json::parse(folder.read("end.json"));
-  CHECK(summary["motors"]["peak_torque_theta"] >= at_end.at("end_motor_torque_theta"));
+  CHECK(summary_of(folder, "end.json")["motors"]["peak_torque_theta"] >=
+        at_end.at("end_motor_torque_theta"));
 
-  const Result sweep = bbsim({"sweep", config("rig.yaml"), "-q", "-o", "sweep.csv", "--set",
-                              first_order, "--set", "time.end=0.01", "--vary",
-                              "controller.sensor.seed=linear:1:9:9", "--measure", "max_tilt_rate"},
-                             folder.path());
-  CAPTURE(sweep.err);
-  REQUIRE(sweep.exit_code == 0);
-  const std::string rows = folder.read("sweep.csv");
-  const std::size_t row = rows.find("\n0,1,done,,0.01,");
-  REQUIRE(row != std::string::npos);
-  CHECK(std::stod(rows.substr(row + 16)) == at_end.at("max_tilt_rate"));
+  expect(0, "sweep" + first_order + " -o sweep.csv --vary controller.sensor.seed=linear:1:9:9",
+         folder);
+  const auto first = rows(folder.read("sweep.csv"))[1];
+  CHECK(first[2] == "done");
+  CHECK(std::stod(first.back()) == at_end.at("max_tilt_rate"));
 
-  const Result stopped = bbsim(
-      {"run", config("catch.yaml"), "-q", "-o", "stop.csv", "--set",
-       "gimbal.servo.acceleration_limit=60", "--measure", "min_normal_force,end_normal_force"},
-      folder.path());
-  CHECK(stopped.exit_code == 1);
-  const auto at_stop = values_of(stopped.out);
+  const auto at_stop = values_of(
+      expect(1,
+             "run @catch.yaml -q -o stop.csv --set gimbal.servo.acceleration_limit=60 --measure "
+             "min_normal_force,end_normal_force",
+             folder)
+          .out);
   CHECK(at_stop.at("end_normal_force") < 0);
   CHECK(at_stop.at("min_normal_force") == at_stop.at("end_normal_force"));
 }
@@ -130,269 +115,198 @@ TEST_CASE("a switch at a run's last instant counts in its extremes") {
 TEST_CASE("any rig's log is measured, whatever its other columns") {
   const Folder folder;
   folder.write("log.csv", "\"t\",x (m),y,mode\n0,1,2,auto\n1,3,4,man\n");
-  CHECK(bbsim({"measure", "log.csv", "--measure", "max_y"}, folder.path()).out ==
-        "measure,value\nmax_y,4\n");
-  const Result words = bbsim({"measure", "log.csv", "--measure", "max_mode"}, folder.path());
-  CHECK(words.exit_code == 2);
-  CHECK(words.err.find("column mode, row 1: found \"auto\"; allowed: a number") !=
-        std::string::npos);
+  CHECK(measured("measure log.csv --measure max_y", folder).at("max_y") == 4);
+  expect(2, "measure log.csv --measure max_mode", folder,
+         {"column mode, row 1: found \"auto\"; allowed: a number"});
   folder.write("words.csv", "t,x,when,at\n0,1,a,b\n1,2,c,d\n2,3,e,f\n");
-  CHECK(bbsim({"measure", "words.csv", "--measure", "when x=1.5"}, folder.path()).out ==
-        "measure,value\nwhen x=1.5 cross=1,0.4999999999999999\n");
+  CHECK(measured("measure words.csv --measure 'when x=1.5'", folder).at("when x=1.5 cross=1") ==
+        Approx(0.5).epsilon(1e-15));
   folder.write("sweep.csv", "case,ball.radius,status,end_x\n0,0.01,done,1\n1,0.02,done,2\n");
-  const Result sweep = bbsim({"measure", "sweep.csv", "--measure", "end_x"}, folder.path());
-  CHECK(sweep.exit_code == 2);
-  CHECK(sweep.err.find("is a sweep") != std::string::npos);
+  expect(2, "measure sweep.csv --measure end_x", folder, {"is a sweep"});
 }
 
 TEST_CASE("steps are measured from the ball's start, and a file without a reference is reported") {
   const Folder folder;
-  const std::string names = "x.Overshoot,x.RiseTime,x.Peak,y.Overshoot";
-  const Result run = bbsim(
-      {"run", config("step.yaml"), "-o", "step.csv", "--measure", names, "--summary", "s.json"},
-      folder.path());
-  REQUIRE(run.exit_code == 0);
+  const Result run = expect(0,
+                            "run @step.yaml -o step.csv --summary s.json --measure "
+                            "x.Overshoot,x.RiseTime,x.Peak,y.Overshoot",
+                            folder);
   const auto motion = values_of(run.out);
   // From -3 cm to +3 cm, with a peak at 5.47 cm.
   CHECK(motion.at("x.Peak") == Approx(0.0547).epsilon(1e-3));
   CHECK(motion.at("x.Overshoot") == Approx(100 * (motion.at("x.Peak") - 0.03) / 0.06));
   // y stays where it is: a step of 0 has no step metrics, and that is reported.
   CHECK(std::isnan(motion.at("y.Overshoot")));
-  const std::string why =
-      "y.Overshoot is not a number: it should end where it starts, so its step is 0";
-  CHECK(run.err.find("note: " + why) != std::string::npos);
-  CHECK(folder.read("s.json").find(why) != std::string::npos);
+  for (const std::string& text : {run.err, folder.read("s.json")}) {
+    CHECK(contains(text, "y.Overshoot is not a number: "));
+  }
 
-  const Result stored = bbsim({"measure", "step.csv", "--measure", "x.Overshoot"}, folder.path());
+  const Result stored =
+      expect(0, "measure step.csv --measure x.Overshoot", folder, {"!note: ", "!warning"});
   CHECK(values_of(stored.out).at("x.Overshoot") ==
         Approx(motion.at("x.Overshoot")).epsilon(1e-3));  // rows are 20 ms apart
-  CHECK(stored.err.empty());
-  REQUIRE(
-      bbsim({"run", config("step.yaml"), "-q", "-o", "plain.csv", "--set", "output.columns=[t, x]"},
-            folder.path())
-          .exit_code == 0);
-  const Result plain = bbsim({"measure", "plain.csv", "--measure", "x.Overshoot"}, folder.path());
-  CHECK(plain.exit_code == 0);
-  CHECK(plain.err ==
-        "note: plain.csv has no column x_reference: step metrics of x refer to its own value at "
-        "the end\n");
-  CHECK(
-      bbsim({"measure", "plain.csv", "--measure", "x.Overshoot", "-q"}, folder.path()).err.empty());
+  expect(0, "run @step.yaml -q -o plain.csv --set 'output.columns=[t, x]'", folder);
+  expect(0, "measure plain.csv --measure x.Overshoot", folder,
+         {"note: plain.csv has no column x_reference"});
+  CHECK(call("measure plain.csv --measure x.Overshoot -q", folder).err.empty());
 }
 
 TEST_CASE("a time window applies to runs, files and sweeps") {
   const Folder folder;
   const std::string names =
       "rms_tracking_error from 5 s,max_x to 3000 ms,end_x to 2 s,x.Overshoot from 1 s to 8 s";
-  const Result run = bbsim({"run", config("step.yaml"), "-q", "-o", "step.h5", "--set",
-                            "output.columns=[t, x, x_reference, tracking_error]", "--measure",
-                            names, "--summary", "s.json"},
-                           folder.path());
-  CAPTURE(run.err);
-  REQUIRE(run.exit_code == 0);
+  const std::string measure = " --measure '" + names + "'";
+  const Result run = expect(0,
+                            "run @step.yaml -q -o step.h5 --set 'output.columns=[t, x, "
+                            "x_reference, tracking_error]' --summary s.json" +
+                                measure,
+                            folder);
   const auto motion = values_of(run.out);
-  const auto summary = nlohmann::json::parse(folder.read("s.json"));
-  CHECK(summary["measures"]["max_x to 3000 ms"] == motion.at("max_x to 3000 ms"));
-  const Result stored = bbsim({"measure", "step.h5", "--measure", names}, folder.path());
-  for (const auto& [name, value] : values_of(stored.out)) {
+  CHECK(summary_of(folder, "s.json")["measures"]["max_x to 3000 ms"] ==
+        motion.at("max_x to 3000 ms"));
+  const auto stored = measured("measure step.h5" + measure, folder);
+  for (const auto& [name, value] : stored) {
     CAPTURE(name);
     CHECK(motion.at(name) == Approx(value).epsilon(1e-3));  // rows are 20 ms apart
   }
-  CHECK(values_of(stored.out).at("rms_tracking_error from 5 s") ==
+  CHECK(stored.at("rms_tracking_error from 5 s") ==
         Approx(motion.at("rms_tracking_error from 5 s")).epsilon(1e-14));
-  const Result sweep = bbsim({"sweep", config("step.yaml"), "-q", "-o", "-", "--vary",
-                              "controller.pid.kp.0.0=list:0.7,0.8", "--measure", names},
-                             folder.path());
-  REQUIRE(sweep.exit_code == 0);
-  std::istringstream lines(sweep.out);
-  std::string header, row;
-  std::getline(lines, header);
-  std::getline(lines, row);
-  CHECK(header.ends_with("," + names));
-  std::string expected;
-  for (const std::string name : {"rms_tracking_error from 5 s", "max_x to 3000 ms", "end_x to 2 s",
-                                 "x.Overshoot from 1 s to 8 s"}) {
-    const std::size_t at = run.out.find(name) + name.size();
-    expected += run.out.substr(at, run.out.find('\n', at) - at);
+
+  const auto table =
+      rows(expect(0, "sweep @step.yaml -q -o - --vary controller.pid.kp.0.0=list:0.7,0.8" + measure,
+                  folder)
+               .out);
+  REQUIRE(table.at(0).size() == 9);
+  for (std::size_t i = 5; i < 9; ++i) {
+    CHECK(std::stod(table[1].at(i)) == motion.at(table[0][i]));
   }
-  CHECK(row.ends_with(",12" + expected));
-  for (const char* wrong : {"max_x from 12 s", "max_x from 2 s to 1 s", "max_x to 13 s"}) {
-    CAPTURE(wrong);
-    CHECK(bbsim({"run", config("step.yaml"), "--measure", wrong}, folder.path()).exit_code == 2);
-    CHECK(bbsim({"measure", "step.h5", "--measure", wrong}, folder.path()).exit_code == 2);
+  for (const std::string wrong : {"max_x from 12 s", "max_x from 2 s to 1 s", "max_x to 13 s"}) {
+    expect(2, "run @step.yaml --measure '" + wrong + "'", folder);
+    expect(2, "measure step.h5 --measure '" + wrong + "'", folder);
   }
 }
 
 TEST_CASE("expectations of a run are judged, reported and recorded") {
   const Folder folder;
-  const auto run = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{"run",     config("step.yaml"), "-q",    "-o",
-                                       "step.h5", "--summary",         "s.json"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return bbsim(arguments, folder.path());
-  };
-  const Result met = run({"--expect", "x.Overshoot < 45 %", "--expect", "rms_x from 5 s >= 3 cm"});
-  CHECK(met.exit_code == 0);
+  const std::string run = "run @step.yaml -q -o step.h5 --summary s.json --expect '";
+  const Result met =
+      expect(0, run + "x.Overshoot < 45 %' --expect 'rms_x from 5 s >= 3 cm'", folder);
   CHECK(met.out.empty());
   CHECK(met.err.empty());
-  const Result unmet = run({"--expect", "x.Overshoot<=41", "--expect", "max_tilt < 180 deg",
-                            "--expect", "when x=1 m < 3 s", "--measure", "end_x"});
-  CHECK(unmet.exit_code == 1);
-  CHECK(unmet.out.starts_with("measure,value\nend_x,0.03"));
-  CHECK(unmet.out.find("Overshoot") == std::string::npos);
-  CHECK(unmet.err.starts_with("not as expected: x.Overshoot<=41: x.Overshoot is 41.1"));
-  CHECK(unmet.err.find("max_tilt") == std::string::npos);
-  CHECK(unmet.err.find("not as expected: when x=1 m < 3 s: when x=1 cross=1 is not a number: it "
-                       "does not happen\n") != std::string::npos);
-  const auto summary = nlohmann::json::parse(folder.read("s.json"));
+  expect(1,
+         run +
+             "x.Overshoot<=41' --expect 'max_tilt < 180 deg' --expect 'when x=1 m < 3 s' "
+             "--measure end_x",
+         folder,
+         {"not as expected: x.Overshoot<=41: x.Overshoot is 41.1",
+          "not as expected: when x=1 m < 3 s: when x=1 cross=1 is not a number", "!max_tilt"},
+         {"measure,value\nend_x,0.03", "!Overshoot"});
+  const auto summary = summary_of(folder, "s.json");
   CHECK(summary["status"] == "done");
-  REQUIRE(summary["expectations"].size() == 3);
-  CHECK(summary["expectations"][0]["text"] == "x.Overshoot<=41");
-  CHECK(summary["expectations"][0]["value"] > 41);
-  CHECK(summary["expectations"][0]["holds"] == false);
-  CHECK(summary["expectations"][1]["holds"] == true);
-  CHECK(summary["expectations"][2]["value"].is_null());
+  const auto& expectations = summary["expectations"];
+  REQUIRE(expectations.size() == 3);
+  CHECK(expectations[0]["text"] == "x.Overshoot<=41");
+  CHECK(expectations[0]["value"] > 41);
+  CHECK(expectations[0]["holds"] == false);
+  CHECK(expectations[1]["holds"] == true);
+  CHECK(expectations[2]["value"].is_null());
   CHECK(summary["measures"].size() == 1);
-  for (const char* wrong : {"max_x", "max_x < 1 deg", "max_z < 1", "max_x from 13 s < 1"}) {
-    CAPTURE(wrong);
-    const Result refused = run({"--expect", wrong});
-    CHECK(refused.exit_code == 2);
-    CHECK(refused.err.starts_with("--expect: found "));
+  for (const std::string wrong : {"max_x", "max_x < 1 deg", "max_z < 1", "max_x from 13 s < 1"}) {
+    expect(2, run + wrong + "'", folder, {"--expect: found "});
   }
 }
 
 TEST_CASE("a log that seems to use units other than bbsim's gives a warning") {
   const Folder folder;
   folder.write("log.csv", "t,x,phi,other\n0,0,0,0\n1000,120,5,7\n2000,60,-12,7\n3000,0,0,7\n");
-  const Result measured =
-      bbsim({"measure", "log.csv", "--measure", "max_x,max_phi,max_other"}, folder.path());
-  CHECK(measured.exit_code == 0);
-  CHECK(measured.err ==
-        "warning: log.csv: x goes up to 120, measured in m: it looks like millimeters or "
-        "centimeters\n"
-        "warning: log.csv: phi goes up to 12, measured in rad: it looks like degrees\n");
-  CHECK(bbsim({"measure", "log.csv", "--measure", "max_other"}, folder.path()).err.empty());
-  CHECK(bbsim({"measure", "log.csv", "--measure", "max_x", "-q"}, folder.path()).err.empty());
+  expect(0, "measure log.csv --measure max_x,max_phi,max_other", folder,
+         {"warning: log.csv: x goes up to 120", "like millimeters or centimeters\n",
+          "warning: log.csv: phi goes up to 12", "like degrees\n", "!other"});
   // A result of bbsim's is in SI, however large its values.
-  const Result far =
-      bbsim({"run", config("fig2a.yaml"), "-q", "-o", "far.h5", "--set", "ball.position.0=100"},
-            folder.path());
-  REQUIRE(far.exit_code == 0);
-  CHECK(bbsim({"measure", "far.h5", "--measure", "max_x"}, folder.path()).err.empty());
-
+  expect(0, "run @fig2a.yaml -q -o far.h5 --set ball.position.0=100", folder);
   folder.write("run.csv", "t,x,phi,other\n0,0,0,0\n1,0.12,0.1,7\n2,0.06,-0.2,7\n3,0,0,7\n");
-  const Result compared = bbsim({"compare", "run.csv", "log.csv"}, folder.path());
-  CHECK(compared.exit_code == 1);
-  CHECK(compared.err ==
-        "warning: log.csv: t spans 3000, and in run.csv 3: it looks like milliseconds\n"
-        "warning: log.csv: x goes up to 120, and in run.csv 0.12: it looks like millimeters or "
-        "centimeters\n"
-        "warning: log.csv: phi goes up to 12, and in run.csv 0.2: it looks like degrees\n");
-  CHECK(bbsim({"compare", "log.csv", "log.csv"}, folder.path()).err.empty());
-  CHECK(bbsim({"compare", "run.csv", "log.csv", "-q"}, folder.path()).err.empty());
+  expect(1, "compare run.csv log.csv", folder,
+         {"warning: log.csv: t spans 3000, and in run.csv 3", "like milliseconds\n",
+          "warning: log.csv: x goes up to 120, and in run.csv 0.12",
+          "warning: log.csv: phi goes up to 12, and in run.csv 0.2", "!other"});
+  for (const std::string line :
+       {"measure log.csv --measure max_other", "measure log.csv --measure max_x -q",
+        "measure far.h5 --measure max_x", "compare log.csv log.csv",
+        "compare run.csv log.csv -q"}) {
+    CAPTURE(line);
+    CHECK(call(line, folder).err.empty());
+  }
 
   // The same with a table.
   folder.write("s.yaml",
                "ball: {radius: 0.01}\n"
                "gimbal: {motion: {phi: {table: {file: log.csv, time: t, value: phi}}}}\n"
                "time: {end: 3, step: 1}\n");
-  const Result run = bbsim({"run", "s.yaml", "-o", "a.csv"}, folder.path());
-  CHECK(run.exit_code == 0);
-  CHECK(run.err.find("it looks like degrees; say unit: deg") != std::string::npos);
-  CHECK(run.err.find("it looks like milliseconds; say time_unit: ms") != std::string::npos);
-  const std::string table = "gimbal.motion.phi.table.";
-  const Result said = bbsim({"run", "s.yaml", "-o", "b.csv", "--set", table + "unit=deg", "--set",
-                             table + "time_unit=ms", "--measure", "max_phi,min_phi"},
-                            folder.path());
-  CHECK(said.err.find("warning") == std::string::npos);
+  expect(0, "run s.yaml -o a.csv", folder,
+         {"it looks like degrees; say unit: deg", "it looks like milliseconds; say time_unit: ms"});
+  const std::string table = " --set gimbal.motion.phi.table.";
+  const Result said = expect(
+      0,
+      "run s.yaml -o b.csv" + table + "unit=deg" + table + "time_unit=ms --measure max_phi,min_phi",
+      folder, {"!warning"});
   CHECK(values_of(said.out).at("min_phi") < -0.2);  // -12 deg, plus interpolation
   CHECK(values_of(said.out).at("min_phi") > -0.3);
 }
 
 TEST_CASE("a sweep computes the step metrics of its runs") {
   const Folder folder;
-  std::vector<std::string> to_csv{"sweep",     config("step.yaml"),
-                                  "--vary",    "controller.pid.kp.0.0=linear:0.6:0.8:3",
-                                  "--vary",    "ball.radius=list:0.01,0.02",
-                                  "--measure", "x.RiseTime,x.Overshoot,when x=0.02",
-                                  "-q",        "-o",
-                                  "sweep.csv"};
-  const Result result = bbsim(to_csv, folder.path());
-  CAPTURE(result.err);
-  REQUIRE(result.exit_code == 0);
-  std::istringstream rows(folder.read("sweep.csv"));
-  std::string header, row;
-  std::getline(rows, header);
-  CHECK(header.ends_with(",end_time,x.RiseTime,x.Overshoot,when x=0.02 cross=1"));
-  std::getline(rows, row);
-  CAPTURE(row);
+  const std::string sweep =
+      "sweep @step.yaml --vary controller.pid.kp.0.0=linear:0.6:0.8:3 --vary "
+      "ball.radius=list:0.01,0.02 --measure 'x.RiseTime,x.Overshoot,when x=0.02' -q -o ";
+  expect(0, sweep + "sweep.csv", folder);
+  CHECK(lines(folder.read("sweep.csv"))[0].ends_with(
+      ",end_time,x.RiseTime,x.Overshoot,when x=0.02 cross=1"));
 
-  const Result groups = bbsim({"summarize", "sweep.csv", "--by", "ball.radius"}, folder.path());
-  CAPTURE(groups.err);
-  REQUIRE(groups.exit_code == 0);
-  CHECK(groups.out.starts_with("ball.radius,measure,cases,count,mean,deviation,min,q5,q25,q50,"));
-  CHECK(groups.out.find("\n0.02,x.Overshoot,3,3,") != std::string::npos);
-  CHECK(bbsim({"summarise", "sweep.csv", "--by", "ball.radius"}, folder.path()).out == groups.out);
-  CHECK(bbsim({"summarize", "sweep.csv", "--by", "radius"}, folder.path()).exit_code == 2);
-  CHECK(bbsim({"summarize", "sweep.csv", "-o", "sweep.csv"}, folder.path()).exit_code == 2);
-  CHECK(bbsim({"summarize", "sweep.csv", "--quantiles", "2"}, folder.path()).exit_code == 2);
-
-  // HDF5 agrees, and a resumed sweep recognizes its columns.
-  auto to_hdf5 = to_csv;
-  to_hdf5.back() = "sweep.h5";
-  REQUIRE(bbsim(to_hdf5, folder.path()).exit_code == 0);
-  CHECK(bbsim({"compare", "sweep.csv", "sweep.h5"}, folder.path()).exit_code == 0);
+  const Result groups = expect(0, "summarize sweep.csv --by ball.radius", folder, {},
+                               {"ball.radius,measure,cases,count,mean,deviation,min,q5,q25,q50,",
+                                "\n0.02,x.Overshoot,3,3,"});
+  CHECK(call("summarise sweep.csv --by ball.radius", folder).out == groups.out);
+  for (const std::string wrong : {"--by radius", "-o sweep.csv", "--quantiles 2"}) {
+    expect(2, "summarize sweep.csv " + wrong, folder);
+  }
+  // HDF5 agrees.
+  expect(0, sweep + "sweep.h5", folder);
+  expect(0, "compare sweep.csv sweep.h5", folder);
 }
 
 TEST_CASE("a log is measured with its own names, units and clock") {
   const Folder folder;
   folder.write("log.csv", "10,ok\n20,ok\n40,ok\n");
-  const std::vector<std::string> words{"measure",      "log.csv",  "--header", "px,mode",  "--map",
-                                       "x=-0.5*px:mm", "--period", "100 ms",   "--measure"};
-  auto peak = words;
-  peak.emplace_back("min_x,find x at 0.1");
-  const Result made = bbsim(peak, folder.path());
-  CAPTURE(made.out, made.err);
-  CHECK(made.exit_code == 0);
+  const std::string measure =
+      "measure log.csv --header px,mode --map x=-0.5*px:mm --period '100 ms' --measure ";
+  const Result made = expect(0, measure + "'min_x,find x at 0.1'", folder);
   CHECK(made.out == "measure,value\nmin_x,-0.02\nfind x at 0.1,-0.01\n");
   CHECK(made.err.empty());
-  auto aligned = words;
-  aligned.insert(aligned.end(), {"min_x", "--time-offset", "auto"});
-  CHECK(bbsim(aligned, folder.path()).exit_code == 2);
+  expect(2, measure + "min_x --time-offset auto", folder);
 }
 
 TEST_CASE("run writes derivatives by keys as columns, and gradients of measures") {
   const Folder folder;
-  const auto run_to = [&](const std::string& file, const std::string& scene) {
-    return bbsim(
-        {"run", config(scene), "-q", "-o", file, "--set", "output.columns=[t, x, vx]",
-         "--sensitivity", "gravity,ball.radius", "--measure", "end_x", "--summary", "s.json"},
-        folder.path());
-  };
-  const Result run = run_to("by-key.csv", "incline.yaml");
-  CAPTURE(run.err);
-  REQUIRE(run.exit_code == 0);
-  const std::string text = folder.read("by-key.csv");
-  CHECK(text.substr(0, text.find('\n')) ==
+  const std::string run =
+      "run @incline.yaml -q --set 'output.columns=[t, x, vx]' --sensitivity gravity,ball.radius "
+      "--measure end_x --summary s.json -o by-key";
+  const auto motion = measured(run + ".csv", folder);
+  CHECK(lines(folder.read("by-key.csv"))[0] ==
         "t,x,vx,d(x)/d(gravity),d(x)/d(ball.radius),d(vx)/d(gravity),d(vx)/d(ball.radius)");
-  const auto summary = nlohmann::json::parse(folder.read("s.json"));
+  const auto summary = summary_of(folder, "s.json");
   // x is proportional to gravity.
   CHECK(summary["gradients"]["end_x"]["gravity"].get<double>() ==
-        Approx(values_of(run.out).at("end_x") / 9.80665));
+        Approx(motion.at("end_x") / 9.80665));
   CHECK(std::abs(summary["gradients"]["end_x"]["ball.radius"].get<double>()) < 1e-9);
   CHECK(summary["unreliable"] == nlohmann::json::array());
-
-  CHECK(run_to("by-key.h5", "incline.yaml").exit_code == 0);
-  CHECK(bbsim({"compare", "by-key.h5", "by-key.h5"}, folder.path()).exit_code == 0);
+  expect(0, run + ".h5", folder);
+  expect(0, "compare by-key.h5 by-key.h5", folder);
 
   // Rounded measurements step.
-  const Result rounded = bbsim({"run", config("rig.yaml"), "-o", "rig.csv", "--sensitivity",
-                                "gravity", "--measure", "rms_x", "--summary", "s.json"},
-                               folder.path());
-  CHECK(rounded.exit_code == 0);
-  CHECK(rounded.err.find("unreliable derivatives by gravity: x (from t = ") != std::string::npos);
-  CHECK(folder.read("rig.csv").find("nan") == std::string::npos);
-  const auto of_rig = nlohmann::json::parse(folder.read("s.json"));
+  expect(0, "run @rig.yaml -o rig.csv --sensitivity gravity --measure rms_x --summary s.json",
+         folder, {"unreliable derivatives by gravity: x (from t = "});
+  CHECK_FALSE(contains(folder.read("rig.csv"), "nan"));
+  const auto of_rig = summary_of(folder, "s.json");
   CHECK(of_rig["gradients"]["rms_x"]["gravity"].is_null());
   const auto& first = of_rig["unreliable"][0];
   CHECK(first["key"] == "gravity");
@@ -401,59 +315,42 @@ TEST_CASE("run writes derivatives by keys as columns, and gradients of measures"
   CHECK(of_rig["unreliable"].back() ==
         nlohmann::json{{"key", "gravity"}, {"column", "rms_x"}, {"time", nullptr}});
 
-  const Result refused =
-      bbsim({"run", config("incline.yaml"), "-o", "none.csv", "--sensitivity", "time.end"},
-            folder.path());
-  CHECK(refused.exit_code == 2);
-  CHECK(refused.err.find("--sensitivity: time.end") != std::string::npos);
-  CHECK_FALSE(std::filesystem::exists(folder.path() / "none.csv"));
+  expect(2, "run @incline.yaml -o none.csv --sensitivity time.end", folder,
+         {"--sensitivity: time.end"});
+  CHECK_FALSE(std::filesystem::exists(folder / "none.csv"));
 }
 
 TEST_CASE("measures of the loop equal linearize's to the last digit") {
   const Folder folder;
-  REQUIRE(
-      bbsim({"linearize", config("step.yaml"), "-q", "-o", "loop.json"}, folder.path()).exit_code ==
-      0);
-  const auto loop = nlohmann::json::parse(folder.read("loop.json"));
-  const Result run =
-      bbsim({"run", config("step.yaml"), "-q", "-o", "step.h5", "--summary", "s.json", "--measure",
-             "max_tilt,phi_gain_margin,theta_phase_margin,phi_delay_margin,"
-             "y_feedback_bandwidth,stable,phi_gain_reduction",
-             "--expect", "phi_delay_margin > 100 ms", "--expect", "phi_phase_margin < 10 deg"},
-            folder.path());
-  CAPTURE(run.err);
-  CHECK(run.exit_code == 1);
-  CHECK(run.err.find("not as expected: phi_phase_margin < 10 deg: phi_phase_margin is ") !=
-        std::string::npos);
-  const auto values = values_of(run.out);
+  expect(0, "linearize @step.yaml -q -o loop.json", folder);
+  const auto loop = summary_of(folder, "loop.json");
+  const auto values = values_of(
+      expect(1,
+             "run @step.yaml -q -o step.h5 --summary s.json --measure "
+             "max_tilt,phi_gain_margin,theta_phase_margin,phi_delay_margin,y_feedback_bandwidth,"
+             "stable,phi_gain_reduction --expect 'phi_delay_margin > 100 ms' --expect "
+             "'phi_phase_margin < 10 deg'",
+             folder, {"not as expected: phi_phase_margin < 10 deg: phi_phase_margin is "})
+          .out);
   CHECK(values.at("phi_gain_margin") == loop["margins"]["phi_command"]["gain"]);
   CHECK(values.at("theta_phase_margin") == loop["margins"]["theta_command"]["phase"]);
   CHECK(values.at("phi_delay_margin") == loop["margins"]["phi_command"]["delay"]);
   CHECK(values.at("y_feedback_bandwidth") == loop["feedback_bandwidth"]["y"]);
   CHECK(values.at("stable") == 1);
   CHECK(values.at("max_tilt") > 0);
-  const auto summary = nlohmann::json::parse(folder.read("s.json"));
+  const auto summary = summary_of(folder, "s.json");
   CHECK(summary["measures"]["phi_delay_margin"] == loop["margins"]["phi_command"]["delay"]);
   CHECK(summary["expectations"][0]["holds"] == true);
 
-  const Result stored =
-      bbsim({"measure", "step.h5", "--measure", "phi_delay_margin"}, folder.path());
-  CHECK(stored.exit_code == 2);
-  CHECK(stored.err.find("which is of the loop and not of a motion") != std::string::npos);
-  const auto fault = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {"run", config("fig2b.yaml")});
-    const Result refused = bbsim(std::move(more), folder.path());
-    CHECK(refused.exit_code == 2);
-    return refused.err;
-  };
-  CHECK(fault({"--measure", "stable from 2 s"})
-            .starts_with("measure: found stable from 2 s, which takes no time window; allowed: "));
-  CHECK(fault({"--measure", "phi_delay_margn"}).find("did you mean phi_delay_margin?") !=
-        std::string::npos);
-  CHECK(fault({"--measure", "spectral_radius"}).find("the controller takes no samples") !=
-        std::string::npos);
-  CHECK(fault({"--measure", "stable", "--sensitivity", "gravity"})
-            .find("allowed: measures of the motion") != std::string::npos);
+  expect(2, "measure step.h5 --measure phi_delay_margin", folder,
+         {"which is of the loop and not of a motion"});
+  for (const auto& [more, told] :
+       {std::pair<std::string, std::string>{"'stable from 2 s'", "which takes no time window"},
+        {"phi_delay_margn", "did you mean phi_delay_margin?"},
+        {"spectral_radius", "the controller takes no samples"},
+        {"stable --sensitivity gravity", "allowed: measures of the motion"}}) {
+    expect(2, "run @fig2b.yaml --measure " + more, folder, {told});
+  }
 }
 
 }  // namespace bbsim_test::test_measure

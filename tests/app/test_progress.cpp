@@ -4,10 +4,7 @@
 // The progress bar: its text for every width, and what it sends to a terminal of that width.
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <initializer_list>
 #include <string>
-#include <vector>
 
 #include "base/progress_line.hpp"
 #include "catch.hpp"
@@ -21,16 +18,6 @@ using bbsim::ProgressState;
 using bbsim::widest;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-// Takes minutes.
-const char* const long_scene =
-    "ball: {radius: 0.01}\n"
-    "gimbal: {motion: {phi: {sinusoid: {amplitude: 1e-5, frequency: 300}}}}\n"
-    "time: {end: 1e6, step: 1}\n";
 
 // Length of the longest line drawn, without cursor control sequences.
 std::size_t longest_line(const std::string& drawn) {
@@ -49,63 +36,56 @@ std::size_t longest_line(const std::string& drawn) {
 
 }  // namespace
 
-TEST_CASE("a progress line fits its terminal at every width") {
-  const std::string long_name = "a/folder/of/" + std::string(100, 'x') + ".yaml";
-  for (const std::string& label : {std::string("configs/fig2b.yaml"), long_name,
-                                   std::string("\u7403\u7403\u7403\u7403\u7403\u7403.yaml")}) {
-    for (const std::string detail : {"", "1230000 cases/s", "checking the cases"}) {
-      for (const double done : {0.0, 0.004, 0.5, 0.999, 1.0}) {
-        for (std::size_t columns = 10; columns < 250; ++columns) {
-          const std::string line = progress_line({label, detail, done, 123456.0}, columns);
-          CAPTURE(line, columns);
-          REQUIRE(widest(line) <= columns);
-          REQUIRE(contains(line, "%"));
-        }
-      }
+TEST_CASE("a progress line fits its terminal at every width, and loses what is least important") {
+  const ProgressState known{"configs/fig2b.yaml", "130 cases/s", 0.47, 12};
+  CHECK(progress_line(known, 100) ==
+        "configs/fig2b.yaml [##############................]  47%, 130 cases/s, 12 s left");
+  CHECK(progress_line(known, 50) == "fig2b.yaml [###.....]  47%, 130 cases/s, 12 s left");
+  CHECK(progress_line(known, 20) == " 47%, 12 s left");
+  CHECK(progress_line(known, 12) == " 47%");
+  CHECK(log_line(known) == "configs/fig2b.yaml: 47.0%, 130 cases/s, 12 s left");
+
+  const std::string label =
+      GENERATE("configs/fig2b.yaml", "a/folder/of/" + std::string(100, 'x') + ".yaml",
+               "\u7403\u7403\u7403\u7403\u7403\u7403.yaml");
+  const std::string detail = GENERATE("", "1230000 cases/s", "checking the cases");
+  for (const double done : {0.0, 0.004, 0.5, 0.999, 1.0}) {
+    for (std::size_t columns = 10; columns < 250; ++columns) {
+      const std::string line = progress_line({label, detail, done, 123456.0}, columns);
+      CAPTURE(line, columns);
+      REQUIRE(widest(line) <= columns);
+      REQUIRE(contains(line, "%"));
     }
   }
 }
 
-TEST_CASE("the least important parts are left out first") {
-  const ProgressState state{"configs/fig2b.yaml", "130 cases/s", 0.47, 12};
-  CHECK(progress_line(state, 100) ==
-        "configs/fig2b.yaml [##############................]  47%, 130 cases/s, 12 s left");
-  CHECK(progress_line(state, 79) ==
-        "configs/fig2b.yaml [#############................]  47%, 130 cases/s, 12 s left");
-  CHECK(progress_line(state, 50) == "fig2b.yaml [###.....]  47%, 130 cases/s, 12 s left");
-  CHECK(progress_line(state, 40) == "fig2b.yaml [#####......]  47%, 12 s left");
-  CHECK(progress_line(state, 30) == "fig2b.yaml  47%, 12 s left");
-  CHECK(progress_line(state, 24) == "....yaml  47%, 12 s left");
-  CHECK(progress_line(state, 20) == " 47%, 12 s left");
-  CHECK(progress_line(state, 12) == " 47%");
-  CHECK(log_line(state) == "configs/fig2b.yaml: 47.0%, 130 cases/s, 12 s left");
-}
-
-TEST_CASE("a terminal never gets a line wider than itself") {
+TEST_CASE("a terminal never gets a line wider than itself, nor escape sequences it lacks") {
   const Folder folder;
   folder.write("a-scenario-with-a-name-that-is-rather-long.yaml", long_scene);
-  for (const unsigned short columns : std::initializer_list<unsigned short>{20, 40, 80}) {
-    const std::string drawn = on_terminal(
-        {"run", "a-scenario-with-a-name-that-is-rather-long.yaml"}, columns, folder.path(), 1.6);
-    const std::string bar = drawn.substr(0, drawn.find("interrupted"));
-    CAPTURE(columns, bar);
-    CHECK(contains(bar, "%"));
-    CHECK(longest_line(bar) < columns);
+  const auto [columns, kind] = GENERATE(table<unsigned short, std::string>(
+      {{20, "xterm"}, {40, "xterm"}, {80, "xterm"}, {80, "dumb"}}));
+  const std::string drawn = on_terminal("run a-scenario-with-a-name-that-is-rather-long.yaml",
+                                        columns, folder, 1.6, "", kind);
+  CAPTURE(columns, kind, drawn);
+  CHECK(contains(drawn, "\x1b") == (kind == "xterm"));
+  if (kind == "dumb") {
+    CHECK(contains(drawn, "interrupted at t = "));
+    return;
   }
+  const std::string bar = drawn.substr(0, drawn.find("interrupted"));
+  CHECK(contains(bar, "%"));
+  CHECK(longest_line(bar) < columns);
 }
 
 TEST_CASE("after --resume the time left is estimated from the current run") {
   // Counting the earlier cases would at least halve the estimate. Both runs are interrupted at
   // their first estimate, a second or more after their first case.
   const Folder folder;
-  folder.write("long.yaml", std::string(long_scene) + "solver: {method: adams}\n");
-  const std::vector<std::string> sweep{
-      "sweep", "long.yaml", "--set", "time.end=0.5", "--vary", "ball.radius=linear:0.01:0.02:20000",
-      "-j",    "1",         "-o",    "s.csv"};
-  std::vector<std::string> resumed = sweep;
-  resumed.emplace_back("--resume");
-  (void)on_terminal(sweep, 120, folder.path(), 120, " left");
-  const std::string drawn = on_terminal(resumed, 120, folder.path(), 120, " left");
+  folder.write("long.yaml", long_scene + "solver: {method: adams}\n");
+  const std::string sweep =
+      "sweep long.yaml --set time.end=0.5 --vary ball.radius=linear:0.01:0.02:20000 -j 1 -o s.csv";
+  (void)on_terminal(sweep, 120, folder, 120, " left");
+  const std::string drawn = on_terminal(sweep + " --resume", 120, folder, 120, " left");
   // Reads the seconds of the first "47%, 123 cases/s, 12 s left".
   const std::size_t at = drawn.find(" left");
   REQUIRE(at != std::string::npos);
@@ -123,10 +103,9 @@ TEST_CASE("after --resume the time left is estimated from the current run") {
 
 TEST_CASE("rates have three digits") {
   const Folder folder;
-  const std::string drawn =
-      on_terminal({"sweep", config("fig2a.yaml"), "--vary",
-                   "gimbal.motion.phi.sinusoid.phase=linear:0:1:8000000", "-j", "1", "-o", "s.csv"},
-                  120, folder.path(), 120, " cases/s");
+  const std::string drawn = on_terminal(
+      "sweep @fig2a.yaml --vary gimbal.motion.phi.sinusoid.phase=linear:0:1:8000000 -j 1 -o s.csv",
+      120, folder, 120, " cases/s");
   const std::size_t at = drawn.find(" cases/s");
   REQUIRE(at != std::string::npos);
   const std::size_t begin = drawn.rfind(' ', at - 1) + 1;
@@ -139,30 +118,16 @@ TEST_CASE("rates have three digits") {
   CHECK(digits.find_last_not_of('0') < 3);
 }
 
-TEST_CASE("a terminal without escape sequences gets none") {
-  const Folder folder;
-  folder.write("scene.yaml", long_scene);
-  const auto drawn = [&](const std::string& kind) {
-    return on_terminal({"run", "scene.yaml"}, 80, folder.path(), 1.6, "", kind);
-  };
-  CHECK(contains(drawn("xterm"), "\x1b"));
-  const std::string plain = drawn("dumb");
-  CAPTURE(plain);
-  CHECK_FALSE(contains(plain, "\x1b"));
-  CHECK(contains(plain, "interrupted at t = "));
-}
-
 TEST_CASE("without a scenario on a terminal, the program says that it waits for one") {
   const Folder folder;
   const std::string told = "reading a scenario from the terminal; Ctrl-D ends it";
-  for (const char* const command : {"run", "check", "linearize", "accuracy", "verify"}) {
+  for (const std::string command : {"run", "check", "linearize", "accuracy", "verify"}) {
     CAPTURE(command);
-    CHECK(contains(on_terminal({command, "-"}, 80, folder.path(), 5, told), told));
+    CHECK(contains(on_terminal(command + " -", 80, folder, 5, told), told));
   }
-  CHECK(
-      contains(on_terminal({"measure", "-", "--measure", "max_x"}, 80, folder.path(), 5, "reading"),
-               "reading a CSV from the terminal"));
-  CHECK_FALSE(contains(on_terminal({"run", "-", "-q"}, 80, folder.path(), 0.5), "reading"));
+  CHECK(contains(on_terminal("measure - --measure max_x", 80, folder, 5, "reading"),
+                 "reading a CSV from the terminal"));
+  CHECK_FALSE(contains(on_terminal("run - -q", 80, folder, 0.5), "reading"));
 }
 
 }  // namespace bbsim_test::test_progress

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// bbsim verify.
+// bbsim verify and bbsim accuracy.
 #include <string>
 
 #include "catch.hpp"
@@ -9,49 +9,42 @@
 
 namespace bbsim_test::test_verify {
 
-namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-}  // namespace
-
 TEST_CASE("verify needs no files, and all its checks pass") {
   const Folder folder;
-  const Result result = bbsim({"verify"}, folder.path());
-  CAPTURE(result.out, result.err);
-  CHECK(result.exit_code == 0);
+  const Result result =
+      expect(0, "verify", folder, {},
+             {"checks hold", "fixed incline: closed form (M1)",
+              "Fig. 2(b): quad-precision reference", "adds in fig2a", "adds in fig2b", "!FAILS"});
   CHECK(result.err.empty());
-  CHECK(contains(result.out, "checks hold"));
-  CHECK(contains(result.out, "fixed incline: closed form (M1)"));
-  CHECK(contains(result.out, "Fig. 2(b): quad-precision reference"));
-  CHECK_FALSE(contains(result.out, "FAILS"));
-  CHECK(contains(result.out, "adds in fig2a"));
-  CHECK(contains(result.out, "adds in fig2b"));
   CHECK(folder.files().empty());
 }
 
 TEST_CASE("verify compares simpler models over a scenario as far as they apply") {
-  const Result result = bbsim({"verify", config("fig2b-literal.yaml"), "--set", "time.end=2"});
-  CHECK(result.exit_code == 0);
-  CHECK(contains(result.out, "adds in " + config("fig2b-literal.yaml")));
-  CHECK(contains(result.out, "s of 2 s"));
+  expect(0, call("verify @fig2b-literal.yaml --set time.end=2"), {},
+         {"adds in " + config("fig2b-literal.yaml"), "s of 2 s"});
 }
 
-TEST_CASE("verify refuses a faulty scenario before it checks anything") {
-  const Result missing = bbsim({"verify", "nowhere.yaml"});
-  CHECK(missing.exit_code == 2);
-  CHECK(missing.out.empty());
-  CHECK(contains(missing.err, "nowhere.yaml"));
-  const Result wrong = bbsim({"verify", "--set", "ball.radius=-1"});
-  CHECK(wrong.exit_code == 2);
-  CHECK(wrong.out.empty());
-  CHECK(contains(wrong.err, "ball.radius"));
-  const Result rig = bbsim({"verify", config("rig.yaml")});
-  CHECK(rig.exit_code == 2);
-  CHECK(rig.out.empty());
-  CHECK(contains(rig.err, "simpler models are compared over"));
+TEST_CASE("accuracy prints a table and writes it as CSV") {
+  const Folder folder;
+  expect(0,
+         "accuracy %tests/data/scenarios/fig2a.yaml --methods radau,adams --rtol 1e-5:1e-7 --csv "
+         "a.csv -q",
+         folder, {}, {"radau", "error within"});
+  const auto csv = lines(folder.read("a.csv"));
+  CHECK(csv.size() == 1 + 6);  // two methods, three tolerances
+  CHECK(csv[0] ==
+        "method,rtol,atol,error_m,time_us,steps,rhs_evaluations,jacobian_evaluations,status");
+  CHECK(count(folder.read("a.csv"), ",done\n") == 6);
+}
+
+TEST_CASE("verify and accuracy refuse faulty input before they check anything") {
+  const auto [line, told] = GENERATE(table<std::string, std::string>(
+      {{"verify nowhere.yaml", "nowhere.yaml"},
+       {"verify --set ball.radius=-1", "ball.radius"},
+       {"verify @rig.yaml", "simpler models are compared over"},
+       {"accuracy @fig2a.yaml --methods euler", "euler; allowed, separated by commas: auto radau"},
+       {"accuracy @fig2a.yaml --rtol coarse", "coarse"}}));
+  CHECK(expect(2, call(line), {told}).out.empty());
 }
 
 }  // namespace bbsim_test::test_verify

@@ -2,26 +2,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Designs: bbsim.design and `bbsim design`. Needs BBSIM (the program) and BBSIM_SOURCE in the environment."""
 
-import contextlib
-import io
 import json
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 from unittest import mock
 
+import cases
 import numpy as np
+from cases import CONFIGS
 
 import bbsim
 from bbsim import _design, _result
-from bbsim._command import main
 from bbsim._experiment import Motions
 
-PROGRAM = os.environ["BBSIM"]
-CONFIGS = Path(os.environ["BBSIM_SOURCE"]) / "configs"
 INERTIA = "ball.inertia_factor"
 SERVO = ["gimbal.servo.natural_frequency", "gimbal.servo.damping", INERTIA]
 LEVEL = """
@@ -57,34 +53,9 @@ time: {end: 2, step: 20 ms}
 """
 
 
-class Case(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
-    def put(self, name, text):
-        (self.folder / name).write_text(text)
-        return str(self.folder / name)
-
-    def read(self, name):
-        return (self.folder / name).read_text()
-
-    def bbsim(self, *words, code=0):
-        made = subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, capture_output=True, text=True)
-        self.assertEqual(made.returncode, code, f"{words}: {made.stderr}")
-        return made
-
+class Case(cases.Case):
     def design(self, *words, code=0):
-        """The command in this process: what it prints and says."""
-        before, out, said = os.getcwd(), io.StringIO(), io.StringIO()
-        os.chdir(self.folder)
-        try:
-            with contextlib.redirect_stdout(out), contextlib.redirect_stderr(said):
-                self.assertEqual(main("design", [*map(str, words), "-j", "2"]), code, said.getvalue())
-        finally:
-            os.chdir(before)
-        return out.getvalue(), said.getvalue()
+        return self.command("design", *words, "-j", "2", code=code)
 
     def require_half_of(self, made, kind):
         for one in made.parameters:
@@ -149,8 +120,8 @@ class Written(Case):
 
     def setUp(self):
         super().setUp()
-        self.scenario = self.put("rig.yaml", OPEN)
-        self.put("gone.csv", "t,phi\n0,0\n3,0\n6,0\n9,0\n")
+        self.scenario = self.write("rig.yaml", OPEN)
+        self.write("gone.csv", "t,phi\n0,0\n3,0\n6,0\n9,0\n")
         self.files = {name: str(self.folder / f"designed.{name}") for name in ("yaml", "json", "ino")}
         self.table = str(self.folder / "moves it's.csv")  # a name that YAML must quote
 
@@ -230,9 +201,7 @@ class Written(Case):
 
 class Refused(Case):
     def refuses(self, message, scenario=LEVEL, free=INERTIA, **options):
-        with self.assertRaises(bbsim.InputError) as caught:
-            bbsim.design(scenario, free, **{"length": "2 s", **options})
-        self.assertIn(message, str(caught.exception))
+        super().refuses(message, bbsim.design, scenario, free, **{"length": "2 s", **options})
 
     def test_scenarios(self):
         self.refuses("plate: has no size, but the ball must stay on it", LEVEL.replace("plate: {diameter: 30 cm}", ""))
@@ -267,7 +236,7 @@ class Refused(Case):
 class Command(Case):
     def setUp(self):
         super().setUp()
-        self.put("rig.yaml", RIG)
+        self.write("rig.yaml", RIG)
 
     def test_scenario_table_and_json(self):
         out, _ = self.design("rig.yaml", "--free", INERTIA, "-o", "designed.yaml", "--json", "designed.json")
@@ -275,15 +244,14 @@ class Command(Case):
         self.assertEqual(json.loads(self.read("designed.json"))["parameters"][0]["key"], INERTIA)
         self.assertEqual(len(self.read("designed-motion.csv").splitlines()), 102)
         self.bbsim("run", "designed.yaml", "-q")
-        _, said = self.design("rig.yaml", "--free", INERTIA, "-o", "a.yaml", "--table", "a.yaml", code=2)
-        self.assertIn("--table: found a.yaml; allowed: FILE.csv", said)
-        _, said = self.design("rig.yaml", "--free", INERTIA, "-o", "-", code=2)
-        self.assertIn("--table: found no file, and the scenario of -o must name one", said)
-        _, said = self.design("rig.yaml", "--free", INERTIA, "--json", "rig.yaml", code=2)
-        self.assertIn("rig.yaml", said)
+        for words, code, message in (
+            (("-o", "a.yaml", "--table", "a.yaml"), 2, "--table: found a.yaml; allowed: FILE.csv"),
+            (("-o", "-"), 2, "--table: found no file, and the scenario of -o must name one"),
+            (("--json", "rig.yaml"), 2, "rig.yaml"),
+            (("--json", "/dev/full"), 3, "/dev/full"),
+        ):
+            self.assertIn(message, self.design("rig.yaml", "--free", INERTIA, *words, code=code)[1])
         self.assertEqual(self.read("rig.yaml"), RIG)
-        _, said = self.design("rig.yaml", "--free", INERTIA, "--json", "/dev/full", code=3)
-        self.assertIn("/dev/full", said)
 
     def test_table_in_another_folder(self):
         (self.folder / "tables").mkdir()
@@ -301,7 +269,7 @@ class Command(Case):
         self.design("rig.yaml", "--free", INERTIA, "--table", "it.csv", "--sketch", "play.ino", "-q")
         self.bbsim("sketch", "play.ino", "-o", "play.so")
         # 0.1 degrees per microsecond, as the sketch assumes.
-        self.put("wiring.yaml", """
+        self.write("wiring.yaml", """
 servos:
   phi: {pin: 9, level: "1500 us", scale: "0.1 deg"}
   theta: {pin: 10, level: "1500 us", scale: "0.1 deg"}
@@ -313,7 +281,7 @@ screen:
 setup: during
 print: all
 """)
-        self.put("board.yaml", """
+        self.write("board.yaml", """
 ball: {radius: 2 cm}
 gimbal: {servo: {natural_frequency: 8 Hz, damping: 0.9}}
 controller:

@@ -3,27 +3,24 @@
 """Fits: bbsim.fit and `bbsim fit`. Needs BBSIM (the program) and BBSIM_SOURCE in the environment."""
 
 import base64
-import contextlib
-import io
 import json
 import os
 import re
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 from unittest import mock
 
+import cases
 import numpy as np
+from cases import CONFIGS, SOURCE
 
 import bbsim
-from bbsim import _fit, _fit_search, _fit_windows
-from bbsim._command import main as command
+from bbsim import _fit_search, _fit_windows
 
-SOURCE = Path(os.environ["BBSIM_SOURCE"])
-CONFIGS, DATA = SOURCE / "configs", SOURCE / "tests" / "data"
+DATA = SOURCE / "tests" / "data"
 
 # Two servos follow sines of different periods, starting at their greatest angles so that the ball does not drift.
 TRUE_RIG = """
@@ -65,13 +62,7 @@ def rows_of(scene=TRUE_RIG, sd=0.0, scale=1.0, offset=0.0, seed=1, step=0.0):
     return rows
 
 
-class Case(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.addCleanup(os.chdir, os.getcwd())
-        os.chdir(folder.name)
-
+class Case(cases.Case):
     def put(self, rows, scene=ASSUMED_RIG, file="log.csv"):
         table = np.column_stack(list(rows.values()))
         lines = [",".join("" if np.isnan(one) else repr(float(one)) for one in row) for row in table]
@@ -85,16 +76,8 @@ class Case(unittest.TestCase):
         """Holds for 99.99 % of all logs; the logs of a test never change."""
         self.assertLess(abs(one.estimate - value), 3.9 * one.sd, one)
 
-    def refused(self, free, **options):
-        with self.assertRaises(bbsim.InputError) as caught:
-            self.fit(free, **options)
-        return str(caught.exception)
-
-    def run_command(self, *words):
-        out, err = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            code = command("fit", list(words))
-        return code, out.getvalue(), err.getvalue()
+    def refused(self, message, free, **options):
+        self.refuses(message, self.fit, free, **options)
 
 
 class Estimates(Case):
@@ -287,7 +270,7 @@ class Tables(Case):
             ({"t": [0, 1, 1.5], "phi": [1, 2, 3]}, "log-1.csv: has no column to compare"),
             ({"t": [0, 1, 1.5], "x": ["a", "b", "c"]}, "log-1.csv: column x: found texts"),
         ):  # fmt: skip
-            self.assertIn(message, self.refused("ball.inertia_factor", logs=log))
+            self.refused(message, "ball.inertia_factor", logs=log)
         with self.assertRaisesRegex(bbsim.InputError, "^log-1.csv: nothing to draw"):
             bbsim.plot({"t": [0, 1], "x": [None, None]})
 
@@ -327,7 +310,7 @@ class Intervals(Case):
         self.assertLessEqual(one.interval[1], 0.41)
         in_a_dict = self.fit({"ball.inertia_factor": (0.3, 0.41), PHI + "offset": None}).parameters
         self.assertEqual((in_a_dict[0].estimate, in_a_dict[0].at_bound, len(in_a_dict)), (0.41, True, 2))
-        self.assertIn("threads: found -1", self.refused("ball.inertia_factor", threads=-1))
+        self.refused("threads: found -1", "ball.inertia_factor", threads=-1)
         key = bbsim._task.read_free_key
         given = bbsim._scenario.given("rig.yaml")
         for text, ends in (("-100:100 ms", (-0.1, 0.1)), ("5ms:0.06 s", (0.005, 0.06)), ("0.005:0.06", (0.005, 0.06))):
@@ -556,8 +539,8 @@ class Command(Case):
     def test_a_page(self):
         rig = self.recorded()
         words = [rig, "log.csv", *self.FREE, "-q", "--report", "fit.html", "--json", "fit.json", "--hold-out", "0.5"]
-        code, out, err = self.run_command(*words)
-        self.assertEqual((code, err), (0, ""))
+        out, said = self.command("fit", *words)
+        self.assertEqual(said, "")
         self.assertIn("ball.inertia_factor", out)
         page, data = Path("fit.html").read_text(), json.loads(Path("fit.json").read_text())
         self.assertIn("<title>Fit of A recorded motion, with a drift added</title>", page)
@@ -591,9 +574,9 @@ class Command(Case):
             (["--continuity"], 2, "--continuity"), (["--hold-out", "1"], 2, "--hold-out: found 1"),
             (["--starts", "0"], 2, "--starts"), (["--lost", "huber"], 2, "did you mean --loss?"),
         ):  # fmt: skip
-            made = self.run_command(rig, "log.csv", *self.FREE, "-q", *words)
-            self.assertEqual((made[0], made[1]), (code, ""), words)
-            self.assertIn(message, made[2])
+            out, said = self.command("fit", rig, "log.csv", *self.FREE, "-q", *words, code=code)
+            self.assertEqual(out, "", words)
+            self.assertIn(message, said)
         self.assertEqual(sorted(os.listdir()), ["log.csv", "rig.yaml"])
 
     def test_an_interrupt_keeps_the_best_so_far(self):
@@ -606,14 +589,13 @@ class Command(Case):
 
         words = ["rig.yaml", "log.csv", *self.FREE, "--free", PHI + "scale", "-o", "fitted.yaml"]
         with mock.patch.object(_fit_search.Search, "_advance", interrupted):
-            code, out, _ = self.run_command(*words)
-        self.assertEqual(code, 130)
+            out, _ = self.command("fit", *words, code=130)
         self.assertIn("note: interrupted after 1 iteration: these are the best values so far", out)
         self.assertIn("Fitted by bbsim", Path("fitted.yaml").read_text())
         with mock.patch.object(_fit_windows, "simulate", side_effect=KeyboardInterrupt):
-            code, out, err = self.run_command(*words)
-        self.assertEqual((code, out), (130, ""))
-        self.assertIn("interrupted before the first result; nothing is written", err)
+            out, said = self.command("fit", *words, code=130)
+        self.assertEqual(out, "")
+        self.assertIn("interrupted before the first result; nothing is written", said)
 
     def test_standard_output(self):
         rig = self.recorded()
@@ -626,11 +608,7 @@ class Command(Case):
     def test_a_log_on_standard_input(self):
         rig = self.recorded()
         words = ["fit", rig, "-", *self.FREE, "--set", "title='It''s a {plate}'", "-o", "fitted.yaml"]
-        made = subprocess.run(
-            [os.environ["BBSIM"], *words, "--report", "fit.html", "-q"],
-            input=Path("log.csv").read_text(), capture_output=True, text=True,
-        )  # fmt: skip
-        self.assertEqual((made.returncode, made.stderr), (0, ""))
+        self.assertEqual(self.bbsim(*words, "--report", "fit.html", "-q", input=Path("log.csv").read_text()).stderr, "")
         self.assertIn("to\n#   -\n# ball.inertia_factor: 0.6", Path("fitted.yaml").read_text())
         self.assertIn("<title>Fit of It's a {plate}</title>", Path("fit.html").read_text().replace("&#39;", "'"))
 
@@ -653,9 +631,9 @@ class Command(Case):
             ("log.delay=-1:1", {}, "allowed: values from 0"),
             (radius, {"set": {"time.end": 5}, "time_offset": "100 s"}, "tables cover"),
         ):  # fmt: skip
-            self.assertIn(message, self.refused(free, **options))
+            self.refused(message, free, **options)
         Path("log.csv").write_text("t,phi,theta\n0,0,0\n1,0,0\n2,0,0\n3,0,0\n10,0,0\n")
-        self.assertIn("has no column to compare", self.refused(radius))
+        self.refused("has no column to compare", radius)
         own = {"ball": {"radius": 0.01}, "controller": {"callable": lambda sample: (0, 0), "drives": "acceleration"}}
         with self.assertRaises(bbsim.InputError):
             bbsim.fit(own, "log.csv", radius)

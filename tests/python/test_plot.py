@@ -2,33 +2,29 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures: bbsim.plot and `bbsim plot`. Needs BBSIM (the program) and BBSIM_SOURCE in the environment."""
 
-import contextlib
-import io
 import os
 import pickle
 import re
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 from unittest import mock
 
+import cases
 import numpy as np
+from cases import CONFIGS, PROGRAM
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.legend import Legend
 from matplotlib.text import Text
 
 import bbsim
 from bbsim import _plot_axes as axes
-from bbsim._command import main as command
 from bbsim._plot_sheet import clean
 
-PROGRAM = os.environ["BBSIM"]
 BUILD = Path(PROGRAM).parent.parent
-CONFIGS = Path(os.environ["BBSIM_SOURCE"]) / "configs"
 
 
 def drawn_texts(figure):
@@ -54,29 +50,10 @@ def words_of(figure):
     return " ".join(text for text, _ in drawn_texts(figure))
 
 
-class Case(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
-    def bbsim(self, *words, code=0, **options):
-        made = subprocess.run(
-            [PROGRAM, *map(str, words)], cwd=self.folder, capture_output=True, text=True, errors="replace", **options
-        )
-        self.assertEqual(made.returncode, code, f"{words}: {made.stderr}")
-        return made
-
+class Case(cases.Case):
     def refused(self, *words, message):
         """In this process, which is faster than a process for each."""
-        before, said = os.getcwd(), io.StringIO()
-        os.chdir(self.folder)
-        try:
-            with contextlib.redirect_stderr(said):
-                self.assertEqual(command("plot", list(map(str, words))), 2)
-        finally:
-            os.chdir(before)
-        self.assertIn(message, said.getvalue())
+        self.assertIn(message, self.command("plot", *words, code=2)[1])
 
     def program_refuses(self, *words, message):
         made = self.bbsim("plot", *words, code=2)

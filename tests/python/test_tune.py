@@ -2,28 +2,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tuning: bbsim.tune and `bbsim tune`. Needs BBSIM (the program) and BBSIM_SOURCE in the environment."""
 
-import contextlib
-import io
 import json
-import os
 import pickle
 import subprocess
 import sys
-import tempfile
 import unittest
 import warnings
-from pathlib import Path
 from unittest import mock
 
+import cases
 import numpy as np
+from cases import CONFIGS
 
 import bbsim
-from bbsim import _bbsim, _tune
-from bbsim._command import main
+from bbsim import _tune
 from bbsim._tune import Search, worst_of
 
-PROGRAM = os.environ["BBSIM"]
-RIG = Path(os.environ["BBSIM_SOURCE"]) / "configs" / "rig.yaml"
+RIG = CONFIGS / "rig.yaml"
 KP, KV = "controller.gravity_compensation.kp", "controller.gravity_compensation.kv"
 GAINS = [f"{KP}=4:30", f"{KV}=3:20"]
 SERVO = "gimbal.servo.natural_frequency=normal:5 Hz:0.3 Hz"
@@ -115,7 +110,7 @@ class Problems(unittest.TestCase):
             self.assertEqual(worst_of(np.array(values), share), expected)
 
 
-class Rigs(unittest.TestCase):
+class Rigs(cases.Case):
     def test_on_random_rigs_and_on_others(self):
         made = tune(hold_out=16)
         self.assertTrue(made.met, made.reason)
@@ -234,63 +229,50 @@ class Rigs(unittest.TestCase):
         self.assertIn("on the worst of 2 rigs", made.report)
 
     def test_faults(self):
-        def refused(message, **options):
-            with self.assertRaises(bbsim.InputError) as caught:
-                tune(**options)
-            self.assertIn(message, str(caught.exception))
+        for free, message in (
+            (KP, f"--free: {KP}: found no range; allowed: KEY=FROM:TO, such as controller.gravity_compensation.kp=1:20"),
+            (f"{KP}=3", "FROM:TO with FROM below TO"),
+            (f"{KP}=9:3", "FROM:TO with FROM below TO"),
+            ("ball.raduis=1:2", "did you mean ball.radius?"),
+            ("ball.radius=1 s:2 s", "ball.radius"),
+            ("ball.radius=-1 cm:2 cm", "allowed: values from 0"),
+            (f"2*{KP}=1:2", "found a factor before the first key"),
+            (f"{KP},0*{KV}=1:2", "a number that is not 0"),
+            (f"{KP},=1:2", "a number that is not 0"),
+            ([f"{KP}=1:2", f"{KP}=1:3"], f"--free: {KP} is given twice"),
+            ({KP: (4, 30), f"{KV},{KP}": (3, 20)}, "is given twice"),
+            ([], "found nothing; allowed: at least one KEY=FROM:TO"),
+        ):
+            self.refuses(message, tune, free=free)
+        damping = "gimbal.servo.damping=-"
+        for message, options in (
+            ("--minimize: ", {"minimize": "rms_trakcing_error"}),
+            ('--require: found "max_tilt"; allowed: "MEASURE < VALUE"', {"require": "max_tilt"}),
+            ("max_tilt is in rad", {"require": "max_tilt < 3 mm"}),
+            ("--samples", {"samples": None}),
+            ("--samples: found, but no value is drawn", {"vary": ()}),
+            ("--hold-out: found, but no value is drawn",
+             {"vary": "ball.radius=list:0.02,0.03", "samples": None, "hold_out": 5}),
+            ("found among the free keys, too", {"vary": [SERVO, f"{KP}=uniform:1:2"]}),
+            (damping, {"vary": "gimbal.servo.damping=normal:0.1:0.3"}),
+            (damping, {"vary": {"gimbal.servo.damping": "normal:0.1:0.3"}}),
+            # Only some of the rigs held out cannot exist.
+            (damping, {"vary": "gimbal.servo.damping=normal:0.8:0.25", "hold_out": 3000}),
+            ("--quantile: found 1.5", {"quantile": 1.5}),
+            ("--quantile: found 0", {"quantile": 0}),
+            ("--threads: found -1", {"threads": -1}),
+        ):  # fmt: skip
+            self.refuses(message, tune, **options)
 
-        def free(text, message):
-            refused(message, free=text)
 
-        free(KP, f"--free: {KP}: found no range; allowed: KEY=FROM:TO, such as controller.gravity_compensation.kp=1:20")
-        free(f"{KP}=3", "FROM:TO with FROM below TO")
-        free(f"{KP}=9:3", "FROM:TO with FROM below TO")
-        free("ball.raduis=1:2", "did you mean ball.radius?")
-        free("ball.radius=1 s:2 s", "ball.radius")
-        free("ball.radius=-1 cm:2 cm", "allowed: values from 0")
-        free(f"2*{KP}=1:2", "found a factor before the first key")
-        free(f"{KP},0*{KV}=1:2", "a number that is not 0")
-        free(f"{KP},=1:2", "a number that is not 0")
-        free([f"{KP}=1:2", f"{KP}=1:3"], f"--free: {KP} is given twice")
-        refused("--minimize: ", minimize="rms_trakcing_error")
-        refused('--require: found "max_tilt"; allowed: "MEASURE < VALUE"', require="max_tilt")
-        refused("max_tilt is in rad", require="max_tilt < 3 mm")
-        refused("--samples", samples=None)
-        refused("--samples: found, but no value is drawn", vary=())
-        refused("--hold-out: found, but no value is drawn", vary="ball.radius=list:0.02,0.03", samples=None, hold_out=5)
-        refused("found among the free keys, too", vary=[SERVO, f"{KP}=uniform:1:2"])
-        refused("gimbal.servo.damping=-", vary="gimbal.servo.damping=normal:0.1:0.3")
-        # Only some of the rigs held out cannot exist.
-        refused("gimbal.servo.damping=-", vary="gimbal.servo.damping=normal:0.8:0.25", hold_out=3000)
-        refused("--quantile: found 1.5", quantile=1.5)
-        refused("found nothing; allowed: at least one KEY=FROM:TO", free=[])
-        refused("--threads: found -1", threads=-1)
-        refused("gimbal.servo.damping=-", vary={"gimbal.servo.damping": "normal:0.1:0.3"})
-        refused("is given twice", free={KP: (4, 30), f"{KV},{KP}": (3, 20)})
-        refused("--quantile: found 0", quantile=0)
-
-
-class Command(unittest.TestCase):
+class Command(cases.Case):
     SHORT = [RIG, "--set", "time.end=3", "--free", f"{KV}=4:8", "--minimize", "rms_tracking_error"]
 
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
     def tune(self, *words, code=0):
-        """In this process: what it prints and says."""
-        before, out, said = os.getcwd(), io.StringIO(), io.StringIO()
-        os.chdir(self.folder)
-        try:
-            with contextlib.redirect_stdout(out), contextlib.redirect_stderr(said):
-                self.assertEqual(main("tune", [*map(str, words), "-q"]), code, said.getvalue())
-        finally:
-            os.chdir(before)
-        return out.getvalue(), said.getvalue()
+        return self.command("tune", *words, "-q", code=code)
 
-    def read(self, name):
-        return json.loads((self.folder / name).read_text())
+    def json(self):
+        return json.loads(self.read("tuned.json"))
 
     def test_writes_a_scenario_that_runs_and_json(self):
         with warnings.catch_warnings():
@@ -299,31 +281,29 @@ class Command(unittest.TestCase):
         self.assertEqual(said, "")
         for text in (KV, "rms_tracking_error", "on one rig; "):
             self.assertIn(text, out)
-        made = self.read("tuned.json")
+        made = self.json()
         self.assertEqual(list(made), ["parameters", "objective", "requirements", "hold_out"])
         self.assertTrue(4 <= made["parameters"][0]["value"] <= 8)
         self.assertEqual((made["requirements"], made["hold_out"]), ([], {"cases": 0, "share_that_holds": None}))
         # A run of the tuned scenario has the measure that tune reports.
-        words = [PROGRAM, "run", "tuned.yaml", "-q", "-o", "run.csv", "--measure", "rms_tracking_error"]
-        run = subprocess.run(words, cwd=self.folder, capture_output=True, text=True, check=True)
+        run = self.bbsim("run", "tuned.yaml", "-q", "-o", "run.csv", "--measure", "rms_tracking_error")
         self.assertAlmostEqual(float(run.stdout.split(",")[-1]) / made["objective"], 1, delta=1e-6)
         # The function writes the same files.
-        settings = {"output": self.folder / "2.yaml", "json": self.folder / "2.json", "set": {"time.end": 3}}
-        one_rig(free=f"{KV}=4:8", **settings)
+        one_rig(free=f"{KV}=4:8", output="2.yaml", json="2.json", set={"time.end": 3})
         for name in ("yaml", "json"):
-            self.assertEqual((self.folder / f"2.{name}").read_text(), (self.folder / f"tuned.{name}").read_text())
+            self.assertEqual(self.read(f"2.{name}"), self.read(f"tuned.{name}"))
 
     def test_the_best_result_if_a_requirement_cannot_be_met(self):
         _, said = self.tune(*self.SHORT, "--require", "max_tilt < 0.1 deg", "--json", "tuned.json", code=1)
         self.assertIn("tune: found no values with max_tilt < 0.1 deg; the best has ", said)
-        self.assertIs(self.read("tuned.json")["requirements"][0]["holds"], False)
+        self.assertIs(self.json()["requirements"][0]["holds"], False)
         self.tune(*self.SHORT[:-1], "when x=1", "-o", "tuned.yaml", "--json", "tuned.json", code=1)
-        self.assertIn("#   when x=1: inf s\n", (self.folder / "tuned.yaml").read_text())
-        self.assertIsNone(self.read("tuned.json")["objective"])
+        self.assertIn("#   when x=1: inf s\n", self.read("tuned.yaml"))
+        self.assertIsNone(self.json()["objective"])
 
     def test_a_setting_may_be_free(self):
         self.tune(*self.SHORT, "--set", f"{KV}=5", "--json", "tuned.json")
-        self.assertTrue(4 <= self.read("tuned.json")["parameters"][0]["value"] <= 8)
+        self.assertTrue(4 <= self.json()["parameters"][0]["value"] <= 8)
 
     def test_an_interruption_keeps_the_best_result(self):
         simulate, calls = _tune.simulate, []
@@ -343,7 +323,7 @@ class Command(unittest.TestCase):
                 self.assertFalse((self.folder / "tuned.json").exists())
                 continue
             self.assertRegex(said, "^tune: interrupted after [0-9]+ tries; the result is the best of them\n$")
-            self.assertLessEqual(self.read("tuned.json")["parameters"][0]["value"], 8)
+            self.assertLessEqual(self.json()["parameters"][0]["value"], 8)
 
     def test_refuses_invalid_input(self):
         for words, message in [

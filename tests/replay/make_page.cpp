@@ -9,23 +9,15 @@
 // RUN is RESULT.csv[,SCENARIO.yaml[,SUMMARY.json[,CHECK.txt]]].
 #include <cstdio>
 #include <exception>
-#include <fstream>
-#include <iterator>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "file/atomic_file.hpp"
 #include "make_scene.hpp"
 #include "replay/page.hpp"
+#include "support/folder.hpp"
 
 namespace {
-
-std::string content(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw std::runtime_error("cannot read " + file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 void make(const std::vector<std::string>& arguments) {
   bbsim::replay::Scene scene;
@@ -37,7 +29,7 @@ void make(const std::vector<std::string>& arguments) {
     } else if (arguments[i] == "--title") {
       scene.title = arguments.at(++i);
     } else if (arguments[i] == "--template") {
-      page_template = content(arguments.at(++i));
+      page_template = content_of(arguments.at(++i));
     } else if (arguments[i] == "--sweep") {
       const std::string& table = arguments.at(++i);
       scene.sweeps.push_back(bbsim_test::sweep_of(table, arguments.at(++i)));

@@ -4,35 +4,20 @@
 #include "make_scene.hpp"
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
-#include <sstream>
-#include <stdexcept>
 
 #include "file/table_writer.hpp"
 #include "replay/sources.hpp"
 #include "results/read_result.hpp"
 #include "scenario/reader.hpp"
+#include "support/folder.hpp"
+#include "support/text.hpp"
 
 using bbsim::replay::Run;
 using bbsim::replay::Sweep;
 
 namespace bbsim_test {
 namespace {
-
-std::string content(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw std::runtime_error("cannot read " + file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-std::vector<std::string> parts_of(const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
-  return parts;
-}
 
 void add_summary(Run& run, const std::string& text) {
   const auto json = nlohmann::json::parse(text);
@@ -50,14 +35,14 @@ void add_summary(Run& run, const std::string& text) {
 }  // namespace
 
 Run run_of(const std::string& files) {
-  const std::vector<std::string> names = parts_of(files, ',');
+  const std::vector<std::string> names = split(files, ',');
   const std::string base = names.at(0).substr(names.at(0).rfind('/') + 1);
   Run run = bbsim::replay::run_of_table(bbsim::file::read_table(names.at(0)), base);
   if (names.size() > 1 && !names[1].empty()) {
     bbsim::replay::describe(run, bbsim::read_scenario(names[1]));
   }
-  if (names.size() > 2) add_summary(run, content(names[2]));
-  if (names.size() > 3) run.check = parts_of(content(names[3]), '\n');
+  if (names.size() > 2) add_summary(run, content_of(names[2]));
+  if (names.size() > 3) run.check = lines(content_of(names[3]));
   return run;
 }
 
@@ -65,7 +50,7 @@ Sweep sweep_of(const std::string& table, const std::string& scenario) {
   Sweep sweep = bbsim::replay::sweep_of_result(bbsim::results::read_result(table, {}), table);
   sweep.name = table.substr(table.rfind('/') + 1);
   sweep.title = bbsim::read_scenario(scenario).title;
-  sweep.source = {scenario, content(scenario), {}};
+  sweep.source = {scenario, content_of(scenario), {}};
   return sweep;
 }
 

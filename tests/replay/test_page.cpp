@@ -16,6 +16,8 @@
 #include "replay/scene.hpp"
 #include "replay/template.hpp"
 #include "scenario/columns.hpp"
+#include "support/folder.hpp"
+#include "support/text.hpp"
 
 namespace bbsim_test::test_page {
 
@@ -35,30 +37,20 @@ Scene scene_of(Run run) {
   return scene;
 }
 
-std::string refusal(const Scene& scene) {
-  try {
-    static_cast<void>(page(scene, small_template));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 }  // namespace
 
 TEST_CASE("base64 as in RFC 4648") {
-  const auto of = [](std::string_view text) {
-    return bbsim::replay::base64(
-        {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
-  };
-  CHECK(of("").empty());
-  CHECK(of("f") == "Zg==");
-  CHECK(of("fo") == "Zm8=");
-  CHECK(of("foo") == "Zm9v");
-  CHECK(of("foob") == "Zm9vYg==");
-  CHECK(of("fooba") == "Zm9vYmE=");
-  CHECK(of("foobar") == "Zm9vYmFy");
-  CHECK(of("\xff\xfe\xfd") == "//79");
+  const auto [text, encoded] =
+      GENERATE(table<std::string, std::string>({{"", ""},
+                                                {"f", "Zg=="},
+                                                {"fo", "Zm8="},
+                                                {"foo", "Zm9v"},
+                                                {"foob", "Zm9vYg=="},
+                                                {"fooba", "Zm9vYmE="},
+                                                {"foobar", "Zm9vYmFy"},
+                                                {"\xff\xfe\xfd", "//79"}}));
+  CHECK(bbsim::replay::base64({reinterpret_cast<const unsigned char*>(text.data()), text.size()}) ==
+        encoded);
 }
 
 TEST_CASE("numbers too large for a float are infinite in a page, without undefined conversions") {
@@ -133,21 +125,13 @@ TEST_CASE("hostile text stays text everywhere") {
   scene.sweeps[0].name = scene.sweeps[0].keys[0].name = scene.sweeps[0].status[0] = hostile;
 
   const std::string made = page(scene, small_template);
-  const auto count = [&](const std::string& words) {
-    std::size_t found = 0;
-    for (std::size_t at = made.find(words); at != std::string::npos;
-         at = made.find(words, at + 1)) {
-      ++found;
-    }
-    return found;
-  };
-  CHECK(count("</script>") == 1);  // the template's own
-  CHECK(count("<script") == 1);
-  CHECK(count("<!--") == 4);          // the template's own
-  CHECK(count("\xE2\x80\xA8") == 1);  // in the title, where it is an ordinary character
-  CHECK(made.find('\x1b') == std::string::npos);
-  CHECK(made.find('\xff') == std::string::npos);
-  CHECK(made.find("&lt;/script&gt;") != std::string::npos);
+  CHECK(count(made, "</script>") == 1);  // the template's own
+  CHECK(count(made, "<script") == 1);
+  CHECK(count(made, "<!--") == 4);          // the template's own
+  CHECK(count(made, "\xE2\x80\xA8") == 1);  // in the title, where it is an ordinary character
+  CHECK_FALSE(contains(made, "\x1b"));
+  CHECK_FALSE(contains(made, "\xff"));
+  CHECK(contains(made, "&lt;/script&gt;"));
 
   const auto data = data_of(made);
   const std::string arrived = hostile.substr(0, hostile.size() - 1) + "\xEF\xBF\xBD";
@@ -159,15 +143,14 @@ TEST_CASE("hostile text stays text everywhere") {
 }
 
 TEST_CASE("a page has the libraries that it uses") {
-  Scene run = scene_of(circling(3)), sweep, both = run;
-  sweep.sweeps.push_back(swept());
-  both.sweeps.push_back(swept());
-  CHECK(page(run, small_template).find("three dimensions<!--/runs-->") != std::string::npos);
-  CHECK(page(run, small_template).find("maps") == std::string::npos);
-  CHECK(page(sweep, small_template).find("three dimensions") == std::string::npos);
-  CHECK(page(sweep, small_template).find("maps") != std::string::npos);
-  CHECK(page(both, small_template).find("three dimensions") != std::string::npos);
-  CHECK(page(both, small_template).find("maps") != std::string::npos);
+  const auto [has_run, has_sweep] =
+      GENERATE(table<bool, bool>({{true, false}, {false, true}, {true, true}}));
+  Scene scene;
+  if (has_run) scene = scene_of(circling(3));
+  if (has_sweep) scene.sweeps.push_back(swept());
+  const std::string made = page(scene, small_template);
+  CHECK(contains(made, "three dimensions<!--/runs-->") == has_run);
+  CHECK(contains(made, "maps") == has_sweep);
 }
 
 TEST_CASE("a million rows of many columns stay below 5 MB and lose no peak") {
@@ -247,27 +230,29 @@ TEST_CASE("a page gives what is known of turns, units and the end") {
 }
 
 TEST_CASE("unusable replay input is refused with the reason") {
-  CHECK(refusal({}) == "nothing to replay: neither a run nor a sweep");
-  Scene scene = scene_of(circling(3));
-  scene.runs[0].columns[2].values.pop_back();
-  CHECK(refusal(scene) == "circle.csv: cannot be replayed: column y has 2 rows, and t has 3");
-  scene = scene_of(circling(3));
-  scene.runs[0].columns[0].values[2] = 0.01;
-  CHECK(refusal(scene) ==
-        "circle.csv: cannot be replayed: t in row 3 is 0.01, after 0.01; times have to increase");
-  scene = scene_of(circling(3));
-  scene.runs[0].columns.erase(scene.runs[0].columns.begin() + 1, scene.runs[0].columns.begin() + 3);
-  CHECK(
-      refusal(scene) ==
-      "circle.csv: cannot be replayed: it has neither a column x nor y; a replay needs t, x and y");
-  scene = scene_of(circling(0));
-  CHECK(refusal(scene) == "circle.csv: cannot be replayed: it has no rows");
-  scene = scene_of(circling(3));
+  const auto refusal = [](const Scene& scene) {
+    return message_of<InputError>([&] { static_cast<void>(page(scene, small_template)); });
+  };
+  CHECK(contains(refusal({}), "neither a run nor a sweep"));
+  const auto of_run = [&](std::size_t rows, auto change) {
+    Scene scene = scene_of(circling(rows));
+    change(scene.runs[0].columns);
+    return refusal(scene);
+  };
+  const std::string file = "circle.csv: cannot be replayed: ";
+  CHECK(of_run(3, [](auto& columns) { columns[2].values.pop_back(); }) ==
+        file + "column y has 2 rows, and t has 3");
+  CHECK(contains(of_run(3, [](auto& columns) { columns[0].values[2] = 0.01; }),
+                 file + "t in row 3 is 0.01, after 0.01"));
+  CHECK(contains(
+      of_run(3, [](auto& columns) { columns.erase(columns.begin() + 1, columns.begin() + 3); }),
+      file + "it has neither a column x nor y"));
+  CHECK(of_run(0, [](auto&) {}) == file + "it has no rows");
+  Scene scene;
   scene.sweeps.push_back(swept());
   scene.sweeps[0].measures[0].values.pop_back();
   CHECK(refusal(scene) ==
-        "swept.csv: cannot be replayed: column max_distance has 860 rows, and "
-        "status has 861");
+        "swept.csv: cannot be replayed: column max_distance has 860 rows, and status has 861");
 }
 
 TEST_CASE("a beam without y is on its axis") {
@@ -278,17 +263,16 @@ TEST_CASE("a beam without y is on its axis") {
 
 TEST_CASE("an invalid or missing template") {
   const Scene scene = scene_of(circling(3));
-  CHECK_THROWS_AS(page(scene, "<title></title>@BBSIM_DATA@"), InputError);
-  CHECK_THROWS_AS(page(scene, small_template + small_template), InputError);
-  CHECK_THROWS_AS(page(scene, "@BBSIM_DATA@ @BBSIM_TITLE@"), InputError);
-  try {
-    static_cast<void>(bbsim::replay::read_template("replay.html", {"/nowhere", "/else"}));
-    FAIL("a template from nowhere");
-  } catch (const OutputError& error) {
-    CHECK(std::string(error.what()).find("replay.html is not in /nowhere and /else") !=
-          std::string::npos);
-    CHECK(std::string(error.what()).find("libjs-three, libjs-dygraphs") != std::string::npos);
+  for (const std::string& wrong :
+       {std::string("<title></title>@BBSIM_DATA@"), small_template + small_template,
+        std::string("@BBSIM_DATA@ @BBSIM_TITLE@")}) {
+    CHECK_THROWS_AS(page(scene, wrong), InputError);
   }
+  const std::string missing = message_of<OutputError>([] {
+    static_cast<void>(bbsim::replay::read_template("replay.html", {"/nowhere", "/else"}));
+  });
+  CHECK(contains(missing, "replay.html is not in /nowhere and /else"));
+  CHECK(contains(missing, "libjs-three, libjs-dygraphs"));
 }
 
 TEST_CASE("a sweep's cases read back: exact keys, each kind of ending once") {

@@ -3,8 +3,7 @@
 
 // Scenes from scenarios, tables and sweeps.
 #include <cmath>
-#include <fstream>
-#include <sstream>
+#include <string>
 
 #include "base/error.hpp"
 #include "catch.hpp"
@@ -30,6 +29,18 @@ Run described(const std::string& name) {
   Run run;
   describe(run, read_scenario(config(name)));
   return run;
+}
+
+// The summary of r.csv, which an event stopped.
+std::string summary(const std::string& more, double t, const std::string& place) {
+  return R"({"version": "7", "status": "stopped", "output": "r.csv", "scenario_text": "", )" +
+         more + R"(, "events": [{"event": "edge", "action": "stop", "t": )" + std::to_string(t) +
+         place + "}]}";
+}
+
+replay::Sweep sweep_of_table(const std::string& table) {
+  const Folder folder;
+  return sweep_of_result(results::read_result(folder.put("s.csv", table), {}), "s.csv");
 }
 
 }  // namespace
@@ -113,10 +124,8 @@ TEST_CASE(
   const std::string file = folder.put("r.csv",
                                       "t,x,y,ball_qw,ball_qx,ball_qy,ball_qz,phi\n"
                                       "0,0,0,1,0,0,0,0\n1,0.1,0,1,0,0,0,0\n");
-  folder.put("r.json",
-             R"({"version": "7", "title": "", "status": "stopped", "reason": "", "end_time": 1.5,
-                 "rows": 2, "output": "r.csv", "scenario_text": "", "events":
-                 [{"t": 1.5, "event": "edge", "action": "stop", "x": 0.11, "y": 0.0, "phi": 0.3}]})");
+  folder.put("r.json", summary(R"("title": "", "reason": "", "end_time": 1.5, "rows": 2)", 1.5,
+                               R"(, "x": 0.11, "y": 0.0, "phi": 0.3)"));
   results::Result result = results::read_result(file, {"", config("fig2a"), {}});
   const Scenario scenario = *result.scenario;
   Run run = run_of_result(std::move(result), "r.csv");
@@ -134,13 +143,10 @@ TEST_CASE(
 }
 
 TEST_CASE("a sweep's table: keys, status and measures") {
-  const Folder folder;
-  const std::string file =
-      folder.put("s.csv",
-                 "case,ball.radius,solver.method,status,reason,end_time,max_tilt,end_x\n"
-                 "0,0.01,radau,done,,10,0.1,0.5\n"
-                 "1,0.02,bdf,failed,\"it grew, \"\"fast\"\"\",0.7,nan,1\n");
-  const replay::Sweep sweep = sweep_of_result(results::read_result(file, {}), "s.csv");
+  const replay::Sweep sweep = sweep_of_table(
+      "case,ball.radius,solver.method,status,reason,end_time,max_tilt,end_x\n"
+      "0,0.01,radau,done,,10,0.1,0.5\n"
+      "1,0.02,bdf,failed,\"it grew, \"\"fast\"\"\",0.7,nan,1\n");
   CHECK(sweep.name == "s.csv");
   CHECK(sweep.cases == std::vector<double>{0, 1});
   REQUIRE(sweep.keys.size() == 2);
@@ -158,16 +164,14 @@ TEST_CASE("a sweep's table: keys, status and measures") {
 }
 
 TEST_CASE("a sweep's keys: which are tied and which are random") {
-  const Folder folder;
-  std::ostringstream table;
-  table << "case,a,b,c,status,max_tilt\n";
-  const double drawn[] = {0.3, 0.1, 0.7, 0.2, 0.9, 0.4, 0.6, 0.5};
+  std::string table = "case,a,b,c,status,max_tilt\n";
+  const char* const drawn[] = {"3", "1", "7", "2", "9", "4", "6", "5"};
   for (int i = 0; i < 8; ++i) {
     const int a = i / 4;
-    table << i << ',' << a << ',' << -2 * a << ',' << drawn[i] << ",done,1\n";
+    table += std::to_string(i) + ',' + std::to_string(a) + ',' + std::to_string(-2 * a) + ',' +
+             drawn[i] + ",done,1\n";
   }
-  const replay::Sweep sweep =
-      sweep_of_result(results::read_result(folder.put("s.csv", table.str()), {}), "s.csv");
+  const replay::Sweep sweep = sweep_of_table(table);
   REQUIRE(sweep.keys.size() == 3);
   CHECK(sweep.keys[0].along.empty());
   CHECK(sweep.keys[1].along == "a");
@@ -182,9 +186,8 @@ TEST_CASE("a result includes its summary's data and the ball's orientation") {
                                       "t,x,y,ball_qw,ball_qx,ball_qy,ball_qz\n"
                                       "0,0,0,1,0,0,0\n1,1,2,0,0,2,0\n2,1,2,nan,nan,nan,nan\n");
   folder.put("r.json",
-             R"({"version": "7", "title": "A title", "status": "stopped", "reason": "it fell",
-                 "end_time": 1, "rows": 3, "output": "r.csv", "scenario_text": "", "events":
-                 [{"t": 0.5, "event": "edge", "action": "stop", "x": 0.1, "y": 0.2}]})");
+             summary(R"("title": "A title", "reason": "it fell", "end_time": 1, "rows": 3)", 0.5,
+                     R"(, "x": 0.1, "y": 0.2)"));
   const Run run = run_of_result(results::read_result(file, {}), "r.csv");
   CHECK(run.title == "A title");
   CHECK(run.status == "stopped");

@@ -4,54 +4,51 @@
 // Sketches compiled and run by the program.
 #pragma once
 
+#include <filesystem>
 #include <string>
-#include <vector>
 
 #include "app/process.hpp"
 
 namespace bbsim_test {
 
-inline std::string sketches(const std::string& name) {
-  return std::string(BBSIM_SOURCE_DIR) + "/tests/sketch/sketches/" + name;
-}
+const std::string plain_wiring = "servos: {phi: {pin: 9}, theta: {pin: 10}}\n";
 
-inline bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-// A sketch in the folder sketches/, compiled into its own library.
-class Sketch {
+// A sketch that compiles into its own library, unless `compiles` is false.
+class Sketch : public Folder {
  public:
-  explicit Sketch(const std::string& name, const std::vector<std::string>& more_files = {})
-      : wiring_(sketches(name + "/wiring.yaml")) {
-    std::vector<std::string> words{"sketch", sketches(name + "/" + name + ".ino")};
-    for (const std::string& file : more_files) words.push_back(sketches(name + "/" + file));
-    words.insert(words.end(), {"-I", sketches("libraries"), "-o", library()});
-    made = bbsim(words);
+  // One of the folder sketches/, with all its .ino files.
+  explicit Sketch(const std::string& name)
+      : wiring_(BBSIM_SOURCE_DIR "/tests/sketch/sketches/" + name + "/wiring.yaml") {
+    const std::filesystem::path source = BBSIM_SOURCE_DIR "/tests/sketch/sketches/" + name;
+    std::string line = "sketch " + (source / name).string() + ".ino";
+    for (const auto& file : std::filesystem::directory_iterator(source)) {
+      if (file.path().extension() == ".ino" && file.path().stem() != name) {
+        line += ' ' + file.path().string();
+      }
+    }
+    made = expect(0, line + " -I %tests/sketch/sketches/libraries -o sketch.so", *this);
   }
-  // A sketch with the given text and wiring.
-  Sketch(const std::string& text, const std::string& wiring)
-      : wiring_(folder_.write("wiring.yaml", wiring)) {
-    made = bbsim({"sketch", folder_.write("own.ino", text), "-o", library()});
+  Sketch(const std::string& text, const std::string& wiring, bool compiles = true)
+      : wiring_(write("wiring.yaml", wiring)) {
+    write("own.ino", text);
+    made = call("sketch own.ino -o sketch.so", *this);
+    if (compiles) expect(0, made);
   }
 
-  // The arguments that run a command on the rig, driven by the sketch.
-  [[nodiscard]] std::vector<std::string> words(const std::string& command,
-                                               std::vector<std::string> more = {}) const {
-    std::vector<std::string> words{
-        command, std::string(BBSIM_SOURCE_DIR) + "/tests/sketch/rig.yaml",
-        "--set", "controller.library.file=" + library(),
-        "--set", "controller.library.wiring=" + wiring_};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
+  // Runs a command on the rig, driven by the sketch.
+  [[nodiscard]] Result on_rig(const std::string& command, const std::string& more = "") const {
+    return call(command + " %tests/sketch/rig.yaml --set 'controller.library.file=" +
+                    (*this / "sketch.so") + "' --set controller.library.wiring=" + wiring_ + more,
+                *this);
   }
-  [[nodiscard]] std::string library() const { return folder_ / "sketch.so"; }
-  [[nodiscard]] const Folder& folder() const { return folder_; }
+  // Prints the rows of a run.
+  [[nodiscard]] Result run(const std::string& more = "") const {
+    return on_rig("run", " -o - " + more);
+  }
 
   Result made;
 
  private:
-  Folder folder_;
   std::string wiring_;
 };
 

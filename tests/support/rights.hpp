@@ -5,6 +5,7 @@
 #pragma once
 
 #include <linux/capability.h>
+#include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -16,4 +17,10 @@ inline void drop_rights_over_files() {
   if (syscall(SYS_capget, &whose, rights) != 0) return;
   rights[0].effective &= ~((1U << CAP_DAC_OVERRIDE) | (1U << CAP_DAC_READ_SEARCH));
   static_cast<void>(syscall(SYS_capset, &whose, rights));
+}
+
+// The same for a program that a child process executes next.
+inline void drop_rights_before_exec() {
+  prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE, 0, 0, 0);
+  prctl(PR_CAPBSET_DROP, CAP_DAC_READ_SEARCH, 0, 0, 0);
 }

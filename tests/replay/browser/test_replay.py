@@ -28,9 +28,24 @@ BBSIM, MAKE_PAGE, TEMPLATE, SOURCE = (os.path.abspath(name) for name in sys.argv
 HOSTILE = "</script><script>window.broken = 1</script><img src=x onerror='window.broken = 2'> \"q\" 'q' \x1b[31m \u2028 \u202e &lt;"
 
 
-def rows_of(file):
+def bbsim(*words, ends=(0,)):
+    """Runs the program in SOURCE, quietly."""
+    made = subprocess.run([BBSIM, *words, "-q"], cwd=SOURCE, capture_output=True, text=True)
+    assert made.returncode in ends, (words, made.returncode, made.stderr)
+    return made.returncode
+
+
+def cases_of(file):
     with open(file, newline="") as stream:
-        return [{name: float(value) for name, value in row.items()} for row in csv.DictReader(stream)]
+        return list(csv.DictReader(stream))
+
+
+def rows_of(file):
+    return [{name: float(value or "nan") for name, value in row.items()} for row in cases_of(file)]
+
+
+def number(text):
+    return float(text.replace("\u2212", "-"))
 
 
 class Files:
@@ -44,6 +59,18 @@ class Files:
     def __call__(self, name):
         return os.path.join(self.folder, name)
 
+    def write(self, name, text):
+        with open(self(name), "w") as stream:
+            stream.write(text)
+        return self(name)
+
+    def change(self, name, **values):
+        """Changes a JSON."""
+        with open(self(name)) as stream:
+            its = json.load(stream)
+        its.update(values)
+        self.write(name, json.dumps(its))
+
     def config(self, name):
         return f"configs/{name}.yaml"  # relative to SOURCE, where everything runs
 
@@ -51,11 +78,14 @@ class Files:
         """The result NAME.csv with NAME.json and NAME.txt, as make_page expects it."""
         if name not in self.made:
             self.made.add(name)
-            subprocess.run([BBSIM, "run", self.config(config), "-o", self(name + ".csv"), "--summary",
-                            self(name + ".json"), "-q", *options], cwd=SOURCE, check=False)
+            self.result(name, config, *options)
             with open(self(name + ".txt"), "w") as text:
                 subprocess.run([BBSIM, "check", self.config(config)], cwd=SOURCE, stdout=text, check=True)
         return ",".join([self(name + ".csv"), self.config(config), self(name + ".json"), self(name + ".txt")])
+
+    def result(self, name, config, *options):
+        bbsim("run", self.config(config), "-o", self(name + ".csv"), "--summary", self(name + ".json"), *options, ends=(0, 1))
+        return self(name + ".csv")
 
     def page(self, name, *arguments):
         file = self(name + ".html")
@@ -69,7 +99,7 @@ class Files:
     def sweep(self, name, config, *options):
         table = self(name + ".csv")
         if not os.path.exists(table):
-            subprocess.run([BBSIM, "sweep", self.config(config), *options, "-o", table, "-q"], cwd=SOURCE, check=True)
+            bbsim("sweep", self.config(config), *options, "-o", table)
         return self.page(name, "--sweep", table, self.config(config)), table
 
 
@@ -122,8 +152,52 @@ class InBrowser(unittest.TestCase):
     def js(self, script, *arguments):
         return self.browser.run("return " + script, *arguments)
 
+    def seek(self, t):
+        self.js("[bbsim.seek(arguments[0]), bbsim.picture && bbsim.picture.draw()]", t)
+
+    def ask(self, script, *arguments):
+        """Runs a script until it calls `done`."""
+        return self.browser.call("POST", "/execute/async", {
+            "script": f"const done = arguments[{len(arguments)}];" + script, "args": list(arguments)})
+
+    def wait(self, condition, seconds=20):
+        """Waits until the expression is true in the page, and returns its last value."""
+        return self.ask(f"""const until = Date.now() + {seconds} * 1000;
+            const look = () => {{ const is = {condition}; if (is || Date.now() > until) done(is); else setTimeout(look, 20); }};
+            look();""")
+
+    def box(self, selector):
+        """Left, top, width and height of an element."""
+        return self.js("(({left, top, width, height}) => [left, top, width, height])"
+                       "(document.querySelector(arguments[0]).getBoundingClientRect())", selector)
+
+    def ranges(self):
+        """Those of time in all drawn plots."""
+        return self.js("bbsim.plots.plots.filter((p) => p.graph).map((p) => p.graph.xAxisRange())")
+
+    def in_plot(self, t):
+        """The place of a time in the first plot, halfway up."""
+        return self.js("""(() => { const {graph, canvas} = bbsim.plots.plots[0], box = canvas.getBoundingClientRect();
+            return [box.left + graph.toDomXCoord(arguments[0]), box.top + box.height / 2]; })()""", t)
+
+    def hidden(self, name):
+        return self.js("document.getElementById(arguments[0]).hidden", name)
+
     def near(self, found, wanted, within):
         self.assertLessEqual(abs(found - wanted), within, f"{found} is not {wanted} within {within}")
+
+    def all_near(self, found, wanted, within):
+        for one, its in zip(found, wanted, strict=True):
+            self.near(one, its, within)
+
+    def ball_is_at(self, row, radius, within, factor=1):
+        self.all_near(self.js("bbsim.ballOnScreen()"), on_screen(self.js("bbsim.view()"), row, radius, factor), within)
+
+    def named(self):
+        """Everything that can be used has a name."""
+        self.assertEqual(self.js("""[...document.querySelectorAll('button, input, select, canvas, [role=img]')].filter((e) =>
+            !(e.getAttribute('aria-label') || e.textContent.trim() || (e.labels && e.labels.length) ||
+              e.querySelector('title') || e.closest('.plot'))).map((e) => e.outerHTML)"""), [])
 
 
 class TheBall(InBrowser):
@@ -133,11 +207,7 @@ class TheBall(InBrowser):
         for k in range(10):
             row = rows[round(k * (len(rows) - 1) / 9)]
             self.js("bbsim.seek(arguments[0])", row["t"])
-            seen = self.js("bbsim.ballOnScreen()")
-            x, y = on_screen(self.js("bbsim.view()"), row, radius, factor)
-            # floats, over a few hundred pixels
-            self.near(seen[0], x, 0.05)
-            self.near(seen[1], y, 0.05)
+            self.ball_is_at(row, radius, 0.05, factor)  # floats, over a few hundred pixels
 
     def test_is_where_the_csv_says_in_every_view(self):
         self.open(files.replay("rig"))
@@ -181,8 +251,7 @@ class TheBall(InBrowser):
     def test_turns_as_it_rolls(self):
         self.open(files.replay("fig2a"))
         rows = rows_of(files("fig2a.csv"))
-        self.js("bbsim.seek(arguments[0])", rows[-1]["t"])
-        self.js("bbsim.picture.draw()")
+        self.seek(rows[-1]["t"])
         # The orientation is computed from row to row, as the page says if none was recorded; it includes gamma.
         self.assertIn("rolls straight from row to row", self.browser.text("#details"))
         q = self.js("bbsim.picture.actors[0].ball.mesh.quaternion.toArray()")
@@ -199,18 +268,14 @@ class TheAxes(InBrowser):
                 for labels in self.js("""bbsim.plots.plots.map((plot) =>
                     [...plot.canvas.querySelectorAll('.dygraph-axis-label-y')].map((label) => label.textContent))"""):
                     self.assertGreaterEqual(len(labels), 3)
-                    steps = [float(label.replace("\u2212", "-")) for label in labels]
+                    steps = [number(label) for label in labels]
                     step = abs(steps[1] - steps[0])
                     self.near(step / 10 ** math.floor(math.log10(step) + 1e-9) % 1, 0, 1e-6)
 
     def test_are_those_of_the_many_where_a_few_values_are_far_beyond(self):
-        with open(files("beyond.csv"), "w") as table:
-            table.write("t,x,y,normal_force\n")
-            for i in range(81):
-                table.write(f"{i / 100},{i / 1000},0,{-1.7e14 if i == 80 else 0.3 + i / 1000}\n")
-        page = files("beyond.html")
-        subprocess.run([BBSIM, "replay", files("beyond.csv"), "-o", page, "-q"], check=True)
-        self.open("file://" + page)
+        rows = "".join(f"{i / 100},{i / 1000},0,{-1.7e14 if i == 80 else 0.3 + i / 1000}\n" for i in range(81))
+        bbsim("replay", files.write("beyond.csv", "t,x,y,normal_force\n" + rows), "-o", files("beyond.html"))
+        self.open("file://" + files("beyond.html"))
         low, high = self.js("bbsim.plots.plots.find((plot) => plot.group.title === 'Forces').graph.yAxisRange()")
         self.assertGreater(low, 0.2)
         self.assertLess(high, 0.5)
@@ -229,18 +294,16 @@ class TheAxes(InBrowser):
 class TheProgram(InBrowser):
     """Pages that bbsim itself writes."""
 
-    def made(self, name, *command):
+    def made(self, name, *command, code=0):
         file = files(name + ".html")
-        code = subprocess.run([BBSIM, *[word.replace("PAGE", file) for word in command], "-q"], cwd=SOURCE,
-                              stderr=subprocess.DEVNULL).returncode
+        bbsim(*[word.replace("PAGE", file) for word in command], ends=(code,))
         self.open("file://" + file)
-        return code
 
     def test_replay_of_a_scenario(self):
-        self.assertEqual(self.made("own", "replay", "configs/fig2a.yaml", "-o", "PAGE"), 0)
+        self.made("own", "replay", "configs/fig2a.yaml", "-o", "PAGE")
         files.run("oriented", "fig2a", "--set", "output.columns=[t,x,y,ball_qw,ball_qx,ball_qy,ball_qz]")
         for row in rows_of(files("oriented.csv"))[::200]:
-            self.js("[bbsim.seek(arguments[0]), bbsim.picture.draw()]", row["t"])
+            self.seek(row["t"])
             drawn = self.js("bbsim.picture.actors[0].ball.mesh.quaternion.toArray()")
             wanted = [row[f"ball_q{part}"] for part in "xyzw"]
             # Quantized in steps of 1/32767; the sign is arbitrary.
@@ -249,16 +312,15 @@ class TheProgram(InBrowser):
         self.assertIn("equation (27)", self.browser.text("#details"))
 
     def test_run_that_stops_says_why(self):
-        self.assertEqual(self.made("stopped", "run", "configs/falls.yaml", "-o", files("stopped.h5"), "--replay", "PAGE"), 1)
+        self.made("stopped", "run", "configs/falls.yaml", "-o", files("stopped.h5"), "--replay", "PAGE", code=1)
         self.assertIn("the contact point left the plate", self.browser.text("#details"))
-        self.assertEqual(self.made("again", "replay", files("stopped.h5"), "-o", "PAGE"), 0)
+        self.made("again", "replay", files("stopped.h5"), "-o", "PAGE")
         self.assertIn("the contact point left the plate", self.browser.text("#details"))
 
     def test_sweep(self):
         table = files("own-sweep.csv")
-        subprocess.run([BBSIM, "sweep", "configs/fig2b.yaml", "--vary", "ball.radius=linear:0.01:0.02:4", "-o", table,
-                        "-q"], cwd=SOURCE, check=True)
-        self.assertEqual(self.made("own-sweep", "replay", table, "--scenario", "configs/fig2b.yaml", "-o", "PAGE"), 0)
+        bbsim("sweep", "configs/fig2b.yaml", "--vary", "ball.radius=linear:0.01:0.02:4", "-o", table)
+        self.made("own-sweep", "replay", table, "--scenario", "configs/fig2b.yaml", "-o", "PAGE")
 
 
 class Time(InBrowser):
@@ -266,8 +328,8 @@ class Time(InBrowser):
         self.open(files.replay("rig"))
         for speed in [0.5, 4]:
             self.js("[bbsim.clock.seek(1), bbsim.clock.setSpeed(arguments[0])]", speed)
-            stretch = self.browser.call("POST", "/execute/async", {"script": """
-                const done = arguments[0], seen = [];
+            (wall_a, a), (wall_b, b) = self.ask("""
+                const seen = [];
                 bbsim.clock.onTime((t) => seen.push([document.timeline.currentTime / 1000, t]));
                 bbsim.clock.play();
                 const look = setInterval(() => {
@@ -275,8 +337,7 @@ class Time(InBrowser):
                   clearInterval(look);
                   bbsim.clock.pause();
                   done([seen[1], seen[seen.length - 1]]);
-                }, 100);""", "args": []})
-            (wall_a, a), (wall_b, b) = stretch
+                }, 100);""")
             self.assertGreater(wall_b - wall_a, 0.3)
             # Both clocks are those of the browser's frames.
             self.near((b - a) / (wall_b - wall_a), speed, 0.001 * speed)
@@ -285,7 +346,7 @@ class Time(InBrowser):
         self.open(files.replay("falls"))
         last = rows_of(files("falls.csv"))[-1]["t"]
         # Waits until playback ends or restarts, and returns the clock.
-        play = """const done = arguments[1], from = arguments[0], began = performance.now();
+        play = """const from = arguments[0], began = performance.now();
             bbsim.clock.seek(from); bbsim.clock.setSpeed(1); bbsim.clock.play();
             const look = setInterval(() => {
               const {playing, now} = bbsim.clock;
@@ -294,46 +355,34 @@ class Time(InBrowser):
               bbsim.clock.pause();
               done([playing, now]);
             }, 5);"""
-        ask = lambda: self.browser.call("POST", "/execute/async", {"script": play, "args": [last - 0.05]})
         self.browser.keys("l")
-        playing, now = ask()
+        playing, now = self.ask(play, last - 0.05)
         self.assertTrue(playing)
         self.assertLess(now, last - 0.05)
         self.browser.keys("l")
-        self.assertEqual(ask(), [False, last])
+        self.assertEqual(self.ask(play, last - 0.05), [False, last])
 
     def test_keys(self):
         self.open(files.replay("rig"))
         rows = rows_of(files("rig.csv"))
         now = lambda: self.js("bbsim.clock.now")
         right, left, home, end, shift = "\ue014", "\ue012", "\ue011", "\ue010", "\ue008"
-        self.browser.keys(right, right, right)
-        self.assertEqual(now(), rows[3]["t"])
-        self.browser.keys(left)
-        self.assertEqual(now(), rows[2]["t"])
-        self.browser.keys(end)
-        self.assertEqual(now(), rows[-1]["t"])
-        self.browser.keys(home)
-        self.assertEqual(now(), 0)
+        for keys, row in (([right] * 3, 3), ([left], 2), ([end], -1), ([home], 0)):
+            self.browser.keys(*keys)
+            self.assertEqual(now(), rows[row]["t"])
         self.browser.call("POST", "/actions", {"actions": [{"type": "key", "id": "keyboard", "actions": [
             {"type": "keyDown", "value": shift}, {"type": "keyDown", "value": right}, {"type": "keyUp", "value": right},
             {"type": "keyUp", "value": shift}]}]})
         self.near(now(), 1, 1e-12)
-        self.browser.keys(" ")
-        self.assertTrue(self.js("bbsim.clock.playing"))
-        self.browser.keys(" ")
-        self.assertFalse(self.js("bbsim.clock.playing"))
-        self.browser.keys("]", "]")
-        self.assertEqual(self.js("bbsim.clock.speed"), 4)
-        self.browser.keys("[")
-        self.assertEqual(self.js("bbsim.clock.speed"), 2)
-        for key, view in zip("12345", ["free", "above", "front", "axis", "plate"]):
+        dialog, view = "document.getElementById('keys').open", "bbsim.picture.eyes.view"
+        for key, place, value in [
+            (" ", "bbsim.clock.playing", True), (" ", "bbsim.clock.playing", False), ("]", "bbsim.clock.speed", 2),
+            ("]", "bbsim.clock.speed", 4), ("[", "bbsim.clock.speed", 2), ("1", view, "free"), ("2", view, "above"),
+            ("3", view, "front"), ("4", view, "axis"), ("5", view, "plate"), ("?", dialog, True),
+            (" ", "bbsim.clock.playing", False),  # a dialog handles its own keys
+        ]:
             self.browser.keys(key)
-            self.assertEqual(self.js("bbsim.picture.eyes.view"), view)
-        self.browser.keys("?")
-        self.assertTrue(self.js("document.getElementById('keys').open"))
-        self.browser.keys(" ")  # a dialog handles its own keys
-        self.assertFalse(self.js("bbsim.clock.playing"))
+            self.assertEqual(self.js(place), value, (key, place))
         self.js("document.getElementById('keys').close()")
         self.browser.keys("t")
         self.assertEqual(self.js("document.documentElement.dataset.theme"), "dark")
@@ -341,9 +390,9 @@ class Time(InBrowser):
 
     def test_scrubber(self):
         self.open(files.replay("rig"))
-        box = self.js("document.getElementById('scrub').getBoundingClientRect().toJSON()")
-        y = box["top"] + box["height"] / 2
-        self.browser.drag((box["left"] + 9, y), (box["left"] + box["width"] / 4, y), (box["left"] + box["width"] / 2, y))
+        left, top, width, height = self.box("#scrub")
+        y = top + height / 2
+        self.browser.drag((left + 9, y), (left + width / 4, y), (left + width / 2, y))
         self.near(self.js("bbsim.clock.now"), 20, 0.3)
         self.browser.click("#back")
         before = self.js("bbsim.clock.now")
@@ -356,7 +405,7 @@ class Time(InBrowser):
         self.open(files.replay("rig"))
         self.browser.keys("2", "e")
         self.js("bbsim.seek(12.34)")
-        self.browser.call("POST", "/execute/async", {"script": "setTimeout(arguments[0], 500)", "args": []})
+        self.ask("setTimeout(done, 500)")
         hash_ = self.js("location.hash")
         for part in ["t=12.34", "view=above", "tilt=2"]:
             self.assertIn(part, hash_)
@@ -365,13 +414,12 @@ class Time(InBrowser):
         self.assertEqual(self.js("bbsim.picture.eyes.view"), "above")
         self.assertEqual(self.js("bbsim.picture.factor"), 2)
         # Turning by hand keeps the eye itself.
-        box = self.js("document.getElementById('canvas').getBoundingClientRect().toJSON()")
-        self.browser.drag((box["left"] + 200, box["top"] + 300), (box["left"] + 260, box["top"] + 330))
+        left, top, *_ = self.box("#canvas")
+        self.browser.drag((left + 200, top + 300), (left + 260, top + 330))
         eye = self.js("bbsim.picture.eyes.state()")
-        self.browser.call("POST", "/execute/async", {"script": "setTimeout(arguments[0], 500)", "args": []})
+        self.ask("setTimeout(done, 500)")
         self.open(files.replay("rig") + self.js("location.hash"))
-        for found, wanted in zip(self.js("bbsim.picture.eyes.state()"), eye):
-            self.near(found, wanted, 1e-3)
+        self.all_near(self.js("bbsim.picture.eyes.state()"), eye, 1e-3)
         # Invalid values are ignored.
         self.open(files.replay("rig") + "#t=abc&view=nowhere&eye=1,2&tilt=-3&x")
         self.assertEqual(self.js("bbsim.clock.now"), 0)
@@ -382,40 +430,30 @@ class Plots(InBrowser):
     def test_click_goes_to_a_time_and_hover_reads_values(self):
         self.open(files.replay("rig"))
         rows = rows_of(files("rig.csv"))
-        place = """(() => { const g = bbsim.plots.plots[0].graph, box = bbsim.plots.plots[0].canvas.getBoundingClientRect();
-            return [box.left + g.toDomXCoord(arguments[0]), box.top + box.height / 2]; })()"""
-        x, y = self.js(place.replace("arguments[0]", "10"))
-        self.browser.click_at(x, y)
+        self.browser.click_at(*self.in_plot(10))
         t = self.js("bbsim.clock.now")
         self.near(t, 10, 0.15)
         self.assertIn(t, [row["t"] for row in rows])
-        x, y = self.js(place.replace("arguments[0]", "30"))
-        self.browser.hover(x, y)
+        self.browser.hover(*self.in_plot(30))
         self.browser.frame()
         read = float(self.browser.text(".read-at").split()[1])
         row = min(rows, key=lambda row: abs(row["t"] - read))
-        shown = self.browser.text(".plot .legend li:first-child output").replace("−", "-")
-        self.near(float(shown), row["x"] * 1e3, 0.006)
+        self.near(number(self.browser.text(".plot .legend li:first-child output")), row["x"] * 1e3, 0.006)
         self.assertEqual(self.browser.text(".plot h3 small").strip(), "mm")
         # The other plots show readings of the same time.
-        phi = self.js("bbsim.plots.plots[1].readings[0].textContent").replace("−", "-")
-        self.near(float(phi), math.degrees(row["phi"]), 0.0006)
+        phi = self.js("bbsim.plots.plots[1].readings[0].textContent")
+        self.near(number(phi), math.degrees(row["phi"]), 0.0006)
         self.assertEqual(self.js("bbsim.clock.now"), t)
 
     def test_zoom_is_shared_and_undone(self):
         self.open(files.replay("rig"))
-        first = "bbsim.plots.plots[0].graph"
-        box = self.js("bbsim.plots.plots[0].canvas.getBoundingClientRect().toJSON()")
-        x = lambda t: box["left"] + self.js(f"{first}.toDomXCoord({t})")
-        y = box["top"] + box["height"] / 2
-        self.browser.drag((x(10), y), (x(15), y), (x(20), y))
-        ranges = self.js("bbsim.plots.plots.filter((p) => p.graph).map((p) => p.graph.xAxisRange())")
+        self.browser.drag(*(self.in_plot(t) for t in (10, 15, 20)))
+        ranges = self.ranges()
         self.assertGreater(len(ranges), 1)
-        for low, high in ranges:
-            self.near(low, 10, 0.2)
-            self.near(high, 20, 0.2)
+        for its in ranges:
+            self.all_near(its, [10, 20], 0.2)
         self.browser.click("#unzoom")
-        for low, high in self.js("bbsim.plots.plots.filter((p) => p.graph).map((p) => p.graph.xAxisRange())"):
+        for low, high in self.ranges():
             self.assertLess(low, 0.5)
             self.assertGreater(high, 39.5)
 
@@ -433,12 +471,8 @@ class Comparison(InBrowser):
     def page(self):
         softer = files.run("softer", "fig2b", "--set", "controller.pd.kp.0.0=2", "--set", "controller.pd.kp.1.1=-2")
         lead = files.run("fig2b", "fig2b")
-        log = files("log.csv")
-        if not os.path.exists(log):
-            with open(log, "w") as stream:
-                stream.write("t,x,y\n")
-                for row in rows_of(files("fig2b.csv"))[::3]:
-                    stream.write(f"{row['t'] + 0.001},{row['x'] - 0.002},{row['y'] + 0.003}\n")
+        rows = [f"{row['t'] + 0.001},{row['x'] - 0.002},{row['y'] + 0.003}\n" for row in rows_of(files("fig2b.csv"))[::3]]
+        log = files.write("log.csv", "t,x,y\n" + "".join(rows))
         return files.page("compared", "--title", "Three", lead, softer, log)
 
     def test_distance_between_runs_is_that_of_their_files(self):
@@ -455,14 +489,11 @@ class Comparison(InBrowser):
     def test_ghosts_are_where_their_files_say(self):
         self.open(self.page())
         row = rows_of(files("softer.csv"))[400]
-        self.js("bbsim.seek(arguments[0])", row["t"])
-        self.js("bbsim.picture.draw()")
+        self.seek(row["t"])
         seen = self.js("""(() => { const v = new THREE.Vector3();
             bbsim.picture.actors[1].ball.mesh.getWorldPosition(v).project(bbsim.picture.eyes.camera);
             const [l, t, w, h] = bbsim.view().canvas; return [l + (v.x + 1) / 2 * w, t + (1 - v.y) / 2 * h]; })()""")
-        x, y = on_screen(self.js("bbsim.view()"), row, 0.01)
-        self.near(seen[0], x, 0.05)
-        self.near(seen[1], y, 0.05)
+        self.all_near(seen, on_screen(self.js("bbsim.view()"), row, 0.01), 0.05)
 
     def test_runs_are_switched_off(self):
         self.open(self.page())
@@ -477,8 +508,7 @@ class Sweeps(InBrowser):
         page, table = files.sweep("gains", "fig2b", "--vary", "controller.pd.kv.0.0=linear:0.5:3.5:7", "--vary",
                                   "controller.pd.kp.0.0=linear:0:6:5", "--set", "time.end=3")
         self.open(page)
-        with open(table, newline="") as stream:
-            cases = list(csv.DictReader(stream))
+        cases = cases_of(table)
         self.assertIn("35 cases", self.browser.text("#sweeps"))
         done = sum(case["status"] == "done" for case in cases)
         self.assertIn(f"{done} done", self.browser.text(".statuses"))
@@ -494,7 +524,7 @@ class Sweeps(InBrowser):
         self.assertEqual(words[:2], ["bbsim", "run"])
         output = files("again.csv")
         words[words.index("-o") + 1] = output
-        subprocess.run([BBSIM, *words[1:], "--set", "time.end=3", "-q"], cwd=SOURCE, check=True)
+        bbsim(*words[1:], "--set", "time.end=3")
         self.near(rows_of(output)[-1]["x"], float(case["end_x"]), 1e-6)
         # Keys move between cases along the axes; as in a plot, the first key is horizontal.
         self.js("document.querySelector('.drawing canvas').focus()")
@@ -508,8 +538,7 @@ class Sweeps(InBrowser):
         self.assertEqual(self.browser.console(), [])
 
     def test_one_key_and_drawn_ones(self):
-        page, _ = files.sweep("delay", "falls", "--vary", "controller.sensor.delay=linear:0:0.2:11")
-        self.open(page)
+        self.open(self_sweep())
         self.assertEqual(self.js("bbsim.sweeps[0].state.kind"), "lines")
         self.assertIn("stopped", self.browser.text(".statuses"))
         page, _ = files.sweep("drawn", "fig2b", "--vary", "ball.position.0=normal:5 cm:3 mm", "--samples", "60", "--set",
@@ -526,8 +555,7 @@ class Sweeps(InBrowser):
         state = "bbsim.sweeps[0].state"
         self.assertEqual(self.js(state + ".kind"), "map")
         shown = "Array.from({length: 24}, (_, i) => bbsim.sweeps[0].placeOf(i)).map((at, i) => at ? i : -1).filter((i) => i >= 0)"
-        with open(table, newline="") as stream:
-            cases = list(csv.DictReader(stream))
+        cases = cases_of(table)
         # The two keys with the most values are the axes, as in a plot; the third one has a slider.
         self.assertEqual(self.js(f"[{state}.x, {state}.y]"), [0, 1])
         for level, place in [(0, "0.01"), (1, "0.03")]:
@@ -546,8 +574,7 @@ class Sweeps(InBrowser):
         self.open(page)
         self.assertIn("the median of its 7 cases, over draws of ball.position.0", self.browser.text(".remark"))
         # The middle one of the cases in a cell is selected.
-        with open(table, newline="") as stream:
-            cases = list(csv.DictReader(stream))
+        cases = cases_of(table)
         cell = [case for case in cases if case["controller.pd.kv.0.0"] == cases[9]["controller.pd.kv.0.0"]
                 and case["controller.pd.kp.0.0"] == cases[9]["controller.pd.kp.0.0"]]
         self.assertEqual(len(cell), 7)
@@ -561,13 +588,10 @@ class Texts(InBrowser):
     def hostile(self):
         files.run("hostile", "falls")
         with open(files("hostile.json")) as stream:
-            summary = json.load(stream)
-        summary.update(status="stopped", reason=HOSTILE, title=HOSTILE)
-        summary["events"][0]["event"] = HOSTILE
-        with open(files("hostile.json"), "w") as stream:
-            json.dump(summary, stream)
-        with open(files("hostile.txt"), "w") as stream:
-            stream.write(HOSTILE)
+            events = json.load(stream)["events"]
+        events[0]["event"] = HOSTILE
+        files.change("hostile.json", status="stopped", reason=HOSTILE, title=HOSTILE, events=events)
+        files.write("hostile.txt", HOSTILE)
         name = files("a'b\"c<i>d.csv")
         os.replace(files("hostile.csv"), name)
         return files.page("hostile", "--title", HOSTILE, ",".join([name, files.config("falls"), files("hostile.json"),
@@ -601,9 +625,9 @@ class Texts(InBrowser):
     def test_a_run_that_ended_early_says_why(self):
         self.open(files.replay("falls"))
         self.assertIn("stopped at 0.54 s of 8 s", self.browser.text("#subtitle"))
-        self.assertTrue(self.js("document.getElementById('ended').hidden"))
+        self.assertTrue(self.hidden("ended"))
         self.browser.keys("\ue010")
-        self.assertFalse(self.js("document.getElementById('ended').hidden"))
+        self.assertFalse(self.hidden("ended"))
         self.assertIn("the contact point left the plate", self.browser.text("#ended"))
         self.open(files.replay("fig2b-literal"))
         self.assertIn("failed at", self.browser.text("#subtitle"))
@@ -611,11 +635,7 @@ class Texts(InBrowser):
         self.assertIn("grows without bound", self.browser.text("#ended"))
         # Like a run ended by Ctrl-C.
         arguments = files.run("interrupted", "fig2a")
-        with open(files("interrupted.json")) as stream:
-            summary = json.load(stream)
-        summary.update(status="interrupted", reason="interrupted at t = 10 s of 99 s.")
-        with open(files("interrupted.json"), "w") as stream:
-            json.dump(summary, stream)
+        files.change("interrupted.json", status="interrupted", reason="interrupted at t = 10 s of 99 s.")
         self.open(files.page("interrupted", arguments))
         self.assertIn("interrupted at 10 s", self.browser.text("#subtitle"))
         self.browser.keys("\ue010")
@@ -634,22 +654,18 @@ class Texts(InBrowser):
             self.assertEqual(a[0], b[0])
             for found, wanted in zip(a, b):
                 self.near(found, wanted, 1.2e-7 * abs(wanted) + 1e-37)  # rounded to a float and to its digits
-        png = self.browser.call("POST", "/execute/async", {"script": """
-            const done = arguments[0], make = URL.createObjectURL;
+        png = self.ask("""const make = URL.createObjectURL;
             URL.createObjectURL = (blob) => { blob.arrayBuffer().then((b) => done(
                 [blob.type, b.byteLength, ...new Uint8Array(b, 0, 4)])); return make.call(URL, blob); };
-            document.getElementById('save-png').click();""", "args": []})
+            document.getElementById('save-png').click();""")
         self.assertEqual(png[0], "image/png")
         self.assertGreater(png[1], 10000)
         self.assertEqual(png[2:], [0x89, 0x50, 0x4E, 0x47])
 
     def test_everything_has_a_name(self):
-        for page in [files.replay("rig"), self_sweep()]:
+        for page in [files.replay("rig"), self_sweep(), fit_page()]:
             self.open(page)
-            nameless = self.js("""[...document.querySelectorAll('button, input, select, canvas, [role=img]')].filter((e) =>
-                !(e.getAttribute('aria-label') || e.textContent.trim() || (e.labels && e.labels.length) ||
-                  e.querySelector('title') || e.closest('.plot'))).map((e) => e.outerHTML)""")
-            self.assertEqual(nameless, [])
+            self.named()
 
     def test_sizes(self):
         files.replay("fig2b")
@@ -667,8 +683,7 @@ class Made(InBrowser):
         """Makes a page of these files; expects exit code 0 or 1 and these words."""
         file = files("made-" + name + ".html")
         if not os.path.exists(file):
-            made = subprocess.run([BBSIM, "replay", *arguments, "-o", file, "-q"], cwd=SOURCE, capture_output=True)
-            self.assertIn(made.returncode, [0, 1], made.stderr)
+            bbsim("replay", *arguments, "-o", file, ends=(0, 1))
         return "file://" + file
 
     def show(self, name, *arguments):
@@ -676,13 +691,6 @@ class Made(InBrowser):
 
     def quaternion(self):
         return self.js("[bbsim.picture.draw(), ...bbsim.picture.actors[0].ball.mesh.quaternion.toArray()].slice(1)")
-
-    def wait(self, condition, seconds=20):
-        """Waits until the expression is true in the page, and returns its last value."""
-        return self.browser.call("POST", "/execute/async", {"script": f"""
-            const done = arguments[0], until = Date.now() + {seconds} * 1000;
-            const look = () => {{ const is = {condition}; if (is || Date.now() > until) done(is); else setTimeout(look, 20); }};
-            look();""", "args": []})
 
 
 class Turns(Made):
@@ -699,25 +707,19 @@ class Turns(Made):
         self.assertTrue(self.js("bbsim.data.runs[0].orientationGiven"))
 
     def test_that_nobody_knows_are_not_drawn(self):
-        subprocess.run([BBSIM, "run", "configs/slides.yaml", "-q", "--set", "output.columns=[t,x,y,vx,vy]", "-o",
-                        files("sl.csv"), "--summary", files("sl.json")], cwd=SOURCE, check=False)
-        self.show("sl", files("sl.csv"))
+        self.show("sl", files.result("sl", "slides", "--set", "output.columns=[t,x,y,vx,vy]"))
         self.assertFalse(self.js("bbsim.data.runs[0].turns"))
         self.js("bbsim.seek(1)")
         self.assertEqual(self.quaternion(), [0, 0, 0, 1])
         self.assertIn("How the ball turns is not known", self.browser.text("#details"))
         self.assertIn("how the ball turns is not known", self.browser.text(".scale"))
         # A log contains nothing else.
-        with open(files("xy.csv"), "w") as stream:
-            stream.write("t,x,y\n0,0,0\n1,0.01,0\n2,0.02,0.01\n")
-        self.show("xy", files("xy.csv"))
+        self.show("xy", files.write("xy.csv", "t,x,y\n0,0,0\n1,0.01,0\n2,0.02,0.01\n"))
         self.assertFalse(self.js("bbsim.data.runs[0].turns"))
 
     def test_follow_from_columns_that_tell(self):
         """Slip, velocity and spin are enough."""
-        subprocess.run([BBSIM, "run", "configs/slides.yaml", "-q", "-o", files("told.csv"), "--summary", files("told.json")],
-                       cwd=SOURCE, check=False)
-        self.show("told", files("told.csv"))
+        self.show("told", files.result("told", "slides"))
         self.assertTrue(self.js("bbsim.data.runs[0].turns"))
         self.js("bbsim.seek(0.02)")
         self.near(2 * math.acos(min(1, abs(self.quaternion()[3]))), 0.02 * math.sqrt(20**2 + 110**2 + 15**2), 0.06)
@@ -725,28 +727,20 @@ class Turns(Made):
 
 class ManyRuns(Made):
     def test_seven_have_their_picture_and_are_told_apart(self):
-        tables = []
-        for n in range(7):
-            tables.append(files(f"many{n}.csv"))
-            subprocess.run([BBSIM, "run", "configs/hold.yaml", "-q", "--set", f"controller.pd.kp.0.0={0.5 + 0.1 * n}", "-o",
-                            tables[-1]], cwd=SOURCE, check=True)
-        self.show("many", *tables)
-        self.assertTrue(self.js("document.getElementById('trouble').hidden"))
-        self.assertFalse(self.js("document.getElementById('picture').hidden"))
+        gains = [f"controller.pd.kp.0.0={0.5 + 0.1 * n}" for n in range(7)]
+        self.show("many", *(files.result(f"many{n}", "hold", "--set", gain) for n, gain in enumerate(gains)))
+        self.assertTrue(self.hidden("trouble"))
+        self.assertFalse(self.hidden("picture"))
         self.assertEqual(self.js("bbsim.picture.actors.length"), 7)
         looks = self.js("bbsim.data.runs.map((run) => bbsim.palette.run(run.index) + bbsim.palette.dash(run.index))")
         self.assertEqual(len(set(looks)), 7)
         # All plots share one time range, which is stated.
-        ranges = self.js("bbsim.plots.plots.filter((p) => p.graph).map((p) => p.graph.xAxisRange())")
-        self.assertEqual(len({tuple(one) for one in ranges}), 1)
+        self.assertEqual(len({tuple(one) for one in self.ranges()}), 1)
         self.assertEqual(self.js("document.querySelector('.dygraph-xlabel').textContent"), "t (s)")
 
     def test_at_the_same_place_do_not_flicker(self):
         """Regression: the ghost of an equal run shone through the leading ball here and there."""
-        equal = [files(f"equal{n}.csv") for n in range(2)]
-        for table in equal:
-            subprocess.run([BBSIM, "run", "configs/rig.yaml", "-q", "-o", table], cwd=SOURCE, check=True)
-        self.show("equal", *equal)
+        self.show("equal", *(files.result(name, "rig") for name in ("equal0", "equal1")))
         for view in ["free", "above", "ball"]:
             self.js("bbsim.picture.eyes.go(arguments[0])", view)
             for t in [1.3, 7.9, 23.1]:
@@ -761,19 +755,15 @@ class ManyRuns(Made):
 
     def test_that_end_early_and_late_have_one_span(self):
         self.show("spans", "configs/falls.yaml", "configs/fig2a.yaml")
-        ranges = self.js("bbsim.plots.plots.filter((p) => p.graph).map((p) => p.graph.xAxisRange())")
+        ranges = self.ranges()
         self.assertGreater(len(ranges), 2)
-        for low, high in ranges:
-            self.near(low, 0, 1e-3)
-            self.near(high, 10, 1e-3)
+        for its in ranges:
+            self.all_near(its, [0, 10], 1e-3)
         self.assertEqual(self.js("document.querySelector('.dygraph-xlabel').textContent"), "t (s)")
 
     def test_of_units_that_nobody_tells_have_none(self):
-        with open(files("cm.csv"), "w") as stream:
-            stream.write("t,x,y,phi,phi_command,torque_phi,mine\n")
-            for i in range(20):
-                stream.write(f"{0.1 * i:.1f},{-12 + i},{3 - 0.1 * i:.1f},{i % 3},{i % 4},{i % 5},{i}\n")
-        self.show("cm", files("cm.csv"))
+        rows = "".join(f"{0.1 * i:.1f},{-12 + i},{3 - 0.1 * i:.1f},{i % 3},{i % 4},{i % 5},{i}\n" for i in range(20))
+        self.show("cm", files.write("cm.csv", "t,x,y,phi,phi_command,torque_phi,mine\n" + rows))
         self.assertEqual(self.js("[...document.querySelectorAll('.plot h3 small')].map((e) => e.textContent)"), [])
         self.assertNotIn("mm", self.browser.text(".scale"))
         self.assertNotIn(" m", self.browser.text(".scale"))
@@ -782,7 +772,7 @@ class ManyRuns(Made):
         shown = set(self.js("bbsim.plots.plots.flatMap((p) => p.curves.map((c) => c.name))"))
         self.assertEqual(shown, {"x", "y", "phi", "phi_command", "torque_phi", "mine"})
         self.js("bbsim.seek(0.5)")
-        self.assertEqual(float(self.browser.text(".plot .legend li:first-child output").replace("−", "-")), -7)
+        self.assertEqual(number(self.browser.text(".plot .legend li:first-child output")), -7)
 
 
 class TheStage(Made):
@@ -806,7 +796,7 @@ class TheStage(Made):
                     self.inside(end * k / 8)
                 # Its corners are visible too, at every tilt.
                 for k in range(9):
-                    self.js("[bbsim.seek(arguments[0]), bbsim.picture.draw()]", end * k / 8)
+                    self.seek(end * k / 8)
                     corners = self.js("""[[-1, -1], [-1, 1], [1, -1], [1, 1]].map(([x, y]) => {
                         const {width, depth} = bbsim.data.scene.stage;
                         const v = new THREE.Vector3(x * width / 2, y * depth / 2, 0).applyMatrix4(bbsim.picture.rig.plane.matrixWorld);
@@ -853,11 +843,9 @@ class TheStage(Made):
         self.show("small-ball", "tests/data/scenarios/small-ball.yaml")
         self.browser.keys("6")
         for t in [0, 3.3, 10]:
-            self.js("[bbsim.seek(arguments[0]), bbsim.picture.draw()]", t)
-            x, y = self.js("bbsim.ballOnScreen()")
+            self.seek(t)
             left, top, width, height = self.js("bbsim.view().canvas")
-            self.near(x, left + width / 2, 1)
-            self.near(y, top + height / 2, 1)
+            self.all_near(self.js("bbsim.ballOnScreen()"), [left + width / 2, top + height / 2], 1)
             # A sixth of half the picture's height.
             radius = self.js("""(() => { const {ball} = bbsim.picture.actors[0], {camera} = bbsim.picture.eyes;
                 const p = ball.mesh.getWorldPosition(new THREE.Vector3()), q = p.clone().project(camera);
@@ -879,48 +867,39 @@ class TheStage(Made):
         self.show("overflow", "configs/hard/overflow.yaml")
         self.assertEqual(self.browser.console(), [])
         self.js("bbsim.seek(50000)")
-        self.assertFalse(self.js("document.getElementById('missing').hidden"))
+        self.assertFalse(self.hidden("missing"))
         self.assertIn("it is not drawn", self.browser.text("#missing"))
         self.assertIn("∞", self.browser.text(".plot .legend li:first-child output"))
         self.assertNotIn("e154", self.browser.text(".scale"))
         self.assertIn("there it is not drawn", self.browser.text("#details"))
         self.assertTrue(all(math.isfinite(v) for v in self.js("bbsim.view().view")))
         self.js("bbsim.seek(0)")
-        self.assertTrue(self.js("document.getElementById('missing').hidden"))
+        self.assertTrue(self.hidden("missing"))
 
 
 class Missing(Made):
     def test_angles_are_said_to_be_missing(self):
-        with open(files("gaps.csv"), "w") as stream:
-            stream.write("t,x,y,phi,theta\n")
-            for i in range(11):
-                angles = "," if 3 <= i <= 7 else "0.02,0.03"
-                stream.write(f"{i},0.0{i},0,{angles}\n")
-        self.show("gaps", files("gaps.csv"))
-        self.assertTrue(self.js("document.getElementById('missing').hidden"))
+        rows = "".join(f"{i},0.0{i},0,{',' if 3 <= i <= 7 else '0.02,0.03'}\n" for i in range(11))
+        self.show("gaps", files.write("gaps.csv", "t,x,y,phi,theta\n" + rows))
+        self.assertTrue(self.hidden("missing"))
         self.assertIn("°", self.browser.text("#level-tilt"))
         self.js("bbsim.seek(5)")
         self.assertIn("tilt is not recorded", self.browser.text("#missing"))
-        self.assertFalse(self.js("document.getElementById('missing').hidden"))
+        self.assertFalse(self.hidden("missing"))
         self.assertNotIn("°", self.browser.text("#level-tilt"))
         self.assertEqual(self.js("document.getElementById('level-bubble').getAttribute('visibility')"), "hidden")
         self.js("bbsim.seek(9)")
         self.assertEqual(self.browser.text("#level-tilt"), "2.066°")
         # No orientation at all: a log of positions.
-        with open(files("places.csv"), "w") as stream:
-            stream.write("t,x,y\n0,0,0\n1,0.1,0.1\n")
-        self.show("places", files("places.csv"))
+        self.show("places", files.write("places.csv", "t,x,y\n0,0,0\n1,0.1,0.1\n"))
         self.assertIn("No tilt was recorded", self.browser.text("#missing"))
 
 
 class TheEnd(Made):
     def test_is_where_the_event_was(self):
-        for name, arguments in [("falls", ["configs/falls.yaml"]), ("falls-csv", [files("end.csv")])]:
-            if name == "falls-csv":
-                subprocess.run([BBSIM, "run", "configs/falls.yaml", "-q", "-o", files("end.csv"), "--summary", files("end.json")],
-                               cwd=SOURCE, check=False)
+        for name, file in [("falls", "configs/falls.yaml"), ("falls-csv", files.result("end", "falls"))]:
             with self.subTest(name):
-                self.show(name, *arguments)
+                self.show(name, file)
                 self.browser.keys("\ue010")  # End
                 place = self.js("bbsim.data.runs[0].placeAt(bbsim.clock.now)")
                 self.near(place[0], 0.16, 1e-8)
@@ -928,11 +907,8 @@ class TheEnd(Made):
                 self.assertIn(f"stopped at {time} s of 8 s", self.browser.text("#subtitle"))
                 self.assertIn(f"at t = {time} s of 8 s", self.browser.text("#ended"))
                 self.assertIn(f"{time} / {time} s", self.browser.text("#time"))
-                x, y = self.js("bbsim.ballOnScreen()")
                 row = {"x": 0.16, "y": -0.020345410307771216, "phi": -0.2396367700421219, "theta": -0.07284538574323257}
-                wanted = on_screen(self.js("bbsim.view()"), row, 0.02)
-                self.near(x, wanted[0], 0.1)
-                self.near(y, wanted[1], 0.1)
+                self.ball_is_at(row, 0.02, 0.1)
                 self.assertIn("All 28 rows are in this page", self.browser.text("#details"))
 
     def test_of_a_run_without_a_second_row_has_its_time(self):
@@ -940,12 +916,11 @@ class TheEnd(Made):
         _, _, place = self.browser.text("#subtitle").partition("failed at ")
         shown = place.removesuffix(" s of 13 s")
         # The summary has the time at which the integrator gave up; the page shows six digits.
-        subprocess.run([BBSIM, "run", "configs/hard/creep.yaml", "-q", "-o", files("creep.csv"), "--summary", files("creep.json")],
-                       cwd=SOURCE, check=False)
+        files.result("creep", "hard/creep")
         with open(files("creep.json")) as summary:
             end = json.load(summary)["end_time"]
         self.assertLess(0, end)
-        self.assertEqual(float(f"{end:.6g}"), float(shown.replace("−", "-")))
+        self.assertEqual(float(f"{end:.6g}"), number(shown))
         self.assertIn(f"{shown} / {shown} s", self.browser.text("#time"))
 
 
@@ -976,15 +951,12 @@ class Links(Made):
         self.wait("location.hash.includes('zoom=10,14')")
         self.assertIn("zoom=10,14", self.js("location.hash"))
         self.open(page + "#t=12&zoom=10,14")
-        first = "bbsim.plots.plots[0].graph.xAxisRange()"
-        self.assertEqual(self.js(first), [10, 14])
-        self.js("bbsim.seek(14.5)")
-        low, high = self.js(first)
-        self.assertTrue(low <= 14.5 <= high)
-        self.near(high - low, 4, 1e-9)
-        self.js("bbsim.seek(3)")
-        low, high = self.js(first)
-        self.assertTrue(low <= 3 <= high)
+        self.assertEqual(self.ranges()[0], [10, 14])
+        for t in (14.5, 3):
+            self.js("bbsim.seek(arguments[0])", t)
+            low, high = self.ranges()[0]
+            self.assertTrue(low <= t <= high)
+            self.near(high - low, 4, 1e-9)
 
 
 class Hands(Made):
@@ -995,14 +967,14 @@ class Hands(Made):
 
     def test_a_wheel_scrolls_the_page_until_the_view_is_clicked(self):
         self.open(self.page_of("rig", "configs/rig.yaml"))
-        box = self.js("document.getElementById('canvas').getBoundingClientRect().toJSON()")
-        x, y = box["left"] + 200, box["top"] + 300
+        left, top, *_ = self.box("#canvas")
+        x, y = left + 200, top + 300
         distance = "Math.hypot(...bbsim.picture.eyes.state().slice(0, 3))"
         before = self.js(distance)
         self.wheel(x, y)
         self.assertTrue(self.wait("window.scrollY > 0"))
         self.assertEqual(self.js(distance), before)
-        self.assertFalse(self.js("document.getElementById('hint').hidden"))
+        self.assertFalse(self.hidden("hint"))
         self.wheel(x, y, modifiers=2)  # Ctrl
         zoomed = self.js(distance)
         self.assertGreater(zoomed, before)
@@ -1014,8 +986,8 @@ class Hands(Made):
 
     def test_a_finger_scrolls_the_page_until_the_view_is_tapped(self):
         self.open(self.page_of("rig", "configs/rig.yaml"))
-        box = self.js("document.getElementById('canvas').getBoundingClientRect().toJSON()")
-        x, y = box["left"] + 200, box["top"] + 300
+        left, top, *_ = self.box("#canvas")
+        x, y = left + 200, top + 300
         touch = lambda kind, *points: self.browser.devtools("Input.dispatchTouchEvent", {
             "type": kind, "touchPoints": [{"x": px, "y": py} for px, py in points]})
         eye = lambda: self.js("bbsim.picture.eyes.state()")
@@ -1082,8 +1054,8 @@ class Pace(Made):
         self.js("bbsim.clock.play()")
         self.js(frames, 8, 120)
         self.assertTrue(self.js("bbsim.screen.isFlat"))
-        self.assertFalse(self.js("document.getElementById('flat').hidden"))
-        self.assertTrue(self.js("document.getElementById('picture').hidden"))
+        self.assertFalse(self.hidden("flat"))
+        self.assertTrue(self.hidden("picture"))
         self.assertIn("pictures a second", self.browser.text("#hint"))
         # A user who chooses three dimensions keeps them.
         self.browser.click("[data-view=above]")
@@ -1120,16 +1092,15 @@ class Flat(Made):
         self.show("rig", "configs/rig.yaml")
         self.browser.keys("7")
         self.assertTrue(self.js("bbsim.screen.isFlat"))
-        box = self.js("document.getElementById('flat-canvas').getBoundingClientRect().toJSON()")
+        left, top, width, height = self.box("#flat-canvas")
         scale = None
         for t in [0, 7.3, 24]:
             self.js("bbsim.seek(arguments[0])", t)
             x, y = self.js("bbsim.ballOnScreen()")
             px, py = self.js("bbsim.data.runs[0].placeAt(bbsim.clock.now)")
-            dx, dy = x - box["left"] - box["width"] / 2, y - box["top"] - box["height"] / 2
+            dx, dy = x - left - width / 2, y - top - height / 2
             scale = scale or math.hypot(dx, dy) / math.hypot(px, py)
-            self.near(dx, scale * px, 0.05)
-            self.near(dy, -scale * py, 0.05)
+            self.all_near([dx, dy], [scale * px, -scale * py], 0.05)
         # The ball is drawn there, and nowhere else: in the colour of its run.
         self.js("[bbsim.screen.show('trail', false), bbsim.screen.show('arrows', false)]")
         self.browser.frame()
@@ -1142,8 +1113,7 @@ class Flat(Made):
             }
             return [box.left + x / count / width * box.width, box.top + y / count / canvas.height * box.height, count]; })()""")
         self.assertGreater(drawn[2], 500)
-        self.near(drawn[0], x, 3)
-        self.near(drawn[1], y, 3)
+        self.all_near(drawn[:2], [x, y], 3)
         self.assertIn("view=flat", self.wait("location.hash.includes('view=flat') && location.hash"))
         self.browser.keys("1")
         self.assertFalse(self.js("bbsim.screen.isFlat"))
@@ -1195,9 +1165,7 @@ class Paper(Made):
 
 class SweepPages(Made):
     def sweep_page(self, name, text):
-        with open(files(name + ".csv"), "w") as stream:
-            stream.write(text)
-        self.show(name, files(name + ".csv"))
+        self.show(name, files.write(name + ".csv", text))
 
     def test_say_how_many_cases_they_show(self):
         rows = "".join(f"{i},{i // 300},{i % 300},done,1,{(i % 7) / 7}\n" for i in range(90000))
@@ -1210,7 +1178,7 @@ class SweepPages(Made):
     def test_with_one_case_that_is_done_show_it(self):
         self.sweep_page("one-done", "case,a,status,end_time,max_distance\n0,1,failed,0.1,9\n1,2,done,1,0.02\n2,3,failed,0.1,9\n")
         self.assertEqual(self.browser.text(".case h3"), "Case 1")
-        ticks = [float(text.replace("−", "-")) for text in self.js("[...document.querySelectorAll('.over text[text-anchor=end]')].map((e) => e.textContent)")]
+        ticks = [number(text) for text in self.js("[...document.querySelectorAll('.over text[text-anchor=end]')].map((e) => e.textContent)")]
         self.assertTrue(0 < min(ticks) and max(ticks) < 0.05, ticks)  # an axis about 0.02, not from -1 to 1
 
 
@@ -1226,10 +1194,7 @@ class LongRuns(InBrowser):
         for index in [123_456, 500_000, 876_543]:
             row = rows[index]
             self.js("bbsim.seek(arguments[0])", row["t"])
-            seen = self.js("bbsim.ballOnScreen()")
-            x, y = on_screen(self.js("bbsim.view()"), row, 0.01)
-            self.near(seen[0], x, 0.5)
-            self.near(seen[1], y, 0.5)
+            self.ball_is_at(row, 0.01, 0.5)
 
 
 class Legs(InBrowser):
@@ -1242,8 +1207,7 @@ class Legs(InBrowser):
         far = math.hypot(plate - base, height)
         home = math.atan2(height, plate - base) - math.acos((far ** 2 + horn ** 2 - rod ** 2) / (2 * horn * far))
         for row in rows[100::200]:
-            self.js("bbsim.seek(arguments[0])", row["t"])
-            self.js("bbsim.picture.draw()")
+            self.seek(row["t"])
             legs = self.js("bbsim.picture.rig.legs.points().map((leg) => [leg.axis, leg.knee, leg.joint])")
             self.assertEqual(len(legs), 3)
             names = ["servo_phi", "servo_theta", "servo_third"]
@@ -1277,8 +1241,7 @@ class PushRods(InBrowser):
         rod = math.hypot(offset[0] + arm - horn, offset[1])
         moved = []
         for row in rows[:60:4] + rows[100::150]:
-            self.js("bbsim.seek(arguments[0])", row["t"])
-            self.js("bbsim.picture.draw()")
+            self.seek(row["t"])
             for axis, name in enumerate(["phi", "theta"]):
                 ends = self.js(f"bbsim.picture.rig.rods[{axis}].places()")
                 self.near(math.dist(ends["axis"], ends["knee"]), horn, 1e-9)
@@ -1304,21 +1267,19 @@ def fit_page():
     """The page of a fit of two logs: a rig with a hollow ball, with a third of the windows held out."""
     page = files("fit.html")
     if not os.path.exists(page):
-        for number in [1, 2]:
-            made, log = files(f"fit-run-{number}.csv"), files(f"fit-log-{number}.csv")
-            subprocess.run([BBSIM, "run", "configs/recorded.yaml", "--set", "ball.inertia_factor=0.6", "--set",
-                            f"ball.position=[{number} cm, 0]", "--set", "output.columns=[t,x,y]", "-o", made, "-q"],
-                           cwd=SOURCE, check=True)
-            with open(log, "w") as stream:
-                stream.write("t,x,y\n")
-                # An error like a sensor's, and rows without x.
-                for i, row in enumerate(rows_of(made)):
-                    x = "" if i % 50 == 7 else row["x"] + 5e-4 * math.sin(7.3 * i * i)
-                    stream.write(f"{row['t']},{x},{row['y'] + 5e-4 * math.cos(5.9 * i * i)}\n")
-        subprocess.run([BBSIM, "fit", "configs/recorded.yaml", files("fit-log-1.csv"), files("fit-log-2.csv"), "--free",
-                        "ball.inertia_factor", "--free", "gimbal.motion.phi.table.offset", "--window", "1 s",
-                        "--hold-out", "0.34", "--report", page, "--json", files("fit.json"), "-q"], cwd=SOURCE,
-                       check=True, stdout=subprocess.DEVNULL)
+        logs = []
+        for which in [1, 2]:
+            bbsim("run", "configs/recorded.yaml", "--set", "ball.inertia_factor=0.6", "--set",
+                  f"ball.position=[{which} cm, 0]", "--set", "output.columns=[t,x,y]", "-o", files("fit-run.csv"))
+            text = "t,x,y\n"
+            # An error like a sensor's, and rows without x.
+            for i, row in enumerate(rows_of(files("fit-run.csv"))):
+                x = "" if i % 50 == 7 else row["x"] + 5e-4 * math.sin(7.3 * i * i)
+                text += f"{row['t']},{x},{row['y'] + 5e-4 * math.cos(5.9 * i * i)}\n"
+            logs.append(files.write(f"fit-log-{which}.csv", text))
+        bbsim("fit", "configs/recorded.yaml", *logs, "--free", "ball.inertia_factor", "--free",
+              "gimbal.motion.phi.table.offset", "--window", "1 s", "--hold-out", "0.34", "--report", page,
+              "--json", files("fit.json"))
     return "file://" + page
 
 
@@ -1331,7 +1292,7 @@ class AFit(InBrowser):
             [...row.children].map((cell) => cell.textContent))""")
         self.assertEqual([row[0] for row in rows], [one["key"] for one in parameters])
         for row, one in zip(rows, parameters):
-            self.near(float(row[2].replace("−", "-")), one["estimate"], 0.1 * one["sd"])
+            self.near(number(row[2]), one["estimate"], 0.1 * one["sd"])
         self.assertIn("held out", self.browser.text("#residuals"))
         self.assertIn("2 logs", self.browser.text("#compared"))
 
@@ -1340,10 +1301,10 @@ class AFit(InBrowser):
         self.js("bbsim.plots.plots.forEach((plot) => plot.build())")
         self.assertEqual(self.js("bbsim.plots.plots.map((plot) => plot.group.title)"),
                          ["x", "x: model minus log", "y", "y: model minus log"])
-        row = rows_of_log(files("fit-log-1.csv"))[123]
+        row = rows_of(files("fit-log-1.csv"))[123]
         self.js("bbsim.seek(arguments[0])", row["t"])
         read = self.js("bbsim.plots.plots.map((plot) => plot.readings.map((one) => one.textContent))")
-        numbers = [[float(words.replace("−", "-")) for words in plot] for plot in read]
+        numbers = [[number(words) for words in plot] for plot in read]
         # In mm, with four digits of the largest number.
         self.near(numbers[0][0], 1e3 * row["x"], 0.06)
         self.near(numbers[2][0], 1e3 * row["y"], 0.06)
@@ -1369,13 +1330,10 @@ class AFit(InBrowser):
     def test_zoom_is_shared(self):
         self.open(fit_page())
         self.js("bbsim.plots.plots.forEach((plot) => plot.build())")
-        box = self.js("bbsim.plots.plots[0].canvas.getBoundingClientRect().toJSON()")
-        x = lambda t: box["left"] + self.js(f"bbsim.plots.plots[0].graph.toDomXCoord({t})")
-        y = box["top"] + box["height"] / 2
-        self.browser.drag((x(1), y), (x(1.5), y), (x(2), y))
-        for low, high in self.js("bbsim.plots.plots.map((plot) => plot.graph.xAxisRange())"):
-            self.near(low, 1, 0.05)
-            self.near(high, 2, 0.05)
+        self.browser.drag(*(self.in_plot(t) for t in (1, 1.5, 2)))
+        self.assertEqual(len(self.ranges()), 4)
+        for its in self.ranges():
+            self.all_near(its, [1, 2], 0.05)
 
     def test_moves_the_two_balls(self):
         self.open(fit_page())
@@ -1386,7 +1344,7 @@ class AFit(InBrowser):
         self.assertEqual([is_shown for _, is_shown in begin], ["visible", "visible"])
         self.js("document.getElementById('scrub').focus()")
         self.browser.keys(*["\ue014"] * 40)
-        rows = rows_of_log(files("fit-log-1.csv"))
+        rows = rows_of(files("fit-log-1.csv"))
         self.near(self.js("bbsim.clock.now"), rows[40]["t"], 1e-12)
         for before, after in zip(begin, places()):
             self.assertNotEqual(before, after)
@@ -1400,31 +1358,23 @@ class AFit(InBrowser):
 
     def test_the_pointer_in_a_plot_moves_them_too(self):
         self.open(fit_page())
-        box = self.js("bbsim.plots.plots[0].canvas.getBoundingClientRect().toJSON()")
-        x = box["left"] + self.js("bbsim.plots.plots[0].graph.toDomXCoord(3.2)")
-        self.browser.hover(x, box["top"] + box["height"] / 2)
+        self.browser.hover(*self.in_plot(3.2))
         self.browser.frame()
         self.assertIn("t = 3.2", self.browser.text("#plan"))
         self.assertEqual(self.js("bbsim.clock.now"), 0)
 
     def test_shows_the_log_that_is_chosen(self):
         self.open(fit_page())
-        self.assertFalse(self.js("document.getElementById('choice').hidden"))
+        self.assertFalse(self.hidden("choice"))
         self.js("""(() => { const log = document.getElementById('log');
             log.value = '1'; log.dispatchEvent(new Event('change')); })()""")
         self.browser.frame()
         self.assertEqual(self.js("document.querySelectorAll('.plot').length"), 4)
-        first = rows_of_log(files("fit-log-2.csv"))[0]
+        first = rows_of(files("fit-log-2.csv"))[0]
         self.near(self.js("bbsim.data.runs[0].values('x')[0]"), first["x"], 1e-8)
         self.js("bbsim.seek(1)")
         self.assertIn("1.00", self.browser.text("#time"))
         self.assertEqual(self.browser.console(), [])
-
-    def test_everything_has_a_name(self):
-        self.open(fit_page())
-        nameless = self.js("""[...document.querySelectorAll('button, input, select, [role=img]')].filter((e) =>
-            !(e.getAttribute('aria-label') || e.textContent.trim() || (e.labels && e.labels.length) || e.closest('.plot'))).map((e) => e.outerHTML)""")
-        self.assertEqual(nameless, [])
 
     def test_on_paper_are_all_plots(self):
         self.open(fit_page())
@@ -1433,11 +1383,6 @@ class AFit(InBrowser):
         self.assertLessEqual(self.js("document.documentElement.scrollHeight"), 2 * 970)
         self.js("bbsim.print.end()")
         self.assertEqual(self.js("document.querySelectorAll('canvas.printed').length"), 0)
-
-
-def rows_of_log(file):
-    with open(file, newline="") as stream:
-        return [{name: float(value or "nan") for name, value in row.items()} for row in csv.DictReader(stream)]
 
 
 class FirstPicture(InBrowser):
@@ -1465,12 +1410,11 @@ class Motion(InBrowser):
     def test_views_glide_and_arrive(self):
         self.open(files.replay("rig"))
         self.js("bbsim.picture.eyes.go('above')")
-        arrived = self.browser.call("POST", "/execute/async", {"script": """
-            const done = arguments[0], began = performance.now();
+        arrived = self.ask("""const began = performance.now();
             const look = () => { const eye = bbsim.picture.eyes.state();
               if (Math.hypot(eye[0], eye[1]) < 1e-2 * eye[2] || performance.now() - began > 20000) done(eye);
               else requestAnimationFrame(look); };
-            look();""", "args": []})
+            look();""")
         self.assertLess(math.hypot(arrived[0], arrived[1]), 1e-2 * arrived[2])
         self.assertEqual(self.browser.console(), [])
 
@@ -1482,7 +1426,7 @@ class WithoutWebGL(InBrowser):
         self.browser.call("POST", "/url", {"url": "about:blank"})
         self.browser.open(files.replay("rig"))
         self.assertIn("WebGL", self.browser.text("#trouble"))
-        self.assertTrue(self.js("document.getElementById('picture').hidden"))
+        self.assertTrue(self.hidden("picture"))
         self.assertGreater(self.js("bbsim.plots.plots.length"), 3)
         self.browser.keys("\ue014")
         self.near(self.js("bbsim.clock.now"), 0.02, 1e-12)
