@@ -157,28 +157,6 @@ TEST_CASE("a fast servo costs collocation no steps") {
   }
 }
 
-TEST_CASE("collocation stops at the knots of a table") {
-  Scenario scene = at_rest();
-  Table table;
-  for (int i = 0; i <= 20; ++i) {
-    table.times.push_back(0.5 * i);
-    table.values.push_back(0.05 * ((i * 7) % 5) / 4.0);  // deliberately jagged
-  }
-  scene.gimbal.motion = {{table}, {0.02}};
-  const model::Model model = model::assemble(scene, true);
-  REQUIRE(model.stops.size() == 19);
-  const Rows ours = integrate(model, scene, 1e-11);
-  solve::Trajectory theirs(model.size() + 1);
-  const solve::OutputGrid grid(scene.time);
-  const solve::Outcome outcome =
-      solve::integrate(model, Method::adams, {1e-12, 1e-14}, grid, theirs, {});
-  REQUIRE(outcome.ending == solve::Ending::done);
-  CHECK(ours.run.statistics.steps >= 20);
-  CHECK(ours.run.reached == 10);
-  // CVODE restarts 19 times at an rtol of 1e-12 and accumulates some hundred local errors.
-  CHECK(difference(ours.rows, theirs, model.size() + 1) < 1e-9);
-}
-
 TEST_CASE("collocation ends where the solution diverges") {
   const Scenario scene = scenario_named("fig2b-literal");
   const model::Model model = model::assemble(scene, true);
@@ -291,18 +269,6 @@ TEST_CASE("the first step's rate is the norm of the exact Jacobian") {
               Approx(std::max(of_velocities, std::sqrt(of_positions))).epsilon(1e-14));
       },
       model.system);
-}
-
-TEST_CASE("a collocation run can be stopped from outside") {
-  const Scenario scene = scenario_named("fast");
-  const model::Model model = model::assemble(scene, false);
-  std::atomic<bool> stop{true};
-  solve::Watch watch;
-  watch.stop = &stop;
-  const Rows result = integrate(model, scene, 1e-8, solve::radau::choose_kernels(), 8, watch);
-  CHECK(result.run.ending == solve::Ending::interrupted);
-  CHECK(result.run.statistics.steps == 1);
-  CHECK(result.run.reached < 10);
 }
 
 }  // namespace bbsim_test::test_radau

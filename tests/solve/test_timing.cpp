@@ -96,24 +96,6 @@ TEST_CASE("jitter has its own random sequence and does not change the noise") {
   }
 }
 
-TEST_CASE("a run with jitter does not depend on the output step, nor on where it is split") {
-  Scenario scene = onlooker();
-  scene.controller->kp = {{{0.7, 0}, {0, -0.7}}};
-  scene.controller->kv = {{{0.6, 0}, {0, -0.6}}};
-  scene.controller->sampling->jitter = 2e-3;
-  scene.controller->sampling->delay = 0.013;
-  scene.controller->sensor->delay = 0.007;
-  scene.controller->sensor->period = 0.033;
-  scene.time = {2, 0.25};
-  Scenario fine = scene;
-  fine.time.step = 0.125;
-  const Run a = run_of(scene), b = run_of(fine);
-  for (std::size_t i = 0; i < a.samples.size(); ++i) {
-    CHECK(a.samples[i].ball.x == b.samples[2 * i].ball.x);
-    CHECK(a.samples[i].command == b.samples[2 * i].command);
-  }
-}
-
 TEST_CASE("a sample sees the last camera frame that has arrived") {
   Scenario scene = onlooker();
   scene.controller->sensor->period = 0.033;
