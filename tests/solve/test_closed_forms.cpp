@@ -50,31 +50,6 @@ TEST_CASE("a fixed incline: constant acceleration, constant spin") {
   }
 }
 
-TEST_CASE("a plane turning at a constant rate: hyperbolic along it, circular across it") {
-  const Method method = every_method();
-  const double rate = 2, g = 9.80665, x0 = 0.05, vy0 = 0.1, r = 0.01, spin0 = 5;
-  Scenario scene = still_plane(0, 0);
-  scene.gimbal.motion->phi = {Ramp{0, rate}};
-  scene.ball.position = {x0, 0};
-  scene.ball.velocity = {0, vy0};
-  scene.ball.spin = spin0;
-  const Run run = run_in_memory(scene, method, {1e-10, 1e-12});
-  const double k = rate * std::sqrt(5.0 / 7), q = rate * std::sqrt(2.0 / 7);
-  // x'(0) = 0 fixes the coefficient of sinh.
-  const double b = 5 * g / (12 * rate * k);
-  for (const model::Sample& sample : run.samples) {
-    const double t = sample.t;
-    const double x = x0 * std::cosh(k * t) + b * std::sinh(k * t) -
-                     5 * g / (12 * rate * rate) * std::sin(rate * t);
-    const double vy = vy0 * std::cos(q * t) + r * spin0 * rate * (2.0 / 7) / q * std::sin(q * t);
-    // Position and error grow alike, as e^(k t): each step may leave rtol of the position.
-    const double of_all_steps =
-        1e-10 * static_cast<double>(run.outcome.statistics.steps) * std::abs(x);
-    CHECK(std::abs(sample.ball.x - x) < 1e-9 + of_all_steps);
-    CHECK(std::abs(sample.ball.y_dot - vy) < 1e-8);
-  }
-}
-
 TEST_CASE("output times are multiples of the step, and the end time") {
   Scenario scene = still_plane(0, 0);
   const auto times = [&](double end, double step) {

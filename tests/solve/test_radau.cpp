@@ -58,53 +58,7 @@ double difference(const solve::Trajectory& a, const solve::Trajectory& b, std::s
   return worst;
 }
 
-Scenario at_rest() {
-  Scenario scene;
-  scene.gravity = 9.81;
-  scene.ball.radius = 0.01;
-  scene.ball.position = {0.1, 0.2};
-  scene.gimbal.motion = {{0.0}, {0.0}};
-  scene.time = {10, 0.1};
-  return scene;
-}
-
 }  // namespace
-
-TEST_CASE("collocation follows the quad-precision solutions at every tolerance") {
-  struct Case {
-    const char* name;
-    double amplification;  // of a local error of rtol, over the run
-  };
-  // A tolerance bounds the error of a step relative to the state. A run of some ten steps may add
-  // these up, and `fast` and `tumble` carry them through states that grow by 1e4.
-  const auto [name, amplification] =
-      GENERATE(Case{"fig2a", 10}, Case{"fig2b", 10}, Case{"small-ball", 10}, Case{"spin", 10},
-               Case{"stiff-servo", 10}, Case{"fast", 1e4}, Case{"tumble", 1e4});
-  const int stages = GENERATE(8, 12, 16);
-  const double rtol = GENERATE(1e-5, 1e-8, 1e-11);
-  CAPTURE(name, stages, rtol);
-  const Scenario scene = scenario_named(name);
-  const model::Model model = model::assemble(scene, true);
-  const Rows result = integrate(model, scene, rtol, solve::radau::choose_kernels(), stages);
-  REQUIRE(result.run.ending == solve::Ending::done);
-  REQUIRE(result.run.reached == scene.time.end);
-  const QuadReference reference(name);
-  const std::vector<double>&x = reference["x"], &y = reference["y"], &gamma = reference["gamma"];
-  REQUIRE(result.rows.rows() == x.size());
-  const solve::OutputGrid grid(scene.time);
-  double turned = 0;
-  for (double angle : gamma) turned = std::max(turned, std::abs(angle) * scene.ball.radius);
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double* row = result.rows.row(i);
-    const model::Sample sample = model.sample(grid[i], row);
-    CHECK(std::abs(sample.ball.x - x[i]) < amplification * rtol);
-    CHECK(std::abs(sample.ball.y - y[i]) < amplification * rtol);
-    if (model.gamma) {
-      CHECK(std::abs(row[model.size()] - gamma[i] * scene.ball.radius) <
-            amplification * rtol * (1 + turned));
-    }
-  }
-}
 
 TEST_CASE("a step's error has at least the order of its stages") {
   const Scenario scene = scenario_named("fast");
@@ -154,45 +108,6 @@ TEST_CASE("a fast servo costs collocation no steps") {
   for (std::size_t i = 0; i < usual.rows.rows(); ++i) {
     CHECK(std::abs(usual.rows.row(i)[0] - tight.rows.row(i)[0]) < 1e-5);
     CHECK(std::abs(usual.rows.row(i)[1] - tight.rows.row(i)[1]) < 1e-5);
-  }
-}
-
-TEST_CASE("collocation ends where the solution diverges") {
-  const Scenario scene = scenario_named("fig2b-literal");
-  const model::Model model = model::assemble(scene, true);
-  solve::Trajectory rows(model.size() + 1);
-  const solve::OutputGrid grid(scene.time);
-  const solve::Outcome outcome =
-      solve::integrate(model, Method::radau, {1e-9, 1e-11}, grid, rows, {});
-  CHECK(outcome.ending == solve::Ending::failed);
-  CHECK_FALSE(outcome.reason.empty());
-  // The end of BDF at an rtol of 1e-12. Steps are fractions of the remaining time; the run ends
-  // when they are shorter than 1e-5 of the time.
-  CHECK(outcome.reached < 0.7487576252);
-  CHECK(outcome.reached > 0.7487576252 * (1 - 1e-5));
-  CHECK(outcome.rows == 75);  // 0 to 0.74 s
-  CHECK(rows.rows() == 75);
-  REQUIRE(outcome.last_state.size() == model.size());
-  CHECK(outcome.worst_state < model.size());
-  for (double value : outcome.last_state) CHECK(std::isfinite(value));
-  CHECK(outcome.statistics.steps < 2000);
-}
-
-TEST_CASE("a ball at rest stays there exactly, in a few steps") {
-  Scenario scene = at_rest();
-  const bool looped = GENERATE(false, true);
-  if (looped) {
-    scene = scenario_named("fig2b");
-    scene.ball.position = {0.03, -0.02};
-    scene.controller->reference = PointReference{{0.03, -0.02}};
-  }
-  const model::Model model = model::assemble(scene, true);
-  const Rows result = integrate(model, scene, 1e-8);
-  CHECK(result.run.statistics.steps <= 5);
-  for (std::size_t i = 0; i < result.rows.rows(); ++i) {
-    for (std::size_t k = 0; k < model.size(); ++k) {
-      CHECK(result.rows.row(i)[k] == model.initial[k]);
-    }
   }
 }
 
