@@ -42,6 +42,17 @@ Rows integrate(const model::Model& model, const Scenario& scene, double rtol,
   return {run, std::move(rows)};
 }
 
+// Memory for a kernel, aligned.
+struct Workspace {
+  explicit Workspace(std::size_t bytes) : memory(bytes / sizeof(double) + 8) {
+    void* start = memory.data();
+    std::size_t space = memory.size() * sizeof(double);
+    place = std::align(64, bytes, start, space);
+  }
+  std::vector<double> memory;
+  void* place = nullptr;
+};
+
 // Largest difference of all states in all rows, in units of rtol: relative to the largest value of
 // each state, but at least to atol / rtol = 0.01.
 double difference(const solve::Trajectory& a, const solve::Trajectory& b, std::size_t row_size) {
@@ -72,10 +83,8 @@ TEST_CASE("a step's error has at least the order of its stages") {
     const auto& kernel = solve::radau::choose_kernels().kernels[0][model.system.index()];
     const Rows exact = integrate(model, one, 1e-13);
     const auto view = std::get<0>(model.system).view();
-    std::vector<double> memory(kernel.workspace / sizeof(double) + 8);
-    void* place = memory.data();
-    std::size_t space = memory.size() * sizeof(double);
-    void* const workspace = std::align(64, kernel.workspace, place, space);
+    const Workspace memory(kernel.workspace);
+    void* const workspace = memory.place;
     kernel.start(workspace, {&view, model.initial.data(), 1e-12, 1e-14, false});
     solve::radau::Attempt attempt{};
     kernel.attempt(workspace, 0, h, &attempt);
@@ -174,10 +183,8 @@ TEST_CASE("the first step's rate is the norm of the exact Jacobian") {
         }
         const auto view = system.view();
         const auto& kernel = solve::radau::choose_kernels().kernels[0][model.system.index()];
-        std::vector<double> memory(kernel.workspace / sizeof(double) + 8);
-        void* place = memory.data();
-        std::size_t space = memory.size() * sizeof(double);
-        void* const workspace = std::align(64, kernel.workspace, place, space);
+        const Workspace memory(kernel.workspace);
+        void* const workspace = memory.place;
         kernel.start(workspace, {&view, model.initial.data(), 1e-8, 1e-10, false});
         // The same sum in another order.
         CHECK(kernel.rate(workspace, 0) ==
