@@ -16,6 +16,7 @@
 #include "model/assemble.hpp"
 #include "model/control/linearize.hpp"
 #include "model/control/transmission_zeros.hpp"
+#include "model/matched.hpp"
 #include "model/systems/jacobian.hpp"
 #include "support/folder.hpp"
 #include "support/reading.hpp"
@@ -62,20 +63,6 @@ Scenario crooked_scene() {
 Linearization linear(const Scenario& scene, LinearKind kind,
                      const model::LinearPoint& at = model::home_point()) {
   return model::linearize(scene, model::assemble(scene, false), kind, at);
-}
-
-// Largest distance from a value to the nearest of the others, relative to 1 + its magnitude.
-double distance(const model::Eigenvalues& values, model::Eigenvalues others) {
-  REQUIRE(values.size() == others.size());
-  double worst = 0;
-  for (const Complex& value : values) {
-    const auto nearest = std::min_element(
-        others.begin(), others.end(),
-        [&](const auto& p, const auto& q) { return std::abs(p - value) < std::abs(q - value); });
-    worst = std::max(worst, std::abs(*nearest - value) / (1 + std::abs(value)));
-    others.erase(nearest);
-  }
-  return worst;
 }
 
 // A gimbal driven by motors, and a ball with viscous losses.

@@ -49,7 +49,9 @@ TEST_CASE("hard scenes are within the allowance of their tolerances, in few step
       CAPTURE(name_of(method));
       const Run run = run_in_memory(scene, method, usual);
       check_against(reference, run, usual, scene.ball.radius);
-      CHECK(run.outcome.statistics.steps < one.most_steps);
+      // One step per 1/omega_n of the servo would be 42,000 or 420,000.
+      const bool multistep = method == Method::bdf || method == Method::adams;
+      CHECK(run.outcome.statistics.steps < (multistep ? one.most_steps : one.most_steps / 10));
     }
   }
 }
