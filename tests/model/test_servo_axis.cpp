@@ -4,6 +4,7 @@
 // Crossings of a servo's guards under a held command, and its clearance from them; its modes are in
 // tests/solve/test_servo.cpp.
 #include <cmath>
+#include <vector>
 
 #include "catch.hpp"
 #include "model/servo/servo_axis.hpp"
@@ -29,6 +30,12 @@ AxisState state_of(double angle, double rate, double command) {
   return {angle, rate, 100 * (command - angle) - 10 * rate, command};
 }
 
+std::vector<double> guards_of(const ServoAxis& axis, const AxisState& state) {
+  std::vector<double> values(ServoAxis::guards);
+  axis.evaluate(state, values.data());
+  return values;
+}
+
 }  // namespace
 
 TEST_CASE("under a held acceleration the guards cross at the roots of a parabola") {
@@ -47,6 +54,24 @@ TEST_CASE("under a held acceleration the guards cross at the roots of a parabola
   CHECK(angle.guard == ServoAxis::stop_up);
   CHECK(angle.after == Approx(0.2).epsilon(1e-12));
   CHECK(axis.first_crossing(from_rest, 10, 0, 0.29, answers).after == unlimited);
+}
+
+TEST_CASE("a stop stops a servo and holds it while it is pressed") {
+  const double sign = GENERATE(1, -1);
+  ServoAxis axis(limited(0.5, unlimited, unlimited), response);
+  AxisState state = state_of(sign * 0.5, sign * 3, sign * 0.7);
+  AxisMode mode;
+  axis.settle(state, mode);
+  CHECK(state.rate == 0);
+  CHECK(state.angle == sign * 0.5);
+  CHECK(state.demand == Approx(sign * 20));  // without the rate's damping
+  CHECK(mode.demand_factor == 0);
+  CHECK(guards_of(axis, state)[sign > 0 ? ServoAxis::stop_up : ServoAxis::stop_down] == Approx(20));
+  // A command within the stop moves the servo off it.
+  state = state_of(sign * 0.5, 0, sign * 0.4);
+  axis.settle(state, mode);
+  CHECK(mode.demand_factor == 1);
+  CHECK(state.angle == sign * 0.5);
 }
 
 TEST_CASE("a motion within a servo's clearance needs no search") {

@@ -106,6 +106,20 @@ TEST_CASE("a ball slides down an incline too steep for its friction") {
   }
 }
 
+TEST_CASE(
+    "on a plate that tilts slowly a ball slides once rolling needs more than static friction") {
+  const Method method = GENERATE(Method::radau, Method::bdf);
+  const double sign = GENERATE(1.0, -1.0);
+  Scenario scene = level(0.01, 0.008);
+  scene.gimbal.motion->phi = {Ramp{0, sign * 1e-3}};
+  scene.time = {40, 1};
+  const Run run = run_in_memory(scene, method, tight);
+  // Of g, 2 x' phi' takes phi^2 / 1.4 from the normal force, and x phi'^2 adds a sixth of that
+  // downhill.
+  const double phi = std::atan(3.5 * 0.01);
+  CHECK(time_of(run, "slip") == Approx(phi * (1 - phi * phi * 5 / 6) / 1e-3).epsilon(1e-5));
+}
+
 TEST_CASE("rolling that needs exactly the available friction") {
   // The demand touches the limit at the top of each swing: the ball may slide for an instant, and
   // then rolls on as before.
