@@ -75,15 +75,6 @@ TEST_CASE("the tail of a polynomial is the size of its last two coefficients") {
   CHECK(points.tail(chebyshev(0).data()) < 1e-15);
 }
 
-TEST_CASE("a table of points is made once") {
-  ChebyshevTables tables;
-  const ChebyshevPoints& four = tables.points(4);
-  const ChebyshevPoints& more = tables.points(100);
-  CHECK(more.size() == 101);
-  CHECK(&tables.points(4) == &four);
-  CHECK(four.size() == 5);
-}
-
 TEST_CASE("the greatest value of a wave is found wherever it is") {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(0, 1);

@@ -56,44 +56,36 @@ TEST_CASE("the first noise of seed 1 is known: the same on every machine") {
   CHECK(noise.uniform() == (2469588189546311528ULL >> 12U) * 0x1p-52 + 0x1p-53);
 }
 
-TEST_CASE(
-    "a sensor misses a ball in a dead zone or with too little force, and reads as it is told") {
+TEST_CASE("a sensor rounds, misses what it cannot see, reads then as told, and drops its share") {
   Sensor sensor;
   sensor.area = Pair{0.2, 0.1};
   sensor.dead_zones = {{0.02, -0.01, 0.04, 0.01}};
-  sensor.resolution = 0.01;
+  sensor.resolution = 0.001;
   Pair seen{};
-  model::BallSensor none(sensor);
-  CHECK(none.read(0.01, 0, seen));
-  CHECK_FALSE(none.read(0.03, 0, seen));
+  BallSensor none(sensor);
+  REQUIRE(none.read(0.01234, -0.0461, seen));
+  CHECK(seen[0] == Approx(0.012).margin(1e-15));
+  CHECK(seen[1] == Approx(-0.046).margin(1e-15));
   CHECK(none.read(0.03, 0.02, seen));
-  CHECK_FALSE(none.read(0.01, 0, seen, false));
+  CHECK_FALSE(none.read(0.03, 0, seen));         // in the dead zone
+  CHECK_FALSE(none.read(0.01, 0, seen, false));  // with too little force
+  CHECK_FALSE(none.read(0.0, 0.0501, seen));
+  CHECK_FALSE(none.read(-0.1001, 0.0, seen));
+
   sensor.on_miss = OnMiss::last;
-  model::BallSensor last(sensor);
+  BallSensor last(sensor);
   CHECK_FALSE(last.read(0.03, 0, seen));  // there is no last reading yet
   CHECK(last.read(-0.05, 0.02, seen));
   CHECK(last.read(0.03, 0, seen));
   CHECK(seen == Pair{-0.05, 0.02});
   sensor.on_miss = OnMiss::edge;
   sensor.offset = {0.01, 0};
-  model::BallSensor edge(sensor);
+  BallSensor edge(sensor);
   CHECK(edge.read(0.5, 0, seen));
   CHECK(std::abs(seen[0] + 0.09) < 1e-15);
   CHECK(seen[1] == -0.05);
-}
 
-TEST_CASE("a sensor rounds, misses what is outside its area, and drops its share of samples") {
-  Sensor sensor;
-  sensor.resolution = 0.001;
-  sensor.area = Pair{0.2, 0.1};
-  BallSensor plain(sensor);
-  Pair seen;
-  REQUIRE(plain.read(0.01234, -0.0461, seen));
-  CHECK(seen[0] == Approx(0.012).margin(1e-15));
-  CHECK(seen[1] == Approx(-0.046).margin(1e-15));
-  CHECK_FALSE(plain.read(0.0, 0.0501, seen));
-  CHECK_FALSE(plain.read(-0.1001, 0.0, seen));
-
+  sensor.on_miss = OnMiss::none;
   sensor.dropout = 0.25;
   BallSensor drops(sensor);
   int missed = 0;

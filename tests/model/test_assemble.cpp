@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "model/hybrid/hybrid_system.hpp"
 #include "model/model.hpp"
 #include "model/random_states.hpp"
 #include "model/spectrum.hpp"
@@ -33,12 +34,40 @@ Scenario tilt_about_y() {
 
 }  // namespace
 
-TEST_CASE("an open loop has the ball's five states and no gimbal states") {
-  const Model model = assemble(fig2a(), true);
-  CHECK(model.state_names() == Names{"x", "y", "vx", "vy", "r*spin"});
-  CHECK_FALSE(model.closed_loop());
-  CHECK(model.gamma);
-  CHECK_FALSE(assemble(fig2a(), false).gamma);
+TEST_CASE("a scene has the states that it needs, and a planar one only those of its axis") {
+  const Names open{"x", "y", "vx", "vy", "r*spin"}, along_x{"x", "vx"};
+  Names loop = open;
+  loop.insert(loop.end(), {"phi", "theta", "phi_rate", "theta_rate"});
+  const auto names = [](const Scenario& scene, Form form = Form::reduced) {
+    return assemble(scene, true, form).state_names();
+  };
+  const Scenario planar = tilt_about_y();
+  CHECK(names(fig2a()) == open);
+  CHECK(names(fig2b()) == loop);
+  CHECK(names(planar) == along_x);
+  CHECK(names(planar, Form::full) == open);
+  Scenario scene = planar;
+  std::swap(scene.gimbal.motion->phi, scene.gimbal.motion->theta);
+  std::swap(scene.ball.position[0], scene.ball.position[1]);
+  CHECK(names(scene) == Names{"y", "vy"});
+  scene = planar;
+  scene.gimbal.motion->theta = {Sinusoid{0, 1, 0, 0}, Ramp{0, 0}, 0.0};
+  CHECK(names(scene) == along_x);
+  // The least spin, cross velocity or cross motion makes it full.
+  scene.gimbal.motion->theta = {Sinusoid{1e-9, 1, 0, 0}};
+  CHECK(names(scene) == open);
+  scene = planar;
+  scene.ball.spin = 1;
+  CHECK(names(scene) == open);
+  scene = planar;
+  scene.ball.velocity[1] = 1e-300;
+  CHECK(names(scene) == open);
+
+  Scenario beam = fig2b();  // ball and beam: only phi is controlled, only x moves
+  beam.controller->kv[1] = beam.controller->kp[1] = {0, 0};
+  CHECK(names(beam) == Names{"x", "vx", "phi", "phi_rate"});
+  beam.gimbal.start.theta = 0.01;
+  CHECK(names(beam) == loop);
 }
 
 TEST_CASE("gamma is NaN if it was not integrated, and 0 if symmetry keeps it zero") {
@@ -49,51 +78,29 @@ TEST_CASE("gamma is NaN if it was not integrated, and 0 if symmetry keeps it zer
   CHECK(std::isnan(without.sample(0, row.data()).gamma));
   for (const bool asked : {true, false}) {
     const Model planar = assemble(tilt_about_y(), asked);
+    CHECK_FALSE(planar.gamma);
     CHECK(planar.sample(0, planar.initial.data()).gamma == 0);
   }
 }
 
-TEST_CASE("a planar scene may also be solved in full") {
-  const Model model = assemble(tilt_about_y(), false, Form::full);
-  CHECK(model.state_names() == Names{"x", "y", "vx", "vy", "r*spin"});
-  CHECK(model.initial[0] == tilt_about_y().ball.position[0]);
-}
-
-TEST_CASE("a planar scene has two states") {
-  Scenario scene = tilt_about_y();
-  CHECK(assemble(scene, true).state_names() == Names{"x", "vx"});
-  CHECK_FALSE(assemble(scene, true).gamma);  // it stays zero
-
-  SECTION("along y, with the roles of the angles exchanged") {
-    std::swap(scene.gimbal.motion->phi, scene.gimbal.motion->theta);
-    std::swap(scene.ball.position[0], scene.ball.position[1]);
-    CHECK(assemble(scene, false).state_names() == Names{"y", "vy"});
-  }
-  SECTION("spin, a cross velocity or a cross offset makes it full") {
-    scene.ball.spin = 1;
-    CHECK(assemble(scene, false).size() == 5);
-    scene.ball.spin = 0;
-    scene.ball.velocity[1] = 1e-300;
-    CHECK(assemble(scene, false).size() == 5);
-    scene.ball.velocity[1] = 0;
-    scene.gimbal.motion->theta = {Sinusoid{1e-9, 1, 0, 0}};
-    CHECK(assemble(scene, false).size() == 5);
-  }
-  SECTION("a motion of amplitude zero does not count") {
-    scene.gimbal.motion->theta = {Sinusoid{0, 1, 0, 0}, Ramp{0, 0}, 0.0};
-    CHECK(assemble(scene, false).size() == 2);
-  }
-}
-
-TEST_CASE("a closed loop adds angles and rates of the axes that move") {
-  CHECK(assemble(fig2b(), true).state_names() ==
-        Names{"x", "y", "vx", "vy", "r*spin", "phi", "theta", "phi_rate", "theta_rate"});
-
-  Scenario beam = fig2b();  // ball and beam: only phi is controlled, only x moves
-  beam.controller->kv[1] = beam.controller->kp[1] = {0, 0};
-  CHECK(assemble(beam, false).state_names() == Names{"x", "vx", "phi", "phi_rate"});
-  beam.gimbal.start.theta = 0.01;
-  CHECK(assemble(beam, false).size() == 9);
+TEST_CASE("only parts that switch have guards") {
+  const auto guards = [](const Scenario& scene) {
+    return HybridSystem(assemble(scene, false), 0).guards();
+  };
+  Scenario scene = fig2b();
+  scene.gimbal.servo->angle_limit = 0.1;
+  CHECK(guards(scene) == 2 * ServoAxis::guards);
+  scene.controller->limit = 0.15;
+  CHECK(guards(scene) == 2 * ServoAxis::guards + 4);  // two limits of each command
+  scene.events.lift_off = OnEvent::stop;
+  const HybridSystem run(assemble(scene, false), 0);
+  CHECK(run.guards() == 2 * ServoAxis::guards + 5);
+  CHECK(run.first_monitor() == run.guards() - 1);
+  CHECK(run.guard_scales().size() == run.guards());
+  for (const double scale : run.guard_scales()) CHECK(scale > 0);
+  scene = fig2a();
+  scene.events.lift_off = OnEvent::stop;
+  CHECK(guards(scene) == 1);
 }
 
 TEST_CASE("a planar system gives the full system's result") {

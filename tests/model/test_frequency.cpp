@@ -79,37 +79,35 @@ TEST_CASE("a discrete response ends at half the sampling rate and is real there"
   CHECK(std::abs(response.at(3, 0, 0) - exact) < 1e-15);
 }
 
-TEST_CASE("margins of a loop with an integrator and two lags") {
-  // k / (s (s + 1) (s + 2)): the phase is -180 degrees at sqrt(2), where the magnitude is k / 6.
-  const Margins margins = Chain{{0, -1, -2}, 1.5}.margins({{-0.3, 0.7}, {-0.3, -0.7}, -2.4});
-  CHECK(margins.gain == Approx(4).epsilon(1e-12));
-  CHECK(margins.gain_at == Approx(std::numbers::sqrt2).epsilon(1e-12));
-  CHECK(margins.reduction == 0);
-  const double w = margins.phase_at;
-  CHECK(w * std::hypot(w, 1) * std::hypot(w, 2) == Approx(1.5).epsilon(1e-12));
-  CHECK(margins.phase == Approx(pi / 2 - std::atan(w) - std::atan(w / 2)).epsilon(1e-12));
-  CHECK(margins.delay == Approx(margins.phase / w).epsilon(1e-12));
-  CHECK(margins.delay_at == w);
-}
-
-TEST_CASE("gain around an unstable plant may fall until a pole passes through 0") {
-  // 2 / (s - 1): -2 at 0, and magnitude 1 at sqrt(3), with a phase lag of 120 degrees.
-  const Margins margins = Chain{{1}, 2}.margins({-1});
-  CHECK(std::isinf(margins.gain));
-  CHECK(margins.reduction == Approx(0.5).epsilon(1e-14));
-  CHECK(margins.reduction_at == 0);
-  CHECK(margins.phase == Approx(pi / 3).epsilon(1e-12));
-  CHECK(margins.phase_at == Approx(std::sqrt(3.0)).epsilon(1e-12));
-}
-
-TEST_CASE("the gain of a sampled loop may rise until a pole passes through z = -1") {
-  const double period = 0.02;
-  const Margins margins = Chain{{1}, 0.5}.margins({0.5}, period);
-  CHECK(margins.gain == Approx(4).epsilon(1e-13));
-  CHECK(margins.gain_at == pi / period);
-  // |z - 1| = 2 sin(w T / 2).
-  CHECK(margins.phase_at == Approx(2 / period * std::asin(0.25)).epsilon(1e-12));
-  CHECK(margins.phase == Approx(pi / 2 - margins.phase_at * period / 2).epsilon(1e-12));
+TEST_CASE("margins of chains are those of their closed forms") {
+  SECTION("k / (s (s + 1) (s + 2)): -180 degrees at sqrt(2), where the magnitude is k / 6") {
+    const Margins margins = Chain{{0, -1, -2}, 1.5}.margins({{-0.3, 0.7}, {-0.3, -0.7}, -2.4});
+    CHECK(margins.gain == Approx(4).epsilon(1e-12));
+    CHECK(margins.gain_at == Approx(std::numbers::sqrt2).epsilon(1e-12));
+    CHECK(margins.reduction == 0);
+    const double w = margins.phase_at;
+    CHECK(w * std::hypot(w, 1) * std::hypot(w, 2) == Approx(1.5).epsilon(1e-12));
+    CHECK(margins.phase == Approx(pi / 2 - std::atan(w) - std::atan(w / 2)).epsilon(1e-12));
+    CHECK(margins.delay == Approx(margins.phase / w).epsilon(1e-12));
+    CHECK(margins.delay_at == w);
+  }
+  SECTION(
+      "2 / (s - 1): -2 at 0, through which a pole passes; magnitude 1 at sqrt(3), 120 degrees") {
+    const Margins margins = Chain{{1}, 2}.margins({-1});
+    CHECK(std::isinf(margins.gain));
+    CHECK(margins.reduction == Approx(0.5).epsilon(1e-14));
+    CHECK(margins.reduction_at == 0);
+    CHECK(margins.phase == Approx(pi / 3).epsilon(1e-12));
+    CHECK(margins.phase_at == Approx(std::sqrt(3.0)).epsilon(1e-12));
+  }
+  SECTION("sampled, 0.5 / (z - 1): a pole passes through z = -1; |z - 1| = 2 sin(w T / 2)") {
+    const double period = 0.02;
+    const Margins margins = Chain{{1}, 0.5}.margins({0.5}, period);
+    CHECK(margins.gain == Approx(4).epsilon(1e-13));
+    CHECK(margins.gain_at == pi / period);
+    CHECK(margins.phase_at == Approx(2 / period * std::asin(0.25)).epsilon(1e-12));
+    CHECK(margins.phase == Approx(pi / 2 - margins.phase_at * period / 2).epsilon(1e-12));
+  }
 }
 
 TEST_CASE("gain margins below the lowest relevant frequency are ignored") {

@@ -17,6 +17,7 @@
 #include "model/servo/linkages.hpp"
 #include "scenario/calibration.hpp"
 #include "simd/gradient.hpp"
+#include "support/folder.hpp"
 
 namespace bbsim_test::test_linkage {
 
@@ -72,60 +73,30 @@ std::vector<double> angles_within(const LinkCurve& curve) {
 
 }  // namespace
 
-TEST_CASE("a push rod keeps its length, and home is where both angles are zero") {
-  for (const RodLinkage& one : some_linkages()) {
-    const Linkage linkage = make_linkage(one, Assumed::exact);
-    const Rods& rods = linkage.curve.rods;
-    CHECK(std::abs(linkage.angle(0)) < 1e-14);  // rounding, magnified near a dead point
-    for (const double servo : angles_within(linkage.curve)) {
-      // Rounding of sums of lengths up to 0.4 m.
-      CHECK(std::abs(rod_between(rods, servo, linkage.angle(servo)) - rods.rod) < 2e-15);
-    }
-  }
-}
-
-TEST_CASE("the inverse of a push rod is accurate to 1e-13") {
-  for (const RodLinkage& one : some_linkages()) {
-    const Linkage linkage = make_linkage(one, Assumed::exact);
-    for (const double servo : angles_within(linkage.curve)) {
-      const double slope = linkage.curve.plain_turn(servo).slope;
-      // The inverse's slope magnifies rounding of the plane's angle.
-      CHECK(std::abs(linkage.servo_for(linkage.angle(servo)) - servo) <
-            1e-13 * std::max(1.0, 0.05 / std::abs(slope)));
-      // The same for every number type.
-      const simd::WithGradient<1> wanted(linkage.angle(servo), simd::WithGradient<1>::Gradient(1));
-      const auto command = linkage.curve.command_for(wanted);
-      CHECK(std::abs(command.value - servo) < 1e-13 * std::max(1.0, 0.05 / std::abs(slope)));
-      CHECK(command.gradient[0] * slope == Approx(1).epsilon(1e-9));
-    }
-  }
-}
-
-TEST_CASE("the inverse of a push rod works for servos beyond half a turn") {
+TEST_CASE("a push rod keeps its length, and has an exact inverse and its derivatives") {
+  using Number = simd::WithGradient<1>;
   int beyond = 0;
   for (const RodLinkage& one : some_linkages()) {
     const Linkage linkage = make_linkage(one, Assumed::exact);
     const LinkCurve& curve = linkage.curve;
-    if (!std::isfinite(curve.low) || !std::isfinite(curve.high)) continue;
-    for (int i = 1; i < 50; ++i) {
-      const double servo = curve.low + (curve.high - curve.low) * i / 50;
-      CAPTURE(one.horn, one.arm, one.offset[0], one.offset[1], servo);
-      beyond += std::abs(servo) > std::numbers::pi;
+    CAPTURE(one.horn, one.arm, one.offset[0], one.offset[1]);
+    const auto check_inverse = [&](double servo) {
+      CAPTURE(servo);
       const double slope = curve.plain_turn(servo).slope;
+      // The inverse's slope magnifies rounding of the plane's angle.
       const double bound = 1e-13 * std::max(1.0, 0.05 / std::abs(slope));
       CHECK(std::abs(linkage.servo_for(linkage.angle(servo)) - servo) < bound);
-      const simd::WithGradient<1> wanted(linkage.angle(servo), simd::WithGradient<1>::Gradient(1));
-      CHECK(std::abs(curve.command_for(wanted).value - servo) < bound);
-    }
-  }
-  CHECK(beyond > 100);
-}
-
-TEST_CASE("slope and bend of a push rod are its derivatives") {
-  using Number = simd::WithGradient<1>;
-  for (const RodLinkage& one : some_linkages()) {
-    const LinkCurve curve = make_linkage(one, Assumed::exact).curve;
+      // The same for every number type.
+      const auto command = curve.command_for(Number::variable(linkage.angle(servo), 0));
+      CHECK(std::abs(command.value - servo) < bound);
+      return command.gradient[0] * slope;
+    };
+    CHECK(std::abs(linkage.angle(0)) < 1e-14);  // home; rounding, magnified near a dead point
     for (const double servo : angles_within(curve)) {
+      // Rounding of sums of lengths up to 0.4 m.
+      CHECK(std::abs(rod_between(curve.rods, servo, linkage.angle(servo)) - curve.rods.rod) <
+            2e-15);
+      CHECK(check_inverse(servo) == Approx(1).epsilon(1e-9));
       const Turn<Number> turn = curve.turn(Number::variable(servo, 0));
       const double slope = turn.slope.value;
       // d sin(beta) = cos(beta) beta', and so on: exact up to rounding.
@@ -142,7 +113,15 @@ TEST_CASE("slope and bend of a push rod are its derivatives") {
                                 (12 * h);
       CHECK(std::abs(difference - slope) < 1e-7 * size);
     }
+    // Some servos may turn by more than half a turn.
+    if (!std::isfinite(curve.low) || !std::isfinite(curve.high)) continue;
+    for (int i = 1; i < 50; ++i) {
+      const double servo = curve.low + (curve.high - curve.low) * i / 50;
+      beyond += std::abs(servo) > std::numbers::pi;
+      check_inverse(servo);
+    }
   }
+  CHECK(beyond > 100);
 }
 
 TEST_CASE("with opposite bars of equal length the plane turns as the servo does") {
@@ -253,24 +232,26 @@ TEST_CASE("a curve ends where two of the three bars are in line, up to rounding"
   CHECK(ends > 300);
 }
 
-TEST_CASE("a linkage that cannot close, or is in line at home, is refused") {
-  const auto message = [](const RodLinkage& one) {
-    try {
-      static_cast<void>(make_linkage(one, Assumed::exact));
-      return std::string();
-    } catch (const KeyError& error) {
-      return std::string(error.what());
-    }
+TEST_CASE("linkages that cannot close, are in line at home or turn back are refused") {
+  const auto rods = [](const RodLinkage& one) {
+    return message_of<InputError>([&] { static_cast<void>(make_linkage(one, Assumed::exact)); });
   };
-  RodLinkage one = desk();
-  CHECK(message(one).empty());
-  one.rod = 0.5;
-  CHECK_THAT(message(one), Contains("gimbal.linkage: found a rod of 0.5 m, with which the linkage "
-                                    "does not close at home"));
-  one.rod = 0.001;
-  CHECK_THAT(message(one), Contains("does not close at home"));
-  CHECK_THAT(message({0.02, 0.05, {}, {0.06, 0}}), Contains("in line at home"));
-  CHECK_THAT(message({0.02, 0.02, {}, {0, 0}}), Contains("a rod of zero length"));
+  RodLinkage desk_with = desk();
+  CHECK(rods(desk_with).empty());
+  for (const double rod : {0.5, 0.001}) {
+    desk_with.rod = rod;
+    CHECK_THAT(rods(desk_with), Contains("gimbal.linkage") && Contains("does not close at home"));
+  }
+  CHECK_THAT(rods({0.02, 0.05, {}, {0.06, 0}}), Contains("in line at home"));
+  CHECK_THAT(rods({0.02, 0.02, {}, {0, 0}}), Contains("zero length"));
+  const auto curve = [](std::vector<double> servo, std::vector<double> plate) {
+    const CurveLinkage one{"", std::move(servo), std::move(plate)};
+    return message_of<InputError>([&] { static_cast<void>(make_linkage(one, Assumed::exact)); });
+  };
+  CHECK_THAT(curve({-1, -0.5, 0.5, 1}, {0, -0.2, 0.1, 0.3}), Contains("turns back"));
+  CHECK_THAT(curve({0.1, 0.2, 0.3, 0.4}, {0, 0.1, 0.2, 0.3}), Contains("home"));
+  CHECK_THROWS_WITH(make_three_servos({0.06, 0.09, 0.04, 0.02, 0.11}, Assumed::exact),
+                    Contains("do not close at home"));
 }
 
 TEST_CASE("a rod that does not fit home tilts the plate there") {
@@ -320,15 +301,6 @@ TEST_CASE("a measured curve is smooth, has an exact inverse and approaches the m
     last = worst;
   }
   CHECK(last < 1e-7);
-}
-
-TEST_CASE("a measured curve that turns back or has no home is refused") {
-  CHECK_THROWS_WITH(
-      make_linkage(CurveLinkage{"", {-1, -0.5, 0.5, 1}, {0, -0.2, 0.1, 0.3}}, Assumed::exact),
-      Contains("turns back"));
-  CHECK_THROWS_WITH(
-      make_linkage(CurveLinkage{"", {0.1, 0.2, 0.3, 0.4}, {0, 0.1, 0.2, 0.3}}, Assumed::exact),
-      Contains("home, 0, between its ends"));
 }
 
 TEST_CASE("a calibration with noise, flat ends and repetitions approaches the measured curve") {
@@ -471,34 +443,6 @@ TEST_CASE(
   for (const double one : servo) CHECK(std::abs(one) < 1e-15);
 }
 
-TEST_CASE("three servos: a leg's ends stay a rod's length apart, in the leg's plane") {
-  const ThreeServos three = make_three_servos(hobby_plate(), Assumed::exact);
-  const double servo[3] = {0.3, -0.25, 0.1};
-  double sine[3], cosine[3];
-  three.directions(servo, sine, cosine);
-  const auto at = three.pose(servo, sine, cosine);
-  // The joints in space, by the shortest rotation of the vertical to the normal.
-  const double n[3] = {at.p, at.q, std::sqrt(1 - at.p * at.p - at.q * at.q)};
-  const double w = 1 / (1 + n[2]);
-  const ThreeServos::Leg& leg = three.leg[0];
-  const double wander[2] = {leg.plate / 2 * w * (n[1] * n[1] - n[0] * n[0]),
-                            leg.plate * w * n[0] * n[1]};
-  for (int i = 0; i < 3; ++i) {
-    const double azimuth = 2 * std::numbers::pi / 3 * i;
-    const double e[2] = {std::cos(azimuth), std::sin(azimuth)};
-    const double along = e[0] * n[0] + e[1] * n[1];
-    double joint[3];
-    for (int k = 0; k < 2; ++k) {
-      joint[k] = wander[k] + leg.plate * (e[k] - w * along * n[k]);
-    }
-    joint[2] = at.z - leg.plate * along;
-    CHECK(std::abs(joint[1] * e[0] - joint[0] * e[1]) < 1e-16);  // in the leg's plane
-    const double out = joint[0] * e[0] + joint[1] * e[1];
-    CHECK(std::hypot(out - leg.base - leg.horn * cosine[i], joint[2] - leg.horn * sine[i]) ==
-          Approx(leg.rod).epsilon(1e-14));
-  }
-}
-
 TEST_CASE("three servos: rates and accelerations of the plane are derivatives of its angles") {
   const ThreeServos three =
       make_three_servos(GENERATE(hobby_plate(), unequal_plate()), Assumed::exact);
@@ -530,10 +474,10 @@ TEST_CASE("three servos: rates and accelerations of the plane are derivatives of
   }
 }
 
-TEST_CASE("unequal legs: the closed chain agrees with the pose in quad precision") {
-  const ThreeServoPlate plate = unequal_plate();
+TEST_CASE("three servos: the closed chain agrees with the pose in quad precision") {
+  const ThreeServoPlate plate = GENERATE(hobby_plate(), unequal_plate());
   const ThreeServos three = make_three_servos(plate, Assumed::none);
-  CHECK_FALSE(three.equal);
+  CHECK(three.equal == !plate.legs);
   Noise noise(11);
   double largest = 0, twist = 0;
   for (int k = 0; k < 60; ++k) {
@@ -554,42 +498,28 @@ TEST_CASE("unequal legs: the closed chain agrees with the pose in quad precision
   }
   CHECK(largest > 0.2);
   CHECK(twist > 1e-3);
-  // Level at home, where the offsets are compensated.
+  // Level at home, where the offsets of legs are compensated.
   const double level[2] = {0, 0};
   double servo[3], plane[2];
   three.commands_for(level, servo);
-  CHECK(servo[0] == Approx(-0.05));
-  CHECK(servo[1] == Approx(0).margin(1e-15));
-  CHECK(servo[2] == Approx(0.03));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ServoLeg leg = plate.leg(i);
+    CHECK(servo[i] == Approx(-leg.direction * leg.offset).margin(1e-15));
+  }
   angles_of(three, servo, plane);
   CHECK(std::abs(plane[0]) < 1e-15);
   CHECK(std::abs(plane[1]) < 1e-15);
 }
 
-TEST_CASE("unequal legs with equal lengths behave as equal legs") {
-  // Slightly off, so that the general equations are used.
+TEST_CASE("equal legs that are written out are equal, and slightly unequal ones hardly differ") {
   ThreeServoPlate plate = hobby_plate();
   auto& legs = plate.legs.emplace();
   for (std::size_t i = 0; i < 3; ++i) legs[i] = hobby_plate().leg(i);
-  CHECK(make_three_servos(plate, Assumed::exact).equal);
+  const ThreeServos equal = make_three_servos(plate, Assumed::exact);
+  CHECK(equal.equal);
   legs[1].angle += 2e-12;
-  const ThreeServos equal = make_three_servos(hobby_plate(), Assumed::ratio);
-  const ThreeServos general = make_three_servos(plate, Assumed::ratio);
+  const ThreeServos general = make_three_servos(plate, Assumed::exact);
   REQUIRE_FALSE(general.equal);
-  const double servo[3] = {0.3, -0.2, 0.1}, rate[3] = {1, 2, -1}, acceleration[3] = {-3, 4, 5};
-  GimbalAngle<double> a[2], b[2];
-  equal.planes(servo, rate, acceleration, a);
-  general.planes(servo, rate, acceleration, b);
-  double angle[2][2], angle_rate[2][2];
-  equal.believed(servo, rate, angle[0], angle_rate[0]);
-  general.believed(servo, rate, angle[1], angle_rate[1]);
-  for (int i = 0; i < 2; ++i) {
-    CHECK(a[i].sin == Approx(b[i].sin).margin(1e-11));
-    CHECK(a[i].rate == Approx(b[i].rate).margin(1e-10));
-    CHECK(a[i].acceleration == Approx(b[i].acceleration).margin(1e-9));
-    CHECK(angle[0][i] == Approx(angle[1][i]).margin(1e-11));
-    CHECK(angle_rate[0][i] == Approx(angle_rate[1][i]).margin(1e-10));
-  }
   CHECK(greatest_tilt(equal) == Approx(greatest_tilt(general)).epsilon(1e-9));
   CHECK(greatest_twist(general, 0.1) < 1e-12);
 }
@@ -633,20 +563,21 @@ TEST_CASE("three servos: the workspace ends where a leg is stretched or folded")
   }
   CHECK(low > 0.2);
   CHECK(low < 1.2);
-  CHECK_THROWS_WITH(make_three_servos({0.06, 0.09, 0.04, 0.02, 0.11}, Assumed::exact),
-                    Contains("legs that do not close at home"));
 }
 
 TEST_CASE("three servos: a ratio is the inverse's slope at home") {
-  const ThreeServos exact = make_three_servos(hobby_plate(), Assumed::exact);
-  const ThreeServos ratio = make_three_servos(hobby_plate(), Assumed::ratio);
+  const ThreeServoPlate plate = GENERATE(hobby_plate(), unequal_plate());
+  const ThreeServos exact = make_three_servos(plate, Assumed::exact);
+  const ThreeServos ratio = make_three_servos(plate, Assumed::ratio);
   const double h = 1e-5;
   for (const auto& direction : {std::pair{1.0, 0.0}, std::pair{0.0, 1.0}, std::pair{0.6, -0.8}}) {
     const double wanted[2] = {h * direction.first, h * direction.second};
-    double a[3], b[3], angle[2], rate[2];
+    const double level[2] = {0, 0};
+    double home[3], a[3], b[3], angle[2], rate[2];
+    exact.commands_for(level, home);
     exact.commands_for(wanted, a);
     ratio.commands_for(wanted, b);
-    for (int i = 0; i < 3; ++i) CHECK(std::abs(a[i] - b[i]) < 100 * h * h);
+    for (int i = 0; i < 3; ++i) CHECK(std::abs(a[i] - home[i] - b[i]) < 100 * h * h);
     const double none[3] = {0, 0, 0};
     ratio.believed(b, none, angle, rate);
     CHECK(angle[0] == Approx(wanted[0]).margin(1e-18));

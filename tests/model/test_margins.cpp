@@ -14,6 +14,7 @@
 #include "model/control/sampled_cycle.hpp"
 #include "model/control/transmission_zeros.hpp"
 #include "model/eigenvalues.hpp"
+#include "model/matched.hpp"
 #include "support/reading.hpp"
 #include "support/sanitizers.hpp"
 #include "support/scenes.hpp"
@@ -261,22 +262,6 @@ TEST_CASE("eigenvalues near the end of the range of doubles are right, and beyon
   CHECK(model::exact_eigenvalues(1.7e308 * wide).empty());
 }
 
-namespace {
-
-double worst_of(const Eigenvalues& found, Eigenvalues expected) {
-  REQUIRE(found.size() == expected.size());
-  double worst = 0;
-  for (const Complex& one : found) {
-    const auto nearest = std::ranges::min_element(
-        expected, {}, [&](const Complex& other) { return std::abs(other - one); });
-    worst = std::max(worst, std::abs(*nearest - one) / std::abs(*nearest));
-    expected.erase(nearest);
-  }
-  return worst;
-}
-
-}  // namespace
-
 TEST_CASE("zeros are those of the plant with servos of any speed, and of the law") {
   for (const char* name : {"fig2b", "hold", "lissajous", "waypoints"}) {
     Scenario scene = read_scenario(std::string(BBSIM_SOURCE_DIR "/configs/") + name + ".yaml");
@@ -290,12 +275,12 @@ TEST_CASE("zeros are those of the plant with servos of any speed, and of the law
       const auto plant = model::linearize(scene, model::assemble(scene, false), LinearKind::plant,
                                           model::home_point());
       const Eigenvalues of_plant{beyond, beyond, -beyond, -beyond};
-      CHECK(worst_of(plant.zeros, of_plant) < 1e-13 + 10 * conditioning);
+      CHECK(distance(plant.zeros, of_plant, 0) < 1e-13 + 10 * conditioning);
       Eigenvalues of_loop = of_plant;
       for (const std::size_t i : {0U, 1U}) {
         of_loop.emplace_back(-controller.kp[i][i] / controller.kv[i][i]);
       }
-      CHECK(worst_of(loop_of(scene).zeros, of_loop) < 1e-12 + 1e3 * conditioning);
+      CHECK(distance(loop_of(scene).zeros, of_loop, 0) < 1e-12 + 1e3 * conditioning);
     }
   }
   // 5/7 g vanishes beside this: any answer, as long as there is one.
@@ -326,7 +311,7 @@ TEST_CASE("zeros do not depend on the units of states, inputs, outputs and time"
   c.row(1).tail(2) << 7, 1;
   const MatrixXd d = MatrixXd::Zero(2, 2);
   const Eigenvalues expected{2, -3e-4, -5e3, -7};
-  CHECK(worst_of(model::transmission_zeros(a, b, c, d), expected) < 1e-11);
+  CHECK(distance(model::transmission_zeros(a, b, c, d), expected, 0) < 1e-11);
   std::mt19937 random(5);
   const auto unit = [&random](double decades) {
     return std::pow(10.0, std::uniform_real_distribution<double>(-decades, decades)(random));
@@ -348,7 +333,7 @@ TEST_CASE("zeros do not depend on the units of states, inputs, outputs and time"
     Eigenvalues all = model::transmission_zeros(scaled_a, scaled_b, scaled_c, d);
     for (Complex& one : all) one /= time;
     // Sums of entries, the largest 1e4 times the smallest.
-    CHECK(worst_of(all, expected) < 1e-11);
+    CHECK(distance(all, expected, 0) < 1e-11);
   }
   // No states, no inputs, no outputs.
   CHECK(model::transmission_zeros(MatrixXd(0, 0), MatrixXd(0, 1), MatrixXd(1, 0),

@@ -59,21 +59,6 @@ void check_hold(const SignalPair& path) {
 
 }  // namespace
 
-TEST_CASE("a circle turns about its center") {
-  const double R = 0.05, w = -0.3, p = 0.7;
-  const SignalPair path = reference_path(CircleReference{R, w, p, {0.02, -0.01}}, 20);
-  for (const double t : {0.0, 1.3, 17.0}) {
-    const auto [x, y] = path.at(t);
-    // The argument has the rounding of w t and of the quarter turn.
-    const double bound = 8 * epsilon * (1 + std::abs(w * t));
-    CHECK(std::abs(x.value - (0.02 + R * std::cos(w * t + p))) < bound);
-    CHECK(std::abs(y.value - (-0.01 + R * std::sin(w * t + p))) < bound);
-    CHECK(std::abs(x.rate + R * w * std::sin(w * t + p)) < bound);
-    CHECK(std::abs(y.rate - R * w * std::cos(w * t + p)) < bound);
-  }
-  CHECK(path.knots().empty());
-}
-
 TEST_CASE("a Lissajous figure is an independent cosine and sine") {
   const LissajousReference figure{{0.06, 0.04}, {3, 2}, {0.3, -0.5}, {0.01, 0.02}};
   const SignalPair path = reference_path(figure, 20);
@@ -144,16 +129,6 @@ TEST_CASE("waypoints: C2 in between, at rest at both ends, constant outside") {
   }
 }
 
-TEST_CASE("two waypoints: the cubic at rest at both ends") {
-  const SignalPair path = reference_path(WaypointReference{{{0, 1}, {2, -1}}, {0, 4}, false}, 20);
-  for (const double t : {0.0, 0.5, 2.0, 3.9}) {
-    const double tau = t / 4, shape = tau * tau * (3 - 2 * tau);
-    CHECK(std::abs(path.at(t)[0].value - 2 * shape) < 20 * epsilon);
-    CHECK(std::abs(path.at(t)[1].value - (1 - 2 * shape)) < 20 * epsilon);
-    CHECK(std::abs(path.at(t)[0].rate - 2 * 6 * tau * (1 - tau) / 4) < 20 * epsilon);
-  }
-}
-
 TEST_CASE("the clamped spline converges with fourth order") {
   const auto error = [](int n) {
     WaypointReference way;
@@ -194,8 +169,6 @@ TEST_CASE("waypoints with rests: minimum-jerk quintics") {
         CHECK(std::abs(at[i].rate - rate) < bound);
         CHECK(std::abs(at[i].acceleration - acceleration) < bound);
       }
-      // 60 and 360 times step / T^3 and T^4: the largest third and fourth derivatives.
-      if (tau > 0.01 && tau < 0.99) check_derivatives(path, t, 60 * 0.08 * 8, 360 * 0.08 * 16);
     }
     for (std::size_t i = 0; i < 2; ++i) {
       CHECK(path.at(hours[k])[i].value == corners[k][i]);
@@ -231,9 +204,6 @@ TEST_CASE("knots of a reference path within the scene are stops") {
   scene.controller->reference = WaypointReference{corners, hours, GENERATE(false, true)};
   const Model model = assemble(scene, false);
   CHECK(model.stops == std::vector<double>{1, 2, 2.5});
-  const std::vector<Note> notes = explain(scene, model);
-  REQUIRE(notes.back().part == "stops");
-  CHECK(notes.back().reason == "3 knots of the reference path, none stepped over");
   scene.controller->reference = TableReference{"p.csv", {0, 1, 3, 5}, {0, 1, 0, 1}, {0, 0, 0, 0}};
   CHECK(assemble(scene, false).stops == std::vector<double>{1, 3});
 }
@@ -263,17 +233,13 @@ TEST_CASE("a staircase holds each point, and has jumped at an instant subject to
   CHECK(path.jumps() == path.knots());
 }
 
-TEST_CASE("a jump to the same value does not count") {
-  const SignalPair path =
-      reference_path(StaircaseReference{{{1, 0}, {1, 0}, {2, 0}, {2, 0}}, {1, 2, 3}}, 5);
-  CHECK(path.jumps() == std::vector<double>{2});
-}
-
-TEST_CASE("a jump at the run's end does not happen, one at its start has happened") {
+TEST_CASE("a jump at the run's end or to the same value does not happen, one at its start has") {
   const StaircaseReference stairs{{{1, 0}, {2, 0}, {3, 0}}, {0, 2}};
   CHECK(reference_path(stairs, 2).at(2.0)[0].value == 2);
   CHECK(reference_path(stairs, 2.5).at(2.0)[0].value == 3);
   CHECK(reference_path(stairs, 0).at(0.0)[0].value == 2);
+  const StaircaseReference flat{{{1, 0}, {1, 0}, {2, 0}, {2, 0}}, {1, 2, 3}};
+  CHECK(reference_path(flat, 5).jumps() == std::vector<double>{2});
 }
 
 TEST_CASE("a square wave is the sign of a sine, with phases and a duty") {
@@ -306,7 +272,6 @@ TEST_CASE("jumps of a reference within the scene are stops, with the moments jus
   const Model model = assemble(scene, false);
   CHECK(model.stops == std::vector<double>{1, 2, 3});
   CHECK(model.jumps == model.stops);
-  CHECK(explain(scene, model).back().reason == "3 jumps of the reference path, none stepped over");
   CHECK(model.jumps_at(2));
   CHECK(model.jumps_at(2 * (1 - epsilon)));
   CHECK_FALSE(model.jumps_at(2 * (1 - 1e-13)));

@@ -39,15 +39,6 @@ TEST_CASE("a profile is the sum of its terms, with two derivatives") {
   CHECK(pair.highest_frequency() == 5);
 }
 
-TEST_CASE("a zero profile is recognized as zero") {
-  SignalPair pair;
-  CHECK(pair.is_zero(0));
-  pair.add(0, {Sinusoid{0, 1, 0, 0}, 0.0, Ramp{0, 0}});
-  pair.add(1, {Sinusoid{1, 2, 0, 0}});
-  CHECK(pair.is_zero(0));
-  CHECK_FALSE(pair.is_zero(1));
-}
-
 TEST_CASE("a spline reproduces a cubic and its derivatives") {
   const std::vector<double> times{0, 0.5, 0.7, 2, 3.5, 4};
   const auto cubic = [](double t) { return 1 + t * (-2 + t * (0.5 + t * 0.25)); };

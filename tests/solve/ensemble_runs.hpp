@@ -65,4 +65,19 @@ inline bool are_done(const std::vector<Course>& runs) {
                      [](const Course& run) { return run.ending == ensemble::Ending::done; });
 }
 
+// Runs cases together; checks that companions, their order and earlier runs do not matter.
+inline std::vector<Course> carry_in_any_company(ensemble::Ensemble& lanes,
+                                                const std::vector<ensemble::Case>& cases) {
+  std::vector<Course> together = carry(lanes, cases);
+  CHECK(carry(lanes, cases) == together);
+  std::vector<Course> backwards = carry(lanes, {cases.rbegin(), cases.rend()});
+  std::reverse(backwards.begin(), backwards.end());
+  CHECK(backwards == together);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    CAPTURE(i);
+    CHECK(carry(lanes, {cases[i]}).front() == together[i]);
+  }
+  return together;
+}
+
 }  // namespace bbsim_test

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Loops in lanes against the collocation integrator run one by one.
+// Loops in lanes against the collocation integrator run one by one. Their greatest values, events
+// and interrupts are in tests/sweep.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -136,6 +137,9 @@ TEST_CASE("loops in lanes follow collocation at every tolerance") {
     CAPTURE(name, rtol, nodes, i);
     // Some tens of steps, whose errors a stable loop damps out.
     CHECK(error_of(runs[i], scenes[i]) < 10 * local_error(tolerances));
+    // The polynomial's end and the last node agree up to rounding.
+    CHECK(runs[i].x.back() == Approx(runs[i].state[0]).epsilon(1e-12).margin(1e-16));
+    CHECK(runs[i].y.back() == Approx(runs[i].state[1]).epsilon(1e-12).margin(1e-16));
   }
 }
 
@@ -209,19 +213,8 @@ TEST_CASE("the result of a loop depends neither on its companions nor on earlier
   Ensemble lanes({Actuation::by_servo, solve::OutputGrid(scene.time)},
                  choose_nodes(Actuation::by_servo, rtol), {rtol, rtol / 100});
   unsetenv("BBSIM_SIMD");
-  const std::vector<Course> together = carry(lanes, cases);
-  CHECK(carry(lanes, cases) == together);
-  std::vector<Case> reversed = cases;
-  std::reverse(reversed.begin(), reversed.end());
-  std::vector<Course> backwards = carry(lanes, reversed);
-  std::reverse(backwards.begin(), backwards.end());
-  CHECK(backwards == together);
-  std::size_t unbounded = 0;
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    CAPTURE(i);
-    CHECK(carry(lanes, {cases[i]}).front() == together[i]);
-    if (together[i].ending == Ending::unbounded) ++unbounded;
-  }
+  const std::vector<Course> together = carry_in_any_company(lanes, cases);
+  const auto unbounded = std::ranges::count(together, Ending::unbounded, &Course::ending);
   if (name == "fig2b") CHECK(unbounded > 8);
   CHECK(unbounded < 25);
 }
@@ -260,27 +253,6 @@ TEST_CASE("a diverging loop ends where a single run does, and others continue") 
       CHECK(runs[i].y[row] == Approx(single.row(row)[1]).epsilon(1e-3).margin(1e-9));
     }
   }
-}
-
-TEST_CASE("loops stop on request") {
-  const Scenario scene = scenario_named("fig2b");
-  const std::vector<Case> cases = cases_of(with_other_gains(scene, 3 * group));
-  // Becomes true when the first loop has ended.
-  class Stopping : public Cases {
-   public:
-    using Cases::Cases;
-    void end(std::size_t number, const Result& run) override {
-      Cases::end(number, run);
-      stop = true;
-    }
-    std::atomic<bool> stop{false};
-  };
-  Stopping study(cases);
-  Ensemble lanes({Actuation::by_servo, solve::OutputGrid(scene.time)}, 8, {1e-6, 1e-8});
-  lanes.carry(study, study.stop);
-  CHECK(study.ended > 0);
-  CHECK(study.ended <= group);
-  CHECK(are_done(carry(lanes, cases)));
 }
 
 TEST_CASE("a loop that explodes ends long before its steps vanish") {
@@ -340,71 +312,6 @@ TEST_CASE("loops whose gains couple the axes cost no more") {
   CHECK(are_done(runs));
   CHECK(error_of(runs[0], scene) < 10 * local_error(tolerances));
   CHECK(lanes.statistics().nonlinear_iterations < 4 * lanes.statistics().jacobian_evaluations);
-}
-
-TEST_CASE("loops in lanes find their extremes between rows") {
-  const char* name = GENERATE("fig2b", "stiff-servo", "fig2b-literal");
-  Scenario scene = scenario_named(name);
-  if (scene.controller->drives == Drives::acceleration) scene.time.end = 0.5;
-  if (std::string(name) == "stiff-servo") scene.time.end = 0.2;
-  scene.time.step = scene.time.end;
-  const std::vector<Scenario> scenes = with_other_gains(scene, group);
-  Ensemble lanes({actuation_of(scene), solve::OutputGrid(scene.time)}, 12, {1e-10, 1e-12});
-  const auto runs = carry(lanes, cases_of(scenes));
-  REQUIRE(are_done(runs));
-  for (std::size_t i = 0; i < group; ++i) {
-    Scenario close = scenes[i];
-    close.time.step = close.time.end / 20000;
-    const solve::OutputGrid grid(close.time);
-    const solve::Trajectory rows = truth(close);
-    const Case one = case_of(close);
-    double most[solve::size_count] = {};
-    for (std::size_t row = 0; row < grid.size(); ++row) {
-      const auto state = [&](std::size_t k) { return rows.row(row)[k]; };
-      const auto raise = [&](solve::Size quantity, double size) {
-        most[quantity] = std::max(most[quantity], size);
-      };
-      const double a = std::pow(std::sin(state(5) / 2), 2), b = std::pow(std::sin(state(6) / 2), 2);
-      raise(solve::versine, 2 * (a + b) - 4 * a * b);
-      raise(solve::rate_squared, state(7) * state(7) + state(8) * state(8));
-      raise(solve::distance_squared, state(0) * state(0) + state(1) * state(1));
-      double error = 0;
-      for (std::size_t k = 0; k < 2; ++k) {
-        double path = one.start[k] + one.rate[k] * grid[row];
-        for (int harmonic = 0; harmonic < one.harmonic_count; ++harmonic) {
-          const model::Harmonic& of = one.harmonics[harmonic];
-          const double angle = of.frequency * grid[row];
-          path += of.sine[k] * std::sin(angle) + of.cosine[k] * std::cos(angle);
-        }
-        const double from = state(k) - path;
-        error += from * from;
-      }
-      raise(solve::error_squared, error);
-    }
-    for (std::size_t quantity = 0; quantity < solve::size_count; ++quantity) {
-      CAPTURE(name, i, quantity);
-      // The greatest row value is below the true one by at most h^2 / 8 times its curvature, some
-      // 1e-4 for servos of 2000 rad/s; never above it.
-      CHECK(runs[i].greatest[quantity] >= most[quantity] * (1 - 1e-8));
-      CHECK(runs[i].greatest[quantity] <= most[quantity] * (1 + 1e-3));
-    }
-  }
-}
-
-TEST_CASE("the last row of a loop in lanes equals its last state") {
-  const Scenario scene = scenario_named("fig2b");
-  const std::vector<Scenario> scenes = with_other_gains(scene, group);
-  Ensemble lanes({Actuation::by_servo, solve::OutputGrid(scene.time)}, 12, {1e-9, 1e-11});
-  const auto runs = carry(lanes, cases_of(scenes));
-  for (std::size_t i = 0; i < group; ++i) {
-    // The polynomial's end and the last node agree up to rounding.
-    CHECK(runs[i].x.back() == Approx(runs[i].state[0]).epsilon(1e-12).margin(1e-16));
-    CHECK(runs[i].y.back() == Approx(runs[i].state[1]).epsilon(1e-12).margin(1e-16));
-    const solve::Trajectory exact = truth(scenes[i]);
-    for (std::size_t k = 0; k < states; ++k) {
-      CHECK(runs[i].state[k] == Approx(exact.row(exact.rows() - 1)[k]).margin(1e-9));
-    }
-  }
 }
 
 }  // namespace bbsim_test::test_closed_loops

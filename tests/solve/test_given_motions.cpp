@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Balls under prescribed motions in lanes, against references and known properties.
+// Balls under prescribed motions in lanes: nodes, repeated steps and company. Tolerances, greatest
+// values and cases that diverge are in tests/sweep.
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "catch.hpp"
@@ -73,22 +73,6 @@ TEST_CASE("balls in lanes agree with the reference, for any number of nodes") {
   }
 }
 
-TEST_CASE("a looser tolerance takes fewer steps in lanes and gives larger errors") {
-  const auto last = read_reference_table("fig2a").back();
-  double error_before = 0;
-  std::size_t steps_before = std::numeric_limits<std::size_t>::max();
-  for (const double rtol : {1e-12, 1e-9, 1e-5}) {
-    Ensemble lanes = lanes_of(8, rtol);
-    const Course run = carry(lanes, {fig2a()})[0];
-    const double error = std::abs(run.state[1] - static_cast<double>(last[2]));
-    CHECK(error < 3 * rtol);
-    CHECK(error > error_before);
-    CHECK(lanes.statistics().steps < steps_before);
-    error_before = error;
-    steps_before = lanes.statistics().steps;
-  }
-}
-
 TEST_CASE("under a prescribed motion, hardly any step is repeated") {
   std::vector<Case> cases;
   for (int i = 0; i < 8; ++i) {
@@ -115,88 +99,7 @@ TEST_CASE("the result of a ball depends neither on its companions nor on earlier
     cases.push_back(fig2a(motion));
   }
   Ensemble lanes = lanes_of(12, 1e-8);
-  const std::vector<Course> together = carry(lanes, cases);
-  CHECK(are_done(together));
-  std::vector<Case> reversed = cases;
-  std::reverse(reversed.begin(), reversed.end());
-  std::vector<Course> backwards = carry(lanes, reversed);
-  std::reverse(backwards.begin(), backwards.end());
-  CHECK(backwards == together);
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    CAPTURE(i);
-    CHECK(carry(lanes, {cases[i]}).front() == together[i]);
-  }
-}
-
-TEST_CASE("each lane finds its own farthest place between nodes") {
-  // Free balls on a level plane move in straight lines: a parabola's minimum is inside, its maximum
-  // at an end. On an oscillating plane the maximum is where the ball turns around.
-  std::vector<Case> cases;
-  for (int i = 0; i < 8; ++i) {
-    // x'' = -5/7 g a t (27), without rates; a slow ramp is close enough.
-    model::SignalPair motion;
-    motion.add_ramp(0, -1e-3 * (1 + 0.1 * i), 0);
-    cases.push_back(ball_under(motion));
-    cases.back().initial[0] = 0.02 * i;
-    cases.back().initial[2] = 0.1;
-  }
-  Ensemble lanes = lanes_of(12, 1e-12);
-  const std::vector<Course> runs = carry(lanes, cases);
-  REQUIRE(are_done(runs));
-  for (int i = 0; i < 8; ++i) {
-    const Course& run = runs[static_cast<std::size_t>(i)];
-    const double a = 5.0 / 7 * 9.81 * std::sin(1e-3 * (1 + 0.1 * i)), x = 0.02 * i, v = 0.1;
-    // Up to 0.1^2 / (2 a) and back again, and perhaps farther on the other side.
-    const double turning = x + v * v / (2 * a), last = x + v * end - a / 2 * end * end;
-    const double farthest = v / a < end ? std::max(turning, std::abs(last)) : std::abs(last);
-    CHECK(std::sqrt(run.greatest[solve::distance_squared]) == Approx(farthest).epsilon(1e-11));
-    CHECK(run.state[0] == Approx(last).epsilon(1e-11));
-    CHECK(run.greatest[solve::versine] ==
-          Approx(2 * std::pow(std::sin(0.5e-3 * (1 + 0.1 * i)), 2)).epsilon(1e-13));
-  }
-}
-
-TEST_CASE("a lane that cannot continue is abandoned without affecting the others") {
-  std::vector<Case> cases(8, fig2a());
-  // A plane that turns at 1e4 rad/s throws its ball beyond the range of doubles.
-  cases[2].rate[0] = 1e4;
-  cases[5].initial[0] = std::numeric_limits<double>::quiet_NaN();
-  Ensemble lanes = lanes_of(12, 1e-9);
-  const std::vector<Course> runs = carry(lanes, cases);
-  const auto last = read_reference_table("fig2a").back();
-  for (std::size_t i = 0; i < 8; ++i) {
-    CAPTURE(i);
-    const bool fine = i != 2 && i != 5;
-    CHECK((runs[i].ending == Ending::done) == fine);
-    if (!fine) continue;
-    CHECK(runs[i].state[1] == Approx(static_cast<double>(last[2])).margin(1e-8));
-  }
-}
-
-TEST_CASE("the greatest tilt and rate are those of the motion, for any terms") {
-  const int which = GENERATE(range(0, 4));
-  model::SignalPair motion;
-  if (which < 3) motion.add_sinusoid(0, 0.7, 1.3, 0.2);
-  if (which == 1) motion.add_sinusoid(1, 0.4, 2.1, 1.0);
-  if (which == 2) motion.add_ramp(1, 0.2, -0.05);
-  if (which == 3) {  // equally far in all directions, up to the fourth power of the angle
-    motion.add_sinusoid(0, 0.5, 3, 0);
-    motion.add_sinusoid(1, 0.5, 3, std::numbers::pi / 2);
-  }
-  Ensemble lanes = lanes_of(12, 1e-9);
-  const std::vector<Course> runs = carry(lanes, {fig2a(motion)});
-  REQUIRE(are_done(runs));
-  double tilted = 0, rate = 0;
-  constexpr int times = 1'000'000;
-  for (int i = 0; i <= times; ++i) {
-    const auto angles = motion.at(end * i / times);
-    const double a = std::sin(angles[0].value / 2), b = std::sin(angles[1].value / 2);
-    tilted = std::max(tilted, 2 * (a * a + b * b) - 4 * a * a * b * b);
-    rate = std::max(rate, angles[0].rate * angles[0].rate + angles[1].rate * angles[1].rate);
-  }
-  // Sampling every 1e-5 s misses the maximum by at most a relative 1e-10.
-  CHECK(runs[0].greatest[solve::versine] == Approx(tilted).epsilon(1e-9));
-  CHECK(runs[0].greatest[solve::rate_squared] == Approx(rate).epsilon(1e-9));
+  CHECK(are_done(carry_in_any_company(lanes, cases)));
 }
 
 }  // namespace bbsim_test::test_given_motions

@@ -10,6 +10,7 @@
 
 #include "catch.hpp"
 #include "model/control/law.hpp"
+#include "solve/scene_table.hpp"
 #include "support/largest.hpp"
 #include "support/reading.hpp"
 #include "support/run_in_memory.hpp"
@@ -61,18 +62,6 @@ time: {end: 4, step: 0.05}
 plate: {inertia: [0.004, 0.004, 0.008]}
 gimbal:
   motor: {position_loop: {kp: 5.66, kd: 0.243, ki: 58}, torque_limit: 0.18}
-  start: {phi: -0.13, theta: 0.13, theta_rate: -1.26}
-controller:
-  pd: {kv: [[0.6, 0], [0, -0.6]], kp: [[0.7, 0], [0, -0.7]]}
-  drives: angle
-  reference: {point: [0, 0]}
-time: {end: 3, step: 0.02}
-)"},
-    {"a motor's position loop at the limit of its voltage",
-     R"(ball: {radius: 0.02, mass: 0.05, position: [0.08, -0.05]}
-plate: {inertia: [0.004, 0.004, 0.008]}
-gimbal:
-  motor: {position_loop: {kp: 5.66, kd: 0.243, ki: 58}, torque_limit: 0.17, dc: {resistance: 2, torque_constant: 0.02, gear: 8, voltage_limit: 2.2}}
   start: {phi: -0.13, theta: 0.13, theta_rate: -1.26}
 controller:
   pd: {kv: [[0.6, 0], [0, -0.6]], kp: [[0.7, 0], [0, -0.7]]}
@@ -161,12 +150,27 @@ std::vector<std::vector<double>> smoothed(const model::Model& model, const Outpu
              : smoothed<model::CoupledLoop<>>(model, times, width, step);
 }
 
+// A position loop in a row: its error, and its integral from what the motor was asked for.
+struct LoopRow {
+  double error, integral, rate, command, beyond;  // the demand minus the actual torque
+};
+LoopRow loop_row(const Run& run, const Scenario& scene, std::size_t row, std::size_t axis) {
+  const PositionLoop& loop = *scene.gimbal.motor->position_loop;
+  const model::Sample& now = run.samples[row];
+  const double angle = axis == 0 ? now.gimbal.phi : now.gimbal.theta;
+  const double rate = axis == 0 ? now.gimbal.phi_dot : now.gimbal.theta_dot;
+  const double error = now.command[axis] - angle, asked = now.coupled->asked[axis];
+  return {error, (asked - loop.kp * error + loop.kd * rate) / loop.ki, rate, now.command[axis],
+          asked - now.coupled->given[axis]};
+}
+
 }  // namespace
 
 TEST_CASE("a run whose integral waits at a limit is the limit of the smoothed law") {
-  const Case& one = cases[GENERATE(0, 1, 2, 3, 4)];
-  CAPTURE(one.what);
-  const Scenario scene = test::parse(one.text);
+  const std::size_t which = GENERATE(0U, 1U, 2U, 3U, 4U);
+  CAPTURE(which);
+  const Scenario scene = which < 4 ? test::parse(cases[which].text)
+                                   : scene_called("motors at the limit of their voltage");
   const Method method = GENERATE(Method::radau, Method::bdf);
   const Run run = run_in_memory(scene, method, {1e-10, 1e-12});
   REQUIRE(run.outcome.ending == solve::Ending::done);
@@ -206,22 +210,12 @@ time: {end: 1, step: 0.0005}
   const Scenario scene = test::parse(with);
   const Run run = run_in_memory(scene, Method::radau, {1e-9, 1e-11});
   REQUIRE(run.outcome.ending == solve::Ending::done);
-  struct At {
-    double integral, error, rate, command;
-  };
-  const auto at = [&](std::size_t row, int axis) {
-    const model::Sample& now = run.samples[row];
-    const double angle = axis == 0 ? now.gimbal.phi : now.gimbal.theta;
-    const double rate = axis == 0 ? now.gimbal.phi_dot : now.gimbal.theta_dot;
-    const double command = now.command[static_cast<std::size_t>(axis)], error = command - angle;
-    return At{(now.coupled->asked[axis] - 3.28 * error + 0.171 * rate) / 59.7, error, rate,
-              command};
-  };
   double most = 0, steepest = 0;
   for (std::size_t row = 1; row < run.samples.size(); ++row) {
     const double dt = run.samples[row].t - run.samples[row - 1].t;
-    for (int axis = 0; axis < 2; ++axis) {
-      const At from = at(row - 1, axis), to = at(row, axis);
+    for (const std::size_t axis : {0U, 1U}) {
+      const LoopRow from = loop_row(run, scene, row - 1, axis),
+                    to = loop_row(run, scene, row, axis);
       // Between two rows the error is at most the larger of the two plus the change by the command.
       const double error = std::max(std::abs(from.error), std::abs(to.error)) +
                            std::max(std::abs(from.rate), std::abs(to.rate)) * dt +
@@ -257,26 +251,18 @@ time: {end: 0.4, step: 0.0001}
   const Run run = run_in_memory(scene, Method::radau, {1e-10, 1e-12});
   REQUIRE(run.outcome.ending == solve::Ending::done);
   const double from_rate = 0.2 * 0.2 / 2, stall = 0.2 * 0.019 / 2;
-  struct At {
-    double error, integral, beyond;  // the demand minus the actual torque
-    bool overruns;
-  };
-  const auto at = [&](std::size_t row, std::size_t axis) {
-    const model::Sample& now = run.samples[row];
-    const double angle = axis == 0 ? now.gimbal.phi : now.gimbal.theta;
-    const double rate = axis == 0 ? now.gimbal.phi_dot : now.gimbal.theta_dot;
-    const double error = now.command[axis] - angle, asked = now.coupled->asked[axis];
-    return At{error, (asked - 0.125 * error + 0.02 * rate) / 0.16, asked - now.coupled->given[axis],
-              std::abs(rate) * from_rate - stall > 0.0022};
+  const auto overruns = [&](const LoopRow& at) {
+    return std::abs(at.rate) * from_rate - stall > 0.0022;
   };
   double apart = 0;
   int waits = 0, moves = 0;
   for (std::size_t row = 1; row < run.samples.size(); ++row) {
     for (const std::size_t axis : {0U, 1U}) {
-      const At from = at(row - 1, axis), to = at(row, axis);
+      const LoopRow from = loop_row(run, scene, row - 1, axis),
+                    to = loop_row(run, scene, row, axis);
       // Two rows in the same mode have no switch between them.
-      const bool alike =
-          from.overruns && to.overruns && from.beyond * to.beyond > 0 && from.error * to.error > 0;
+      const bool alike = overruns(from) && overruns(to) && from.beyond * to.beyond > 0 &&
+                         from.error * to.error > 0;
       if (!alike) continue;
       const bool outward = from.beyond * from.error > 0;
       ++(outward ? waits : moves);

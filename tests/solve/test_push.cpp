@@ -71,29 +71,6 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a push of zero has no effect in any kind of loop") {
-  for (const int kind : {0, 1, 2, 3}) {
-    Scenario scene = kind == 0 ? fig2a() : fig2b();
-    scene.time = {4, 0.1};
-    scene.ball.mass = 0.05;
-    if (kind == 2) scene.controller->sampling = Sampling{0.02, 0.01, 0, 0.03};
-    if (kind == 3) {
-      scene.gimbal.servo.reset();
-      scene.gimbal.motor = Motor{};
-      scene.gimbal.motor->position_loop = PositionLoop{4, 0.3, 0};
-      scene.plate.inertia = {4e-3, 6e-3, 1e-2};
-    }
-    Scenario pushed = scene;
-    pushed.ball.push = BallPush{{0.0}, {}};
-    const Run a = run_of(scene), b = run_of(pushed);
-    for (std::size_t i = 0; i < a.samples.size(); ++i) {
-      CHECK(std::abs(a.samples[i].ball.x - b.samples[i].ball.x) < 1e-9);
-      CHECK(std::abs(a.samples[i].ball.y - b.samples[i].ball.y) < 1e-9);
-      CHECK(std::abs(a.samples[i].gimbal.phi - b.samples[i].gimbal.phi) < 1e-9);
-    }
-  }
-}
-
 TEST_CASE("the energy that a push gives is its power, whatever moves the gimbal") {
   Scenario scene = level();
   scene.time = {3, 0.002};

@@ -42,6 +42,17 @@ Rows integrate(const model::Model& model, const Scenario& scene, double rtol,
   return {run, std::move(rows)};
 }
 
+// Memory for a kernel, aligned.
+struct Workspace {
+  explicit Workspace(std::size_t bytes) : memory(bytes / sizeof(double) + 8) {
+    void* start = memory.data();
+    std::size_t space = memory.size() * sizeof(double);
+    place = std::align(64, bytes, start, space);
+  }
+  std::vector<double> memory;
+  void* place = nullptr;
+};
+
 // Largest difference of all states in all rows, in units of rtol: relative to the largest value of
 // each state, but at least to atol / rtol = 0.01.
 double difference(const solve::Trajectory& a, const solve::Trajectory& b, std::size_t row_size) {
@@ -58,53 +69,7 @@ double difference(const solve::Trajectory& a, const solve::Trajectory& b, std::s
   return worst;
 }
 
-Scenario at_rest() {
-  Scenario scene;
-  scene.gravity = 9.81;
-  scene.ball.radius = 0.01;
-  scene.ball.position = {0.1, 0.2};
-  scene.gimbal.motion = {{0.0}, {0.0}};
-  scene.time = {10, 0.1};
-  return scene;
-}
-
 }  // namespace
-
-TEST_CASE("collocation follows the quad-precision solutions at every tolerance") {
-  struct Case {
-    const char* name;
-    double amplification;  // of a local error of rtol, over the run
-  };
-  // A tolerance bounds the error of a step relative to the state. A run of some ten steps may add
-  // these up, and `fast` and `tumble` carry them through states that grow by 1e4.
-  const auto [name, amplification] =
-      GENERATE(Case{"fig2a", 10}, Case{"fig2b", 10}, Case{"small-ball", 10}, Case{"spin", 10},
-               Case{"stiff-servo", 10}, Case{"fast", 1e4}, Case{"tumble", 1e4});
-  const int stages = GENERATE(8, 12, 16);
-  const double rtol = GENERATE(1e-5, 1e-8, 1e-11);
-  CAPTURE(name, stages, rtol);
-  const Scenario scene = scenario_named(name);
-  const model::Model model = model::assemble(scene, true);
-  const Rows result = integrate(model, scene, rtol, solve::radau::choose_kernels(), stages);
-  REQUIRE(result.run.ending == solve::Ending::done);
-  REQUIRE(result.run.reached == scene.time.end);
-  const QuadReference reference(name);
-  const std::vector<double>&x = reference["x"], &y = reference["y"], &gamma = reference["gamma"];
-  REQUIRE(result.rows.rows() == x.size());
-  const solve::OutputGrid grid(scene.time);
-  double turned = 0;
-  for (double angle : gamma) turned = std::max(turned, std::abs(angle) * scene.ball.radius);
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double* row = result.rows.row(i);
-    const model::Sample sample = model.sample(grid[i], row);
-    CHECK(std::abs(sample.ball.x - x[i]) < amplification * rtol);
-    CHECK(std::abs(sample.ball.y - y[i]) < amplification * rtol);
-    if (model.gamma) {
-      CHECK(std::abs(row[model.size()] - gamma[i] * scene.ball.radius) <
-            amplification * rtol * (1 + turned));
-    }
-  }
-}
 
 TEST_CASE("a step's error has at least the order of its stages") {
   const Scenario scene = scenario_named("fast");
@@ -118,10 +83,8 @@ TEST_CASE("a step's error has at least the order of its stages") {
     const auto& kernel = solve::radau::choose_kernels().kernels[0][model.system.index()];
     const Rows exact = integrate(model, one, 1e-13);
     const auto view = std::get<0>(model.system).view();
-    std::vector<double> memory(kernel.workspace / sizeof(double) + 8);
-    void* place = memory.data();
-    std::size_t space = memory.size() * sizeof(double);
-    void* const workspace = std::align(64, kernel.workspace, place, space);
+    const Workspace memory(kernel.workspace);
+    void* const workspace = memory.place;
     kernel.start(workspace, {&view, model.initial.data(), 1e-12, 1e-14, false});
     solve::radau::Attempt attempt{};
     kernel.attempt(workspace, 0, h, &attempt);
@@ -132,90 +95,6 @@ TEST_CASE("a step's error has at least the order of its stages") {
     return std::hypot(z[0] - exact.rows.row(1)[0], z[1] - exact.rows.row(1)[1]);
   };
   CHECK(std::log2(error_of(0.8) / error_of(0.4)) > 9);
-}
-
-TEST_CASE("a fast servo costs collocation no steps") {
-  Scenario scene = scenario_named("stiff-servo");
-  const double natural_frequency = GENERATE(2000.0, 20000.0);
-  scene.gimbal.servo->natural_frequency = natural_frequency;
-  // The loop is stable while r k_v omega_n^2 < 2 zeta omega_n (docs/explanation/rig-model.md,
-  // (M13)).
-  const double gain = 100 / natural_frequency;
-  scene.controller->kv = {{{gain, 0}, {0, -gain}}};
-  scene.controller->kp = scene.controller->kv;
-  const model::Model model = model::assemble(scene, true);
-  const Rows usual = integrate(model, scene, 1e-6);
-  const Rows tight = integrate(model, scene, 1e-11);
-  CHECK(usual.run.ending == solve::Ending::done);
-  // Resolving the servo itself would take 21 s * 20000 / s = 420,000 time constants.
-  CHECK(usual.run.statistics.steps < 100);
-  CHECK(tight.run.statistics.steps < 500);
-  // Ten local errors of 1e-6 m, for the ball only, because the servo's motion is not smooth.
-  for (std::size_t i = 0; i < usual.rows.rows(); ++i) {
-    CHECK(std::abs(usual.rows.row(i)[0] - tight.rows.row(i)[0]) < 1e-5);
-    CHECK(std::abs(usual.rows.row(i)[1] - tight.rows.row(i)[1]) < 1e-5);
-  }
-}
-
-TEST_CASE("collocation stops at the knots of a table") {
-  Scenario scene = at_rest();
-  Table table;
-  for (int i = 0; i <= 20; ++i) {
-    table.times.push_back(0.5 * i);
-    table.values.push_back(0.05 * ((i * 7) % 5) / 4.0);  // deliberately jagged
-  }
-  scene.gimbal.motion = {{table}, {0.02}};
-  const model::Model model = model::assemble(scene, true);
-  REQUIRE(model.stops.size() == 19);
-  const Rows ours = integrate(model, scene, 1e-11);
-  solve::Trajectory theirs(model.size() + 1);
-  const solve::OutputGrid grid(scene.time);
-  const solve::Outcome outcome =
-      solve::integrate(model, Method::adams, {1e-12, 1e-14}, grid, theirs, {});
-  REQUIRE(outcome.ending == solve::Ending::done);
-  CHECK(ours.run.statistics.steps >= 20);
-  CHECK(ours.run.reached == 10);
-  // CVODE restarts 19 times at an rtol of 1e-12 and accumulates some hundred local errors.
-  CHECK(difference(ours.rows, theirs, model.size() + 1) < 1e-9);
-}
-
-TEST_CASE("collocation ends where the solution diverges") {
-  const Scenario scene = scenario_named("fig2b-literal");
-  const model::Model model = model::assemble(scene, true);
-  solve::Trajectory rows(model.size() + 1);
-  const solve::OutputGrid grid(scene.time);
-  const solve::Outcome outcome =
-      solve::integrate(model, Method::radau, {1e-9, 1e-11}, grid, rows, {});
-  CHECK(outcome.ending == solve::Ending::failed);
-  CHECK_FALSE(outcome.reason.empty());
-  // The end of BDF at an rtol of 1e-12. Steps are fractions of the remaining time; the run ends
-  // when they are shorter than 1e-5 of the time.
-  CHECK(outcome.reached < 0.7487576252);
-  CHECK(outcome.reached > 0.7487576252 * (1 - 1e-5));
-  CHECK(outcome.rows == 75);  // 0 to 0.74 s
-  CHECK(rows.rows() == 75);
-  REQUIRE(outcome.last_state.size() == model.size());
-  CHECK(outcome.worst_state < model.size());
-  for (double value : outcome.last_state) CHECK(std::isfinite(value));
-  CHECK(outcome.statistics.steps < 2000);
-}
-
-TEST_CASE("a ball at rest stays there exactly, in a few steps") {
-  Scenario scene = at_rest();
-  const bool looped = GENERATE(false, true);
-  if (looped) {
-    scene = scenario_named("fig2b");
-    scene.ball.position = {0.03, -0.02};
-    scene.controller->reference = PointReference{{0.03, -0.02}};
-  }
-  const model::Model model = model::assemble(scene, true);
-  const Rows result = integrate(model, scene, 1e-8);
-  CHECK(result.run.statistics.steps <= 5);
-  for (std::size_t i = 0; i < result.rows.rows(); ++i) {
-    for (std::size_t k = 0; k < model.size(); ++k) {
-      CHECK(result.rows.row(i)[k] == model.initial[k]);
-    }
-  }
 }
 
 TEST_CASE("the integrator does not step over a fast small sinusoid beside a slow one") {
@@ -281,28 +160,14 @@ TEST_CASE("the first step's rate is the norm of the exact Jacobian") {
         }
         const auto view = system.view();
         const auto& kernel = solve::radau::choose_kernels().kernels[0][model.system.index()];
-        std::vector<double> memory(kernel.workspace / sizeof(double) + 8);
-        void* place = memory.data();
-        std::size_t space = memory.size() * sizeof(double);
-        void* const workspace = std::align(64, kernel.workspace, place, space);
+        const Workspace memory(kernel.workspace);
+        void* const workspace = memory.place;
         kernel.start(workspace, {&view, model.initial.data(), 1e-8, 1e-10, false});
         // The same sum in another order.
         CHECK(kernel.rate(workspace, 0) ==
               Approx(std::max(of_velocities, std::sqrt(of_positions))).epsilon(1e-14));
       },
       model.system);
-}
-
-TEST_CASE("a collocation run can be stopped from outside") {
-  const Scenario scene = scenario_named("fast");
-  const model::Model model = model::assemble(scene, false);
-  std::atomic<bool> stop{true};
-  solve::Watch watch;
-  watch.stop = &stop;
-  const Rows result = integrate(model, scene, 1e-8, solve::radau::choose_kernels(), 8, watch);
-  CHECK(result.run.ending == solve::Ending::interrupted);
-  CHECK(result.run.statistics.steps == 1);
-  CHECK(result.run.reached < 10);
 }
 
 }  // namespace bbsim_test::test_radau

@@ -4,6 +4,7 @@
 // Servos at their limits: when they switch, and the effect on the ball.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <tuple>
 #include <utility>
@@ -53,53 +54,87 @@ std::pair<double, double> free_servo(double q, double v, double u, double w, dou
 
 }  // namespace
 
-TEST_CASE("a servo at its acceleration limit switches at the exact time") {
-  const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
-  Scenario scene = step_scene(0.2);
-  const double u = 0.2, w = 10, zeta = 0.5, most = 12;
-  scene.gimbal.servo->acceleration_limit = most;
-  const Run run = run_of(scene, method);
-  // q = most t^2 / 2 until w^2 (u - q) - 2 zeta w q' = most.
-  const double a = w * w * most / 2, b = 2 * zeta * w * most, c = most - w * w * u;
-  const double t1 = (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);
-  const double q1 = most * t1 * t1 / 2, v1 = most * t1;
-  // Then it is free while the demand stays above -most; it is -12 at about a quarter of a turn.
-  for (const model::Sample& sample : run.samples) {
-    if (sample.t > t1 + 0.1) break;
-    const auto [q, v] = sample.t < t1 ? std::pair{most * sample.t * sample.t / 2, most * sample.t}
-                                      : free_servo(q1, v1, u, w, zeta, sample.t - t1);
-    CHECK(std::abs(sample.gimbal.phi - q) < 1e-9);
-    CHECK(std::abs(sample.gimbal.phi_dot - v) < 1e-8);
-    CHECK(std::abs(sample.gimbal.phi_ddot) <= most * (1 + 1e-9));
-  }
-}
+namespace {
 
-TEST_CASE("a servo at its rate limit keeps that rate, then leaves it") {
-  const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
-  Scenario scene = step_scene(0.5);
-  const double u = 0.5, w = 10, zeta = 0.5, fastest = 1;
-  scene.gimbal.servo->rate_limit = fastest;
-  const Run run = run_of(scene, method);
-  // Free until q' = fastest: by bisection of the closed form.
-  double from = 0, to = 0.1;
+// When a component of the free servo's step to `u` reaches a value, by bisection until `latest`.
+double reaches(double value, double std::pair<double, double>::*of, double u, double latest) {
+  double from = 0, to = latest;
   for (int i = 0; i < 60; ++i) {
     const double middle = (from + to) / 2;
-    (free_servo(0, 0, u, w, zeta, middle).second < fastest ? from : to) = middle;
+    (free_servo(0, 0, u, 10, 0.5, middle).*of < value ? from : to) = middle;
   }
-  const double t1 = to, q1 = free_servo(0, 0, u, w, zeta, t1).first;
-  // At the limit until w^2 (u - q) = 2 zeta w fastest.
-  const double q2 = u - 2 * zeta * fastest / w, t2 = t1 + (q2 - q1) / fastest;
-  for (const model::Sample& sample : run.samples) {
-    if (sample.t > t2 + 0.3) break;
-    const double t = sample.t;
-    const double q = t < t1   ? free_servo(0, 0, u, w, zeta, t).first
-                     : t < t2 ? q1 + fastest * (t - t1)
-                              : free_servo(q2, fastest, u, w, zeta, t - t2).first;
-    CHECK(std::abs(sample.gimbal.phi - q) < 1e-9);
-    CHECK(sample.gimbal.phi_dot <= fastest);
-    if (t > t1 + 1e-6 && t < t2 - 1e-6) CHECK(sample.gimbal.phi_dot == fastest);
+  return to;
+}
+
+}  // namespace
+
+TEST_CASE("a servo at its limits switches at the times of the closed form, in both directions") {
+  const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
+  const double sign = GENERATE(1.0, -1.0);
+  struct Part {
+    double until;  // s
+    std::function<std::pair<double, double>(double)> at;
+  };
+  std::vector<Part> parts;
+  double u = 0.2;
+  const double w = 10, zeta = 0.5;
+  Servo servo{w, zeta};
+  const std::string limit = GENERATE("acceleration", "rate", "angle");
+  CAPTURE(int(method), sign, limit);
+  if (limit == "acceleration") {
+    servo.acceleration_limit = 12;
+    // q = most t^2 / 2 until w^2 (u - q) - 2 zeta w q' = most. Then the demand stays above -most
+    // for a quarter of a turn.
+    const double most = 12, a = w * w * most / 2, b = 2 * zeta * w * most, c = most - w * w * u;
+    const double t1 = (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);
+    parts = {{t1,
+              [=](double t) {
+                return std::pair{most * t * t / 2, most * t};
+              }},
+             {t1 + 0.1, [=](double t) {
+                return free_servo(most * t1 * t1 / 2, most * t1, u, w, zeta, t - t1);
+              }}};
+  } else if (limit == "rate") {
+    servo.rate_limit = 1;
+    u = 0.5;
+    // At the limit until w^2 (u - q) = 2 zeta w fastest.
+    const double t1 = reaches(1, &std::pair<double, double>::second, u, 0.1);
+    const double q1 = free_servo(0, 0, u, w, zeta, t1).first;
+    const double q2 = u - 2 * zeta / w, t2 = t1 + q2 - q1;
+    REQUIRE(t2 < 0.6);
+    parts = {{t1, [=](double t) { return free_servo(0, 0, u, w, zeta, t); }},
+             {t2,
+              [=](double t) {
+                return std::pair{q1 + t - t1, 1.0};
+              }},
+             {t2 + 0.3, [=](double t) { return free_servo(q2, 1, u, w, zeta, t - t2); }}};
+  } else {
+    servo.angle_limit = 0.15;
+    const double t1 = reaches(0.15, &std::pair<double, double>::first, u, 0.25);
+    parts = {{t1, [=](double t) { return free_servo(0, 0, u, w, zeta, t); }},
+             {2, [](double) {
+                return std::pair{0.15, 0.0};
+              }}};
   }
-  CHECK(t2 < 0.6);
+  Scenario scene = step_scene(sign * u);
+  scene.gimbal.servo = servo;
+  for (const model::Sample& sample : run_of(scene, method).samples) {
+    std::size_t part = 0;
+    while (part < parts.size() && sample.t > parts[part].until) ++part;
+    if (part == parts.size()) break;
+    const auto [q, v] = parts[part].at(sample.t);
+    CHECK(std::abs(sign * sample.gimbal.phi - q) < 1e-9);
+    CHECK(std::abs(sign * sample.gimbal.phi_dot - v) < 1e-8);
+    if (limit == "acceleration") CHECK(std::abs(sample.gimbal.phi_ddot) <= 12 * (1 + 1e-9));
+    // At a rate limit or a stop, exactly.
+    if (limit == "rate") CHECK(sign * sample.gimbal.phi_dot <= 1);
+    const bool held = part == 1 && sample.t > parts[0].until + 1e-6;
+    if (limit == "rate" && held) CHECK(sign * sample.gimbal.phi_dot == 1);
+    if (limit != "angle" || !held) continue;
+    CHECK(sign * sample.gimbal.phi == 0.15);
+    CHECK(sample.gimbal.phi_dot == 0);
+    CHECK(sample.gimbal.phi_ddot == 0);
+  }
 }
 
 // The angle and rate of a trapezoidal ramp from (q, v) to a target, after a time, by the durations
@@ -264,24 +299,14 @@ TEST_CASE("a ringing shaft that loses steps swings about the driver's field") {
   CHECK(std::abs(believed - end.gimbal.phi - std::floor(believed / period) * period) < 1e-3);
 }
 
-TEST_CASE("a hard stop stops the servo and kicks the ball by r times its rate") {
+TEST_CASE("a hard stop kicks the ball by r times the servo's rate") {
   const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
-  Scenario scene = step_scene(0.2);
-  const double u = 0.2, w = 10, zeta = 0.5, stop = 0.15, r = scene.ball.radius;
-  scene.gimbal.servo->angle_limit = stop;
+  const double sign = GENERATE(1.0, -1.0);
+  Scenario scene = step_scene(sign * 0.2);
+  const double stop = sign * 0.15, r = scene.ball.radius;
+  scene.gimbal.servo->angle_limit = 0.15;
   const Run run = run_of(scene, method);
-  double from = 0, to = 0.25;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = (from + to) / 2;
-    (free_servo(0, 0, u, w, zeta, middle).first < stop ? from : to) = middle;
-  }
-  const double t1 = to;
-  for (const model::Sample& sample : run.samples) {
-    if (sample.t <= t1) continue;
-    CHECK(sample.gimbal.phi == stop);
-    CHECK(sample.gimbal.phi_dot == 0);
-    CHECK(sample.gimbal.phi_ddot == 0);
-  }
+  const double t1 = reaches(0.15, &std::pair<double, double>::first, 0.2, 0.25);
   // Equation (27) with y = 0 = theta is (x' + r phi')' = 5/7 (g sin phi + x phi'^2), without a
   // jump. Simpson's rule integrates it over the run, separately before and after the stop.
   const auto integrand = [&](const model::Sample& s) {
@@ -308,7 +333,8 @@ TEST_CASE("a hard stop stops the servo and kicks the ball by r times its rate") 
 
 TEST_CASE("backlash: the plane follows only where the servo pushes it") {
   const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
-  Scenario scene = step_scene(0.2);
+  const double sign = GENERATE(1.0, -1.0);
+  Scenario scene = step_scene(sign * 0.2);
   const double gap = 0.04;
   scene.gimbal.servo->backlash = gap;
   const Run run = run_of(scene, method);
@@ -316,7 +342,7 @@ TEST_CASE("backlash: the plane follows only where the servo pushes it") {
   // overshoot left it, half a gap behind the servo's largest angle.
   const double overshoot = 0.2 * (1 + std::exp(-std::acos(-1.0) * 0.5 / std::sqrt(0.75)));
   CHECK(overshoot - 0.2 < gap);
-  CHECK(run.samples.back().gimbal.phi == Approx(overshoot - gap / 2).epsilon(1e-9));
+  CHECK(sign * run.samples.back().gimbal.phi == Approx(overshoot - gap / 2).epsilon(1e-9));
   CHECK(run.samples.back().gimbal.phi_dot == 0);
   // It does not move until the servo has crossed half the gap.
   CHECK(run.samples[3].gimbal.phi == 0);

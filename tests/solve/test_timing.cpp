@@ -3,6 +3,7 @@
 
 // Clocks with jitter, camera frames and misaligned sensors.
 #include <cmath>
+#include <functional>
 
 #include "catch.hpp"
 #include "model/control/sample_exchange.hpp"
@@ -39,17 +40,53 @@ Run run_of(const Scenario& scene) {
 
 }  // namespace
 
-TEST_CASE("measured periods are used in order and start again after the last") {
+TEST_CASE("a sample sees the exposure that its clock, camera and faults give") {
+  const auto last_sample = [](double t) { return 0.02 * std::floor(t / 0.02 + 1e-9); };
   Scenario scene = onlooker();
-  scene.controller->sampling->periods = {0.02, 0.03, 0.013};
+  Sensor& sensor = *scene.controller->sensor;
+  std::function<double(double)> seen;  // the time of the exposure that a row shows
+  SECTION("measured periods, which start again after the last") {
+    scene.controller->sampling->periods = {0.02, 0.03, 0.013};
+    seen = [](double t) {
+      double sampled = 0;
+      for (std::size_t i = 0;; ++i) {
+        const double next = sampled + std::array{0.02, 0.03, 0.013}[i % 3];
+        if (next > t + 1e-9) return sampled;  // a row at a sample comes after it
+        sampled = next;
+      }
+    };
+  }
+  SECTION("the last frame that has arrived") {
+    sensor.period = 0.033;
+    sensor.phase = 0.005;
+    sensor.delay = 0.012;
+    seen = [=](double t) {
+      const double frames = std::floor((last_sample(t) - 0.012 - 0.005) / 0.033 + 1e-9);
+      return std::max(0.005 + 0.033 * frames, 0.0);
+    };
+  }
+  SECTION("a sensor that sticks repeats its reading for the duration") {
+    const auto [duration, readings] = GENERATE(table<double, int>({{0.11, 6}, {0.1, 5}}));
+    sensor.stuck = SensorFault{1, duration};
+    seen = [length = 0.02 * readings](double t) { return length * std::floor(t / length + 1e-9); };
+  }
+  SECTION("frames that wait arrive together") {
+    sensor.period = 0.033;
+    sensor.phase = 0.005;
+    sensor.delay = 0.012;
+    sensor.burst = SensorFault{1, 0.1};
+    seen = [=](double t) {
+      double last = 0, until = -1;
+      for (int i = -2; 0.033 * i + 0.017 < last_sample(t) + 0.1; ++i) {
+        const double arrives = 0.033 * i + 0.017;
+        if (arrives >= until) until = arrives + 0.1;
+        if (until <= last_sample(t)) last = std::max(0.0, 0.033 * i + 0.005);
+      }
+      return last;
+    };
+  }
   for (const model::Sample& now : run_of(scene).samples) {
-    double sampled = 0;
-    for (std::size_t i = 0;; ++i) {
-      const double next = sampled + std::array{0.02, 0.03, 0.013}[i % 3];
-      if (next > now.t + 1e-9) break;  // a row at a sample comes after it
-      sampled = next;
-    }
-    CHECK(std::abs(now.measured[0] - 0.1 * sampled) < 1e-12);
+    CHECK(std::abs(now.measured[0] - 0.1 * seen(now.t)) < 1e-12);
   }
 }
 
@@ -93,64 +130,6 @@ TEST_CASE("jitter has its own random sequence and does not change the noise") {
     const bool same = b.samples[i].measured == a.samples[i].measured;
     const bool last = i > 0 && b.samples[i].measured == a.samples[i - 1].measured;
     CHECK((same || last));
-  }
-}
-
-TEST_CASE("a run with jitter does not depend on the output step, nor on where it is split") {
-  Scenario scene = onlooker();
-  scene.controller->kp = {{{0.7, 0}, {0, -0.7}}};
-  scene.controller->kv = {{{0.6, 0}, {0, -0.6}}};
-  scene.controller->sampling->jitter = 2e-3;
-  scene.controller->sampling->delay = 0.013;
-  scene.controller->sensor->delay = 0.007;
-  scene.controller->sensor->period = 0.033;
-  scene.time = {2, 0.25};
-  Scenario fine = scene;
-  fine.time.step = 0.125;
-  const Run a = run_of(scene), b = run_of(fine);
-  for (std::size_t i = 0; i < a.samples.size(); ++i) {
-    CHECK(a.samples[i].ball.x == b.samples[2 * i].ball.x);
-    CHECK(a.samples[i].command == b.samples[2 * i].command);
-  }
-}
-
-TEST_CASE("a sample sees the last camera frame that has arrived") {
-  Scenario scene = onlooker();
-  scene.controller->sensor->period = 0.033;
-  scene.controller->sensor->phase = 0.005;
-  scene.controller->sensor->delay = 0.012;
-  for (const model::Sample& now : run_of(scene).samples) {
-    const double sampled = 0.02 * std::floor(now.t / 0.02 + 1e-9);
-    const double frame = 0.005 + 0.033 * std::floor((sampled - 0.012 - 0.005) / 0.033 + 1e-9);
-    CHECK(std::abs(now.measured[0] - 0.1 * std::max(frame, 0.0)) < 1e-12);
-  }
-}
-
-TEST_CASE("a sensor that sticks repeats its reading for the duration") {
-  Scenario scene = onlooker();
-  const auto [duration, readings] = GENERATE(table<double, int>({{0.11, 6}, {0.1, 5}}));
-  scene.controller->sensor->stuck = SensorFault{1, duration};
-  for (const model::Sample& now : run_of(scene).samples) {
-    const double stuck_at = 0.02 * readings * std::floor(now.t / (0.02 * readings) + 1e-9);
-    CHECK(std::abs(now.measured[0] - 0.1 * stuck_at) < 1e-12);
-  }
-}
-
-TEST_CASE("frames that wait arrive together") {
-  Scenario scene = onlooker();
-  scene.controller->sensor->period = 0.033;
-  scene.controller->sensor->phase = 0.005;
-  scene.controller->sensor->delay = 0.012;
-  scene.controller->sensor->burst = SensorFault{1, 0.1};
-  for (const model::Sample& now : run_of(scene).samples) {
-    const double sampled = 0.02 * std::floor(now.t / 0.02 + 1e-9);
-    double seen = 0, until = -1;
-    for (int i = -2; 0.033 * i + 0.017 < sampled + 0.1; ++i) {
-      const double arrives = 0.033 * i + 0.017;
-      if (arrives >= until) until = arrives + 0.1;
-      if (until <= sampled) seen = std::max(0.0, 0.033 * i + 0.005);
-    }
-    CHECK(std::abs(now.measured[0] - 0.1 * seen) < 1e-12);
   }
 }
 

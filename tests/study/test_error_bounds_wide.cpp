@@ -14,10 +14,8 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "solve/check_run.hpp"
-#include "study/checks.hpp"
+#include "positions.hpp"
 #include "study/error_control.hpp"
-#include "study/reference.hpp"
 #include "support/run_in_memory.hpp"
 
 namespace bbsim_test::test_error_bounds_wide {
@@ -131,31 +129,6 @@ Scenario watched(Draw& draw) {
   return scene;
 }
 
-using Positions = std::vector<std::vector<double>>;
-
-// Empty if the scene ends early. In quad precision if nothing switches.
-Positions exact(Scenario scene) {
-  scene.events = {};
-  const model::Model model = model::assemble(scene, false);
-  const solve::OutputGrid grid(scene.time);
-  const auto n = static_cast<std::size_t>(study::coordinates(model));
-  Positions rows;
-  if (model.hybrid()) {
-    solve::Trajectory fine(model.row_size());
-    const auto outcome = solve::integrate_check_run(model, {12, 7}, {1e-14, 1e-16}, grid, fine, {});
-    if (outcome.ending != solve::Ending::done) return {};
-    for (std::size_t i = 0; i < fine.rows(); ++i) rows.emplace_back(fine.row(i), fine.row(i) + n);
-    return rows;
-  }
-  const study::ReferenceSolution quad = study::solve_reference(model, grid, 1e-20);
-  if (!quad.complete) return {};
-  for (std::size_t i = 0; i < quad.rows(); ++i) {
-    rows.emplace_back();
-    for (std::size_t k = 0; k < n; ++k) rows.back().push_back(plain(quad.row(i)[k]));
-  }
-  return rows;
-}
-
 struct Figures {
   int runs = 0, met = 0, bounds_broken = 0, below_third = 0, integrations = 0;
   std::vector<double> ratios;  // estimate over error, excluding rounding
@@ -176,11 +149,12 @@ TEST_CASE("bounds and estimates over thousands of random scenes", "[.][wide]") {
     Figures figures;
     for (int seed = 1; seed <= scenes; ++seed) {
       Draw draw(static_cast<unsigned>(seed));
-      const Scenario scene = kind.make(draw);
-      const Positions truth = exact(scene);
-      if (truth.empty()) continue;
+      Scenario scene = kind.make(draw);
       const model::Model model = model::assemble(scene, false);
+      scene.events = {};
       const solve::OutputGrid grid(scene.time);
+      const Positions truth = exact_positions(model::assemble(scene, false), grid);
+      if (truth.empty()) continue;
       double extent = 0;
       for (const auto& row : truth) {
         for (const double x : row) extent = std::max(extent, std::abs(x));

@@ -7,10 +7,8 @@
 #include <string>
 
 #include "catch.hpp"
-#include "solve/check_run.hpp"
-#include "study/checks.hpp"
+#include "positions.hpp"
 #include "study/error_control.hpp"
-#include "study/reference.hpp"
 #include "support/run_in_memory.hpp"
 
 namespace bbsim_test::test_error_control {
@@ -25,48 +23,17 @@ struct Asked {
   double extent = 0;  // largest coordinate, m
 };
 
-Asked ask(const std::string& name, double bound) {
-  const Scenario scene = scenario_named(name);
-  const model::Model model = model::assemble(scene, false);
-  const solve::OutputGrid grid(scene.time);
-  solve::Trajectory rows(model.row_size());
-  Asked asked;
-  asked.result = study::integrate_to_error(model, Method::automatic, bound, grid, rows);
+// Of a scene that has a quad-precision solution by another method.
+Positions from_table(const std::string& name) {
   const QuadReference reference(name);
-  for (std::size_t i = 0; i < rows.rows(); ++i) {
-    for (int k = 0; k < 2; ++k) {
-      const double exact = reference[k == 0 ? "x" : "y"][i];
-      asked.error = std::max(asked.error, std::abs(rows.row(i)[k] - exact));
-      asked.extent = std::max(asked.extent, std::abs(exact));
-    }
-  }
-  return asked;
-}
-
-// Positions at the output times: the states x and y, or one of them.
-using Positions = std::vector<std::vector<double>>;
-
-// In quad precision; for scenes that switch, with many more steps than any run, of 8 or 12 stages.
-Positions exact(const model::Model& model, const solve::OutputGrid& grid) {
-  const auto n = static_cast<std::size_t>(study::coordinates(model));
   Positions rows;
-  if (model.hybrid()) {
-    solve::Trajectory fine(model.row_size());
-    const auto outcome = solve::integrate_check_run(model, {12, 7}, {1e-14, 1e-16}, grid, fine, {});
-    REQUIRE(outcome.ending != solve::Ending::failed);
-    for (std::size_t i = 0; i < fine.rows(); ++i) rows.emplace_back(fine.row(i), fine.row(i) + n);
-    return rows;
-  }
-  const study::ReferenceSolution quad = study::solve_reference(model, grid);
-  REQUIRE(quad.complete);
-  for (std::size_t i = 0; i < quad.rows(); ++i) {
-    rows.emplace_back();
-    for (std::size_t k = 0; k < n; ++k) rows.back().push_back(plain(quad.row(i)[k]));
+  for (std::size_t i = 0; i < reference["t"].size(); ++i) {
+    rows.push_back({reference["x"][i], reference["y"][i]});
   }
   return rows;
 }
 
-// Runs a scene of configs/ with a bound.
+// Runs a scene with a bound.
 Asked ask(const model::Model& model, const solve::OutputGrid& grid, const Positions& truth,
           double bound, Method method = Method::automatic) {
   solve::Trajectory rows(model.row_size());
@@ -83,18 +50,6 @@ Asked ask(const model::Model& model, const solve::OutputGrid& grid, const Positi
 
 }  // namespace
 
-TEST_CASE("error bounds are met with losses and under torques") {
-  const std::string name = GENERATE("losses", "torque-open", "torque-loop");
-  for (const double bound : {1e-5, 1e-7, 1e-9, 1e-11}) {
-    const Asked asked = ask(name, bound);
-    CAPTURE(name, bound, asked.error, asked.result.estimate);
-    CHECK(asked.result.met);
-    CHECK(asked.extent > 1e-3);
-    CHECK(asked.error <= bound);
-    CHECK(asked.error <= asked.result.estimate);
-  }
-}
-
 TEST_CASE("the estimate is also honest if stops determine the steps") {
   // Tables, samples, a path through points, and monitors. Steps are as long as the pieces at any
   // tolerance, and so are those of a check at a finer one.
@@ -106,7 +61,7 @@ TEST_CASE("the estimate is also honest if stops determine the steps") {
                                        {std::string("time.end=") + end});
   const model::Model model = model::assemble(scene, false);
   const solve::OutputGrid grid(scene.time);
-  const Positions truth = exact(model, grid);
+  const Positions truth = exact_positions(model, grid);
   for (const double bound : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10}) {
     const Asked asked = ask(model, grid, truth, bound);
     CAPTURE(bound, asked.result.estimate, asked.error, asked.result.tolerances.rtol,
@@ -127,7 +82,7 @@ TEST_CASE("estimates are honest for every number of stages, and for other method
   const Scenario scene = scenario_named(name);
   const model::Model model = model::assemble(scene, false);
   const solve::OutputGrid grid(scene.time);
-  const Positions truth = exact(model, grid);
+  const Positions truth = exact_positions(model, grid);
   for (const Method method : {Method::radau, Method::bdf, Method::adams}) {
     for (const double bound : {5e-4, 3e-5, 4e-6, 2e-6, 3e-7, 3e-8, 4e-9, 2e-9}) {
       if (method != Method::radau && bound < 1e-7) continue;
@@ -145,7 +100,7 @@ TEST_CASE("runs with different endings are far apart") {
   const Scenario scene = read_scenario(BBSIM_SOURCE_DIR "/configs/falls.yaml");
   const model::Model model = model::assemble(scene, false);
   const solve::OutputGrid grid(scene.time);
-  const Asked asked = ask(model, grid, exact(model, grid), 1e-9);
+  const Asked asked = ask(model, grid, exact_positions(model, grid), 1e-9);
   REQUIRE(asked.result.outcome.ending == solve::Ending::stopped);
   // The time of leaving the plate is as accurate as the position.
   const auto fine = run_in_memory(scene, Method::radau, {1e-13, 1e-15});
@@ -154,27 +109,33 @@ TEST_CASE("runs with different endings are far apart") {
   CHECK(std::abs(asked.result.outcome.reached - fine.outcome.reached) * speed <= 1e-9);
 }
 
-TEST_CASE("an error bound is met, and its estimate is honest") {
-  const std::string name =
-      GENERATE("fig2a", "fast", "fig2b", "small-ball", "spin", "stiff-servo", "tumble");
-  const double bound = GENERATE(1e-4, 1e-6, 1e-8, 1e-10);
-  CAPTURE(name, bound);
-  const Asked asked = ask(name, bound);
-  CAPTURE(asked.result.estimate, asked.error, asked.result.tolerances.rtol, asked.result.runs);
-  REQUIRE(asked.result.outcome.ending == solve::Ending::done);
-  CHECK(asked.result.met);
-  CHECK(asked.result.estimate <= bound);
-  CHECK(asked.error <= bound);
-  // Never below a third of the true error, beyond the rounding of the reference.
-  const double rounding = 4e-16 * asked.extent;
-  CHECK(asked.result.estimate >= (asked.error - rounding) / 3);
-  // Nor far above it, unless both are rounding errors.
-  CHECK(asked.result.estimate <= 30 * asked.error + 10 * rounding);
+TEST_CASE("an error bound is met in any scene, and its estimate is honest") {
+  const std::string name = GENERATE("fig2a", "fast", "fig2b", "small-ball", "spin", "stiff-servo",
+                                    "tumble", "losses", "torque-open", "torque-loop");
+  const Scenario scene = scenario_named(name);
+  const model::Model model = model::assemble(scene, false);
+  const solve::OutputGrid grid(scene.time);
+  const Positions truth = from_table(name);
+  for (const double bound : {1e-4, 1e-6, 1e-8, 1e-10}) {
+    const Asked asked = ask(model, grid, truth, bound);
+    CAPTURE(name, bound, asked.result.estimate, asked.error, asked.result.tolerances.rtol);
+    REQUIRE(asked.result.outcome.ending == solve::Ending::done);
+    CHECK(asked.result.met);
+    CHECK(asked.result.estimate <= bound);
+    CHECK(asked.error <= bound);
+    // Never below a third of the true error, beyond the rounding of the reference.
+    const double rounding = 4e-16 * asked.extent;
+    CHECK(asked.result.estimate >= (asked.error - rounding) / 3);
+    // Nor far above it, unless both are rounding errors.
+    CHECK(asked.result.estimate <= 30 * asked.error + 10 * rounding);
+  }
 }
 
 TEST_CASE("an error bound beyond double precision is refused with the attainable one") {
   // Rounding of 1e-16 grows with the solution of `fast`, to 1263 m, so 1e-14 m is unattainable.
-  const Asked asked = ask("fast", 1e-14);
+  const Scenario scene = scenario_named("fast");
+  const model::Model model = model::assemble(scene, false);
+  const Asked asked = ask(model, solve::OutputGrid(scene.time), from_table("fast"), 1e-14);
   CHECK(asked.result.outcome.ending == solve::Ending::done);
   CHECK_FALSE(asked.result.met);
   CHECK(asked.result.estimate > 1e-14);
