@@ -31,7 +31,8 @@ def command(*words, **options):
 
 def run_once(program, names, folder):
     """Runs test cases until one ends the program: of each that began, whether it passed, and its seconds."""
-    (folder / "names").write_text("\n".join(names) + "\n", encoding="utf-8")
+    escaped = [re.sub(r"([\\,\[\]])", r"\\\1", name) for name in names]  # as Catch2 wants them
+    (folder / "names").write_text("\n".join(escaped) + "\n", encoding="utf-8")
     report, begun, since = folder / "report.xml", 0, time.monotonic()
     with open(report, "wb") as out:
         process = subprocess.Popen([program, "-r", "xml", "-d", "yes", "-f", "names"], cwd=folder, stdout=out,
