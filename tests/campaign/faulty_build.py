@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Builds and tests a copy of the commit with one fault at a time, for scripts/mutate."""
+import collections
 import concurrent.futures
 import hashlib
 import html
@@ -163,6 +164,14 @@ class Copy:
         self.rounds = [{room: [name for name in names if (names[name] > longest) == is_slow]
                         for room, names in cases.items()} for is_slow in (False, True)]
 
+    def objects(self):
+        """How many object files each source goes into."""
+        counts = collections.Counter()
+        for line in command("ninja", "-C", self.tests, "-t", "deps").splitlines():
+            if line.startswith("    "):
+                counts[os.path.relpath(os.path.realpath(self.tests / line.strip()), self.tree)] += 1
+        return counts
+
     def judge(self):
         """Builds the copy, and runs the tests: the outcome, and the names of the test cases that fail."""
         if not self.build_tests():
@@ -180,8 +189,6 @@ class Copy:
 
     def try_fault(self, file, number, before, after):
         """Puts the fault in, judges it, and takes it out."""
-        if self.sound is None:
-            self.know_cases()
         path = self.tree / file
         text = path.read_text(encoding="utf-8")
         lines = text.split("\n")
