@@ -18,7 +18,8 @@ import time
 FOLDERS = ("src/model/", "src/solve/", "src/record/", "src/sweep/")
 ROOMS = ["model", "solve", "record", "sweep", "study", "scenario", "results"]
 SLOWEST = 0.1  # the part of the cases that runs only if the others find nothing
-ENDLESS = 90  # seconds, of a case that is ended
+ENDLESS = 30  # seconds of processor time, of a case that is ended
+WAITS = 600  # seconds on the clock
 STARTS = 4  # of a program whose cases end it
 
 
@@ -30,11 +31,16 @@ def command(*words, **options):
     return subprocess.run(words, check=True, text=True, stdout=subprocess.PIPE, **options).stdout
 
 
+def processor_seconds(process):
+    fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+    return sum(map(int, fields[11:15])) / os.sysconf("SC_CLK_TCK")
+
+
 def run_once(program, names, folder):
     """Runs test cases until one ends the program: of each that began, whether it passed, and its seconds."""
     escaped = [re.sub(r"([\\,\[\]])", r"\\\1", name) for name in names]  # as Catch2 wants them
     (folder / "names").write_text("\n".join(escaped) + "\n", encoding="utf-8")
-    report, begun, since = folder / "report.xml", 0, time.monotonic()
+    report, begun, since, used = folder / "report.xml", 0, time.monotonic(), 0
     with open(report, "wb") as out:
         process = subprocess.Popen([program, "-r", "xml", "-d", "yes", "-f", "names"], cwd=folder, stdout=out,
                                    stderr=subprocess.DEVNULL, start_new_session=True)
@@ -42,8 +48,8 @@ def run_once(program, names, folder):
         time.sleep(0.1)
         count = report.read_bytes().count(b"<TestCase ")
         if count != begun:
-            begun, since = count, time.monotonic()
-        elif time.monotonic() - since > ENDLESS:
+            begun, since, used = count, time.monotonic(), processor_seconds(process)
+        elif processor_seconds(process) - used > ENDLESS or time.monotonic() - since > WAITS:
             os.killpg(process.pid, signal.SIGKILL)
             process.wait()
     results = {}
@@ -124,7 +130,7 @@ class Copy:
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             for name in names if room == "golden" else []:
-                words = ["timeout", f"{ENDLESS}", "cmake", f"-DBBSIM={self.bbsim}",
+                words = ["timeout", f"{WAITS}", "cmake", f"-DBBSIM={self.bbsim}",
                          f"-DSCENARIO={self.tree}/configs/{name}.yaml", f"-DGOLDEN={self.tree}/tests/golden/{name}.csv",
                          "-P", self.tree / "tests/golden/compare.cmake"]
                 results[name] = (subprocess.run(words, cwd=folder, capture_output=True).returncode == 0, 0)
