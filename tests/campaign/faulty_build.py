@@ -20,7 +20,7 @@ ROOMS = ["model", "solve", "record", "sweep", "study", "scenario", "results"]
 SLOWEST = 0.1  # the part of the cases that runs only if the others find nothing
 ENDLESS = 30  # seconds of processor time, of a case that is ended
 WAITS = 600  # seconds on the clock
-STARTS = 4  # of a program whose cases end it
+PATIENCE = 120  # seconds on the clock, in which a program whose cases end it is started again
 
 
 class Failure(Exception):
@@ -134,10 +134,11 @@ class Copy:
                          f"-DSCENARIO={self.tree}/configs/{name}.yaml", f"-DGOLDEN={self.tree}/tests/golden/{name}.csv",
                          "-P", self.tree / "tests/golden/compare.cmake"]
                 results[name] = (subprocess.run(words, cwd=folder, capture_output=True).returncode == 0, 0)
-            for _ in range(STARTS):
-                left = [name for name in names if name not in results]
-                if left:
-                    results.update(run_once(self.programs[room], left, folder))
+            began, left = time.monotonic(), [name for name in names if name not in results]
+            while left and time.monotonic() - began < PATIENCE:
+                now = run_once(self.programs[room], left, folder)
+                results.update(now)
+                left = [name for name in left if name not in now] if now else []
         if any(name not in results for name in names):
             results["(program)"] = (False, 0)  # the cases that were not reached have no result
         return results
