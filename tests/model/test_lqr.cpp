@@ -177,7 +177,8 @@ TEST_CASE("from cycle to cycle a small motion satisfies the polynomial of the sa
                                    {delay, 0.012, 0.03, 0.004, 3},
                                    {delay, 0, 0.04 / 3, 0.002, 2},
                                    {delay, 0.02, 0.04, 0.02, 2},
-                                   {delay, 0.021, 0.05, 0.013, 5}});
+                                   {delay, 0.021, 0.05, 0.013, 5},
+                                   {delay, 0.05, 0.03, 0, 3}});  // seen exactly at a sample
   }
   // An LQR needs a second-order servo.
   const auto [law, first_order] =

@@ -97,6 +97,29 @@ TEST_CASE("a step's error has at least the order of its stages") {
   CHECK(std::log2(error_of(0.8) / error_of(0.4)) > 9);
 }
 
+TEST_CASE("a fast servo costs collocation no steps") {
+  Scenario scene = scenario_named("stiff-servo");
+  const double natural_frequency = GENERATE(2000.0, 20000.0);
+  scene.gimbal.servo->natural_frequency = natural_frequency;
+  // The loop is stable while r k_v omega_n^2 < 2 zeta omega_n (docs/explanation/rig-model.md,
+  // (M13)).
+  const double gain = 100 / natural_frequency;
+  scene.controller->kv = {{{gain, 0}, {0, -gain}}};
+  scene.controller->kp = scene.controller->kv;
+  const model::Model model = model::assemble(scene, true);
+  const Rows usual = integrate(model, scene, 1e-6);
+  const Rows tight = integrate(model, scene, 1e-11);
+  CHECK(usual.run.ending == solve::Ending::done);
+  // Resolving the servo itself would take 21 s * 20000 / s = 420,000 time constants.
+  CHECK(usual.run.statistics.steps < 100);
+  CHECK(tight.run.statistics.steps < 500);
+  // Ten local errors of 1e-6 m, for the ball only, because the servo's motion is not smooth.
+  for (std::size_t i = 0; i < usual.rows.rows(); ++i) {
+    CHECK(std::abs(usual.rows.row(i)[0] - tight.rows.row(i)[0]) < 1e-5);
+    CHECK(std::abs(usual.rows.row(i)[1] - tight.rows.row(i)[1]) < 1e-5);
+  }
+}
+
 TEST_CASE("the integrator does not step over a fast small sinusoid beside a slow one") {
   Scenario scene = scenario_named("fig2a");
   scene.gimbal.motion->phi.emplace_back(Sinusoid{1e-3, 300, 0, 0});
