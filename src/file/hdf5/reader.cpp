@@ -248,7 +248,11 @@ FileReader::Column FileReader::column_of(hid_t dataset, const std::string& name,
   }
   std::array<hsize_t, 2> size{};
   check(H5Sget_simple_extent_dims(space, size.data(), nullptr), doing);
-  Column column{{name, text_of(dataset, "unit"), text_of(dataset, "description")}, path, size[0]};
+  const std::string title = text_of(dataset, column_title);
+  Column column{{dataset_name(title) == name ? title : name, text_of(dataset, "unit"),
+                 text_of(dataset, "description")},
+                path,
+                size[0]};
   if (rank == 2) {
     column.about.kind = Hdf5Kind::series;
     column.about.width = size[1];
@@ -301,7 +305,7 @@ std::vector<InputTable> FileReader::read_inputs() const {
     const std::string file = text_of(table, input_file);
     TableData data;
     for (const Column& column : columns_of(table, path + name + "/")) {
-      const std::string title = text_of(column.dataset, input_title);
+      const std::string title = text_of(column.dataset, column_title);
       if (column.about.kind != Hdf5Kind::number ||
           (!data.columns.empty() && column.rows != data.columns[0].size())) {
         throw Failure("input table " + shown(file) + " is not a table of numbers");

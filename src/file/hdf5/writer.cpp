@@ -41,12 +41,6 @@ bool is_case(const Hdf5Column& column) {
   return column.name == "case" && column.kind == Hdf5Kind::number;
 }
 
-std::string dataset_name(const std::string& name) {
-  std::string result = name;
-  std::ranges::replace(result, '/', '_');
-  return result;
-}
-
 void check_layout(const std::vector<Hdf5Column>& columns, const std::vector<Hdf5Axis>& axes) {
   if (columns.empty()) throw Failure("a table needs at least one column");
   std::set<std::string> names;
@@ -77,10 +71,11 @@ hsize_t rows_of_a_chunk(const Hdf5Column& column) {
   return rows;
 }
 
-void describe(hid_t dataset, const std::string& unit, const std::string& meaning) {
-  set_attribute(dataset, "unit", unit);
-  if (!unit.empty()) set_attribute(dataset, "units", unit);  // netCDF tools expect this name
-  set_attribute(dataset, "description", meaning);
+void describe(hid_t dataset, const Hdf5Column& column) {
+  set_attribute(dataset, "unit", column.unit);
+  if (!column.unit.empty()) set_attribute(dataset, "units", column.unit);  // for netCDF tools
+  set_attribute(dataset, "description", column.meaning);
+  if (dataset_name(column.name) != column.name) set_attribute(dataset, column_title, column.name);
 }
 
 bool is_of_fixed_length(Hdf5Kind kind, std::size_t width) {
@@ -126,7 +121,7 @@ Dataset create_dataset(hid_t file, const Hdf5Column& column, bool is_packed) {
   Dataset dataset(H5Dcreate2(file, dataset_name(column.name).c_str(), type, space, H5P_DEFAULT,
                              creation, access),
                   doing);
-  describe(dataset, column.unit, column.meaning);
+  describe(dataset, column);
   return dataset;
 }
 
@@ -214,7 +209,7 @@ void FileWriter::write_axis(const Hdf5Column& axis, const std::vector<double>& v
   constexpr const char* doing = "writing an axis";
   const std::string name = dataset_name(axis.name);
   Dataset dataset = write_numbers(file_, name, values, doing);
-  describe(dataset, axis.unit, axis.meaning);
+  describe(dataset, axis);
   set_attribute(dataset, axis_mark, "series");
   check(H5DSset_scale(dataset, name.c_str()), making_scale);
   for (const Column& column : columns_) {
@@ -227,7 +222,7 @@ void FileWriter::write_axis(const Hdf5Column& axis, const std::vector<double>& v
 void FileWriter::add_column(const Hdf5Column& column, const std::vector<double>& values) {
   constexpr const char* doing = "writing a column";
   Dataset dataset = write_numbers(file_, dataset_name(column.name), values, doing);
-  describe(dataset, column.unit, column.meaning);
+  describe(dataset, column);
   if (scale_ >= 0) check(H5DSattach_scale(dataset, scale_, 0), making_scale);
   dataset.close_checked(doing);
 }
@@ -244,7 +239,7 @@ void FileWriter::keep(const std::vector<InputTable>& inputs) {
     for (std::size_t c = 0; c < data->names.size(); ++c) {
       Dataset dataset =
           write_numbers(table, free_name(data->names[c], columns), data->columns[c], doing);
-      set_attribute(dataset, input_title, data->names[c]);
+      set_attribute(dataset, column_title, data->names[c]);
       dataset.close_checked(doing);
     }
     table.close_checked(doing);
