@@ -45,8 +45,8 @@ model::HeldMotions LaneStep::servos(std::size_t lane) const {
   return motions;
 }
 
-void LaneStep::evaluate(std::size_t lane, const double* times, std::size_t count, double* rows,
-                        std::size_t row_size) const {
+void LaneStep::evaluate_ball(std::size_t lane, const double* times, std::size_t count, double* rows,
+                             std::size_t row_size) const {
   const LanePieces& of = *pieces_;
   Piece piece;
   for (int i = 0; i < 3; ++i) {
@@ -55,8 +55,6 @@ void LaneStep::evaluate(std::size_t lane, const double* times, std::size_t count
     piece.position[i] = i < 2 ? of.position[i][lane] : 0;
   }
   piece.length = of.length[lane];
-  const model::HeldMotions moves = servos(lane);
-  const auto servo_count = static_cast<std::size_t>(of.servos);
   const std::size_t size = rigs_[lane].model->size();
   constexpr std::size_t together = 16;
   double after[together], ball[together][6];
@@ -69,14 +67,25 @@ void LaneStep::evaluate(std::size_t lane, const double* times, std::size_t count
       // States beside the ball's and the servos' stay.
       std::copy_n(rigs_[lane].z, size, row);
       std::copy_n(ball[i], 5, row);
-      const model::ImpulseAnswer answer = model::answer(moves[0].law, after[i]);
-      for (std::size_t k = 0; k < servo_count; ++k) {
-        const bool alike = moves[k].law == moves[0].law;
-        const model::HeldMotion::ServoState now =
-            alike ? moves[k].after(answer, after[i]) : moves[k].after(after[i]);
-        row[angle_state + k] = now.angle;
-        row[angle_state + servo_count + k] = now.rate;
-      }
+    }
+  }
+}
+
+void LaneStep::evaluate(std::size_t lane, const double* times, std::size_t count, double* rows,
+                        std::size_t row_size) const {
+  evaluate_ball(lane, times, count, rows, row_size);
+  const model::HeldMotions moves = servos(lane);
+  const auto servo_count = static_cast<std::size_t>(pieces_->servos);
+  for (std::size_t i = 0; i < count; ++i) {
+    double* const row = rows + i * row_size;
+    const double after = times[i] - from_[lane];
+    const model::ImpulseAnswer answer = model::answer(moves[0].law, after);
+    for (std::size_t k = 0; k < servo_count; ++k) {
+      const bool alike = moves[k].law == moves[0].law;
+      const model::HeldMotion::ServoState now =
+          alike ? moves[k].after(answer, after) : moves[k].after(after);
+      row[angle_state + k] = now.angle;
+      row[angle_state + servo_count + k] = now.rate;
     }
   }
 }

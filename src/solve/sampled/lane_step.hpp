@@ -33,6 +33,9 @@ class LaneStep {
   // begin with the states, packed as in the system.
   void evaluate(std::size_t lane, const double* times, std::size_t count, double* rows,
                 std::size_t row) const;
+  // The same, but only the ball's states need be right.
+  void evaluate_ball(std::size_t lane, const double* times, std::size_t count, double* rows,
+                     std::size_t row) const;
   static constexpr std::size_t most_states = model::CoupledLayout<model::most_servos>::states;
   // The rig in a lane, in its present mode.
   [[nodiscard]] const model::Model& model(std::size_t lane) const { return *rigs_[lane].model; }

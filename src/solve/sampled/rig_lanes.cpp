@@ -28,12 +28,12 @@ class RigLanes::LanePart : public solve::Piece {
       : Piece(of.step_.from(lane), of.step_.to(lane), parts), of_(of), lane_(lane) {}
 
   void evaluate(const double* times, std::size_t count, double* rows) const override {
-    evaluate_ball(times, count, rows);
     const std::size_t row = of_.step_.model(lane_).row_size();
+    of_.step_.evaluate(lane_, times, count, rows, row);
     for (std::size_t i = 0; i < count; ++i) of_.write_extras(lane_, times[i], rows + i * row);
   }
   void evaluate_ball(const double* times, std::size_t count, double* rows) const override {
-    of_.step_.evaluate(lane_, times, count, rows, of_.step_.model(lane_).row_size());
+    of_.step_.evaluate_ball(lane_, times, count, rows, of_.step_.model(lane_).row_size());
   }
   [[nodiscard]] std::optional<Bounds> bounds(Bounded column, const model::BallConstants&,
                                              bool closely) const override {
