@@ -144,6 +144,19 @@ bool run_cases(const sweep::SweepTask& task, const sweep::Engine& engine, sweep:
   return finished;
 }
 
+// Collects the cases in their file. Returns false if the watch stopped it.
+bool collect(sweep::CaseFile& file, const file::Attributes& attributes, std::size_t threads,
+             const SweepResult& result, Watch& watch) {
+  watch.start(0);
+  const bool whole = file.finish(
+      attributes, {threads, stop_of(watch), [&](std::size_t cases) {
+                     watch.update(static_cast<double>(cases) / static_cast<double>(result.cases),
+                                  "writing " + result.output);
+                   }});
+  watch.end();
+  return whole;
+}
+
 }  // namespace
 
 Sweep with_choice(Sweep sweep, const SweepChoice& choice) {
@@ -245,11 +258,10 @@ SweepResult sweep(const SweepRequest& request, Watch& watch) {
 
   const CaseSink sink{[&file](sweep::CaseResults& results) { file.prepare(results); },
                       [&file](const sweep::CaseResults& results) { file.append(results); }};
-  if (run_cases(task, engine, {range.first + result.kept, range.last}, threads, sink, result,
-                watch)) {
-    file.finish(attributes_of(facts, engine), threads);
-  } else {
-    file.interrupt();
+  const bool ran = run_cases(task, engine, {range.first + result.kept, range.last}, threads, sink,
+                             result, watch);
+  if (!ran) file.interrupt();
+  if (!ran || !collect(file, attributes_of(facts, engine), threads, result, watch)) {
     interrupted();
     if (!file.part().empty() && result.rows > 0) {
       result.reason +=

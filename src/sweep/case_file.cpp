@@ -108,45 +108,51 @@ void CaseFile::interrupt() {
   journal_ ? journal_->sync() : direct_->commit();
 }
 
-void CaseFile::finish(const file::Attributes& attributes, std::size_t threads) {
-  if (direct_) return direct_->commit();
-  journal_->check_complete();
-  if (file::format_of(target_) == file::Format::hdf5) {
-    write_hdf5(attributes, threads);
-  } else {
-    write_csv(threads);
+bool CaseFile::finish(const file::Attributes& attributes, const Collecting& how) {
+  if (direct_) {
+    direct_->commit();
+    return true;
   }
+  journal_->check_complete();
+  const bool is_hdf5 = file::format_of(target_) == file::Format::hdf5;
+  if (!(is_hdf5 ? write_hdf5(attributes, how) : write_csv(how))) return false;
   journal_->discard();
+  return true;
 }
 
-void CaseFile::collect(std::size_t threads, const std::function<void(CaseResults&)>& prepare,
+bool CaseFile::collect(const Collecting& how, const std::function<void(CaseResults&)>& prepare,
                        const std::function<void(const CaseResults&)>& deliver) const {
-  static constexpr std::atomic<bool> never{false};
   const std::vector<std::size_t>& ends = journal_->ends();
   const Engine records{"", task_, 1, [this] { return std::make_unique<RecordRunner>(*journal_); },
                        &ends};
-  static_cast<void>(
-      run_sweep(records, layout_.range, std::min(threads, ends.size()), never, prepare, deliver));
+  std::size_t cases = 0;
+  return run_sweep(records, layout_.range, std::min(how.threads, ends.size()), how.stop, prepare,
+                   [&](const CaseResults& results) {
+                     deliver(results);
+                     how.tell(cases += results.count);
+                   });
 }
 
-void CaseFile::write_csv(std::size_t threads) {
+bool CaseFile::write_csv(const Collecting& how) {
   file::AtomicFile csv(target_, file::Durable::yes);
   csv.write(header_of(layout_.columns) + '\n');
-  collect(
-      threads, [this](CaseResults& results) { write_rows(task_, results); },
+  const bool whole = collect(
+      how, [this](CaseResults& results) { write_rows(task_, results); },
       [&csv](const CaseResults& results) { csv.write(results.text); });
+  if (!whole) return false;
   settle_plan();
   csv.commit();
+  return true;
 }
 
-void CaseFile::write_hdf5(const file::Attributes& attributes, std::size_t threads) {
+bool CaseFile::write_hdf5(const file::Attributes& attributes, const Collecting& how) {
   std::vector<file::Hdf5Axis> axes;
   if (!layout_.axis_values.empty()) axes.emplace_back(layout_.axis, layout_.axis_values);
   file::Hdf5TableWriter writer(target_, layout_.columns, axes);
   writer.keep(layout_.inputs);
   file::Hdf5Block block;
-  collect(
-      threads, [](CaseResults&) {},
+  const bool whole = collect(
+      how, [](CaseResults&) {},
       [&](const CaseResults& results) {
         append_rows(task_, results, block);
         writer.append(block);
@@ -154,7 +160,8 @@ void CaseFile::write_hdf5(const file::Attributes& attributes, std::size_t thread
         for (std::vector<std::string>& column : block.texts) column.clear();
         block.rows = 0;
       });
-  writer.finish(attributes);
+  if (whole) writer.finish(attributes);
+  return whole;
 }
 
 // A CSV shard gets its plan before its name. No other CSV keeps one, not even an earlier shard's.

@@ -5,6 +5,7 @@
 // all cases are done. Until then a journal holds them, and a later run can continue it.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -55,14 +56,21 @@ class CaseFile {
   void append(const CaseResults& results);
   // Keeps the cases so far. Call it if the run ends before all cases are done.
   void interrupt();
-  // Collects the cases in the target, on several threads.
-  void finish(const file::Attributes& attributes, std::size_t threads);
+  // Collects the cases in the target, on several threads. Tells the number of cases so far. Returns
+  // false if `stop` ended it; the journal then has all cases.
+  struct Collecting {
+    std::size_t threads;
+    const std::atomic<bool>& stop;
+    std::function<void(std::size_t)> tell;
+  };
+  [[nodiscard]] bool finish(const file::Attributes& attributes, const Collecting& how);
 
  private:
-  void collect(std::size_t threads, const std::function<void(CaseResults&)>& prepare,
-               const std::function<void(const CaseResults&)>& deliver) const;
-  void write_csv(std::size_t threads);
-  void write_hdf5(const file::Attributes& attributes, std::size_t threads);
+  [[nodiscard]] bool collect(const Collecting& how,
+                             const std::function<void(CaseResults&)>& prepare,
+                             const std::function<void(const CaseResults&)>& deliver) const;
+  [[nodiscard]] bool write_csv(const Collecting& how);
+  [[nodiscard]] bool write_hdf5(const file::Attributes& attributes, const Collecting& how);
   void settle_plan() const;
 
   std::string target_;

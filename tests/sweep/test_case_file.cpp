@@ -7,6 +7,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <functional>
+#include <vector>
+
 #include "base/error.hpp"
 #include "file/hdf5_table.hpp"
 #include "support/folder.hpp"
@@ -26,6 +30,14 @@ namespace {
 
 const std::string plan = R"({"version": "1", "instruction_set": "avx2", "seed": 1})";
 const std::string header = "case,gravity,solver.method,status,reason,end_time,end_x,expected\n";
+
+// Whether all cases were collected. Calls `tell` with their number on the way.
+bool finish(
+    CaseFile& file, const bbsim::file::Attributes& attributes, std::size_t threads,
+    const std::function<void(std::size_t)>& tell = [](std::size_t) {},
+    const std::atomic<bool>& stop = false) {
+  return file.finish(attributes, {threads, stop, tell});
+}
 
 // Cases 100 to 109 of a sweep over a number and a text.
 struct Ten : Setup {
@@ -95,7 +107,7 @@ struct Ten : Setup {
     const auto file = open(target, true);
     KeptCases kept = file->kept();
     if (kept.cases < 10) append(*file, 100 + kept.cases, 110);
-    file->finish({{"title", "t"}}, 2);
+    CHECK(finish(*file, {{"title", "t"}}, 2));
     return kept;
   }
 
@@ -238,7 +250,7 @@ TEST_CASE("a file with too few cases is not completed, and its journal stays") {
   {
     const auto file = sweep.open(target);
     sweep.append(*file, 100, 108);
-    CHECK_THAT(message_of<OutputError>([&] { file->finish({}, 1); }),
+    CHECK_THAT(message_of<OutputError>([&] { finish(*file, {}, 1); }),
                Contains("it has 8 cases of 10"));
   }
   CHECK_FALSE(std::filesystem::exists(target));
@@ -246,10 +258,39 @@ TEST_CASE("a file with too few cases is not completed, and its journal stays") {
     const auto file = sweep.open(target, true);
     sweep.append(*file, 108, 110);
     REQUIRE(truncate((target + ".part").c_str(), 400) == 0);  // by another process
-    CHECK_THAT(message_of<OutputError>([&] { file->finish({}, 2); }), Contains("with --resume"));
+    CHECK_THAT(message_of<OutputError>([&] { finish(*file, {}, 2); }), Contains("with --resume"));
   }
   CHECK(folder.entries() == 1);
   CHECK(std::filesystem::exists(target + ".part"));
+}
+
+TEST_CASE("collecting tells how far it is, and stops on request with the journal whole") {
+  const Folder folder;
+  const std::string ending = GENERATE(std::string(".csv"), std::string(".h5"));
+  const std::string target = folder / ("a" + ending);
+  Ten sweep;
+  sweep.complete(folder / ("expected" + ending));
+  {
+    const auto file = sweep.open(target);
+    sweep.append(*file, 100, 107);
+    sweep.append(*file, 107, 110);
+    std::atomic<bool> stop = false;
+    std::vector<std::size_t> told;
+    CHECK_FALSE(finish(
+        *file, {{"title", "t"}}, 1,
+        [&](std::size_t cases) {
+          told.push_back(cases);
+          stop = true;
+        },
+        stop));
+    CHECK(told == std::vector<std::size_t>{7});
+  }
+  CHECK_FALSE(std::filesystem::exists(target));
+  const auto file = sweep.open(target, true);
+  CHECK(file->kept().cases == 10);
+  CHECK(finish(*file, {{"title", "t"}}, 1));
+  const bool alike = content_of(target) == content_of(folder / ("expected" + ending));
+  CHECK(alike);
 }
 
 TEST_CASE("a journal that loses its name is neither lost nor mistaken for another") {
@@ -264,11 +305,11 @@ TEST_CASE("a journal that loses its name is neither lost nor mistaken for anothe
   REQUIRE(unlink((target + ".part").c_str()) == 0);
   CHECK(file->part().empty());
   SECTION("removed") {
-    file->finish({{"title", "t"}}, 1);
+    CHECK(finish(*file, {{"title", "t"}}, 1));
   }
   SECTION("replaced") {
     folder.put("a" + ending + ".part", "somebody else's");
-    file->finish({{"title", "t"}}, 1);
+    CHECK(finish(*file, {{"title", "t"}}, 1));
     CHECK(content_of(target + ".part") == "somebody else's");
   }
   const bool alike = content_of(target) == content_of(folder / ("expected" + ending));
@@ -358,7 +399,7 @@ TEST_CASE("a sweep's file keeps the permissions of the file that it replaces") {
   CHECK(permissions_of(target + ".part") == 0600);
   sweep.append(*file, 100, 110);
   REQUIRE(chmod(target.c_str(), 0640) == 0);
-  file->finish({}, 1);
+  CHECK(finish(*file, {}, 1));
   CHECK(content_of(target) == header + rows(100, 110));
   CHECK(permissions_of(target) == 0640);
   CHECK(permissions_of(target + ".plan") == 0640);
