@@ -500,9 +500,9 @@ TEST_CASE("a scene that has no linear model is refused, with the key that preven
                         {slides, LinearKind::plant, "events.slip"},
                         {test::parse(torque_lqr(), {"gimbal.motor.friction=0.01"}),
                          LinearKind::plant, "gimbal.motor.friction"}};
-  for (const auto& [scene, kind, key] : cases) {
-    const auto refused = [&] { static_cast<void>(linear(scene, kind)); };
-    CHECK_THAT(message_of<InputError>(refused), Catch::Contains(key));
+  for (const Case& one : cases) {
+    const auto refused = [&] { static_cast<void>(linear(one.scene, one.kind)); };
+    CHECK_THAT(message_of<InputError>(refused), Catch::Contains(one.key));
   }
   const Linearization plant = linear(fig2a(), LinearKind::plant);
   CHECK(plant.system.inputs[0].name == "phi_acceleration");
