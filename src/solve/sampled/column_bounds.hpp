@@ -26,6 +26,9 @@ namespace bbsim::solve::sampled {
   return {at_points.least - beyond, at_points.most + beyond};
 }
 
+// Of the cosine of the tilt.
+inline constexpr double up_rounding = 4 * std::numeric_limits<double>::epsilon();
+
 // range_of(quantity) is the range over the piece.
 template <class RangeOf>
 [[nodiscard]] std::optional<Bounds> column_bounds(Bounded column, RangeOf range_of) {
@@ -53,10 +56,9 @@ template <class RangeOf>
     case Bounded::tilt_rate:
       return root(Quantity::rate_squared);
     case Bounded::tilt: {
-      constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
       const Range up = range_of(Quantity::up);
       const auto angle = [](double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); };
-      return Bounds{angle(up.most + rounding), angle(up.least - rounding)};
+      return Bounds{angle(up.most + up_rounding), angle(up.least - up_rounding)};
     }
     case Bounded::motor_torque_phi:
       return same(Quantity::torque_phi);
@@ -87,10 +89,9 @@ void for_each_bound(const BoundsOfColumns& within, Use use) {
   square(Bounded::distance, Quantity::distance_squared);
   square(Bounded::tracking_error, Quantity::error_squared);
   square(Bounded::tilt_rate, Quantity::rate_squared);
-  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
   const auto [least, most] = of(Bounded::tilt);
-  use(Quantity::up, most < std::numbers::pi ? std::cos(std::max(most, 0.0)) + rounding : -most,
-      least >= 0 ? std::cos(std::min(least, std::numbers::pi)) - rounding : -least);
+  use(Quantity::up, most < std::numbers::pi ? std::cos(std::max(most, 0.0)) + up_rounding : -most,
+      least >= 0 ? std::cos(std::min(least, std::numbers::pi)) - up_rounding : -least);
 }
 
 }  // namespace bbsim::solve::sampled
