@@ -197,7 +197,13 @@ def specification(values: Union[str, Sequence[Any]]) -> str:
     """A key's values over a sweep, as ``bbsim sweep --vary KEY=`` takes them."""
     if isinstance(values, str):
         return values
-    return "list:" + ",".join(map(as_yaml, [values] if np.isscalar(values) else values))
+
+    def listed_value(value: Any) -> str:
+        text = as_yaml(value)
+        splits = "," in text and text[0] not in "[{\"'"
+        return "'" + text.replace("'", "''") + "'" if splits else text
+
+    return "list:" + ",".join(map(listed_value, [values] if np.isscalar(values) else values))
 
 
 # Logs

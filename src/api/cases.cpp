@@ -93,7 +93,8 @@ void check_times(const CasesRequest& request, double end) {
       const auto at = [&] {
         return (alike ? "times: " : place("times", i) + ", ") + ("time " + std::to_string(k));
       };
-      const bool is_within = (list[k] >= from || sweep::is_same_time(list[k], from)) &&
+      const bool is_within = std::isfinite(list[k]) &&
+                             (list[k] >= from || sweep::is_same_time(list[k], from)) &&
                              (list[k] <= to || sweep::is_same_time(list[k], to));
       if (!is_within) {
         refuse(

@@ -90,6 +90,14 @@ std::optional<model::LinearPoint> point_at(double time, const Scenario& scenario
   return {};
 }
 
+// What the names of states and commands mean behind push rods; empty without.
+std::string behind_linkage(const Scenario& scenario) {
+  const auto& linkage = scenario.gimbal.linkage;
+  if (!linkage[0] && !linkage[1]) return "";
+  return "phi, theta and their commands are the servos' angles, before the linkage; the gains of "
+         "state_feedback are for the plate's";
+}
+
 Linearization estimated_loop(const Scenario& scenario, Watch& watch) {
   controller::Host host = make_host(watch);
   const model::Model model =
@@ -139,9 +147,12 @@ Linearized linearize(const LinearizeRequest& request, Watch& watch) {
     linearized.reason = "the " + linearized.kind + " about " + linearized.at +
                         " has poles beyond the range of doubles.";
     linearized.code = ExitCode::ended_early;
-  } else if (linearized.linearisation.system.period) {
-    linearized.note = without_frames(scenario, true);
+    return linearized;
   }
+  if (linearized.linearisation.system.period) linearized.note = without_frames(scenario, true);
+  const std::string linkage = behind_linkage(scenario);
+  if (!linkage.empty() && !linearized.note.empty()) linearized.note += "; ";
+  linearized.note += linkage;
   return linearized;
 }
 

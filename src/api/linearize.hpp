@@ -33,7 +33,7 @@ struct LinearizeRequest {
 struct Linearized {
   ExitCode code = ExitCode::done;
   std::string reason;  // why there is no linear system; empty if there is one
-  std::string note;    // what the system leaves out
+  std::string note;    // what the system leaves out, and what its names mean
   std::string scenario, kind, at;
   Linearization linearisation;
 };

@@ -250,7 +250,7 @@ std::string shortfall(const Scenario& scenario, const model::Model& model,
          " m is out of reach: the scenario amplifies rounding, and double precision gives about " +
          short_number(rounded_up(*integration.error_estimate)) +
          " m.\n"
-         "  Ask for that, or end the scenario earlier. The file has the rows of the best run.";
+         "  Ask for that, or end the scenario earlier. The rows are those of the best run.";
 }
 
 record::RunSummary summary_of(const Scenario& scenario, const model::Model& model,

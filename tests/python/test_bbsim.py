@@ -439,6 +439,7 @@ class Sweeps(unittest.TestCase):
         fine = {"samples": 3, "seed": 5, "threads": 1}
         vary = {"ball.radius": "uniform:0.01:0.02"}
         self.assertEqual(len(bbsim.sweep(CONFIGS / "fig2b.yaml", vary, "end_x", **fine)), 3)
+        self.assertEqual(len(bbsim.sweep(CONFIGS / "fig2b.yaml", {"title": ["one, it's", "two"]}, "end_x")), 2)
         wrong = [0, -1, 2.5, math.nan, math.inf, 1e300]
         for name, values in (("samples", [*wrong, None]), ("seed", wrong[1:]), ("threads", [*wrong[1:], 2**62])):
             for value in values:
