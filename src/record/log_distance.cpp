@@ -108,13 +108,16 @@ std::vector<Pair> pairs_of(const file::TableData& log, const std::string& log_na
   return pairs;
 }
 
-// Pearson's correlation of the log, moved by `offset`, with the run: the mean over the columns.
-// Empty if the time in common is shorter than `least` or nothing varies.
+// How well the log, moved by `offset`, fits the run: the sum over the columns of -log(1 - c^2), with
+// Pearson's correlation c. For noise of unknown size this is the logarithm of the likelihood, to
+// which a column of noise alone adds next to nothing. Empty if the time in common is shorter than
+// `least` or nothing varies.
 struct Sums {
   double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
 };
-std::optional<double> correlation(const std::vector<Pair>& pairs, double offset, double least) {
-  double total = 0, count = 0;
+std::optional<double> likeness(const std::vector<Pair>& pairs, double offset, double least) {
+  constexpr double rounding = 1e-12;
+  std::optional<double> total;
   for (const Pair& pair : pairs) {
     const double from = std::max(pair.log.first() + offset, pair.run.first());
     const double to = std::min(pair.log.last() + offset, pair.run.last());
@@ -136,11 +139,10 @@ std::optional<double> correlation(const std::vector<Pair>& pairs, double offset,
     if (of.n < 3) return {};
     const double va = of.aa - of.a * of.a / of.n, vb = of.bb - of.b * of.b / of.n;
     if (!(va > 1e-12 * of.aa) || !(vb > 1e-12 * of.bb)) continue;
-    total += (of.ab - of.a * of.b / of.n) / std::sqrt(va * vb);
-    count += 1;
+    const double c = (of.ab - of.a * of.b / of.n) / std::sqrt(va * vb);
+    total = total.value_or(0) + (c > 0 ? -std::log(std::max(1 - c * c, rounding)) : c);
   }
-  if (count == 0) return {};
-  return total / count;
+  return total;
 }
 
 // Thins the rows for a fast search.
@@ -230,7 +232,7 @@ double time_offset(const file::TableData& log, const std::string& log_name,
   const double step = pairs.empty() ? 0 : (to - from) / offsets;
   for (int i = 0; i <= offsets && step > 0; ++i) {
     const double offset = from + i * step;
-    const auto found = correlation(coarse, offset, least);
+    const auto found = likeness(coarse, offset, least);
     if (found && (!greatest || *found > *greatest)) {
       greatest = found;
       best = offset;
@@ -244,7 +246,7 @@ double time_offset(const file::TableData& log, const std::string& log_name,
   constexpr double golden = 0.6180339887498949;
   double low = *best - step, high = *best + step;
   const auto value = [&](double offset) {
-    return correlation(coarse, offset, least * 0.9).value_or(-2);
+    return likeness(coarse, offset, least * 0.9).value_or(-INFINITY);
   };
   double a = high - golden * (high - low), b = low + golden * (high - low);
   double at_a = value(a), at_b = value(b);

@@ -34,9 +34,8 @@ struct LogDistance {
                                        const file::TableData& run, const std::string& run_name,
                                        const std::vector<std::string>& columns = {});
 
-// Returns the time (s) that, added to the log's times, gives the greatest correlation with the run,
-// over all columns in common and at least half of the shorter one. Throws InputError if nothing in
-// common varies.
+// Returns the time (s) that, added to the log's times, makes it most like the run, over all columns
+// in common and at least half of the shorter one. Throws InputError if nothing in common varies.
 [[nodiscard]] double time_offset(const file::TableData& log, const std::string& log_name,
                                  const file::TableData& run, const std::string& run_name,
                                  const std::vector<std::string>& columns = {});

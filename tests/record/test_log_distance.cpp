@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
 
 #include "base/error.hpp"
+#include "base/noise.hpp"
 #include "catch.hpp"
 #include "record/log_distance.hpp"
 
@@ -64,6 +66,24 @@ TEST_CASE("cross-correlation finds the offset of a log's clock") {
     CAPTURE(early);
     const double offset = time_offset(rows(1, 9, 0.05, early, 0.1), "log", run, "run");
     CHECK(offset == Approx(-early).margin(1e-3));
+  }
+}
+
+TEST_CASE("a column of noise alone does not move the offset") {
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    bbsim::Noise noise(seed);
+    const auto with_noise_as_y = [&noise](TableData table, double of_x) {
+      table.names.emplace_back("y");
+      std::vector<double>& y = table.columns.emplace_back();
+      for (double& x : table.columns[1]) {
+        x += of_x * noise.normal();
+        y.push_back(1e-3 * noise.normal());
+      }
+      return table;
+    };
+    const double offset = time_offset(with_noise_as_y(rows(1, 9, 0.05, 5.3, 0), 1e-3), "log",
+                                      with_noise_as_y(rows(0, 10, 0.01, 0, 0), 0), "run");
+    CHECK(offset == Approx(-5.3).margin(1e-3));  // 5 standard deviations
   }
 }
 
