@@ -102,6 +102,22 @@ StoredRun::Cut StoredRun::cut_of(const scenario::Window& window) const {
   return cut;
 }
 
+std::vector<double> StoredRun::filled(const Column& column) const {
+  const std::vector<double>& times = *times_;
+  std::vector<double> values = values_of(column);
+  std::size_t last = values.size();  // row of the last number
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isnan(values[i])) continue;
+    for (std::size_t k = last + 1; k < i; ++k) {
+      const double length = times[i] - times[last];
+      const double part = length > 0 ? (times[k] - times[last]) / length : 0;
+      values[k] = values[last] + part * (values[i] - values[last]);
+    }
+    last = i;
+  }
+  return values;
+}
+
 std::vector<double> StoredRun::cut(const std::vector<double>& values, const Cut& cut) const {
   const std::vector<double>& times = *times_;
   // The value at time t, between rows i - 1 and i.
@@ -120,8 +136,8 @@ std::vector<double> StoredRun::cut(const std::vector<double>& values, const Cut&
 Measured StoredRun::value_of(const Measure& measure) const {
   constexpr const char* no_value = "there is no finite value";
   const Cut within = cut_of(measure.window);
-  const std::vector<double>& all = values_of(*measure.column);
   if (measure.kind == Kind::rms) {
+    const std::vector<double>& all = values_of(*measure.column);
     SquareSum squares;
     std::size_t rows = 0;
     for (std::size_t i = within.first; i < within.last; ++i) {
@@ -132,11 +148,12 @@ Measured StoredRun::value_of(const Measure& measure) const {
     if (rows > 0) return {squares.root_mean(rows)};
     return {no_number, within.first < within.last ? no_value : "no row is within its window"};
   }
-  if (measure.kind == Kind::end) return {cut(all, within).back(), no_value};
   if (!is_of_curves(measure)) {
+    const std::vector<double> values = cut(filled(*measure.column), within);
+    if (measure.kind == Kind::end) return {values.back(), no_value};
     double least = infinity, greatest = -infinity;
     bool any = false;
-    for (const double value : cut(all, within)) {
+    for (const double value : values) {
       if (std::isnan(value)) continue;
       any = true;
       least = std::min(least, value);
@@ -150,7 +167,7 @@ Measured StoredRun::value_of(const Measure& measure) const {
   return measured(measure, [&](const Column& column) -> const Curve& {
     const auto [found, is_new] = curves.try_emplace(&column);
     if (is_new) {
-      const std::vector<double> of = cut(values_of(column), within);
+      const std::vector<double> of = cut(filled(column), within);
       Curve& curve = found->second;
       if (of.size() == 1) curve.add_line(times.front(), times.front(), of[0], of[0]);
       for (std::size_t i = 1; i < of.size(); ++i) {

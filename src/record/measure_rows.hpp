@@ -28,8 +28,8 @@ class StoredRun {
   [[nodiscard]] std::vector<scenario::Measure> measures_named(
       const std::vector<std::string>& names) const;
 
-  // Interpolates columns linearly between rows, also at the ends of a window; rms_ uses rows only.
-  // Ignores NaN.
+  // Interpolates columns linearly between rows that have a number, also at the ends of a window;
+  // rms_ uses rows only.
   [[nodiscard]] Measured value_of(const scenario::Measure& measure) const;
 
   // The name of the reference that a step of the column should reach, if the file lacks it; empty
@@ -46,6 +46,8 @@ class StoredRun {
     std::optional<double> before, after;  // times of its ends, s, if interpolation is needed there
   };
   [[nodiscard]] Cut cut_of(const scenario::Window& window) const;
+  // The column with numbers for those that it lacks between others.
+  [[nodiscard]] std::vector<double> filled(const scenario::Column& column) const;
   [[nodiscard]] std::vector<double> cut(const std::vector<double>& values, const Cut& cut) const;
 
   [[nodiscard]] const scenario::Column* find(std::string_view name) const;

@@ -218,6 +218,23 @@ TEST_CASE("measures of stored rows use linear interpolation") {
   CHECK(none.why == std::string("it should end where it starts, so its step is 0"));
 }
 
+TEST_CASE("measures of stored rows pass over values that a row lacks") {
+  const double none = std::nan("");
+  const StoredRun run({{"t", "x"}, {{0, 1, 2, 3, 4, 5, 6}, {none, 1, 2, none, none, 5, none}}},
+                      "gaps.csv");
+  const auto value = [&](const std::string& name) {
+    return run.value_of(run.measures_named({name}).front()).value;
+  };
+  for (const double at : {2.0, 2.5, 3.0, 4.0}) {
+    CHECK(value("find x at " + std::to_string(at)) == Approx(at));
+    CHECK(value("when x=" + std::to_string(at)) == Approx(at));
+  }
+  CHECK(value("max_x from 2.5 to 3.5") == Approx(3.5));
+  CHECK(value("rms_x") == Approx(std::sqrt(10.0)));  // of 1, 2 and 5
+  CHECK(std::isnan(value("find x at 0.5")));
+  CHECK(std::isnan(value("end_x")));
+}
+
 TEST_CASE("step metrics are relative to the step from start to reference") {
   // From -3 cm to +3 cm, 2.47 cm too far: 41 % of 6 cm.
   const std::vector<double> t{0, 1, 2, 3, 4}, x{-0.03, -0.035, 0.0547, 0.03, 0.03};
