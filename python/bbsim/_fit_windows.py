@@ -150,8 +150,8 @@ class WindowsFit:
         self.noise, self.point, self._solvers = noise, None, None
         self.weights = self.weights if weights is None else weights
 
-    def restart(self) -> None:
-        self.base = self.point = self._solvers = None
+    def restart(self, base: Any = None, point: Any = None) -> None:
+        self.base, self.point, self._solvers = base, point, None
 
     def _guess(self) -> Array:
         """Starts: the first measurement, at rest; and what the scenario says."""
