@@ -303,6 +303,22 @@ class Intervals(Case):
                 # Ends are found to a twentieth of the half-width, and the growth is its square. Student's t: 1.967.
                 self.assertAlmostEqual(degrees / 2 * growth / 1.967**2, 1, delta=0.1)
 
+    def test_intervals_leave_the_residuals_as_they_are(self):
+        interval, costs = _fit_search.Search.interval, []
+
+        def watched(search, *rest):
+            costs.append([search.cost()])
+            ends = interval(search, *rest)
+            costs[-1].append(search.cost())
+            return ends
+
+        self.put({name: values[:61] for name, values in rows_of(sd=5e-4).items()}, ASSUMED_RIG.replace("end: 10", "end: 3"))
+        with mock.patch.object(_fit_search.Search, "interval", watched):
+            self.fit(["ball.inertia_factor", "log.x.scale", "log.y.scale", PHI + "delay"], window=1)
+        self.assertEqual(len(costs), 4)
+        for before, after in costs:
+            self.assertEqual(before, after)
+
     def test_bounds(self):
         self.put(rows_of(sd=5e-4))
         one = self.fit("ball.inertia_factor=0.3:0.41").parameters[0]
