@@ -353,9 +353,10 @@ class Search:
         growth = stdtrit(self.degrees_of_freedom(), 0.975) ** 2 * self.scatter()
         along = linear.covariance[:, k] / math.sqrt(max(linear.covariance[k, k], 1e-300)) * math.sqrt(growth)
         exact = not profiled or self.windows.kinked or growth <= 1e-15 * self.windows.size
-        here = self.windows.base, self.windows.point
-        ends = [self.u[k] + sign * (along[k] if exact else self._distance(k, sign, along, growth)) for sign in (-1, 1)]
-        self.windows.restart(*here)  # far ends have other starts, or no runs
+        here, ends = (self.windows.base, self.windows.point), []
+        for sign in (-1, 1):
+            ends.append(self.u[k] + sign * (along[k] if exact else self._distance(k, sign, along, growth)))
+            self.windows.restart(*here)  # an end has other starts, or no runs
         ends = [min([ends[0], *self.rivals[:, k]]), max([ends[1], *self.rivals[:, k]])]
         return [float(self.keys[k].value(end)) for end in ends]
 

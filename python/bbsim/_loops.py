@@ -18,7 +18,7 @@ from . import _bbsim
 from ._plot_axes import covered, logarithmic
 from ._plot_sheet import MM, TEXT, Box, Figure, Sheet, cut, mark, number, stroke, width_of
 from ._result import Linearization
-from ._scenario import Array, Scenario, Settings, fault, given
+from ._scenario import Array, Scenario, fault, given
 
 Columns = Dict[str, Array]
 Label = Tuple[str, float, float, bool, str]  # text, x, y, whether above y, color
@@ -31,9 +31,9 @@ DAMPINGS = (0.1, 0.3, 0.5, 0.7, 0.9)
 _VALUES = 200  # of the key of a root locus
 
 
-def linearized(scenario: Scenario, set: Settings = None) -> Linearization:
+def linearized(scenario: Scenario) -> Linearization:
     """The closed loop about home. Raises InputError for a scenario without one."""
-    return Linearization(_bbsim.linearize(given(scenario, set), "loop", "home"))
+    return Linearization(_bbsim.linearize(given(scenario), "loop", "home"))
 
 
 # Numbers
@@ -77,13 +77,13 @@ def poles(loop: Linearization) -> Columns:
     return {"real": loop.poles.real, "imag": loop.poles.imag, "damping": damping, "frequency": size}
 
 
-def root_locus(scenario: Scenario, set: Settings, key: str, bounds: Sequence[str], count: int) -> Columns:
+def root_locus(rig: _bbsim.Given, key: str, bounds: Sequence[str], count: int) -> Columns:
     """A row for each pole of the closed loop at evenly spaced values of the key, between texts such as "2 cm"."""
-    ends = [given(scenario, set).number_at(key, bound) for bound in bounds]
+    ends = [rig.number_at(key, bound) for bound in bounds]
     if None in ends:
         raise fault(f"{key}: found {bounds[ends.index(None)]}; allowed: the bounds of a key that holds one number")
     values = np.linspace(ends[0], ends[1], count)
-    found = [linearized(scenario, {**(set or {}), key: float(value)}).poles for value in values]
+    found = [linearized(rig.changed([(key, repr(float(value)))])).poles for value in values]
     every = np.concatenate(found)
     return {"value": np.repeat(values, [len(poles) for poles in found]), "real": every.real, "imag": every.imag}
 
@@ -310,15 +310,15 @@ def _csv(columns: Columns) -> str:
     return "\n".join([",".join(columns), *(",".join(row) for row in rows), ""])
 
 
-def draw_loop(kind: str, scenario: Scenario, set: Settings, locus: str, wide: Optional[float]) -> Tuple[str, Figure, str]:
+def draw_loop(kind: str, rig: _bbsim.Given, locus: str, wide: Optional[float]) -> Tuple[str, Figure, str]:
     """The numbers as CSV, the figure, and what is in it. Raises InputError for a scenario without a loop."""
-    width, loop = {"width": wide} if wide else {}, linearized(scenario, set)
+    width, loop = {"width": wide} if wide else {}, linearized(rig)
     if kind == "root_locus":
         key, _, between = locus.partition("=")
         bounds = between.partition(":")[::2]
         if not all((key, *bounds)):
             raise fault(f"root-locus: found {locus}; allowed: KEY=FROM:TO, such as controller.pd.kv.0.0=0.2:2")
-        columns = root_locus(scenario, set, key, bounds, _VALUES)
+        columns = root_locus(rig, key, bounds, _VALUES)
         return _csv(columns), draw_root_locus(columns, loop, key, **width), f"the poles at {_VALUES} values of {key}"
     numbers, picture, rows = _PICTURES[kind]
     columns = numbers(loop)

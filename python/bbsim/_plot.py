@@ -113,13 +113,19 @@ class _Options:
                 rows, what = results[0].rows, "cases"
         return figure, f"{rows} {what}, {counted(panels, 'panel')}"
 
-    def draw_scenario(self, scenario: Any) -> Tuple[Figure, str]:
+    def draw_scenario(self, scenario: Any, output: Any) -> Tuple[Figure, str]:
         figure: Any
+        outputs = _bbsim.Outputs()
+        rig = given(scenario, self.set).changed([])  # reads standard input once
+        outputs.reads_scenario(rig)
+        for file, name in ((self.csv, "csv"), (output, "output")):
+            if file:
+                outputs.writes(os.fspath(file), name)
         with style(self.font):
             if self.kind != "accuracy":
-                text, figure, content = draw_loop(self.kind, scenario, self.set, self.locus, self.width)
+                text, figure, content = draw_loop(self.kind, rig, self.locus, self.width)
             else:
-                title, text = _bbsim.accuracy(given(scenario, self.set), "1e-3:1e-13")
+                title, text = _bbsim.accuracy(rig, "1e-3:1e-13")
                 ends = ",done\n" in text or ",stopped\n" in text
                 figure, points = draw_accuracy(text, title, self.width) if ends else (None, 0)
                 content = f"{points} points"
@@ -151,7 +157,7 @@ def plot(files: Union[Drawn, Sequence[Drawn]], *, columns: Texts = (), over: Tex
     chosen = _format(None if output is None else os.fspath(output), format)
     all_files = files if isinstance(files, (list, tuple)) else [files]
     if options.kind:
-        figure, _ = options.draw_scenario(files)
+        figure, _ = options.draw_scenario(files, output)
     elif not all_files:
         raise refuse("files", "none", "a file, a result, or a list of them")
     else:
@@ -235,7 +241,7 @@ def command(options: Dict[str, Any], say: Any) -> None:
             outputs.writes(output, what)
             if not options["output"] and not options["force"]:
                 _bbsim.require_mark(output, "a picture of bbsim's", _MARK)
-            figure, content = shared.draw(results) if results else shared.draw_scenario(its[0])
+            figure, content = shared.draw(results) if results else shared.draw_scenario(its[0], output)
             _save(figure, output, format)
             if output != "-":
                 say(f"{output}: {content}")

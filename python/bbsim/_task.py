@@ -17,7 +17,7 @@ from typing import Any, Callable, Dict, List, NoReturn, Optional, Sequence, Tupl
 import numpy as np
 
 from . import _bbsim
-from ._scenario import fault
+from ._scenario import OutputError, fault
 
 # A change that probably has a visible effect, by unit (SI). Other units span orders of magnitude.
 _USUAL = {"m": 0.01, "s": 0.01, "rad": 0.01, "m/s": 0.01, "N": 0.01}
@@ -143,8 +143,7 @@ def as_json(value: Dict[str, Any]) -> str:
 def files_of(options: Dict[str, Any], given: _bbsim.Given, reads: Dict[str, str], *names: str) -> Dict[str, str]:
     """The files to write, by option. Refuses those that would overwrite each other or an input."""
     files, outputs = {name: os.fspath(options.pop(name) or "") for name in names}, _bbsim.Outputs()
-    if os.path.exists(given.name):
-        reads = {given.name: "the scenario", **reads}
+    outputs.reads_scenario(given)
     for file, what in reads.items():
         outputs.reads(file, what)
     for name, file in files.items():
@@ -176,8 +175,13 @@ def carry_out(name: str, task: Any, options: Dict[str, Any], say: Any) -> Any:
     except KeyboardInterrupt:
         sys.stderr.write(f"{name}: interrupted before the first result; nothing is written\n")
         return None
-    sys.stdout.write("" if to_files else made.report)
-    sys.stdout.flush()
+    try:
+        sys.stdout.write("" if to_files else made.report)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise OutputError(f"cannot write to standard output: {(error.strerror or '').lower()}") from None
     return made
 
 

@@ -259,6 +259,13 @@ void define_results(py::module_& module) {
       .def(py::init())
       .def("reads", &Outputs::reads)
       .def("writes", &Outputs::writes)
+      .def("reads_scenario",
+           [](Outputs& outputs, const Given& given) {
+             // A fit may give a value that the text lacks.
+             const Source& source = shared_family(given).source();
+             api::reads_scenario(outputs, given.name,
+                                 parse_sound_parts(source.text, source.file, source.overrides));
+           })
       .def("reads_with",
            [](Outputs& outputs, const Result& result) { api::reads_with_result(outputs, result); });
   module.def("require_mark",

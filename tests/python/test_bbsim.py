@@ -24,6 +24,7 @@ from cases import CONFIGS, PROGRAM
 
 import bbsim
 from bbsim import _loops
+from bbsim._scenario import given
 
 
 def program(*words):
@@ -973,9 +974,9 @@ class OpenLoops(cases.Case):
         np.testing.assert_allclose(np.abs(at), np.hypot(sampled["real"], sampled["imag"]), atol=1e-9)
 
         key = "controller.gravity_compensation.kp"
-        locus = _loops.root_locus(rig, None, key, ("2", "4"), 3)
+        locus = _loops.root_locus(given(rig), key, ("2", "4"), 3)
         np.testing.assert_array_equal(np.unique(locus["value"]), [2, 3, 4])
-        radii = _loops.root_locus(rig, None, "ball.radius", ("1 cm", "0.02"), 2)
+        radii = _loops.root_locus(given(rig), "ball.radius", ("1 cm", "0.02"), 2)
         np.testing.assert_allclose(np.unique(radii["value"]), [0.01, 0.02])
         self.assertEqual(list(locus), ["value", "real", "imag"])
         middle = locus["value"] == 3
@@ -1028,7 +1029,7 @@ class OpenLoops(cases.Case):
             figures = [bode, _loops.draw_nyquist(_loops.nyquist(loop), loop), _loops.draw_poles(_loops.poles(loop), loop)]
             figures.append(_loops.draw_step(_loops.step(loop), loop))
             if scene.stem == "rig":
-                locus = _loops.draw_root_locus(_loops.root_locus(scene, None, key, ("2", "8"), 3), loop, key)
+                locus = _loops.draw_root_locus(_loops.root_locus(given(scene), key, ("2", "8"), 3), loop, key)
                 self.assertEqual(len(locus.axes), 2)
                 figures.append(locus)
             for figure in figures:
@@ -1043,7 +1044,7 @@ class OpenLoops(cases.Case):
             self.refuses("", lambda: _loops.bode(_loops.linearized(CONFIGS / f"{scene}.yaml")))
         self.refuses("", bbsim.linearize(CONFIGS / "rig.yaml", kind="plant").open_loop, "phi")
         self.refuses("", bbsim.linearize(CONFIGS / "rig.yaml").open_loop, "x")
-        self.refuses("", _loops.root_locus, CONFIGS / "rig.yaml", None, "ball.position", ("1", "2"), 3)
+        self.refuses("", _loops.root_locus, given(CONFIGS / "rig.yaml"), "ball.position", ("1", "2"), 3)
 
 
 class Simulations(cases.Case):

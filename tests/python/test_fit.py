@@ -595,6 +595,43 @@ class Command(Case):
             self.assertIn(message, said)
         self.assertEqual(sorted(os.listdir()), ["log.csv", "rig.yaml"])
 
+    def test_no_command_overwrites_what_its_scenario_reads(self):
+        self.put(rows_of())
+        self.write("loop.yaml", """
+ball: {radius: 1 cm}
+gimbal: {servo: {natural_frequency: 10, damping: 1}}
+controller:
+  pd: {kp: [[0.7, 0], [0, -0.7]], kv: [[0.5, 0], [0, -0.5]]}
+  drives: angle
+  reference: {table: {file: table.csv, time: t, x: x, y: y}}
+  sampling: {period: 20 ms}
+time: {end: 1, step: 20 ms}
+""")
+        self.write("table.csv", "t,x,y\n0,0,0\n1,0.01,0\n2,0,0\n")
+        free, bode = ["--free", "ball.inertia_factor"], ["plot", "loop.yaml", "--bode"]
+        tune = ["tune", "loop.yaml", "--free", "ball.radius=0.01:0.02", "--minimize", "rms_x"]
+        before = {name: self.read(name) for name in os.listdir()}
+        for words in (
+            ["fit", "rig.yaml", "other.csv", *free, "-o", "log.csv"],
+            ["fit", "rig.yaml", "other.csv", *free, "--json", "./log.csv"],
+            ["design", "rig.yaml", *free, "--length", "2", "--table", "log.csv"],
+            [*tune, "-o", "table.csv"], [*tune, "--json", "table.csv"],
+            [*bode, "-o", "a.svg", "--csv", "table.csv"], [*bode, "-o", "table.csv", "--format", "svg"],
+        ):  # fmt: skip
+            with self.subTest(words):
+                self.assertIn("a table of the scenario", self.command(*words, code=2)[1])
+        self.refuses("a table of the scenario", bbsim.plot, "rig.yaml", accuracy=True, csv="log.csv")
+        self.assertEqual({name: self.read(name) for name in os.listdir()}, before)
+
+    def test_a_full_disk_behind_standard_output(self):
+        rig = self.recorded()
+        with open("/dev/full", "w") as full:
+            made = subprocess.run([cases.PROGRAM, "fit", rig, "log.csv", *self.FREE, "-q"], stdout=full,
+                                  stderr=subprocess.PIPE, text=True)  # fmt: skip
+        self.assertEqual(made.returncode, 3)
+        self.assertEqual(made.stderr.count("\n"), 1)
+        self.assertIn("standard output", made.stderr)
+
     def test_an_interrupt_keeps_the_best_so_far(self):
         self.put(rows_of(sd=5e-4, scale=1.1))
         advance = _fit_search.Search._advance
