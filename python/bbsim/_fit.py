@@ -104,7 +104,9 @@ def _candidates(task: "_Task") -> List[FreeKey]:
             found.append(read_free_key(name, given))
         except InputError:
             pass
-    found += [_log_key(f"log.{name}.scale", task.columns, task.units) for name in task.columns]
+    delay = _log_key("log.delay", task.columns, task.units)
+    delay.start = 0.0
+    found += [delay, *(_log_key(f"log.{name}.scale", task.columns, task.units) for name in task.columns)]
     return [key for key in found if key.name not in {one.name for one in task.keys}]
 
 

@@ -285,6 +285,7 @@ class WindowsFit:
         return np.where(self.point.runs[:, None], np.nan_to_num(self.point.differences) * self.over_noise(),
                         FAR * self.there)[self.there]  # fmt: skip
 
+    @np.errstate(over="ignore")
     def _settle(self, u: Array, starts: Array) -> bool:
         """Newton's method for the best starts with known slopes: the motion depends on its start almost linearly.
         Returns whether a few rounds suffice."""

@@ -59,6 +59,7 @@ class FreeKey:
     logarithmic: bool = False
     scale: float = 1.0
 
+    @np.errstate(over="ignore")  # far away
     def value(self, u: Any) -> Any:
         """Within the bounds."""
         raw = self.start * np.exp(u) if self.logarithmic else self.start + self.scale * np.asarray(u)

@@ -189,6 +189,22 @@ auto read_case(const ScenarioFamily& family, std::size_t number,
   }
 }
 
+// The standard deviation of the first key, in SI: at least 0, whatever values the key may have.
+double deviation_of(const ScenarioFamily& family, const Variation& variation,
+                    const scenario::VariationSpec& spec, const scenario::TiedKey& key,
+                    const std::vector<Setting>& settings) {
+  std::string text = scenario::scaled(spec.values[1], std::abs(key.factor));
+  std::erase_if(text, [](char c) { return c == '"' || c == '\''; });
+  const std::string unit(family.unit_of(key.path, settings));
+  const std::optional<double> deviation = yaml::value_in(text, unit);
+  if (!deviation || *deviation < 0) {
+    fail(variation.key, "found " + yaml::shown(variation.spec) +
+                            "; allowed: normal with a standard deviation of at least 0" +
+                            (unit == "1" ? "" : ", in " + unit + " or another unit of that kind"));
+  }
+  return *deviation;
+}
+
 }  // namespace
 
 struct SweepPlan::Variations {
@@ -217,11 +233,9 @@ struct SweepPlan::Variations {
     std::vector<Setting> settings;
     for (const ParsedVariation& variation : all) {
       const bool own = &variation == &all[which];
-      const bool deviation = own && variation.spec.kind == Way::normal && i == 1;
       const std::size_t at = own ? i : beside(variation.spec, all[which].spec, i, combine);
       for (const scenario::TiedKey& key : variation.keys) {
-        const double factor = deviation ? std::abs(key.factor) : key.factor;
-        settings.push_back({key.path, scenario::scaled(variation.spec.values[at], factor)});
+        settings.push_back({key.path, scenario::scaled(variation.spec.values[at], key.factor)});
       }
     }
     return settings;
@@ -242,10 +256,9 @@ void SweepPlan::add_axes(const ScenarioFamily& family, const Sweep& sweep,
   // The British and the American spelling of a key draw the same values.
   axis.stream = mixed(mixed(seed_) ^ fnv1a(yaml::british(keys[0].path)));
   std::vector<double> numbers;  // of the first key
-  for (std::size_t i = 0; i < spec.values.size(); ++i) {
-    const bool deviation = spec.kind == Way::normal && i == 1;
+  for (std::size_t i = 0; i < (spec.kind == Way::normal ? 1 : spec.values.size()); ++i) {
     const std::vector<Setting> settings = variations.settings(which, i, combine_);
-    for (std::size_t k = 0; k < (deviation ? 1 : keys.size()); ++k) {
+    for (std::size_t k = 0; k < keys.size(); ++k) {
       std::vector<Setting> read = settings;
       std::rotate(read.begin() + static_cast<std::ptrdiff_t>(lead + k),
                   read.begin() + static_cast<std::ptrdiff_t>(lead + k + 1), read.end());
@@ -255,6 +268,10 @@ void SweepPlan::add_axes(const ScenarioFamily& family, const Sweep& sweep,
       axis.numeric = axis.numeric && number;
       if (k == 0 && number) numbers.push_back(*number);
     }
+  }
+  if (spec.kind == Way::normal && axis.numeric) {
+    numbers.push_back(deviation_of(family, variation, spec, keys[0],
+                                   variations.settings(which, 0, combine_)));
   }
   const auto plain = [](const scenario::TiedKey& key) { return key.factor == 1; };
   if (!axis.numeric && !std::all_of(keys.begin(), keys.end(), plain)) {
@@ -283,10 +300,6 @@ void SweepPlan::add_axes(const ScenarioFamily& family, const Sweep& sweep,
       (axis.from == 0 || axis.to == 0 || (axis.from < 0) != (axis.to < 0))) {
     fail(variation.key, "found " + yaml::shown(variation.spec) +
                             "; allowed: log from and to numbers of one sign, neither 0");
-  }
-  if (spec.kind == Way::normal && !(axis.to >= 0)) {
-    fail(variation.key, "found " + yaml::shown(variation.spec) +
-                            "; allowed: normal with a standard deviation of at least 0");
   }
   tie();
 }

@@ -97,6 +97,24 @@ TEST_CASE("zipped values are checked with those of their own case only") {
   CHECK(values(plan_of(sweep, loop), 1) == (turned ? std::array{0.4, 0.5} : std::array{0.5, 0.4}));
 }
 
+TEST_CASE("a standard deviation is in the key's unit, and not one of its values") {
+  const std::string loop = "configs/rig.yaml";
+  for (const auto& [key, spec] :
+       {std::pair("controller.sampling.period", "normal:20 ms:1e-9"),
+        {"ball.radius", "normal:0.02:0"},
+        {"solver.rtol", "normal:1e-8:1e-15"},
+        {"-2*ball.position.0", "normal:1 cm:0.2 cm"}}) {
+    Sweep sweep = vary({{key, spec}});
+    sweep.samples = 4;
+    CHECK(fault(sweep, loop) == "");
+  }
+  for (const char* const spec : {"normal:0.02:-1e-3", "normal:0.02:1 s", "normal:0.02:x"}) {
+    Sweep sweep = vary({{"ball.radius", spec}});
+    sweep.samples = 4;
+    CHECK(fault(sweep, loop).find("ball.radius: found ") != std::string::npos);
+  }
+}
+
 TEST_CASE("random values depend only on seed, key and case") {
   Sweep sweep = vary({{"gravity", "uniform:9:10"}, {"ball.spin", "normal:5:2"}});
   sweep.samples = 2000;
