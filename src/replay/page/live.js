@@ -16,7 +16,7 @@ bbsim.makeLive = (container) => {
   // pokes, which are the value of ball.push. States never change; a change makes another one.
   const original = {text: lead.scenario.text, set: lead.scenario.overrides.map(keyAndValue), script: '', pokes: []};
   const same = (a, b) => a.text === b.text && a.script === b.script && JSON.stringify(a.set) === JSON.stringify(b.set);
-  let wanted = original;
+  let wanted = original, shown = original;  // what shall run, and what has run
   const history = [], broken = new WeakSet();  // states before gestures; states that an error stopped
 
   // What the page shows of the last run.
@@ -46,6 +46,7 @@ bbsim.makeLive = (container) => {
 
   // Shows the answer to a state in all views.
   function show(state, {answer, arrays}) {
+    shown = state;
     yaml = answer.text;
     columns = Object.fromEntries(Object.entries(answer.columns).map(([key, place]) => [key, arrays[place]]));
     const {live, ...scene} = answer.scene, [run] = scene.runs;
@@ -324,12 +325,19 @@ bbsim.makeLive = (container) => {
   // The columns of the page's own run, before the engine has run.
   const pageColumns = () => Object.fromEntries([['t', lead.t], ...[...lead.columns].map(([key, {values}]) => [key, Float64Array.from(values)])]);
   bbsim.live = {
-    // Sets a key: a number in SI units, or a text such as "2 cm". Fulfilled when the run is drawn.
+    // Sets a key: a number in SI units, or a text such as "2 cm". Fulfilled when the run is drawn. A
+    // value that does not run leaves no trace in the next call.
     set(key, value) {
       remember();
-      const drawn = setKey(key, value);
+      const drawn = setKey(key, value), tried = wanted;
       sliders.update(key, String(value));
-      return drawn;
+      return drawn.catch((error) => {
+        if (wanted === tried) {
+          wanted = shown;
+          sliders.fill(offered);
+        }
+        throw error;
+      });
     },
     // Replaces the whole text. Fulfilled when the run is drawn.
     edit(words) {

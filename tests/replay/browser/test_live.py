@@ -253,6 +253,11 @@ class Page(Live):
                                         "document.activeElement.selectionEnd)"))
         # The run before stays.
         self.assertEqual(self.js("bbsim.data.runs[0].t.length"), 1051)
+        # A key that does not run leaves no trace in the next call.
+        self.run_js("await bbsim.live.edit(bbsim.live.yaml)")
+        for key, value in (("ball.radius", "-1"), ("ball.radios", "1")):
+            self.assertIn(key, self.run_js("await bbsim.live.set(...args)", key, value)["fault"])
+            self.assertIsNone(self.run_js("await bbsim.live.set('gravity', 5)"))
 
     def test_an_event_and_another_plate(self):
         self.open(page("configs/fig2b.yaml"))
