@@ -5,10 +5,10 @@
 
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
-#include <charconv>
 #include <string_view>
-#include <system_error>
 #include <utility>
+
+#include "base/number_in.hpp"
 
 namespace bbsim::app {
 
@@ -18,6 +18,13 @@ namespace {
 CLI::Option* refusing_nothing(CLI::Option* option) {
   const auto fault = [](const std::string& text) -> std::string {
     return text.empty() ? "found nothing; allowed: a value, or leave the option out" : "";
+  };
+  return option->check(CLI::Validator(fault, ""));
+}
+
+CLI::Option* taking_numbers(CLI::Option* option) {
+  const auto fault = [](const std::string& text) -> std::string {
+    return number_in<double>(text) ? "" : "found " + text + "; allowed: a number";
   };
   return option->check(CLI::Validator(fault, ""));
 }
@@ -67,10 +74,8 @@ Option& Option::may_be_repeated() {
 
 Option& Option::takes_whole(double least, double most) {
   const auto fault = [least, most](const std::string& text) -> std::string {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool number = error == std::errc() && end == text.data() + text.size();
-    if (number && is_whole(value, least, most)) return "";
+    const std::optional<double> value = number_in<double>(text);
+    if (value && is_whole(*value, least, most)) return "";
     return "found " + text + "; allowed: " + whole_numbers(least, most);
   };
   // Without a description, because help would show it as the option's type.
@@ -112,7 +117,7 @@ Option Command::option(const std::string& names, std::size_t& value, const std::
 
 Option Command::option(const std::string& names, std::optional<double>& value,
                        const std::string& what) {
-  return Option(*app_->add_option(names, value, what));
+  return Option(*taking_numbers(app_->add_option(names, value, what)));
 }
 
 Option Command::option(const std::string& names, std::vector<std::string>& values,
@@ -122,7 +127,7 @@ Option Command::option(const std::string& names, std::vector<std::string>& value
 
 Option Command::option(const std::string& names, std::vector<double>& values,
                        const std::string& what) {
-  return Option(*app_->add_option(names, values, what));
+  return Option(*taking_numbers(app_->add_option(names, values, what)));
 }
 
 Option Command::flag(const std::string& names, bool& value, const std::string& what) {

@@ -42,7 +42,7 @@ bool is_whole(double value, double least, double most) {
 
 std::string whole_numbers(double least, double most) {
   return "a whole number from " + short_number(least) +
-         (most < largest_whole ? " to " + short_number(most) : " up");
+         (most < largest_whole ? " to " + short_number(most) : " up, below 2^53");
 }
 
 void require_whole(const std::string& name, double value, double least, double most) {

@@ -28,8 +28,8 @@ inline std::string number_text(double value) {
 // The number with `digits` digits; from 1 to 1e15 without an exponent: 12.3, 1230000.
 [[nodiscard]] std::string rounded(double value, int digits);
 
-// 2^53: doubles hold all whole numbers up to it.
-inline constexpr double largest_whole = 9007199254740992.0;
+// 2^53 - 1: no other whole number reads as the same double.
+inline constexpr double largest_whole = 9007199254740991.0;
 
 // Also false for NaN.
 [[nodiscard]] bool is_whole(double value, double least, double most = largest_whole);

@@ -33,13 +33,13 @@ struct Number {
   bool read(const Value& value, double& into) const;
 };
 
-// A number without a fraction, from `least` up to 2^53: doubles hold these integers exactly.
+// A number without a fraction, from `least` up.
 struct Whole {
   double least;
   std::string_view example;
 
   [[nodiscard]] Number number() const {
-    return {Dimension::number, {.at_least = least, .at_most = 9007199254740992.0}, example};
+    return {Dimension::number, {.at_least = least, .at_most = largest_whole}, example};
   }
   [[nodiscard]] std::string allowed() const { return number().allowed(); }
   [[nodiscard]] Declared declared() const;
