@@ -108,10 +108,10 @@ std::vector<Pair> pairs_of(const file::TableData& log, const std::string& log_na
   return pairs;
 }
 
-// How well the log, moved by `offset`, fits the run: the sum over the columns of -log(1 - c^2), with
-// Pearson's correlation c. For noise of unknown size this is the logarithm of the likelihood, to
-// which a column of noise alone adds next to nothing. Empty if the time in common is shorter than
-// `least` or nothing varies.
+// How well the log, moved by `offset`, fits the run: the sum over the columns of -log(1 - c^2),
+// with Pearson's correlation c. For noise of unknown size this is the logarithm of the likelihood,
+// to which a column of noise alone adds next to nothing. Empty if the time in common is shorter
+// than `least` or nothing varies.
 struct Sums {
   double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
 };

@@ -323,6 +323,46 @@ void read_wiring(Keys& keys, Read& read) {
   keys.optional("costs", MappingOf(read_costs), read.c.costs);
 }
 
+// The parts' pins, each with its place.
+struct UsedPin {
+  int pin;
+  yaml::Value at;
+};
+void find_pins(const yaml::Value& value, std::vector<UsedPin>& pins) {
+  constexpr std::string_view names[] = {"pin",        "step",        "dir",        "enable",
+                                        "trigger",    "echo",        "x_plus",     "x_minus",
+                                        "y_plus",     "y_minus",     "upper_left", "upper_right",
+                                        "lower_left", "lower_right", "sense"};
+  for (std::size_t i = 0; i < value.node->items.size(); ++i) {
+    const yaml::Value item = value.item(i);
+    if (value.name() == "ignored") pins.push_back({pin_of(item.node->text), item});
+    find_pins(item, pins);
+  }
+  for (const yaml::Entry& entry : value.node->entries) {
+    const yaml::Value part{entry.value, value.path_of(entry.key), entry.position, value.context};
+    const bool is_pin =
+        std::ranges::find(names, entry.key) != std::end(names) || value.name() == "voltages";
+    if (is_pin) pins.push_back({pin_of(part.node->text), part});
+    if (value.name() == "inputs") pins.push_back({pin_of(entry.key), part});
+    find_pins(part, pins);
+  }
+}
+
+// Reports a pin with two roles. Drivers of steppers may share the pin that enables them.
+void check_pins(const yaml::Value& wiring) {
+  std::vector<UsedPin> pins;
+  find_pins(wiring, pins);
+  for (std::size_t i = 0; i < pins.size(); ++i) {
+    for (std::size_t j = 0; j < i && pins[i].pin >= 0; ++j) {
+      if (pins[j].pin != pins[i].pin) continue;
+      if (pins[i].at.name() == "enable" && pins[j].at.name() == "enable") continue;
+      pins[i].at.report("found pin " + pin_name(pins[i].pin) + ", which " + pins[j].at.path +
+                        " has, too; allowed: a pin of its own");
+      break;
+    }
+  }
+}
+
 }  // namespace
 
 std::string pin_name(int pin) {
@@ -344,6 +384,7 @@ Wiring::Wiring(const std::string& file) : files_{file} {
     }
     yaml::Context context{problems, folder};
     MappingOf(read_wiring).read({root, "", {}, &context}, read);
+    check_pins({root, "", {}, &context});
   } catch (const yaml::TextFault& fault) {
     problems.add(fault.position, fault.what());
   }

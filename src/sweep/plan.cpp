@@ -270,8 +270,8 @@ void SweepPlan::add_axes(const ScenarioFamily& family, const Sweep& sweep,
     }
   }
   if (spec.kind == Way::normal && axis.numeric) {
-    numbers.push_back(deviation_of(family, variation, spec, keys[0],
-                                   variations.settings(which, 0, combine_)));
+    numbers.push_back(
+        deviation_of(family, variation, spec, keys[0], variations.settings(which, 0, combine_)));
   }
   const auto plain = [](const scenario::TiedKey& key) { return key.factor == 1; };
   if (!axis.numeric && !std::all_of(keys.begin(), keys.end(), plain)) {

@@ -58,7 +58,7 @@ TEST_CASE("a wiring is read in SI units") {
 servos:
   phi: {channel: 3, level: "1510 us", scale: "0.1 deg", direction: -1}
   theta: {pin: 4}
-  ignored: [5, A0]
+  ignored: [5, A6]
   ignored_channels: [2, 15]
   oscillator: 27e6
 screen:
@@ -78,7 +78,7 @@ costs: {analog: "20 us"}
   CHECK(c.servos[0].pin == -1);
   CHECK(c.servos[0].scale == Approx(-0.1 * 3.14159265358979 / 180 * 1e6).epsilon(1e-14));
   CHECK(c.ignored_count == 2);
-  CHECK(c.ignored[1] == 54);
+  CHECK(c.ignored[1] == 60);
   CHECK(c.ignored_channels == 0x8004);
   CHECK(c.screen.kind == bbsim_four_wires);
   CHECK(c.screen.pins[3] == 8);
@@ -117,6 +117,22 @@ inputs: {A5: 4000}
   CHECK(wiring.get()->servos[0].pin == -1);
   CHECK(wiring.get()->ignored_count == 1);
   CHECK(wiring.get()->screen.pins[1] == -1);
+}
+
+TEST_CASE("a pin has one role") {
+  for (const auto& [text, at] :
+       {std::pair("servos: {phi: {pin: 9}, theta: {pin: 9}}", "servos.theta.pin: found pin 9"),
+        {"servos: {phi: {pin: 9}, ignored: [10, 9]}", "servos.ignored.1: found pin 9"},
+        {"servos: {legs: [{pin: 2}, {pin: 3}, {pin: 2}]}", "servos.legs.2.pin: found pin 2"},
+        {"steppers: {phi: {step: 2, dir: 2}}", "steppers.phi.dir: found pin 2"},
+        {"steppers: {phi: {step: 2, dir: 3, enable: 3}}", "steppers.phi.enable: found pin 3"},
+        {"{servos: {phi: {pin: 9}}, distances: {x: {trigger: 8, echo: 8, offset: 0.2}}}",
+         "distances.x.echo: found pin 8"},
+        {"{servos: {phi: {pin: A5}}, inputs: {A5: 512}}", "inputs.A5: found pin A5"}}) {
+    CHECK(contains(fault_of(text), at));
+  }
+  CHECK(fault_of("steppers: {phi: {step: 2, dir: 3, enable: 8}, theta: {step: 4, dir: 5, enable: "
+                 "8}}") == "none");
 }
 
 TEST_CASE("all faults of a wiring are reported together, each with its place") {

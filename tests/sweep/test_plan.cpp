@@ -99,11 +99,10 @@ TEST_CASE("zipped values are checked with those of their own case only") {
 
 TEST_CASE("a standard deviation is in the key's unit, and not one of its values") {
   const std::string loop = "configs/rig.yaml";
-  for (const auto& [key, spec] :
-       {std::pair("controller.sampling.period", "normal:20 ms:1e-9"),
-        {"ball.radius", "normal:0.02:0"},
-        {"solver.rtol", "normal:1e-8:1e-15"},
-        {"-2*ball.position.0", "normal:1 cm:0.2 cm"}}) {
+  for (const auto& [key, spec] : {std::pair("controller.sampling.period", "normal:20 ms:1e-9"),
+                                  {"ball.radius", "normal:0.02:0"},
+                                  {"solver.rtol", "normal:1e-8:1e-15"},
+                                  {"-2*ball.position.0", "normal:1 cm:0.2 cm"}}) {
     Sweep sweep = vary({{key, spec}});
     sweep.samples = 4;
     CHECK(fault(sweep, loop) == "");
