@@ -150,21 +150,18 @@ class VectorEnv(_VectorBase):
             made.append((values, int(random.integers(_MOST_SEED))))
         return which.tolist(), made
 
-    def _which(self, mask: Any) -> Array:
-        """The runs that a ``reset_mask`` names."""
-        flags = np.full(self.num_envs, True) if mask is None else np.asarray(mask)
-        if flags.shape != (self.num_envs,) or flags.dtype != bool:
-            found = f"shape {flags.shape} and type {flags.dtype}"
-            raise refuse("reset_mask", found, f"an array of {self.num_envs} booleans")
-        return np.flatnonzero(flags)
-
     @_one_at_a_time
     def reset(self, *, seed: Optional[int] = None, options: _Options = None) -> Tuple[Array, Dict[str, Any]]:
         """Begins an episode of each run, or of those of ``{"reset_mask": mask}``. Other ``options`` fix values of keys
         of ``randomize`` until the next ``reset()``. A reset that raises changes no run."""
         random = self._random if seed is None else _generator(seed)
         fixed = dict(options or {})
-        which = self._which(fixed.pop("reset_mask", None))
+        mask = fixed.pop("reset_mask", None)
+        flags = np.full(self.num_envs, True) if mask is None else np.asarray(mask)
+        if flags.shape != (self.num_envs,) or flags.dtype != bool:
+            found = f"shape {flags.shape} and type {flags.dtype}"
+            raise refuse("reset_mask", found, f"an array of {self.num_envs} booleans")
+        which = np.flatnonzero(flags)
         for key in fixed:
             if key not in self._randomize:
                 raise refuse("options", key, f"the keys of randomize, which are: {', '.join(self._randomize) or 'none'}")
