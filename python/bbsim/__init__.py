@@ -24,7 +24,7 @@ from ._environments import Env, VectorEnv
 from ._result import (Compared, Linearization, OpenLoop, Page, Result, Simulated, compare, examples, replay,
                       simulate)  # fmt: skip
 from ._scenario import (ControllerError, Error, InputError, OutputError, Problem, Scenario, Settings, given, listed,
-                        specification)  # fmt: skip
+                        require, specification)  # fmt: skip
 
 __all__ = [
     "Compared", "ControllerError", "Env", "Error", "InputError", "Linearization", "OpenLoop", "OutputError", "Page",
@@ -37,15 +37,13 @@ if TYPE_CHECKING:
     from ._fit import fit
     from ._plot import plot
     from ._tune import tune
+else:
 
-# Read on first use, because matplotlib and SciPy take longer to import than most runs take.
-_LATE = ("design", "fit", "plot", "tune")
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _LATE:
-        raise AttributeError(f"module 'bbsim' has no attribute {name!r}")
-    return getattr(importlib.import_module(f"bbsim._{name}"), name)
+    def __getattr__(name: str) -> Any:
+        """Reads these on first use, because matplotlib and SciPy take longer to import than most runs take."""
+        if name not in ("design", "fit", "plot", "tune"):
+            raise AttributeError(f"module 'bbsim' has no attribute {name!r}")
+        return getattr(importlib.import_module(f"bbsim._{name}"), name)
 
 
 def __dir__() -> List[str]:
@@ -62,12 +60,10 @@ def run(scenario: Scenario, set: Settings = None, error: Union[float, str, None]
     measures  by default the usual ones of ``bbsim sweep``
     expect    conditions such as "max_tilt < 5 deg"
     output    a .csv or .h5 file that also gets the rows
-
-    Raises InputError, OutputError, and ControllerError if a callable raises or a controller does not start.
     """
-    asked = None if measures is None else listed(measures)
+    asked = None if measures is None else listed("measures", measures)
     file = "" if output is None else os.fspath(output)
-    return Result(_bbsim.run(given(scenario, set, error), asked, listed(expect), file))
+    return Result(_bbsim.run(given(scenario, set, error), asked, listed("expect", expect), file))
 
 
 def check(scenario: Scenario, set: Settings = None) -> str:
@@ -85,7 +81,7 @@ def linearize(
 
 
 def sweep(
-    scenario: Scenario, vary: Optional[Mapping[str, Union[str, Sequence[Any]]]] = None,
+    scenario: Scenario, vary: Optional[Mapping[str, Any]] = None,
     measures: Union[str, Sequence[str]] = (), *, set: Settings = None, error: Union[float, str, None] = None,
     combine: str = "", samples: Optional[int] = None, seed: Optional[int] = None, threads: int = 0,
     expect: Union[str, Sequence[str]] = (),
@@ -99,9 +95,10 @@ def sweep(
     The fields are those of ``bbsim sweep``: case, the keys, status, reason, end_time, the measures, and 1 or 0 for each
     condition of ``expect``. Raises InputError.
     """
-    pairs = [(key, specification(values)) for key, values in (vary or {}).items()]
-    drawn = (combine, samples, seed)
-    made = _bbsim.sweep(given(scenario, set, error), pairs, *drawn, listed(measures), listed(expect), threads)
+    its = require("vary", {} if vary is None else vary, Mapping, "a dict such as {'ball.radius': [0.01, 0.02]}")
+    drawn = ([(key, specification(values)) for key, values in its.items()], combine, samples, seed)
+    texts = (listed("measures", measures), listed("expect", expect))
+    made = _bbsim.sweep(given(scenario, set, error), *drawn, *texts, threads)
     fields = {name: np.array(its, np.str_) if isinstance(its, list) else its for name, its in made}
     fields["case"] = fields["case"].astype(np.int64)
     table = np.empty(len(fields["case"]), dtype=[(name, field.dtype) for name, field in fields.items()])

@@ -100,7 +100,8 @@ def main(name: str, words: Optional[List[str]] = None) -> int:
         # Options are named as on a command line.
         names = [option["names"].split(",")[-1] for option in table["options"]]
         known = "|".join(re.escape(name[2:]) for name in names if name.startswith("--"))
-        _say("\n".join(re.sub(rf"^({known}): ", r"--\1: ", str(problem)) for problem in error.problems))
+        texts = (f"{place}: {text}" if place else text for place, text in error.told)
+        _say("\n".join(re.sub(rf"^({known}): ", r"--\1: ", text) for text in texts))
         return _INPUT_AT_FAULT
     except BrokenPipeError:  # the reader has seen enough
         return _OUTPUT_FAILED

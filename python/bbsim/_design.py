@@ -10,14 +10,14 @@ import tempfile
 from json import loads
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any, Dict, Iterable, List, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from scipy.optimize import minimize
 
 from . import _bbsim
 from ._experiment import Experiment, Motions
-from ._scenario import Array, InputError, Scenario, Settings, counted, fault, given, listed, refuse
+from ._scenario import Array, InputError, Scenario, Settings, counted, fault, from_to, given, listed, refuse
 from ._task import Progress, as_json, carry_out, files_of, read_free_keys, refuse_own_controller, silent
 
 Size = Union[float, str, None]
@@ -297,11 +297,12 @@ def text_of(value: float) -> str:
     return repr(float(value)).removesuffix(".0")
 
 
-def design(scenario: Union[Scenario, _bbsim.Given], free: Union[str, Sequence[str]], *, set: Settings = None,
-           length: Size = None, rate: Size = None, noise: Union[str, Sequence[str]] = (), window: Size = None,
-           max_tilt: Size = None, max_tilt_rate: Size = None, margin: Size = None, output: Optional[str] = None,
-           table: Optional[str] = None, json: Optional[str] = None, sketch: Optional[str] = None,
-           threads: Optional[int] = None, progress: Progress = silent) -> SimpleNamespace:  # fmt: skip
+def design(scenario: Union[Scenario, _bbsim.Given], free: Union[str, Sequence[str], Mapping[str, Any]], *,
+           set: Settings = None, length: Size = None, rate: Size = None, noise: Union[str, Sequence[str]] = (),
+           window: Size = None, max_tilt: Size = None, max_tilt_rate: Size = None, margin: Size = None,
+           output: Optional[str] = None, table: Optional[str] = None, json: Optional[str] = None,
+           sketch: Optional[str] = None, threads: Optional[int] = None,
+           progress: Progress = silent) -> SimpleNamespace:  # fmt: skip
     """Chooses the motion whose log determines keys of a scenario best. Keywords are options of ``bbsim design``; sizes
     are numbers in SI units, or texts with a unit; ``noise`` is a text or a list, such as "x=0.5mm".
 
@@ -331,7 +332,7 @@ def design(scenario: Union[Scenario, _bbsim.Given], free: Union[str, Sequence[st
         raise refuse("length", f"{end:.12g} s at {hertz:.12g} Hz", "a log of 16 to 100000 rows")
     seconds, axes = rows / hertz, axes_of(rig)
     units = {column[0]: column[2] for column in _bbsim.known_columns("rad")}
-    deviations_of_log = noise_of(rig, axes, listed(noise), units)
+    deviations_of_log = noise_of(rig, axes, listed("noise", noise), units)
     limits = limits_of(rig, sizes["max-tilt"], sizes["max-tilt-rate"], sizes["margin"])
 
     def settings(file: str, place: Sequence[float] = (0, 0)) -> List[Tuple[str, str]]:
@@ -356,7 +357,7 @@ def design(scenario: Union[Scenario, _bbsim.Given], free: Union[str, Sequence[st
         still, names = Path(folder) / "still.csv", "phi,theta" if tilts else "x,y"
         still.write_text(f"t,{names}\n" + "".join(f"{seconds * i / 3!r},0,0\n" for i in range(4)))
         plain = rig.changed(settings(str(still)))
-        keys = read_free_keys(listed(free), plain)
+        keys = read_free_keys(listed("free", free, from_to), plain)
         if not keys:
             raise refuse("free", "no key of the scenario", "keys that a fit may free, but not those of a log")
         parts, cut = [part for limit in limits for part in limit[-1]], sizes["window"] or (2 if tilts else 2 * seconds)
@@ -432,7 +433,7 @@ def design(scenario: Union[Scenario, _bbsim.Given], free: Union[str, Sequence[st
         _bbsim.aligned([["limit", "of", "used", "from"], *by_limit]),
         f"{short(seconds)} s at {short(hertz)} Hz: {experiment.numbers} numbers in {windows}; noise {logged}",
         f"best of {tried} motions{circling}", begin,
-        *["the circle determines the keys better, but its ball is launched"] * bool(better and tilts),
+        *["the circle determines the keys better" + ", but its ball is launched" * tilts] * bool(better),
         *(f"not identifiable: {key.name}, which a log of this length cannot separate from the other keys and the "
           "windows' starts" for key, its in zip(keys, shown) if its[0] == "-"), "",
     ])  # fmt: skip

@@ -8,27 +8,24 @@ import functools
 import math
 import operator
 import threading
+from numbers import Integral
 from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple, TypeVar, Union
 
 import numpy as np
 
 from . import _bbsim
 from ._result import Result
-from ._scenario import Array, Scenario, Settings, as_yaml, given, refuse
+from ._scenario import Array, Scenario, Settings, as_yaml, given, numbers, refuse, require
 
+_EnvBase: Any = object
+_VectorBase: Any = object
 try:
     import gymnasium
     from gymnasium.spaces import Box
-    from gymnasium.vector import VectorEnv as _VectorBase
 
-    _EnvBase: Any = gymnasium.Env
+    _EnvBase, _VectorBase = gymnasium.Env, gymnasium.vector.VectorEnv
 except ImportError:
     gymnasium = None
-
-    class _VectorBase:  # type: ignore[no-redef]
-        pass
-
-    _EnvBase = object
 
     class Box:  # type: ignore[no-redef]
         """The parts of gymnasium.spaces.Box that an environment needs."""
@@ -51,9 +48,6 @@ except ImportError:
 
         __contains__ = contains
 
-        def __repr__(self) -> str:
-            return f"Box({self.low}, {self.high}, {self.shape}, {self.dtype})"
-
 
 Distribution = Union[Tuple[float, float], Callable[[np.random.Generator], Any]]
 Reward = Callable[[Array, Array, Array], Array]
@@ -71,14 +65,20 @@ def _one_at_a_time(method: _Method) -> _Method:
     @functools.wraps(method)
     def turn(self: "VectorEnv", *args: Any, **rest: Any) -> Any:
         if not self._turn.acquire(blocking=False):
-            raise RuntimeError(f"{method.__name__}: found within another call, as from another thread; allowed: one call "
-                               "of an environment at a time")  # fmt: skip
+            raise RuntimeError(f"{method.__name__}: found within another call; allowed: one call of an environment at a time")
         try:
             return method(self, *args, **rest)
         finally:
             self._turn.release()
 
     return turn  # type: ignore[return-value]
+
+
+def _generator(seed: Any) -> np.random.Generator:
+    try:
+        return np.random.default_rng(seed)
+    except ValueError:
+        raise refuse("seed", seed, "a whole number from 0 up") from None
 
 
 def _require_range(key: str, found: Any) -> None:
@@ -111,23 +111,25 @@ class VectorEnv(_VectorBase):
     def __init__(self, scenario: Scenario, n: int, randomize: Optional[Mapping[str, Distribution]] = None,
                  seed: int = 0, *, set: Settings = None, reward: Optional[Reward] = None,
                  record: bool = False) -> None:  # fmt: skip
-        count = operator.index(n)
+        allowed = f"a whole number from 1 to {_MOST_RUNS}"
+        count = int(require("n", n, Integral, allowed))
         if not 1 <= count <= _MOST_RUNS:
-            raise refuse("n", n, f"a whole number from 1 to {_MOST_RUNS}")
-        for key, distribution in (randomize or {}).items():
+            raise refuse("n", n, allowed)
+        draws = require("randomize", {} if randomize is None else randomize, Mapping, "a dict such as {'gravity': (9, 10)}")
+        for key, distribution in draws.items():
             if not callable(distribution):
                 _require_range(key, distribution)
         modes = gymnasium and getattr(gymnasium.vector, "AutoresetMode", None)  # from Gymnasium 1.1 on
         if modes is not None:
             self.metadata = {**self.metadata, "autoreset_mode": modes.NEXT_STEP}
-        self.num_envs, self._randomize, self._reward = count, dict(randomize or {}), reward
+        self.num_envs, self._randomize, self._reward = count, dict(draws), reward
         self._turn = threading.Lock()
         self._runs = _bbsim.Environments(given(scenario, set), count, list(self._randomize), record)
-        self._random = np.random.default_rng(seed)
+        self._random = _generator(seed)
         self._options: Dict[str, Any] = {}
         self._over, self._begun = np.zeros((2, count), dtype=bool)
         width = len(self.observation_columns)
-        limit = np.array([np.inf if one is None else one for one in self._runs.limits])
+        limit = np.fmin(np.array(self._runs.limits, float), np.inf)  # None is unlimited
         limits = np.tile(limit, (count, 1))
         self.single_observation_space = Box(-np.inf, np.inf, (width,), np.float64)
         self.observation_space = Box(-np.inf, np.inf, (count, width), np.float64)
@@ -148,21 +150,18 @@ class VectorEnv(_VectorBase):
             made.append((values, int(random.integers(_MOST_SEED))))
         return which.tolist(), made
 
-    def _which(self, mask: Any) -> Array:
-        """The runs that a ``reset_mask`` names."""
-        flags = np.full(self.num_envs, True) if mask is None else np.asarray(mask)
-        if flags.shape != (self.num_envs,) or flags.dtype != bool:
-            found = f"shape {flags.shape} and type {flags.dtype}"
-            raise refuse("reset_mask", found, f"an array of {self.num_envs} booleans")
-        return np.flatnonzero(flags)
-
     @_one_at_a_time
     def reset(self, *, seed: Optional[int] = None, options: _Options = None) -> Tuple[Array, Dict[str, Any]]:
         """Begins an episode of each run, or of those of ``{"reset_mask": mask}``. Other ``options`` fix values of keys
         of ``randomize`` until the next ``reset()``. A reset that raises changes no run."""
-        random = self._random if seed is None else np.random.default_rng(seed)
+        random = self._random if seed is None else _generator(seed)
         fixed = dict(options or {})
-        which = self._which(fixed.pop("reset_mask", None))
+        mask = fixed.pop("reset_mask", None)
+        flags = np.full(self.num_envs, True) if mask is None else np.asarray(mask)
+        if flags.shape != (self.num_envs,) or flags.dtype != bool:
+            found = f"shape {flags.shape} and type {flags.dtype}"
+            raise refuse("reset_mask", found, f"an array of {self.num_envs} booleans")
+        which = np.flatnonzero(flags)
         for key in fixed:
             if key not in self._randomize:
                 raise refuse("options", key, f"the keys of randomize, which are: {', '.join(self._randomize) or 'none'}")
@@ -176,7 +175,7 @@ class VectorEnv(_VectorBase):
         """Gives each run its commands, and advances it to its next sample."""
         if not self._begun.all():
             raise RuntimeError("step: found a run that has not begun; allowed: reset() first")
-        commands = np.ascontiguousarray(actions, dtype=np.float64)
+        commands = numbers("actions", actions, (self.num_envs, 2))
         begins = self._over
         self._runs.advance(commands, *self._beginnings(np.flatnonzero(begins), self._random, self._options))
         terminated, truncated = self._runs.terminated, self._runs.truncated
@@ -186,7 +185,7 @@ class VectorEnv(_VectorBase):
             distances = (observations[:, 0] - observations[:, 3]) ** 2 + (observations[:, 1] - observations[:, 4]) ** 2
             rewards = np.where(terminated, -self._runs.costs_of_ending, -distances) if terminated.any() else -distances
         else:
-            rewards = np.asarray(self._reward(observations, commands, terminated), dtype=np.float64)
+            rewards = numbers("reward", self._reward(observations, commands, terminated), (self.num_envs,))
         return observations, np.where(begins, 0.0, rewards), terminated, truncated, {}
 
     @_one_at_a_time
@@ -205,17 +204,19 @@ class VectorEnv(_VectorBase):
 
 
 class Env(_EnvBase):
-    """A single run with Gymnasium's API: ``gymnasium.make("bbsim/Plate-v0", scenario=...)``."""
+    """A single run with Gymnasium's API, also by ``gymnasium.make("bbsim/Plate-v0", scenario=...)``. Its ``reward`` gets
+    arrays without the first axis, and returns a number."""
 
     metadata: Dict[str, Any] = {"render_modes": []}
-    render_mode = None
+    observation_columns, render_mode = VectorEnv.observation_columns, None
 
     def __init__(self, scenario: Scenario, randomize: Optional[Mapping[str, Distribution]] = None, seed: int = 0, *,
                  set: Settings = None, reward: Optional[Reward] = None, record: bool = False,
                  render_mode: None = None) -> None:  # fmt: skip
-        self._all = VectorEnv(scenario, 1, randomize, seed, set=set, reward=reward, record=record)
-        self.observation_space = self._all.single_observation_space
-        self.action_space = self._all.single_action_space
+        of_all: Any = reward and (lambda *batch: [reward(*(array[0] for array in batch))])  # type: ignore[misc]
+        self._all = VectorEnv(scenario, 1, randomize, seed, set=set, reward=of_all, record=record)
+        self.observation_space, self.action_space = self._all.single_observation_space, self._all.single_action_space
+        self.command_unit = self._all.command_unit
 
     def reset(self, *, seed: Optional[int] = None, options: _Options = None) -> Tuple[Array, Dict[str, Any]]:
         if gymnasium is not None:
@@ -226,7 +227,7 @@ class Env(_EnvBase):
     def step(self, action: Any) -> Tuple[Array, float, bool, bool, Dict[str, Any]]:
         if self._all._over[0]:
             raise RuntimeError("the episode has ended; allowed: reset()")
-        observations, rewards, terminated, truncated, info = self._all.step(np.reshape(action, (1, 2)))
+        observations, rewards, terminated, truncated, info = self._all.step(numbers("action", action, (2,))[None])
         return observations[0], float(rewards[0]), bool(terminated[0]), bool(truncated[0]), info
 
     def result(self) -> Optional[Result]:
@@ -235,10 +236,10 @@ class Env(_EnvBase):
     def close(self) -> None:
         self._all.close()
 
+    def __repr__(self) -> str:
+        return "<bbsim.Env>"
+
 
 if gymnasium is not None:
-
-    def _vector(scenario: Scenario, num_envs: int = 1, **rest: Any) -> VectorEnv:
-        return VectorEnv(scenario, num_envs, **rest)
-
-    gymnasium.register(id="bbsim/Plate-v0", entry_point=Env, vector_entry_point=_vector)
+    gymnasium.register(id="bbsim/Plate-v0", entry_point=Env, vector_entry_point=(
+        lambda scenario, num_envs=1, **rest: VectorEnv(scenario, num_envs, **rest)))  # fmt: skip

@@ -15,8 +15,8 @@ from . import _bbsim, _fit_text
 from ._fit_search import Search
 from ._fit_servos import compare_delays
 from ._fit_windows import Log, LogKey, Windows, WindowsFit, cut, start_coordinates
-from ._scenario import (Array, InputError, Scenario, Settings, as_files, counted, fault, given as given_of, listed,
-                        log_choice, refuse, without_folders)  # fmt: skip
+from ._scenario import (Array, InputError, Scenario, Settings, as_files, counted, fault, from_to, given as given_of,
+                        listed, log_choice, refuse, without_folders)  # fmt: skip
 from ._task import (ROUGH, FreeKey, Progress, carry_out, files_of, read_bounds, read_free_key, read_free_keys,
                     refuse_free, refuse_own_controller, refuse_twice, silent, usual_scale, write_all)  # fmt: skip
 
@@ -65,8 +65,8 @@ def _log(given: _bbsim.Given, stored: _bbsim.Stored, columns: Sequence[str], not
     if wrong.size:
         found = f"column t, row {wrong[0] + 1}: found {times[wrong[0]]:.17g}; allowed: finite times that increase"
         raise fault(f"{file}: {found}")
-    if not times.size:
-        raise fault(f"{file}: has no rows")
+    if not np.isfinite(values[1:]).any():
+        raise fault(f"{file}: found no finite numbers in {', '.join(columns)}")
     return Log(file, times, np.array(values[1:]), given)
 
 
@@ -136,7 +136,7 @@ class _Task:
         self.given, self.files, self.notes = given, logs, []  # type: ignore[var-annotated]
         self.share, self.starts, self.threads, self.robust = hold_out or 0, starts, threads or 0, loss == "huber"
         self.length = None if window is None else _bbsim.value_in(str(window), "s")
-        free = listed(free)
+        free = listed("free", free, from_to)
         for option, wrong, found, allowed in (
             ("hold-out", not 0 <= self.share < 1, hold_out, "a share from 0 to below 1, such as 0.3"),
             ("loss", loss not in (None, "squares", "huber"), f"'{loss}'", "squares or huber"),
@@ -152,7 +152,7 @@ class _Task:
         self.keys: List[FreeKey] = read_free_keys(free, given)
         run = given.changed([("solver.error", "null"), ("solver.rtol", "1e-10"), ("solver.atol", "1e-12")])
         run, self.warnings = self._without_noise(run), list(given.remarks())
-        maps, header = listed(map), [name for text in listed(header) for name in text.split(",")]
+        maps, header = listed("map", map), [name for text in listed("header", header) for name in text.split(",")]
         choice = log_choice(maps, header, period, time_offset, missing)
         self.logs: List[Log] = []
         self.columns: List[str] = []

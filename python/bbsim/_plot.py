@@ -18,8 +18,8 @@ from ._plot_runs import draw_runs
 from ._plot_sheet import FONT, Figure, require_font, style
 from ._plot_sweeps import draw_sweep
 from ._result import File, Result, Texts
-from ._scenario import (InputError, Log, as_files, counted, fault, given, is_table, listed, log_choice, overrides,
-                        refuse, tables_named, without_folders)  # fmt: skip
+from ._scenario import (InputError, Log, Settings, as_files, counted, fault, from_to, given, is_table, listed,
+                        log_choice, overrides, refuse, tables_named, without_folders)  # fmt: skip
 
 Drawn = Union[Log, Result, "np.ndarray[Any, np.dtype[np.void]]"]
 
@@ -27,9 +27,9 @@ _MARK = "drawn by bbsim plot"  # identifies pictures of bbsim
 _OF_SCENARIO = ("accuracy", *KINDS)
 
 
-def _parts(texts: Optional[Texts], separator: str) -> List[str]:
-    texts = [text if isinstance(text, str) else ",".join(text) for text in listed(texts)]
-    return [part.strip() for text in texts for part in text.split(separator)]
+def _parts(what: str, texts: Any, separator: str) -> List[str]:
+    several = [texts] if isinstance(texts, str) else [",".join(listed(what, text)) for text in texts or ()]
+    return [part.strip() for text in several for part in text.split(separator)]
 
 
 def _millimeters(width: Union[float, str, None]) -> Optional[float]:
@@ -60,22 +60,18 @@ class _Options:
     """What all pictures of one call share."""
 
     def __init__(self, options: Dict[str, Any]) -> None:
-        self.columns, self.over = _parts(options["columns"], ";"), _parts(options["over"], ",")
+        self.columns, self.over = _parts("columns", options["columns"], ";"), _parts("over", options["over"], ",")
         self.width, self.font = _millimeters(options["width"]), options["font"] or FONT
         asked = [name for name in _OF_SCENARIO if options[name]]
         if len(asked) > 1:
             both = " and --".join(asked).replace("_", "-")
             raise fault(f"found --{both}; allowed: one picture of a scenario at a time")
         self.kind = asked[0] if asked else ""  # of the picture, if a scenario is drawn
-        locus, self.csv = options["root_locus"] or "", options["csv"]
-        self.locus = locus if isinstance(locus, str) else "{}={}:{}".format(*locus)
+        locus, self.csv = options["root_locus"], options["csv"]
+        locus = {locus[0]: locus[1:]} if locus and isinstance(locus, (list, tuple)) else locus
+        self.locus = ",".join(listed("root_locus", locus, from_to))
         self.scenario, self.summary = (os.fspath(options[name] or "") for name in ("scenario", "summary"))
-        self.set, header = options["set"], _parts(options["header"], ",")
-        if not isinstance(self.set, Mapping):
-            for text in listed(self.set):
-                if "=" not in text:
-                    raise refuse("set", text, "KEY=VALUE")
-            self.set = dict(text.split("=", 1) for text in listed(self.set))
+        self.set, header = options["set"], _parts("header", options["header"], ",")
         self.log = log_choice(options["map"], header, options["period"], options["time_offset"], options["missing"])
         require_font(self.font)
         if self.csv and not self.kind:
@@ -109,7 +105,7 @@ class _Options:
             else:
                 if len(results) > 1:
                     raise fault("overlay: found a sweep; allowed: runs, since a sweep has its own picture")
-                figure, panels = draw_sweep(results[0], _parts(self.columns, ","), self.over, self.width)
+                figure, panels = draw_sweep(results[0], _parts("columns", self.columns, ","), self.over, self.width)
                 rows, what = results[0].rows, "cases"
         return figure, f"{rows} {what}, {counted(panels, 'panel')}"
 
@@ -137,10 +133,10 @@ class _Options:
 
 
 def plot(files: Union[Drawn, Sequence[Drawn]], *, columns: Texts = (), over: Texts = (), summary: Optional[File] = None,
-         scenario: Optional[File] = None, set: Union[Mapping[str, Any], Texts, None] = None, map: Texts = (),
+         scenario: Optional[File] = None, set: Settings = None, map: Texts = (),
          header: Texts = (), period: Optional[str] = None, time_offset: Optional[str] = None,
          missing: Union[float, str, None] = None, accuracy: bool = False, bode: bool = False, nyquist: bool = False,
-         poles: bool = False, step: bool = False, root_locus: Union[str, Tuple[str, Any, Any], None] = None,
+         poles: bool = False, step: bool = False, root_locus: Union[str, Sequence[Any], Mapping[str, Any], None] = None,
          csv: Optional[File] = None, width: Union[float, str, None] = None, font: Optional[str] = None,
          output: Optional[File] = None, format: Optional[str] = None) -> Figure:  # fmt: skip
     """Draws runs, a sweep or a log; returns a matplotlib figure. The keywords are the options of ``bbsim plot``.
@@ -150,8 +146,6 @@ def plot(files: Union[Drawn, Sequence[Drawn]], *, columns: Texts = (), over: Tex
              ``step`` or ``root_locus="KEY=FROM:TO"`` or ``(KEY, FROM, TO)``: a scenario
     columns  the panels, ``["path", "x,x_reference"]`` or ``["path", ["x", "x_reference"]]``; of a sweep, measures
     width    0.088 (m) or "88 mm"
-
-    Raises InputError and OutputError.
     """
     options = _Options(dict(locals()))
     chosen = _format(None if output is None else os.fspath(output), format)
@@ -246,6 +240,6 @@ def command(options: Dict[str, Any], say: Any) -> None:
             if output != "-":
                 say(f"{output}: {content}")
         except InputError as error:
-            problems += [(problem.place, problem.message) for problem in error.problems]
+            problems += error.told
     if problems:
         raise InputError(problems)

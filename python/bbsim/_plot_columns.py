@@ -16,8 +16,6 @@ from ._plot_sheet import ORANGE, Stroke, clean, mark, stroke
 from ._scenario import fault
 
 MAIN, REFERENCE, MEASURED, COMMAND = range(4)  # roles of columns
-
-
 Known = namedtuple("Known", "name symbol unit panel heading role beside axis")  # what bbsim knows of a column
 
 

@@ -17,8 +17,8 @@ from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Sequence, 
 import numpy as np
 
 from . import _bbsim
-from ._scenario import (Array, Columns, Log, Scenario, Settings, as_files, as_yaml, fault, given, listed, log_choice,
-                        overrides, refuse, without_folders)  # fmt: skip
+from ._scenario import (Array, Columns, Log, Scenario, Settings, as_files, as_yaml, fault, given, is_text, listed,
+                        log_choice, numbers, overrides, refuse, require, without_folders)  # fmt: skip
 
 if TYPE_CHECKING:
     import matplotlib.figure
@@ -62,9 +62,6 @@ class Result(Columns):
     def __len__(self) -> int:
         return len(self[self.columns[0]])
 
-    def keys(self) -> List[str]:
-        return self.columns
-
     def __repr__(self) -> str:
         title = f"{self._run.title!r}, " if self._run.title else ""
         return f"<bbsim.Result {title}{self.status}, {len(self)} rows: {', '.join(self.columns)}>"
@@ -89,7 +86,7 @@ class Result(Columns):
     def _repr_html_(self) -> str:
         rows = [("status", self.status), *[("reason", self.reason)] * bool(self.reason), ("rows", str(len(self)))]
         rows += [(name, f"{value:.6g}") for name, value in self.measures.items()]
-        rows += [("warning", text) for text in self.warnings]
+        rows += [*(("unmet", text) for text in self.unmet), *(("warning", text) for text in self.warnings)]
         cell = "<t{0} style='text-align:left'>{1}</t{0}>".format
         table = "".join(f"<tr>{cell('h', html.escape(name))}{cell('d', html.escape(text))}</tr>" for name, text in rows)
         title = f"<caption>{html.escape(self._run.title)}</caption>" if self._run.title else ""
@@ -133,22 +130,15 @@ class Simulated(Columns):
         return f"<bbsim.Simulated {len(self)} cases ({ends}): {', '.join([*self.columns, *self.measures])}>"
 
 
-def _numbers(what: str, values: Any) -> Array:
-    try:
-        return np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise refuse(what, f"{values!r:.60}", "an array of numbers") from None
-
-
 def _key(key: str, values: Any) -> Tuple[str, Array, List[str]]:
     """The name of a key, and its numbers or texts."""
     what = f"cases: {key}"
-    if isinstance(values, (str, bytes, Mapping)) or not hasattr(values, "__len__"):
+    if isinstance(values, (str, bytes, Mapping)) or not hasattr(values, "__len__") or getattr(values, "ndim", 1) == 0:
         raise refuse(what, f"{values!r:.60}", "an array or list with a value for each case")
     plain = isinstance(values, np.ndarray) or all(isinstance(one, (float, int)) for one in values)
     array = np.asarray(values) if plain else None
     if array is not None and array.ndim == 1 and array.dtype.kind in "fiu":
-        return key, _numbers(what, array), []
+        return key, array.astype(float), []
     return key, np.empty(0), [as_yaml(one) for one in values]
 
 
@@ -156,8 +146,7 @@ def _keys(cases: Cases) -> Tuple[Optional[int], List[Any]]:
     """The number of cases, if the keys tell it, and their values."""
     if isinstance(cases, Mapping):
         keys = [_key(str(key), values) for key, values in cases.items()]
-        lengths = [len(values) for values in cases.values()]
-        return (lengths[0] if lengths else None), keys
+        return next(map(len, cases.values()), None), keys
     if isinstance(cases, (str, bytes)) or not all(isinstance(one, Mapping) for one in cases):
         raise refuse("cases", f"{cases!r:.60}", "{KEY: array}, or a list of {KEY: value}")
     names = dict.fromkeys(str(key) for one in cases for key in one)
@@ -179,24 +168,16 @@ def simulate(scenario: Scenario, cases: Cases, columns: Texts, times: Any = None
     A case that does not run to its end says why in ``status`` and ``reason``. Raises InputError.
     """
     count, keys = _keys(cases)
-    parts = {"begin": begin, "end": end}
-    arrays = {name: _numbers(name, () if value is None else value) for name, value in parts.items()}
-    states = _numbers("start", np.empty((0, len(_bbsim.START))) if start is None else start)
-    if states.ndim != 2 or states.shape[1] != len(_bbsim.START):
-        raise refuse("start", f"an array of shape {states.shape}", f"(n, {len(_bbsim.START)}): {', '.join(_bbsim.START)}")
-    at = None if times is None else _numbers("times", times)
-    if at is not None and at.ndim not in (1, 2):
-        raise refuse("times", f"an array of shape {at.shape}", "(m,), or (n, m) for n cases")
+    ends = [numbers(name, () if its is None else its, (), ("n",)) for name, its in (("begin", begin), ("end", end))]
+    width = len(_bbsim.START)
+    states = numbers("start", np.empty((0, width)) if start is None else start, ("n", width))
+    at = None if times is None else numbers("times", times, ("m",), ("n", "m"))
     if count is None:
-        lists = [*arrays.values(), states] + ([at] if at is not None and at.ndim == 2 else [])
+        lists = [*ends, states] + ([at] if at is not None and at.ndim == 2 else [])
         count = max(len(one) for one in lists if one.ndim > 0) or 1
-    for name, array in arrays.items():
-        if array.ndim == 0:
-            arrays[name] = np.full(count, array)
-        elif array.ndim != 1:
-            raise refuse(name, f"an array of shape {array.shape}", "(n,) for n cases")
-    names, asked = listed(columns), listed(measures)
-    windows = (at, arrays["begin"], arrays["end"], states, events)
+    ends = [array if array.ndim else np.full(count, array) for array in ends]
+    names, asked = listed("columns", columns), listed("measures", measures)
+    windows = (at, *ends, states, require("events", events, (bool, np.bool_), "True or False"))
     made = _bbsim.simulate(given(scenario, set), count, keys, names, asked, *windows, threads)
     return Simulated(made, names, asked)
 
@@ -317,15 +298,21 @@ class Compared:
         return self.alike
 
 
-def replay(*files: Union[File, Result], output: Optional[File] = None, data: Union[Log, Sequence[Log]] = (),
+def replay(*files: Union[Scenario, Result], output: Optional[File] = None, data: Union[Log, Sequence[Log]] = (),
            map: Texts = (), header: Texts = (), period: str = "", time_offset: str = "", missing: Any = None,
            title: str = "", summary: File = "", scenario: File = "", set: Settings = None) -> Page:  # fmt: skip
     """A page that plays files or results of runs or sweeps, or scenarios; ``data``: logs beside a scenario, as files,
     dicts of arrays or DataFrames. ``output`` is NAME.html. The other keywords are the options of ``bbsim replay``.
     """
-    shown = [file._stored() if isinstance(file, Result) else os.fspath(file) for file in files]
+    shown, ran = [], []  # type: List[Any], List[Result]
+    for file in files:
+        if isinstance(file, Mapping) or is_text(file):
+            file = Result(_bbsim.run(given(file, set), None, [], ""))
+            ran.append(file)
+        shown.append(file._stored() if isinstance(file, Result) else os.fspath(file))
     log = log_choice(map, header, period, time_offset, missing)
-    beside = _bbsim.Beside(os.fspath(summary), os.fspath(scenario), overrides(set))
+    others = not ran or any(isinstance(file, str) for file in shown)
+    beside = _bbsim.Beside(os.fspath(summary), os.fspath(scenario), overrides(set) if others else [])
     target = "" if output is None else os.fspath(output)
     if target and not target.lower().endswith(".html"):
         raise refuse("output", target, "a name that ends in .html")
@@ -333,21 +320,21 @@ def replay(*files: Union[File, Result], output: Optional[File] = None, data: Uni
         made = _bbsim.replay(shown, logs, log, beside, title, target)
     if target:
         _bbsim.write_file(target, made[0])
-    return Page(made[0], made[1], [without_folders(note) for note in made[2]])
+    notes = [text for one in ran for text in one.warnings] + [without_folders(note) for note in made[2]]
+    return Page(made[0], next((one.reason for one in ran if one.reason), made[1]), notes)
 
 
 def compare(a: Log, b: Log, *, rtol: Optional[float] = None, atol: Optional[float] = None, columns: Texts = (),
             map: Texts = (), header: Texts = (), period: str = "", time_offset: str = "", missing: Any = None,
             set: Settings = None) -> Compared:  # fmt: skip
-    """Compares two files of results, or a log (also a dict of arrays or a DataFrame) with a run or a scenario. The
-    keywords are the options of ``bbsim compare``.
+    """Compares two files of results, or a log (also a dict of arrays or a DataFrame) with a run or a scenario's file.
+    The keywords are the options of ``bbsim compare``.
     """
     log = log_choice(map, header, period, time_offset, missing)
     for name, found in (("rtol", rtol), ("atol", atol)):
-        if not (found is None or isinstance(found, Real)):
-            raise refuse(name, repr(found), "a number, in SI units")
+        require(name, 0 if found is None else found, Real, "a number, in SI units")
     with as_files([a, b]) as (one, other):
-        made = _bbsim.compare(one, other, overrides(set), rtol, atol, listed(columns), log)
+        made = _bbsim.compare(one, other, overrides(set), rtol, atol, listed("columns", columns), log)
     notes = [without_folders(text) for text in made.warnings]
     return Compared(made.alike, without_folders(made.text), made.reason, notes)
 

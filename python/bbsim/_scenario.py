@@ -14,7 +14,7 @@ import re
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Callable, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Iterable, Iterator, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 
@@ -27,6 +27,8 @@ Settings = Optional[Mapping[str, Any]]
 Log = Union[str, "os.PathLike[str]", Mapping[str, Any], Any]
 
 _PREFIX = "bbsim-logs-"
+_CALLABLE = "<dict with a callable>"  # the name of such a scenario
+_OPTION = re.compile("--[a-z][-a-z]+|^([a-z]+-[-a-z]+|FILES)(?=: )")
 _GAPS = ("nan", "None", "NaT", "<NA>")  # pandas has several
 
 
@@ -51,17 +53,20 @@ class InputError(Error, ValueError):
     """The scenario or an argument is wrong: ``problems``, in order, and ``key`` and ``hint`` of the first."""
 
     def __init__(self, problems: Iterable[Tuple[str, str]]) -> None:
+        self.told: List[Tuple[str, str]] = list(problems)  # for a command line, whose options are keywords here
         self.problems: List[Problem] = []
-        for place, message in problems:
-            key, hint = _bbsim.key_and_hint(message.removeprefix("--set "))
-            its_place = "" if place.startswith("<dict>") else place.removeprefix("--set ")
-            self.problems.append(Problem(message.removeprefix("--set "), its_place, key or None, hint))
+        for place, message in self.told:
+            if place.startswith(_CALLABLE):
+                message = message.replace("controller.library", "controller.callable")
+            message = _OPTION.sub(lambda its: its[0].lstrip("-").replace("-", "_").lower(), message.removeprefix("--set "))
+            key, hint = _bbsim.key_and_hint(message)
+            its_place = "" if place.startswith("<dict") else place.removeprefix("--set ")
+            self.problems.append(Problem(message, its_place, key or None, hint))
         super().__init__("\n".join(str(problem) for problem in self.problems))
-        first = self.problems[0] if self.problems else Problem("")
-        self.key, self.hint = first.key, first.hint
+        self.key, self.hint = next(((one.key, one.hint) for one in self.problems), (None, ""))
 
     def __reduce__(self):
-        return type(self), ([(p.place, p.message) for p in self.problems],)
+        return type(self), (self.told,)
 
 
 def fault(text: str) -> InputError:
@@ -98,6 +103,28 @@ class Columns:
     def __iter__(self) -> Iterator[str]:
         return iter(self.columns)
 
+    def keys(self) -> List[str]:
+        return self.columns
+
+
+def require(what: str, found: Any, kind: Any, allowed: str) -> Any:
+    """The argument `what`, if it is of this kind."""
+    if not isinstance(found, kind):
+        raise TypeError(f"{what}: found {' '.join(repr(found).split()):.60}; allowed: {allowed}")
+    return found
+
+
+def numbers(what: str, values: Any, *shapes: Tuple[Any, ...]) -> Array:
+    """An array of numbers of one of these shapes, in which a text is any length."""
+    try:
+        array = np.asarray(values, np.float64, order="C")
+    except (TypeError, ValueError):
+        raise refuse(what, f"{values!r:.60}", "an array of numbers") from None
+    for shape in shapes:
+        if len(shape) == array.ndim and all(isinstance(one, str) or one == its for one, its in zip(shape, array.shape)):
+            return array
+    raise refuse(what, f"an array of shape {array.shape}", " or ".join(map(str, shapes)).replace("'", ""))
+
 
 def whole(text: str) -> str:
     try:
@@ -106,11 +133,6 @@ def whole(text: str) -> str:
         found = text[error.start : error.end]
         raise fault(f"found {found!r}, a part of a character; allowed: Unicode text") from None
     return text
-
-
-def _text(value: Any) -> str:
-    """The value in YAML's flow style, of which JSON is a part."""
-    return whole(json.dumps(value, ensure_ascii=False, default=_plain))
 
 
 def _plain(value: Any) -> Any:
@@ -126,8 +148,8 @@ def _plain(value: Any) -> Any:
 
 
 def as_yaml(value: Any) -> str:
-    """The value as written after ``KEY=``: texts unchanged, everything else in YAML's flow style."""
-    return whole(value) if isinstance(value, str) else _text(value)
+    """The value as written after ``KEY=``: texts unchanged, everything else in YAML's flow style, such as JSON."""
+    return whole(value if isinstance(value, str) else json.dumps(value, ensure_ascii=False, default=_plain))
 
 
 def _without_callable(scenario: Mapping[str, Any]) -> Tuple[Mapping[str, Any], Optional[Callable[..., Any]]]:
@@ -139,43 +161,39 @@ def _without_callable(scenario: Mapping[str, Any]) -> Tuple[Mapping[str, Any], O
     if not callable(function):
         raise fault(f"controller.callable: found {function!r}; allowed: a callable")
     rest = {key: value for key, value in controller.items() if key != "callable"}
-    laws = [key for key in ("program", "library") if key in rest]
-    if laws:
-        raise fault(f"controller.{laws[0]}: found beside callable; allowed: one law")
+    if "library" in rest:
+        raise fault("controller.library: found beside callable; allowed: one law")
     name = getattr(function, "__qualname__", type(function).__qualname__)
     return {**scenario, "controller": {"library": {"file": f"Python: {name}"}, **rest}}, function
 
 
-def overrides(settings: Settings) -> List[str]:
-    """KEY=VALUE, as ``--set`` takes them."""
-    if settings is not None and not isinstance(settings, Mapping):
-        raise TypeError(f"set: found {settings!r}; allowed: a dict such as {{'ball.radius': '2 cm'}}")
-    return [f"{key}={as_yaml(value)}" for key, value in (settings or {}).items()]
+def overrides(settings: Union[Settings, List[str]]) -> List[str]:
+    """KEY=VALUE, as ``--set`` takes them; a list of a command line has them."""
+    if isinstance(settings, list):
+        return listed("set", settings)
+    its = require("set", {} if settings is None else settings, Mapping, "a dict such as {'ball.radius': '2 cm'}")
+    return [f"{key}={as_yaml(value)}" for key, value in its.items()]
 
 
 def counted(count: int, what: str) -> str:
     return f"{count} {what}" + ("" if count == 1 else "s")
 
 
-def listed(texts: Any) -> List[str]:
-    """Texts of an option: one text or path, or several. A dict has what follows KEY=: a text, a tuple of two bounds,
-    other values, or None for the key alone."""
-    if texts is None:
-        return []
-    if isinstance(texts, (str, os.PathLike)):
-        return [os.fspath(texts)]
-    if not isinstance(texts, Mapping):
-        return list(texts)
-
-    def written(value: Any) -> str:
-        if isinstance(value, tuple) and len(value) == 2:
-            return ":".join(map(as_yaml, value))
-        return as_yaml(value) if np.isscalar(value) else specification(value)
-
-    return [str(key) if one is None else f"{key}={written(one)}" for key, one in texts.items()]
+def listed(what: str, texts: Any, written: Callable[[Any], str] = as_yaml) -> List[str]:
+    """Texts of an option: one text or path, or several. A dict has what follows KEY=, or None for the key alone."""
+    if isinstance(texts, Mapping):
+        return [str(key) if one is None else f"{key}={written(one)}" for key, one in texts.items()]
+    several = [] if texts is None else [texts] if isinstance(texts, (str, os.PathLike)) else texts
+    allowed = "a text, or a list of texts"
+    return [os.fspath(require(what, one, (str, os.PathLike), allowed)) for one in require(what, several, Iterable, allowed)]
 
 
-def given(scenario: Union[Scenario, _bbsim.Given], settings: Settings = None, error: Any = None) -> _bbsim.Given:
+def is_text(scenario: Any) -> bool:
+    """Whether it is YAML text, not a path."""
+    return isinstance(scenario, str) and ("\n" in scenario or scenario.lstrip().startswith("{"))
+
+
+def given(scenario: Any, settings: Union[Settings, List[str]] = None, error: Any = None) -> _bbsim.Given:
     """The scenario with settings. One that is already given stays as it is, and simulate() reads it only once."""
     if isinstance(scenario, _bbsim.Given):
         return scenario
@@ -184,26 +202,31 @@ def given(scenario: Union[Scenario, _bbsim.Given], settings: Settings = None, er
         texts.append(f"solver.error={as_yaml(error)}")
     if isinstance(scenario, Mapping):
         plain, function = _without_callable(scenario)
-        return _bbsim.Given("<dict>", _text(plain), texts, function)
-    name = os.fspath(scenario)
-    if not isinstance(name, str):
-        raise TypeError(f"found a scenario of type {type(scenario).__name__}; allowed: a path, YAML text or a dict")
-    if isinstance(scenario, str) and ("\n" in name or name.lstrip().startswith("{")):
-        return _bbsim.Given("<text>", whole(name), texts, None)
-    return _bbsim.Given(name, None, texts, None)
+        return _bbsim.Given(_CALLABLE if function else "<dict>", as_yaml(plain), texts, function)
+    name = os.fspath(require("scenario", scenario, (str, os.PathLike), "a path, YAML text or a dict"))
+    return _bbsim.Given("<text>", whole(name), texts, None) if is_text(scenario) else _bbsim.Given(name, None, texts, None)
 
 
-def specification(values: Union[str, Sequence[Any]]) -> str:
+def _each(values: Any) -> List[Any]:
+    """The values of an array or another sequence, or a single one."""
+    values = _plain(values) if isinstance(values, np.ndarray) else values
+    return [values] if isinstance(values, (str, Mapping)) or not isinstance(values, Iterable) else list(values)
+
+
+def from_to(values: Any) -> str:
+    """FROM:TO, or a text that has it."""
+    return ":".join(map(as_yaml, _each(values)))
+
+
+def specification(values: Any) -> str:
     """A key's values over a sweep, as ``bbsim sweep --vary KEY=`` takes them."""
-    if isinstance(values, str):
-        return values
 
     def listed_value(value: Any) -> str:
         text = as_yaml(value)
         splits = "," in text and text[0] not in "[{\"'"
         return "'" + text.replace("'", "''") + "'" if splits else text
 
-    return "list:" + ",".join(map(listed_value, [values] if np.isscalar(values) else values))
+    return values if isinstance(values, str) else "list:" + ",".join(map(listed_value, _each(values)))
 
 
 # Logs
@@ -211,7 +234,8 @@ def specification(values: Union[str, Sequence[Any]]) -> str:
 def log_choice(map: Any, header: Any, period: Any, time_offset: Any, missing: Any) -> _bbsim.LogChoice:
     """How to read a log; None and "" leave an option out."""
     gone = "" if missing is None else str(missing)
-    return _bbsim.LogChoice(listed(map), listed(header), str(period or ""), str(time_offset or ""), gone)
+    texts = listed("map", map), listed("header", header)
+    return _bbsim.LogChoice(*texts, str(period or ""), str(time_offset or ""), gone)
 
 
 def is_table(log: Any) -> bool:
@@ -221,7 +245,10 @@ def is_table(log: Any) -> bool:
 @contextlib.contextmanager
 def as_files(logs: Any) -> Iterator[List[str]]:
     """The files of one log or several. Tables in memory become temporary files, for the one reader of logs."""
-    logs = [logs] if is_table(logs) else listed(logs)
+    logs = [logs] if is_table(logs) or isinstance(logs, (str, os.PathLike)) else list(logs)
+    for log in logs:
+        if is_text(log) or (isinstance(log, Mapping) and any(isinstance(its, Mapping) for its in log.values())):
+            raise fault("found a scenario; allowed: a file, a table or a result, such as bbsim.run(scenario)")
     if not any(map(is_table, logs)):
         yield [os.fspath(log) for log in logs]
         return
@@ -239,8 +266,7 @@ def tables_named() -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        texts = [(without_folders(its.place), without_folders(its.message)) for its in error.problems]
-        raise InputError(texts) from None
+        raise InputError([(without_folders(place), without_folders(text)) for place, text in error.told]) from None
 
 
 def without_folders(text: str) -> str:

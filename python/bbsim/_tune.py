@@ -15,7 +15,8 @@ from scipy.optimize import minimize
 
 from . import _bbsim
 from ._result import simulate
-from ._scenario import Array, InputError, Scenario, Settings, counted, fault, given, listed
+from ._scenario import (Array, InputError, Scenario, Settings, as_yaml, counted, fault, from_to, given, listed, require,
+                        specification)  # fmt: skip
 from ._task import (Progress, as_json, carry_out, files_of, read_free_key, refuse_free, refuse_twice, silent,
                     write_all)  # fmt: skip
 
@@ -166,8 +167,7 @@ class _Tuning:
             raise fault(f"--quantile: found {self.share:g}; allowed: a share above 0 and up to 1, such as 0.95")
         if not options["free"]:
             refuse_free("found nothing; allowed: at least one KEY=FROM:TO")
-        if not isinstance(options["minimize"], str):
-            raise TypeError(f"minimize: found {options['minimize']!r}; allowed: a measure")
+        require("minimize", options["minimize"], str, "a measure")
         self.keys: List[Tuple[str, str, float, int]] = []  # name, unit, factor, place of its number
         free = np.array([self._read(text, place) for place, text in enumerate(options["free"])]).T
         self.bounds, self.start, names = free[:2], free[2], [key[0] for key in self.keys]
@@ -356,7 +356,8 @@ def tune(scenario: Scenario, free: Any, minimize: str, require: Any = (), vary: 
     gives the best. Raises InputError and OutputError.
     """
     options = dict(locals())
-    options.update((name, listed(options[name])) for name in ("free", "require", "vary"))
+    written = {"free": from_to, "require": as_yaml, "vary": specification}
+    options.update((name, listed(name, options[name], its)) for name, its in written.items())
     return _carry_out(given(scenario, set), options, silent, lambda text: None)
 
 

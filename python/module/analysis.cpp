@@ -31,10 +31,6 @@
 namespace bbsim::python {
 namespace {
 
-std::string text_at(const Given& given, const std::string& key) {
-  return shared_family(given).text_at(key);
-}
-
 Scenario scenario_of(const Given& given) {
   return first_of(shared_family(given));
 }
@@ -173,9 +169,10 @@ void define_analysis(py::module_& module, py::class_<Given>& given) {
            [](const Given& its, const std::string& key, const std::string& value) {
              return shared_family(its).number_at(key, {{key, value}});
            })
-      .def("text_at", &text_at)
-      .def("has",
-           [](const Given& its, const std::string& key) { return !text_at(its, key).empty(); })
+      .def("text_at",
+           [](const Given& its, const std::string& key) { return shared_family(its).text_at(key); })
+      .def("has", [](const Given& its,
+                     const std::string& key) { return !shared_family(its).text_at(key).empty(); })
       .def("rig_limits", &rig_limits)
       .def("remarks", [](const Given& its) { return scenario_of(its).remarks; })
       .def("begins_anywhere",

@@ -19,10 +19,6 @@ namespace {
 using api::Sample;
 using model::ControllerFault;
 
-py::tuple pair(const Pair& of) {
-  return py::make_tuple(of[0], of[1]);
-}
-
 // `function` may be a function, a bound method or an object.
 std::string name_of(const py::object& function) {
   const py::object named =
@@ -35,7 +31,7 @@ std::string name_of(const py::object& function) {
 // With the names of docs/reference/controllers.md.
 void define_sample(py::module_& module) {
   const auto of = [](Pair Sample::*member) {
-    return [member](const Sample& sample) { return pair(sample.*member); };
+    return [member](const Sample& sample) { return py::tuple(py::cast(sample.*member)); };
   };
   const auto of_servos = [](std::array<double, 3> Sample::*member) {
     return [member](const Sample& sample) -> py::tuple {
@@ -45,10 +41,15 @@ void define_sample(py::module_& module) {
     };
   };
   attributes(
-      py::class_<Sample>(module, "Sample"), "sample", &Sample::number, "t", &Sample::t, "ball",
+      py::class_<Sample>(
+          module, "Sample",
+          "What a callable controller receives, as attributes and as items: the sample's number, t "
+          "(s), ball (m; None if it is not seen), reference, reference_rate, "
+          "reference_acceleration (m, s), servo, servo_rate (rad, s)."),
+      "sample", &Sample::number, "t", &Sample::t, "ball",
       [](const Sample& sample) -> py::object {
         if (!sample.ball) return py::none();
-        return pair(*sample.ball);
+        return py::tuple(py::cast(*sample.ball));
       },
       "reference", of(&Sample::reference), "reference_rate", of(&Sample::reference_rate),
       "reference_acceleration", of(&Sample::reference_acceleration), "servo",

@@ -285,15 +285,9 @@ using api::Environments;
 using Indices = std::vector<std::size_t>;
 using Drawn = std::vector<std::pair<Texts, std::size_t>>;  // values as texts, and a seed
 
-// Begins some runs; with commands, steps the others.
+// Begins some runs; with commands, two for each run, steps the others.
 void advance(Environments& its, const std::optional<Numbers>& commands, const Indices& which,
              const Drawn& drawn) {
-  const auto count = static_cast<py::ssize_t>(its.count());
-  if (commands &&
-      (commands->ndim() != 2 || commands->shape(0) != count || commands->shape(1) != 2)) {
-    throw py::value_error("actions: found another shape; allowed: (" + std::to_string(count) +
-                          ", 2)");
-  }
   std::vector<Environments::Beginning> how;
   for (const auto& [values, seed] : drawn) how.push_back({values, seed});
   const double* const of = commands ? commands->data() : nullptr;
@@ -330,10 +324,7 @@ void define_environments(py::module_& module) {
         return std::make_unique<Environments>(family_of(given), count, std::move(keys), keeps_rows);
       }))
       .def("advance", &advance)
-      .def("result", [](Environments& its, std::size_t which) -> std::shared_ptr<api::RunResult> {
-        const api::RunResult* const made = which < its.count() ? its.result(which) : nullptr;
-        return made == nullptr ? nullptr : std::make_shared<api::RunResult>(*made);
-      });
+      .def("result", &Environments::result, py::return_value_policy::copy);
   py::list columns;
   for (const auto& one : Environments::columns()) {
     columns.append(py::make_tuple(one.name, one.unit, one.meaning));

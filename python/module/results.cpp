@@ -266,17 +266,14 @@ void define_results(py::module_& module) {
              api::reads_scenario(outputs, given.name,
                                  parse_sound_parts(source.text, source.file, source.overrides));
            })
-      .def("reads_with",
-           [](Outputs& outputs, const Result& result) { api::reads_with_result(outputs, result); });
+      .def("reads_with", &api::reads_with_result);
   module.def("require_mark",
              [](const std::string& target, const std::string& what, const std::string& mark) {
                file::require_like(target, {.what = what, .mark = mark});
              });
-  module.def("write_file", [](const std::string& target, const std::string& content) {
-    file::write_file(target, content);
-  });
+  module.def("write_file", &file::write_file);
   module.def("end_at_signals", &end_at_signals);
-  module.def("printable", [](const std::string& text) { return printable(text); });
+  module.def("printable", &printable);
   module.def("progress_line", [](const std::string& label, const std::string& detail, double done,
                                  std::optional<double> seconds_left, std::size_t columns) {
     return progress_line({printable(label), printable(detail), done, seconds_left}, columns);

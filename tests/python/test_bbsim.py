@@ -213,8 +213,9 @@ class Runs(cases.Case):
         self.refuses("copy.csv", bbsim.run, copy, output=copy)
 
     def test_for_notebooks(self):
-        made = bbsim.run(CONFIGS / "fig2b.yaml")
+        made = bbsim.run(CONFIGS / "fig2b.yaml", expect="max_tilt < 0.1 deg")
         shown = made._repr_html_()
+        self.assertIn("max_tilt &lt; 0.1 deg", shown)
         self.assertIn("<svg", shown)
         self.assertIn("max_tilt", shown)
         self.assertIn("fig2b" if not made.summary["title"] else "Fig. 2(b)", repr(made))
@@ -264,14 +265,40 @@ class Pages(cases.Case):
         for which in (-1, 2):
             with self.assertRaisesRegex(IndexError, f"which: found {which}; allowed: 0 to 1"):
                 bbsim.VectorEnv(rig, 2).result(which)
-        with self.assertRaisesRegex(bbsim.InputError, "atol: found '1 mm'; allowed: a number"):
-            bbsim.compare("a.csv", "b.csv", atol="1 mm")
         self.assertEqual(bbsim.sweep(rig, {"ball.radius": 0.01}, "max_tilt")["ball.radius"].tolist(), [0.01])
 
-    def test_settings_are_a_dict(self):
-        for call in (bbsim.run, bbsim.check, bbsim.linearize):
-            with self.assertRaisesRegex(TypeError, "set: found 'ball.radius=0.02'; allowed: a dict"):
-                call(CONFIGS / "rig.yaml", "ball.radius=0.02")
+    def test_types_of_arguments(self):
+        rig, result = CONFIGS / "rig.yaml", bbsim.run(LOOP)
+        for name, call, *words in (
+            *(("set", call, rig, "ball.radius=0.02") for call in (bbsim.run, bbsim.check, bbsim.linearize)),
+            ("atol", lambda: bbsim.compare("a.csv", "b.csv", atol="1 mm")),
+            ("vary", bbsim.sweep, rig, ["ball.radius=list:1"]), ("measures", bbsim.sweep, rig, {"gravity": [9]}, [1]),
+            ("columns", bbsim.simulate, rig, {}, [1]), ("measures", bbsim.simulate, rig, {}, [], None, [1]),
+            ("events", lambda: bbsim.simulate(rig, {}, "x", events="no")),
+            ("n", bbsim.VectorEnv, rig, 1.5), ("randomize", bbsim.VectorEnv, rig, 4, [1]),
+            ("scenario", bbsim.run, result), ("scenario", lambda: bbsim.plot(result, bode=True)),
+            ("scenario", lambda: bbsim.plot(bbsim.linearize(rig), bode=True)),
+        ):  # fmt: skip
+            with self.subTest(name, words=words), self.assertRaisesRegex(TypeError, f"^{name}: found .*; allowed: "):
+                call(*words)
+
+    def test_values_of_arguments(self):
+        rig, radius = CONFIGS / "rig.yaml", {"ball.radius": np.array(0.02)}
+        env = bbsim.Env(rig)
+        env.reset(seed=1)
+        for message, call, *words in (
+            ("cases: ball.radius: found", bbsim.simulate, rig, radius, ["x"]),
+            ("root_locus: found ball.radius=1", lambda: bbsim.plot(rig, root_locus=("ball.radius", 1))),
+            ("seed: found -1", bbsim.VectorEnv, rig, 4, None, -1), ("action: found an array of shape (1,)", env.step, [0.0]),
+            ("at: found soon", lambda: bbsim.linearize(rig, at="soon")),
+            ("samples: missing, but values are drawn; allowed: samples N", bbsim.sweep, rig, {"gravity": "normal:9:1"}),
+            ("vary: found", lambda: bbsim.tune(rig, "gravity=9:10", "max_tilt", vary="x")), ("files: missing", bbsim.replay),
+            ("found a scenario", bbsim.plot, LOOP), ("found a scenario", bbsim.compare, LOOP, "a.csv"),
+        ):  # fmt: skip
+            with self.subTest(message):
+                self.refuses(message, call, *words)
+        self.assertEqual(bbsim.sweep(rig, radius, "max_tilt")["ball.radius"].tolist(), [0.02])
+        bbsim.plot(rig, root_locus={"ball.radius": (0.01, 0.02)})
 
     def test_a_result_can_be_pickled(self):
         made = bbsim.run(CONFIGS / "fig2a.yaml", measures="max_tilt")
@@ -301,6 +328,10 @@ class Pages(cases.Case):
         self.assertIn("<iframe", page._repr_html_())
         result = bbsim.run(CONFIGS / "fig2a.yaml")
         self.assertIn("Fig. 2(a)", bbsim.replay(result, title="Fig. 2(a) again").html)
+        for scene in (LOOP, json.dumps(LOOP), with_callable(SampledPd())):
+            stopped = bbsim.replay(scene, set={"plate.size": [0.08, 0.08], "events.edge": "stop", "title": "Mine"})
+            self.assertIn("left the plate", stopped.reason)
+            self.assertIn("Mine", stopped.html)
         self.refuses("ends in .html", bbsim.replay, CONFIGS / "fig2a.yaml", output="fig2a.yaml")
         bbsim.run(CONFIGS / "fig2a.yaml", output="run.csv")
         os.rename("run.csv", "run.html")
@@ -405,6 +436,16 @@ class Callables(unittest.TestCase):
         with self.assertRaises(bbsim.InputError) as caught:
             bbsim.run(with_callable(3))
         self.assertEqual(caught.exception.key, "controller.callable")
+        laws = with_callable(lambda sample: (0, 0))
+        off = {"controller.sampling": None}
+        for more, settings, key in (({"pd": 1}, {}, "callable"), ({}, off, "callable"), ({"library": {}}, {}, "library")):
+            with self.assertRaises(bbsim.InputError) as caught:
+                bbsim.run({**laws, "controller": {**laws["controller"], **more}}, settings)
+            self.assertIn(f"controller.{key}", [problem.key for problem in caught.exception.problems])
+            self.assertEqual("library" in str(pickled(caught.exception)), key == "library")
+
+    def test_help_has_units(self):
+        self.assertIn("rad", bbsim.Sample.__doc__)
 
 
 class Sweeps(unittest.TestCase):
@@ -716,6 +757,20 @@ class Environments(cases.Case):
         own.reset()
         self.assertEqual(own.step(np.full((2, 2), 0.2))[1].tolist(), [-1, -1])
 
+    def test_what_a_reward_takes_and_gives(self):
+        rig, shapes = CONFIGS / "rig.yaml", []
+        for n in (1, 8):
+            for wrong in (np.zeros((n, 1)), np.zeros((n, n)), np.zeros(n + 1), 0.0):
+                envs = bbsim.VectorEnv(rig, n, reward=lambda *batch, wrong=wrong: wrong)
+                envs.reset()
+                self.refuses("reward: found an array of shape", envs.step, np.zeros((n, 2)))
+        env = bbsim.Env(rig, reward=lambda *its: shapes.append([one.shape for one in its]) or 2.5)
+        env.reset()
+        self.assertEqual((env.step([0, 0])[1], shapes), (2.5, [[(11,), (2,), ()]]))
+        of_all = bbsim.VectorEnv(rig, 1)
+        self.assertEqual((env.command_unit, env.observation_columns), (of_all.command_unit, of_all.observation_columns))
+        self.assertIn("bbsim.Env", repr(env))
+
     def test_a_mask_has_a_boolean_for_each_run(self):
         for n in (2, 8):
             envs = bbsim.VectorEnv(CONFIGS / "rig.yaml", n)
@@ -800,8 +855,7 @@ class Environments(cases.Case):
         self.assertEqual(observations[:, 0].tolist(), [0.02, 0.02])
         with self.assertRaises(bbsim.InputError):
             envs.reset(options={"gravity": 3})
-        with self.assertRaises(ValueError):
-            envs.step(np.zeros((3, 2)))
+        self.refuses("actions: found an array of shape (3, 2); allowed: (2, 2)", envs.step, np.zeros((3, 2)))
         for many in (envs, bbsim.VectorEnv(self.SCENE, 8)):
             many.reset()
             with self.assertRaises(bbsim.InputError):
@@ -1066,6 +1120,7 @@ class Simulations(cases.Case):
                 np.testing.assert_allclose(made[name][i], run[name][[0, 15, 15, 97, 100]], atol=1e-6)
         with self.assertRaises(KeyError):
             made["y"]
+        self.assertEqual(list(dict(made)), made.columns)
         np.testing.assert_array_equal(pickled(made)["x"], made["x"])
 
     def test_columns_in_lanes_are_those_of_runs(self):
@@ -1155,7 +1210,7 @@ class Simulations(cases.Case):
         refused("begin", begin=[1])
         refused("begin", "shape (1, 2)", begin=[[1, 2]])
         refused("end: case 0", begin=[1, 1], end=[1, 2])
-        refused("start", "(n, 9)", "theta_rate", start=[[1, 2]])
+        refused("start", "(n, 9)", start=[[1, 2]])
         refused("threads", threads=-1)
         with self.assertRaises(TypeError):
             bbsim.simulate(CONFIGS / "fig2b.yaml", {"ball.radius": [object()]}, "x")
@@ -1204,6 +1259,21 @@ class Faults(cases.Case):
 
     def test_check(self):
         self.assertEqual(bbsim.check(CONFIGS / "rig.yaml"), program("check", CONFIGS / "rig.yaml"))
+
+
+class Types(cases.Case):
+    def test_mypy(self):
+        """Accepts what is documented, and knows the names of the package."""
+        try:
+            from mypy import api
+        except ImportError as lacking:
+            self.skipTest(str(lacking))
+        self.write("mine.py", "import bbsim, numpy as np\n"
+                   "bbsim.sweep('a', {'ball.radius': np.linspace(1, 2, 3)})\n"
+                   "bbsim.design('a', {'ball.radius': (1, 2)})\n"
+                   "bbsim.runn('a')\n")  # fmt: skip
+        said, _, _ = api.run(["--ignore-missing-imports", "--follow-imports=silent", "mine.py"])
+        self.assertEqual([line.split(":")[1] for line in said.splitlines()[:-1]], ["4"], said)
 
 
 class Interruptions(unittest.TestCase):

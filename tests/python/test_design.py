@@ -99,6 +99,12 @@ class Rigs(Case):
         self.assertAlmostEqual(made.noise.x, np.hypot(0.2e-3, 0.32e-3 / np.sqrt(12)))
         self.assertEqual(len(made.sines.x), 4)
 
+    def test_a_better_circle_is_named(self):
+        for scenario in (CONFIGS / "hold.yaml", RIG):  # with a controller, and without
+            made = bbsim.design(scenario, [INERTIA], length=1, set={"plate.size": "[30 cm, 30 cm]"})
+            better = made.parameters[0].circle_sd < made.parameters[0].sd
+            self.assertEqual("the circle determines the keys better" in made.report, better, made.report)
+
     def test_commands(self):
         made = bbsim.design(COMMANDS, SERVO)
         self.require_half_of(made, "circle_sd")
@@ -228,7 +234,7 @@ class Refused(Case):
             ("rate", -1, "rate: found -1"), ("noise", "ball=1", 'noise: found "ball=1"; allowed: COLUMN=SIZE'),
             ("noise", "phi_command=1deg", "noise: found phi_command, there is no controller"),
             ("margin", "15 cm", "margin: found 0.15 m; allowed: a length from 0 to below half the plate"),
-            ("max_tilt", "8 cm", 'max-tilt: found "8 cm"'), ("window", "x", 'window: found "x"'),
+            ("max_tilt", "8 cm", 'max_tilt: found "8 cm"'), ("window", "x", 'window: found "x"'),
         ):  # fmt: skip
             self.refuses(message, **{option: value})
 

@@ -269,6 +269,8 @@ class Tables(Case):
             ({"t": [0, 1], "x": ["\ud800", "b"]}, "a part of a character"),
             ({"t": [0, 1, 1.5], "phi": [1, 2, 3]}, "log-1.csv: has no column to compare"),
             ({"t": [0, 1, 1.5], "x": ["a", "b", "c"]}, "log-1.csv: column x: found texts"),
+            ({"t": [0, 1, 1.5], "x": [np.inf, None, np.nan]}, "log-1.csv: found no finite numbers in x"),
+            ({"ball": {"radius": 0.01}}, "found a scenario; allowed: a file, a table or a result"),
         ):  # fmt: skip
             self.refused(message, "ball.inertia_factor", logs=log)
         with self.assertRaisesRegex(bbsim.InputError, "^log-1.csv: nothing to draw"):
@@ -677,9 +679,11 @@ time: {end: 1, step: 20 ms}
             ([radius, radius], {}, "ball.radius is given twice"),
             (["log.delay", "log.delay"], {}, "log.delay is given twice"),
             (radius, {"window": -1}, "window: found"),
-            (radius, {"hold_out": 1}, "hold-out: found 1"),
+            (radius, {"hold_out": 1}, "hold_out: found 1"),
             (radius, {"loss": "cauchy"}, "loss: found 'cauchy'; allowed: squares or huber"),
-            (radius, {"window": "60 ms"}, "have 0 numbers in 0 windows"),
+            (radius, {"window": "60 ms"}, "0 numbers in 0 windows; allowed: more than the 1 that are sought, starts included; "
+             "use a longer window or fewer free keys"),
+            ({radius: [0.02, 0.01]}, {}, "free: ball.radius: found '0.02:0.01'"),
             ("log.phi.scale", {}, "allowed for a log: log.delay, log.x.scale, log.x.offset, log.y.scale"),
             ("log.delay=-1:1", {}, "allowed: values from 0"),
             (radius, {"set": {"time.end": 5}, "time_offset": "100 s"}, "tables cover"),

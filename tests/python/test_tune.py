@@ -230,7 +230,7 @@ class Rigs(cases.Case):
 
     def test_faults(self):
         for free, message in (
-            (KP, f"--free: {KP}: found no range; allowed: KEY=FROM:TO, such as controller.gravity_compensation.kp=1:20"),
+            (KP, f"free: {KP}: found no range; allowed: KEY=FROM:TO, such as controller.gravity_compensation.kp=1:20"),
             (f"{KP}=3", "FROM:TO with FROM below TO"),
             (f"{KP}=9:3", "FROM:TO with FROM below TO"),
             ("ball.raduis=1:2", "did you mean ball.radius?"),
@@ -239,28 +239,30 @@ class Rigs(cases.Case):
             (f"2*{KP}=1:2", "found a factor before the first key"),
             (f"{KP},0*{KV}=1:2", "a number that is not 0"),
             (f"{KP},=1:2", "a number that is not 0"),
-            ([f"{KP}=1:2", f"{KP}=1:3"], f"--free: {KP} is given twice"),
+            ([f"{KP}=1:2", f"{KP}=1:3"], f"free: {KP} is given twice"),
             ({KP: (4, 30), f"{KV},{KP}": (3, 20)}, "is given twice"),
             ([], "found nothing; allowed: at least one KEY=FROM:TO"),
+            ({KP: [4, 3]}, "free: controller.gravity_compensation.kp: found '4:3'"),
+            ({KP: np.array([4.0, 5.0, 6.0])}, "found '4.0:5.0:6.0'"),
         ):
             self.refuses(message, tune, free=free)
         damping = "gimbal.servo.damping=-"
         for message, options in (
-            ("--minimize: ", {"minimize": "rms_trakcing_error"}),
-            ('--require: found "max_tilt"; allowed: "MEASURE < VALUE"', {"require": "max_tilt"}),
+            ("minimize: ", {"minimize": "rms_trakcing_error"}),
+            ('require: found "max_tilt"; allowed: "MEASURE < VALUE"', {"require": "max_tilt"}),
             ("max_tilt is in rad", {"require": "max_tilt < 3 mm"}),
-            ("--samples", {"samples": None}),
-            ("--samples: found, but no value is drawn", {"vary": ()}),
-            ("--hold-out: found, but no value is drawn",
+            ("samples: missing", {"samples": None}),
+            ("samples: found, but no value is drawn", {"vary": ()}),
+            ("hold_out: found, but no value is drawn",
              {"vary": "ball.radius=list:0.02,0.03", "samples": None, "hold_out": 5}),
             ("found among the free keys, too", {"vary": [SERVO, f"{KP}=uniform:1:2"]}),
             (damping, {"vary": "gimbal.servo.damping=normal:0.1:0.3"}),
             (damping, {"vary": {"gimbal.servo.damping": "normal:0.1:0.3"}}),
             # Only some of the rigs held out cannot exist.
             (damping, {"vary": "gimbal.servo.damping=normal:0.8:0.25", "hold_out": 3000}),
-            ("--quantile: found 1.5", {"quantile": 1.5}),
-            ("--quantile: found 0", {"quantile": 0}),
-            ("--threads: found -1", {"threads": -1}),
+            ("quantile: found 1.5", {"quantile": 1.5}),
+            ("quantile: found 0", {"quantile": 0}),
+            ("threads: found -1", {"threads": -1}),
         ):  # fmt: skip
             self.refuses(message, tune, **options)
 
