@@ -22,13 +22,6 @@ CLI::Option* refusing_nothing(CLI::Option* option) {
   return option->check(CLI::Validator(fault, ""));
 }
 
-CLI::Option* taking_numbers(CLI::Option* option) {
-  const auto fault = [](const std::string& text) -> std::string {
-    return number_in<double>(text) ? "" : "found " + text + "; allowed: a number";
-  };
-  return option->check(CLI::Validator(fault, ""));
-}
-
 // Prefix of the validator's name, which is never shown.
 constexpr std::string_view one_of = "one of ";
 
@@ -69,6 +62,14 @@ Option& Option::parted_by_commas() {
 
 Option& Option::may_be_repeated() {
   option_->take_all()->expected(1)->allow_extra_args(false);
+  return *this;
+}
+
+Option& Option::takes_number() {
+  const auto fault = [](const std::string& text) -> std::string {
+    return number_in<double>(text) ? "" : "found " + text + "; allowed: a number";
+  };
+  option_->check(CLI::Validator(fault, ""));
   return *this;
 }
 
@@ -117,7 +118,7 @@ Option Command::option(const std::string& names, std::size_t& value, const std::
 
 Option Command::option(const std::string& names, std::optional<double>& value,
                        const std::string& what) {
-  return Option(*taking_numbers(app_->add_option(names, value, what)));
+  return Option(*app_->add_option(names, value, what));
 }
 
 Option Command::option(const std::string& names, std::vector<std::string>& values,
@@ -127,7 +128,7 @@ Option Command::option(const std::string& names, std::vector<std::string>& value
 
 Option Command::option(const std::string& names, std::vector<double>& values,
                        const std::string& what) {
-  return Option(*taking_numbers(app_->add_option(names, values, what)));
+  return Option(*app_->add_option(names, values, what));
 }
 
 Option Command::flag(const std::string& names, bool& value, const std::string& what) {

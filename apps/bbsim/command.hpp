@@ -39,6 +39,8 @@ class Option {
   Option& parted_by_commas();
   // May be given several times, each with one value: the scenario may follow.
   Option& may_be_repeated();
+  // Takes a decimal number.
+  Option& takes_number();
   // Takes a whole number, also as 1e6.
   Option& takes_whole(double least, double most = largest_whole);
   // Takes one value, though it is stored as a list.

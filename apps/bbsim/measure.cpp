@@ -153,11 +153,13 @@ void add_compare(Command& command, const Options& all) {
       .required();
   command
       .option("--rtol", request->rtol, "tolerance relative to the larger value; default: see below")
-      .takes("R");
+      .takes("R")
+      .takes_number();
   command
       .option("--atol", request->atol,
               "absolute tolerance, in the column's unit; default: see below")
-      .takes("A");
+      .takes("A")
+      .takes_number();
   command
       .option("--columns", request->columns,
               "compare only these columns; default: all; a column that only one file has is a "
@@ -222,6 +224,7 @@ void add_summarize(Command& command, const Options& options) {
       .option("--quantiles", arguments->quantiles,
               "numbers from 0 to 1; default: 0.05,0.25,0.5,0.75,0.95")
       .takes("Q,...")
+      .takes_number()
       .parted_by_commas();
   command
       .option("-o,--output", arguments->output,
