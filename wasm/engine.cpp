@@ -253,7 +253,7 @@ std::string by_hand(const Json& request) {
   if (result.code != ExitCode::done) throw InputError(result.summary.reason);
   Json json;
   for (std::size_t i = 0; i < result.columns.size(); ++i) {
-    json[result.columns[i]] = result.rows.columns[i].back();
+    json[result.columns[i]] = result.rows.columns[i].numbers.back();
   }
   return json_text(json);
 }

@@ -37,12 +37,6 @@ bool is_control(char c) {
   return static_cast<unsigned char>(c) < ' ' || c == '\x7f';
 }
 
-constexpr std::size_t longest_name = 40;  // in messages
-
-std::string what_was_found(std::string_view text) {
-  return "found " + quoted(text, longest_name);
-}
-
 // Reads the whole text as a number, rounded to the nearest double.
 enum class Reading { number, no_number, too_large };
 Reading read_number(std::string_view text, double& value) {
@@ -92,24 +86,37 @@ bool is_unit(std::string_view field) {
          (field.starts_with('(') && field.ends_with(')'));
 }
 
-// Calls use(field, index) for each field of the line. Returns the number of fields.
-template <class Use>
-std::size_t for_each_field(std::string_view line, char delimiter, Use use) {
-  std::size_t count = 0;
-  for (std::size_t start = 0;;) {
-    const std::size_t end = line.find(delimiter, start);
-    use(trimmed(line.substr(start, end - start)), count++);  // for npos: to the end
-    if (end == std::string_view::npos) return count;
-    start = end + 1;
+// The fields of a line without blanks around them: parts of the line, or of `unquoted` if the line
+// has quotation marks.
+class Fields {
+ public:
+  // Returns false if a quote stays open.
+  bool take(std::string_view line, char delimiter) {
+    all_.clear();
+    if (line.find('"') != std::string_view::npos) {
+      if (!split_fields(line, unquoted_, delimiter)) return false;
+      for (const std::string& field : unquoted_) all_.push_back(trimmed(field));
+      return true;
+    }
+    for (std::size_t start = 0;;) {
+      const std::size_t end = line.find(delimiter, start);
+      all_.push_back(trimmed(line.substr(start, end - start)));  // for npos: to the end
+      if (end == std::string_view::npos) return true;
+      start = end + 1;
+    }
   }
-}
+  [[nodiscard]] const std::vector<std::string_view>& all() const { return all_; }
 
-// The fields without quotation marks; nothing if a quote stays open.
+ private:
+  std::vector<std::string_view> all_;
+  std::vector<std::string> unquoted_;
+};
+
+// The same as texts; nothing if a quote stays open.
 std::optional<std::vector<std::string>> fields_of(std::string_view line, char delimiter) {
-  std::vector<std::string> fields;
-  if (!split_fields(line, fields, delimiter)) return {};
-  for (std::string& field : fields) field = std::string(trimmed(field));
-  return fields;
+  Fields fields;
+  if (!fields.take(line, delimiter)) return {};
+  return std::vector<std::string>(fields.all().begin(), fields.all().end());
 }
 
 // How well a line fits as the header of the row below it with this delimiter: the count of numbers
@@ -178,27 +185,26 @@ Fit best_fit(std::string_view header, std::string_view row) {
 
 class Parser {
  public:
-  explicit Parser(const std::string& file) : lines_(file) { cells_.file = lines_.name(); }
+  explicit Parser(const std::string& file) : lines_(file) {}
 
-  CellTable parse(const CsvChoice& choice) {
+  Table parse(const CsvChoice& choice) {
     read_header(choice.header);
-    cells_.columns.resize(cells_.names.size());
-    for (const std::string& name : cells_.names) {
+    // Guesses the number of rows, to avoid most reallocations.
+    const std::size_t rows = lines_.size().value_or(0) / (2 * names_.size()) + 1;
+    constexpr std::size_t most = 4096;
+    for (const std::string& name : names_) {
       reads_.push_back(choice.wanted.empty() || name == "t" ||
                        std::ranges::find(choice.wanted, name) != choice.wanted.end());
+      table_.columns.push_back({name, {}});
+      table_.columns.back().numbers.reserve(std::min(rows, most));
     }
-    const std::size_t columns = cells_.names.size();
-    // Guesses the number of rows, to avoid most reallocations.
-    const std::size_t rows = lines_.size().value_or(0) / (2 * columns) + 1;
-    constexpr std::size_t most = 4096;
-    for (CellColumn& column : cells_.columns) column.numbers.reserve(std::min(rows, most));
     const std::size_t most_rows = room_for_rows();
     while (next_row()) {
-      require_room(cells_.rows, most_rows);
+      require_room(table_.rows, most_rows);
       if (!read_row()) leave_out_cut_row();
     }
     note_rows();
-    return std::move(cells_);
+    return std::move(table_);
   }
 
  private:
@@ -210,7 +216,7 @@ class Parser {
   // The most rows to read. A file has no limit; this machine's memory limits an endless input.
   [[nodiscard]] std::size_t room_for_rows() const {
     return lines_.size() ? std::numeric_limits<std::size_t>::max()
-                         : most_bytes() / (sizeof(double) * cells_.names.size());
+                         : most_bytes() / (sizeof(double) * names_.size());
   }
 
   void require_room(std::size_t rows, std::size_t most) const {
@@ -326,7 +332,7 @@ class Parser {
       if (std::ranges::any_of(field.label, is_control) || !seen.emplace(field.label).second) {
         return false;
       }
-      cells_.names.emplace_back(field.label);
+      names_.emplace_back(field.label);
     }
     labelled_ = true;
     next_ahead_ = row;
@@ -335,24 +341,24 @@ class Parser {
   }
 
   void add_units(const std::vector<std::string>& units) {
-    for (std::size_t c = 0; c < cells_.names.size(); ++c) {
+    for (std::size_t c = 0; c < names_.size(); ++c) {
       const std::string& unit = units[c];
       if (unit.empty() || unit == "-") continue;
       const bool brackets = unit.ends_with(']') || unit.ends_with(')');
-      cells_.names[c] += brackets ? ' ' + unit : " [" + unit + ']';
+      names_[c] += brackets ? ' ' + unit : " [" + unit + ']';
     }
   }
 
   void note_lines_before(const char* begins, std::size_t row) {
     if (row == 0) return;
-    cells_.notes.push_back("note: " + lines_.name() + ": " + begins +
+    table_.notes.push_back("note: " + lines_.name() + ": " + begins +
                            std::to_string(ahead_[row].number) +
                            "; the lines before it are left out");
   }
 
   // Uses the names that the user gave, and skips lines before the first row.
   void take_given(const std::vector<std::string>& given) {
-    cells_.names = given;
+    names_ = given;
     std::size_t numbers = 0, first = 0;
     for (; first < 50 && look(first) && numbers == 0; ++first) {
       for (const char delimiter : {',', ';', '\t'}) {
@@ -373,7 +379,10 @@ class Parser {
     if (trimmed(text_).empty()) fail(text_, "found no header; the first row names the columns");
     header_ = std::string(text_);
     std::unordered_set<std::string> seen;
-    const auto take_name = [&](std::string_view name, std::size_t) {
+    if (!fields_.take(text_, delimiter_)) {
+      fail(text_, "found a quotation mark without its closing one");
+    }
+    for (const std::string_view name : fields_.all()) {
       if (std::ranges::any_of(name, is_control)) {
         fail(name, "found a control character in the header; a CSV file is plain text");
       }
@@ -388,14 +397,7 @@ class Parser {
       if (!name.empty() && !seen.emplace(name).second) {
         fail(name, "column " + quoted(name, longest_name) + " appears twice");
       }
-      cells_.names.emplace_back(name);
-    };
-    if (text_.find('"') == std::string_view::npos) {
-      for_each_field(text_, delimiter_, take_name);
-    } else if (const auto names = fields_of(text_, delimiter_)) {
-      for (const std::string& name : *names) take_name(name, 0);
-    } else {
-      fail(text_, "found a quotation mark without its closing one");
+      names_.emplace_back(name);
     }
     name_the_nameless();
   }
@@ -405,22 +407,22 @@ class Parser {
   void name_the_nameless() {
     const bool has_rows = next_ahead_ < ahead_.size();
     std::size_t at = 0;
-    for (std::size_t c = 0; c < cells_.names.size(); ++c) {
-      std::string& name = cells_.names[c];
+    for (std::size_t c = 0; c < names_.size(); ++c) {
+      std::string& name = names_[c];
       if (name.empty()) {
-        const bool last = c + 1 == cells_.names.size();
+        const bool last = c + 1 == names_.size();
         const auto fields =
             has_rows ? fields_of(ahead_[next_ahead_].text, delimiter_) : std::nullopt;
         const bool index = c == 0 && !last && fields;
-        const bool trailing = c > 0 && last && fields && fields->size() == cells_.names.size() &&
-                              (*fields)[c].empty();
+        const bool trailing =
+            c > 0 && last && fields && fields->size() == names_.size() && (*fields)[c].empty();
         if (!index && !trailing) fail(text_.substr(at), "a column's name is empty");
         if (trailing) {
-          cells_.names.pop_back();
+          names_.pop_back();
           return;
         }
         name = "index";
-        if (std::ranges::count(cells_.names, name) > 1) name = "row index";
+        if (std::ranges::count(names_, name) > 1) name = "row index";
       }
       at = std::min(text_.find(delimiter_, at), text_.size() - 1) + 1;
     }
@@ -434,19 +436,19 @@ class Parser {
         return;
       }
       if (!reads_[c]) return;
-      CellColumn& column = cells_.columns[c];
+      Column& column = table_.columns[c];
       double value = 0;
       switch (read_field(field, value)) {
         case Reading::number:
-          return column.add_number(value);
-        case Reading::no_number: {
-          const bool gap = field.empty() || is_gap(field);
-          Place& first = gap ? column.first_gap : column.first_text;
-          if (first.line == 0) first = {number_, column_of(field)};
-          return column.add_text(gap ? std::string() : std::string(field));
-        }
+          column.numbers.push_back(value);
+          if (!column.texts.empty()) column.texts.emplace_back();
+          return;
+        case Reading::no_number:
+          if (field.empty() || is_gap(field)) return column.add_text("");
+          if (column.first_text.line == 0) column.first_text = {number_, column_of(field)};
+          return column.add_text(std::string(field));
         case Reading::too_large:
-          fail(field, "column " + shown(cells_.names[c]) + ": " + what_was_found(field) +
+          fail(field, "column " + shown(names_[c]) + ": found " + quoted(field, longest_name) +
                           ", too large for a double (at most 1.8e308)");
       }
     };
@@ -459,20 +461,19 @@ class Parser {
     if (labelled_) {
       const std::vector<Labelled> fields = labelled_fields(text_);
       found = fields.size();
-      const bool same = std::ranges::equal(fields, cells_.names, {}, &Labelled::label);
+      const bool same = std::ranges::equal(fields, names_, {}, &Labelled::label);
       if (!same) return false;
       for (std::size_t c = 0; c < found; ++c) read(fields[c].value, c);
-    } else if (text_.find('"') == std::string_view::npos) {
-      found = for_each_field(text_, delimiter_, read);
     } else {
-      if (!split_fields(text_, fields_, delimiter_)) {
+      if (!fields_.take(text_, delimiter_)) {
         fail(text_, "found a quotation mark without its closing one");
       }
-      for (const std::string& field : fields_) read(trimmed(field), found++);
+      found = fields_.all().size();
+      if (found < names_.size()) return false;
+      for (std::size_t c = 0; c < found; ++c) read(fields_.all()[c], c);
     }
-    if (found < cells_.names.size()) return false;
     if (beyond_) take_beyond(found);
-    ++cells_.rows;
+    ++table_.rows;
     return true;
   }
 
@@ -482,35 +483,29 @@ class Parser {
     const std::size_t number = number_;
     const bool words = !labelled_ && std::ranges::none_of(*fields_of(text_, delimiter_), is_number);
     std::string found = count_text(labelled_ ? 0 : fields_of(text_, delimiter_)->size());
-    for (CellColumn& column : cells_.columns) {
-      column.shorten(cells_.rows);
-      for (Place* const place : {&column.first_gap, &column.first_text}) {
-        if (place->line == number) *place = {};
-      }
-    }
     if (words) {
       if (lines_of_words_++ == 0) first_words_ = number;
       return;
     }
-    const bool first = cells_.rows == 0 && !cut_first_;
+    const bool first = table_.rows == 0 && !cut_first_;
     cut_first_ = cut_first_ || first;
     const bool more = next_row();
-    if (first ? !more : more || cells_.rows == 0) {
+    if (first ? !more : more || table_.rows == 0) {
       throw InputError({Problem{lines_.name() + ":" + std::to_string(number) + ":1",
                                 found + "; complete the row, or remove it"}});
     }
-    cells_.notes.push_back("warning: " + lines_.name() + ':' + std::to_string(number) + ": " +
+    table_.notes.push_back("warning: " + lines_.name() + ':' + std::to_string(number) + ": " +
                            found + "; the " + (first ? "first" : "last") +
                            " row is cut, and left out");
     if (first && !read_row()) leave_out_cut_row();
   }
 
   [[nodiscard]] std::string count_text(std::size_t found) const {
-    const std::size_t expected = cells_.names.size();
+    const std::size_t expected = names_.size();
     if (labelled_) {
       return "found " + quoted(text_, longest_name) + "; the first row has " +
              std::to_string(expected) + (expected == 1 ? " label" : " labels") + ", " +
-             joined(cells_.names);
+             joined(names_);
     }
     const auto fields = fields_of(text_, delimiter_);
     const bool numbers = std::ranges::all_of(*fields, is_number);
@@ -521,8 +516,8 @@ class Parser {
 
   void take_beyond(std::size_t found) {
     // With decimal points, commas do not mark decimals.
-    if (cells_.rows == 0 && delimiter_ == ',' && cells_.names.size() > 1 &&
-        found == 2 * cells_.names.size() && text_.find('.') == std::string_view::npos) {
+    if (table_.rows == 0 && delimiter_ == ',' && names_.size() > 1 && found == 2 * names_.size() &&
+        text_.find('.') == std::string_view::npos) {
       fail(text_, count_text(found) +
                       "; name the others; or, if commas mark decimals, separate the columns by "
                       "semicolons or tabs");
@@ -538,15 +533,15 @@ class Parser {
                              (rows == 2 ? " more row" : " more rows");
     };
     if (rows_beyond_ > 0) {
-      cells_.notes.push_back("warning: " + first_beyond_ + "; the fields beyond are left out" +
+      table_.notes.push_back("warning: " + first_beyond_ + "; the fields beyond are left out" +
                              more(rows_beyond_));
     }
     if (lines_of_words_ > 0) {
-      cells_.notes.push_back("warning: " + lines_.name() + ':' + std::to_string(first_words_) +
+      table_.notes.push_back("warning: " + lines_.name() + ':' + std::to_string(first_words_) +
                              ": found words between the rows; left out" + more(lines_of_words_));
     }
     if (headers_again_ > 0) {
-      cells_.notes.push_back("note: " + lines_.name() + ": the header is repeated in " +
+      table_.notes.push_back("note: " + lines_.name() + ": the header is repeated in " +
                              std::to_string(headers_again_) +
                              (headers_again_ == 1 ? " row" : " rows") + ", left out");
     }
@@ -576,11 +571,12 @@ class Parser {
   char delimiter_ = ',';
   bool labelled_ = false;  // each field has its column's name before it
   std::string header_;
-  CellTable cells_;
-  std::vector<bool> reads_;          // per column: whether to read it
-  std::vector<std::string> fields_;  // fields of a line with quotation marks
-  bool cut_first_ = false;           // the first row had too few fields
-  bool beyond_ = false;              // the row has a field beyond the columns
+  std::vector<std::string> names_;
+  Table table_;
+  std::vector<bool> reads_;  // per column: whether to read it
+  Fields fields_;            // of the current line
+  bool cut_first_ = false;   // the first row had too few fields
+  bool beyond_ = false;      // the row has a field beyond the columns
   std::size_t rows_beyond_ = 0, headers_again_ = 0;
   std::size_t lines_of_words_ = 0, first_words_ = 0;
   std::string first_beyond_;
@@ -588,37 +584,8 @@ class Parser {
 
 }  // namespace
 
-TableData read_csv(const std::string& file) {
-  CellTable cells = read_csv_cells(file, {});
-  const auto earliest = [](const CellColumn& column) {
-    if (column.first_gap.line == 0) return column.first_text;
-    if (column.first_text.line == 0) return column.first_gap;
-    return std::min(column.first_gap, column.first_text);
-  };
-  std::optional<std::size_t> worst;
-  for (std::size_t c = 0; c < cells.columns.size(); ++c) {
-    const Place place = earliest(cells.columns[c]);
-    if (place.line != 0 && (!worst || place < earliest(cells.columns[*worst]))) worst = c;
-  }
-  if (worst) refuse_text(cells, *worst, earliest(cells.columns[*worst]));
-  TableData table{std::move(cells.names), {}};
-  for (CellColumn& column : cells.columns) table.columns.push_back(std::move(column.numbers));
-  return table;
-}
-
-CellTable read_csv_cells(const std::string& file, const CsvChoice& choice) {
+Table read_csv(const std::string& file, const CsvChoice& choice) {
   return Parser(file).parse(choice);
-}
-
-void refuse_text(const CellTable& table, std::size_t column, const Place& place) {
-  const CellColumn& of = table.columns[column];
-  const bool gap = place == of.first_gap;
-  const auto text = std::ranges::find_if_not(of.texts, &std::string::empty);
-  throw InputError(
-      {Problem{table.file + ":" + std::to_string(place.line) + ":" + std::to_string(place.column),
-               "column " + shown(table.names[column]) + ": " +
-                   what_was_found(gap || text == of.texts.end() ? std::string_view() : *text) +
-                   "; allowed: a number"}});
 }
 
 }  // namespace bbsim::file

@@ -22,8 +22,11 @@ constexpr std::size_t read_at_once = 65536;
 
 }  // namespace
 
-LineReader::LineReader(const std::string& file)
-    : file_(file), name_(file == "-" ? "standard input" : shown(file, uncut)) {
+std::string name_in_messages(const std::string& file) {
+  return file == "-" ? "standard input" : shown(file, uncut);
+}
+
+LineReader::LineReader(const std::string& file) : file_(file), name_(name_in_messages(file)) {
   descriptor_ = file == "-" ? STDIN_FILENO : open(file.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor_ < 0) throw InputError("cannot read " + name_ + ": " + error_text(errno));
   struct stat status {};

@@ -12,6 +12,9 @@
 
 namespace bbsim::file {
 
+// "-" is standard input.
+[[nodiscard]] std::string name_in_messages(const std::string& file);
+
 // Holds one line and a buffer. An endless device such as /dev/zero causes an error instead of using
 // up the memory.
 class LineReader {

@@ -61,11 +61,16 @@ std::optional<Poles> poles_of(const model::Model& model) {
   return Poles{model::closed_loop_poles(model), {}};
 }
 
-Series series_of(const std::string& name, std::vector<double> values, bool unit_known = true) {
-  const scenario::Column* const known = scenario::find_column(name);
-  if (known == nullptr) return {name, "", "", std::move(values)};
-  return {name, unit_known ? std::string(known->unit) : "", std::string(known->meaning),
-          std::move(values)};
+void take_columns(Run& run, file::Table& table) {
+  for (file::Column& column : table.columns) {
+    if (column.is_text()) continue;
+    Series series{column.name, column.unit, "", std::move(column.numbers)};
+    if (const scenario::Column* const known = scenario::find_column(column.name)) {
+      if (series.unit.empty() && run.units_known) series.unit = known->unit;
+      series.meaning = known->meaning;
+    }
+    run.columns.push_back(std::move(series));
+  }
 }
 
 // Rolls the ball from the last row to the instant at which an event stopped the run.
@@ -99,9 +104,11 @@ void take_orientation(Run& run) {
   });
 }
 
-SweepColumn sweep_column(results::Column column) {
-  return {column.name, column.unit, column.is_text() ? std::vector<double>{} : column.numbers,
-          column.texts};
+SweepColumn sweep_column(const results::Column& column) {
+  if (!column.is_text()) return {column.name, column.unit, column.numbers, {}};
+  SweepColumn texts{column.name, column.unit, {}, {}};
+  for (std::size_t i = 0; i < column.texts.size(); ++i) texts.words.push_back(column.text(i));
+  return texts;
 }
 
 // Notes whether the key was drawn, or is tied to another one.
@@ -115,12 +122,10 @@ void relate(SweepColumn& key, const results::SweepTable& table) {
 
 }  // namespace
 
-Run run_of_table(file::TableData table, const std::string& name) {
+Run run_of_table(file::Table table, const std::string& name) {
   Run run;
   run.name = name;
-  for (std::size_t c = 0; c < table.names.size(); ++c) {
-    run.columns.push_back(series_of(table.names[c], std::move(table.columns[c])));
-  }
+  take_columns(run, table);
   take_orientation(run);
   return run;
 }
@@ -182,21 +187,8 @@ Run run_of_result(results::Result result, const std::string& name) {
   for (const results::Event& event : result.events) {
     run.events.push_back({event.t, event.name, event.stopped ? "stop" : "note", event.x, event.y});
   }
-  for (results::Column& column : result.columns) {
-    if (column.is_text()) continue;
-    run.columns.push_back(series_of(column.name, std::move(column.numbers), run.units_known));
-    if (!column.unit.empty()) run.columns.back().unit = std::move(column.unit);
-  }
+  take_columns(run, result);
   take_orientation(run);
-  return run;
-}
-
-Run run_of_log(results::Result log, const results::LogChoice& choice, const std::string& name,
-               std::vector<std::string>& notes) {
-  results::make_log(log, choice, true, notes);
-  log.units_known = true;  // as --data or the map states
-  Run run = run_of_result(std::move(log), name);
-  if (!choice.maps.empty()) run.rolls = false;
   return run;
 }
 
@@ -217,10 +209,10 @@ Sweep sweep_of_result(results::Result result, const std::string& name) {
       before_status = false;
       sweep.status = std::move(column.texts);
     } else if (before_status) {
-      sweep.keys.push_back(sweep_column(std::move(column)));
+      sweep.keys.push_back(sweep_column(column));
       relate(sweep.keys.back(), table);
     } else if (column.name != "reason") {
-      sweep.measures.push_back(sweep_column(std::move(column)));
+      sweep.measures.push_back(sweep_column(column));
       SweepColumn& measure = sweep.measures.back();
       const auto known = scenario::find_measure(measure.name);
       if (measure.unit.empty() && known) measure.unit = known->unit();

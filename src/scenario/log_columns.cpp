@@ -168,10 +168,10 @@ Half take_half(std::string_view& text) {
   return morning ? Half::morning : Half::afternoon;
 }
 
-}  // namespace
+constexpr double day = 86400;  // s
 
+// Seconds since 1970, or since midnight.
 std::optional<double> seconds_of_stamp(std::string_view text) {
-  constexpr double day = 86400;
   double whole = 0;
   const Half half = take_half(text);
   if (text.find_first_of(" T_") != std::string_view::npos) {
@@ -203,6 +203,27 @@ std::optional<double> seconds_of_stamp(std::string_view text) {
   if (!text.empty() && text.find_first_not_of("Z+-:0123456789") != std::string_view::npos)
     return {};
   return whole + 3600.0 * *hours + 60.0 * *minutes + seconds;
+}
+
+}  // namespace
+
+std::optional<std::string> read_stamps(file::Column& column) {
+  if (!column.is_text()) return {};
+  std::vector<double> times(column.numbers.size(), std::nan(""));
+  std::optional<double> first;
+  double before = 0, added = 0;
+  for (std::size_t row = 0; row < times.size(); ++row) {
+    if (column.has_text(row) && column.texts[row].empty()) continue;
+    const std::optional<double> stamp = seconds_of_stamp(trimmed(column.text(row)));
+    if (!stamp) return {};
+    if (!first) first = before = *stamp;
+    if (*stamp < day && before - *stamp > day / 2) added += day;
+    before = *stamp;
+    times[row] = *stamp + added - *first;
+  }
+  column.numbers = std::move(times);
+  column.texts.assign(column.numbers.size(), "");  // a missing time stays missing
+  return "its times are dates or times of day; the first row is t = 0";
 }
 
 std::optional<std::string> unwrap(std::vector<double>& times) {

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "file/table.hpp"
 #include "yaml/quantity.hpp"
 
 namespace bbsim::scenario {
@@ -60,10 +61,11 @@ struct Clock {
 };
 [[nodiscard]] Clock clock_of(const std::vector<double>& times);
 
-// The seconds of a date with a time of day, since 1970, or of a time of day alone, since midnight:
+// Replaces dates with a time of day, or times of day, by the seconds after the first row:
 // "2026-03-01 12:00:01.25", "2026-03-01T12:00:01Z", "01.03.2026 12:00:01,25", "12:00:01",
-// "3/1/2026 12:00:01 PM".
-[[nodiscard]] std::optional<double> seconds_of_stamp(std::string_view text);
+// "3/1/2026 12:00:01 PM". Times of day go on after midnight. Returns a description of the change;
+// nothing if the column has no text, or a text that is neither.
+[[nodiscard]] std::optional<std::string> read_stamps(file::Column& column);
 
 // Whether times (s) count from an epoch, such as 1970.
 [[nodiscard]] bool counts_from_epoch(const std::vector<double>& times);
