@@ -67,7 +67,10 @@ std::optional<std::string_view> LineReader::next() {
     begin_ += found != nullptr ? size + 1 : size;
     whole_ = found != nullptr && !line.ends_with('\r');
     if (line.ends_with('\r')) line.remove_suffix(1);
-    ++number_;
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (++number_ == 1 && line.starts_with(byte_order_mark)) {
+      line.remove_prefix(byte_order_mark.size());
+    }
     return line;
   }
 }
