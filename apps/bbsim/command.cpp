@@ -5,10 +5,10 @@
 
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
-#include <charconv>
 #include <string_view>
-#include <system_error>
 #include <utility>
+
+#include "base/number_in.hpp"
 
 namespace bbsim::app {
 
@@ -67,10 +67,8 @@ Option& Option::may_be_repeated() {
 
 Option& Option::takes_whole(double least, double most) {
   const auto fault = [least, most](const std::string& text) -> std::string {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool number = error == std::errc() && end == text.data() + text.size();
-    if (number && is_whole(value, least, most)) return "";
+    const auto value = number_in<double>(text);
+    if (value && is_whole(*value, least, most)) return "";
     return "found " + text + "; allowed: " + whole_numbers(least, most);
   };
   // Without a description, because help would show it as the option's type.

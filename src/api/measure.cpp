@@ -53,7 +53,19 @@ bool has_name(const std::string& text, const std::string& name) {
   throw InputError(error);
 }
 
-// Warns of a log's columns whose values suggest units other than bbsim's.
+// Warns of a log's column whose values suggest units other than bbsim's.
+void warn_of_looks(const std::string& file, std::string_view column,
+                   const std::vector<double>& numbers, std::string_view read,
+                   std::vector<std::string>& notes) {
+  const double largest = scenario::largest_size(numbers);
+  const auto doubt = scenario::doubt_of(largest, column);
+  if (!doubt) return;
+  notes.push_back("warning: " + file + ": " + shown(column) + " goes up to " +
+                  number_text(largest) + ", " + std::string(read) + ": it looks like " +
+                  std::string(doubt->looks_like));
+}
+
+// The same for the columns of measures.
 void warn_of_units(const record::StoredRun& run, const std::vector<scenario::Measure>& measures,
                    const std::string& file, std::vector<std::string>& notes) {
   std::vector<const scenario::Column*> seen;
@@ -62,12 +74,8 @@ void warn_of_units(const record::StoredRun& run, const std::vector<scenario::Mea
          {measure.column, measure.instant.column, measure.reference}) {
       if (column == nullptr || std::ranges::find(seen, column) != seen.end()) continue;
       seen.push_back(column);
-      const double largest = scenario::largest_size(run.values_of(*column));
-      const auto doubt = scenario::doubt_of(largest, column->name);
-      if (!doubt) continue;
-      notes.push_back("warning: " + file + ": " + std::string(column->name) + " goes up to " +
-                      number_text(largest) + ", measured in " + std::string(column->unit) +
-                      ": it looks like " + std::string(doubt->looks_like));
+      warn_of_looks(file, column->name, run.values_of(*column),
+                    "measured in " + std::string(column->unit), notes);
     }
   }
 }
@@ -160,17 +168,6 @@ void warn_of_units(const file::Table& table, const file::Table& other,
   }
 }
 
-void warn_of_looks(const file::Table& log, std::vector<std::string>& warnings) {
-  for (const file::Column& column : log.columns) {
-    const double largest = scenario::largest_size(column.numbers);
-    const auto doubt = scenario::doubt_of(largest, column.name);
-    if (!doubt) continue;
-    warnings.push_back("warning: " + log.file + ": " + shown(column.name) + " goes up to " +
-                       number_text(largest) + ", read in SI: it looks like " +
-                       std::string(doubt->looks_like));
-  }
-}
-
 // Runs the scenario with the log's columns and the rates that interpolation uses, at the output
 // times and between them.
 file::Table run_for(const Scenario& scenario, const file::Table& log, Watch& watch,
@@ -223,7 +220,9 @@ Compared compare_log(const CompareRequest& request, Watch& watch) {
     for (double& time : log.find("t")->numbers) time += offset;
     compared.warnings.push_back(moved_text(request.a, offset));
   }
-  warn_of_looks(log, compared.warnings);
+  for (const file::Column& column : log.columns) {
+    warn_of_looks(log.file, column.name, column.numbers, "read in SI", compared.warnings);
+  }
   const record::LogDistance distance = record::log_distance(log, run, request.columns);
   compared.text = record::to_text(distance, request.a, request.b);
   const bool judges = request.rtol || request.atol;

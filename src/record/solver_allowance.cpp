@@ -4,10 +4,10 @@
 #include "record/solver_allowance.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
+#include "base/number_in.hpp"
 #include "base/number_text.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/log_columns.hpp"
@@ -37,12 +37,8 @@ std::optional<std::string> attribute(const file::Table& table, std::string_view 
 // The attribute as a number above 0.
 std::optional<double> number(const file::Table& table, std::string_view name) {
   const std::optional<std::string> text = attribute(table, name);
-  double value = 0;
-  if (!text) return {};
-  const char* const end = text->data() + text->size();
-  const auto [stop, error] = std::from_chars(text->data(), end, value);
-  if (error != std::errc() || stop != end || !std::isfinite(value) || !(value > 0)) return {};
-  return value;
+  const auto value = text ? number_in<double>(*text) : std::nullopt;
+  return value && std::isfinite(*value) && *value > 0 ? value : std::nullopt;
 }
 
 Source source_of(const file::Table& table) {

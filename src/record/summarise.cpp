@@ -11,6 +11,7 @@
 #include "base/number_text.hpp"
 #include "base/real.hpp"
 #include "base/text.hpp"
+#include "file/case_text.hpp"
 
 namespace bbsim::record {
 namespace {
@@ -134,14 +135,7 @@ std::string to_csv(const std::vector<Group>& groups, const std::vector<std::stri
   for (const Group& group : groups) {
     std::string front;
     for (const std::string& value : group.values) {
-      const bool plain = value.find_first_of(",\"\n\r") == std::string::npos;
-      if (plain) {
-        front += value;
-      } else {
-        front += '"';
-        for (const char c : value) front += c == '"' ? "\"\"" : std::string(1, c);
-        front += '"';
-      }
+      file::append_text(front, value);
       front += ',';
     }
     for (const GroupFigures& figures : group.figures) {

@@ -208,11 +208,7 @@ std::optional<Mapped> usual_clock(Result& log) {
   constexpr Usual usual[] = {{"time", "s"},    {"timestamp", "s"}, {"millis", "ms"},
                              {"micros", "us"}, {"seconds", "s"},   {"datetime", "s"}};
   std::vector<std::string> names = log.names();
-  for (std::string& name : names) {
-    std::ranges::transform(name, name.begin(), [](char c) {
-      return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    });
-  }
+  for (std::string& name : names) name = lower(name);
   for (const auto& [name, unit] : usual) {
     const auto found = scenario::find_log_column(names, name, yaml::Dimension::time);
     if (!found) continue;
