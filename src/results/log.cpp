@@ -14,6 +14,7 @@
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
 #include "base/text.hpp"
+#include "file/clock.hpp"
 #include "results/read_result.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/log_columns.hpp"
@@ -163,7 +164,7 @@ void warn(Result& log, const std::string& what) {
 Column column_of(Result& log, const Mapped& mapped) {
   Column column = log.columns[mapped.from];
   const bool is_clock = mapped.column->name == "t";
-  const auto stamps = is_clock ? scenario::read_stamps(column) : std::nullopt;
+  const auto stamps = is_clock ? file::read_stamps(column) : std::nullopt;
   if (column.is_text()) file::refuse_text(log.file, column);
   column = {std::string(mapped.column->name), std::move(column.numbers)};
   column.unit = mapped.column->unit;
@@ -172,7 +173,7 @@ Column column_of(Result& log, const Mapped& mapped) {
     return column;
   }
   if (is_clock) {
-    if (const auto done = scenario::unwrap(column.numbers)) warn(log, *done);
+    if (const auto done = file::unwrap(column.numbers)) warn(log, *done);
   }
   for (double& number : column.numbers) {
     if (mapped.factor != 1) number *= mapped.factor;
@@ -301,7 +302,7 @@ void set_clock(Result& log, const LogChoice& choice) {
     if (choice.time_offset.empty()) return;
     throw InputError("--time-offset: " + without_clock(log));
   }
-  const scenario::Clock clock = scenario::clock_of(t->numbers);
+  const file::Clock clock = file::clock_of(t->numbers);
   if (clock.restart) {
     const std::size_t row = *clock.restart;
     throw InputError(log.file + ": its clock starts again in row " + std::to_string(row + 1) +
@@ -309,14 +310,14 @@ void set_clock(Result& log, const LogChoice& choice) {
                      " s; split the file there, or remove the column t and use --period");
   }
   for (const std::string& done : clock.done) warn(log, done);
-  if (clock.changed) keep_rows(log, clock.rows);
+  if (!clock.done.empty()) keep_rows(log, clock.rows);
   if (t->numbers.empty()) return;
   double offset = 0;
   if (choice.time_offset == "start") {
     offset = -t->numbers.front();
   } else if (!choice.time_offset.empty() && !choice.aligns()) {
     offset = time_of("--time-offset", choice.time_offset, ", start, or auto");
-  } else if (scenario::counts_from_epoch(t->numbers)) {
+  } else if (file::counts_from_epoch(t->numbers)) {
     offset = -t->numbers.front();
     warn(log, "its times count from an epoch (" + number_text(t->numbers.front()) +
                   " s); the first row is t = 0");

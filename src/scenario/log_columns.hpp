@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Columns of logs and tables: names that carry a unit, numbers that do not look like SI units and
-// radians, and clocks.
+// Columns of logs and tables: names that carry a unit, and numbers that do not look like SI units
+// and radians.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,6 @@
 #include <string_view>
 #include <vector>
 
-#include "file/table.hpp"
 #include "yaml/quantity.hpp"
 
 namespace bbsim::scenario {
@@ -46,28 +45,5 @@ struct Doubt {
 
 // Doubts times that span more than ten times the run.
 [[nodiscard]] std::optional<Doubt> doubt_of_span(double span, double run);
-
-// Clocks: counters that wrap; repeated, unsorted or missing times; epoch seconds.
-// Adds 2^32 after each wrap of a 32-bit counter such as millis(). Returns a description of the
-// change, if any.
-[[nodiscard]] std::optional<std::string> unwrap(std::vector<double>& times);
-
-// The rows of a log sorted by time (s), without repeated times and rows that lack a time.
-struct Clock {
-  std::vector<std::size_t> rows;
-  std::optional<std::size_t> restart{};  // the row in which the clock starts again; `rows` is empty
-  bool changed = false;                  // rows were dropped or moved
-  std::vector<std::string> done;         // descriptions of the changes
-};
-[[nodiscard]] Clock clock_of(const std::vector<double>& times);
-
-// Replaces dates with a time of day, or times of day, by the seconds after the first row:
-// "2026-03-01 12:00:01.25", "2026-03-01T12:00:01Z", "01.03.2026 12:00:01,25", "12:00:01",
-// "3/1/2026 12:00:01 PM". Times of day go on after midnight. Returns a description of the change;
-// nothing if the column has no text, or a text that is neither.
-[[nodiscard]] std::optional<std::string> read_stamps(file::Column& column);
-
-// Whether times (s) count from an epoch, such as 1970.
-[[nodiscard]] bool counts_from_epoch(const std::vector<double>& times);
 
 }  // namespace bbsim::scenario

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/text.hpp"
+#include "file/clock.hpp"
 #include "file/format.hpp"
 #include "file/table.hpp"
 #include "yaml/rules.hpp"
@@ -120,7 +121,7 @@ bool take_columns(yaml::Keys& keys, const std::string& file, const Names& header
       into.push_back(table->columns[*found]);
       if (!column.unit) column.unit = unit_in_name(into.back().name, column.dimension);
       if (column.key != "time") continue;
-      if (const auto done = read_stamps(into.back())) {
+      if (const auto done = file::read_stamps(into.back())) {
         keys.mapping().warn(yaml::shown(file) + ": " + *done);
         column.unit = yaml::UnitScale{};
       }
@@ -445,7 +446,7 @@ void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& valu
     return;
   leave_out_gaps(keys, into.file, columns);
   into.times = std::move(columns[0].numbers);
-  if (const auto done = unwrap(into.times)) {
+  if (const auto done = file::unwrap(into.times)) {
     keys.mapping().warn(yaml::shown(into.file) + ": " + *done);
   }
   wanted[0].put_in_si(into.times);
