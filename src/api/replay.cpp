@@ -76,40 +76,24 @@ replay::Run run_of(const Scenario& scenario, file::Table rows, record::RunSummar
 
 namespace {
 
-file::Table table_of(const replay::Run& run) {
-  file::Table table;
-  table.file = run.name;
-  for (const replay::Series& column : run.columns) {
-    table.columns.push_back({column.name, column.values});
-  }
-  return table;
-}
-
-bool have_in_common(const replay::Run& log, const replay::Run& run) {
-  return std::ranges::any_of(log.columns, [&](const replay::Series& column) {
-    return column.name != "t" && replay::find_series(run, column.name) != nullptr;
-  });
-}
-
 // Aligns the scene's last run, which is a log, with the first one if `align`. Returns sentences
 // about the shift and the distance to that run.
 std::vector<std::string> place_log(replay::Scene& scene, bool align) {
-  replay::Run& log = scene.runs.back();
-  const replay::Run& first_run = scene.runs.front();
+  replay::Run &log = scene.runs.back(), &run = scene.runs.front();
+  log.file = log.name;  // for messages
+  run.file = run.name;
   std::vector<std::string> notes;
-  file::Table log_table = table_of(log);
-  const file::Table run_table = table_of(first_run);
-  const auto t = std::ranges::find(log.columns, "t", &replay::Series::name);
   if (align) {
-    const double offset = record::time_offset(log_table, run_table);
-    for (double& time : t->values) time += offset;
-    log_table = table_of(log);
+    const double offset = record::time_offset(log, run);
+    for (double& time : log.find("t")->numbers) time += offset;
     notes.push_back(moved_text(log.name, offset));
   }
-  if (t == log.columns.end() || !have_in_common(log, first_run)) return notes;
+  const auto in_common = [&](const file::Column& column) {
+    return column.name != "t" && run.find(column.name) != nullptr;
+  };
+  if (log.find("t") == nullptr || std::ranges::none_of(log.columns, in_common)) return notes;
   try {
-    notes.push_back(
-        record::to_text(record::log_distance(log_table, run_table), log.name, first_run.name));
+    notes.push_back(record::to_text(record::log_distance(log, run), log.name, run.name));
     notes.back().pop_back();
   } catch (const InputError& error) {  // no time in common; the log can still be shown
     notes.push_back("warning: " + std::string(error.what()));

@@ -61,15 +61,13 @@ std::optional<Poles> poles_of(const model::Model& model) {
   return Poles{model::closed_loop_poles(model), {}};
 }
 
+// Takes the columns of numbers, with the units of `bbsim columns`.
 void take_columns(Run& run, file::Table& table) {
-  for (file::Column& column : table.columns) {
-    if (column.is_text()) continue;
-    Series series{column.name, column.unit, "", std::move(column.numbers)};
-    if (const scenario::Column* const known = scenario::find_column(column.name)) {
-      if (series.unit.empty() && run.units_known) series.unit = known->unit;
-      series.meaning = known->meaning;
-    }
-    run.columns.push_back(std::move(series));
+  table.take_texts();
+  run.columns = std::move(table.columns);
+  for (file::Column& column : run.columns) {
+    const scenario::Column* const known = scenario::find_column(column.name);
+    if (known != nullptr && column.unit.empty() && run.units_known) column.unit = known->unit;
   }
 }
 
@@ -87,19 +85,19 @@ void turn_to_the_end(Run& run) {
 // If all four parts of the ball's orientation are recorded, makes them the run's orientation and
 // removes their columns. A row without a finite orientation repeats the last one.
 void take_orientation(Run& run) {
-  std::array<const Series*, 4> parts{};
+  std::array<const file::Column*, 4> parts{};
   for (std::size_t part = 0; part < parts.size(); ++part) {
-    parts[part] = find_series(run, orientation_columns[part]);
+    parts[part] = run.find(orientation_columns[part]);
     if (parts[part] == nullptr) return;
   }
   Quaternion last{1, 0, 0, 0};
-  for (std::size_t row = 0; row < parts[0]->values.size(); ++row) {
-    const Quaternion now = normalised({parts[0]->values[row], parts[1]->values[row],
-                                       parts[2]->values[row], parts[3]->values[row]});
+  for (std::size_t row = 0; row < parts[0]->numbers.size(); ++row) {
+    const Quaternion now = normalised({parts[0]->numbers[row], parts[1]->numbers[row],
+                                       parts[2]->numbers[row], parts[3]->numbers[row]});
     if (std::isfinite(now[0] + now[1] + now[2] + now[3])) last = now;
     run.orientation.push_back(last);
   }
-  std::erase_if(run.columns, [](const Series& series) {
+  std::erase_if(run.columns, [](const file::Column& series) {
     return std::ranges::find(orientation_columns, series.name) != orientation_columns.end();
   });
 }
@@ -151,7 +149,7 @@ void describe_sight(Run& run, const Scenario& scenario) {
   if (scenario.events.slip) run.friction = scenario.events.slip->friction;
   if (scenario.events.slip && scenario.events.slip->sliding) run.rolls = false;
   // `bbsim columns` lists commands as angles; their unit is that of the gimbal's drive.
-  for (Series& series : run.columns) {
+  for (file::Column& series : run.columns) {
     if (scenario.controller && scenario::is_command(series.name)) {
       series.unit = command_unit(scenario.controller->drives);
     }
