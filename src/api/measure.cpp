@@ -8,7 +8,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <string_view>
 
 #include "api/run.hpp"
@@ -241,10 +240,7 @@ Compared compare_log(const CompareRequest& request, Watch& watch) {
 }  // namespace
 
 std::string moved_text(const std::string& log, double offset) {
-  char text[32];
-  const int size = std::snprintf(text, sizeof text, "%.6g", offset);
-  return "note: " + log + ": moved by " + std::string(text, static_cast<std::size_t>(size)) +
-         " s (--time-offset auto)";
+  return "note: " + log + ": moved by " + short_number(offset) + " s (--time-offset auto)";
 }
 
 Compared compare(const CompareRequest& request, Watch& watch) {

@@ -156,8 +156,11 @@ std::vector<Mapped> read_maps(const std::vector<std::string>& maps, const Result
   return all;
 }
 
+void note(Result& log, const std::string& what, const char* kind = "note: ") {
+  log.notes.push_back(kind + shown(log.file, uncut) + ": " + what);
+}
 void warn(Result& log, const std::string& what) {
-  log.notes.push_back("warning: " + shown(log.file, uncut) + ": " + what);
+  note(log, what, "warning: ");
 }
 
 // Converts a column of the log to a column of bbsim.
@@ -216,8 +219,7 @@ std::optional<Mapped> usual_clock(Result& log) {
     const bool is_text = log.columns[*found].is_text();
     const auto in_name = scenario::unit_in_name(names[*found], yaml::Dimension::time);
     const std::string read = is_text || in_name ? "" : ", in " + std::string(unit);
-    log.notes.push_back("note: " + shown(log.file, uncut) + ": t is the column " +
-                        shown(log.columns[*found].name) + read);
+    note(log, "t is the column " + shown(log.columns[*found].name) + read);
     return Mapped{scenario::find_column("t"), *found, 1, 0,
                   in_name ? in_name : scenario::log_unit(unit, yaml::Dimension::time)};
   }
@@ -291,9 +293,8 @@ void leave_out(Result& log, const std::vector<bool>& rows, const std::string& mi
   if (count == 0) return;
   const auto first = static_cast<std::size_t>(std::ranges::find(rows, true) - rows.begin());
   keep_rows(log, kept);
-  log.notes.push_back("note: " + shown(log.file, uncut) + ": " + std::to_string(count) +
-                      (count == 1 ? " row has" : " rows have") + " a position of " + missing +
-                      ", first in row " + std::to_string(first + 1) + "; left out (--missing)");
+  note(log, counted(count, "row") + (count == 1 ? " has" : " have") + " a position of " + missing +
+                ", first in row " + std::to_string(first + 1) + "; left out (--missing)");
 }
 
 void set_clock(Result& log, const LogChoice& choice) {

@@ -142,6 +142,12 @@ bool take_columns(yaml::Keys& keys, const std::string& file, const Names& header
   return false;
 }
 
+std::string not_finite(std::string_view what, double value, std::size_t row,
+                       std::string_view noun) {
+  return "found the " + std::string(what) + ' ' + number_text(value) + " in row " +
+         std::to_string(row + 1) + " below the header; allowed: a finite " + std::string(noun);
+}
+
 // The first fault of the rows as "found ...; allowed: ...", or nothing.
 std::string fault(const TableRows& table, const std::vector<std::string_view>& value_keys,
                   std::string_view noun) {
@@ -150,20 +156,16 @@ std::string fault(const TableRows& table, const std::vector<std::string_view>& v
     return "found " + counted(rows, "row") + "; allowed: at least " + std::to_string(fewest_rows);
   }
   for (std::size_t i = 0; i < rows; ++i) {
-    const std::string row = " in row " + std::to_string(i + 1) + " below the header";
-    if (!std::isfinite(table.times[i])) {
-      return "found the time " + number_text(table.times[i]) + row + "; allowed: a finite time";
-    }
+    if (!std::isfinite(table.times[i])) return not_finite("time", table.times[i], i, "time");
     for (std::size_t k = 0; k < value_keys.size(); ++k) {
       const double value = table.values[k][i];
-      if (std::isfinite(value)) continue;
-      return "found the " + std::string(value_keys[k]) + ' ' + number_text(value) + row +
-             "; allowed: a finite " + std::string(noun);
+      if (!std::isfinite(value)) return not_finite(value_keys[k], value, i, noun);
     }
     if (i > 0 && !(table.times[i] > table.times[i - 1])) {
       const bool same = table.times[i] == table.times[i - 1];
-      return "found the time " + number_text(table.times[i]) + row + ", after " +
-             number_text(table.times[i - 1]) + "; allowed: strictly increasing times; " +
+      return "found the time " + number_text(table.times[i]) + " in row " + std::to_string(i + 1) +
+             " below the header, after " + number_text(table.times[i - 1]) +
+             "; allowed: strictly increasing times; " +
              (same ? "remove one of the two rows"
                    : "sort the rows by time, or split the file where its clock starts again");
     }
@@ -418,10 +420,10 @@ bool read_columns(yaml::Keys& keys, const std::vector<std::string_view>& column_
     wanted[k].put_in_si(column);
     const auto bad = std::ranges::find_if_not(column, [](double of) { return std::isfinite(of); });
     if (bad == column.end()) continue;
-    return keys.mapping().report(
-        yaml::shown(into.file) + ": found the " + std::string(wanted[k].key) + ' ' +
-        number_text(*bad) + " in row " + std::to_string(bad - column.begin() + 1) +
-        " below the header; allowed: a finite " + std::string(bare_noun(dimension)));
+    return keys.mapping().report(yaml::shown(into.file) + ": " +
+                                 not_finite(wanted[k].key, *bad,
+                                            static_cast<std::size_t>(bad - column.begin()),
+                                            bare_noun(dimension)));
   }
   return true;
 }
