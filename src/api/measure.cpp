@@ -141,7 +141,9 @@ record::Allowances allowances_of(const CompareRequest& request, const file::Tabl
 // Warns of columns whose values suggest that the two files use different units.
 void warn_of_units(const file::Table& table, const file::Table& other,
                    std::vector<std::string>& warnings) {
-  for (const auto& [name, numbers, texts, unit, width, place] : table.columns) {
+  for (const file::Column& column : table.columns) {
+    const std::string& name = column.name;
+    const std::vector<double>& numbers = column.numbers;
     const file::Column* const beside = other.find(name);
     if (beside == nullptr || numbers.empty() || beside->numbers.empty()) continue;
     const auto warn = [&](const scenario::Doubt& doubt, const char* does, double value,

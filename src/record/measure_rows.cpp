@@ -23,7 +23,8 @@ using Kind = Measure::Kind;
 
 StoredRun::StoredRun(file::Table table, const std::string& name)
     : name_(name), table_(std::move(table)) {
-  for (const auto& [column, numbers, texts, unit, width, place] : table_.columns) {
+  for (const file::Column& of : table_.columns) {
+    const std::string& column = of.name;
     const Column* const known = scenario::find_column(column);
     columns_.push_back(
         known != nullptr ? *known : Column{column, column, "", column, scenario::Needs::ball});

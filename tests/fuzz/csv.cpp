@@ -55,8 +55,11 @@ void must_round_trip(double number) {
 }
 
 void must_be_like_itself(const file::Table& table) {
-  must(!table.names.empty() && table.columns.size() == table.names().size());
-  for (const file::Column& column : table.columns) must(column.size() == table.rows);
+  must(!table.columns.empty());
+  for (const file::Column& column : table.columns) {
+    must(column.numbers.size() == table.rows);
+    for (const double number : column.numbers) must_round_trip(number);
+  }
   const record::Comparison comparison = record::compare(table, table);
   must(comparison.alike());
   must(!record::to_text(comparison, "a", "b", {}).empty());
