@@ -154,4 +154,22 @@ TEST_CASE("files of version 0.3.0 are read") {
   CHECK(contains(cases.out, "\nmax_distance                      0       0"));
 }
 
+TEST_CASE("columns of numbers of any HDF5 file are a scenario's table") {
+  const Folder folder;
+  expect(0,
+         "sweep @fig2a.yaml -q --vary ball.radius=linear:0.01:0.02:6 --keep-trajectories -o s.h5",
+         folder);
+  const auto scenario = [&](const std::string& column) {
+    folder.write("table.yaml",
+                 "ball: {radius: 1 cm}\ntime: {end: 5, step: 1}\n"
+                 "gimbal: {motion: {phi: {table: {file: s.h5, time: case, unit: rad, value: " +
+                     column + "}}}}\n");
+  };
+  scenario("ball.radius");
+  expect(0, "run table.yaml -q -o run.h5", folder);
+  CHECK(Hdf5TableReader(folder / "run.h5").read_inputs().at(0).data->find("case") != nullptr);
+  scenario("status");
+  expect(2, "check table.yaml", folder, {"column status, row 1: found \"done\""});
+}
+
 }  // namespace bbsim_test::test_hdf5
