@@ -9,17 +9,17 @@
 #include <variant>
 
 #include "base/error.hpp"
-#include "file/table_writer.hpp"
+#include "file/table.hpp"
 #include "scenario/reader.hpp"
 
 namespace bbsim::bench {
 namespace {
 
-const std::vector<double>& column(const file::TableData& table, const std::string& name,
+const std::vector<double>& column(const file::Table& table, const std::string& name,
                                   const std::string& file) {
-  const auto found = std::find(table.names.begin(), table.names.end(), name);
-  if (found == table.names.end()) throw InputError(file + ": has no column " + name);
-  return table.columns[static_cast<std::size_t>(found - table.names.begin())];
+  const file::Column* const found = table.find(name);
+  if (found == nullptr) throw InputError(file + ": has no column " + name);
+  return found->numbers;
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ const std::vector<double>& column(const file::TableData& table, const std::strin
 Scene load_scene(const std::string& folder, const std::string& name) {
   const std::string file = folder + "/reference/" + name + ".csv";
   const Scenario scenario = read_scenario(folder + "/scenarios/" + name + ".yaml");
-  const file::TableData table = file::read_table(file);
+  const file::Table table = file::read_table(file);
   Scene scene{name,
               model::assemble(scenario, false),
               solve::OutputGrid(scenario.time),

@@ -151,7 +151,7 @@ Json columns_json(const api::RunResult& result, std::vector<std::vector<double>>
   Json columns = Json::object();
   const std::size_t rows = replay::rows_of_file(*result.pictured);
   for (const std::string& name : result.columns) {
-    const std::vector<double>& all = replay::find_series(*result.pictured, name)->values;
+    const std::vector<double>& all = result.pictured->find(name)->numbers;
     columns[name] = put({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(rows)}, arrays);
   }
   return columns;
@@ -253,7 +253,7 @@ std::string by_hand(const Json& request) {
   if (result.code != ExitCode::done) throw InputError(result.summary.reason);
   Json json;
   for (std::size_t i = 0; i < result.columns.size(); ++i) {
-    json[result.columns[i]] = result.rows.columns[i].back();
+    json[result.columns[i]] = result.rows.columns[i].numbers.back();
   }
   return json_text(json);
 }

@@ -75,7 +75,7 @@ Option& Option::takes_number() {
 
 Option& Option::takes_whole(double least, double most) {
   const auto fault = [least, most](const std::string& text) -> std::string {
-    const std::optional<double> value = number_in<double>(text);
+    const auto value = number_in<double>(text);
     if (value && is_whole(*value, least, most)) return "";
     return "found " + text + "; allowed: " + whole_numbers(least, most);
   };

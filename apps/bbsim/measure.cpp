@@ -32,8 +32,8 @@ struct MeasureArguments {
 ExitCode measure(const MeasureArguments& arguments, const Options& options) {
   say_if_waiting(arguments.file, "a CSV", options.quiet);
   results::refuse_auto(arguments.log);
-  std::vector<std::string> notes;
-  results::Result result = results::read_result(arguments.file, {}, arguments.log, &notes);
+  results::Result result = results::read_result(arguments.file, {}, arguments.log);
+  const std::vector<std::string> notes = result.notes;
   file::Outputs outputs;
   outputs.reads(arguments.file, "FILE");
   api::reads_with_result(outputs, result);

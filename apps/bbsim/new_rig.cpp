@@ -93,11 +93,8 @@ std::optional<Ball> read_diameter_and_mass(std::string_view text) {
 
 // Name as in `balls`: "Table tennis" and "ping pong" become ping-pong.
 std::string name_of_ball(std::string_view text) {
-  std::string name;
-  for (const char letter : text) {
-    const bool is_upper = letter >= 'A' && letter <= 'Z';
-    name += letter == ' ' ? '-' : static_cast<char>(is_upper ? letter - 'A' + 'a' : letter);
-  }
+  std::string name = lower(text);
+  std::ranges::replace(name, ' ', '-');
   return name == "table-tennis" ? "ping-pong" : name;
 }
 

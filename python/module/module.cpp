@@ -242,7 +242,7 @@ void define_run(py::module_& module) {
         const auto& made = self.cast<const RunResult&>();
         py::dict rows;
         for (std::size_t i = 0; i < made.columns.size(); ++i) {
-          rows[py::str(made.columns[i])] = view(made.rows.columns[i], self);
+          rows[py::str(made.columns[i])] = view(made.rows.columns[i].numbers, self);
         }
         return rows;
       });

@@ -55,7 +55,8 @@ std::pair<Result, Texts> read_result(const std::string& file, const results::Bes
                                      const results::LogChoice& log) {
   results::refuse_auto(log);
   std::pair<Result, Texts> made;
-  made.first = results::read_result(file, beside, log, &made.second);
+  made.first = results::read_result(file, beside, log);
+  made.second = made.first.notes;
   if (!made.first.left_out.empty()) made.second.push_back(made.first.left_out);
   results::add_end_row(made.first);
   return made;
@@ -63,9 +64,8 @@ std::pair<Result, Texts> read_result(const std::string& file, const results::Bes
 
 std::pair<Result, Texts> read_log(const std::string& file, const results::LogChoice& choice) {
   results::refuse_auto(choice);
-  Texts notes;
-  Result log = results::read_log(file, choice, notes);
-  return {std::move(log), std::move(notes)};
+  Result log = results::read_log(file, choice);
+  return {log, log.notes};
 }
 
 // `columns`: for each, its name, its unit, its numbers, and its texts if it is one of texts.

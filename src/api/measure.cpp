@@ -8,14 +8,12 @@
 #include <cctype>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <string_view>
 
 #include "api/run.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
-#include "file/cell_table.hpp"
-#include "file/table_writer.hpp"
+#include "file/table.hpp"
 #include "record/compare.hpp"
 #include "record/log_distance.hpp"
 #include "record/measure_rows.hpp"
@@ -29,38 +27,6 @@
 namespace bbsim::api {
 namespace {
 
-// A column of words, such as a log may have for other readers.
-struct Words {
-  std::string column, first;
-  std::size_t row = 0;  // of the first
-};
-
-// Returns the columns of numbers; puts the first word of each other column into `others`.
-file::TableData numbers_of(results::Result result, std::vector<Words>& others) {
-  if (result.is_sweep()) {
-    throw InputError(result.file +
-                     ": is a sweep; allowed: the result of a run. Measures of a sweep "
-                     "are its columns: bbsim summarize " +
-                     result.file);
-  }
-  file::TableData table;
-  for (results::Column& column : result.columns) {
-    if (column.is_text()) {
-      const auto is_word = [&](std::size_t row) {
-        const bool number = row < column.numbers.size() && !std::isnan(column.numbers[row]);
-        return !number && !column.texts[row].empty();
-      };
-      std::size_t row = 0;
-      while (row + 1 < column.texts.size() && !is_word(row)) ++row;
-      others.push_back({column.name, column.texts[row], row + 1});
-      continue;
-    }
-    table.names.push_back(column.name);
-    table.columns.push_back(std::move(column.numbers));
-  }
-  return table;
-}
-
 // Whether `text` contains the name as a separate part, as x in "max_x", "x.Peak" and "when x=1".
 bool has_name(const std::string& text, const std::string& name) {
   const auto is_letter = [&](std::size_t at) {
@@ -72,24 +38,33 @@ bool has_name(const std::string& text, const std::string& name) {
   return false;
 }
 
-// Throws a message about the first word in `t` or a requested column, else `error`.
+// Throws a message about the first text in `t` or a requested column, else `error`.
 [[noreturn]] void refuse(const InputError& error, const std::string& file,
                          const std::vector<std::string>& requested,
-                         const std::vector<Words>& others) {
-  for (const Words& words : others) {
+                         const std::vector<file::Column>& texts) {
+  for (const file::Column& column : texts) {
     const bool is_requested =
-        words.column == "t" || std::ranges::any_of(requested, [&](const std::string& measure) {
-          return has_name(measure, words.column);
+        column.name == "t" || std::ranges::any_of(requested, [&](const std::string& measure) {
+          return has_name(measure, column.name);
         });
-    if (!is_requested) continue;
-    throw InputError(file + ": column " + shown(words.column) + ", row " +
-                     std::to_string(words.row) + ": found " + bbsim::quoted(words.first) +
-                     "; allowed: a number");
+    if (is_requested) file::refuse_text(file, column);
   }
   throw InputError(error);
 }
 
-// Warns of a log's columns whose values suggest units other than bbsim's.
+// Warns of a log's column whose values suggest units other than bbsim's.
+void warn_of_looks(const std::string& file, std::string_view column,
+                   const std::vector<double>& numbers, std::string_view read,
+                   std::vector<std::string>& notes) {
+  const double largest = scenario::largest_size(numbers);
+  const auto doubt = scenario::doubt_of(largest, column);
+  if (!doubt) return;
+  notes.push_back("warning: " + file + ": " + shown(column) + " goes up to " +
+                  number_text(largest) + ", " + std::string(read) + ": it looks like " +
+                  std::string(doubt->looks_like));
+}
+
+// The same for the columns of measures.
 void warn_of_units(const record::StoredRun& run, const std::vector<scenario::Measure>& measures,
                    const std::string& file, std::vector<std::string>& notes) {
   std::vector<const scenario::Column*> seen;
@@ -98,12 +73,8 @@ void warn_of_units(const record::StoredRun& run, const std::vector<scenario::Mea
          {measure.column, measure.instant.column, measure.reference}) {
       if (column == nullptr || std::ranges::find(seen, column) != seen.end()) continue;
       seen.push_back(column);
-      const double largest = scenario::largest_size(run.values_of(*column));
-      const auto doubt = scenario::doubt_of(largest, column->name);
-      if (!doubt) continue;
-      notes.push_back("warning: " + file + ": " + std::string(column->name) + " goes up to " +
-                      number_text(largest) + ", measured in " + std::string(column->unit) +
-                      ": it looks like " + std::string(doubt->looks_like));
+      warn_of_looks(file, column->name, run.values_of(*column),
+                    "measured in " + std::string(column->unit), notes);
     }
   }
 }
@@ -126,11 +97,16 @@ void note_references(const record::StoredRun& run, const std::vector<scenario::M
 Measured measure(results::Result result, const std::string& file,
                  const std::vector<std::string>& lists) {
   const std::vector<std::string> requested = scenario::split_measures(lists);
-  std::vector<Words> others;
+  if (result.is_sweep()) {
+    throw InputError(result.file +
+                     ": is a sweep; allowed: the result of a run. Measures of a sweep "
+                     "are its columns: bbsim summarize " +
+                     result.file);
+  }
   const bool is_log = result.version.empty();
-  file::TableData numbers = numbers_of(std::move(result), others);
+  const std::vector<file::Column> texts = result.take_texts();
   try {
-    const record::StoredRun run(std::move(numbers), file);
+    const record::StoredRun run(std::move(result), file);
     const auto measures = run.measures_named(requested);
     Measured measured;
     std::vector<double> values;
@@ -147,14 +123,14 @@ Measured measure(results::Result result, const std::string& file,
     if (!not_measured.empty()) measured.notes.push_back("note: " + not_measured);
     return measured;
   } catch (const InputError& error) {
-    refuse(error, file, requested, others);
+    refuse(error, file, requested, texts);
   }
 }
 
 namespace {
 
-record::Allowances allowances_of(const CompareRequest& request, const file::CellTable& a,
-                                 const file::CellTable& b) {
+record::Allowances allowances_of(const CompareRequest& request, const file::Table& a,
+                                 const file::Table& b) {
   const record::Allowance standard;
   if (request.rtol || request.atol) {
     return {request.rtol.value_or(standard.rtol), request.atol.value_or(standard.atol)};
@@ -163,21 +139,20 @@ record::Allowances allowances_of(const CompareRequest& request, const file::Cell
 }
 
 // Warns of columns whose values suggest that the two files use different units.
-void warn_of_units(const file::CellTable& table, const std::string& name,
-                   const file::CellTable& other, const std::string& other_name,
+void warn_of_units(const file::Table& table, const file::Table& other,
                    std::vector<std::string>& warnings) {
-  for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    const file::CellColumn* const beside = other.find(table.names[c]);
-    const std::vector<double>& numbers = table.columns[c].numbers;
+  for (const file::Column& column : table.columns) {
+    const std::string& name = column.name;
+    const std::vector<double>& numbers = column.numbers;
+    const file::Column* const beside = other.find(name);
     if (beside == nullptr || numbers.empty() || beside->numbers.empty()) continue;
     const auto warn = [&](const scenario::Doubt& doubt, const char* does, double value,
                           double other_value) {
-      warnings.push_back("warning: " + name + ": " + shown(table.names[c]) + does +
-                         number_text(value) + ", and in " + other_name + " " +
-                         number_text(other_value) + ": it looks like " +
-                         std::string(doubt.looks_like));
+      warnings.push_back("warning: " + table.file + ": " + shown(name) + does + number_text(value) +
+                         ", and in " + other.file + " " + number_text(other_value) +
+                         ": it looks like " + std::string(doubt.looks_like));
     };
-    if (table.names[c] == "t") {
+    if (name == "t") {
       const double span = numbers.back() - numbers.front();
       const double other_span = beside->numbers.back() - beside->numbers.front();
       if (!(other_span > 0)) continue;
@@ -187,39 +162,17 @@ void warn_of_units(const file::CellTable& table, const std::string& name,
     }
     const double largest = scenario::largest_size(numbers);
     const double other_largest = scenario::largest_size(beside->numbers);
-    const auto doubt = scenario::doubt_of(largest, table.names[c]);
-    if (doubt && !scenario::doubt_of(other_largest, table.names[c])) {
+    const auto doubt = scenario::doubt_of(largest, name);
+    if (doubt && !scenario::doubt_of(other_largest, name)) {
       warn(*doubt, " goes up to ", largest, other_largest);
     }
   }
 }
 
-file::TableData numbers_of(results::Result result) {
-  file::TableData table;
-  for (results::Column& column : result.columns) {
-    if (column.is_text()) continue;
-    table.names.push_back(std::move(column.name));
-    table.columns.push_back(std::move(column.numbers));
-  }
-  return table;
-}
-
-void warn_of_looks(const file::TableData& log, const std::string& name,
-                   std::vector<std::string>& warnings) {
-  for (std::size_t c = 0; c < log.names.size(); ++c) {
-    const double largest = scenario::largest_size(log.columns[c]);
-    const auto doubt = scenario::doubt_of(largest, log.names[c]);
-    if (!doubt) continue;
-    warnings.push_back("warning: " + name + ": " + shown(log.names[c]) + " goes up to " +
-                       number_text(largest) + ", read in SI: it looks like " +
-                       std::string(doubt->looks_like));
-  }
-}
-
 // Runs the scenario with the log's columns and the rates that interpolation uses, at the output
 // times and between them.
-file::TableData run_for(const Scenario& scenario, const file::TableData& log, Watch& watch,
-                        Compared& compared) {
+file::Table run_for(const Scenario& scenario, const file::Table& log, Watch& watch,
+                    Compared& compared) {
   constexpr double near = 2e-3;  // s, between rows
   constexpr double most_rows = 2e5;
   RunRequest request;
@@ -229,14 +182,12 @@ file::TableData run_for(const Scenario& scenario, const file::TableData& log, Wa
   const double rows = time.end / time.step;
   time.step /= std::max(1.0, std::floor(std::min(std::ceil(time.step / near), most_rows / rows)));
   std::vector<std::string>& columns = request.scenario.output.columns;
-  const auto has = [](const std::vector<std::string>& names, std::string_view name) {
-    return std::ranges::find(names, name) != names.end();
-  };
   for (const scenario::Column& column : scenario::catalogue) {
     constexpr std::array<std::string_view, 5> always{"t", "vx", "vy", "phi_rate", "theta_rate"};
     const bool wanted =
-        has(log.names, column.name) || std::ranges::find(always, column.name) != always.end();
-    if (!wanted || has(columns, column.name) || missing(column, scenario)) continue;
+        log.find(column.name) != nullptr || std::ranges::find(always, column.name) != always.end();
+    const bool is_there = std::ranges::find(columns, column.name) != columns.end();
+    if (!wanted || is_there || missing(column, scenario)) continue;
     columns.emplace_back(column.name);
   }
   RunResult result = run(request, watch);
@@ -247,31 +198,33 @@ file::TableData run_for(const Scenario& scenario, const file::TableData& log, Wa
   return std::move(result.rows);
 }
 
-file::TableData rows_of_result(const std::string& file) {
+file::Table rows_of_result(const std::string& file) {
   results::Result result = results::read_result(file, {});
   if (result.is_sweep()) throw InputError(file + ": is a sweep; allowed: the result of a run");
-  return numbers_of(std::move(result));
+  return result;
 }
 
 Compared compare_log(const CompareRequest& request, Watch& watch) {
   Compared compared;
-  results::Result read = results::read_log(request.a, request.log, compared.warnings);
-  if (const results::Column* const t = read.find("t"); t == nullptr || t->is_text()) {
-    throw InputError(results::without_clock(read));
-  }
-  file::TableData log = numbers_of(std::move(read));
-  const file::TableData run =
+  results::Result log = results::read_log(request.a, request.log);
+  const file::Column* const t = log.find("t");
+  if (t == nullptr || t->is_text()) throw InputError(results::without_clock(log));
+  compared.warnings = log.notes;
+  log.take_texts();
+  file::Table run =
       request.run ? run_for(*request.run, log, watch, compared) : rows_of_result(request.b);
+  run.file = request.b;
+  run.take_texts();
   if (compared.code == ExitCode::interrupted) return compared;
   if (request.log.aligns()) {
-    const double offset = record::time_offset(log, request.a, run, request.b, request.columns);
-    const auto t = std::ranges::find(log.names, "t") - log.names.begin();
-    for (double& time : log.columns[static_cast<std::size_t>(t)]) time += offset;
+    const double offset = record::time_offset(log, run, request.columns);
+    for (double& time : log.find("t")->numbers) time += offset;
     compared.warnings.push_back(moved_text(request.a, offset));
   }
-  warn_of_looks(log, request.a, compared.warnings);
-  const record::LogDistance distance =
-      record::log_distance(log, request.a, run, request.b, request.columns);
+  for (const file::Column& column : log.columns) {
+    warn_of_looks(log.file, column.name, column.numbers, "read in SI", compared.warnings);
+  }
+  const record::LogDistance distance = record::log_distance(log, run, request.columns);
   compared.text = record::to_text(distance, request.a, request.b);
   const bool judges = request.rtol || request.atol;
   compared.alike = true;
@@ -289,31 +242,28 @@ Compared compare_log(const CompareRequest& request, Watch& watch) {
 }  // namespace
 
 std::string moved_text(const std::string& log, double offset) {
-  char text[32];
-  const int size = std::snprintf(text, sizeof text, "%.6g", offset);
-  return "note: " + log + ": moved by " + std::string(text, static_cast<std::size_t>(size)) +
-         " s (--time-offset auto)";
+  return "note: " + log + ": moved by " + short_number(offset) + " s (--time-offset auto)";
 }
 
 Compared compare(const CompareRequest& request, Watch& watch) {
   if (request.log.given() || request.run) return compare_log(request, watch);
-  const file::CellTable a = file::read_cells(request.a, {request.columns, {}});
-  const file::CellTable b = file::read_cells(request.b, {request.columns, {}});
+  const file::Table a = file::read_table(request.a, {request.columns, {}});
+  const file::Table b = file::read_table(request.b, {request.columns, {}});
   const record::Allowances allowances = allowances_of(request, a, b);
   const record::Comparison comparison = record::compare(a, b, allowances, request.columns);
   Compared compared;
   compared.alike = comparison.alike();
   compared.text = to_text(comparison, request.a, request.b, allowances);
-  for (const file::CellTable* table : {&a, &b}) {
+  for (const file::Table* table : {&a, &b}) {
     compared.warnings.insert(compared.warnings.end(), table->notes.begin(), table->notes.end());
   }
-  warn_of_units(a, request.a, b, request.b, compared.warnings);
-  warn_of_units(b, request.b, a, request.a, compared.warnings);
+  warn_of_units(a, b, compared.warnings);
+  warn_of_units(b, a, compared.warnings);
   return compared;
 }
 
 std::string summarize(const SummarizeRequest& request) {
-  const file::CellTable table = file::read_cells(request.file);
+  const file::Table table = file::read_table(request.file);
   const auto groups =
       record::summarise(table, request.file, request.keys,
                         scenario::split_measures(request.measures), request.quantiles);

@@ -56,9 +56,9 @@ std::vector<const scenario::Column*> with_pictured(
   return all;
 }
 
-replay::Run run_of(const Scenario& scenario, file::TableData rows, record::RunSummary summary,
+replay::Run run_of(const Scenario& scenario, file::Table rows, record::RunSummary summary,
                    const std::vector<double>& end_row, bool checked) {
-  for (std::size_t c = 0; c < end_row.size(); ++c) rows.columns[c].push_back(end_row[c]);
+  for (std::size_t c = 0; c < end_row.size(); ++c) rows.columns[c].numbers.push_back(end_row[c]);
   replay::Run run = replay::run_of_table(std::move(rows), short_name(scenario.source.file));
   run.has_end_row = !end_row.empty();
   run.reached = summary.end_time;
@@ -76,41 +76,24 @@ replay::Run run_of(const Scenario& scenario, file::TableData rows, record::RunSu
 
 namespace {
 
-file::TableData table_of(const replay::Run& run) {
-  file::TableData table;
-  for (const replay::Series& column : run.columns) {
-    table.names.push_back(column.name);
-    table.columns.push_back(column.values);
-  }
-  return table;
-}
-
-bool have_in_common(const replay::Run& log, const replay::Run& run) {
-  return std::ranges::any_of(log.columns, [&](const replay::Series& column) {
-    return column.name != "t" && replay::find_series(run, column.name) != nullptr;
-  });
-}
-
 // Aligns the scene's last run, which is a log, with the first one if `align`. Returns sentences
 // about the shift and the distance to that run.
 std::vector<std::string> place_log(replay::Scene& scene, bool align) {
-  replay::Run& log = scene.runs.back();
-  const replay::Run& first_run = scene.runs.front();
+  replay::Run &log = scene.runs.back(), &run = scene.runs.front();
+  log.file = log.name;  // for messages
+  run.file = run.name;
   std::vector<std::string> notes;
-  file::TableData log_table = table_of(log);
-  const file::TableData run_table = table_of(first_run);
-  const auto t = std::ranges::find(log.columns, "t", &replay::Series::name);
   if (align) {
-    const double offset = record::time_offset(log_table, log.name, run_table, first_run.name);
-    for (double& time : t->values) time += offset;
-    log_table = table_of(log);
+    const double offset = record::time_offset(log, run);
+    for (double& time : log.find("t")->numbers) time += offset;
     notes.push_back(moved_text(log.name, offset));
   }
-  if (t == log.columns.end() || !have_in_common(log, first_run)) return notes;
+  const auto in_common = [&](const file::Column& column) {
+    return column.name != "t" && run.find(column.name) != nullptr;
+  };
+  if (log.find("t") == nullptr || std::ranges::none_of(log.columns, in_common)) return notes;
   try {
-    notes.push_back(
-        record::to_text(record::log_distance(log_table, log.name, run_table, first_run.name),
-                        log.name, first_run.name));
+    notes.push_back(record::to_text(record::log_distance(log, run), log.name, run.name));
     notes.back().pop_back();
   } catch (const InputError& error) {  // no time in common; the log can still be shown
     notes.push_back("warning: " + std::string(error.what()));
@@ -184,11 +167,12 @@ SourceFile read_log(const ReplayRequest& request, std::size_t log, const std::st
                     Watch& watch) {
   results::LogChoice choice = request.log;
   if (request.logs.size() > 1 && choice.maps.size() > 1) choice.maps = {choice.maps[log]};
-  std::vector<std::string> notes;
-  results::Result read = results::read_csv_columns(request.logs[log], choice.header, notes);
+  results::Result read = results::read_log(request.logs[log], choice, true);
+  note_all(read.notes, watch);
+  read.units_known = true;  // as --data or the map states
   SourceFile source{name};
-  source.log = replay::run_of_log(std::move(read), choice, name, notes);
-  note_all(notes, watch);
+  source.log = replay::run_of_result(std::move(read), name);
+  if (!choice.maps.empty()) source.log->rolls = false;
   return source;
 }
 
@@ -202,9 +186,8 @@ SourceFile read_shown(const ReplayRequest& request, const ReplayRequest::Shown& 
     reads_scenario(outputs, shown.file, *source.scenario);
   } else {
     outputs.reads(shown.file, "what is shown");
-    std::vector<std::string> notes;
-    source.result = results::read_result(shown.file, request.beside, {}, &notes);
-    note_all(notes, watch);
+    source.result = results::read_result(shown.file, request.beside);
+    note_all(source.result->notes, watch);
     reads_with_result(outputs, *source.result);
   }
   return source;

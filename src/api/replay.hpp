@@ -27,7 +27,7 @@ namespace bbsim::api {
     const std::vector<const scenario::Column*>& columns, const Scenario& scenario);
 
 // Run of the scenario for a page; `end_row` is that of record::Recorder.
-[[nodiscard]] replay::Run run_of(const Scenario& scenario, file::TableData rows,
+[[nodiscard]] replay::Run run_of(const Scenario& scenario, file::Table rows,
                                  record::RunSummary summary, const std::vector<double>& end_row,
                                  bool checked);
 

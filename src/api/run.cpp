@@ -67,12 +67,12 @@ std::vector<file::ColumnHeader> headers_of(const Columns& columns) {
 }
 
 // Writes the first `count` columns of the table, then the others.
-void append(const file::TableData& table, std::size_t count,
+void append(const file::Table& table, std::size_t count,
             const std::vector<std::vector<double>>& others, file::TableWriter& writer) {
   std::vector<const double*> columns;
-  for (std::size_t c = 0; c < count; ++c) columns.push_back(table.columns[c].data());
+  for (std::size_t c = 0; c < count; ++c) columns.push_back(table.columns[c].numbers.data());
   for (const std::vector<double>& column : others) columns.push_back(column.data());
-  writer.append(columns, table.columns.front().size());
+  writer.append(columns, table.rows);
 }
 
 // Passes rows to a callback and, if given, to a second table.
@@ -161,7 +161,7 @@ RunResult run(const RunRequest& request, Watch& watch) {
   for (std::size_t m = 0; m < printed.size(); ++m) {
     summary.measures.emplace_back(printed[m].name, simulation.measures[m]);
   }
-  file::TableData table;
+  file::Table table;
   if (kept) table = kept->take();
   std::vector<std::vector<double>> derivatives;
   if (sensitivity.wanted()) {
@@ -191,8 +191,9 @@ RunResult run(const RunRequest& request, Watch& watch) {
         run_of(scenario, std::move(table), summary, simulation.end_row, request.checked);
   } else if (kept) {
     result.rows = std::move(table);
-    std::ranges::copy(sensitivity.names(), std::back_inserter(result.rows.names));
-    std::ranges::move(derivatives, std::back_inserter(result.rows.columns));
+    for (std::size_t c = 0; c < derivatives.size(); ++c) {
+      result.rows.columns.push_back({sensitivity.names()[c], std::move(derivatives[c])});
+    }
   }
   return result;
 }

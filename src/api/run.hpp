@@ -54,7 +54,7 @@ struct RunResult {
   record::RunSummary summary;
   std::size_t rows_requested = 0;
   std::vector<std::string> unmet;           // expectations that fail
-  file::TableData rows;                     // if the request keeps them or names no destination
+  file::Table rows;                         // if the request keeps them or names no destination
   std::vector<std::string> columns, units;  // of output.columns
   std::string noted;                        // how often each event was noted; may be empty
   std::optional<replay::Run> pictured;

@@ -44,6 +44,15 @@ template <class Items, class As = std::identity>
   return all;
 }
 
+// The text with its ASCII letters in lower case.
+[[nodiscard]] inline std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return result;
+}
+
 // "1 row", "2 rows"
 [[nodiscard]] inline std::string counted(std::size_t count, const std::string& noun) {
   return std::to_string(count) + ' ' + noun + (count == 1 ? "" : "s");

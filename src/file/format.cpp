@@ -3,9 +3,9 @@
 
 #include "file/format.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
+
+#include "base/text.hpp"
 
 namespace bbsim::file {
 
@@ -16,10 +16,7 @@ Format format_of(const std::string& file) {
 }
 
 std::string lower_ending(const std::string& file) {
-  std::string text = std::filesystem::path(file).extension();
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
+  return lower(std::filesystem::path(file).extension().string());
 }
 
 }  // namespace bbsim::file

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "file/cell_table.hpp"
 #include "file/table_writer.hpp"
 
 namespace bbsim::file {
@@ -20,9 +19,7 @@ namespace bbsim::file {
                                                      const std::vector<ColumnHeader>& headers);
 
 // All throw InputError.
-[[nodiscard]] TableData read_csv(const std::string& file);  // "-" is standard input
-[[nodiscard]] TableData read_hdf5(const std::string& file);
-[[nodiscard]] CellTable read_csv_cells(const std::string& file, const CsvChoice& choice);
-[[nodiscard]] CellTable read_hdf5_cells(const std::string& file);
+[[nodiscard]] Table read_csv(const std::string& file, const CsvChoice& choice);
+[[nodiscard]] Table read_hdf5(const std::string& file);
 
 }  // namespace bbsim::file

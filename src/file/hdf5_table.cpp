@@ -209,25 +209,28 @@ std::unique_ptr<TableWriter> open_hdf5(const std::string& target,
   return std::make_unique<Hdf5TableWriter>(target, columns, std::vector<Hdf5Axis>(), Durable::no);
 }
 
-TableData read_hdf5(const std::string& file) {
-  Hdf5TableReader reader(file);
-  const auto refuse = [&](const std::string& dataset, const char* held) {
-    reader.fail("dataset " + shown(dataset) + " is not a column of numbers: it holds " + held);
-  };
-  TableData table;
+Table read_hdf5(const std::string& file) {
+  constexpr std::size_t rows_at_a_time = 65536;
+  Hdf5TableReader reader(file, rows_at_a_time);
+  Table table;
   for (const Hdf5Column& column : reader.columns()) {
-    if (column.kind == Hdf5Kind::text) refuse(column.name, "text");
-    if (column.kind == Hdf5Kind::series) {
-      refuse(column.name, "several numbers a row, in two dimensions");
-    }
-    table.names.push_back(column.name);
-  }
-  for (const auto& [axis, values] : reader.head().axes) {
-    refuse(axis.name, "the axis of other datasets");
+    table.columns.push_back({column.name, {}, {}, column.unit});
+    if (column.kind == Hdf5Kind::series) table.columns.back().width = column.width;
   }
   Hdf5Block block;
-  reader.read(block);
-  table.columns = std::move(block.values);
+  while (reader.read(block)) {
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      Column& column = table.columns[c];
+      for (std::string& text : block.texts[c]) column.add_text(std::move(text));
+      column.numbers.insert(column.numbers.end(), block.values[c].begin(), block.values[c].end());
+    }
+  }
+  for (const auto& [column, values] : reader.head().axes) {
+    // One row with all values of the axis.
+    table.columns.push_back({column.name, values, {}, column.unit, values.size()});
+  }
+  table.rows = reader.rows();
+  table.attributes = reader.head().attributes;
   return table;
 }
 

@@ -22,8 +22,11 @@ constexpr std::size_t read_at_once = 65536;
 
 }  // namespace
 
-LineReader::LineReader(const std::string& file)
-    : file_(file), name_(file == "-" ? "standard input" : shown(file, uncut)) {
+std::string name_in_messages(const std::string& file) {
+  return file == "-" ? "standard input" : shown(file, uncut);
+}
+
+LineReader::LineReader(const std::string& file) : file_(file), name_(name_in_messages(file)) {
   descriptor_ = file == "-" ? STDIN_FILENO : open(file.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor_ < 0) throw InputError("cannot read " + name_ + ": " + error_text(errno));
   struct stat status {};
@@ -64,7 +67,10 @@ std::optional<std::string_view> LineReader::next() {
     begin_ += found != nullptr ? size + 1 : size;
     whole_ = found != nullptr && !line.ends_with('\r');
     if (line.ends_with('\r')) line.remove_suffix(1);
-    ++number_;
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (++number_ == 1 && line.starts_with(byte_order_mark)) {
+      line.remove_prefix(byte_order_mark.size());
+    }
     return line;
   }
 }

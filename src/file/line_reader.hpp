@@ -12,6 +12,9 @@
 
 namespace bbsim::file {
 
+// "-" is standard input.
+[[nodiscard]] std::string name_in_messages(const std::string& file);
+
 // Holds one line and a buffer. An endless device such as /dev/zero causes an error instead of using
 // up the memory.
 class LineReader {
@@ -24,7 +27,8 @@ class LineReader {
   LineReader(const LineReader&) = delete;
   LineReader& operator=(const LineReader&) = delete;
 
-  // The next line without its end ("\n" or "\r\n"), valid until the next call; nothing at the end.
+  // The next line without its end ("\n" or "\r\n") and without a byte order mark, valid until the
+  // next call; nothing at the end.
   std::optional<std::string_view> next();
 
   // Whether that line ended in "\n" alone, as bbsim writes it.

@@ -7,21 +7,22 @@
 
 namespace bbsim::file {
 
-MemoryTable::MemoryTable(std::vector<std::string> names, TableWriter* beside,
+MemoryTable::MemoryTable(const std::vector<std::string>& names, TableWriter* beside,
                          std::size_t columns_beside)
-    : beside_(beside), columns_beside_(columns_beside) {
-  table_.columns.resize(names.size());
-  table_.names = std::move(names);
-}
+    : table_(names, std::vector<std::vector<double>>(names.size())),
+      beside_(beside),
+      columns_beside_(columns_beside) {}
 
 void MemoryTable::append(std::span<const double* const> columns, std::size_t rows) {
   if (beside_ != nullptr) beside_->append(columns.first(columns_beside_), rows);
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    table_.columns[c].insert(table_.columns[c].end(), columns[c], columns[c] + rows);
+    std::vector<double>& numbers = table_.columns[c].numbers;
+    numbers.insert(numbers.end(), columns[c], columns[c] + rows);
   }
+  table_.rows += rows;
 }
 
-TableData MemoryTable::take() {
+Table MemoryTable::take() {
   return std::exchange(table_, {});
 }
 

@@ -15,17 +15,17 @@ class MemoryTable : public TableWriter {
  public:
   // `beside` may be null. Otherwise it receives the first `columns_beside` columns of all rows as
   // they arrive; its owner finishes it.
-  explicit MemoryTable(std::vector<std::string> names, TableWriter* beside = nullptr,
+  explicit MemoryTable(const std::vector<std::string>& names, TableWriter* beside = nullptr,
                        std::size_t columns_beside = 0);
 
   void append(std::span<const double* const> columns, std::size_t rows) override;
   void finish(const Attributes&) override {}
 
   // Takes the rows out of the object.
-  [[nodiscard]] TableData take();
+  [[nodiscard]] Table take();
 
  private:
-  TableData table_;
+  Table table_;
   TableWriter* beside_;
   std::size_t columns_beside_;
 };

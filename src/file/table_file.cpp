@@ -24,12 +24,10 @@ std::unique_ptr<TableWriter> open_table(const std::string& target,
   return hdf5 ? open_hdf5(target, headers) : open_csv(target, headers);
 }
 
-TableData read_table(const std::string& file) {
-  return format_of(file) == Format::hdf5 ? read_hdf5(file) : read_csv(file);
-}
-
-CellTable read_cells(const std::string& file, const CsvChoice& choice) {
-  return format_of(file) == Format::hdf5 ? read_hdf5_cells(file) : read_csv_cells(file, choice);
+Table read_table(const std::string& file, const CsvChoice& choice) {
+  Table table = format_of(file) == Format::hdf5 ? read_hdf5(file) : read_csv(file, choice);
+  table.file = file;
+  return table;
 }
 
 }  // namespace bbsim::file

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Writes tables to CSV, HDF5 or standard output, and reads them.
+// Writes tables to CSV, HDF5 or standard output.
 #pragma once
 
 #include <cstddef>
@@ -11,24 +11,12 @@
 #include <string_view>
 #include <vector>
 
-#include "file/attributes.hpp"
+#include "file/table.hpp"
 
 namespace bbsim::file {
 
 struct ColumnHeader {
   std::string_view name, unit, meaning;
-};
-
-// Columns by name, in the file's order. All have the same length.
-struct TableData {
-  std::vector<std::string> names;
-  std::vector<std::vector<double>> columns;
-};
-
-// A table that a scenario read, under the file name in the scenario.
-struct InputTable {
-  std::string file;
-  std::shared_ptr<const TableData> data;
 };
 
 class TableWriter {
@@ -60,9 +48,5 @@ void require_table_name(const std::string& target);
 
 // The first line of a CSV with these columns, without its line break.
 [[nodiscard]] std::string csv_header(const std::vector<ColumnHeader>& headers);
-
-// Reads an HDF5 file (by its ending) or a CSV of numbers, as read_cells() does. "-" is CSV on
-// standard input. Throws InputError: where, found, allowed.
-[[nodiscard]] TableData read_table(const std::string& file);
 
 }  // namespace bbsim::file

@@ -198,7 +198,9 @@ Result result_of(api::RunResult run) {
   result.reason = std::move(run.summary.reason);
   result.columns = std::move(run.columns);
   result.units = std::move(run.units);
-  result.values = std::move(run.rows.columns);
+  for (file::Column& column : run.rows.columns) {
+    result.values.push_back(std::move(column.numbers));
+  }
   result.measures = std::move(run.summary.measures);
   result.warnings = std::move(run.summary.warnings);
   return result;

@@ -33,7 +33,7 @@ ValuePair compare_numbers(double a, double b, const Allowance& allowance) {
 }
 
 // A number and a text differ, even if they look alike.
-ValuePair compare_texts(const file::CellColumn& a, const file::CellColumn& b, std::size_t i) {
+ValuePair compare_texts(const file::Column& a, const file::Column& b, std::size_t i) {
   ValuePair pair{.of_text = true};
   if (a.has_text(i) && b.has_text(i) && a.texts[i] == b.texts[i]) return pair;
   pair.difference = infinity;
@@ -48,16 +48,16 @@ bool is_worse(const ValuePair& a, const ValuePair& b) {
   return std::tie(a_differs, a.excess, a.difference) > std::tie(b_differs, b.excess, b.difference);
 }
 
-std::string as_text(const file::CellColumn& column, std::size_t i) {
+std::string as_text(const file::Column& column, std::size_t i) {
   return column.has_text(i) ? '"' + column.texts[i] + '"' : number_text(column.numbers[i]);
 }
 
 // The two columns have equal width.
-ColumnComparison compare_column(const std::string& name, const file::CellColumn& a,
-                                const file::CellColumn& b, const Allowance& allowance) {
+ColumnComparison compare_column(const std::string& name, const file::Column& a,
+                                const file::Column& b, const Allowance& allowance) {
   ColumnComparison result;
   result.name = name;
-  const std::size_t size = std::min(a.size(), b.size());
+  const std::size_t size = std::min(a.numbers.size(), b.numbers.size());
   std::size_t worst = 0;
   for (std::size_t row = 0, i = 0; i < size; ++row) {
     bool alike = true;
@@ -83,10 +83,10 @@ ColumnComparison compare_column(const std::string& name, const file::CellColumn&
   return result;
 }
 
-void require_column(const file::CellTable& table, const char* which, const std::string& name) {
+void require_column(const file::Table& table, const char* which, const std::string& name) {
   if (table.find(name) != nullptr) return;
   throw InputError("--columns: the " + std::string(which) + " file has no column \"" + name +
-                   "\"; it has " + joined(table.names));
+                   "\"; it has " + joined(table.names()));
 }
 
 void require_tolerance(const char* name, double value) {
@@ -96,11 +96,11 @@ void require_tolerance(const char* name, double value) {
 }
 
 // t in the worst row; in a series, t at the worst position.
-std::optional<double> time_of(const file::CellTable& table, const ColumnComparison& column) {
-  const file::CellColumn* const time = table.find("t");
+std::optional<double> time_of(const file::Table& table, const ColumnComparison& column) {
+  const file::Column* const time = table.find("t");
   if (time == nullptr || time->width != table.find(column.name)->width) return {};
   const std::size_t i = time->width > 1 ? column.worst.position : column.worst.row;
-  if (i >= time->size() || time->has_text(i)) return {};
+  if (i >= time->numbers.size() || time->has_text(i)) return {};
   return time->numbers[i];
 }
 
@@ -117,7 +117,7 @@ bool Comparison::alike() const {
                      [](const ColumnComparison& column) { return column.different_rows == 0; });
 }
 
-Comparison compare(const file::CellTable& a, const file::CellTable& b, const Allowances& allowances,
+Comparison compare(const file::Table& a, const file::Table& b, const Allowances& allowances,
                    const std::vector<std::string>& columns) {
   require_tolerance("rtol", allowances.standard.rtol);
   require_tolerance("atol", allowances.standard.atol);
@@ -129,13 +129,13 @@ Comparison compare(const file::CellTable& a, const file::CellTable& b, const All
     require_column(b, "second", name);
   }
   if (columns.empty()) {
-    for (const std::string& name : b.names) {
-      if (a.find(name) == nullptr) result.only_in_b.push_back(name);
+    for (const file::Column& column : b.columns) {
+      if (a.find(column.name) == nullptr) result.only_in_b.push_back(column.name);
     }
   }
-  for (const std::string& name : columns.empty() ? a.names : columns) {
-    const file::CellColumn& in_a = *a.find(name);
-    const file::CellColumn* in_b = b.find(name);
+  for (const std::string& name : columns.empty() ? a.names() : columns) {
+    const file::Column& in_a = *a.find(name);
+    const file::Column* in_b = b.find(name);
     if (in_b == nullptr) {
       result.only_in_a.push_back(name);
       continue;

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "file/cell_table.hpp"
+#include "file/table.hpp"
 
 namespace bbsim::record {
 
@@ -76,7 +76,7 @@ struct Comparison {
 // Compares columns by name, in any order. `columns` selects some of them. If it is empty, all are
 // compared, and a column that one table lacks is a difference. Throws InputError if a table lacks a
 // selected column, and for a tolerance that is negative or not finite.
-[[nodiscard]] Comparison compare(const file::CellTable& a, const file::CellTable& b,
+[[nodiscard]] Comparison compare(const file::Table& a, const file::Table& b,
                                  const Allowances& allowances = {},
                                  const std::vector<std::string>& columns = {});
 

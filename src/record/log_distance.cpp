@@ -22,11 +22,9 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-const Numbers* find(const file::TableData& table, std::string_view name) {
-  const auto found = std::ranges::find(table.names, name);
-  return found == table.names.end()
-             ? nullptr
-             : &table.columns[static_cast<std::size_t>(found - table.names.begin())];
+const Numbers* find(const file::Table& table, std::string_view name) {
+  const file::Column* const column = table.find(name);
+  return column == nullptr ? nullptr : &column->numbers;
 }
 
 // The finite times and values of a column, with its rates if the table has them.
@@ -67,7 +65,7 @@ class Line {
   Numbers t_, v_, r_;
 };
 
-const Numbers* rates_of(const file::TableData& table, std::string_view name) {
+const Numbers* rates_of(const file::Table& table, std::string_view name) {
   constexpr std::array<std::array<std::string_view, 2>, 4> rates = {
       {{"x", "vx"}, {"y", "vy"}, {"phi", "phi_rate"}, {"theta", "theta_rate"}}};
   for (const auto& [value, rate] : rates) {
@@ -81,28 +79,26 @@ struct Pair {
   Line log, run;
 };
 
-std::vector<Pair> pairs_of(const file::TableData& log, const std::string& log_name,
-                           const file::TableData& run, const std::string& run_name,
+std::vector<Pair> pairs_of(const file::Table& log, const file::Table& run,
                            const std::vector<std::string>& columns) {
-  const auto require = [](const file::TableData& table, const std::string& name,
-                          const std::string& column) {
+  const auto require = [](const file::Table& table, const std::string& column) {
     if (const Numbers* const found = find(table, column)) return found;
-    const auto known = joined(table.names, [](const auto& listed) { return shown(listed); });
-    throw InputError(name + ": has no column " + shown(column) + "; it has " + known +
+    const auto known = joined(table.names(), [](const auto& listed) { return shown(listed); });
+    throw InputError(table.file + ": has no column " + shown(column) + "; it has " + known +
                      (column == "t" ? ". --map t=NAME:UNIT names the time" : ""));
   };
-  const Numbers& log_times = *require(log, log_name, "t");
-  const Numbers& run_times = *require(run, run_name, "t");
+  const Numbers& log_times = *require(log, "t");
+  const Numbers& run_times = *require(run, "t");
   std::vector<Pair> pairs;
-  for (const std::string& name : columns.empty() ? log.names : columns) {
+  for (const std::string& name : columns.empty() ? log.names() : columns) {
     if (name == "t") continue;
     if (columns.empty() && find(run, name) == nullptr) continue;
-    const Numbers& log_values = *require(log, log_name, name);
-    const Numbers& run_values = *require(run, run_name, name);
+    const Numbers& log_values = *require(log, name);
+    const Numbers& run_values = *require(run, name);
     pairs.push_back({name, {log_times, log_values}, {run_times, run_values, rates_of(run, name)}});
   }
   if (pairs.empty()) {
-    throw InputError(log_name + " and " + run_name +
+    throw InputError(log.file + " and " + run.file +
                      " have no column in common; --map x=NAME:UNIT names the log's");
   }
   return pairs;
@@ -158,10 +154,9 @@ Line thinned(const Line& line, std::size_t most) {
 
 }  // namespace
 
-LogDistance log_distance(const file::TableData& log, const std::string& log_name,
-                         const file::TableData& run, const std::string& run_name,
+LogDistance log_distance(const file::Table& log, const file::Table& run,
                          const std::vector<std::string>& columns) {
-  const std::vector<Pair> pairs = pairs_of(log, log_name, run, run_name, columns);
+  const std::vector<Pair> pairs = pairs_of(log, run, columns);
   const Line log_clock(*find(log, "t"), *find(log, "t")),
       run_clock(*find(run, "t"), *find(run, "t"));
   LogDistance distance;
@@ -183,7 +178,7 @@ LogDistance log_distance(const file::TableData& log, const std::string& log_name
       return line.empty() ? 0 : line.last() - line.first();
     };
     const auto doubt = scenario::doubt_of_span(length(log_clock), length(run_clock));
-    throw InputError(log_name + " and " + run_name + " have no time in common: found " +
+    throw InputError(log.file + " and " + run.file + " have no time in common: found " +
                      span(log_clock) + " and " + span(run_clock) +
                      (doubt ? "; the log's t looks like " + std::string(doubt->looks_like) +
                                   ": --map t=t:" + std::string(doubt->units)
@@ -212,10 +207,9 @@ LogDistance log_distance(const file::TableData& log, const std::string& log_name
   return distance;
 }
 
-double time_offset(const file::TableData& log, const std::string& log_name,
-                   const file::TableData& run, const std::string& run_name,
+double time_offset(const file::Table& log, const file::Table& run,
                    const std::vector<std::string>& columns) {
-  std::vector<Pair> pairs = pairs_of(log, log_name, run, run_name, columns);
+  std::vector<Pair> pairs = pairs_of(log, run, columns);
   std::erase_if(pairs, [](const Pair& pair) { return pair.log.empty() || pair.run.empty(); });
   double from = -INFINITY, to = INFINITY, least = 0;
   std::vector<Pair> coarse;
@@ -239,7 +233,7 @@ double time_offset(const file::TableData& log, const std::string& log_name,
     }
   }
   if (!best) {
-    throw InputError("--time-offset auto: " + log_name + " and " + run_name +
+    throw InputError("--time-offset auto: " + log.file + " and " + run.file +
                      " have too little in common that varies; allowed: a time, or start");
   }
   // Golden-section search around the best offset.

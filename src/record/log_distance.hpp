@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "file/table_writer.hpp"
+#include "file/table.hpp"
 
 namespace bbsim::record {
 
@@ -28,16 +28,14 @@ struct LogDistance {
 
 // The distance at the log's rows. Between its rows, the run is a cubic if it has the slope (vx, vy,
 // phi_rate, theta_rate), and a straight line otherwise. Both tables need a column t with increasing
-// times. `columns` selects some; if it is empty, all columns in common are compared. The names of
-// the files are for messages. Throws InputError.
-[[nodiscard]] LogDistance log_distance(const file::TableData& log, const std::string& log_name,
-                                       const file::TableData& run, const std::string& run_name,
+// times. `columns` selects some; if it is empty, all columns in common are compared. Both
+// are columns of numbers. Throws InputError.
+[[nodiscard]] LogDistance log_distance(const file::Table& log, const file::Table& run,
                                        const std::vector<std::string>& columns = {});
 
 // Returns the time (s) that, added to the log's times, makes it most like the run, over all columns
 // in common and at least half of the shorter one. Throws InputError if nothing in common varies.
-[[nodiscard]] double time_offset(const file::TableData& log, const std::string& log_name,
-                                 const file::TableData& run, const std::string& run_name,
+[[nodiscard]] double time_offset(const file::Table& log, const file::Table& run,
                                  const std::vector<std::string>& columns = {});
 
 // A table of the columns, then the time in common.

@@ -21,9 +21,10 @@ using scenario::Column;
 using scenario::Measure;
 using Kind = Measure::Kind;
 
-StoredRun::StoredRun(file::TableData table, const std::string& name)
+StoredRun::StoredRun(file::Table table, const std::string& name)
     : name_(name), table_(std::move(table)) {
-  for (const std::string& column : table_.names) {
+  for (const file::Column& of : table_.columns) {
+    const std::string& column = of.name;
     const Column* const known = scenario::find_column(column);
     columns_.push_back(
         known != nullptr ? *known : Column{column, column, "", column, scenario::Needs::ball});
@@ -49,7 +50,7 @@ const Column* StoredRun::find(std::string_view name) const {
 }
 
 const std::vector<double>& StoredRun::values_of(const Column& column) const {
-  return table_.columns[static_cast<std::size_t>(&column - columns_.data())];
+  return table_.columns[static_cast<std::size_t>(&column - columns_.data())].numbers;
 }
 
 std::vector<Measure> StoredRun::measures_named(const std::vector<std::string>& names) const {
@@ -58,9 +59,10 @@ std::vector<Measure> StoredRun::measures_named(const std::vector<std::string>& n
     const auto measure =
         scenario::find_measure(name, [this](std::string_view column) { return find(column); });
     if (!measure) {
+      const std::vector<std::string> its = table_.names();
       std::string columns;
-      for (const std::string& column : table_.names) columns += " " + column;
-      const std::vector<std::string_view> known(table_.names.begin(), table_.names.end());
+      for (const std::string& column : its) columns += " " + column;
+      const std::vector<std::string_view> known(its.begin(), its.end());
       throw InputError("measure: found " + name +
                        scenario::measure_hint(scenario::split_window(name).base, known) + "; " +
                        name_ + " has the columns" + columns +

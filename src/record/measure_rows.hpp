@@ -9,18 +9,18 @@
 #include <string>
 #include <vector>
 
-#include "file/table_writer.hpp"
+#include "file/table.hpp"
 #include "record/instants.hpp"
 #include "scenario/measures.hpp"
 
 namespace bbsim::record {
 
-// The table of a run. Its columns need not be known to bbsim.
+// The table of a run, of columns of numbers. They need not be known to bbsim.
 class StoredRun {
  public:
   // `name` is the file's name in messages. Throws InputError if the table has no t, no rows, or
   // times that decrease or are not finite.
-  StoredRun(file::TableData table, const std::string& name);
+  StoredRun(file::Table table, const std::string& name);
   StoredRun(const StoredRun&) = delete;  // columns_ refer to the names in table_
   StoredRun& operator=(const StoredRun&) = delete;
 
@@ -53,7 +53,7 @@ class StoredRun {
   [[nodiscard]] const scenario::Column* find(std::string_view name) const;
 
   std::string name_;
-  file::TableData table_;
+  file::Table table_;
   std::vector<scenario::Column> columns_;
   const std::vector<double>* times_ = nullptr;
 };

@@ -4,12 +4,13 @@
 #include "record/solver_allowance.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
+#include "base/number_in.hpp"
 #include "base/number_text.hpp"
 #include "scenario/columns.hpp"
+#include "scenario/log_columns.hpp"
 #include "scenario/measures.hpp"
 #include "scenario/reader.hpp"
 
@@ -26,7 +27,7 @@ using yaml::Dimension;
 
 constexpr double growth = 100;  // of errors from one step to the whole run
 
-std::optional<std::string> attribute(const file::CellTable& table, std::string_view name) {
+std::optional<std::string> attribute(const file::Table& table, std::string_view name) {
   for (const auto& [key, value] : table.attributes) {
     if (key == name) return value.text();
   }
@@ -34,17 +35,13 @@ std::optional<std::string> attribute(const file::CellTable& table, std::string_v
 }
 
 // The attribute as a number above 0.
-std::optional<double> number(const file::CellTable& table, std::string_view name) {
+std::optional<double> number(const file::Table& table, std::string_view name) {
   const std::optional<std::string> text = attribute(table, name);
-  double value = 0;
-  if (!text) return {};
-  const char* const end = text->data() + text->size();
-  const auto [stop, error] = std::from_chars(text->data(), end, value);
-  if (error != std::errc() || stop != end || !std::isfinite(value) || !(value > 0)) return {};
-  return value;
+  const auto value = text ? number_in<double>(*text) : std::nullopt;
+  return value && std::isfinite(*value) && *value > 0 ? value : std::nullopt;
 }
 
-Source source_of(const file::CellTable& table) {
+Source source_of(const file::Table& table) {
   Source source{"", attribute(table, "scenario_text").value_or(""), {}};
   std::string_view rest;
   const std::string overrides = attribute(table, "overrides").value_or("");
@@ -56,15 +53,6 @@ Source source_of(const file::CellTable& table) {
   return source;
 }
 
-// The largest finite |value|.
-double largest(const file::CellColumn& column) {
-  double size = 0;
-  for (const double value : column.numbers) {
-    if (std::isfinite(value)) size = std::max(size, std::abs(value));
-  }
-  return size;
-}
-
 // A file's statement of its accuracy.
 struct Claim {
   double rtol = 0, atol = 0;            // both 0 if unknown
@@ -72,7 +60,7 @@ struct Claim {
   double spin_unit = 1, gamma_unit = 1, acceleration_unit = 1;
 };
 
-Claim claim_of(const file::CellTable& table) {
+Claim claim_of(const file::Table& table) {
   Claim claim;
   const std::optional<double> rtol = number(table, "rtol"), atol = number(table, "atol");
   if (rtol && atol) claim = {*rtol, *atol};
@@ -84,7 +72,7 @@ Claim claim_of(const file::CellTable& table) {
   if (source.text.empty()) return claim;
 
   double radius = number_at(source, "ball.radius", Dimension::length).value_or(1);
-  if (const file::CellColumn* varied = table.find("ball.radius")) {
+  if (const file::Column* varied = table.find("ball.radius")) {
     for (const double value : varied->numbers) {
       if (value > 0) radius = std::min(radius, value);
     }
@@ -95,11 +83,11 @@ Claim claim_of(const file::CellTable& table) {
   double frequency =
       number_at(source, "gimbal.servo.natural_frequency", Dimension::angular_rate).value_or(0);
   double damping = number_at(source, "gimbal.servo.damping", Dimension::number).value_or(0);
-  if (const file::CellColumn* varied = table.find("gimbal.servo.natural_frequency")) {
-    frequency = std::max(frequency, largest(*varied));
+  if (const file::Column* varied = table.find("gimbal.servo.natural_frequency")) {
+    frequency = std::max(frequency, scenario::largest_size(varied->numbers));
   }
-  if (const file::CellColumn* varied = table.find("gimbal.servo.damping")) {
-    damping = std::max(damping, largest(*varied));
+  if (const file::Column* varied = table.find("gimbal.servo.damping")) {
+    damping = std::max(damping, scenario::largest_size(varied->numbers));
   }
   claim.acceleration_unit = std::max(1.0, frequency * (frequency + 2 * damping));
   return claim;
@@ -142,7 +130,7 @@ std::string claims_text(const Claim& claim) {
 
 }  // namespace
 
-std::optional<Allowances> solver_allowances(const file::CellTable& a, const file::CellTable& b) {
+std::optional<Allowances> solver_allowances(const file::Table& a, const file::Table& b) {
   const Claim claims[] = {claim_of(a), claim_of(b)};
   std::vector<std::string> texts;
   for (const Claim& claim : claims) {
@@ -152,12 +140,12 @@ std::optional<Allowances> solver_allowances(const file::CellTable& a, const file
   if (texts.empty()) return {};
 
   std::map<std::string_view, double> sizes;  // largest values, by kind
-  for (const file::CellTable* table : {&a, &b}) {
-    for (std::size_t c = 0; c < table->names.size(); ++c) {
-      const Column* const column = computed(table->names[c]);
+  for (const file::Table* table : {&a, &b}) {
+    for (const file::Column& of : table->columns) {
+      const Column* const column = computed(of.name);
       if (column == nullptr) continue;
       double& size = sizes[kind_of(*column)];
-      size = std::max(size, largest(table->columns[c]));
+      size = std::max(size, scenario::largest_size(of.numbers));
     }
   }
 
@@ -166,10 +154,10 @@ std::optional<Allowances> solver_allowances(const file::CellTable& a, const file
   for (const std::string& text : texts) {
     allowances.reason += (text == texts.front() ? "" : " and ") + text;
   }
-  for (const std::string& name : a.names) {
-    const Column* const column = computed(name);
+  for (const file::Column& of : a.columns) {
+    const Column* const column = computed(of.name);
     if (column == nullptr) continue;
-    Allowance& own = allowances.by_column[name];
+    Allowance& own = allowances.by_column[of.name];
     for (const Claim& claim : claims) {
       if (claim.error_bound && column->unit == "m") {
         own.atol += *claim.error_bound;

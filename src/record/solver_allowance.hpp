@@ -24,7 +24,7 @@ namespace bbsim::record {
 // run for gamma, the integral of the spin; and omega_n^2 + 2 zeta omega_n for the gimbal's
 // accelerations under a servo. Columns that are not computed from states, such as t, a sweep's keys
 // and texts, have the standard tolerances.
-[[nodiscard]] std::optional<Allowances> solver_allowances(const file::CellTable& a,
-                                                          const file::CellTable& b);
+[[nodiscard]] std::optional<Allowances> solver_allowances(const file::Table& a,
+                                                          const file::Table& b);
 
 }  // namespace bbsim::record

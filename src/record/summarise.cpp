@@ -11,34 +11,27 @@
 #include "base/number_text.hpp"
 #include "base/real.hpp"
 #include "base/text.hpp"
+#include "file/case_text.hpp"
 
 namespace bbsim::record {
 namespace {
 
-using file::CellColumn;
-using file::CellTable;
-
-const CellColumn& column_of(const CellTable& table, const std::string& file,
-                            const std::string& name, const std::string& option) {
-  const auto found = std::ranges::find(table.names, name);
-  if (found == table.names.end()) {
-    throw InputError(option + ": found " + name + "; " + file + " has the columns " +
-                     joined(table.names));
-  }
-  return table.columns[static_cast<std::size_t>(found - table.names.begin())];
+const file::Column& column_of(const file::Table& table, const std::string& file,
+                              const std::string& name, const std::string& option) {
+  if (const file::Column* const found = table.find(name)) return *found;
+  throw InputError(option + ": found " + name + "; " + file + " has the columns " +
+                   joined(table.names()));
 }
 
 // Default measures: the numeric columns, in sweeps those after the status; keys come before it.
-std::vector<std::string> all_measures(const CellTable& table) {
+std::vector<std::string> all_measures(const file::Table& table) {
   std::vector<std::string> names;
-  const auto status = std::ranges::find(table.names, "status");
-  const bool of_sweep = status != table.names.end();
-  for (std::size_t c = of_sweep ? static_cast<std::size_t>(status - table.names.begin()) : 0;
-       c < table.names.size(); ++c) {
-    const CellColumn& column = table.columns[c];
-    if (column.texts.empty() && column.width == 1 && table.names[c] != "case" &&
-        table.names[c] != "end_time") {
-      names.push_back(table.names[c]);
+  bool is_after = table.find("status") == nullptr;
+  for (const file::Column& column : table.columns) {
+    is_after = is_after || column.name == "status";
+    if (is_after && column.texts.empty() && column.width == 1 && column.name != "case" &&
+        column.name != "end_time") {
+      names.push_back(column.name);
     }
   }
   return names;
@@ -78,20 +71,20 @@ GroupFigures figures_of(const std::string& measure, std::vector<double> values,
 
 }  // namespace
 
-std::vector<Group> summarise(const CellTable& table, const std::string& name,
+std::vector<Group> summarise(const file::Table& table, const std::string& name,
                              const std::vector<std::string>& keys,
                              const std::vector<std::string>& measures,
                              const std::vector<double>& quantiles) {
-  std::vector<const CellColumn*> by;
+  std::vector<const file::Column*> by;
   for (const std::string& key : keys) by.push_back(&column_of(table, name, key, "--by"));
   const std::vector<std::string> names = measures.empty() ? all_measures(table) : measures;
   if (names.empty()) {
     throw InputError(name +
                      ": found no columns of numbers to summarize; allowed: a sweep's result");
   }
-  std::vector<const CellColumn*> columns;
+  std::vector<const file::Column*> columns;
   for (const std::string& measure : names) {
-    const CellColumn& column = column_of(table, name, measure, "--measure");
+    const file::Column& column = column_of(table, name, measure, "--measure");
     if (!column.texts.empty() || column.width != 1) {
       throw InputError(
           "--measure: found " + measure +
@@ -99,18 +92,14 @@ std::vector<Group> summarise(const CellTable& table, const std::string& name,
     }
     columns.push_back(&column);
   }
-  const auto status = std::ranges::find(table.names, "status");
-  const CellColumn* const ends =
-      status == table.names.end()
-          ? nullptr
-          : &table.columns[static_cast<std::size_t>(status - table.names.begin())];
+  const file::Column* const ends = table.find("status");
 
   std::vector<Group> groups;
   std::map<std::vector<std::string>, std::size_t> places;
   std::vector<std::vector<std::vector<double>>> values;  // by group and measure
   for (std::size_t i = 0; i < table.rows; ++i) {
     std::vector<std::string> key;
-    for (const CellColumn* column : by) {
+    for (const file::Column* column : by) {
       key.push_back(column->has_text(i) ? column->texts[i] : number_text(column->numbers[i]));
     }
     const auto [place, is_new] = places.emplace(key, groups.size());
@@ -146,14 +135,7 @@ std::string to_csv(const std::vector<Group>& groups, const std::vector<std::stri
   for (const Group& group : groups) {
     std::string front;
     for (const std::string& value : group.values) {
-      const bool plain = value.find_first_of(",\"\n\r") == std::string::npos;
-      if (plain) {
-        front += value;
-      } else {
-        front += '"';
-        for (const char c : value) front += c == '"' ? "\"\"" : std::string(1, c);
-        front += '"';
-      }
+      file::append_text(front, value);
       front += ',';
     }
     for (const GroupFigures& figures : group.figures) {

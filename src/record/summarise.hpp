@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "file/cell_table.hpp"
+#include "file/table.hpp"
 
 namespace bbsim::record {
 
@@ -31,7 +31,7 @@ struct Group {
 // Groups appear in the order of their first case; without keys, all cases form one. If `measures`
 // is empty, all numeric columns after the status, if any, are used. Throws InputError if the table,
 // named `name`, lacks a column or has texts instead of numbers.
-[[nodiscard]] std::vector<Group> summarise(const file::CellTable& table, const std::string& name,
+[[nodiscard]] std::vector<Group> summarise(const file::Table& table, const std::string& name,
                                            const std::vector<std::string>& keys,
                                            const std::vector<std::string>& measures,
                                            const std::vector<double>& quantiles);

@@ -39,8 +39,8 @@ std::vector<std::size_t> rows_of_plots(const Run& run, std::size_t buckets, std:
   for (std::size_t b = 0; b < buckets; ++b) {
     const std::size_t begin = rows * b / buckets, end = rows * (b + 1) / buckets;
     bucket.assign({begin, end - 1});
-    for (const Series& column : run.columns) {
-      if (column.name != "t") keep_extremes(column.values, begin, end, bucket);
+    for (const file::Column& column : run.columns) {
+      if (column.name != "t") keep_extremes(column.numbers, begin, end, bucket);
     }
     make_set(bucket);
     kept.insert(kept.end(), bucket.begin(), bucket.end());
@@ -52,10 +52,9 @@ std::vector<std::size_t> rows_of_plots(const Run& run, std::size_t buckets, std:
 // The error of interpolation between two rows at a row between them, in tolerances.
 class Motion {
  public:
-  Motion(const Run& run, const std::vector<Quaternion>& orientation)
-      : t_(find_series(run, "t")->values) {
-    add(find_series(run, "x"), 0);
-    add(find_series(run, "y"), 0);
+  Motion(const Run& run, const std::vector<Quaternion>& orientation) : t_(run.find("t")->numbers) {
+    add(run.find("x"), 0);
+    add(run.find("y"), 0);
     double extent = 0;
     for (const Line& line : lines_) {
       for (const double value : *line.values) {
@@ -63,8 +62,8 @@ class Motion {
       }
     }
     for (Line& line : lines_) line.tolerance = std::max(extent * position_tolerance, 1e-12);
-    add(find_series(run, "phi"), angle_tolerance);
-    add(find_series(run, "theta"), angle_tolerance);
+    add(run.find("phi"), angle_tolerance);
+    add(run.find("theta"), angle_tolerance);
     add_parts(orientation);
   }
 
@@ -85,8 +84,8 @@ class Motion {
     double tolerance;
   };
 
-  void add(const Series* series, double tolerance) {
-    if (series != nullptr) lines_.push_back({&series->values, tolerance});
+  void add(const file::Column* series, double tolerance) {
+    if (series != nullptr) lines_.push_back({&series->numbers, tolerance});
   }
 
   // The parts of the ball's orientation as lines, with signs that do not jump. The page

@@ -35,12 +35,13 @@ std::vector<Value> picked(const std::vector<Value>& values, const std::vector<st
 
 Json columns_json(const Run& run, const std::vector<std::size_t>& rows, const Numbers& numbers) {
   Json columns = Json::array();
-  for (const Series& series : run.columns) {
+  for (const file::Column& series : run.columns) {
     if (series.name == "t") continue;
+    const scenario::Column* const known = scenario::find_column(series.name);
     columns.push_back({{"name", series.name},
                        {"unit", series.unit},
-                       {"meaning", series.meaning},
-                       {"data", numbers.floats(picked(series.values, rows))}});
+                       {"meaning", known == nullptr ? "" : known->meaning},
+                       {"data", numbers.floats(picked(series.numbers, rows))}});
   }
   return columns;
 }
@@ -205,7 +206,7 @@ Json run_json(const Run& run, const Stage& stage, std::size_t most, const Number
                       {"baseTilt", run.mounting.base_tilt}};
   if (!run.legs.empty()) json["legs"] = legs_json(run);
   json["rods"] = push_rods_json(run);
-  json["time"] = times_json(picked(find_series(run, "t")->values, kept.rows), numbers);
+  json["time"] = times_json(picked(run.find("t")->numbers, kept.rows), numbers);
   json["columns"] = columns_json(run, kept.rows, numbers);
   json["orientation"] = numbers.parts(parts_of(orientation, kept.rows));
   json["orientationGiven"] = !run.orientation.empty();

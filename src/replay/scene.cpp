@@ -37,25 +37,25 @@ void check_times(const Run& run, const std::vector<double>& times) {
 }
 
 void check_run(const Run& run) {
-  if (find_series(run, "t") == nullptr) {
+  if (run.find("t") == nullptr) {
     refuse_run(
         run.name,
         "it has no column t; a replay needs t, x and y: --map t=COLUMN names those of a log");
   }
-  if (find_series(run, "x") == nullptr && find_series(run, "y") == nullptr) {
+  if (run.find("x") == nullptr && run.find("y") == nullptr) {
     refuse_run(run.name, "it has neither a column x nor y; a replay needs t, x and y");
   }
   const std::size_t rows = row_count(run);
   if (rows == 0) refuse_run(run.name, "it has no rows");
-  for (const Series& column : run.columns) {
-    check_rows(run.name, column.name, column.values.size(), "t", rows);
+  for (const file::Column& column : run.columns) {
+    check_rows(run.name, column.name, column.numbers.size(), "t", rows);
   }
   if (!run.orientation.empty() && run.orientation.size() != rows) {
     refuse_run(run.name, "there are " + std::to_string(run.orientation.size()) +
                              " orientations of the ball, and t has " + std::to_string(rows) +
                              " rows");
   }
-  check_times(run, find_series(run, "t")->values);
+  check_times(run, run.find("t")->numbers);
 }
 
 void check_sweep(const Sweep& sweep) {
@@ -73,15 +73,9 @@ void check_sweep(const Sweep& sweep) {
 
 }  // namespace
 
-const Series* find_series(const Run& run, std::string_view name) {
-  const auto named = [name](const Series& series) { return series.name == name; };
-  const auto found = std::find_if(run.columns.begin(), run.columns.end(), named);
-  return found == run.columns.end() ? nullptr : &*found;
-}
-
 std::size_t row_count(const Run& run) {
-  const Series* t = find_series(run, "t");
-  return t == nullptr ? 0 : t->values.size();
+  const file::Column* t = run.find("t");
+  return t == nullptr ? 0 : t->numbers.size();
 }
 
 std::size_t rows_of_file(const Run& run) {
@@ -89,8 +83,8 @@ std::size_t rows_of_file(const Run& run) {
 }
 
 std::vector<double> coordinate(const Run& run, std::string_view name) {
-  const Series* series = find_series(run, name);
-  return series == nullptr ? std::vector<double>(row_count(run), 0.0) : series->values;
+  const file::Column* series = run.find(name);
+  return series == nullptr ? std::vector<double>(row_count(run), 0.0) : series->numbers;
 }
 
 void check_scene(const Scene& scene) {
@@ -203,8 +197,8 @@ std::vector<double> integral(const std::vector<double>& t, const std::vector<dou
 // The part of the ball's path that its rotation covers: the path minus the slip.
 std::vector<double> way_rolled(const Run& run, const char* axis, const char* slip) {
   std::vector<double> way = coordinate(run, axis);
-  if (const Series* const rate = find_series(run, slip)) {
-    const std::vector<double> slipped = integral(find_series(run, "t")->values, rate->values);
+  if (const file::Column* const rate = run.find(slip)) {
+    const std::vector<double> slipped = integral(run.find("t")->numbers, rate->numbers);
     for (std::size_t row = 0; row < way.size(); ++row) way[row] -= slipped[row];
   }
   return way;
@@ -214,17 +208,16 @@ std::vector<double> way_rolled(const Run& run, const char* axis, const char* sli
 
 std::vector<Quaternion> orientation_of(const Run& run, double radius) {
   if (!run.orientation.empty()) return run.orientation;
-  const Series* const gamma = find_series(run, "gamma");
-  const Series* const spin = find_series(run, "spin");
-  const bool slip_known = find_series(run, "slip_x") != nullptr &&
-                          find_series(run, "slip_y") != nullptr &&
+  const file::Column* const gamma = run.find("gamma");
+  const file::Column* const spin = run.find("spin");
+  const bool slip_known = run.find("slip_x") != nullptr && run.find("slip_y") != nullptr &&
                           (gamma != nullptr || spin != nullptr) && run.ball_radius.has_value();
   if (!run.rolls && !slip_known) return {};
   std::vector<double> turned;
   if (gamma != nullptr) {
-    turned = gamma->values;
+    turned = gamma->numbers;
   } else if (spin != nullptr) {
-    turned = integral(find_series(run, "t")->values, spin->values);
+    turned = integral(run.find("t")->numbers, spin->numbers);
   }
   return rolled(way_rolled(run, "x", "slip_x"), way_rolled(run, "y", "slip_y"),
                 turned.empty() ? nullptr : &turned, run.rolling_radius.value_or(radius));

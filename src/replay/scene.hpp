@@ -14,15 +14,11 @@
 #include <vector>
 
 #include "base/quaternion.hpp"
+#include "file/table.hpp"
 #include "replay/live.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim::replay {
-
-struct Series {
-  std::string name, unit, meaning;  // as in `bbsim columns`; unit "1" if dimensionless
-  std::vector<double> values;       // one for each row; NaN if missing
-};
 
 // An event: "edge" at 0.54 s, which stopped the run.
 struct Event {
@@ -38,9 +34,10 @@ struct Poles {
   std::optional<double> period{};
 };
 
-// A run, or the log of a rig. It needs only the columns t and x or y. If x or y is missing, the
-// ball stays on the other axis.
-struct Run {
+// A run, or the log of a rig: columns of numbers, NaN where missing, with a unit ("1" if
+// dimensionless). It needs only the columns t and x or y. If x or y is missing, the ball stays on
+// the other axis.
+struct Run : file::Table {
   std::string name;                 // its file, which identifies it
   std::string title;                // of its scenario
   std::string status, reason;       // done, failed, interrupted or stopped; why it ended early
@@ -49,7 +46,6 @@ struct Run {
   // Whether the last row is not from the file but the instant at which an event stopped the run.
   bool has_end_row = false;
   bool units_known = true;  // otherwise columns without a unit have an unknown one
-  std::vector<Series> columns;
   // Rotations from the ball's frame to the plane's, one for each row. If empty, orientation_of()
   // derives them from the columns.
   std::vector<Quaternion> orientation;
@@ -99,9 +95,6 @@ struct Scene {
   std::optional<Live> live{};  // of a page that can run its scenario again
   std::string version;         // of the bbsim that makes the page
 };
-
-// The column of this name, or nullptr.
-[[nodiscard]] const Series* find_series(const Run& run, std::string_view name);
 
 // The number of rows in column t.
 [[nodiscard]] std::size_t row_count(const Run& run);

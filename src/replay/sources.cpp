@@ -61,11 +61,14 @@ std::optional<Poles> poles_of(const model::Model& model) {
   return Poles{model::closed_loop_poles(model), {}};
 }
 
-Series series_of(const std::string& name, std::vector<double> values, bool unit_known = true) {
-  const scenario::Column* const known = scenario::find_column(name);
-  if (known == nullptr) return {name, "", "", std::move(values)};
-  return {name, unit_known ? std::string(known->unit) : "", std::string(known->meaning),
-          std::move(values)};
+// Takes the columns of numbers, with the units of `bbsim columns`.
+void take_columns(Run& run, file::Table& table) {
+  table.take_texts();
+  run.columns = std::move(table.columns);
+  for (file::Column& column : run.columns) {
+    const scenario::Column* const known = scenario::find_column(column.name);
+    if (known != nullptr && column.unit.empty() && run.units_known) column.unit = known->unit;
+  }
 }
 
 // Rolls the ball from the last row to the instant at which an event stopped the run.
@@ -82,26 +85,28 @@ void turn_to_the_end(Run& run) {
 // If all four parts of the ball's orientation are recorded, makes them the run's orientation and
 // removes their columns. A row without a finite orientation repeats the last one.
 void take_orientation(Run& run) {
-  std::array<const Series*, 4> parts{};
+  std::array<const file::Column*, 4> parts{};
   for (std::size_t part = 0; part < parts.size(); ++part) {
-    parts[part] = find_series(run, orientation_columns[part]);
+    parts[part] = run.find(orientation_columns[part]);
     if (parts[part] == nullptr) return;
   }
   Quaternion last{1, 0, 0, 0};
-  for (std::size_t row = 0; row < parts[0]->values.size(); ++row) {
-    const Quaternion now = normalised({parts[0]->values[row], parts[1]->values[row],
-                                       parts[2]->values[row], parts[3]->values[row]});
+  for (std::size_t row = 0; row < parts[0]->numbers.size(); ++row) {
+    const Quaternion now = normalised({parts[0]->numbers[row], parts[1]->numbers[row],
+                                       parts[2]->numbers[row], parts[3]->numbers[row]});
     if (std::isfinite(now[0] + now[1] + now[2] + now[3])) last = now;
     run.orientation.push_back(last);
   }
-  std::erase_if(run.columns, [](const Series& series) {
+  std::erase_if(run.columns, [](const file::Column& series) {
     return std::ranges::find(orientation_columns, series.name) != orientation_columns.end();
   });
 }
 
-SweepColumn sweep_column(results::Column column) {
-  return {column.name, column.unit, column.is_text() ? std::vector<double>{} : column.numbers,
-          column.texts};
+SweepColumn sweep_column(const results::Column& column) {
+  if (!column.is_text()) return {column.name, column.unit, column.numbers, {}};
+  SweepColumn texts{column.name, column.unit, {}, {}};
+  for (std::size_t i = 0; i < column.texts.size(); ++i) texts.words.push_back(column.text(i));
+  return texts;
 }
 
 // Notes whether the key was drawn, or is tied to another one.
@@ -115,12 +120,10 @@ void relate(SweepColumn& key, const results::SweepTable& table) {
 
 }  // namespace
 
-Run run_of_table(file::TableData table, const std::string& name) {
+Run run_of_table(file::Table table, const std::string& name) {
   Run run;
   run.name = name;
-  for (std::size_t c = 0; c < table.names.size(); ++c) {
-    run.columns.push_back(series_of(table.names[c], std::move(table.columns[c])));
-  }
+  take_columns(run, table);
   take_orientation(run);
   return run;
 }
@@ -146,7 +149,7 @@ void describe_sight(Run& run, const Scenario& scenario) {
   if (scenario.events.slip) run.friction = scenario.events.slip->friction;
   if (scenario.events.slip && scenario.events.slip->sliding) run.rolls = false;
   // `bbsim columns` lists commands as angles; their unit is that of the gimbal's drive.
-  for (Series& series : run.columns) {
+  for (file::Column& series : run.columns) {
     if (scenario.controller && scenario::is_command(series.name)) {
       series.unit = command_unit(scenario.controller->drives);
     }
@@ -182,21 +185,8 @@ Run run_of_result(results::Result result, const std::string& name) {
   for (const results::Event& event : result.events) {
     run.events.push_back({event.t, event.name, event.stopped ? "stop" : "note", event.x, event.y});
   }
-  for (results::Column& column : result.columns) {
-    if (column.is_text()) continue;
-    run.columns.push_back(series_of(column.name, std::move(column.numbers), run.units_known));
-    if (!column.unit.empty()) run.columns.back().unit = std::move(column.unit);
-  }
+  take_columns(run, result);
   take_orientation(run);
-  return run;
-}
-
-Run run_of_log(results::Result log, const results::LogChoice& choice, const std::string& name,
-               std::vector<std::string>& notes) {
-  results::make_log(log, choice, true, notes);
-  log.units_known = true;  // as --data or the map states
-  Run run = run_of_result(std::move(log), name);
-  if (!choice.maps.empty()) run.rolls = false;
   return run;
 }
 
@@ -217,10 +207,10 @@ Sweep sweep_of_result(results::Result result, const std::string& name) {
       before_status = false;
       sweep.status = std::move(column.texts);
     } else if (before_status) {
-      sweep.keys.push_back(sweep_column(std::move(column)));
+      sweep.keys.push_back(sweep_column(column));
       relate(sweep.keys.back(), table);
     } else if (column.name != "reason") {
-      sweep.measures.push_back(sweep_column(std::move(column)));
+      sweep.measures.push_back(sweep_column(column));
       SweepColumn& measure = sweep.measures.back();
       const auto known = scenario::find_measure(measure.name);
       if (measure.unit.empty() && known) measure.unit = known->unit();

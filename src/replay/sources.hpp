@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "file/table_writer.hpp"
+#include "file/table.hpp"
 #include "replay/scene.hpp"
-#include "results/log.hpp"
 #include "results/result.hpp"
 #include "scenario/scenario.hpp"
 
@@ -18,18 +17,11 @@ namespace bbsim::replay {
 // A run with the columns of a table. Units and meanings come from `bbsim columns`, if it knows the
 // column. Without x or y, as on a beam, the ball stays on the other axis. Columns ball_qw to
 // ball_qz become the run's orientation.
-[[nodiscard]] Run run_of_table(file::TableData table, const std::string& name);
+[[nodiscard]] Run run_of_table(file::Table table, const std::string& name);
 
 // Makes a run of a result in the same way, with the content of its file or summary. Does not use
 // the result's scenario; describe() does. Leaves out columns of texts.
 [[nodiscard]] Run run_of_result(results::Result result, const std::string& name);
-
-// Makes a run of the log of a real rig: any CSV, with any column names and units. Without maps, the
-// log has those of bbsim. With maps, the run has only the columns that they name, and the log's own
-// t. Adds the changes to `notes`. Throws InputError with the row of the log or the place in the
-// map, the text found and the texts allowed.
-[[nodiscard]] Run run_of_log(results::Result log, const results::LogChoice& choice,
-                             const std::string& name, std::vector<std::string>& notes);
 
 // Makes a sweep of a result of `bbsim sweep` (results::Result::is_sweep()).
 [[nodiscard]] Sweep sweep_of_result(results::Result result, const std::string& name);

@@ -14,6 +14,7 @@
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
 #include "base/text.hpp"
+#include "file/clock.hpp"
 #include "results/read_result.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/log_columns.hpp"
@@ -155,63 +156,27 @@ std::vector<Mapped> read_maps(const std::vector<std::string>& maps, const Result
   return all;
 }
 
-void require_numbers(const Result& log, const Column& column) {
-  for (std::size_t row = 0; row < column.texts.size(); ++row) {
-    if (column.texts[row].empty() || !std::isnan(column.numbers[row])) continue;
-    throw InputError(log.file + ": column " + shown(column.name) + ", row " +
-                     std::to_string(row + 1) + ": found " + bbsim::quoted(column.texts[row]) +
-                     "; allowed: numbers, or an empty field");
-  }
+void note(Result& log, const std::string& what, const char* kind = "note: ") {
+  log.notes.push_back(kind + shown(log.file, uncut) + ": " + what);
 }
-
-// Adds notes about changes to a log.
-class Notes {
- public:
-  Notes(const Result& log, std::vector<std::string>& notes) : file_(log.file), notes_(notes) {}
-  void operator()(const std::string& done) const {
-    notes_.push_back("warning: " + shown(file_, uncut) + ": " + done);
-  }
-
- private:
-  std::string file_;
-  std::vector<std::string>& notes_;
-};
-
-// Seconds after the first row; empty if a text is no date or time of day. Times of day go on after
-// midnight.
-std::optional<std::vector<double>> times_of_stamps(const Column& column) {
-  constexpr double day = 86400;
-  std::vector<double> times;
-  double first = std::nan(""), before = 0, added = 0;
-  for (const std::string& text : column.texts) {
-    double time = std::nan("");
-    if (!text.empty()) {
-      const std::optional<double> stamp = scenario::seconds_of_stamp(trimmed(text));
-      if (!stamp) return {};
-      if (std::isnan(first)) first = before = *stamp;
-      if (*stamp < day && before - *stamp > day / 2) added += day;
-      before = *stamp;
-      time = *stamp + added - first;
-    }
-    times.push_back(time);
-  }
-  return std::isnan(first) ? std::nullopt : std::optional(std::move(times));
+void warn(Result& log, const std::string& what) {
+  note(log, what, "warning: ");
 }
 
 // Converts a column of the log to a column of bbsim.
-Column column_of(const Result& log, const Mapped& mapped, const Notes& note) {
-  const Column& from = log.columns[mapped.from];
-  if (mapped.column->name == "t" && from.is_text()) {
-    if (auto times = times_of_stamps(from)) {
-      note("its times are dates or times of day; the first row is t = 0");
-      return {"t", std::move(*times), {}, "s"};
-    }
-  }
-  require_numbers(log, from);
-  Column column{std::string(mapped.column->name), from.numbers};
+Column column_of(Result& log, const Mapped& mapped) {
+  Column column = log.columns[mapped.from];
+  const bool is_clock = mapped.column->name == "t";
+  const auto stamps = is_clock ? file::read_stamps(column) : std::nullopt;
+  if (column.is_text()) file::refuse_text(log.file, column);
+  column = {std::string(mapped.column->name), std::move(column.numbers)};
   column.unit = mapped.column->unit;
-  if (column.name == "t") {
-    if (const auto done = scenario::unwrap(column.numbers)) note(*done);
+  if (stamps) {
+    warn(log, *stamps);
+    return column;
+  }
+  if (is_clock) {
+    if (const auto done = file::unwrap(column.numbers)) warn(log, *done);
   }
   for (double& number : column.numbers) {
     if (mapped.factor != 1) number *= mapped.factor;
@@ -240,35 +205,25 @@ std::vector<Mapped> by_their_names(const Result& log, const std::vector<Mapped>&
 }
 
 // A clock under one of its usual names, for a log without a column t; says so.
-std::optional<Mapped> usual_clock(const Result& log, std::vector<std::string>& notes) {
+std::optional<Mapped> usual_clock(Result& log) {
   struct Usual {
     std::string_view name, unit;  // of times without a unit in the name
   };
   constexpr Usual usual[] = {{"time", "s"},    {"timestamp", "s"}, {"millis", "ms"},
                              {"micros", "us"}, {"seconds", "s"},   {"datetime", "s"}};
   std::vector<std::string> names = log.names();
-  for (std::string& name : names) {
-    std::ranges::transform(name, name.begin(), [](char c) {
-      return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    });
-  }
+  for (std::string& name : names) name = lower(name);
   for (const auto& [name, unit] : usual) {
     const auto found = scenario::find_log_column(names, name, yaml::Dimension::time);
     if (!found) continue;
     const bool is_text = log.columns[*found].is_text();
     const auto in_name = scenario::unit_in_name(names[*found], yaml::Dimension::time);
     const std::string read = is_text || in_name ? "" : ", in " + std::string(unit);
-    notes.push_back("note: " + shown(log.file, uncut) + ": t is the column " +
-                    shown(log.columns[*found].name) + read);
+    note(log, "t is the column " + shown(log.columns[*found].name) + read);
     return Mapped{scenario::find_column("t"), *found, 1, 0,
                   in_name ? in_name : scenario::log_unit(unit, yaml::Dimension::time)};
   }
   return {};
-}
-
-Column* find_column(Result& log, std::string_view name) {
-  const auto found = std::ranges::find(log.columns, name, &Column::name);
-  return found == log.columns.end() ? nullptr : &*found;
 }
 
 double time_of(std::string_view option, const std::string& text, const char* more) {
@@ -295,14 +250,7 @@ void add_clock(Result& log, const std::string& period) {
 }
 
 void keep_rows(Result& log, const std::vector<std::size_t>& rows) {
-  for (Column& column : log.columns) {
-    Column kept{column.name, {}, {}, column.unit};
-    for (const std::size_t row : rows) {
-      kept.numbers.push_back(column.numbers[row]);
-      if (column.is_text()) kept.texts.push_back(std::move(column.texts[row]));
-    }
-    column = std::move(kept);
-  }
+  for (Column& column : log.columns) column.keep(rows);
   log.rows = rows.size();
 }
 
@@ -336,8 +284,7 @@ std::vector<bool> missing_rows(const Result& log, const LogChoice& choice,
   return rows;
 }
 
-void leave_out(Result& log, const std::vector<bool>& rows, const std::string& missing,
-               std::vector<std::string>& notes) {
+void leave_out(Result& log, const std::vector<bool>& rows, const std::string& missing) {
   std::vector<std::size_t> kept;
   for (std::size_t row = 0; row < rows.size(); ++row) {
     if (!rows[row]) kept.push_back(row);
@@ -346,37 +293,35 @@ void leave_out(Result& log, const std::vector<bool>& rows, const std::string& mi
   if (count == 0) return;
   const auto first = static_cast<std::size_t>(std::ranges::find(rows, true) - rows.begin());
   keep_rows(log, kept);
-  notes.push_back("note: " + shown(log.file, uncut) + ": " + std::to_string(count) +
-                  (count == 1 ? " row has" : " rows have") + " a position of " + missing +
-                  ", first in row " + std::to_string(first + 1) + "; left out (--missing)");
+  note(log, counted(count, "row") + (count == 1 ? " has" : " have") + " a position of " + missing +
+                ", first in row " + std::to_string(first + 1) + "; left out (--missing)");
 }
 
-void set_clock(Result& log, const LogChoice& choice, const Notes& note) {
-  Column* t = find_column(log, "t");
+void set_clock(Result& log, const LogChoice& choice) {
+  Column* const t = log.find("t");
   if (t == nullptr || t->is_text()) {
     if (choice.time_offset.empty()) return;
     throw InputError("--time-offset: " + without_clock(log));
   }
-  const scenario::Clock clock = scenario::clock_of(t->numbers);
+  const file::Clock clock = file::clock_of(t->numbers);
   if (clock.restart) {
     const std::size_t row = *clock.restart;
     throw InputError(log.file + ": its clock starts again in row " + std::to_string(row + 1) +
                      ": t falls to " + number_text(t->numbers[row]) +
                      " s; split the file there, or remove the column t and use --period");
   }
-  for (const std::string& done : clock.done) note(done);
-  if (clock.changed) keep_rows(log, clock.rows);
-  t = find_column(log, "t");
+  for (const std::string& done : clock.done) warn(log, done);
+  if (!clock.done.empty()) keep_rows(log, clock.rows);
   if (t->numbers.empty()) return;
   double offset = 0;
   if (choice.time_offset == "start") {
     offset = -t->numbers.front();
   } else if (!choice.time_offset.empty() && !choice.aligns()) {
     offset = time_of("--time-offset", choice.time_offset, ", start, or auto");
-  } else if (scenario::counts_from_epoch(t->numbers)) {
+  } else if (file::counts_from_epoch(t->numbers)) {
     offset = -t->numbers.front();
-    note("its times count from an epoch (" + number_text(t->numbers.front()) +
-         " s); the first row is t = 0");
+    warn(log, "its times count from an epoch (" + number_text(t->numbers.front()) +
+                  " s); the first row is t = 0");
   }
   if (offset == 0) return;
   for (double& time : t->numbers) time += offset;
@@ -393,9 +338,7 @@ std::string without_clock(const Result& log) {
          "; --map t=NAME:UNIT names it, --period gives the rows one";
 }
 
-void make_log(Result& log, const LogChoice& choice, bool only_mapped,
-              std::vector<std::string>& notes) {
-  const Notes note(log, notes);
+void make_log(Result& log, const LogChoice& choice, bool only_mapped) {
   std::vector<Mapped> mapped = read_maps(choice.maps, log);
   const bool maps = !mapped.empty();
   for (Mapped& map : by_their_names(log, mapped)) {
@@ -405,17 +348,17 @@ void make_log(Result& log, const LogChoice& choice, bool only_mapped,
   }
   const auto is_clock = [](const Mapped& map) { return map.column->name == "t"; };
   if (choice.period.empty() && std::ranges::none_of(mapped, is_clock)) {
-    if (auto clock = usual_clock(log, notes)) mapped.push_back(*clock);
+    if (auto clock = usual_clock(log)) mapped.push_back(*clock);
   }
   const std::vector<bool> missing = missing_rows(log, choice, mapped);
   std::vector<Column> columns;
   for (const Mapped& map : mapped) {
-    columns.push_back(column_of(log, map, note));
+    columns.push_back(column_of(log, map));
     log.raw.push_back(log.columns[map.from].name);
   }
   if (only_mapped && maps) log.columns.clear();
   for (Column& column : columns) {
-    Column* const there = find_column(log, column.name);
+    Column* const there = log.find(column.name);
     if (there != nullptr) {
       const bool is_unit_known = maps || !there->unit.empty();
       if (!is_unit_known) column.unit = there->unit;  // it may not be in SI units
@@ -425,13 +368,13 @@ void make_log(Result& log, const LogChoice& choice, bool only_mapped,
     }
   }
   add_clock(log, choice.period);
-  leave_out(log, missing, choice.missing, notes);
-  set_clock(log, choice, note);
+  leave_out(log, missing, choice.missing);
+  set_clock(log, choice);
 }
 
-Result read_log(const std::string& file, const LogChoice& choice, std::vector<std::string>& notes) {
-  Result log = read_csv_columns(file, choice.header, notes);
-  make_log(log, choice, false, notes);
+Result read_log(const std::string& file, const LogChoice& choice, bool only_mapped) {
+  Result log = read_columns(file, choice.header);
+  make_log(log, choice, only_mapped);
   return log;
 }
 

@@ -29,15 +29,15 @@ struct LogChoice {
 };
 
 // Reads a log. Its columns get names of bbsim and SI units, as far as `choice` or their own names
-// define them; times are made to increase. Adds the changes to `notes`. "auto" leaves the times
-// unchanged, for align() in record/log_distance.hpp. Throws InputError with the row of the log or
-// the place in the map, the text found and the texts allowed.
+// define them; times are made to increase. Its notes tell the changes. Keeps unmapped columns,
+// unless `only_mapped`. "auto" leaves the times unchanged, for time_offset() in
+// record/log_distance.hpp. Throws InputError with the place in the log or in the map, the text
+// found and the texts allowed.
 [[nodiscard]] Result read_log(const std::string& file, const LogChoice& choice,
-                              std::vector<std::string>& notes);
+                              bool only_mapped = false);
 
-// Does the same to a log already read. Keeps unmapped columns, unless `only_mapped`.
-void make_log(Result& log, const LogChoice& choice, bool only_mapped,
-              std::vector<std::string>& notes);
+// Does the same to a log already read.
+void make_log(Result& log, const LogChoice& choice, bool only_mapped);
 
 // What is wrong with a log that lacks times: its columns, also those of text, and the remedy.
 [[nodiscard]] std::string without_clock(const Result& log);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -17,8 +18,10 @@
 #include "base/error.hpp"
 #include "base/json.hpp"
 #include "base/number_in.hpp"
+#include "base/number_text.hpp"
 #include "base/text.hpp"
 #include "file/format.hpp"
+#include "file/line_reader.hpp"
 #include "file/whole_file.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/reader.hpp"
@@ -180,6 +183,30 @@ void find_summary(Result& result) {
                     (as_long ? "; --summary " + summary.string() + " uses it anyway" : "");
 }
 
+bool has_digits_of_doubles(const Result& table) {
+  constexpr std::size_t fewest = 15;  // characters of a number
+  return std::ranges::any_of(table.columns, [](const Column& column) {
+    return std::ranges::any_of(column.numbers, [](double number) {
+      char text[longest_number];
+      return static_cast<std::size_t>(write_number(text, number) - text) >= fewest;
+    });
+  });
+}
+
+// Whether bbsim seems to have written a table: all columns are in `bbsim columns`, some have names
+// that only bbsim uses, and numbers have the digits of doubles, unlike a rig's log.
+bool looks_like_a_run(const Result& table) {
+  constexpr std::array<std::string_view, 12> anybodys = {
+      "t", "x", "y", "vx", "vy", "phi", "theta", "spin", "tilt", "distance", "power", "energy"};
+  if (table.find("t") == nullptr) return false;
+  bool own_name = false;
+  for (const Column& column : table.columns) {
+    if (scenario::find_column(column.name) == nullptr) return false;
+    own_name = own_name || std::ranges::find(anybodys, column.name) == anybodys.end();
+  }
+  return own_name && has_digits_of_doubles(table);
+}
+
 }  // namespace
 
 std::string summary_beside(const std::string& file) {
@@ -192,24 +219,31 @@ std::string summary_beside(const std::string& file) {
 
 Result result_of(std::vector<Column> columns, const std::string& summary) {
   Result result;
-  result.columns = std::move(columns);
-  if (!result.columns.empty()) result.rows = result.columns.front().numbers.size();
+  static_cast<file::Table&>(result) = file::Table(std::move(columns));
   if (!summary.empty()) take_summary(result, parse_json(summary));
   return result;
 }
 
-Result read_result(const std::string& file, const Beside& beside, const LogChoice& log,
-                   std::vector<std::string>* notes) {
+Result read_columns(const std::string& file, const std::vector<std::string>& header) {
+  Result result;
+  static_cast<file::Table&>(result) = file::read_table(file, {{}, header});
+  if (result.rows == 0) {
+    throw InputError(file::name_in_messages(file) + ": has a header and no rows");
+  }
+  // Trajectories of a sweep are not columns.
+  std::erase_if(result.columns,
+                [&](const Column& column) { return column.numbers.size() != result.rows; });
+  result.units_known = is_hdf5(file) || result.is_sweep() || looks_like_a_run(result);
+  return result;
+}
+
+Result read_result(const std::string& file, const Beside& beside, const LogChoice& log) {
   if (const std::string ending = file::lower_ending(file); ending == ".yaml" || ending == ".yml") {
     throw InputError(file + ": is a scenario; draw its result: bbsim run " + file +
                      " -o run.h5 && bbsim plot run.h5");
   }
-  std::vector<std::string> ignored;
-  std::vector<std::string>& messages = notes == nullptr ? ignored : *notes;
-  file::CellTable cells = file::read_cells(file, {{}, log.header});
-  const file::Attributes attributes = cells.attributes;
-  Result result = result_of(std::move(cells), file, messages);
-  if (is_hdf5(file)) take_summary(result, summary_of(attributes));
+  Result result = read_columns(file, log.header);
+  if (is_hdf5(file)) take_summary(result, summary_of(result.attributes));
   if (!beside.summary.empty()) {
     read_summary(result, beside.summary);
   } else if (!result.is_sweep()) {
@@ -220,7 +254,7 @@ Result read_result(const std::string& file, const Beside& beside, const LogChoic
     result.units_known = true;
   }
   if (log.given() || (!result.units_known && result.version.empty())) {
-    make_log(result, log, false, messages);
+    make_log(result, log, false);
   }
   if (result.scenario && (result.title.empty() || !beside.scenario.empty())) {
     result.title = result.scenario->title;

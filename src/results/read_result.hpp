@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "file/cell_table.hpp"
 #include "results/log.hpp"
 #include "results/result.hpp"
 
@@ -24,10 +23,9 @@ struct Beside {
 // standard input. HDF5 files describe their scene. For a CSV without a named summary, reads
 // NAME.json beside NAME.csv if it is a summary of that file, with as many rows and no older. A
 // named scenario overrides both. Throws InputError. Reads a CSV as a log if nothing identifies it
-// as a result of bbsim or if `log` has options. Adds the changes to `notes`, if given.
+// as a result of bbsim or if `log` has options.
 [[nodiscard]] Result read_result(const std::string& file, const Beside& beside,
-                                 const LogChoice& log = {},
-                                 std::vector<std::string>* notes = nullptr);
+                                 const LogChoice& log = {});
 
 // A result in memory: its columns, of one length, and its summary as `run --summary` writes it,
 // which may be empty.
@@ -36,14 +34,7 @@ struct Beside {
 // NAME.json beside NAME.csv, which read_result() may use; empty if there is none.
 [[nodiscard]] std::string summary_beside(const std::string& file);
 
-// The columns of a table from a file. Adds a note for each omission to `notes`.
-[[nodiscard]] Result result_of(file::CellTable cells, const std::string& file,
-                               std::vector<std::string>& notes);
-
-// Reads only the columns of a CSV file; `header` names them if the file does not. Adds omissions to
-// `notes`. Throws InputError with file:line:column.
-[[nodiscard]] Result read_csv_columns(const std::string& file,
-                                      const std::vector<std::string>& header,
-                                      std::vector<std::string>& notes);
+// Reads only the columns; `header` names those of a CSV if the file does not. Throws InputError.
+[[nodiscard]] Result read_columns(const std::string& file, const std::vector<std::string>& header);
 
 }  // namespace bbsim::results

@@ -10,17 +10,6 @@
 
 namespace bbsim::results {
 
-const Column* Result::find(std::string_view name) const {
-  const auto found = std::ranges::find(columns, name, &Column::name);
-  return found == columns.end() ? nullptr : &*found;
-}
-
-std::vector<std::string> Result::names() const {
-  std::vector<std::string> names;
-  for (const Column& column : columns) names.push_back(column.name);
-  return names;
-}
-
 std::string Result::shown_file() const {
   return file == "-" ? "standard input" : std::filesystem::path(file).filename().string();
 }
@@ -43,7 +32,7 @@ void add_end_row(Result& result) {
     const auto known = state.find(column.name);
     column.numbers.push_back(known == state.end() ? std::numeric_limits<double>::quiet_NaN()
                                                   : known->second);
-    if (column.is_text()) column.texts.emplace_back();
+    if (!column.texts.empty()) column.texts.emplace_back();
   }
   ++result.rows;
   result.has_end_row = true;

@@ -11,20 +11,12 @@
 #include <string_view>
 #include <vector>
 
+#include "file/table.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim::results {
 
-// Numbers in SI units. A field that is not a number is NaN. If any such field is not empty, `texts`
-// has all fields as well.
-struct Column {
-  std::string name;
-  std::vector<double> numbers;
-  std::vector<std::string> texts{};
-  std::string unit{};  // from its file; empty if unknown
-
-  [[nodiscard]] bool is_text() const { return !texts.empty(); }
-};
+using file::Column;
 
 struct Event {
   std::string name;
@@ -33,11 +25,8 @@ struct Event {
   std::map<std::string, double> state{};  // columns of `bbsim columns` at that time, if known
 };
 
-struct Result {
-  std::string file;  // as the user wrote it
-  std::vector<Column> columns;
-  std::size_t rows = 0;
-
+// Its numbers are in SI units.
+struct Result : file::Table {
   // Facts that a CSV cannot hold; empty if unknown.
   std::string title, status;
   std::string reason, version;       // why a run ended early; bbsim that ran it
@@ -55,8 +44,6 @@ struct Result {
   bool has_end_row = false;        // added by add_end_row()
   std::vector<std::string> raw{};  // columns of a log from which others were made
 
-  [[nodiscard]] const Column* find(std::string_view name) const;
-  [[nodiscard]] std::vector<std::string> names() const;  // of the columns
   // The name of its file in a picture.
   [[nodiscard]] std::string shown_file() const;
   // Whether each row is a case, as `bbsim sweep` writes them.

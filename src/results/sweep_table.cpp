@@ -26,9 +26,9 @@ Key key_of(const Column& column) {
   Key key{column.name, column.numbers, {}};
   if (column.is_text()) {
     std::map<std::string, std::size_t> places;
-    for (std::size_t i = 0; i < column.texts.size(); ++i) {
-      const auto [place, added] = places.emplace(column.texts[i], key.labels.size());
-      if (added) key.labels.push_back(column.texts[i]);
+    for (std::size_t i = 0; i < key.values.size(); ++i) {
+      const auto [place, added] = places.emplace(column.text(i), key.labels.size());
+      if (added) key.labels.push_back(place->first);
       key.values[i] = static_cast<double>(place->second);
     }
   }

@@ -4,12 +4,12 @@
 #include "scenario/edit_text.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstddef>
 #include <optional>
 #include <string_view>
 
 #include "base/error.hpp"
+#include "base/number_in.hpp"
 #include "yaml/document.hpp"
 #include "yaml/schema.hpp"
 
@@ -155,9 +155,8 @@ class Editor {
         key = entry;
         if (next != nullptr && is_shared(text_, entry->position, *next)) refuse();
       } else if (node->kind == Node::Kind::sequence) {
-        std::size_t index = 0;
-        const auto read = std::from_chars(name.data(), name.data() + name.size(), index);
-        if (read.ec == std::errc() && index < node->items.size()) next = node->items[index];
+        const auto index = number_in<std::size_t>(name);
+        if (index && *index < node->items.size()) next = node->items[*index];
         if (next != nullptr && is_shared(text_, node->position, *next)) refuse();
         key = nullptr;
       }

@@ -116,7 +116,7 @@ std::vector<std::pair<std::string, std::uint64_t>> ScenarioFamily::table_hashes(
   for (const auto& [file, table] : state_->tables->by_file) {
     std::uint64_t hash = fnv1a_start;
     for (const auto& column : table.data->columns) {
-      for (const double value : column) hash = fnv1a(hash, value);
+      for (const double value : column.numbers) hash = fnv1a(hash, value);
     }
     hashes.emplace_back(file, hash);
   }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Columns of logs and tables: names that carry a unit, numbers that do not look like SI units and
-// radians, and clocks.
+// Columns of logs and tables: names that carry a unit, and numbers that do not look like SI units
+// and radians.
 #pragma once
 
 #include <cstddef>
@@ -45,27 +45,5 @@ struct Doubt {
 
 // Doubts times that span more than ten times the run.
 [[nodiscard]] std::optional<Doubt> doubt_of_span(double span, double run);
-
-// Clocks: counters that wrap; repeated, unsorted or missing times; epoch seconds.
-// Adds 2^32 after each wrap of a 32-bit counter such as millis(). Returns a description of the
-// change, if any.
-[[nodiscard]] std::optional<std::string> unwrap(std::vector<double>& times);
-
-// The rows of a log sorted by time (s), without repeated times and rows that lack a time.
-struct Clock {
-  std::vector<std::size_t> rows;
-  std::optional<std::size_t> restart{};  // the row in which the clock starts again; `rows` is empty
-  bool changed = false;                  // rows were dropped or moved
-  std::vector<std::string> done;         // descriptions of the changes
-};
-[[nodiscard]] Clock clock_of(const std::vector<double>& times);
-
-// The seconds of a date with a time of day, since 1970, or of a time of day alone, since midnight:
-// "2026-03-01 12:00:01.25", "2026-03-01T12:00:01Z", "01.03.2026 12:00:01,25", "12:00:01",
-// "3/1/2026 12:00:01 PM".
-[[nodiscard]] std::optional<double> seconds_of_stamp(std::string_view text);
-
-// Whether times (s) count from an epoch, such as 1970.
-[[nodiscard]] bool counts_from_epoch(const std::vector<double>& times);
 
 }  // namespace bbsim::scenario

@@ -4,10 +4,10 @@
 #include "scenario/measures.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/number_in.hpp"
 #include "base/number_text.hpp"
 #include "base/text.hpp"
 #include "scenario/coupled.hpp"
@@ -120,12 +120,8 @@ bool take_word(std::string_view& text, std::string_view word) {
 
 // Reads the value of rise=, fall= or cross=.
 bool read_number(std::string_view text, std::size_t& number) {
-  if (text == "last") {
-    number = 0;
-    return true;
-  }
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size() && number >= 1;
+  number = text == "last" ? 0 : number_in<std::size_t>(text).value_or(0);
+  return number >= 1 || text == "last";
 }
 
 bool is_usable(const Column* column) {

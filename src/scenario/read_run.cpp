@@ -254,34 +254,15 @@ struct Variations {
   }
 };
 
-struct MeasureNames {
-  [[nodiscard]] static std::string allowed() {
-    return "a list of measures, such as [max_tilt, end_x]";
-  }
-  [[nodiscard]] static yaml::Declared declared() {
-    yaml::Declared measures =
-        yaml::Declared::list(1, yaml::Declared::unbounded, yaml::Declared::Kind::text);
-    measures.distinct = true;
-    return measures;
-  }
-  static bool read(const yaml::Value& value, std::vector<std::string>& into) {
-    if (value.node->kind != yaml::Node::Kind::sequence || value.node->items.empty()) {
-      return value.refuse("", allowed());
-    }
-    bool fine = true;
-    for (std::size_t i = 0; i < value.node->items.size(); ++i) {
-      const yaml::Value item = value.item(i);
-      if (!find_measure(item.node->text)) {
-        fine = item.refuse(measure_hint(item.node->text), allowed_measures());
-      } else if (std::ranges::find(into, item.node->text) != into.end()) {
-        fine = item.refuse(" again", "each measure once");
-      } else {
-        into.push_back(item.node->text);
-      }
-    }
-    return fine;
+struct MeasureName {
+  [[nodiscard]] static yaml::Declared declared() { return yaml::Declared::Kind::text; }
+  static bool read(const yaml::Value& value, std::string& into) {
+    into = value.node->text;
+    return find_measure(into) || value.refuse(measure_hint(into), allowed_measures());
   }
 };
+constexpr yaml::ListOf<MeasureName, std::string> measure_names{
+    {}, 1, yaml::Declared::unbounded, "measures, such as [max_tilt, end_x]", "each measure once"};
 
 }  // namespace
 
@@ -295,7 +276,7 @@ void read_sweep(yaml::Keys& keys, Sweep& sweep) {
   keys.optional("samples", yaml::Whole{1, "1000"}, sweep.samples,
                 {"cases to draw where values are drawn"});
   keys.optional("seed", yaml::Whole{0, "1000"}, sweep.seed, {"seed of drawn values"});
-  keys.optional("measure", MeasureNames{}, sweep.measure,
+  keys.optional("measure", measure_names, sweep.measure,
                 {.meaning = "[measures](measures.md) to keep, such as `max_tilt`, `x.RiseTime`",
                  .standard = "the [default measures](measures.md#default-measures-of-a-sweep)"});
 }

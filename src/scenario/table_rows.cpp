@@ -11,8 +11,9 @@
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/text.hpp"
-#include "file/cell_table.hpp"
+#include "file/clock.hpp"
 #include "file/format.hpp"
+#include "file/table.hpp"
 #include "yaml/rules.hpp"
 
 namespace bbsim::scenario {
@@ -25,29 +26,6 @@ using Names = std::vector<std::string>;
 constexpr yaml::About about_file{"a file and its columns: [tables from files](#tables-from-files)"};
 constexpr yaml::About about_header{"names of the columns of a CSV without a header"};
 
-// Texts become NaN, because the scenario may not use their columns. `header` names the columns of a
-// file without a header.
-file::TableData read_numbers(const yaml::Value& value, const std::string& path,
-                             const Names& header) {
-  if (file::format_of(path) == file::Format::hdf5) return file::read_table(path);
-  file::CellTable cells = file::read_cells(path, {{}, header});
-  for (const std::string& note : cells.notes) {
-    const bool warning = note.starts_with("warning: ");
-    const std::string text = note.substr(note.find(' ') + 1);
-    warning ? value.warn(text) : value.mention(text);
-  }
-  file::TableData table{std::move(cells.names), {}};
-  for (file::CellColumn& column : cells.columns) table.columns.push_back(std::move(column.numbers));
-  return table;
-}
-
-void report(const yaml::Value& file, const InputError& error) {
-  for (const Problem& problem : error.problems()) {
-    const std::string where = problem.where.empty() ? "" : problem.where + ": ";
-    file.report(where + problem.message);
-  }
-}
-
 // The names of a table's columns, for a CSV without a header.
 constexpr yaml::ListOf<yaml::Text, std::string> header_names{
     {"the name of a column"},
@@ -56,8 +34,15 @@ constexpr yaml::ListOf<yaml::Text, std::string> header_names{
     "names, one for each column, such as [t, x, y]",
     "each name once"};
 
-// The file's content; nullptr after reporting a fault. All tables of a file have the same header.
-const file::TableData* load(yaml::Keys& keys, const std::string& name, const Names& header) {
+void report(const yaml::Value& file, const InputError& error) {
+  for (const Problem& problem : error.problems()) {
+    const std::string where = problem.where.empty() ? "" : problem.where + ": ";
+    file.report(where + problem.message);
+  }
+}
+
+// The file's content; null after reporting a fault. All tables of a file have the same header.
+const file::Table* load(yaml::Keys& keys, const std::string& name, const Names& header) {
   const yaml::Value file = *keys.find("file");
   yaml::Context& context = *file.context;
   const std::filesystem::path path = context.folder / name;
@@ -70,8 +55,8 @@ const file::TableData* load(yaml::Keys& keys, const std::string& name, const Nam
   }
   const auto known = tables.find(path.string());
   if (known != tables.end()) {
-    const file::TableData& data = *known->second.data;
-    if (header.empty() || data.names == header) return &data;
+    const file::Table& data = *known->second.data;
+    if (header.empty() || data.names() == header) return &data;
     keys.find("header")->report("found other names than where " + yaml::shown(name) +
                                 " is read first; allowed: the same names");
     return nullptr;
@@ -83,65 +68,84 @@ const file::TableData* load(yaml::Keys& keys, const std::string& name, const Nam
     return nullptr;
   }
   try {
-    auto data = std::make_shared<const file::TableData>(read_numbers(file, path.string(), header));
-    return tables.emplace(path.string(), file::InputTable{name, std::move(data)})
+    file::Table data = file::read_table(path.string(), {{}, header});
+    for (const std::string& note : data.notes) {
+      const std::string text = note.substr(note.find(' ') + 1);
+      note.starts_with("warning: ") ? file.warn(text) : file.mention(text);
+    }
+    // Trajectories of a sweep are not columns.
+    std::erase_if(data.columns, [&](const auto& of) { return of.numbers.size() != data.rows; });
+    return tables
+        .emplace(path.string(),
+                 file::InputTable{name, std::make_shared<const file::Table>(std::move(data))})
         .first->second.data.get();
-  } catch (const InputError& e) {
-    report(file, e);
+  } catch (const InputError& error) {
+    report(file, error);
     return nullptr;
   }
 }
 
-// Whether a column has a text in place of a number, which is reported. Sets `gaps` to true for rows
-// in which a column is empty.
-bool has_text(const yaml::Value& file, const std::string& name, const Names& header,
-              const Names& columns, std::vector<bool>& gaps) {
-  const std::string path = (file.context->folder / name).string();
-  if (file::format_of(path) == file::Format::hdf5) return false;
-  try {
-    const file::CellTable cells = file::read_cells(path, {columns, header});
-    gaps.assign(cells.rows, false);
-    for (std::size_t c = 0; c < cells.columns.size(); ++c) {
-      const file::CellColumn& column = cells.columns[c];
-      if (std::ranges::find(columns, cells.names[c]) == columns.end()) continue;
-      if (column.first_text.line != 0) refuse_text(cells, c, column.first_text);
-      for (std::size_t i = 0; i < column.is_text.size(); ++i) {
-        gaps[i] = gaps[i] || column.is_text[i];
-      }
-    }
-    return false;
-  } catch (const InputError& e) {
-    report(file, e);
-    return true;
+// A column that a key names.
+struct Wanted {
+  std::string_view key;
+  yaml::Dimension dimension;
+  std::string name{};
+  std::optional<yaml::UnitScale> unit{};  // the given one, or that in the column's name
+
+  void put_in_si(std::vector<double>& numbers) const {
+    if (!unit) return;
+    for (double& number : numbers) number = unit->in_si(number);
   }
-}
-
-bool has_nan(const std::vector<double>& numbers) {
-  return std::ranges::any_of(numbers, [](double number) { return std::isnan(number); });
-}
-
-void erase_rows(std::vector<double>& numbers, const std::vector<bool>& rows) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (!rows[i]) numbers[kept++] = numbers[i];
-  }
-  numbers.resize(kept);
-}
-
-// A column of the file, by its name with or without a unit.
-struct Found {
-  std::string name;
-  const std::vector<double>* numbers;
 };
-std::optional<Found> find_column(const yaml::Value& key, const std::string& name,
-                                 yaml::Dimension dimension, const file::TableData& data) {
-  if (const auto c = find_log_column(data.names, name, dimension)) {
-    return Found{data.names[*c], &data.columns[*c]};
+
+// Reads the keys of a file and its columns.
+bool read_names(yaml::Keys& keys, std::string& file, std::vector<Wanted>& columns, Names& header) {
+  constexpr yaml::Text name{"the name of a column of the file"};
+  bool named = keys.required("file", yaml::Text{"the name of a CSV file"}, file, about_file);
+  for (Wanted& column : columns) {
+    named = keys.required(column.key, name, column.name, yaml::same) && named;
   }
-  std::vector<std::string> names;  // the names in the file, safe for a terminal
-  for (const std::string& column : data.names) names.push_back(yaml::shown(column));
-  yaml::refuse_name(key, {names.begin(), names.end()});
-  return {};
+  return keys.optional("header", header_names, header, about_header) && named;
+}
+
+// Copies the columns from the file, with the units in their names and dates as seconds. Returns
+// false after reporting a column that the file lacks, or a text.
+bool take_columns(yaml::Keys& keys, const std::string& file, const Names& header,
+                  std::vector<Wanted>& columns, std::vector<file::Column>& into) {
+  const file::Table* const table = load(keys, file, header);
+  if (table == nullptr) return false;
+  const Names names = table->names();
+  for (Wanted& column : columns) {
+    const auto found = find_log_column(names, column.name, column.dimension);
+    if (found) {
+      into.push_back(table->columns[*found]);
+      if (!column.unit) column.unit = unit_in_name(into.back().name, column.dimension);
+      if (column.key != "time") continue;
+      if (const auto done = file::read_stamps(into.back())) {
+        keys.mapping().warn(yaml::shown(file) + ": " + *done);
+        column.unit = yaml::UnitScale{};
+      }
+    } else {
+      Names known;  // safe for a terminal
+      for (const std::string& name : names) known.push_back(yaml::shown(name));
+      yaml::refuse_name(*keys.find(column.key), {known.begin(), known.end()});
+    }
+  }
+  if (into.size() < columns.size()) return false;
+  const auto text = std::ranges::find_if(into, &file::Column::is_text);
+  if (text == into.end()) return true;
+  try {
+    file::refuse_text(table->file, *text);
+  } catch (const InputError& error) {
+    report(*keys.find("file"), error);
+  }
+  return false;
+}
+
+std::string not_finite(std::string_view what, double value, std::size_t row,
+                       std::string_view noun) {
+  return "found the " + std::string(what) + ' ' + number_text(value) + " in row " +
+         std::to_string(row + 1) + " below the header; allowed: a finite " + std::string(noun);
 }
 
 // The first fault of the rows as "found ...; allowed: ...", or nothing.
@@ -152,20 +156,16 @@ std::string fault(const TableRows& table, const std::vector<std::string_view>& v
     return "found " + counted(rows, "row") + "; allowed: at least " + std::to_string(fewest_rows);
   }
   for (std::size_t i = 0; i < rows; ++i) {
-    const std::string row = " in row " + std::to_string(i + 1) + " below the header";
-    if (!std::isfinite(table.times[i])) {
-      return "found the time " + number_text(table.times[i]) + row + "; allowed: a finite time";
-    }
+    if (!std::isfinite(table.times[i])) return not_finite("time", table.times[i], i, "time");
     for (std::size_t k = 0; k < value_keys.size(); ++k) {
       const double value = table.values[k][i];
-      if (std::isfinite(value)) continue;
-      return "found the " + std::string(value_keys[k]) + ' ' + number_text(value) + row +
-             "; allowed: a finite " + std::string(noun);
+      if (!std::isfinite(value)) return not_finite(value_keys[k], value, i, noun);
     }
     if (i > 0 && !(table.times[i] > table.times[i - 1])) {
       const bool same = table.times[i] == table.times[i - 1];
-      return "found the time " + number_text(table.times[i]) + row + ", after " +
-             number_text(table.times[i - 1]) + "; allowed: strictly increasing times; " +
+      return "found the time " + number_text(table.times[i]) + " in row " + std::to_string(i + 1) +
+             " below the header, after " + number_text(table.times[i - 1]) +
+             "; allowed: strictly increasing times; " +
              (same ? "remove one of the two rows"
                    : "sort the rows by time, or split the file where its clock starts again");
     }
@@ -233,11 +233,6 @@ struct UnitOf {
   }
 };
 
-void put_in_si(const std::optional<yaml::UnitScale>& unit, std::vector<double>& numbers) {
-  if (!unit) return;
-  for (double& number : numbers) number = unit->in_si(number);
-}
-
 // Changes to a table: value(t) = offset + scale * table(t - delay).
 struct Changes {
   std::vector<double> scales, offsets;  // one for each column of values; offsets in SI
@@ -294,25 +289,17 @@ template <class Rule>
 ForEach(Rule, std::size_t) -> ForEach<Rule>;  // clang 14 deduces none for aggregates
 
 struct TimeOffsetRule {
-  [[nodiscard]] static std::string allowed() {
-    return yaml::Number{yaml::Dimension::time}.allowed() + ", or start";
-  }
+  static constexpr yaml::Number time{yaml::Dimension::time, {}, "0.02 or \"20 ms\", or start"};
+
+  [[nodiscard]] static std::string allowed() { return time.allowed(); }
   [[nodiscard]] static yaml::Declared declared() {
     yaml::Declared start(yaml::Declared::Kind::name);
     start.names = {"start"};
-    return yaml::Declared::any({yaml::Declared::number(yaml::Dimension::time), start});
+    return yaml::Declared::any({time.declared(), start});
   }
   static bool read(const yaml::Value& value, Changes& into) {
-    const bool scalar = value.node->kind == yaml::Node::Kind::scalar;
-    into.from_start = scalar && value.node->text == "start";
-    if (into.from_start) return true;
-    if (!scalar) return value.refuse("", allowed());
-    const yaml::Quantity quantity =
-        yaml::read_quantity(value.node->text, value.node->quoted, yaml::Dimension::time);
-    if (!quantity.value) return value.refuse(quantity.fault, allowed());
-    into.time_offset = *quantity.value;
-    value.note(into.time_offset, yaml::Dimension::time);
-    return true;
+    into.from_start = value.node->kind == yaml::Node::Kind::scalar && value.node->text == "start";
+    return into.from_start || time.read(value, into.time_offset);
   }
 };
 
@@ -354,19 +341,25 @@ void change_values(const Changes& changes, TableRows& rows) {
   hold_ends(rows);
 }
 
-// Drops rows in which a column is empty, with a warning. Returns false after reporting a text.
-bool leave_out_gaps(yaml::Keys& keys, const Names& header, const Names& columns, TableRows& rows) {
-  std::vector<bool> gaps;
-  if (has_text(*keys.find("file"), rows.file, header, columns, gaps)) return false;
-  const auto count = static_cast<std::size_t>(std::ranges::count(gaps, true));
-  if (count == 0) return true;
-  const auto first = static_cast<std::size_t>(std::ranges::find(gaps, true) - gaps.begin());
-  keys.mapping().warn(yaml::shown(rows.file) + ": " + std::to_string(count) +
+// Drops rows in which a column is empty, with a warning.
+void leave_out_gaps(const yaml::Keys& keys, const std::string& file,
+                    std::vector<file::Column>& columns) {
+  std::vector<std::size_t> kept;
+  std::optional<std::size_t> first;
+  const std::size_t rows = columns.front().numbers.size();
+  for (std::size_t i = 0; i < rows; ++i) {
+    if (std::ranges::none_of(columns, [i](const auto& column) { return column.has_text(i); })) {
+      kept.push_back(i);
+    } else if (!first) {
+      first = i;
+    }
+  }
+  if (!first) return;
+  const std::size_t count = rows - kept.size();
+  keys.mapping().warn(yaml::shown(file) + ": " + std::to_string(count) +
                       (count == 1 ? " row lacks" : " rows lack") + " a number, first row " +
-                      std::to_string(first + 1) + " below the header; left out");
-  erase_rows(rows.times, gaps);
-  for (std::vector<double>& values : rows.values) erase_rows(values, gaps);
-  return true;
+                      std::to_string(*first + 1) + " below the header; left out");
+  for (file::Column& column : columns) column.keep(kept);
 }
 
 void warn_of_units(const yaml::Value& table, const TableRows& rows,
@@ -403,15 +396,10 @@ void warn_of_unit(const yaml::Value& table, const std::string& file, const std::
 
 bool read_columns(yaml::Keys& keys, const std::vector<std::string_view>& column_keys,
                   yaml::Dimension dimension, FileColumns& into) {
-  std::vector<std::string> names(column_keys.size());
-  bool named = keys.required("file", yaml::Text{"the name of a CSV file"}, into.file, about_file);
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    named = keys.required(column_keys[k], yaml::Text{"the name of a column of the file"}, names[k],
-                          yaml::same) &&
-            named;
-  }
+  std::vector<Wanted> wanted;
+  for (const std::string_view key : column_keys) wanted.push_back({key, dimension});
   Names header;
-  named = keys.optional("header", header_names, header, about_header) && named;
+  bool named = read_names(keys, into.file, wanted, header);
   std::optional<yaml::UnitScale> unit;
   named = keys.optional("unit", UnitOf{dimension}, unit) && named;
   if (dimension == yaml::Dimension::time) {
@@ -421,93 +409,54 @@ bool read_columns(yaml::Keys& keys, const std::vector<std::string_view>& column_
       named = given->report("found beside unit; allowed: one of them");
     }
   }
-  if (!named) return false;
-  const file::TableData* data = load(keys, into.file, header);
-  if (data == nullptr) return false;
+  for (Wanted& column : wanted) column.unit = unit;
+  std::vector<file::Column> columns;
+  if (!named || !take_columns(keys, into.file, header, wanted, columns)) return false;
   into.columns.clear();
-  into.has_unit = unit.has_value();
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    const auto found = find_column(*keys.find(column_keys[k]), names[k], dimension, *data);
-    if (!found) continue;
-    into.columns.push_back(*found->numbers);
-    names[k] = found->name;
-    const auto named_unit = unit ? unit : unit_in_name(found->name, dimension);
-    into.has_unit = into.has_unit || named_unit;
-    put_in_si(named_unit, into.columns.back());
-  }
-  if (into.columns.size() < names.size()) return false;
-  std::vector<bool> gaps;
-  if (std::ranges::any_of(into.columns, has_nan) &&
-      has_text(*keys.find("file"), into.file, header, names, gaps)) {
-    return false;
-  }
-  for (std::size_t k = 0; k < into.columns.size(); ++k) {
-    const std::vector<double>& column = into.columns[k];
-    for (std::size_t i = 0; i < column.size(); ++i) {
-      if (std::isfinite(column[i])) continue;
-      return keys.mapping().report(
-          yaml::shown(into.file) + ": found the " + std::string(column_keys[k]) + ' ' +
-          number_text(column[i]) + " in row " + std::to_string(i + 1) +
-          " below the header; allowed: a finite " + std::string(bare_noun(dimension)));
-    }
+  into.has_unit = std::ranges::any_of(wanted, [](const Wanted& of) { return of.unit.has_value(); });
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    into.columns.push_back(std::move(columns[k].numbers));
+    std::vector<double>& column = into.columns.back();
+    wanted[k].put_in_si(column);
+    const auto bad = std::ranges::find_if_not(column, [](double of) { return std::isfinite(of); });
+    if (bad == column.end()) continue;
+    return keys.mapping().report(yaml::shown(into.file) + ": " +
+                                 not_finite(wanted[k].key, *bad,
+                                            static_cast<std::size_t>(bad - column.begin()),
+                                            bare_noun(dimension)));
   }
   return true;
 }
 
 void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& value_keys,
                      yaml::Dimension dimension, TableRows& into) {
-  constexpr yaml::Text column{"the name of a column of the file"};
-  std::string time_name;
-  std::vector<std::string> names(value_keys.size());
-  bool named = keys.required("file", yaml::Text{"the name of a CSV file"}, into.file, about_file);
-  named = keys.required("time", column, time_name, yaml::same) && named;
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    named = keys.required(value_keys[k], column, names[k], yaml::same) && named;
-  }
+  std::vector<Wanted> wanted{{"time", yaml::Dimension::time}};
+  for (const std::string_view key : value_keys) wanted.push_back({key, dimension});
   Names header;
-  named = keys.optional("header", header_names, header, about_header) && named;
-  std::optional<yaml::UnitScale> unit, time_unit;
+  bool named = read_names(keys, into.file, wanted, header);
+  std::optional<yaml::UnitScale> unit;
   Changes changes;
   named = keys.optional("unit", UnitOf{dimension}, unit) && named;
-  named = keys.optional("time_unit", UnitOf{yaml::Dimension::time}, time_unit) && named;
-
+  named = keys.optional("time_unit", UnitOf{yaml::Dimension::time}, wanted[0].unit) && named;
   named = read_changes(keys, value_keys.size(), dimension, changes) && named;
-  if (!named) return;
-  const file::TableData* data = load(keys, into.file, header);
-  if (data == nullptr) return;
-  const auto times = find_column(*keys.find("time"), time_name, yaml::Dimension::time, *data);
-  std::vector<std::string> found_names;
-  std::vector<std::vector<double>> values;
-  std::optional<yaml::UnitScale> own_unit = unit;
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    const auto found = find_column(*keys.find(value_keys[k]), names[k], dimension, *data);
-    if (!found) continue;
-    found_names.push_back(found->name);
-    values.push_back(*found->numbers);
-    const auto named_unit = unit ? unit : unit_in_name(found->name, dimension);
-    if (!own_unit) own_unit = named_unit;
-    put_in_si(named_unit, values.back());
-  }
-  if (!times || values.size() < names.size()) return;
+  for (std::size_t k = 1; k < wanted.size(); ++k) wanted[k].unit = unit;
+  std::vector<file::Column> columns;
+  if (!named || !take_columns(keys, into.file, header, wanted, columns)) return;
+  for (std::size_t k = 1; k < wanted.size() && !unit; ++k) unit = wanted[k].unit;
   if (const auto given = keys.find("offset");
-      given &&
-      !ForEach{OffsetOf{dimension, own_unit}, names.size()}.read(*given, changes.offsets)) {
+      given && !ForEach{OffsetOf{dimension, unit}, value_keys.size()}.read(*given, changes.offsets))
     return;
-  }
-  into.times = *times->numbers;
-  into.values = std::move(values);
-  found_names.push_back(times->name);
-  if ((has_nan(into.times) || std::ranges::any_of(into.values, has_nan)) &&
-      !leave_out_gaps(keys, header, found_names, into)) {
-    into.values.clear();
-    return;
-  }
-  if (const auto done = unwrap(into.times)) {
+  leave_out_gaps(keys, into.file, columns);
+  into.times = std::move(columns[0].numbers);
+  if (const auto done = file::unwrap(into.times)) {
     keys.mapping().warn(yaml::shown(into.file) + ": " + *done);
   }
-  if (!time_unit) time_unit = unit_in_name(times->name, yaml::Dimension::time);
-  put_in_si(time_unit, into.times);
+  wanted[0].put_in_si(into.times);
   move_times(changes, into.times);
+  for (std::size_t k = 1; k < wanted.size(); ++k) {
+    wanted[k].put_in_si(columns[k].numbers);
+    into.values.push_back(std::move(columns[k].numbers));
+  }
 
   std::string wrong = fault(into, value_keys, bare_noun(dimension));
   bool holds_end = false;
@@ -523,8 +472,8 @@ void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& valu
     }
   }
   if (!wrong.empty()) keys.mapping().report(yaml::shown(into.file) + ": " + wrong);
-  warn_of_units(keys.mapping(), into, value_keys, dimension, own_unit.has_value(),
-                time_unit.has_value());
+  warn_of_units(keys.mapping(), into, value_keys, dimension, unit.has_value(),
+                wanted[0].unit.has_value());
   change_values(changes, into);
   if (holds_end) hold_ends(into);
 }

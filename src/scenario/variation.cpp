@@ -3,10 +3,10 @@
 
 #include "scenario/variation.hpp"
 
-#include <charconv>
 #include <string_view>
 
 #include "base/error.hpp"
+#include "base/number_in.hpp"
 #include "base/number_text.hpp"
 #include "base/text.hpp"
 #include "yaml/problems.hpp"
@@ -61,13 +61,11 @@ std::vector<std::string> parted(std::string_view text, char separator) {
 }
 
 std::size_t read_count(const Variation& variation, const std::string& text) {
-  std::size_t count = 0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || count == 0 ||
-      count > most_values) {
+  const auto count = number_in<std::size_t>(text);
+  if (!count || *count == 0 || *count > most_values) {
     fail(variation, "the count " + yaml::shown(text), "a whole number from 1 to 1e9");
   }
-  return count;
+  return *count;
 }
 
 // Whether a bound, possibly in quotes, starts with a number. Its unit is read later, with its key.

@@ -4,13 +4,13 @@
 #include "yaml/override.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "base/number_in.hpp"
 #include "yaml/problems.hpp"
 #include "yaml/spelling.hpp"
 #include "yaml/text_file.hpp"
@@ -93,11 +93,10 @@ class Setter {
 
   const Node* set_item(Node& list, std::size_t level) const {
     const std::string_view name = path_[level];
-    std::size_t index = 0;
-    const auto result = std::from_chars(name.data(), name.data() + name.size(), index);
+    const auto position = number_in<std::size_t>(name);
+    const std::size_t index = position.value_or(0);
     // Each position has one spelling; otherwise a sweep would treat .00 and .0 as two keys.
-    const bool number = result.ec == std::errc{} && result.ptr == name.data() + name.size() &&
-                        (name.size() == 1 || name.front() != '0');
+    const bool number = position && (name.size() == 1 || name.front() != '0');
     const std::size_t size = list.items.size();
     if (value_.absent && (!number || index >= size)) {
       fail(path_text(path_.first(level)) + ": found the position " + shown(name) + " in a list" +

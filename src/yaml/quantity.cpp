@@ -137,11 +137,8 @@ Quantity convert(const Decimal& decimal, const Unit& unit) {
 bool is_infinite_or_nan(std::string_view text) {
   if (!text.empty() && (text.front() == '+' || text.front() == '-')) text.remove_prefix(1);
   if (!text.empty() && text.front() == '.') text.remove_prefix(1);
-  std::string lower(text);
-  for (char& c : lower) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return lower == "nan" || lower == "inf" || lower == "infinity";
+  const std::string word = lower(text);
+  return word == "nan" || word == "inf" || word == "infinity";
 }
 
 std::string unit_fault(std::string_view unit, Dimension dimension) {

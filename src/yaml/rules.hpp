@@ -117,8 +117,8 @@ struct ListOf {
   std::string_view once{};  // "each key once"
 
   [[nodiscard]] std::string allowed() const {
-    return "a list of " + std::to_string(fewest) + " to " + std::to_string(most) + ' ' +
-           std::string(items);
+    const std::string limits = std::to_string(fewest) + " to " + std::to_string(most) + ' ';
+    return "a list of " + (most == Declared::unbounded ? "" : limits) + std::string(items);
   }
   [[nodiscard]] Declared declared() const {
     Declared list = Declared::list(fewest, most, rule.declared());

@@ -28,7 +28,7 @@
 #include <vector>
 
 #include "base/text.hpp"
-#include "file/table_writer.hpp"
+#include "file/table.hpp"
 #include "yaml/declared.hpp"
 #include "yaml/document.hpp"
 #include "yaml/problems.hpp"

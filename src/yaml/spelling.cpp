@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/quoted.hpp"
+#include "base/text.hpp"
 
 namespace bbsim::yaml {
 namespace {
@@ -65,14 +66,6 @@ std::optional<std::string> other_spelling(std::string_view name) {
 }
 
 namespace {
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return result;
-}
 
 // The Damerau-Levenshtein distance (optimal string alignment), row by row.
 std::size_t typing_errors(std::string_view a, std::string_view b) {

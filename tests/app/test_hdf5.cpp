@@ -26,13 +26,13 @@ AttributeValue attribute_of(const Hdf5TableReader& file, const std::string& name
   return "absent";
 }
 
-std::string as_csv(const bbsim::file::TableData& table) {
+std::string as_csv(const bbsim::file::Table& table) {
   std::string text;
-  for (const std::string& name : table.names) text += (text.empty() ? "" : ",") + name;
-  for (std::size_t row = 0; row < table.columns[0].size(); ++row) {
+  for (const std::string& name : table.names()) text += (text.empty() ? "" : ",") + name;
+  for (std::size_t row = 0; row < table.columns[0].numbers.size(); ++row) {
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
       text += c == 0 ? '\n' : ',';
-      text += bbsim::number_text(table.columns[c][row]);
+      text += bbsim::number_text(table.columns[c].numbers[row]);
     }
   }
   return text + '\n';
@@ -146,12 +146,30 @@ TEST_CASE("files of version 0.3.0 are read") {
   expect(0, "compare " + then + "run.csv " + then + "run.h5" + exactly, folder);
   Hdf5TableReader file(BBSIM_SOURCE_DIR "/tests/data/hdf5-0.3.0/run.h5");
   CHECK(attribute_of(file, "status") == AttributeValue("done"));
-  CHECK(file.read_inputs().at(0).data->names.at(0) == "t");
+  CHECK(file.read_inputs().at(0).data->columns.at(0).name == "t");
   expect(0, "merge " + then + "sweep.h5 -q -o merged.h5", folder);
   expect(0, "compare merged.h5 " + then + "sweep.h5" + exactly, folder);
   // The CSV has no trajectories.
   const Result cases = call("compare " + then + "sweep.csv " + then + "sweep.h5");
   CHECK(contains(cases.out, "\nmax_distance                      0       0"));
+}
+
+TEST_CASE("columns of numbers of any HDF5 file are a scenario's table") {
+  const Folder folder;
+  expect(0,
+         "sweep @fig2a.yaml -q --vary ball.radius=linear:0.01:0.02:6 --keep-trajectories -o s.h5",
+         folder);
+  const auto scenario = [&](const std::string& column) {
+    folder.write("table.yaml",
+                 "ball: {radius: 1 cm}\ntime: {end: 5, step: 1}\n"
+                 "gimbal: {motion: {phi: {table: {file: s.h5, time: case, unit: rad, value: " +
+                     column + "}}}}\n");
+  };
+  scenario("ball.radius");
+  expect(0, "run table.yaml -q -o run.h5", folder);
+  CHECK(Hdf5TableReader(folder / "run.h5").read_inputs().at(0).data->find("case") != nullptr);
+  scenario("status");
+  expect(2, "check table.yaml", folder, {"column status, row 1: found \"done\""});
 }
 
 }  // namespace bbsim_test::test_hdf5

@@ -117,7 +117,9 @@ TEST_CASE("any rig's log is measured, whatever its other columns") {
   folder.write("log.csv", "\"t\",x (m),y,mode\n0,1,2,auto\n1,3,4,man\n");
   CHECK(measured("measure log.csv --measure max_y", folder).at("max_y") == 4);
   expect(2, "measure log.csv --measure max_mode", folder,
-         {"column mode, row 1: found \"auto\"; allowed: a number"});
+         {":2:7: column mode: found \"auto\"; allowed: a number"});
+  folder.write("late.csv", "t,x\n0,1\n,off\n1,3\n");  // the row of the text has no time
+  CHECK(measured("measure late.csv --measure max_x", folder).at("max_x") == 3);
   folder.write("words.csv", "t,x,when,at\n0,1,a,b\n1,2,c,d\n2,3,e,f\n");
   CHECK(measured("measure words.csv --measure 'when x=1.5'", folder).at("when x=1.5 cross=1") ==
         Approx(0.5).epsilon(1e-15));

@@ -16,8 +16,8 @@
 #include "base/error.hpp"
 #include "catch.hpp"
 #include "file/atomic_file.hpp"
-#include "file/cell_table.hpp"
 #include "file/formats.hpp"
+#include "file/table.hpp"
 #include "file/table_writer.hpp"
 #include "support/folder.hpp"
 #include "support/tables.hpp"
@@ -28,7 +28,7 @@ using bbsim::InputError;
 using bbsim::OutputError;
 using bbsim::file::open_table;
 using bbsim::file::read_table;
-using bbsim::file::TableData;
+using bbsim::file::Table;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -37,13 +37,17 @@ namespace {
 std::string refusal(const std::string& content) {
   const Folder folder;
   const std::string file = folder.put("a.csv", content);
-  std::string message = message_of<InputError>([&] { (void)read_table(file); });
+  std::string message = message_of<InputError>([&] {
+    for (const bbsim::file::Column& column : read_table(file).columns) {
+      if (column.is_text()) bbsim::file::refuse_text(file, column);
+    }
+  });
   const std::size_t at = message.find(folder.name());
   if (at != std::string::npos) message.erase(at, folder.name().size() + 1);
   return message;
 }
 
-TableData parsed(const std::string& content) {
+Table parsed(const std::string& content) {
   const Folder folder;
   return read_table(folder.put("a.csv", content));
 }
@@ -54,7 +58,7 @@ TEST_CASE("CSV has a header of plain names, then the shortest numbers, also thos
   const Folder folder;
   const std::string file = folder / "a.csv";
   const double inf = std::numeric_limits<double>::infinity(), nan = std::nan("");
-  const auto text_of = [&](const TableData& table) {
+  const auto text_of = [&](const Table& table) {
     write_table(file, table);
     return content_of(file);
   };
@@ -62,19 +66,19 @@ TEST_CASE("CSV has a header of plain names, then the shortest numbers, also thos
         "t,x\n0,0.3333333333333333\n0.1,-1e-05\n1e+300,5e-324\n-0,123456789\n");
   CHECK(text_of({{"x"}, {{nan, -nan, inf, -inf}}}) == "x\nnan\nnan\ninf\n-inf\n");
   CHECK(text_of({{"t", "x"}, {{}, {}}}) == "t,x\n");
-  CHECK(read_table(file).names.size() == 2);
-  CHECK(read_table(file).columns[1].empty());
+  CHECK(read_table(file).names().size() == 2);
+  CHECK(read_table(file).columns[1].numbers.empty());
 }
 
 TEST_CASE("CSV round-trips bit for bit") {
   const Folder folder;
   const std::string file = folder / "a.csv";
-  const TableData table = random_table(5, 3000);
+  const Table table = random_table(5, 3000);
   write_table(file, table);
-  const TableData back = read_table(file);
-  CHECK(back.names == table.names);
+  const Table back = read_table(file);
+  CHECK(back.names() == table.names());
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    CHECK(same_bits(back.columns[c], table.columns[c]));
+    CHECK(same_bits(back.columns[c].numbers, table.columns[c].numbers));
   }
 }
 
@@ -100,15 +104,15 @@ TEST_CASE("a device gets CSV whatever its name") {
 }
 
 TEST_CASE("CSV from other programs is read") {
-  CHECK(parsed("\xEF\xBB\xBFt,x\r\n1,2\r\n").names == std::vector<std::string>{"t", "x"});
-  CHECK(parsed("t\n1\n2").columns[0] == std::vector<double>{1, 2});
-  const TableData spaced = parsed(" t ,\tx\n 1 , +2.5e0\t\n");
-  CHECK(spaced.columns[1] == std::vector<double>{2.5});
-  CHECK(spaced.names[1] == "x");
-  const TableData special = parsed("a,b\nNaN,-Infinity\nnan,INF\n");
-  CHECK(std::isnan(special.columns[0][0]));
-  CHECK(special.columns[1][0] == -std::numeric_limits<double>::infinity());
-  CHECK(special.columns[1][1] == std::numeric_limits<double>::infinity());
+  CHECK(parsed("\xEF\xBB\xBFt,x\r\n1,2\r\n").names() == std::vector<std::string>{"t", "x"});
+  CHECK(parsed("t\n1\n2").columns[0].numbers == std::vector<double>{1, 2});
+  const Table spaced = parsed(" t ,\tx\n 1 , +2.5e0\t\n");
+  CHECK(spaced.columns[1].numbers == std::vector<double>{2.5});
+  CHECK(spaced.names()[1] == "x");
+  const Table special = parsed("a,b\nNaN,-Infinity\nnan,INF\n");
+  CHECK(std::isnan(special.columns[0].numbers[0]));
+  CHECK(special.columns[1].numbers[0] == -std::numeric_limits<double>::infinity());
+  CHECK(special.columns[1].numbers[1] == std::numeric_limits<double>::infinity());
 }
 
 TEST_CASE("long decimals are read to the nearest double") {
@@ -137,13 +141,13 @@ TEST_CASE("long decimals are read to the nearest double") {
     content += decimal + "\n";
     expected.push_back(std::strtod(decimal.c_str(), nullptr));
   }
-  CHECK(same_bits(parsed(content).columns[0], expected));
+  CHECK(same_bits(parsed(content).columns[0].numbers, expected));
 }
 
 TEST_CASE("words that a board prints between rows are left out, with a warning") {
   const Folder folder;
   folder.put("a.csv", "t,x\n0,1\nBall balancer ready\nt,x\n1,2\nbye\n");
-  const bbsim::file::CellTable table = bbsim::file::read_csv_cells(folder / "a.csv", {});
+  const bbsim::file::Table table = bbsim::file::read_table(folder / "a.csv");
   REQUIRE(table.rows == 2);
   CHECK(table.columns[1].numbers == std::vector<double>{1, 2});
   CHECK(table.columns[0].texts.empty());
@@ -156,7 +160,6 @@ TEST_CASE("rows and fields that are no numbers are refused at their place, safe 
       {"t,x\n1,2\n3\n4,5\n", "a.csv:3:1: found 1 number; the header names 2 columns"},
       {"t,x\n1,2,3,4\n", "a.csv:2:1: found 4 numbers; the header names 2 columns"},
       {"t,x\n1,2\n1, abc\n", "a.csv:3:4: column x: found \"abc\"; allowed: a number"},
-      {"t,x\n1,\n", "a.csv:2:3: column x: found nothing; allowed: a number"},
       {"t\n1e400\n", "a.csv:2:1: column t: found \"1e400\", too large for a double"},
       {"t\n\x1b[31mred\n", "found \"\\x1b[31mred\""},
       // A header may not contain control characters; other special characters are possible.
@@ -173,8 +176,8 @@ TEST_CASE("rows and fields that are no numbers are refused at their place, safe 
 }
 
 TEST_CASE("blank lines and comments are not rows") {
-  CHECK(parsed("t,x\n1,2\n\n3,4\n").columns[0] == std::vector<double>{1, 3});
-  CHECK(parsed("\n# by hand\nt\n1\n \r\n#2\n").columns[0] == std::vector<double>{1});
+  CHECK(parsed("t,x\n1,2\n\n3,4\n").columns[0].numbers == std::vector<double>{1, 3});
+  CHECK(parsed("\n# by hand\nt\n1\n \r\n#2\n").columns[0].numbers == std::vector<double>{1});
 }
 
 TEST_CASE("a header has distinct names, which are no numbers") {
@@ -221,18 +224,18 @@ TEST_CASE("a long row is read, and so are rows across read boundaries") {
     header.append(",c").append(std::to_string(c));
     row.append(",").append(std::to_string(c));
   }
-  const TableData wide = parsed(header + "\n" + row + "\r\n" + row + "\n");
+  const Table wide = parsed(header + "\n" + row + "\r\n" + row + "\n");
   REQUIRE(wide.columns.size() == 50000);
-  CHECK(wide.columns[49999] == std::vector<double>{49999, 49999});
+  CHECK(wide.columns[49999].numbers == std::vector<double>{49999, 49999});
 
   std::string content = "t,x\n";
   for (int i = 0; i < 100000; ++i)
     content.append(std::to_string(i)).append(",").append(std::to_string(2 * i)).append("\n");
-  const TableData rows = parsed(content);
-  REQUIRE(rows.columns[1].size() == 100000);
+  const Table rows = parsed(content);
+  REQUIRE(rows.columns[1].numbers.size() == 100000);
   bool right = true;
   for (std::size_t i = 0; i < 100000; ++i) {
-    right = right && rows.columns[1][i] == 2 * static_cast<double>(i);
+    right = right && rows.columns[1].numbers[i] == 2 * static_cast<double>(i);
   }
   CHECK(right);
 }
@@ -248,9 +251,9 @@ TEST_CASE("a pipe is read as data arrive") {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
   });
-  const TableData table = read_table(pipe);
+  const Table table = read_table(pipe);
   writer.join();
-  CHECK(table.columns == std::vector<std::vector<double>>{{1, 3, 5}, {2, 4, 6}});
+  CHECK(numbers_of(table) == std::vector<std::vector<double>>{{1, 3, 5}, {2, 4, 6}});
 }
 
 }  // namespace bbsim_test::test_csv

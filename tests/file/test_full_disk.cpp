@@ -54,7 +54,7 @@ void write_rows(const std::string& file, bool whole) {
   const auto table = random_table(3, 5000);
   if (whole) return write_table(file, table, {{"title", "x"}});
   const auto writer = bbsim::file::open_table(file, {{"x", "m", "position"}});
-  const double* const column = table.columns[0].data();
+  const double* const column = table.columns[0].numbers.data();
   writer->append({&column, 1}, 5000);
 }
 

@@ -28,7 +28,7 @@ using bbsim::file::InputTable;
 using bbsim::file::open_hdf5_module;
 using bbsim::file::open_table;
 using bbsim::file::read_table;
-using bbsim::file::TableData;
+using bbsim::file::Table;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -67,13 +67,13 @@ Number number_of(hid_t file, const char* name) {
 TEST_CASE("HDF5 round-trips bit for bit, in order") {
   const Folder folder;
   for (const std::string name : {"a.h5", "a.hdf5", "A.H5"}) {
-    TableData table = random_table(12, 3000);  // c10 comes before c2 by name
-    table.names[3] = "t";
+    Table table = random_table(12, 3000);  // c10 comes before c2 by name
+    table.columns[3].name = "t";
     write_table(folder / name, table);
-    const TableData back = read_table(folder / name);
-    REQUIRE(back.names == table.names);
+    const Table back = read_table(folder / name);
+    REQUIRE(back.names() == table.names());
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
-      CHECK(same_bits(back.columns[c], table.columns[c]));
+      CHECK(same_bits(back.columns[c].numbers, table.columns[c].numbers));
     }
   }
   CHECK(folder.entries() == 3);
@@ -82,11 +82,11 @@ TEST_CASE("HDF5 round-trips bit for bit, in order") {
 TEST_CASE("HDF5 without rows, without t, and with one row") {
   const Folder folder;
   write_table(folder / "none.h5", {{"t", "x"}, {{}, {}}});
-  CHECK(read_table(folder / "none.h5").columns == std::vector<std::vector<double>>{{}, {}});
+  CHECK(numbers_of(read_table(folder / "none.h5")) == std::vector<std::vector<double>>{{}, {}});
   write_table(folder / "x.h5", {{"x"}, {{1.5}}});
-  CHECK(read_table(folder / "x.h5").columns == std::vector<std::vector<double>>{{1.5}});
+  CHECK(numbers_of(read_table(folder / "x.h5")) == std::vector<std::vector<double>>{{1.5}});
   write_table(folder / "t.h5", {{"t"}, {{1.5}}});
-  CHECK(read_table(folder / "t.h5").columns == std::vector<std::vector<double>>{{1.5}});
+  CHECK(numbers_of(read_table(folder / "t.h5")) == std::vector<std::vector<double>>{{1.5}});
 }
 
 TEST_CASE("HDF5 carries units, descriptions, the scale t and the run's attributes") {
@@ -154,9 +154,9 @@ TEST_CASE("a column known only at the end is stored with the others") {
     writer->add_column({"position_error", "m", "estimate"}, {1e-9, 2e-9, 3e-9});
     writer->finish({});
   }
-  const TableData back = read_table(file);
-  CHECK(back.names == std::vector<std::string>{"t", "position_error"});
-  CHECK(back.columns[1] == std::vector<double>{1e-9, 2e-9, 3e-9});
+  const Table back = read_table(file);
+  CHECK(back.names() == std::vector<std::string>{"t", "position_error"});
+  CHECK(back.columns[1].numbers == std::vector<double>{1e-9, 2e-9, 3e-9});
   const Handle id = opened(file);
   CHECK(attribute_of(id, "position_error", "units") == "m");
   CHECK(attribute_of(id, "position_error", "description") == "estimate");
@@ -170,13 +170,10 @@ TEST_CASE("a column known only at the end is stored with the others") {
 TEST_CASE("the tables of a scenario are stored with its results, under any name") {
   const Folder folder;
   const std::string file = folder / "a.h5";
-  const TableData motion = random_table(3, 5000);
-  TableData odd;
-  odd.names = {"x (m/s)", "x (m_s)", ".", "a/b/c"};
-  odd.columns.assign(4, {1, 2});
-  const auto shared = [](const TableData& table) {
-    return std::make_shared<const TableData>(table);
-  };
+  const Table motion = random_table(3, 5000);
+  const std::vector<double> pair{1, 2};
+  const Table odd({"x (m/s)", "x (m_s)", ".", "a/b/c"}, {pair, pair, pair, pair});
+  const auto shared = [](const Table& table) { return std::make_shared<const Table>(table); };
   const std::vector<InputTable> inputs{{"motion.csv", shared(motion)},
                                        {"../b/odd.csv", shared(odd)},
                                        {"c/odd.csv", shared(odd)},
@@ -186,7 +183,7 @@ TEST_CASE("the tables of a scenario are stored with its results, under any name"
     writer->keep(inputs);
     writer->finish({});
   }
-  CHECK(read_table(file).names == std::vector<std::string>{"t"});  // they are not columns
+  CHECK(read_table(file).names() == std::vector<std::string>{"t"});  // they are not columns
 
   {
     const Handle id = opened(file);
@@ -200,7 +197,7 @@ TEST_CASE("the tables of a scenario are stored with its results, under any name"
     const Handle stored = dataset_of(id, "inputs/motion.csv/c2");
     REQUIRE(stored >= 0);
     H5Dread(stored, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data());
-    CHECK(same_bits(numbers, motion.columns[2]));
+    CHECK(same_bits(numbers, motion.columns[2].numbers));
   }
   const std::vector<InputTable> back = Hdf5TableReader(file).read_inputs();
   Hdf5TableReader reader(file, 7);
@@ -208,14 +205,14 @@ TEST_CASE("the tables of a scenario are stored with its results, under any name"
   reader.read(block);
   const std::vector<InputTable> after_rows = reader.read_inputs();
   REQUIRE(after_rows.size() == 4);
-  CHECK(same_bits(after_rows[0].data->columns[0], back[0].data->columns[0]));
+  CHECK(same_bits(after_rows[0].data->columns[0].numbers, back[0].data->columns[0].numbers));
   REQUIRE(back.size() == 4);
   for (std::size_t i = 0; i < back.size(); ++i) {
     CHECK(back[i].file == inputs[i].file);
-    CHECK(back[i].data->names == inputs[i].data->names);
+    CHECK(back[i].data->names() == inputs[i].data->names());
     REQUIRE(back[i].data->columns.size() == inputs[i].data->columns.size());
     for (std::size_t c = 0; c < back[i].data->columns.size(); ++c) {
-      CHECK(same_bits(back[i].data->columns[c], inputs[i].data->columns[c]));
+      CHECK(same_bits(back[i].data->columns[c].numbers, inputs[i].data->columns[c].numbers));
     }
   }
 }
@@ -224,7 +221,7 @@ TEST_CASE("the same table gives the same bytes") {
   const Folder folder;
   for (const std::string name : {"a.h5", "b.h5"}) {
     const auto writer = open_table(folder / name, {{"t", "s", ""}, {"x", "m", ""}});
-    writer->keep({{"in.csv", std::make_shared<const TableData>(random_table(2, 50))}});
+    writer->keep({{"in.csv", std::make_shared<const Table>(random_table(2, 50))}});
     const std::vector<double> t{0, 1}, x{2, 3};
     const std::array<const double*, 2> columns{t.data(), x.data()};
     writer->append(columns, 2);
@@ -245,7 +242,7 @@ TEST_CASE("HDF5 replaces a file, keeps its permissions and follows a link") {
   write_table(folder / "link.h5", {{"x"}, {{1, 2}}});
   CHECK(std::filesystem::is_symlink(folder / "link.h5"));
   CHECK(permissions_of(real) == 0604);
-  CHECK(read_table(real).columns[0] == std::vector<double>{1, 2});
+  CHECK(read_table(real).columns[0].numbers == std::vector<double>{1, 2});
   CHECK_THROWS_AS(open_table(folder / "none/a.h5", {{"x", "m", ""}}), OutputError);
 }
 

@@ -291,10 +291,10 @@ TEST_CASE("any number round-trips bit for bit in a table of cases") {
   const Folder folder;
   const auto table = random_table(2, 3000);
   Hdf5TableWriter writer(folder / "a.h5", {{"n", "1", ""}, {"s", "1", "", Hdf5Kind::series, 1500}});
-  std::vector<double> series = table.columns[1];
+  std::vector<double> series = table.columns[1].numbers;
   while (series.size() < 3000 * 1500) series.insert(series.end(), series.begin(), series.end());
   series.resize(3000 * 1500);
-  const Hdf5Block block{3000, {table.columns[0], series}, {{}, {}}};
+  const Hdf5Block block{3000, {table.columns[0].numbers, series}, {{}, {}}};
   writer.append(block);
   writer.finish({});
   Hdf5Block back;
@@ -416,7 +416,7 @@ TEST_CASE("columns and blocks that do not form a table are refused") {
 TEST_CASE("a run's HDF5 file is also a table of cases") {
   const Folder folder;
   const auto table = random_table(3, 2000);
-  write_table(folder / "a.h5", {{"t", "x", "y"}, table.columns}, {{"title", "run"}});
+  write_table(folder / "a.h5", {{"t", "x", "y"}, numbers_of(table)}, {{"title", "run"}});
   Hdf5TableReader reader(folder / "a.h5");
   CHECK(reader.columns() == Columns{{"t", "m", "one value a row"},
                                     {"x", "m", "one value a row"},
@@ -425,91 +425,25 @@ TEST_CASE("a run's HDF5 file is also a table of cases") {
   CHECK(reader.head().attributes == Attributes{{"title", "run"}});
   Hdf5Block block;
   CHECK(reader.read(block));
-  CHECK(same(block, {2000, table.columns, {{}, {}, {}}}));
+  CHECK(same(block, {2000, numbers_of(table), {{}, {}, {}}}));
 }
 
-TEST_CASE("a table of cases is read as a table if it has only numbers") {
+TEST_CASE("a table of cases is read whole, with texts, series and axes") {
   const Folder folder;
-  const auto written = [&](const Columns& columns, const std::vector<Hdf5Axis>& axes) {
-    Hdf5TableWriter(folder / "a.h5", columns, axes).finish({});
-    return message_of<InputError>([&] { (void)read_table(folder / "a.h5"); });
-  };
-  CHECK(written({{"a", "1", ""}}, {}).empty());
-  const std::string start = "cannot read " + (folder / "a.h5") + ": dataset ";
-  CHECK(written({{"a", "1", ""}, {"why", "1", "", Hdf5Kind::text}}, {}) ==
-        start + "why is not a column of numbers: it holds text");
-  CHECK(written({{"x", "1", "", Hdf5Kind::series, 1}}, {}) ==
-        start + "x is not a column of numbers: it holds several numbers a row, in two dimensions");
-  CHECK(written({{"a", "1", ""}}, some_axes) ==
-        start + "t is not a column of numbers: it holds the axis of other datasets");
+  Hdf5TableWriter writer(
+      folder / "a.h5",
+      {{"a", "1", ""}, {"why", "1", "", Hdf5Kind::text}, {"t_of", "m", "", Hdf5Kind::series, 2}},
+      {{{"t", "s", ""}, {0, 1}}});
+  const std::vector<double> none, pair{1, 2}, four{1, 2, 3, 4};
+  writer.append(Hdf5Block{2, {pair, none, four}, {{}, {"", "late"}, {}}});
+  writer.finish({});
+  const bbsim::file::Table table = read_table(folder / "a.h5");
+  CHECK(table.rows == 2);
+  CHECK(table.names() == std::vector<std::string>{"a", "why", "t_of", "t"});
+  CHECK(table.columns[1].texts == std::vector<std::string>{"", "late"});
+  CHECK(table.columns[2].width == 2);
+  CHECK(table.columns[3].numbers == std::vector<double>{0, 1});
+  CHECK_THROWS_WITH(bbsim::file::refuse_text("a.h5", table.columns[1]),
+                    "a.h5: column why, row 2: found \"late\"; allowed: a number");
 }
-
-TEST_CASE("attributes and texts of other types and of fixed length are read") {
-  const Folder folder;
-  {
-    const Handle file = created(folder / "a.h5");
-    const double number = 1.5;
-    put_attribute(file, "number", H5T_NATIVE_DOUBLE, &number);
-    put_attribute(file, "fixed", text_type(4), "abc");
-    put_dataset(file, "s", text_type(4), {3}, "done\0\0\0\0ab\0\0");
-  }
-  Hdf5TableReader reader(folder / "a.h5");
-  CHECK(reader.head().attributes == Attributes{{"fixed", "abc"}, {"number", 1.5}});
-  REQUIRE(reader.columns()[0].kind == Hdf5Kind::text);
-  Hdf5Block block;
-  CHECK(reader.read(block));
-  CHECK(block.texts[0] == std::vector<std::string>{"done", "", "ab"});
-}
-
-TEST_CASE("files of bbsim 0.3 are read: texts of any length, numbers as texts") {
-  const Folder folder;
-  {
-    const Handle file = created(folder / "old.h5"), text = text_type();
-    H5Tset_cset(text, H5T_CSET_UTF8);
-    const auto put = [&](hid_t object, const char* name, const char* value) {
-      put_attribute(object, name, text, &value);
-    };
-    const std::array<double, 2> numbers{0, 1};
-    const Handle number = put_dataset(file, "case", H5T_IEEE_F64LE, {2}, numbers.data());
-    put(number, "unit", "1");
-    put(number, "description", "number of the case");
-    const std::array<const char*, 2> texts{"done", "failed at 1 s"};
-    put_dataset(file, "status", text, {2}, static_cast<const void*>(texts.data()));
-    put(file, "cases", "2");
-  }
-  Hdf5TableReader reader(folder / "old.h5");
-  CHECK(reader.columns() ==
-        Columns{{"case", "1", "number of the case"}, {"status", "", "", Hdf5Kind::text}});
-  CHECK(reader.head().attributes == Attributes{{"cases", "2"}});
-  Hdf5Block block;
-  CHECK(reader.read(block));
-  CHECK(block.values[0] == std::vector<double>{0, 1});
-  CHECK(block.texts[1] == std::vector<std::string>{"done", "failed at 1 s"});
-  CHECK(reader.read_inputs().empty());
-}
-
-TEST_CASE("attributes and names of all kinds round-trip") {
-  const Folder folder;
-  const double infinity = std::numeric_limits<double>::infinity();
-  const Attributes attributes{{"a", "line\nand \"quote\" \\ \t é"},
-                              {"empty", ""},
-                              {"third", 1.0 / 3},
-                              {"whole real", 3.0},
-                              {"zero", -0.0},
-                              {"tiny", 5e-324},
-                              {"more", infinity},
-                              {"less", -infinity},
-                              {"integer", 3},
-                              {"most", std::numeric_limits<std::int64_t>::max()},
-                              {"least", std::numeric_limits<std::int64_t>::min()}};
-  {
-    Hdf5TableWriter writer(folder / "a.h5", {{"\"x\"\n", "m/s²", "{[\\"}}, {});
-    writer.append({2, {{1, 2}}, {{}}});
-    writer.finish(attributes);
-  }
-  const Hdf5TableReader reader(folder / "a.h5");
-  CHECK(reader.head().attributes == attributes);
-  CHECK(reader.columns() == Columns{{"\"x\"\n", "m/s²", "{[\\"}});
-}
-
 }  // namespace bbsim_test::test_hdf5_table

@@ -12,8 +12,7 @@
 
 #include "base/number_text.hpp"
 #include "file/case_text.hpp"
-#include "file/cell_table.hpp"
-#include "file/table_writer.hpp"
+#include "file/table.hpp"
 #include "fuzz.hpp"
 #include "record/compare.hpp"
 #include "results/log.hpp"
@@ -55,17 +54,12 @@ void must_round_trip(double number) {
            : std::bit_cast<std::uint64_t>(back) == std::bit_cast<std::uint64_t>(number));
 }
 
-void must_be_a_table(const file::TableData& table) {
-  must(!table.names.empty() && table.columns.size() == table.names.size());
-  for (const std::vector<double>& column : table.columns) {
-    must(column.size() == table.columns.front().size());
-    for (const double number : column) must_round_trip(number);
+void must_be_like_itself(const file::Table& table) {
+  must(!table.columns.empty());
+  for (const file::Column& column : table.columns) {
+    must(column.numbers.size() == table.rows);
+    for (const double number : column.numbers) must_round_trip(number);
   }
-}
-
-void must_be_like_itself(const file::CellTable& table) {
-  must(!table.names.empty() && table.columns.size() == table.names.size());
-  for (const file::CellColumn& column : table.columns) must(column.size() == table.rows);
   const record::Comparison comparison = record::compare(table, table);
   must(comparison.alike());
   must(!record::to_text(comparison, "a", "b", {}).empty());
@@ -73,9 +67,8 @@ void must_be_like_itself(const file::CellTable& table) {
 
 // A log has equally many numbers in each column and increasing times.
 void must_be_a_log(const std::string& name) {
-  std::vector<std::string> notes;
   const bbsim::results::Result log =
-      bbsim::results::read_log(name, {{"x=-2*x+1:mm", "y=y"}, {}, "", "start", "-1"}, notes);
+      bbsim::results::read_log(name, {{"x=-2*x+1:mm", "y=y"}, {}, "", "start", "-1"});
   for (const auto& column : log.columns) must(column.numbers.size() == log.rows);
   const auto* t = log.find("t");
   must(t != nullptr);
@@ -104,10 +97,9 @@ void must_split_again(std::string_view line) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text = text_of(data, size);
-  may_refuse([&] { must_be_a_table(file::read_table(NamedMemory(text).name())); });
-  may_refuse([&] { must_be_like_itself(file::read_cells(NamedMemory(text).name())); });
+  may_refuse([&] { must_be_like_itself(file::read_table(NamedMemory(text).name())); });
   may_refuse([&] {
-    must_be_like_itself(file::read_cells(NamedMemory(text).name(), {{}, {"t", "x"}}));
+    must_be_like_itself(file::read_table(NamedMemory(text).name(), {{}, {"t", "x"}}));
   });
   may_refuse([&] { must_be_a_log(NamedMemory(text).name()); });
   for (std::string_view rest = text; !rest.empty();) must_split_again(take_line(rest));

@@ -14,6 +14,7 @@
 #include "record/recorder.hpp"
 #include "scenario/reader.hpp"
 #include "solve/integrate.hpp"
+#include "support/tables.hpp"
 
 namespace bbsim_test::test_ball_turn {
 
@@ -32,8 +33,8 @@ model::Sample moving(double t, double x, double vx, double y, double vy) {
   return sample;
 }
 
-file::TableData run(const std::string& name, const std::string& overrides_columns,
-                    const std::string& step, const std::vector<std::string>& more = {}) {
+file::Table run(const std::string& name, const std::string& overrides_columns,
+                const std::string& step, const std::vector<std::string>& more = {}) {
   std::vector<std::string> overrides{"output.columns=" + overrides_columns, "time.step=" + step};
   overrides.insert(overrides.end(), more.begin(), more.end());
   const Scenario scene =
@@ -53,9 +54,9 @@ file::TableData run(const std::string& name, const std::string& overrides_column
 
 constexpr const char* all = "[t,ball_qw,ball_qx,ball_qy,ball_qz,vx,vy,spin]";
 
-Eigen::Quaterniond orientation(const file::TableData& table, std::size_t row) {
-  return {table.columns[1][row], table.columns[2][row], table.columns[3][row],
-          table.columns[4][row]};
+Eigen::Quaterniond orientation(const file::Table& table, std::size_t row) {
+  return {table.columns[1].numbers[row], table.columns[2].numbers[row],
+          table.columns[3].numbers[row], table.columns[4].numbers[row]};
 }
 
 }  // namespace
@@ -99,11 +100,11 @@ TEST_CASE("the columns turn with the ball's twist") {
   // Central differences over two rows of 1 ms have an error of h^2/6 times the third derivative,
   // about |w|^3 / 8; |w| stays below 60 rad/s in both.
   for (const char* name : {"fig2a", "fig2b"}) {
-    const file::TableData table = run(name, all, "0.001");
+    const file::Table table = run(name, all, "0.001");
     const Scenario scene =
         read_scenario(std::string(BBSIM_SOURCE_DIR) + "/configs/" + name + ".yaml");
     const double r = scene.ball.radius;
-    const std::size_t rows = table.columns[0].size();
+    const std::size_t rows = table.columns[0].numbers.size();
     REQUIRE(rows > 1000);
     double worst = 0, largest = 0;
     for (std::size_t i = 1; i + 1 < rows; i += 7) {
@@ -111,11 +112,11 @@ TEST_CASE("the columns turn with the ball's twist") {
       CHECK(now.norm() == Approx(1).epsilon(1e-14));
       const Eigen::Quaterniond step =
           orientation(table, i + 1) * orientation(table, i - 1).inverse();
-      const double h = table.columns[0][i + 1] - table.columns[0][i - 1];
+      const double h = table.columns[0].numbers[i + 1] - table.columns[0].numbers[i - 1];
       const Eigen::AngleAxisd turned(step);
       const Eigen::Vector3d found = turned.angle() / h * turned.axis();
-      const Eigen::Vector3d twist(-table.columns[6][i] / r, table.columns[5][i] / r,
-                                  table.columns[7][i]);
+      const Eigen::Vector3d twist(-table.columns[6].numbers[i] / r, table.columns[5].numbers[i] / r,
+                                  table.columns[7].numbers[i]);
       worst = std::max(worst, (found - twist).norm());
       largest = std::max(largest, twist.norm());
     }
@@ -127,9 +128,9 @@ TEST_CASE("the columns turn with the ball's twist") {
 
 TEST_CASE("coarse rows give the same orientation as dense rows") {
   for (const char* name : {"fig2a", "fig2b"}) {
-    const file::TableData coarse = run(name, all, "0.02"), fine = run(name, all, "0.001");
+    const file::Table coarse = run(name, all, "0.02"), fine = run(name, all, "0.001");
     double worst = 0;
-    for (std::size_t i = 0; i < coarse.columns[0].size(); ++i) {
+    for (std::size_t i = 0; i < coarse.columns[0].numbers.size(); ++i) {
       worst = std::max(worst, orientation(coarse, i).angularDistance(orientation(fine, 20 * i)));
     }
     CAPTURE(name, worst);
@@ -139,33 +140,33 @@ TEST_CASE("coarse rows give the same orientation as dense rows") {
 
 TEST_CASE("a sliding ball turns at its own rate, and not as if it rolled") {
   const std::vector<std::string> whole{"events.rest=note", "time.end=1"};
-  const file::TableData fine =
+  const file::Table fine =
       run("slides", "[t,ball_qw,ball_qx,ball_qy,ball_qz,vx,vy,spin,slip_x,slip_y]", "0.001", whole);
   const double r = 0.026;
+  const auto c = numbers_of(fine);
   const auto twist = [&](std::size_t i) {
-    const auto& c = fine.columns;
     return Eigen::Vector3d((c[9][i] - c[6][i]) / r, (c[5][i] - c[8][i]) / r, c[7][i]);
   };
   // The scene gives the initial rotation.
   CHECK((twist(0) - Eigen::Vector3d(20, -110, 15)).norm() < 1e-9);
-  for (std::size_t i = 1; i + 1 < fine.columns[0].size(); i += 7) {
+  for (std::size_t i = 1; i + 1 < fine.columns[0].numbers.size(); i += 7) {
     const Eigen::AngleAxisd turned(orientation(fine, i + 1) * orientation(fine, i - 1).inverse());
     // Central differences over 2 ms at 112 rad/s: (0.112)^2 / 24 of it from its turning and, if
     // friction changes between two rows, its effect in 2 ms, 0.2 rad/s.
     CHECK((turned.angle() / 0.002 * turned.axis() - twist(i)).norm() < 0.3);
   }
   // Rows of 20 ms: if sliding ends between rows, its 6.9 m/s^2 times h^2 / (8 r) is 0.013.
-  const file::TableData coarse = run("slides", all, "0.02", whole);
-  for (std::size_t i = 0; i < coarse.columns[0].size(); ++i) {
+  const file::Table coarse = run("slides", all, "0.02", whole);
+  for (std::size_t i = 0; i < coarse.columns[0].numbers.size(); ++i) {
     CHECK(orientation(coarse, i).angularDistance(orientation(fine, 20 * i)) < 0.015);
   }
 }
 
 TEST_CASE("requesting the orientation changes no other column") {
-  const file::TableData with = run("fig2b", "[t,x,y,vx,phi,ball_qw]", "0.02");
-  const file::TableData without = run("fig2b", "[t,x,y,vx,phi]", "0.02");
+  const file::Table with = run("fig2b", "[t,x,y,vx,phi,ball_qw]", "0.02");
+  const file::Table without = run("fig2b", "[t,x,y,vx,phi]", "0.02");
   for (std::size_t c = 0; c < without.columns.size(); ++c) {
-    CHECK(with.columns[c] == without.columns[c]);
+    CHECK(with.columns[c].numbers == without.columns[c].numbers);
   }
 }
 

@@ -140,11 +140,11 @@ TEST_CASE("a response that starts in the wrong direction has an undershoot") {
   const solve::OutputGrid grid(scene.time);
   solve::Trajectory rows(model.row_size());
   static_cast<void>(solve::integrate(model, Method::automatic, {1e-11, 1e-13}, grid, rows));
-  file::TableData table{{"t", "x", "x_reference"}, {{}, {}, {}}};
+  file::Table table{{"t", "x", "x_reference"}, {{}, {}, {}}};
   for (std::size_t i = 0; i < rows.rows(); ++i) {
-    table.columns[0].push_back(grid[i]);
-    table.columns[1].push_back(model.sample(grid[i], rows.row(i)).ball.x);
-    table.columns[2].push_back(reference);
+    table.columns[0].numbers.push_back(grid[i]);
+    table.columns[1].numbers.push_back(model.sample(grid[i], rows.row(i)).ball.x);
+    table.columns[2].numbers.push_back(reference);
   }
   const StoredRun stored(table, "rows.csv");
   const auto measures = stored.measures_named(names);

@@ -11,7 +11,7 @@
 namespace bbsim_test::test_solver_allowance {
 
 using bbsim::file::Attributes;
-using bbsim::file::CellTable;
+using bbsim::file::Table;
 using bbsim::record::Allowances;
 using bbsim::record::solver_allowances;
 using Catch::Matchers::Contains;
@@ -24,8 +24,8 @@ const std::string scenario =
     "time: {end: 20, step: 1}\n"
     "controller: {table: {file: none.csv}}\n";  // neither read nor searched for
 
-CellTable table(const Attributes& attributes) {
-  CellTable made{
+Table table(const Attributes& attributes) {
+  Table made{
       {"t", "x", "y", "vx", "spin", "gamma", "phi", "phi_acceleration", "x_reference", "end_x"},
       {{0, 20}, {0.5, 0}, {-2, 0}, {0, 3}, {8, 0}, {0, 5}, {0, 0.1}, {0, 7}, {9, 9}, {1, 1}}};
   made.attributes = attributes;

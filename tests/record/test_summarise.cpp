@@ -16,15 +16,19 @@ using namespace bbsim::record;
 
 namespace {
 
-file::CellTable table() {
-  file::CellColumn status;
-  for (const char* word : {"done", "done", "failed", "done", "done", "done"}) status.add_text(word);
+file::Table table() {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  file::CellTable table;
-  table.names = {"case", "k", "seed", "status", "end_time", "x.Peak", "max_y"};
-  table.columns = {{0, 1, 2, 3, 4, 5}, {2, 1, 1, 1, 1, 2},   {1, 1, 2, 3, 4, 2},      status,
-                   {9, 9, 1, 9, 9, 9}, {5, 1, 100, 2, 4, 7}, {1, nan, 1, nan, nan, 1}};
-  table.rows = 6;
+  file::Table table({"case", "k", "seed", "status", "end_time", "x.Peak", "max_y"},
+                    {{0, 1, 2, 3, 4, 5},
+                     {2, 1, 1, 1, 1, 2},
+                     {1, 1, 2, 3, 4, 2},
+                     {},
+                     {9, 9, 1, 9, 9, 9},
+                     {5, 1, 100, 2, 4, 7},
+                     {1, nan, 1, nan, nan, 1}});
+  for (const char* word : {"done", "done", "failed", "done", "done", "done"}) {
+    table.columns[3].add_text(word);
+  }
   return table;
 }
 
@@ -64,10 +68,7 @@ TEST_CASE("all cases form one group, and columns may be named") {
 }
 
 TEST_CASE("large values that are nearly equal keep their deviation") {
-  file::CellTable large;
-  large.names = {"v"};
-  large.columns = {{1e9 + 1, 1e9 + 2, 1e9 + 3}};
-  large.rows = 3;
+  const file::Table large({"v"}, {{1e9 + 1, 1e9 + 2, 1e9 + 3}});
   const auto groups = summarise(large, "large.csv", {}, {}, {});
   CHECK(groups[0].figures[0].mean == 1e9 + 2);
   CHECK(groups[0].figures[0].deviation == 1);

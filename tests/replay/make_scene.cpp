@@ -61,10 +61,10 @@ Run circling(std::size_t rows) {
   run.status = "done";
   run.ball_radius = 0.01;
   run.plate.size = {0.3, 0.2};
-  run.columns = {{"t", "s", "time", {}},      {"x", "m", "along x", {}},
-                 {"y", "m", "along y", {}},   {"phi", "rad", "", {}},
-                 {"theta", "rad", "", {}},    {"x_reference", "m", "", {}},
-                 {"y_reference", "m", "", {}}};
+  run.columns = {{"t", {}, {}, "s"},          {"x", {}, {}, "m"},
+                 {"y", {}, {}, "m"},          {"phi", {}, {}, "rad"},
+                 {"theta", {}, {}, "rad"},    {"x_reference", {}, {}, "m"},
+                 {"y_reference", {}, {}, "m"}};
   for (std::size_t i = 0; i < rows; ++i) {
     const double t = 0.01 * static_cast<double>(i);
     const double values[] = {t,
@@ -74,7 +74,8 @@ Run circling(std::size_t rows) {
                              0.03 * std::cos(0.7 * t),
                              0.052 * std::cos(0.3 * t),
                              -0.052 * std::sin(0.3 * t)};
-    for (std::size_t c = 0; c < run.columns.size(); ++c) run.columns[c].values.push_back(values[c]);
+    for (std::size_t c = 0; c < run.columns.size(); ++c)
+      run.columns[c].numbers.push_back(values[c]);
   }
   return run;
 }

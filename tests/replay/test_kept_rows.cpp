@@ -21,8 +21,8 @@ namespace {
 
 // Largest deviation of a column from linear interpolation between the kept rows.
 double worst_error(const Run& run, const char* name, const std::vector<std::size_t>& kept) {
-  const auto& t = find_series(run, "t")->values;
-  const auto& v = find_series(run, name)->values;
+  const auto& t = run.find("t")->numbers;
+  const auto& v = run.find(name)->numbers;
   double worst = 0;
   for (std::size_t k = 1; k < kept.size(); ++k) {
     const std::size_t a = kept[k - 1], b = kept[k];
@@ -77,7 +77,7 @@ TEST_CASE("each stretch keeps every column's least and greatest value") {
   for (std::size_t i = 0; i < noise.size(); ++i) {
     noise[i] = std::sin(static_cast<double>(i * i % 1009));
   }
-  run.columns.push_back({"noise", "1", "", noise});
+  run.columns.push_back({"noise", noise, {}, "1"});
   const KeptRows kept = kept_rows(run, {}, 4000);
   REQUIRE(kept.buckets > 100);
   CHECK(kept.rows.size() <= 4000);
@@ -100,8 +100,8 @@ TEST_CASE("each stretch keeps every column's least and greatest value") {
 
 TEST_CASE("rows of NaN do not prevent the choice of rows") {
   Run run = circling(30'000);
-  for (std::size_t i = 10'000; i < 12'000; ++i) run.columns[1].values[i] = std::nan("");
-  run.columns[2].values[20'000] = INFINITY;
+  for (std::size_t i = 10'000; i < 12'000; ++i) run.columns[1].numbers[i] = std::nan("");
+  run.columns[2].numbers[20'000] = INFINITY;
   const KeptRows kept = kept_rows(run, orientation_of(run, 0.01), 5000);
   CHECK(kept.rows.size() <= 5000);
   CHECK(kept.rows.back() == 29'999);

@@ -79,7 +79,7 @@ TEST_CASE("a run's rows read back from its page") {
     const auto values = numbers_of<float>(column.at("data"));
     REQUIRE(values.size() == 500);
     for (std::size_t row = 0; row < values.size(); ++row) {
-      CHECK(values[row] == static_cast<float>(run.columns[c].values[row]));
+      CHECK(values[row] == static_cast<float>(run.columns[c].numbers[row]));
     }
   }
   const auto quaternions = numbers_of<std::int16_t>(made.at("orientation"));
@@ -90,7 +90,7 @@ TEST_CASE("a run's rows read back from its page") {
 
 TEST_CASE("times are exact: three numbers if evenly spaced, else all of them") {
   Run run = circling(100);
-  std::vector<double>& t = run.columns[0].values;
+  std::vector<double>& t = run.columns[0].numbers;
   const auto time_of = [&] {
     return data_of(page(scene_of(run), small_template)).at("runs").at(0).at("time");
   };
@@ -117,7 +117,7 @@ TEST_CASE("hostile text stays text everywhere") {
   run.source.overrides = {hostile};
   run.version = hostile;
   run.summary = R"({"title": "</script>"})";
-  run.columns.push_back({hostile, hostile, hostile, {1, 2, 3}});
+  run.columns.push_back({hostile, {1, 2, 3}, {}, hostile});
   run.events.push_back({0.01, hostile, hostile, 0, 0});
   Scene scene = scene_of(run);
   scene.version = hostile;
@@ -164,7 +164,7 @@ TEST_CASE("a million rows of many columns stay below 5 MB and lose no peak") {
       value = static_cast<double>(state >> 8) * 1e-9;
     }
     noise[700'001] = 5;
-    run.columns.push_back({"noise_" + std::to_string(extra), "N", "", std::move(noise)});
+    run.columns.push_back({"noise_" + std::to_string(extra), std::move(noise), {}, "N"});
   }
   const std::string made = page(scene_of(run), small_template);
   CHECK(made.size() < 3'800'000);  // the template has 1.15 MB
@@ -195,20 +195,20 @@ TEST_CASE("the plate is the scene's, or one that holds the path") {
   CHECK(bbsim::replay::stage_of(scene).round);
   // The path fits even if the ball is mostly in one place.
   scene.runs[0].plate = {};
-  scene.runs[0].columns[1].values.front() = 50;
+  scene.runs[0].columns[1].numbers.front() = 50;
   CHECK(bbsim::replay::stage_of(scene).width == Approx(2 * 1.2 * 50));
-  scene.runs[0].columns[1].values.front() = 0.05;
+  scene.runs[0].columns[1].numbers.front() = 0.05;
   // A last row that diverges does not shrink the rest; so far out nothing is drawn.
   scene.runs[0].plate = {};
-  scene.runs[0].columns[1].values.back() = 1e200;
+  scene.runs[0].columns[1].numbers.back() = 1e200;
   CHECK(bbsim::replay::stage_of(scene).width <= 2 * 1.2 * 20 * 0.05);
 }
 
 TEST_CASE("a scene along one axis has a beam-shaped plate") {
   Scene scene = scene_of(circling(2100));
   scene.runs[0].plate = {};
-  scene.runs[0].columns[2].values.assign(2100, 0.0);
-  for (double& y : scene.runs[0].columns.back().values) y = 0;
+  scene.runs[0].columns[2].numbers.assign(2100, 0.0);
+  for (double& y : scene.runs[0].columns.back().numbers) y = 0;
   const auto stage = bbsim::replay::stage_of(scene);
   CHECK(stage.width == Approx(2 * 1.2 * 0.05));
   CHECK(stage.depth < stage.width / 2);
@@ -240,9 +240,9 @@ TEST_CASE("unusable replay input is refused with the reason") {
     return refusal(scene);
   };
   const std::string file = "circle.csv: cannot be replayed: ";
-  CHECK(of_run(3, [](auto& columns) { columns[2].values.pop_back(); }) ==
+  CHECK(of_run(3, [](auto& columns) { columns[2].numbers.pop_back(); }) ==
         file + "column y has 2 rows, and t has 3");
-  CHECK(contains(of_run(3, [](auto& columns) { columns[0].values[2] = 0.01; }),
+  CHECK(contains(of_run(3, [](auto& columns) { columns[0].numbers[2] = 0.01; }),
                  file + "t in row 3 is 0.01, after 0.01"));
   CHECK(contains(
       of_run(3, [](auto& columns) { columns.erase(columns.begin() + 1, columns.begin() + 3); }),

@@ -76,23 +76,20 @@ TEST_CASE("a slipping ball turns by its distance minus the slip") {
   Run run;
   run.rolls = false;
   run.ball_radius = 1;
-  run.columns = {{"t", "", "", {}},
-                 {"x", "", "", {}},
-                 {"y", "", "", {}},
-                 {"slip_x", "", "", {}},
-                 {"slip_y", "", "", {}}};
+  run.columns = {{"t", {}}, {"x", {}}, {"y", {}}, {"slip_x", {}}, {"slip_y", {}}};
   for (int i = 0; i <= 10; ++i) {
     const double t = 0.1 * i;
     const double values[] = {t, t, 0, 3 - 2 * t, 0};
-    for (std::size_t c = 0; c < run.columns.size(); ++c) run.columns[c].values.push_back(values[c]);
+    for (std::size_t c = 0; c < run.columns.size(); ++c)
+      run.columns[c].numbers.push_back(values[c]);
   }
   CHECK(orientation_of(run, 1).empty());  // its pivoting is unknown
-  run.columns.push_back({"spin", "", "", std::vector<double>(11, 0.0)});
+  run.columns.push_back({"spin", std::vector<double>(11, 0.0)});
   const Quaternion last = orientation_of(run, 1).back();
   CHECK(apart(last, Eigen::Quaterniond(Eigen::AngleAxisd(-1, Eigen::Vector3d::UnitY()))) < 1e-7);
   // A recorded spin is integrated.
-  run.columns.back().values.assign(11, 0.5);
-  run.columns[3].values.assign(11, 1.0);
+  run.columns.back().numbers.assign(11, 0.5);
+  run.columns[3].numbers.assign(11, 1.0);
   CHECK(apart(orientation_of(run, 1).back(),
               Eigen::Quaterniond(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()))) < 1e-7);
 }

@@ -75,9 +75,9 @@ TEST_CASE("a scenario determines what a replay shows") {
 
 TEST_CASE("a table's columns have their units") {
   const Run run = run_of_table({{"t", "x", "phi", "mine"}, {{0, 1}, {0, 1}, {0, 1}, {0, 1}}}, "a");
-  CHECK(find_series(run, "x")->unit == "m");
-  CHECK(find_series(run, "phi")->unit == "rad");
-  CHECK(find_series(run, "mine")->unit.empty());
+  CHECK(run.find("x")->unit == "m");
+  CHECK(run.find("phi")->unit == "rad");
+  CHECK(run.find("mine")->unit.empty());
   CHECK(row_count(run) == 2);
 }
 
@@ -86,7 +86,7 @@ TEST_CASE("neither units nor turns are assumed for a table of unknown origin") {
   const std::string file = folder.put("log.csv", "t,x,y,gamma\n0,-12,3,0\n1,-11,3,0\n");
   const Run run = run_of_result(results::read_result(file, {}), "log.csv");
   CHECK_FALSE(run.units_known);
-  for (const Series& series : run.columns) CHECK(series.unit.empty());
+  for (const file::Column& series : run.columns) CHECK(series.unit.empty());
   CHECK_FALSE(run.rolls);
   CHECK(orientation_of(run, 0.01).empty());
   // Its scenario gives both.
@@ -94,7 +94,7 @@ TEST_CASE("neither units nor turns are assumed for a table of unknown origin") {
   const Scenario scenario = *told.scenario;
   Run known = run_of_result(std::move(told), "log.csv");
   describe(known, scenario);
-  CHECK(find_series(known, "x")->unit == "m");
+  CHECK(known.find("x")->unit == "m");
   CHECK(known.rolls);
   CHECK(orientation_of(known, 0.01).size() == 2);
   // But neither rolling of a ball that may slide, nor pivoting if it is not recorded.
@@ -111,7 +111,7 @@ TEST_CASE("commands have the unit of their target") {
   const auto unit = [](const char* scene) {
     Run run = run_of_table({{"t", "x", "phi_command"}, {{0, 1}, {0, 1}, {0, 1}}}, "a");
     describe_sight(run, read_scenario(config(scene)));
-    return find_series(run, "phi_command")->unit;
+    return run.find("phi_command")->unit;
   };
   CHECK(unit("rig") == "rad");
   CHECK(unit("fig2b-literal") == "rad/s^2");
@@ -133,8 +133,8 @@ TEST_CASE(
   CHECK(row_count(run) == 3);
   CHECK(rows_of_file(run) == 2);
   CHECK(run.reached == 1.5);
-  CHECK(find_series(run, "x")->values.back() == 0.11);
-  CHECK(find_series(run, "phi")->values.back() == 0.3);
+  CHECK(run.find("x")->numbers.back() == 0.11);
+  CHECK(run.find("phi")->numbers.back() == 0.3);
   run.rolls = true;
   describe_sight(run, scenario);
   // One centimeter with a radius of one: one radian about y.

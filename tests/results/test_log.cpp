@@ -51,15 +51,14 @@ TEST_CASE("logs of many styles are read, or refused with row and remedy") {
     const Folder folder;
     const std::string file = folder.put("log.csv", log["log"].as<std::string>());
     CAPTURE(log["style"].as<std::string>());
-    std::vector<std::string> notes;
     std::string said;
     try {
-      const results::Result read = results::read_log(file, choice_of(log), notes);
+      const results::Result read = results::read_log(file, choice_of(log));
       CHECK_FALSE(log["refused"]);
       CHECK(same(numbers(read, "t"), {0, 0.5}));
       CHECK(same(numbers(read, "x"), log["x"].as<std::vector<double>>(std::vector{0.01, 0.02})));
-      for (const std::string& note : notes) said += note + '\n';
-      CHECK(notes.empty() == !log["note"]);
+      for (const std::string& note : read.notes) said += note + '\n';
+      CHECK(read.notes.empty() == !log["note"]);
     } catch (const InputError& error) {
       said = error.what();
       CHECK(log["refused"]);
@@ -79,8 +78,7 @@ TEST_CASE("a map is refused if its place is wrong") {
       {{{}, {}, "", "later"}, "--time-offset: found \"later\""},
       {{{}, {}, "0 s", ""}, "--period"},
   }));
-  std::vector<std::string> notes;
-  CHECK_THROWS_WITH(results::read_log(file, choice, notes), Contains(said));
+  CHECK_THROWS_WITH(results::read_log(file, choice), Contains(said));
 }
 
 }  // namespace bbsim_test::test_log

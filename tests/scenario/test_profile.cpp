@@ -118,6 +118,17 @@ TEST_CASE("a wrapping 32-bit clock drives a scene") {
   CHECK(std::get<Table>(read.gimbal.motion->phi[0]).times == std::vector<double>{0, 4, 5, 14});
 }
 
+TEST_CASE("a clock of dates drives a scene, without its rows that lack one") {
+  const Folder folder;
+  folder.put("log.csv",
+             "when,a\n2026-03-01 23:59:58,1\n2026-03-02 00:00:02,2\n,9\n"
+             "2026-03-02 00:00:03,3\n2026-03-02 00:00:12,4\n");
+  const std::string scenario = folder.put(
+      "scenario.yaml", with_phi("{table: {file: log.csv, time: when, value: a, unit: rad}}"));
+  const Scenario read = read_scenario(scenario);
+  CHECK(std::get<Table>(read.gimbal.motion->phi[0]).times == std::vector<double>{0, 4, 5, 14});
+}
+
 TEST_CASE("a log's last row holds until the end, for one period of the log") {
   const Folder folder;
   folder.put("motion.csv", five_rows("5,3,4"));
@@ -148,8 +159,8 @@ TEST_CASE("the tables read are reported under the scenario's names") {
   REQUIRE(inputs.size() == 2);
   CHECK(inputs[0].file == "./b.csv");
   CHECK(inputs[1].file == "a.csv");
-  CHECK(inputs[1].data->names == std::vector<std::string>{"t", "angle", "other"});
-  CHECK(inputs[1].data->columns[2] == std::vector<double>{1, 2, 3, 4});
+  CHECK(inputs[1].data->names() == std::vector<std::string>{"t", "angle", "other"});
+  CHECK(inputs[1].data->columns[2].numbers == std::vector<double>{1, 2, 3, 4});
 }
 
 }  // namespace bbsim_test::test_profile

@@ -48,14 +48,12 @@ class QuadReference {
       : table_(bbsim::file::read_table(data_file("reference/" + name + ".csv"))) {}
 
   [[nodiscard]] const std::vector<double>& operator[](const std::string& column) const {
-    for (std::size_t i = 0; i < table_.names.size(); ++i) {
-      if (table_.names[i] == column) return table_.columns[i];
-    }
+    if (const bbsim::file::Column* const found = table_.find(column)) return found->numbers;
     throw std::runtime_error("no reference column " + column);
   }
 
  private:
-  bbsim::file::TableData table_;
+  bbsim::file::Table table_;
 };
 
 }  // namespace bbsim_test

@@ -303,18 +303,18 @@ std::vector<InputTable> FileReader::read_inputs() const {
     const Object table(H5Oopen(group, name.c_str(), within_file()), listing);
     if (H5Iget_type(table) != H5I_GROUP) continue;
     const std::string file = text_of(table, input_file);
-    TableData data;
+    Table data;
     for (const Column& column : columns_of(table, path + name + "/")) {
       const std::string title = text_of(column.dataset, column_title);
       if (column.about.kind != Hdf5Kind::number ||
-          (!data.columns.empty() && column.rows != data.columns[0].size())) {
+          (!data.columns.empty() && column.rows != data.columns[0].numbers.size())) {
         throw Failure("input table " + shown(file) + " is not a table of numbers");
       }
-      data.names.push_back(title.empty() ? column.about.name : title);
+      data.columns.push_back({title.empty() ? column.about.name : title, {}});
       read_numbers(column.dataset, 0, column.rows, 1, reading_of(column.path),
-                   data.columns.emplace_back());
+                   data.columns.back().numbers);
     }
-    inputs.push_back({file.empty() ? name : file, std::make_shared<TableData>(std::move(data))});
+    inputs.push_back({file.empty() ? name : file, std::make_shared<Table>(std::move(data))});
   }
   return inputs;
 }

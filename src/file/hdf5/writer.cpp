@@ -236,10 +236,10 @@ void FileWriter::keep(const std::vector<InputTable>& inputs) {
     Group table = create_group(group, free_name(last_part(file), taken));
     set_attribute(table, input_file, file);
     std::set<std::string> columns;
-    for (std::size_t c = 0; c < data->names.size(); ++c) {
+    for (const auto& column : data->columns) {
       Dataset dataset =
-          write_numbers(table, free_name(data->names[c], columns), data->columns[c], doing);
-      set_attribute(dataset, column_title, data->names[c]);
+          write_numbers(table, free_name(column.name, columns), column.numbers, doing);
+      set_attribute(dataset, column_title, column.name);
       dataset.close_checked(doing);
     }
     table.close_checked(doing);
