@@ -175,6 +175,29 @@ TEMPLATE_TEST_CASE("a greatest value is found between rows", "[engines]", EVERY_
   CHECK(largest_difference(made.numbers, exact.numbers) < 1e-7);
 }
 
+TEMPLATE_TEST_CASE("each column's extremes in lanes are those of single runs", "[engines]",
+                   SampledRig, LinkedRig) {
+  using Alone = Engine<TestType, false>;
+  const Scenario scenario = Alone::setup({}, {}, "1e-11").family.read({});
+  std::size_t compared = 0;
+  for (const std::string_view name : scenario::measured_columns()) {
+    CAPTURE(name);
+    if (scenario::missing(*scenario::find_column(name), scenario)) continue;
+    // One measure at a time: others may keep pieces that this one does not need.
+    for (const char* const extreme : {"max_", "min_"}) {
+      const Words measure{extreme + std::string(name)};
+      const Setup all = Alone::setup({}, measure, "1e-11");
+      const sweep::Engine engine = choose_engine(all.task);
+      if (engine.group == 1) continue;  // columns of integrals
+      const auto made = run_all(*engine.runner(), all.task), alone = Alone::run({}, measure);
+      // Accelerations go up to 100.
+      CHECK(largest_difference(made.numbers, alone.numbers) < 100 * steps * 1e-11);
+      ++compared;
+    }
+  }
+  CHECK(compared > 60);
+}
+
 TEMPLATE_TEST_CASE("an interrupt ends a run between its steps", "[engines]", EVERY_ENGINE) {
   const Setup all = TestType::setup({}, ends, "1e-11");
   const std::atomic<bool> stop{true};

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <optional>
 
+#include "base/real.hpp"
 #include "solve/piece.hpp"
 #include "solve/sampled/kernel.hpp"
 
@@ -68,6 +69,16 @@ template <class RangeOf>
       return same(Quantity::power);
   }
   return {};
+}
+
+// Whether a load of a motor has a bound.
+[[nodiscard]] inline bool bounds_loads(const BoundsOfColumns& within) {
+  for (const Bounded load :
+       {Bounded::motor_torque_phi, Bounded::motor_torque_theta, Bounded::motor_power}) {
+    const Bounds& of = within[static_cast<std::size_t>(load)];
+    if (of.least > -infinity || of.most < infinity) return true;
+  }
+  return false;
 }
 
 // The reverse: calls use(quantity, least, most) with the range of each quantity in which no column

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "base/real.hpp"
 #include "solve/sampled/column_bounds.hpp"
 #include "solve/sampled/held_plate.hpp"
 
@@ -22,7 +23,8 @@ bool LaneStep::loses_motion() const {
 
 std::optional<Bounds> LaneStep::bounds(std::size_t lane, Bounded column, bool closely) const {
   if (loses_motion()) return {};
-  return column_bounds(column, [&](Quantity of) {
+  return column_bounds(column, [&](Quantity of) -> Range {
+    if (of >= lane_quantity_count) return {-infinity, infinity};  // loads of motors
     if (!closely) return widened({quantities_.least[of][lane], quantities_.most[of][lane]});
     return widened_closely(lane_kernels_->narrow(quantities_, of, static_cast<int>(lane)));
   });

@@ -157,7 +157,7 @@ void RigLanes::publish(std::size_t l) {
 void RigLanes::take_bounds(std::size_t l) {
   PieceSink* const pieces = sinks_[l]->pieces();
   BoundsOfColumns within;
-  misses_[l] = pieces != nullptr && pieces->may_miss(within);
+  misses_[l] = pieces != nullptr && pieces->may_miss(within) && !bounds_loads(within);
   if (!misses_[l]) return;
   scene_.sizes = true;
   for_each_bound(within, [&](Quantity quantity, double least, double most) {
