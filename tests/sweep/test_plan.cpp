@@ -97,7 +97,7 @@ TEST_CASE("zipped values are checked with those of their own case only") {
   CHECK(values(plan_of(sweep, loop), 1) == (turned ? std::array{0.4, 0.5} : std::array{0.5, 0.4}));
 }
 
-TEST_CASE("a standard deviation is in the key's unit, and not one of its values") {
+TEST_CASE("a standard deviation has the key's unit and need not be one of its values") {
   const std::string loop = "configs/rig.yaml";
   for (const auto& [key, spec] : {std::pair("controller.sampling.period", "normal:20 ms:1e-9"),
                                   {"ball.radius", "normal:0.02:0"},
