@@ -49,8 +49,9 @@ double spaced(const PlanAxis& axis, std::size_t i) {
   const double before = static_cast<double>(i), after = static_cast<double>(axis.count - 1 - i);
   const double all = static_cast<double>(axis.count - 1);
   if (axis.kind == Way::log) {
-    const double first = std::log(std::abs(axis.from)), last = std::log(std::abs(axis.to));
-    return std::copysign(std::exp((first * after + last * before) / all), axis.from);
+    // To base 10, so that powers of ten stay round.
+    const double first = std::log10(std::abs(axis.from)), last = std::log10(std::abs(axis.to));
+    return std::copysign(std::pow(10, (first * after + last * before) / all), axis.from);
   }
   const double sum = sum_of_products(axis.from, after, axis.to, before);
   // The products may overflow although the value does not.

@@ -70,7 +70,7 @@ TEST_CASE("log uses equal factors and ends exactly") {
   const SweepPlan plan =
       plan_of(vary({{"gravity", "log:0.1:100:4"}, {"ball.spin", "log:-1:-4:3"}}));
   CHECK(values(plan, 0) == std::array{0.1, -1.0});
-  CHECK(values(plan, 3)[0] == Approx(1));
+  CHECK(values(plan, 3)[0] == 1);
   CHECK(values(plan, 1)[1] == Approx(-2));
   CHECK(values(plan, 11) == std::array{100.0, -4.0});
   const SweepPlan wide =
