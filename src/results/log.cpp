@@ -204,26 +204,42 @@ std::vector<Mapped> by_their_names(const Result& log, const std::vector<Mapped>&
   return more;
 }
 
-// A clock under one of its usual names, for a log without a column t; says so.
-std::optional<Mapped> usual_clock(Result& log) {
-  struct Usual {
-    std::string_view name, unit;  // of times without a unit in the name
-  };
-  constexpr Usual usual[] = {{"time", "s"},    {"timestamp", "s"}, {"millis", "ms"},
-                             {"micros", "us"}, {"seconds", "s"},   {"datetime", "s"}};
+// The usual names of clocks, with the unit of times without a unit in the name.
+struct Usual {
+  std::string_view name, unit;
+};
+constexpr Usual usual_clocks[] = {{"time", "s"},    {"timestamp", "s"}, {"millis", "ms"},
+                                  {"micros", "us"}, {"seconds", "s"},   {"datetime", "s"}};
+
+// A clock under one of its usual names, for a log without a column t.
+std::optional<Mapped> usual_clock(const Result& log) {
   std::vector<std::string> names = log.names();
   for (std::string& name : names) name = lower(name);
-  for (const auto& [name, unit] : usual) {
-    const auto found = scenario::find_log_column(names, name, yaml::Dimension::time);
+  for (const Usual& usual : usual_clocks) {
+    const auto found = scenario::find_log_column(names, usual.name, yaml::Dimension::time);
     if (!found) continue;
-    const bool is_text = log.columns[*found].is_text();
-    const auto in_name = scenario::unit_in_name(names[*found], yaml::Dimension::time);
-    const std::string read = is_text || in_name ? "" : ", in " + std::string(unit);
-    note(log, "t is the column " + shown(log.columns[*found].name) + read);
     return Mapped{scenario::find_column("t"), *found, 1, 0,
-                  in_name ? in_name : scenario::log_unit(unit, yaml::Dimension::time)};
+                  scenario::unit_in_name(names[*found], yaml::Dimension::time)};
   }
   return {};
+}
+
+// Completes the unit of a clock that has none, and says so, or what the clock is if it is `usual`.
+void complete_clock(Result& log, Mapped& clock, bool usual) {
+  const Column& column = log.columns[clock.from];
+  std::string_view unit;
+  if (!clock.unit && clock.factor == 1 && !column.is_text()) {
+    const auto* const known =
+        usual ? std::ranges::find(usual_clocks, lower(column.name), &Usual::name)
+              : std::end(usual_clocks);
+    const std::string_view since_epoch = file::unit_since_epoch(column.numbers);
+    unit = known == std::end(usual_clocks) ? "s" : known->unit;
+    if (unit == "s" && !since_epoch.empty()) unit = since_epoch;
+    clock.unit = scenario::log_unit(unit, yaml::Dimension::time);
+  }
+  if (!usual && (unit.empty() || unit == "s")) return;
+  note(log,
+       "t is the column " + shown(column.name) + (unit.empty() ? "" : ", in " + std::string(unit)));
 }
 
 double time_of(std::string_view option, const std::string& text, const char* more) {
@@ -347,8 +363,14 @@ void make_log(Result& log, const LogChoice& choice, bool only_mapped) {
     if (!only_mapped || !maps || is_time) mapped.push_back(map);
   }
   const auto is_clock = [](const Mapped& map) { return map.column->name == "t"; };
-  if (choice.period.empty() && std::ranges::none_of(mapped, is_clock)) {
-    if (auto clock = usual_clock(log)) mapped.push_back(*clock);
+  const auto clock = std::ranges::find_if(mapped, is_clock);
+  if (clock != mapped.end()) {
+    complete_clock(log, *clock, false);
+  } else if (choice.period.empty()) {
+    if (auto usual = usual_clock(log)) {
+      complete_clock(log, *usual, true);
+      mapped.push_back(*usual);
+    }
   }
   const std::vector<bool> missing = missing_rows(log, choice, mapped);
   std::vector<Column> columns;
