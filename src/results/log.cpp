@@ -229,9 +229,7 @@ void complete_clock(Result& log, Mapped& clock, bool usual) {
   const Column& column = log.columns[clock.from];
   std::string_view unit;
   if (!clock.unit && clock.factor == 1 && !column.is_text()) {
-    const auto* const known =
-        usual ? std::ranges::find(usual_clocks, lower(column.name), &Usual::name)
-              : std::end(usual_clocks);
+    const auto* const known = std::ranges::find(usual_clocks, lower(column.name), &Usual::name);
     const std::string_view since_epoch = file::unit_since_epoch(column.numbers);
     unit = known == std::end(usual_clocks) ? "s" : known->unit;
     if (unit == "s" && !since_epoch.empty()) unit = since_epoch;
