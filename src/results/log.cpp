@@ -354,13 +354,15 @@ std::string without_clock(const Result& log) {
 
 void make_log(Result& log, const LogChoice& choice, bool only_mapped) {
   std::vector<Mapped> mapped = read_maps(choice.maps, log);
+  const auto is_clock = [](const Mapped& map) { return map.column->name == "t"; };
   const bool maps = !mapped.empty();
+  // A map of the clock alone says nothing about the other columns.
+  only_mapped = only_mapped && !std::ranges::all_of(mapped, is_clock);
   for (Mapped& map : by_their_names(log, mapped)) {
     const bool is_time = map.column->name == "t";
     if (is_time && !choice.period.empty()) continue;  // add_clock() refuses t
-    if (!only_mapped || !maps || is_time) mapped.push_back(map);
+    if (!only_mapped || is_time) mapped.push_back(map);
   }
-  const auto is_clock = [](const Mapped& map) { return map.column->name == "t"; };
   const auto clock = std::ranges::find_if(mapped, is_clock);
   if (clock != mapped.end()) {
     complete_clock(log, *clock, false);
@@ -376,7 +378,7 @@ void make_log(Result& log, const LogChoice& choice, bool only_mapped) {
     columns.push_back(column_of(log, map));
     log.raw.push_back(log.columns[map.from].name);
   }
-  if (only_mapped && maps) log.columns.clear();
+  if (only_mapped) log.columns.clear();
   for (Column& column : columns) {
     Column* const there = log.find(column.name);
     if (there != nullptr) {

@@ -113,6 +113,10 @@ TEST_CASE("runs and a rig's log share one scene, and a sweep has its own") {
   CHECK(runs.at(2).at("name") == "log.csv");
   CHECK(runs.at(2).at("time") == nlohmann::json::parse(R"({"start":0.0,"step":0.1,"count":3})"));
 
+  folder.write("clock.csv", "when,x_mm,y\n0,10,0\n100,20,0\n");
+  expect(0, "replay --data clock.csv --map t=when:ms -o clock.html", folder);
+  CHECK(page_of(folder, "clock.html").at("runs").at(0).at("time").at("count") == 2);
+
   expect(0, "sweep @fig2b.yaml --vary ball.radius=linear:0.01:0.02:3 -o s.csv -q", folder);
   expect(0, "replay s.csv", folder);
   CHECK(page_of(folder, "s.html").at("sweeps").at(0).at("cases") == 3);
