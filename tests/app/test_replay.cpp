@@ -138,6 +138,7 @@ TEST_CASE("input that a replay cannot show is reported with its place, and nothi
       {"--data log.csv --map t -o a.html", 2, "COLUMN=NAME:UNIT"},
       {"--data log.csv --map t=Time,t=Time -o a.html", 2, "t is given twice"},
       {"@fig2a.yaml --map t=Time -o a.html", 2, "allowed with --data"},
+      {"log.csv --time-offset start", 2, "bbsim replay --data log.csv --time-offset start"},
       {"log.csv --set ball.radius=1 -o a.html", 2, "--set: allowed with a scenario"},
       {"@fig2a.yaml -o none/a.html", 3, "none/a.html"},
   }));
