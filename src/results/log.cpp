@@ -42,8 +42,8 @@ yaml::UnitScale unit_of(std::string_view part, const scenario::Column& column,
   const yaml::Dimension dimension = yaml::dimension_of(column.unit);
   if (const auto known = scenario::log_unit(unit, dimension)) return *known;
   const yaml::Quantity quantity = yaml::read_quantity("1 " + std::string(unit), false, dimension);
-  refuse(part, ": " + std::string(column.name) + " is in " + std::string(column.unit) +
-                   "; allowed: no unit, or a unit of the same quantity" + quantity.fault);
+  refuse(part, quantity.fault + ": " + std::string(column.name) + " is in " +
+                   std::string(column.unit) + "; allowed: no unit, or a unit of the same quantity");
 }
 
 std::string near(std::string_view name, const std::vector<std::string_view>& names) {
@@ -79,11 +79,7 @@ class PartReader {
 
   Mapped read() {
     const std::size_t equals = part_.find('=');
-    if (equals == std::string_view::npos || equals == 0 || equals + 1 == part_.size()) {
-      refuse(part_,
-             "; allowed: COLUMN=NAME or COLUMN=NAME:UNIT, such as x=Ballx:mm, or "
-             "COLUMN=FACTOR*NAME+OFFSET:UNIT");
-    }
+    if (equals == std::string_view::npos || equals == 0) refuse_form();
     map_.column = &target_of(part_, trimmed(part_.substr(0, equals)));
     dimension_ = yaml::dimension_of(map_.column->unit);
     std::string_view from = trimmed(part_.substr(equals + 1));
@@ -99,6 +95,12 @@ class PartReader {
   }
 
  private:
+  [[noreturn]] void refuse_form() const {
+    refuse(part_,
+           "; allowed: COLUMN=NAME or COLUMN=NAME:UNIT, such as x=Ballx:mm, or "
+           "COLUMN=FACTOR*NAME+OFFSET:UNIT");
+  }
+
   bool is_column(std::string_view name) {
     const auto found = scenario::find_log_column(names_, name, dimension_);
     if (found) map_.from = *found;
@@ -126,6 +128,7 @@ class PartReader {
       map_.offset = *offset;
       if (is_column(rest)) return;
     }
+    if (rest.empty()) refuse_form();
     std::vector<std::string_view> names(names_.begin(), names_.end());
     std::vector<std::string> known;
     for (const std::string_view name : names) known.push_back(shown(name));

@@ -132,7 +132,7 @@ TEST_CASE("input that a replay cannot show is reported with its place, and nothi
       {"log.csv -o a.html", 2, "log.csv: cannot be replayed: it has neither a column x nor y"},
       {"--data log.csv --map t=Time:ms,x=Ballx:mm -o a.html", 2,
        "log.csv:3:5: column Ballx: found \"far\""},
-      {"--data log.csv --map t=Time:mm -o a.html", 2, "t=Time:mm\": t is in s"},
+      {"--data log.csv --map t=Time:mm -o a.html", 2, "t=Time:mm\", a length: t is in s"},
       {"--data log.csv --map t=time -o a.html", 2, "did you mean Time?"},
       {"--data log.csv --map xx=Ballx -o a.html", 2, "there is no column \"xx\""},
       {"--data log.csv --map t -o a.html", 2, "COLUMN=NAME:UNIT"},
