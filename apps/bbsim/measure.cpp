@@ -12,7 +12,9 @@
 
 #include "api/inputs.hpp"
 #include "api/replay.hpp"
+#include "base/error.hpp"
 #include "base/number_text.hpp"
+#include "base/quoted.hpp"
 #include "commands.hpp"
 #include "file/atomic_file.hpp"
 #include "file/outputs.hpp"
@@ -32,6 +34,12 @@ struct MeasureArguments {
 ExitCode measure(const MeasureArguments& arguments, const Options& options) {
   say_if_waiting(arguments.file, "a CSV", options.quiet);
   results::refuse_auto(arguments.log);
+  if (api::is_scenario(arguments.file)) {
+    std::string command = "bbsim run " + shell_word(arguments.file);
+    for (const std::string& list : arguments.measures) command += " --measure " + shell_word(list);
+    throw InputError(arguments.file +
+                     ": is a scenario; allowed: a result; measure its run: " + command);
+  }
   results::Result result = results::read_result(arguments.file, {}, arguments.log);
   const std::vector<std::string> notes = result.notes;
   file::Outputs outputs;

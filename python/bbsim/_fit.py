@@ -157,6 +157,8 @@ class _Task:
         self.logs: List[Log] = []
         self.columns: List[str] = []
         tables = self._tables_of_logs()
+        moved = [given.text_at(f"{key.removesuffix('.file')}.time_offset") for key, _ in given.tables()]
+        self.hint = "; --time-offset start moves the log as the tables are" if time_offset is None and "start" in moved else ""
         for file in self.files:
             stored, notes = _bbsim.read_log(file, choice)
             self.warnings += [without_folders(note) for note in notes]
@@ -248,7 +250,7 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
         w = int(np.argmin(fit.point.runs))
         if not fit.point.runs[w]:
             place = f"{task.logs[windows.log[w]].name}: from t = {windows.begin[w]:.6g} s on"
-            raise fault(f"{place}, the scenario does not run to the window's end: {fit.point.why[w]}")
+            raise fault(f"{place}, the scenario does not run to the window's end: {fit.point.why[w]}{task.hint}")
         before = _rms(fit)
         search.begin(task.starts)
         search.settle()

@@ -239,6 +239,18 @@ Compared compare_log(const CompareRequest& request, Watch& watch) {
   return compared;
 }
 
+// How to compare a table with a run at its own times; empty if it has bbsim's columns.
+std::string log_note(const file::Table& table, const file::Table& run) {
+  const auto lacks = [&](const char* name) {
+    return table.find(name) == nullptr && run.find(name) != nullptr;
+  };
+  const bool is_log = std::ranges::any_of(table.columns, [](const file::Column& column) {
+    return scenario::find_column(column.name) == nullptr;
+  });
+  if (!is_log || !(lacks("t") || (lacks("x") && lacks("y")))) return "";
+  return "note: if " + table.file + " is a log, --time-offset 0 or --map reads it as one";
+}
+
 }  // namespace
 
 std::string moved_text(const std::string& log, double offset) {
@@ -257,6 +269,7 @@ Compared compare(const CompareRequest& request, Watch& watch) {
   for (const file::Table* table : {&a, &b}) {
     compared.warnings.insert(compared.warnings.end(), table->notes.begin(), table->notes.end());
   }
+  if (const std::string note = log_note(a, b); !note.empty()) compared.warnings.push_back(note);
   warn_of_units(a, b, compared.warnings);
   warn_of_units(b, a, compared.warnings);
   return compared;

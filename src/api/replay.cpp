@@ -13,6 +13,7 @@
 #include "api/measure.hpp"
 #include "api/version.hpp"
 #include "base/error.hpp"
+#include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "file/format.hpp"
 #include "record/log_distance.hpp"
@@ -128,6 +129,26 @@ std::vector<std::string> names_of(const std::vector<std::string>& files) {
   return names;
 }
 
+// The command with the first file of columns as the log, and its options.
+std::string as_data(const ReplayRequest& request) {
+  std::string command = "bbsim replay --data ";
+  const auto file =
+      std::ranges::find_if_not(request.shown, is_scenario, &ReplayRequest::Shown::file);
+  command += file == request.shown.end() ? "LOG.csv" : shell_word(file->file);
+  const auto add = [&](const char* option, const std::string& value) {
+    if (!value.empty()) command += option + shell_word(value);
+  };
+  const results::LogChoice& log = request.log;
+  for (const std::string& map : log.maps) add(" --map ", map);
+  std::string header;
+  for (const std::string& name : log.header) header += (header.empty() ? "" : ",") + name;
+  add(" --header ", header);
+  add(" --period ", log.period);
+  add(" --time-offset ", log.time_offset);
+  add(" --missing ", log.missing);
+  return command;
+}
+
 void check_request(const ReplayRequest& request) {
   if (request.shown.empty() && request.logs.empty()) {
     throw InputError("FILES: missing; allowed: results, scenarios, or --data LOG.csv");
@@ -150,9 +171,10 @@ void check_request(const ReplayRequest& request) {
     throw InputError("--map: found " + std::to_string(maps) + " for " + std::to_string(logs) +
                      " of --data; allowed: one for all, or one for each in their order");
   }
-  if (maps > 0 && logs == 0) throw InputError("--map: allowed with --data, whose columns it names");
   if (request.log.given() && logs == 0) {
-    throw InputError("--header, --period, --time-offset, --missing: allowed with --data, a log");
+    throw InputError(
+        "--map, --header, --period, --time-offset, --missing: allowed with --data, a log: " +
+        as_data(request));
   }
   if (request.log.aligns() && request.shown.empty()) {
     throw InputError("--time-offset: found auto, without a run to align the log with");

@@ -205,6 +205,16 @@ Clock clock_of(const std::vector<double>& times) {
   return clock;
 }
 
+std::string_view unit_since_epoch(const std::vector<double>& times) {
+  const auto first = std::ranges::find_if(times, [](double t) { return std::isfinite(t); });
+  if (first == times.end()) return {};
+  const double power = std::log10(*first);  // of seconds since 1970: 8.5 to 10.5
+  if (power > 11.5 && power < 13.5) return "ms";
+  if (power > 14.5 && power < 16.5) return "us";
+  if (power > 17.5 && power < 19.5) return "ns";
+  return {};
+}
+
 bool counts_from_epoch(const std::vector<double>& times) {
   return !times.empty() && times.front() > earliest_epoch;
 }

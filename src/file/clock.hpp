@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "file/table.hpp"
@@ -31,6 +32,10 @@ struct Clock {
 // "3/1/2026 12:00:01 PM". Times of day go on after midnight. Returns a description of the change;
 // nothing if the column has no text, or a text that is neither.
 [[nodiscard]] std::optional<std::string> read_stamps(Column& column);
+
+// The unit of times without one that count from about 1970 in "ms", "us" or "ns": numbers far above
+// any times in seconds. Empty for all others.
+[[nodiscard]] std::string_view unit_since_epoch(const std::vector<double>& times);
 
 // Whether times (s) count from an epoch, such as 1970.
 [[nodiscard]] bool counts_from_epoch(const std::vector<double>& times);

@@ -356,12 +356,10 @@ class Parser {
 
   void take_beyond() {
     // With decimal points, commas do not mark decimals.
-    if (table_.rows == 0 && delimiter_ == ',' && names_.size() > 1 &&
-        fields_.size() == 2 * names_.size() && text_.find('.') == std::string_view::npos) {
-      fail(1, count_text() +
-                  "; name the others; or, if commas mark decimals, separate the columns by "
-                  "semicolons or tabs");
-    }
+    const auto has_point = [](std::string_view field) {
+      return field.find('.') != std::string_view::npos && is_number(field);
+    };
+    if (delimiter_ == ',' && std::ranges::none_of(fields_.all(), has_point)) ++rows_split_;
     if (rows_beyond_++ == 0) first_beyond_ = {count_text(), number_};
   }
 
@@ -380,6 +378,12 @@ class Parser {
     const auto more = [](std::size_t rows) {
       return rows == 1 ? "" : ", here and in " + counted(rows - 1, "more row");
     };
+    if (2 * rows_split_ > table_.rows) {
+      number_ = first_beyond_.number;
+      fail(1, first_beyond_.text +
+                  "; name the others; or, if commas mark decimals, separate the columns by "
+                  "semicolons or tabs");
+    }
     if (rows_beyond_ > 0) {
       note("warning", first_beyond_.number,
            first_beyond_.text + "; the fields beyond are left out" + more(rows_beyond_));
@@ -418,6 +422,7 @@ class Parser {
   bool cut_first_ = false;   // the first row had too few fields
   Line first_beyond_{};      // the first row with fields beyond the columns
   std::size_t rows_beyond_ = 0, headers_again_ = 0;
+  std::size_t rows_split_ = 0;  // of these, rows in which commas may mark decimals
   std::size_t lines_of_words_ = 0, first_words_ = 0;
 };
 

@@ -500,7 +500,9 @@ std::vector<Note> explain(const Scenario& scene, const Model& model) {
   note("events", events_note(scene));
   note("without", without(scene));
   if (stops > 0) {
-    const std::string of = scene.controller && !scene.ball.push ? "the reference path" : "tables";
+    const std::string of = !scene.controller || scene.ball.push     ? "tables"
+                           : scene.controller->law == Law::commands ? "the commands"
+                                                                    : "the reference path";
     const char* const what = model.jumps.size() != stops ? " knots of "
                              : stops == 1                ? " jump of "
                                                          : " jumps of ";

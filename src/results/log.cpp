@@ -42,8 +42,8 @@ yaml::UnitScale unit_of(std::string_view part, const scenario::Column& column,
   const yaml::Dimension dimension = yaml::dimension_of(column.unit);
   if (const auto known = scenario::log_unit(unit, dimension)) return *known;
   const yaml::Quantity quantity = yaml::read_quantity("1 " + std::string(unit), false, dimension);
-  refuse(part, ": " + std::string(column.name) + " is in " + std::string(column.unit) +
-                   "; allowed: no unit, or a unit of the same quantity" + quantity.fault);
+  refuse(part, quantity.fault + ": " + std::string(column.name) + " is in " +
+                   std::string(column.unit) + "; allowed: no unit, or a unit of the same quantity");
 }
 
 std::string near(std::string_view name, const std::vector<std::string_view>& names) {
@@ -79,11 +79,7 @@ class PartReader {
 
   Mapped read() {
     const std::size_t equals = part_.find('=');
-    if (equals == std::string_view::npos || equals == 0 || equals + 1 == part_.size()) {
-      refuse(part_,
-             "; allowed: COLUMN=NAME or COLUMN=NAME:UNIT, such as x=Ballx:mm, or "
-             "COLUMN=FACTOR*NAME+OFFSET:UNIT");
-    }
+    if (equals == std::string_view::npos || equals == 0) refuse_form();
     map_.column = &target_of(part_, trimmed(part_.substr(0, equals)));
     dimension_ = yaml::dimension_of(map_.column->unit);
     std::string_view from = trimmed(part_.substr(equals + 1));
@@ -99,6 +95,12 @@ class PartReader {
   }
 
  private:
+  [[noreturn]] void refuse_form() const {
+    refuse(part_,
+           "; allowed: COLUMN=NAME or COLUMN=NAME:UNIT, such as x=Ballx:mm, or "
+           "COLUMN=FACTOR*NAME+OFFSET:UNIT");
+  }
+
   bool is_column(std::string_view name) {
     const auto found = scenario::find_log_column(names_, name, dimension_);
     if (found) map_.from = *found;
@@ -126,6 +128,7 @@ class PartReader {
       map_.offset = *offset;
       if (is_column(rest)) return;
     }
+    if (rest.empty()) refuse_form();
     std::vector<std::string_view> names(names_.begin(), names_.end());
     std::vector<std::string> known;
     for (const std::string_view name : names) known.push_back(shown(name));
@@ -204,26 +207,40 @@ std::vector<Mapped> by_their_names(const Result& log, const std::vector<Mapped>&
   return more;
 }
 
-// A clock under one of its usual names, for a log without a column t; says so.
-std::optional<Mapped> usual_clock(Result& log) {
-  struct Usual {
-    std::string_view name, unit;  // of times without a unit in the name
-  };
-  constexpr Usual usual[] = {{"time", "s"},    {"timestamp", "s"}, {"millis", "ms"},
-                             {"micros", "us"}, {"seconds", "s"},   {"datetime", "s"}};
+// The usual names of clocks, with the unit of times without a unit in the name.
+struct Usual {
+  std::string_view name, unit;
+};
+constexpr Usual usual_clocks[] = {{"time", "s"},    {"timestamp", "s"}, {"millis", "ms"},
+                                  {"micros", "us"}, {"seconds", "s"},   {"datetime", "s"}};
+
+// A clock under one of its usual names, for a log without a column t.
+std::optional<Mapped> usual_clock(const Result& log) {
   std::vector<std::string> names = log.names();
   for (std::string& name : names) name = lower(name);
-  for (const auto& [name, unit] : usual) {
-    const auto found = scenario::find_log_column(names, name, yaml::Dimension::time);
+  for (const Usual& usual : usual_clocks) {
+    const auto found = scenario::find_log_column(names, usual.name, yaml::Dimension::time);
     if (!found) continue;
-    const bool is_text = log.columns[*found].is_text();
-    const auto in_name = scenario::unit_in_name(names[*found], yaml::Dimension::time);
-    const std::string read = is_text || in_name ? "" : ", in " + std::string(unit);
-    note(log, "t is the column " + shown(log.columns[*found].name) + read);
     return Mapped{scenario::find_column("t"), *found, 1, 0,
-                  in_name ? in_name : scenario::log_unit(unit, yaml::Dimension::time)};
+                  scenario::unit_in_name(names[*found], yaml::Dimension::time)};
   }
   return {};
+}
+
+// Completes the unit of a clock that has none, and says so, or what the clock is if it is `usual`.
+void complete_clock(Result& log, Mapped& clock, bool usual) {
+  const Column& column = log.columns[clock.from];
+  std::string_view unit;
+  if (!clock.unit && clock.factor == 1 && !column.is_text()) {
+    const auto* const known = std::ranges::find(usual_clocks, lower(column.name), &Usual::name);
+    const std::string_view since_epoch = file::unit_since_epoch(column.numbers);
+    unit = known == std::end(usual_clocks) ? "s" : known->unit;
+    if (unit == "s" && !since_epoch.empty()) unit = since_epoch;
+    clock.unit = scenario::log_unit(unit, yaml::Dimension::time);
+  }
+  if (!usual && (unit.empty() || unit == "s")) return;
+  note(log,
+       "t is the column " + shown(column.name) + (unit.empty() ? "" : ", in " + std::string(unit)));
 }
 
 double time_of(std::string_view option, const std::string& text, const char* more) {
@@ -340,15 +357,23 @@ std::string without_clock(const Result& log) {
 
 void make_log(Result& log, const LogChoice& choice, bool only_mapped) {
   std::vector<Mapped> mapped = read_maps(choice.maps, log);
+  const auto is_clock = [](const Mapped& map) { return map.column->name == "t"; };
   const bool maps = !mapped.empty();
+  // A map of the clock alone says nothing about the other columns.
+  only_mapped = only_mapped && !std::ranges::all_of(mapped, is_clock);
   for (Mapped& map : by_their_names(log, mapped)) {
     const bool is_time = map.column->name == "t";
     if (is_time && !choice.period.empty()) continue;  // add_clock() refuses t
-    if (!only_mapped || !maps || is_time) mapped.push_back(map);
+    if (!only_mapped || is_time) mapped.push_back(map);
   }
-  const auto is_clock = [](const Mapped& map) { return map.column->name == "t"; };
-  if (choice.period.empty() && std::ranges::none_of(mapped, is_clock)) {
-    if (auto clock = usual_clock(log)) mapped.push_back(*clock);
+  const auto clock = std::ranges::find_if(mapped, is_clock);
+  if (clock != mapped.end()) {
+    complete_clock(log, *clock, false);
+  } else if (choice.period.empty()) {
+    if (auto usual = usual_clock(log)) {
+      complete_clock(log, *usual, true);
+      mapped.push_back(*usual);
+    }
   }
   const std::vector<bool> missing = missing_rows(log, choice, mapped);
   std::vector<Column> columns;
@@ -356,7 +381,7 @@ void make_log(Result& log, const LogChoice& choice, bool only_mapped) {
     columns.push_back(column_of(log, map));
     log.raw.push_back(log.columns[map.from].name);
   }
-  if (only_mapped && maps) log.columns.clear();
+  if (only_mapped) log.columns.clear();
   for (Column& column : columns) {
     Column* const there = log.find(column.name);
     if (there != nullptr) {

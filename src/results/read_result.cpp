@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <iterator>
@@ -19,6 +20,7 @@
 #include "base/json.hpp"
 #include "base/number_in.hpp"
 #include "base/number_text.hpp"
+#include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "file/format.hpp"
 #include "file/line_reader.hpp"
@@ -207,6 +209,21 @@ bool looks_like_a_run(const Result& table) {
   return own_name && has_digits_of_doubles(table);
 }
 
+// Fields that blanks separate, or names and numbers that equal signs join, are texts.
+void require_numbers(const Result& result) {
+  const auto is_number = [](double number) { return !std::isnan(number); };
+  const auto text = std::ranges::find_if(result.columns, &Column::is_text);
+  if (text == result.columns.end()) return;
+  for (const Column& column : result.columns) {
+    if (std::ranges::any_of(column.numbers, is_number)) return;
+  }
+  const auto first = std::ranges::find_if_not(text->texts, &std::string::empty);
+  throw InputError(file::name_in_messages(result.file) + ": found no numbers, but texts such as " +
+                   quoted(*first, file::longest_name) +
+                   "; allowed: numbers below a header, with commas, semicolons or tabs between "
+                   "them, or pairs such as x:0.01 t:120");
+}
+
 }  // namespace
 
 std::string summary_beside(const std::string& file) {
@@ -228,8 +245,11 @@ Result read_columns(const std::string& file, const std::vector<std::string>& hea
   Result result;
   static_cast<file::Table&>(result) = file::read_table(file, {{}, header});
   if (result.rows == 0) {
-    throw InputError(file::name_in_messages(file) + ": has a header and no rows");
+    const bool left_out = !result.notes.empty();
+    throw InputError(file::name_in_messages(file) + ": has a header and no rows" +
+                     (left_out ? "; commas, semicolons or tabs separate the fields of a row" : ""));
   }
+  require_numbers(result);
   // Trajectories of a sweep are not columns.
   std::erase_if(result.columns,
                 [&](const Column& column) { return column.numbers.size() != result.rows; });

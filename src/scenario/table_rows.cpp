@@ -124,6 +124,12 @@ bool take_columns(yaml::Keys& keys, const std::string& file, const Names& header
       if (const auto done = file::read_stamps(into.back())) {
         keys.mapping().warn(yaml::shown(file) + ": " + *done);
         column.unit = yaml::UnitScale{};
+      } else if (!column.unit) {
+        const std::string_view unit = file::unit_since_epoch(into.back().numbers);
+        if (unit.empty()) continue;
+        column.unit = yaml::unit_scale(unit, yaml::Dimension::time);
+        keys.mapping().warn(yaml::shown(file) + ": its times count from an epoch, in " +
+                            std::string(unit));
       }
     } else {
       Names known;  // safe for a terminal

@@ -19,6 +19,16 @@ TEST_CASE("check names the inputs of an open loop") {
          {"rtol 1e-08, atol 1e-10\n             auto takes the method", "not stiff: "});
 }
 
+TEST_CASE("check names the stops of known commands") {
+  const Folder folder;
+  folder.write("a.csv", "t,phi\n0,0\n1,0.01\n2,0\n4,0\n");
+  folder.write("rig.yaml",
+               "ball: {radius: 0.01}\ntime: {end: 3, step: 0.1}\n"
+               "gimbal: {servo: {time_constant: 0.05}}\ncontroller: {drives: angle, sampling: "
+               "{period: 0.02}, commands: {phi: {table: {file: a.csv, time: t, value: phi}}}}\n");
+  expect(0, "check rig.yaml", folder, {}, {"2 knots of the commands"});
+}
+
 TEST_CASE("check reports tumble as a planar scene once its y motion and spin are removed") {
   const std::string tumble = "check %tests/data/scenarios/tumble.yaml";
   expect(0, call(tumble), {}, {"5 states"});

@@ -104,6 +104,7 @@ TEST_CASE("a rig's log is compared with a run at the log's times") {
          {"different: x is more than 0.001 apart"});
   expect(0, "compare log" + columns + "auto", folder, {"log.csv: moved by "});
   folder.write("gaps.csv", "millis;px\n5000;10\n5500;-1\n6000;20\n");
+  expect(1, "compare log.csv run.csv", folder, {"if log.csv is a log, --time-offset 0"});
   expect(0, "compare gaps" + columns + "start --missing -1 --atol 1e-9", folder,
          {"1 row has a position of -1, first in row 2; left out"},
          {"gaps.csv from run.csv: 2 of 2 rows, 0 to 1 s"});

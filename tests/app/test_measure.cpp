@@ -285,6 +285,7 @@ TEST_CASE("a log is measured with its own names, units and clock") {
   CHECK(made.out == "measure,value\nmin_x,-0.02\nfind x at 0.1,-0.01\n");
   CHECK(made.err.empty());
   expect(2, measure + "min_x --time-offset auto", folder);
+  expect(2, "measure fig.yaml --measure max_x", folder, {"bbsim run fig.yaml --measure max_x"});
 }
 
 TEST_CASE("run writes derivatives by keys as columns, and gradients of measures") {

@@ -113,6 +113,10 @@ TEST_CASE("runs and a rig's log share one scene, and a sweep has its own") {
   CHECK(runs.at(2).at("name") == "log.csv");
   CHECK(runs.at(2).at("time") == nlohmann::json::parse(R"({"start":0.0,"step":0.1,"count":3})"));
 
+  folder.write("clock.csv", "when,x_mm,y\n0,10,0\n100,20,0\n");
+  expect(0, "replay --data clock.csv --map t=when:ms -o clock.html", folder);
+  CHECK(page_of(folder, "clock.html").at("runs").at(0).at("time").at("count") == 2);
+
   expect(0, "sweep @fig2b.yaml --vary ball.radius=linear:0.01:0.02:3 -o s.csv -q", folder);
   expect(0, "replay s.csv", folder);
   CHECK(page_of(folder, "s.html").at("sweeps").at(0).at("cases") == 3);
@@ -128,12 +132,13 @@ TEST_CASE("input that a replay cannot show is reported with its place, and nothi
       {"log.csv -o a.html", 2, "log.csv: cannot be replayed: it has neither a column x nor y"},
       {"--data log.csv --map t=Time:ms,x=Ballx:mm -o a.html", 2,
        "log.csv:3:5: column Ballx: found \"far\""},
-      {"--data log.csv --map t=Time:mm -o a.html", 2, "t=Time:mm\": t is in s"},
+      {"--data log.csv --map t=Time:mm -o a.html", 2, "t=Time:mm\", a length: t is in s"},
       {"--data log.csv --map t=time -o a.html", 2, "did you mean Time?"},
       {"--data log.csv --map xx=Ballx -o a.html", 2, "there is no column \"xx\""},
       {"--data log.csv --map t -o a.html", 2, "COLUMN=NAME:UNIT"},
       {"--data log.csv --map t=Time,t=Time -o a.html", 2, "t is given twice"},
       {"@fig2a.yaml --map t=Time -o a.html", 2, "allowed with --data"},
+      {"log.csv --time-offset start", 2, "bbsim replay --data log.csv --time-offset start"},
       {"log.csv --set ball.radius=1 -o a.html", 2, "--set: allowed with a scenario"},
       {"@fig2a.yaml -o none/a.html", 3, "none/a.html"},
   }));

@@ -689,6 +689,11 @@ time: {end: 1, step: 20 ms}
             (radius, {"set": {"time.end": 5}, "time_offset": "100 s"}, "tables cover"),
         ):  # fmt: skip
             self.refused(message, free, **options)
+        rows = rows_of(sd=5e-4)
+        late = ASSUMED_RIG.replace("time: t,", "time: t, time_offset: start,")
+        self.put({**rows, "t": rows["t"] + 15}, late)
+        self.refused("time_offset start moves the log", radius)
+        self.fit(radius, time_offset="start")
         Path("log.csv").write_text("t,phi,theta\n0,0,0\n1,0,0\n2,0,0\n3,0,0\n10,0,0\n")
         self.refused("has no column to compare", radius)
         own = {"ball": {"radius": 0.01}, "controller": {"callable": lambda sample: (0, 0), "drives": "acceleration"}}

@@ -118,6 +118,21 @@ TEST_CASE("a wrapping 32-bit clock drives a scene") {
   CHECK(std::get<Table>(read.gimbal.motion->phi[0]).times == std::vector<double>{0, 4, 5, 14});
 }
 
+TEST_CASE("a clock of milliseconds since an epoch drives a scene") {
+  const Folder folder;
+  folder.put("log.csv",
+             "when,a\n1700000000000,1\n1700000001000,2\n1700000002000,3\n1700000015000,4\n");
+  const auto read = [&](const std::string& unit) {
+    const std::string scenario = folder.put(
+        "scenario.yaml", with_phi("{table: {file: log.csv, time: when, value: a, unit: rad, "
+                                  "time_offset: start" +
+                                  unit + "}}"));
+    return std::get<Table>(read_scenario(scenario).gimbal.motion->phi[0]).times;
+  };
+  CHECK(read("") == std::vector<double>{0, 1, 2, 15});
+  CHECK_THROWS_AS(read(", time_unit: us"), InputError);  // 15 ms, shorter than the run
+}
+
 TEST_CASE("a clock of dates drives a scene, without its rows that lack one") {
   const Folder folder;
   folder.put("log.csv",
