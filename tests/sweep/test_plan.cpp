@@ -98,7 +98,7 @@ TEST_CASE("zipped values are checked with those of their own case only") {
 }
 
 TEST_CASE("a standard deviation has the key's unit and need not be one of its values") {
-  const std::string loop = "configs/rig.yaml";
+  const std::string loop = BBSIM_SOURCE_DIR "/configs/rig.yaml";
   for (const auto& [key, spec] : {std::pair("controller.sampling.period", "normal:20 ms:1e-9"),
                                   {"ball.radius", "normal:0.02:0"},
                                   {"solver.rtol", "normal:1e-8:1e-15"},
