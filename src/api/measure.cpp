@@ -162,8 +162,9 @@ void warn_of_units(const file::Table& table, const file::Table& other,
     }
     const double largest = scenario::largest_size(numbers);
     const double other_largest = scenario::largest_size(beside->numbers);
+    constexpr double least_factor = 10;  // between two units: 57 or more
     const auto doubt = scenario::doubt_of(largest, name);
-    if (doubt && !scenario::doubt_of(other_largest, name)) {
+    if (doubt && largest > least_factor * other_largest) {
       warn(*doubt, " goes up to ", largest, other_largest);
     }
   }
