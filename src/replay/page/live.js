@@ -333,7 +333,7 @@ bbsim.makeLive = (container) => {
       sliders.update(key, String(value));
       return drawn.catch((error) => {
         if (wanted === tried) {
-          wanted = shown;
+          wanted = {...wanted, set: shown.set};
           sliders.fill(offered);
         }
         throw error;
