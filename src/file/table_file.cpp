@@ -3,6 +3,7 @@
 
 // Chooses the format of a table by the name of its file.
 #include "base/error.hpp"
+#include "base/quoted.hpp"
 #include "file/atomic_file.hpp"
 #include "file/format.hpp"
 #include "file/formats.hpp"
@@ -25,6 +26,10 @@ std::unique_ptr<TableWriter> open_table(const std::string& target,
 }
 
 Table read_table(const std::string& file, const CsvChoice& choice) {
+  if (const std::string ending = lower_ending(file); ending == ".yaml" || ending == ".yml") {
+    throw InputError(file + ": is a scenario; allowed: a table, such as its result: bbsim run " +
+                     shell_word(file) + " -o run.h5");
+  }
   Table table = format_of(file) == Format::hdf5 ? read_hdf5(file) : read_csv(file, choice);
   table.file = file;
   return table;

@@ -258,10 +258,6 @@ Result read_columns(const std::string& file, const std::vector<std::string>& hea
 }
 
 Result read_result(const std::string& file, const Beside& beside, const LogChoice& log) {
-  if (const std::string ending = file::lower_ending(file); ending == ".yaml" || ending == ".yml") {
-    throw InputError(file + ": is a scenario; draw its result: bbsim run " + file +
-                     " -o run.h5 && bbsim plot run.h5");
-  }
   Result result = read_columns(file, log.header);
   if (is_hdf5(file)) take_summary(result, summary_of(result.attributes));
   if (!beside.summary.empty()) {

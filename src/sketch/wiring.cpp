@@ -357,7 +357,7 @@ void check_pins(const yaml::Value& wiring) {
       if (pins[j].pin != pins[i].pin) continue;
       if (pins[i].at.name() == "enable" && pins[j].at.name() == "enable") continue;
       pins[i].at.report("found pin " + pin_name(pins[i].pin) + ", which " + pins[j].at.path +
-                        " has, too; allowed: a pin of its own");
+                        " uses; allowed: a pin that nothing else uses");
       break;
     }
   }

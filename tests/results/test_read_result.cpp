@@ -61,7 +61,7 @@ TEST_CASE("a result that is no table is refused with its place") {
   CHECK_THROWS_WITH(read("/dev/zero"), Contains("more than 1048576 bytes"));
   CHECK_THROWS_WITH(read(folder / "none.csv"), Contains("no such file"));
   CHECK_THROWS_WITH(read(folder.name()), Contains("is a directory"));
-  CHECK_THROWS_WITH(read("scene.yaml"), Contains("is a scenario; draw its result"));
+  CHECK_THROWS_WITH(read("scene.yaml"), Contains("is a scenario; allowed: a table"));
 }
 
 TEST_CASE("a summary beside a CSV describes its scene if it is of the same run") {

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <fstream>
 #include <functional>
 #include <vector>
 
@@ -112,6 +113,19 @@ struct Ten : Setup {
   }
 
   CaseFileLayout layout;
+};
+
+// A file to write, and the same one written at once.
+struct FileBesideExpected {
+  explicit FileBesideExpected(const std::string& ending)
+      : target(folder / ("a" + ending)), expected(folder / ("expected" + ending)) {
+    sweep.complete(expected);
+  }
+  [[nodiscard]] bool are_alike() const { return content_of(target) == content_of(expected); }
+
+  Folder folder{};
+  Ten sweep{};
+  std::string target, expected;
 };
 
 std::string row(std::size_t number) {
@@ -265,11 +279,9 @@ TEST_CASE("a file with too few cases is not completed, and its journal stays") {
 }
 
 TEST_CASE("collecting tells how far it is, and stops on request with the journal whole") {
-  const Folder folder;
-  const std::string ending = GENERATE(std::string(".csv"), std::string(".h5"));
-  const std::string target = folder / ("a" + ending);
-  Ten sweep;
-  sweep.complete(folder / ("expected" + ending));
+  FileBesideExpected files(GENERATE(std::string(".csv"), std::string(".h5")));
+  const std::string& target = files.target;
+  Ten& sweep = files.sweep;
   {
     const auto file = sweep.open(target);
     sweep.append(*file, 100, 107);
@@ -289,16 +301,13 @@ TEST_CASE("collecting tells how far it is, and stops on request with the journal
   const auto file = sweep.open(target, true);
   CHECK(file->kept().cases == 10);
   CHECK(finish(*file, {{"title", "t"}}, 1));
-  const bool alike = content_of(target) == content_of(folder / ("expected" + ending));
-  CHECK(alike);
+  CHECK(files.are_alike());
 }
 
 TEST_CASE("a journal that loses its name is neither lost nor mistaken for another") {
-  const Folder folder;
-  const std::string ending = GENERATE(std::string(".csv"), std::string(".h5"));
-  const std::string target = folder / ("a" + ending);
-  Ten sweep;
-  sweep.complete(folder / ("expected" + ending));
+  FileBesideExpected files(GENERATE(std::string(".csv"), std::string(".h5")));
+  const std::string& target = files.target;
+  Ten& sweep = files.sweep;
   const auto file = sweep.open(target);
   sweep.append(*file, 100, 110);
   CHECK(file->part() == target + ".part");
@@ -308,12 +317,11 @@ TEST_CASE("a journal that loses its name is neither lost nor mistaken for anothe
     CHECK(finish(*file, {{"title", "t"}}, 1));
   }
   SECTION("replaced") {
-    folder.put("a" + ending + ".part", "somebody else's");
+    std::ofstream(target + ".part") << "somebody else's";
     CHECK(finish(*file, {{"title", "t"}}, 1));
     CHECK(content_of(target + ".part") == "somebody else's");
   }
-  const bool alike = content_of(target) == content_of(folder / ("expected" + ending));
-  CHECK(alike);
+  CHECK(files.are_alike());
 }
 
 TEST_CASE("nothing is written through a link or special file in its place") {
