@@ -274,7 +274,9 @@ std::optional<Curve::Place> Curve::place_at(double t) const {
   const auto after =
       std::upper_bound(pieces_.begin(), pieces_.end(), t,
                        [](double time, const Piece& piece) { return time < piece.from; });
-  const auto number = static_cast<std::size_t>(after - pieces_.begin()) - 1;
+  auto number = static_cast<std::size_t>(after - pieces_.begin()) - 1;
+  // A row before empty cells has a value, but no line begins at it.
+  if (number > 0 && std::isnan(pieces_[number].most) && pieces_[number - 1].to == t) --number;
   const Piece& of = pieces_[number];
   if (after == pieces_.end() && t > of.to) return {};
   const double length = of.to - of.from;
