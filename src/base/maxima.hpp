@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Interpolation through values at Chebyshev points, and the maxima of a smooth function from such
-// values.
+// Interpolation through values at Chebyshev points, the maxima of a smooth function from such
+// values, and zeros.
 #pragma once
 
 #include <algorithm>
@@ -69,6 +69,26 @@ struct Bracket {
   Peak from, best, to;
   double guess = 0;
 };
+
+// A bracket within the range, to start at the top of the parabola through its three points.
+[[nodiscard]] inline Bracket within(const Peak& from, const Peak& best, const Peak& to) {
+  const double before = best.at - from.at, after = to.at - best.at;
+  const double rise = (best.value - from.value) / before, fall = (best.value - to.value) / after;
+  const double slope = (rise * after - fall * before) / (before + after);
+  const double bend = (rise + fall) / (before + after);
+  return {from, best, to, best.at + (bend > 0 ? slope / (2 * bend) : after / 2)};
+}
+
+// The zero of a function by bisection, to rounding. It has different signs at both ends.
+template <class Function>
+[[nodiscard]] double zero_between(double low, double high, Function function) {
+  const double rising = function(low) < 0 ? 1 : -1;
+  for (;;) {
+    const double middle = low + (high - low) / 2;
+    if (middle <= low || middle >= high) return middle;
+    (rising * function(middle) < 0 ? low : high) = middle;
+  }
+}
 
 // The assumption about the function between points. Smooth: it exceeds the values by about as much
 // as the parabola through three of them. Kinks (a distance has one at 0): each side may go on along

@@ -12,18 +12,6 @@
 namespace bbsim::record {
 namespace {
 
-// The zero of `f` by bisection, to rounding. `f` has different signs at both ends and is 0 at
-// neither.
-template <class Function>
-double root(double low, double high, Function f) {
-  const double rising = f(low) < 0 ? 1 : -1;  // a falling function rises after a change of sign
-  for (;;) {
-    const double middle = low + (high - low) / 2;
-    if (middle <= low || middle >= high) return middle;
-    (rising * f(middle) < 0 ? low : high) = middle;
-  }
-}
-
 constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
 // The rounding error of a polynomial through values of this size: at most (6 n + 6) u times the
@@ -147,7 +135,7 @@ Curve::Arcs Curve::arcs_of(std::size_t number) const {
   const auto slope = [&](double part) { return points.at(slopes.data(), part); };
   const auto look_between = [&](double low, double low_slope, double high, double high_slope) {
     if (low_slope * high_slope >= 0) return;
-    const double turn = root(low, high, slope);
+    const double turn = zero_between(low, high, slope);
     end_arc(turn, this->value(number, turn));
   };
   // The slope changes its sign at each turn, at the points and between them.
@@ -176,8 +164,8 @@ Curve::Place Curve::at_level(const Arcs& of, const Arc& arc, double level) const
   const std::size_t piece = arc.from.piece;
   if (of.side(arc.from_value, level) == 0) return arc.from;
   if (of.side(arc.to_value, level) == 0 || arc.from.part == arc.to.part) return arc.to;
-  return place(piece, root(arc.from.part, arc.to.part,
-                           [&](double part) { return value(piece, part) - level; }));
+  return place(piece, zero_between(arc.from.part, arc.to.part,
+                                   [&](double part) { return value(piece, part) - level; }));
 }
 
 std::optional<Curve::Place> Curve::first_at_least(double sign, double level) const {

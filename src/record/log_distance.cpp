@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/maxima.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
 #include "base/text.hpp"
@@ -236,28 +237,12 @@ double time_offset(const file::Table& log, const file::Table& run,
     throw InputError("--time-offset auto: " + log.file + " and " + run.file +
                      " have too little in common that varies; allowed: a time, or start");
   }
-  // Golden-section search around the best offset.
-  constexpr double golden = 0.6180339887498949;
-  double low = *best - step, high = *best + step;
-  const auto value = [&](double offset) {
-    return likeness(coarse, offset, least * 0.9).value_or(-INFINITY);
+  const auto peak = [&](double offset) {
+    return Peak{offset, likeness(coarse, offset, least * 0.9).value_or(0)};
   };
-  double a = high - golden * (high - low), b = low + golden * (high - low);
-  double at_a = value(a), at_b = value(b);
-  for (int i = 0; i < 40; ++i) {
-    if (at_a > at_b) {
-      high = b;
-      b = std::exchange(a, b - golden * (b - low));
-      at_b = at_a;
-      at_a = value(a);
-    } else {
-      low = a;
-      a = std::exchange(b, a + golden * (high - a));
-      at_a = at_b;
-      at_b = value(b);
-    }
-  }
-  return (low + high) / 2;
+  return climb(within(peak(*best - step), peak(*best), peak(*best + step)), good_place * step,
+               [&](double offset) { return peak(offset).value; })
+      .at;
 }
 
 std::string to_text(const LogDistance& distance, const std::string& log_name,

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/maxima.hpp"
 #include "model/eigenvalues.hpp"
 
 namespace bbsim::model {
@@ -19,16 +20,6 @@ using Eigen::Index;
 using Real = std::function<double(double)>;
 
 constexpr double pi = std::numbers::pi;
-
-// Zero of f in [low, high] by bisection, to rounding; f has different signs at the ends.
-double zero_between(const Real& f, double low, double high) {
-  const bool rises = f(low) < 0;
-  for (;;) {
-    const double middle = low + (high - low) / 2;
-    if (middle <= low || middle >= high) return middle;
-    ((f(middle) < 0) == rises ? low : high) = middle;
-  }
-}
 
 // A function in a fast version, a careful one with a bound on its rounding, and its values at the
 // frequencies.
@@ -41,20 +32,6 @@ struct Rounded {
   std::function<Value(double)> careful;
   std::vector<double> known;
 };
-
-// Minimizes |f| between a and b, by golden sections.
-double lowest_between(const Real& f, double a, double b) {
-  constexpr double golden = 0.6180339887498949;
-  for (int k = 0; k < 80 && b - a > 1e-15 * b; ++k) {
-    const double c = b - golden * (b - a), d = a + golden * (b - a);
-    if (std::abs(f(c)) < std::abs(f(d))) {
-      b = d;
-    } else {
-      a = c;
-    }
-  }
-  return a + (b - a) / 2;
-}
 
 // Zeros of f that show in its values at the points or in dips between them, without those that
 // rounding makes.
@@ -72,8 +49,13 @@ std::vector<double> zeros_of(const Rounded& f, const std::vector<double>& points
         (known[i] < 0) == (known[i - 1] < 0) && (known[i] < 0) == (known[i + 1] < 0) &&
         std::abs(known[i]) < std::abs(known[i - 1]) && std::abs(known[i]) < std::abs(known[i + 1]);
     if (!dips) continue;
-    const double lowest = lowest_between(f.value, points[i - 1], points[i + 1]);
-    const double value = f.value(lowest);
+    // The greatest value with the other sign.
+    const double sign = known[i] < 0 ? 1 : -1;
+    const auto at_point = [&](std::size_t k) { return Peak{points[k], sign * known[k]}; };
+    const Peak top = climb(within(at_point(i - 1), at_point(i), at_point(i + 1)),
+                           good_place * (points[i + 1] - points[i - 1]),
+                           [&](double w) { return sign * f.value(w); });
+    const double lowest = top.at, value = sign * top.value;
     if (lowest == points[i] || (value < 0) == (known[i] < 0)) continue;
     add(lowest, value);
     if (lowest < points[i]) {
@@ -92,7 +74,7 @@ std::vector<double> zeros_of(const Rounded& f, const std::vector<double>& points
     i = high - 1;
     if (!at_low.certain() || !at_high.certain()) continue;
     if ((at_low.value < 0) == (at_high.value < 0)) continue;
-    zeros.push_back(zero_between([&](double w) { return f.careful(w).value; }, at[low], at[high]));
+    zeros.push_back(zero_between(at[low], at[high], [&](double w) { return f.careful(w).value; }));
   }
   return zeros;
 }
@@ -327,7 +309,7 @@ double bandwidth_of(const std::function<Complex(double)>& closed_loop,
   const Real above = [&](double w) { return std::abs(closed_loop(w)) - border; };
   double last = 0;
   for (const double w : frequencies) {
-    if (above(w) < 0) return zero_between(above, last, w);
+    if (above(w) < 0) return zero_between(last, w, above);
     last = w;
   }
   return Margins::none;
