@@ -3,6 +3,7 @@
 
 #include "api/check.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -23,7 +24,6 @@
 #include "model/spectrum.hpp"
 #include "scenario/exercise.hpp"
 #include "scenario/family.hpp"
-#include "solve/choose.hpp"
 #include "solve/output_grid.hpp"
 #include "sweep/plan.hpp"
 
@@ -154,18 +154,37 @@ void report_closed_loop(Report& report, const Scenario& scenario, const model::M
 }
 
 void report_solver(Report& report, const Solver& solver) {
-  report.push_back({"solver", std::string(solve::method_name(solve::choose_method(solver.method))) +
+  report.push_back({"solver", std::string(method_name(choose_method(solver.method))) +
                                   (solver.error ? ", error of x and y at most " +
                                                       short_number(*solver.error) + " m"
                                                 : ", rtol " + short_number(solver.rtol) +
                                                       ", atol " + short_number(solver.atol))});
 }
 
+// How many times the fastest mode decays by a factor of e over the run. Above about 100, stability
+// would limit the steps of an explicit method.
+double decays_over_run(const model::Model& model, double end) {
+  double fastest = 0;
+  const auto look = [&](const model::Eigenvalues& values) {
+    for (const auto& value : values) fastest = std::max(fastest, -value.real());
+  };
+  const auto look_at = [&](double t) { look(model::eigenvalues(model, t, model.initial.data())); };
+  if (model.closed_loop()) {
+    look_at(0);
+    look(model::closed_loop_poles(model));
+  } else {
+    // The Jacobian depends only on time. Sample it across the run.
+    constexpr int samples = 8;
+    for (int i = 0; i <= samples; ++i) look_at(end * i / samples);
+  }
+  return fastest * end;
+}
+
 void report_reasons(Report& report, const Scenario& scenario, const model::Model& model) {
   report.push_back({"", scenario.solver.method == Method::automatic
                             ? "auto takes the method that was fastest in all measurements"
                             : "asked for"});
-  const double decays = solve::decays_over_scene(model, scenario.time.end);
+  const double decays = decays_over_run(model, scenario.time.end);
   if (decays <= 1) {
     report.push_back({"", "not stiff: no motion decays within the run"});
     return;

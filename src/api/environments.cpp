@@ -11,7 +11,6 @@
 #include "base/error.hpp"
 #include "base/instant.hpp"
 #include "model/control/external_controller.hpp"
-#include "solve/choose.hpp"
 
 namespace bbsim::api {
 namespace {
@@ -50,7 +49,7 @@ class ControllerPlaceholder : public model::ExternalController {
 constexpr double most_samples = 1e5;
 
 bool fits_lanes(const Scenario& scenario) {
-  return !scenario.solver.error && solve::choose_method(scenario.solver.method) == Method::radau &&
+  return !scenario.solver.error && choose_method(scenario.solver.method) == Method::radau &&
          scenario.time.end <= most_samples * scenario.controller->sampling->period;
 }
 

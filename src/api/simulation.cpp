@@ -15,7 +15,6 @@
 #include "record/edge_note.hpp"
 #include "record/recorder.hpp"
 #include "simd/instruction_set.hpp"
-#include "solve/choose.hpp"
 #include "solve/integrate.hpp"
 #include "study/error_control.hpp"
 
@@ -270,7 +269,7 @@ record::RunSummary summary_of(const Scenario& scenario, const model::Model& mode
   for (const model::Note& note : model::explain(scenario, model)) {
     summary.model_notes.push_back(note.part + ": " + note.reason);
   }
-  summary.method = solve::method_name(outcome.method);
+  summary.method = method_name(outcome.method);
   summary.rtol = integration.tolerances.rtol;
   summary.atol = integration.tolerances.atol;
   summary.error_bound = scenario.solver.error;

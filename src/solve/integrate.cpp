@@ -3,7 +3,6 @@
 
 #include "solve/integrate.hpp"
 
-#include "solve/choose.hpp"
 #include "solve/hybrid_driver.hpp"
 #include "solve/make_stepper.hpp"
 

@@ -12,7 +12,6 @@
 #include "base/cpu_clock.hpp"
 #include "base/number_text.hpp"
 #include "base/real.hpp"
-#include "solve/choose.hpp"
 #include "solve/integrate.hpp"
 #include "study/checks.hpp"
 #include "study/reference.hpp"
@@ -167,7 +166,7 @@ double microseconds(const AccuracyPoint& point) {
 }
 
 std::string name(const AccuracyPoint& point) {
-  return std::string(solve::method_name(point.method));
+  return std::string(method_name(point.method));
 }
 
 const char* status(const AccuracyPoint& point) {

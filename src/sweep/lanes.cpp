@@ -13,7 +13,6 @@
 #include "model/model.hpp"
 #include "model/signals/signal_pair.hpp"
 #include "record/rows.hpp"
-#include "solve/choose.hpp"
 #include "solve/ensemble/ensemble.hpp"
 #include "sweep/case_scenario.hpp"
 #include "sweep/group_runner.hpp"
@@ -266,7 +265,7 @@ bool meets_common_conditions(const SweepTask& task) {
          std::ranges::all_of(task.series, is_place);
 }
 bool is_by_collocation(const Scenario& scenario) {
-  return !scenario.solver.error && solve::choose_method(scenario.solver.method) == Method::radau;
+  return !scenario.solver.error && choose_method(scenario.solver.method) == Method::radau;
 }
 
 }  // namespace

@@ -14,7 +14,6 @@
 #include "base/error.hpp"
 #include "model/model.hpp"
 #include "record/recorder.hpp"
-#include "solve/choose.hpp"
 #include "sweep/case_scenario.hpp"
 #include "sweep/group_runner.hpp"
 #include "sweep/runners.hpp"
@@ -23,7 +22,7 @@ namespace bbsim::sweep {
 namespace {
 
 bool fits_lanes(const Scenario& scenario, const model::Model& model) {
-  return !scenario.solver.error && solve::choose_method(scenario.solver.method) == Method::radau &&
+  return !scenario.solver.error && choose_method(scenario.solver.method) == Method::radau &&
          solve::sampled::fits_sweep_lanes(model);
 }
 
