@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "base/number_in.hpp"
+#include "base/number_text.hpp"
 
 namespace bbsim::app {
 

@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Numbers as text: exactly, or short for people; and numbers without a fraction, from options,
-// scenarios and callers of the API.
+// Numbers as text, exactly or short for people, and texts as numbers; and numbers without a
+// fraction, from options, scenarios and callers of the API.
 #pragma once
 
+#include <charconv>
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace bbsim {
 
@@ -20,6 +23,16 @@ char* write_number(char* to, double value);
 inline std::string number_text(double value) {
   char text[longest_number];
   return {text, write_number(text, value)};
+}
+
+// The number that the whole text is; empty for any other text, and for a number out of range.
+template <class Number>
+[[nodiscard]] std::optional<Number> number_in(std::string_view text) {
+  Number number{};
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return number;
 }
 
 // The number with up to six significant digits.

@@ -13,6 +13,7 @@
 #include "base/json.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
+#include "base/real.hpp"
 #include "base/text.hpp"
 #include "yaml/spelling.hpp"
 
@@ -84,9 +85,7 @@ class Reader {
     take_space();
     constexpr double infinite = std::numeric_limits<double>::infinity();
     constexpr std::pair<std::string_view, double> words[] = {
-        {"NaN", std::numeric_limits<double>::quiet_NaN()},
-        {"Infinity", infinite},
-        {"-Infinity", -infinite}};
+        {"NaN", no_number}, {"Infinity", infinite}, {"-Infinity", -infinite}};
     for (const auto& [word, value] : words) {
       if (!std::string_view(at_, static_cast<std::size_t>(end_ - at_)).starts_with(word)) continue;
       number = value;
@@ -288,8 +287,7 @@ std::string read_answer(std::string_view line, std::span<const std::string> name
   };
   Reader reader(line);
   if (!reader.take('{')) return refuse_form("");
-  constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-  std::fill_n(own, names.size(), missing);
+  std::fill_n(own, names.size(), no_number);
   bool commanded = false;
   do {
     std::string_view name;

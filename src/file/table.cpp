@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
+#include "base/real.hpp"
 #include "file/line_reader.hpp"
 
 namespace bbsim::file {
@@ -32,7 +32,7 @@ std::string Column::text(std::size_t i) const {
 void Column::add_text(std::string text) {
   texts.resize(numbers.size());
   texts.push_back(std::move(text));
-  numbers.push_back(std::numeric_limits<double>::quiet_NaN());
+  numbers.push_back(no_number);
 }
 
 void Column::keep(const std::vector<std::size_t>& rows) {

@@ -12,7 +12,7 @@
 #include <system_error>
 
 #include "base/error.hpp"
-#include "base/number_in.hpp"
+#include "base/number_text.hpp"
 #include "file/descriptor.hpp"
 
 namespace bbsim::file {

@@ -7,7 +7,8 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <cmath>
-#include <limits>
+
+#include "base/real.hpp"
 
 template class Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
 
@@ -59,7 +60,7 @@ SingularValues singular_values(const MatrixXd& a, unsigned wanted) {
 MatrixXd exponential(const MatrixXd& a) {
   const Eigen::Index n = a.rows();
   if (!a.allFinite()) {
-    return MatrixXd::Constant(n, n, std::numeric_limits<double>::quiet_NaN());
+    return MatrixXd::Constant(n, n, no_number);
   }
   const double size = n == 0 ? 0 : a.cwiseAbs().rowwise().sum().maxCoeff();
   int halvings = 0;

@@ -10,6 +10,7 @@
 #include <new>
 
 #include "base/instant.hpp"
+#include "base/real.hpp"
 
 namespace bbsim::model {
 
@@ -86,7 +87,7 @@ int Model::spin_state() const {
 }
 
 double Model::gamma_not_integrated() const {
-  return spin_state() >= 0 ? std::numeric_limits<double>::quiet_NaN() : 0;
+  return spin_state() >= 0 ? no_number : 0;
 }
 
 std::vector<std::string> Model::state_names() const {

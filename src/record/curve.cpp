@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/instant.hpp"
+#include "base/real.hpp"
 
 namespace bbsim::record {
 namespace {
@@ -50,7 +51,7 @@ double Curve::value(const Place& place) const {
 }
 
 double Curve::last_value() const {
-  if (pieces_.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (pieces_.empty()) return no_number;
   return value(pieces_.size() - 1, 1);
 }
 
@@ -72,7 +73,7 @@ void Curve::add(const Piece& piece, const double* values, std::size_t count) {
     of.most = std::max(of.most, values[i]);
   }
   if (!finite) {
-    of.least = of.most = std::numeric_limits<double>::quiet_NaN();
+    of.least = of.most = no_number;
     return;
   }
   if (of.points != nullptr) {
@@ -233,7 +234,6 @@ std::optional<Curve::Place> Curve::crossing(double level, scenario::Instant::Way
 }
 
 Curve::Extreme Curve::greatest(double sign, const std::optional<Place>& from) const {
-  constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
   Extreme best{no_number, no_number};
   const auto take = [&](double value, double t) {
     if (!(sign * value <= sign * best.value)) best = {value, t};

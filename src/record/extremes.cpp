@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/maxima.hpp"
+#include "base/real.hpp"
 
 namespace bbsim::record {
 namespace {
@@ -73,8 +74,7 @@ void Extremes::begin(const model::Model& model, const model::BallConstants& cons
 }
 
 void Extremes::begin_run() {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  std::fill(greatest_.begin(), greatest_.end(), Extreme{none, none});
+  std::fill(greatest_.begin(), greatest_.end(), Extreme{no_number, no_number});
 }
 
 void Extremes::take(std::size_t i, double value, double t) {

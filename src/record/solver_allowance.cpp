@@ -7,7 +7,6 @@
 #include <cmath>
 #include <string_view>
 
-#include "base/number_in.hpp"
 #include "base/number_text.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/log_columns.hpp"

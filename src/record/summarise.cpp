@@ -11,7 +11,7 @@
 #include "base/number_text.hpp"
 #include "base/real.hpp"
 #include "base/text.hpp"
-#include "file/case_text.hpp"
+#include "file/csv_fields.hpp"
 
 namespace bbsim::record {
 namespace {

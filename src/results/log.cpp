@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "base/number_in.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
 #include "base/text.hpp"

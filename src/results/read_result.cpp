@@ -18,7 +18,6 @@
 
 #include "base/error.hpp"
 #include "base/json.hpp"
-#include "base/number_in.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
 #include "base/text.hpp"

@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
+
+#include "base/real.hpp"
 
 namespace bbsim::results {
 
@@ -30,8 +31,7 @@ void add_end_row(Result& result) {
   state.insert_or_assign("distance", std::hypot(end.x, end.y));
   for (Column& column : result.columns) {
     const auto known = state.find(column.name);
-    column.numbers.push_back(known == state.end() ? std::numeric_limits<double>::quiet_NaN()
-                                                  : known->second);
+    column.numbers.push_back(known == state.end() ? no_number : known->second);
     if (!column.texts.empty()) column.texts.emplace_back();
   }
   ++result.rows;

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "base/error.hpp"
-#include "base/number_in.hpp"
+#include "base/number_text.hpp"
 #include "yaml/document.hpp"
 #include "yaml/schema.hpp"
 

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "base/number_in.hpp"
 #include "base/number_text.hpp"
 #include "base/text.hpp"
 #include "scenario/coupled.hpp"

@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "base/error.hpp"
-#include "base/number_in.hpp"
 #include "base/number_text.hpp"
 #include "base/text.hpp"
 #include "yaml/problems.hpp"

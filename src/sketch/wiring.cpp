@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/real.hpp"
 #include "file/whole_file.hpp"
 #include "sketch/wiring_rules.hpp"
 #include "yaml/document.hpp"
@@ -40,8 +40,7 @@ struct Read {
 // Servo.h's pulse for 90 degrees, in s, and its angle per duration of the pulse, in rad/s.
 constexpr bbsim_wired_servo usual_servo{-1, -1, 1472e-6, 180 * degree / 1856e-6};
 
-constexpr bbsim_wired_stepper no_stepper{
-    -1, -1, -1, -1, 1, std::numeric_limits<double>::quiet_NaN(), 0, 0};
+constexpr bbsim_wired_stepper no_stepper{-1, -1, -1, -1, 1, no_number, 0, 0};
 
 bbsim_wiring by_default() {
   bbsim_wiring c{};

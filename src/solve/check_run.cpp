@@ -3,9 +3,9 @@
 
 #include "solve/check_run.hpp"
 
-#include <limits>
 #include <utility>
 
+#include "base/real.hpp"
 #include "solve/hybrid_driver.hpp"
 #include "solve/radau/radau.hpp"
 
@@ -21,7 +21,7 @@ class DividedStepper : public radau::RadauStepper {
         most_steps_(how.most_steps) {}
 
   void start(double t, const double* z) override {
-    limit_ = std::numeric_limits<double>::quiet_NaN();  // the next step() begins a new interval
+    limit_ = no_number;  // the next step() begins a new interval
     RadauStepper::start(t, z);
   }
 

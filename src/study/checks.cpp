@@ -152,7 +152,7 @@ double Checks::estimate(const Track& run, double rtol, bool confirm) {
 
 std::vector<double> Checks::row_estimates(const Track& run, double estimate) const {
   const auto n = static_cast<std::size_t>(coordinates(model_));
-  std::vector<double> rows(run.positions.size() / n, std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> rows(run.positions.size() / n, no_number);
   for (const CheckTrack& done : tracks_) {
     if (done.track == nullptr) continue;
     const std::size_t common = std::min(run.positions.size(), done.track->positions.size());

@@ -3,7 +3,7 @@
 
 #include "sweep/case_rows.hpp"
 
-#include "file/case_text.hpp"
+#include "file/csv_fields.hpp"
 #include "file/hdf5_table.hpp"
 #include "sweep/task.hpp"
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <string_view>
 #include <type_traits>
 #include <variant>
 
@@ -16,7 +17,6 @@
 #include "solve/ensemble/ensemble.hpp"
 #include "sweep/case_scenario.hpp"
 #include "sweep/group_runner.hpp"
-#include "sweep/lane_measures.hpp"
 #include "sweep/runners.hpp"
 
 namespace bbsim::sweep {
@@ -28,6 +28,40 @@ using Kind = scenario::Measure::Kind;
 
 // Smaller sweeps of given motions are short anyway, and single runs match `bbsim run` bit for bit.
 constexpr std::size_t least_given = 32;
+
+// The size whose greatest value a usual measure needs; empty for values at the end and rms.
+std::optional<ensemble::Size> size_of(const scenario::Measure& measure) {
+  if (measure.kind != Kind::greatest) return {};
+  const std::string_view name = measure.column->name;
+  if (name == "tilt") return ensemble::versine;
+  if (name == "tilt_rate") return ensemble::rate_squared;
+  if (name == "distance") return ensemble::distance_squared;
+  if (name == "tracking_error") return ensemble::error_squared;
+  return {};
+}
+
+// Whether all are usual measures: any column at the end except gamma; the greatest tilt, tilt_rate
+// and distance; the greatest and the rms of tracking_error. All must be of the whole run.
+bool are_usual_measures(const std::vector<scenario::Measure>& measures) {
+  return std::ranges::all_of(measures, [](const scenario::Measure& measure) {
+    if (!measure.window.is_whole()) return false;
+    if (measure.kind == Kind::end) return measure.column->needs != scenario::Needs::gamma;
+    return size_of(measure) ||
+           (measure.kind == Kind::rms && measure.column->name == "tracking_error");
+  });
+}
+
+// The value of the column of this size.
+double value_of(ensemble::Size size, double value) {
+  if (size != ensemble::versine) return std::sqrt(value);
+  return value < 1 ? 2 * std::asin(std::sqrt(value / 2))
+                   : std::numbers::pi - 2 * std::asin(std::sqrt(std::max(0.0, 1 - value / 2)));
+}
+
+// Whether a sum of squares has lost nothing to overflow and underflow.
+bool is_square(double squared) {
+  return squared > 1e-280 && squared < 1e300;
+}
 
 // The reference of a loop of the paper's rig whose states are those of a lane; otherwise null.
 const model::SignalPair* reference_of(const model::Model& model) {
@@ -232,7 +266,7 @@ class EnsembleRunner : public LaneRunner, private ensemble::Study {
         continue;
       }
       const double square = size ? run.greatest[*size] : lanes_.squared_errors(run);
-      const bool of_plate = size == solve::versine || size == solve::rate_squared;
+      const bool of_plate = size == ensemble::versine || size == ensemble::rate_squared;
       if (!of_plate && !is_square(square)) return false;
       result = size ? value_of(*size, square) : std::sqrt(square / static_cast<double>(run.rows));
     }
@@ -248,7 +282,7 @@ class EnsembleRunner : public LaneRunner, private ensemble::Study {
   ensemble::Ensemble lanes_;
   struct Wanted {
     bool is_end, is_y;
-    std::optional<solve::Size> size;
+    std::optional<ensemble::Size> size;
   };
   std::vector<Wanted> wanted_;  // for each measure
   record::Rows end_;            // columns at the end

@@ -3,19 +3,17 @@
 
 // Computes measures of the loop, which need no run, alone or beside measures of the motion.
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/real.hpp"
 #include "model/control/loop_analysis.hpp"
 #include "sweep/case_scenario.hpp"
 #include "sweep/runners.hpp"
 
 namespace bbsim::sweep {
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 class LoopRunner : public CaseRunner {
  public:
@@ -42,7 +40,7 @@ class LoopRunner : public CaseRunner {
       if (motion_) {
         take_motion(i, numbers, into.status[i]);
       } else {
-        numbers[0] = nothing;
+        numbers[0] = no_number;
         into.status[i] = {};
       }
       take_loop(first + i, values, numbers + 1, into.status[i]);
@@ -61,7 +59,7 @@ class LoopRunner : public CaseRunner {
   }
 
   void take_loop(std::size_t number, const double* values, double* measures, CaseStatus& status) {
-    results_.assign(loops_.size(), nothing);
+    results_.assign(loops_.size(), no_number);
     whys_.assign(loops_.size(), nullptr);
     if (status.word != "refused") {
       try {
@@ -78,7 +76,7 @@ class LoopRunner : public CaseRunner {
           whys_[m] = found.why;
         }
       } catch (const InputError& error) {  // for example, an LQR that has no gain
-        results_.assign(loops_.size(), nothing);
+        results_.assign(loops_.size(), no_number);
         status = {"refused", error.what()};
       }
     }

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "base/number_in.hpp"
+#include "base/number_text.hpp"
 #include "file/format.hpp"
 #include "file/table_writer.hpp"
 #include "file/target.hpp"

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "base/number_in.hpp"
+#include "base/number_text.hpp"
 #include "file/atomic_file.hpp"
-#include "file/case_text.hpp"
+#include "file/csv_fields.hpp"
 #include "file/line_reader.hpp"
 #include "file/whole_file.hpp"
 #include "sweep/merge_parts.hpp"
@@ -31,23 +31,6 @@ void require_regular(const std::string& file) {
   if (std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored)) {
     cannot_read(file, "it is not a regular file, and bbsim reads parts twice");
   }
-}
-
-// Returns the end of the field that begins at `start`: the index of the comma, or the length of the
-// line. A quoted field ends after its closing quote. Returns npos if the quote is not closed or
-// text follows it.
-std::size_t end_of_field(std::string_view line, std::size_t start) {
-  if (start >= line.size() || line[start] != '"')
-    return std::min(line.find(',', start), line.size());
-  for (std::size_t i = start + 1; i < line.size(); ++i) {
-    if (line[i] != '"') continue;
-    if (i + 1 < line.size() && line[i + 1] == '"') {
-      ++i;
-      continue;
-    }
-    return i + 1 == line.size() || line[i + 1] == ',' ? i + 1 : std::string_view::npos;
-  }
-  return std::string_view::npos;
 }
 
 // Reads the rows of a part and checks each of them. Parts are opened one at a time, so any number
@@ -95,29 +78,27 @@ class Rows {
   std::string fault() {
     if (line_.find('\0') != std::string_view::npos)
       return "zero bytes";  // a disk page that was never written
-    std::size_t count = 0;
-    for (std::size_t start = 0;; ++count) {
-      const std::size_t end = end_of_field(line_, start);
-      if (end == std::string_view::npos) return "a quote that is not closed";
-      const std::string_view field = line_.substr(start, end - start);
-      if (count == 0) {
-        const auto number = number_in<std::size_t>(field);
-        if (!number) return "a row that does not begin with the number of a case";
-        case_number_ = *number;
-      } else if (count >= first_number_ && count < names_.size() && !number_in<double>(field)) {
-        return "something other than a number in field " + std::to_string(count + 1);
-      }
-      if (end == line_.size()) break;
-      start = end + 1;
+    if (!fields_.take(line_, ',')) return "a quote that is not closed";
+    const std::vector<std::string_view>& fields = fields_.all();
+    const auto number = number_in<std::size_t>(fields[0]);
+    if (!number) return "a row that does not begin with the number of a case";
+    case_number_ = *number;
+    if (fields.size() != names_.size()) {
+      return std::to_string(fields.size()) + (fields.size() == 1 ? " field" : " fields") +
+             " where " + std::to_string(names_.size()) + " belong";
     }
-    if (++count == names_.size()) return "";
-    return std::to_string(count) + (count == 1 ? " field" : " fields") + " where " +
-           std::to_string(names_.size()) + " belong";
+    for (std::size_t i = first_number_; i < fields.size(); ++i) {
+      if (!number_in<double>(fields[i])) {
+        return "something other than a number in field " + std::to_string(i + 1);
+      }
+    }
+    return "";
   }
 
   std::string file_, header_;
   file::LineReader lines_;
   std::vector<std::string> names_;
+  file::Fields fields_;
   std::size_t first_number_ = 0, case_number_ = 0;
   std::string_view line_;
 };

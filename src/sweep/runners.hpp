@@ -14,7 +14,7 @@ namespace bbsim::sweep {
 [[nodiscard]] std::unique_ptr<CaseRunner> single_runner(const SweepTask& task);
 
 // Whether open lanes (given motions, equation (27)) or lanes (loops, (31)) can run all cases, and
-// all measures are usual measures (lane_measures.hpp).
+// all measures are usual measures (lanes.cpp).
 [[nodiscard]] bool can_use_open_lanes(const SweepTask& task);
 [[nodiscard]] bool can_use_lanes(const SweepTask& task);
 // Requires one of these. Cases that the lanes give up are run singly. So are cases that grow

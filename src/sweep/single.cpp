@@ -4,13 +4,13 @@
 // Runs cases one by one, each with the integrator of `bbsim run`.
 #include <algorithm>
 #include <cstdio>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/real.hpp"
 #include "controller/host.hpp"
 #include "model/model.hpp"
 #include "record/recorder.hpp"
@@ -21,8 +21,6 @@
 
 namespace bbsim::sweep {
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 // Omits the end time, which has its own column.
 CaseStatus status_of(const solve::Outcome& outcome) {
@@ -108,7 +106,7 @@ class SingleRunner : public CaseRunner {
       recorder_.finish(outcome, numbers + 1);
       judge(task_, scenario, numbers + 1, status, recorder_.whys());
     } catch (const InputError& error) {  // for example, an LQR that has no gain
-      std::fill_n(numbers, 1 + task_.measures.size(), nothing);
+      std::fill_n(numbers, 1 + task_.measures.size(), no_number);
       status = {"refused", error.what()};
     }
     return true;

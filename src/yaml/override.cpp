@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "base/number_in.hpp"
+#include "base/number_text.hpp"
 #include "yaml/problems.hpp"
 #include "yaml/spelling.hpp"
 #include "yaml/text_file.hpp"

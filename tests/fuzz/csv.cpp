@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/number_text.hpp"
-#include "file/case_text.hpp"
+#include "file/csv_fields.hpp"
 #include "file/table.hpp"
 #include "fuzz.hpp"
 #include "record/compare.hpp"

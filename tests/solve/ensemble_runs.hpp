@@ -39,7 +39,7 @@ class Cases : public ensemble::Study {
                     {run.x, run.x + run.rows},
                     {run.y, run.y + run.rows},
                     {run.state, run.state + ensemble::states},
-                    {run.greatest, run.greatest + bbsim::solve::size_count}};
+                    {run.greatest, run.greatest + bbsim::solve::ensemble::size_count}};
     ++ended;
   }
 

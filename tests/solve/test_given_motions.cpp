@@ -69,7 +69,7 @@ TEST_CASE("balls in lanes agree with the reference, for any number of nodes") {
       CHECK(run.state[i] == Approx(static_cast<double>(last[1 + i])).margin(3e-12));
     }
     CHECK(run.state[4] == Approx(static_cast<double>(last[5]) * 0.01).margin(3e-12));
-    CHECK(std::sqrt(run.greatest[solve::rate_squared]) == Approx(0.01).epsilon(1e-13));
+    CHECK(std::sqrt(run.greatest[solve::ensemble::rate_squared]) == Approx(0.01).epsilon(1e-13));
   }
 }
 

@@ -10,7 +10,7 @@
 #include "catch.hpp"
 #include "record/recorder.hpp"
 #include "solve/hybrid_driver.hpp"
-#include "solve/make_stepper.hpp"
+#include "solve/integrate.hpp"
 #include "solve/radau/radau.hpp"
 #include "solve/sampled/lane_engine.hpp"
 #include "solve/sampled/lane_kernel.hpp"

@@ -5,9 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <stdexcept>
+
+#include "base/real.hpp"
 
 namespace bbsim::model {
 namespace {
@@ -40,7 +41,7 @@ Sampling::Sampling(const SwitchedModel& model)
       least_force_(model.rig().sampled->sensor.contact_force),
       exchange_(*model.rig().sampled),
       controller_(*model.rig().sampled),
-      own_(model.get().own_columns().size(), std::numeric_limits<double>::quiet_NaN()) {
+      own_(model.get().own_columns().size(), no_number) {
   const SampledLoop& loop = *model.rig().sampled;
   if (loop.law.kind == LawKind::held && !loop.external) {
     throw std::logic_error("a run of a scene whose controller nobody has attached");

@@ -12,7 +12,6 @@
 #include <limits>
 
 #include "model/signals/signal_pair.hpp"
-#include "solve/size.hpp"
 
 namespace bbsim::solve::ensemble {
 
@@ -24,6 +23,16 @@ inline constexpr int velocities = 5;
 inline constexpr int most_nodes = 16;
 inline constexpr int most_harmonics = 8;
 inline constexpr int spare_rows = 2 * group;  // beyond the rows of the grid
+
+// Sizes of a motion whose greatest value over a run lanes find. They are smooth: squares instead of
+// roots.
+enum Size : int {
+  versine,           // 1 - cos(tilt) of the plate
+  rate_squared,      // of the plate's angular velocity, (rad/s)^2
+  distance_squared,  // of the contact point from the plate's origin, m^2
+  error_squared,     // of the contact point from the reference, m^2
+  size_count
+};
 
 // What moves the gimbal: a given function of time, or a loop under equation (31), by accelerations
 // or by the angles of servos.
