@@ -17,7 +17,6 @@
 #include "record/compare.hpp"
 #include "record/log_distance.hpp"
 #include "record/measure_rows.hpp"
-#include "record/solver_allowance.hpp"
 #include "record/summarise.hpp"
 #include "results/read_result.hpp"
 #include "scenario/columns.hpp"

@@ -12,7 +12,6 @@
 #include "base/cpu_clock.hpp"
 #include "base/number_text.hpp"
 #include "model/control/loop_analysis.hpp"
-#include "record/edge_note.hpp"
 #include "record/recorder.hpp"
 #include "simd/instruction_set.hpp"
 #include "solve/choose.hpp"
