@@ -9,11 +9,10 @@
 #include <filesystem>
 
 #include "api/check.hpp"
-#include "api/inputs.hpp"
 #include "api/run.hpp"
 #include "api/sweep.hpp"
 #include "file/atomic_file.hpp"
-#include "results/log.hpp"
+#include "results/result.hpp"
 #include "scenario/reader.hpp"
 #include "terminal.hpp"
 

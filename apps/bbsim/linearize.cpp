@@ -9,7 +9,6 @@
 
 #include "commands.hpp"
 #include "file/atomic_file.hpp"
-#include "progress.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {

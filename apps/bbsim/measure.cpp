@@ -10,16 +10,15 @@
 #include <utility>
 #include <vector>
 
-#include "api/inputs.hpp"
 #include "api/replay.hpp"
+#include "api/run.hpp"
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
 #include "commands.hpp"
 #include "file/atomic_file.hpp"
 #include "file/outputs.hpp"
-#include "progress.hpp"
-#include "results/read_result.hpp"
+#include "results/result.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {

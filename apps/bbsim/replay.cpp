@@ -17,7 +17,6 @@
 #include "commands.hpp"
 #include "file/default_name.hpp"
 #include "file/format.hpp"
-#include "progress.hpp"
 #include "replay/page.hpp"
 #include "replay/template.hpp"
 #include "terminal.hpp"

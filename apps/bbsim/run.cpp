@@ -13,7 +13,6 @@
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "commands.hpp"
-#include "progress.hpp"
 #include "replay.hpp"
 #include "terminal.hpp"
 

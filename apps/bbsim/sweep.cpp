@@ -18,7 +18,6 @@
 #include "base/text.hpp"
 #include "commands.hpp"
 #include "file/atomic_file.hpp"
-#include "progress.hpp"
 #include "scenario/measures.hpp"
 #include "scenario/variation.hpp"
 #include "terminal.hpp"

@@ -18,7 +18,7 @@
 #include "record/log_distance.hpp"
 #include "record/measure_rows.hpp"
 #include "record/summarise.hpp"
-#include "results/read_result.hpp"
+#include "results/result.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/log_columns.hpp"
 #include "scenario/measures.hpp"

@@ -11,7 +11,6 @@
 #include "base/instant.hpp"
 
 namespace bbsim::record {
-
 namespace {
 
 // The zero of `f` by bisection, to rounding. `f` has different signs at both ends and is 0 at

@@ -13,7 +13,6 @@
 #include "model/systems/given_plate.hpp"
 
 namespace bbsim::record {
-
 namespace {
 
 using model::Detail;
