@@ -24,7 +24,7 @@
 
 #include "api/cases.hpp"
 #include "api/live.hpp"
-#include "api/outside_commands.hpp"
+#include "api/assemble.hpp"
 #include "api/replay.hpp"
 #include "api/run.hpp"
 #include "base/json.hpp"

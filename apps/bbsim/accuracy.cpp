@@ -17,7 +17,6 @@
 #include "commands.hpp"
 #include "file/atomic_file.hpp"
 #include "file/outputs.hpp"
-#include "progress.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -102,15 +101,13 @@ void add_accuracy(Command& command, const Options& options) {
   const auto arguments = std::make_shared<AccuracyArguments>();
   add_scenario(command, arguments->scenario);
   command
-      .option("--methods", arguments->methods,
+      .option("--methods NAME,...", arguments->methods,
               "methods to compare: radau, bdf, adams; default: all")
-      .takes("NAME,...")
       .parted_by_commas();
-  command.option("--rtol", arguments->rtols, "tolerances, a decade apart")
-      .takes("LOOSEST:TIGHTEST")
+  command.option("--rtol LOOSEST:TIGHTEST", arguments->rtols, "tolerances, a decade apart")
       .shows_default();
-  command.option("--csv", arguments->csv, "write all points to FILE as CSV; - is standard output")
-      .takes("FILE");
+  command.option("--csv FILE", arguments->csv,
+                 "write all points to FILE as CSV; - is standard output");
   command.does([arguments, &options] { return accuracy(*arguments, options); });
 }
 

@@ -86,16 +86,12 @@ void add_beside(Command& command, const Options& options) {
       command.flag(names, given.is_set, help);
       continue;
     }
-    Option added = command.option(names, given.values, help);
-    if (option.contains("takes")) added.takes(option.at("takes"));
+    const std::string takes = option.value("takes", "");
+    Option added = command.option(names + (takes.empty() ? "" : " " + takes), given.values, help);
     if (option.value("required", false)) added.required();
     if (option.contains("whole")) added.takes_whole(option.at("whole"), largest_whole);
     if (option.contains("choices")) added.takes_one_of(option.at("choices"));
-    if (!option.value("repeatable", false)) {
-      added.takes_one();
-    } else if (!given.name.empty()) {
-      added.may_be_repeated();
-    }
+    if (!option.value("repeatable", false)) added.takes_one();
   }
   command.does([name = command.name(), all, &options] {
     return execute(name, words_of(*all, options.quiet));

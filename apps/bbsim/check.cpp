@@ -7,7 +7,6 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "progress.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {

@@ -6,6 +6,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "base/number_text.hpp"
@@ -13,14 +14,6 @@
 namespace bbsim::app {
 
 namespace {
-
-// Refuses an option with an empty value, which is often an unset variable of a script.
-CLI::Option* refusing_nothing(CLI::Option* option) {
-  const auto fault = [](const std::string& text) -> std::string {
-    return text.empty() ? "found nothing; allowed: a value, or leave the option out" : "";
-  };
-  return option->check(CLI::Validator(fault, ""));
-}
 
 // Prefix of the validator's name, which is never shown.
 constexpr std::string_view one_of = "one of ";
@@ -40,11 +33,6 @@ std::vector<std::string> words_of(CLI::Option& option) {
   }
 }
 
-Option& Option::takes(const std::string& type) {
-  option_->type_name(type);
-  return *this;
-}
-
 Option& Option::required() {
   option_->required();
   return *this;
@@ -56,12 +44,7 @@ Option& Option::shows_default() {
 }
 
 Option& Option::parted_by_commas() {
-  option_->delimiter(',')->allow_extra_args(false);
-  return *this;
-}
-
-Option& Option::may_be_repeated() {
-  option_->take_all()->expected(1)->allow_extra_args(false);
+  option_->delimiter(',');
   return *this;
 }
 
@@ -85,7 +68,7 @@ Option& Option::takes_whole(double least, double most) {
 }
 
 Option& Option::takes_one() {
-  option_->expected(1)->allow_extra_args(false);
+  option_->expected(1)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   return *this;
 }
 
@@ -108,28 +91,31 @@ void Command::footer(const std::string& text) {
   app_->footer(text);
 }
 
-Option Command::option(const std::string& names, std::string& value, const std::string& what) {
-  return Option(*refusing_nothing(app_->add_option(names, value, what)));
+template <class Value>
+Option Command::option(const std::string& names, Value& value, const std::string& what) {
+  const std::size_t blank = names.find(' ');
+  CLI::Option* const option = app_->add_option(names.substr(0, blank), value, what);
+  if (blank != std::string::npos) option->type_name(names.substr(blank + 1));
+  if (option->get_expected_max() > 1 && !option->get_positional()) {
+    option->take_all()->expected(1)->allow_extra_args(false);
+  }
+  constexpr bool is_text = std::is_same_v<Value, std::string>;
+  if constexpr (is_text || std::is_same_v<Value, std::vector<std::string>>) {
+    // An empty value is often an unset variable of a script.
+    const auto fault = [](const std::string& text) -> std::string {
+      return text.empty() ? "found nothing; allowed: a value, or leave the option out" : "";
+    };
+    option->check(CLI::Validator(fault, ""));
+  }
+  return Option(*option);
 }
 
-Option Command::option(const std::string& names, std::size_t& value, const std::string& what) {
-  return Option(*app_->add_option(names, value, what));
-}
-
-Option Command::option(const std::string& names, std::optional<double>& value,
-                       const std::string& what) {
-  return Option(*app_->add_option(names, value, what));
-}
-
-Option Command::option(const std::string& names, std::vector<std::string>& values,
-                       const std::string& what) {
-  return Option(*refusing_nothing(app_->add_option(names, values, what)));
-}
-
-Option Command::option(const std::string& names, std::vector<double>& values,
-                       const std::string& what) {
-  return Option(*app_->add_option(names, values, what));
-}
+using Text = const std::string;
+template Option Command::option(Text&, std::string&, Text&);
+template Option Command::option(Text&, std::size_t&, Text&);
+template Option Command::option(Text&, std::optional<double>&, Text&);
+template Option Command::option(Text&, std::vector<std::string>&, Text&);
+template Option Command::option(Text&, std::vector<double>&, Text&);
 
 Option Command::flag(const std::string& names, bool& value, const std::string& what) {
   return Option(*app_->add_flag(names, value, what));

@@ -30,15 +30,11 @@ class Option {
  public:
   explicit Option(CLI::Option& option) : option_(&option) {}
 
-  // Describes the option's value, for help.
-  Option& takes(const std::string& type);
   Option& required();
   // Shows the default in help.
   Option& shows_default();
   // Values separated by commas, in one word: a file may follow.
   Option& parted_by_commas();
-  // May be given several times, each with one value: the scenario may follow.
-  Option& may_be_repeated();
   // Takes a decimal number.
   Option& takes_number();
   // Takes a whole number, also as 1e6.
@@ -63,13 +59,11 @@ class Command {
   [[nodiscard]] std::string name() const;
   // Text below the options in the command's help.
   void footer(const std::string& text);
-  // `names` of an option, or of an argument without dashes; `value` outlives the parsing.
-  Option option(const std::string& names, std::string& value, const std::string& what);
-  Option option(const std::string& names, std::size_t& value, const std::string& what);
-  Option option(const std::string& names, std::optional<double>& value, const std::string& what);
-  Option option(const std::string& names, std::vector<std::string>& values,
-                const std::string& what);
-  Option option(const std::string& names, std::vector<double>& values, const std::string& what);
+  // "-o,--output FILE": `names` of an option, and its value in help; or of an argument, without
+  // dashes. `value` outlives the parsing. An option with a list may be given several times, each
+  // with one value: the scenario may follow. A text must not be empty.
+  template <class Value>
+  Option option(const std::string& names, Value& value, const std::string& what);
   Option flag(const std::string& names, bool& value, const std::string& what);
   void does(Chosen what);
 

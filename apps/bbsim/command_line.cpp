@@ -8,9 +8,9 @@
 #include <memory>
 #include <vector>
 
+#include "embedded.hpp"
 #include "scenario/keys.hpp"
 #include "terminal.hpp"
-#include "version.hpp"
 #include "yaml/spelling.hpp"
 
 namespace bbsim::app {

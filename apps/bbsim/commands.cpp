@@ -9,11 +9,10 @@
 #include <filesystem>
 
 #include "api/check.hpp"
-#include "api/inputs.hpp"
 #include "api/run.hpp"
 #include "api/sweep.hpp"
 #include "file/atomic_file.hpp"
-#include "results/log.hpp"
+#include "results/result.hpp"
 #include "scenario/reader.hpp"
 #include "terminal.hpp"
 
@@ -25,11 +24,9 @@ void add_scenario(Command& command, ScenarioArguments& arguments) {
 }
 
 void add_overrides(Command& command, std::vector<std::string>& overrides) {
-  command
-      .option("--set", overrides,
-              "set a key of the scenario, such as ball.radius=0.02; null removes it; repeatable")
-      .takes("KEY=VALUE")
-      .may_be_repeated();
+  command.option(
+      "--set KEY=VALUE", overrides,
+      "set a key of the scenario, such as ball.radius=0.02; null removes it; repeatable");
 }
 
 void add_force(Command& command, bool& force) {
@@ -47,11 +44,9 @@ std::string name_of_output(const std::string& output) {
 }
 
 void add_error(Command& command, std::string& error) {
-  command
-      .option("--error", error,
-              "bound the error of x and y, in meters, at all output times: 1e-9 or \"1 um\"; "
-              "replaces solver.rtol and solver.atol of the scenario")
-      .takes("E");
+  command.option("--error E", error,
+                 "bound the error of x and y, in meters, at all output times: 1e-9 or \"1 um\"; "
+                 "replaces solver.rtol and solver.atol of the scenario");
 }
 
 ScenarioArguments with_error(ScenarioArguments arguments, const std::string& error) {
@@ -108,38 +103,28 @@ void print_report(const api::Report& report) {
 
 void add_threads(Command& command, std::size_t& threads) {
   command
-      .option("-j,--threads", threads,
+      .option("-j,--threads N", threads,
               "number of threads; default: number of processors; the result is the same")
-      .takes("N")
       .takes_whole(1, api::most_threads);
 }
 
 void add_log_options(Command& command, results::LogChoice& choice) {
+  command.option("--map MAP", choice.maps,
+                 "COLUMN=[FACTOR*]NAME[+OFFSET][:UNIT],...: bbsim's COLUMN is FACTOR times the "
+                 "log's column NAME plus OFFSET, in UNIT; -NAME changes its sign; default: columns "
+                 "match by name, in SI units or in the unit that the name gives; repeatable");
   command
-      .option("--map", choice.maps,
-              "COLUMN=[FACTOR*]NAME[+OFFSET][:UNIT],...: bbsim's COLUMN is FACTOR times the log's "
-              "column NAME plus OFFSET, in UNIT; -NAME changes its sign; default: columns match by "
-              "name, in SI units or in the unit that the name gives; repeatable")
-      .takes("MAP")
-      .may_be_repeated();
-  command.option("--header", choice.header, "the names of the columns of a log without a header")
-      .takes("NAME,...")
+      .option("--header NAME,...", choice.header,
+              "the names of the columns of a log without a header")
       .parted_by_commas();
-  command
-      .option("--period", choice.period,
-              "the time between rows of a log without a clock: 0.1, "
-              "\"100 ms\"")
-      .takes("TIME");
-  command
-      .option("--time-offset", choice.time_offset,
-              "a time to add to the log's times; or start, so that its first row is t = 0; or, in "
-              "compare and replay, auto, by cross-correlation with the run")
-      .takes("TIME|start|auto");
-  command
-      .option("--missing", choice.missing,
-              "leave out rows in which x, y or another position is VALUE: what the log has where "
-              "it does not see the ball, such as -1")
-      .takes("VALUE");
+  command.option("--period TIME", choice.period,
+                 "the time between rows of a log without a clock: 0.1, \"100 ms\"");
+  command.option("--time-offset TIME|start|auto", choice.time_offset,
+                 "a time to add to the log's times; or start, so that its first row is t = 0; or, "
+                 "in compare and replay, auto, by cross-correlation with the run");
+  command.option("--missing VALUE", choice.missing,
+                 "leave out rows in which x, y or another position is VALUE: what the log has "
+                 "where it does not see the ball, such as -1");
 }
 
 }  // namespace bbsim::app

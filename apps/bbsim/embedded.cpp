@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "api/version.hpp"
 #include "bbsim_commands.hpp"
 #include "bbsim_examples.hpp"
 #include "bbsim_licenses.hpp"
@@ -12,6 +13,7 @@
 #include "file/atomic_file.hpp"
 #include "file/default_name.hpp"
 #include "file/outputs.hpp"
+#include "simd/instruction_set.hpp"
 
 namespace bbsim::app {
 
@@ -27,10 +29,6 @@ std::span<const EmbeddedFile> command_tables() {
   return bbsim_commands;
 }
 
-std::span<const EmbeddedFile> license_files() {
-  return bbsim_licenses;
-}
-
 std::string_view text_of(std::span<const EmbeddedFile> files, std::string_view name) {
   return std::ranges::find(files, name, &EmbeddedFile::name)->text;
 }
@@ -44,6 +42,23 @@ void write_copies(const std::vector<Copy>& copies, bool named, bool force) {
     file::require_new(copy.file, first ? nullptr : &copy.text);
   }
   for (const Copy& copy : copies) file::write_file(copy.file, copy.text);
+}
+
+std::string version() {
+  return std::string("bbsim " BBSIM_VERSION "\ninstruction set: ") +
+         simd::name_of(simd::chosen_instruction_set()) + "\ncommit: " + std::string(api::commit()) +
+         "\nlibraries: " BBSIM_LIBRARIES;
+}
+
+std::string licenses() {
+  const std::string rule = '\n' + std::string(80, '-') + "\n\n";
+  std::string texts;
+  for (const EmbeddedFile& file : bbsim_licenses) {
+    if (!texts.empty()) texts += rule;
+    texts += file.text;
+  }
+  texts.pop_back();  // the caller adds the line break when it prints
+  return texts;
 }
 
 }  // namespace bbsim::app

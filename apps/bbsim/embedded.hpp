@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Files of the repository that are embedded in the program (cmake/embed.cmake).
+// Files of the repository that are embedded in the program (cmake/embed.cmake), its licenses among
+// them, and its version.
 #pragma once
 
 #include <span>
@@ -21,8 +22,6 @@ struct EmbeddedFile {
 [[nodiscard]] std::span<const EmbeddedFile> template_files();
 // The options of commands that live beside the program.
 [[nodiscard]] std::span<const EmbeddedFile> command_tables();
-// Licenses of bbsim and of the libraries in it.
-[[nodiscard]] std::span<const EmbeddedFile> license_files();
 
 // Text of the file of that name, which must exist.
 [[nodiscard]] std::string_view text_of(std::span<const EmbeddedFile> files, std::string_view name);
@@ -35,5 +34,11 @@ struct Copy {
 // Writes the copies. Unless `force`, they must be new files, except that the first one may replace
 // a file if -o names it (`named`), and the others may exist with the same text.
 void write_copies(const std::vector<Copy>& copies, bool named, bool force);
+
+// Lines: the version, the chosen instruction set, the commit of the source, the libraries of the
+// build.
+[[nodiscard]] std::string version();
+
+[[nodiscard]] std::string licenses();
 
 }  // namespace bbsim::app

@@ -9,7 +9,6 @@
 
 #include "commands.hpp"
 #include "file/atomic_file.hpp"
-#include "progress.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -73,11 +72,9 @@ void add_linearize(Command& command, const Options& options) {
       "  bbsim linearize configs/fig2b.yaml --plant --at \"2 s\" -o plant.json");
   const auto arguments = std::make_shared<LinearizeArguments>();
   add_scenario(command, arguments->scenario);
-  command
-      .option("--at", arguments->at,
-              "home: all states zero (default); equilibrium: at rest under the reference of t = 0; "
-              "or a TIME of the run, such as \"2 s\"")
-      .takes("POINT");
+  command.option("--at POINT", arguments->at,
+                 "home: all states zero (default); equilibrium: at rest under the reference of t = "
+                 "0; or a TIME of the run, such as \"2 s\"");
   Option plant = command.flag(
       "--plant", arguments->plant,
       "the plant, from the gimbal's commands to the ball's position; default without a controller");
@@ -89,10 +86,8 @@ void add_linearize(Command& command, const Options& options) {
                                 "controller; default with your own controller");
   loop.excludes(plant);
   sampled.excludes(plant).excludes(loop);
-  command
-      .option("-o,--output", arguments->output,
-              "write FILE.m, FILE.py, FILE.json or FILE.csv; - is JSON on standard output")
-      .takes("FILE");
+  command.option("-o,--output FILE", arguments->output,
+                 "write FILE.m, FILE.py, FILE.json or FILE.csv; - is JSON on standard output");
   command.does([arguments, &options] { return linearize(*arguments, options); });
 }
 

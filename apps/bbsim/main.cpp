@@ -15,7 +15,6 @@
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "file/temporaries.hpp"
-#include "signals.hpp"
 #include "terminal.hpp"
 
 namespace {

@@ -10,16 +10,15 @@
 #include <utility>
 #include <vector>
 
-#include "api/inputs.hpp"
 #include "api/replay.hpp"
+#include "api/run.hpp"
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
 #include "commands.hpp"
 #include "file/atomic_file.hpp"
 #include "file/outputs.hpp"
-#include "progress.hpp"
-#include "results/read_result.hpp"
+#include "results/result.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -64,7 +63,7 @@ std::string measure_text(const std::vector<std::pair<std::string, double>>& meas
 }
 
 Option add_measures(Command& command, std::vector<std::string>& lists, const std::string& what) {
-  return command.option("--measure", lists, what).takes("NAME,...").may_be_repeated();
+  return command.option("--measure NAME,...", lists, what);
 }
 
 std::string measures_footer() {
@@ -160,19 +159,17 @@ void add_compare(Command& command, const Options& all) {
   command.option("B", request->b, "the file to compare it with, or a scenario (.yaml) to run")
       .required();
   command
-      .option("--rtol", request->rtol, "tolerance relative to the larger value; default: see below")
-      .takes("R")
+      .option("--rtol R", request->rtol,
+              "tolerance relative to the larger value; default: see below")
       .takes_number();
   command
-      .option("--atol", request->atol,
+      .option("--atol A", request->atol,
               "absolute tolerance, in the column's unit; default: see below")
-      .takes("A")
       .takes_number();
   command
-      .option("--columns", request->columns,
+      .option("--columns NAME,...", request->columns,
               "compare only these columns; default: all; a column that only one file has is a "
               "difference")
-      .takes("NAME,...")
       .parted_by_commas();  // a file may follow
   add_log_options(command, request->log);
   add_overrides(command, arguments->overrides);
@@ -221,23 +218,17 @@ void add_summarize(Command& command, const Options& options) {
               "the result of a sweep: CSV, HDF5 (.h5, .hdf5), or - for CSV on standard input")
       .required();
   command
-      .option("--by", arguments->keys,
+      .option("--by KEY,...", arguments->keys,
               "group cases with equal values of these keys; default: one group of all cases")
-      .takes("KEY,...")
       .parted_by_commas();
-  command.option("--measure", arguments->measures, "only these measures; repeatable")
-      .takes("NAME,...")
-      .may_be_repeated();
+  command.option("--measure NAME,...", arguments->measures, "only these measures; repeatable");
   command
-      .option("--quantiles", arguments->quantiles,
+      .option("--quantiles Q,...", arguments->quantiles,
               "numbers from 0 to 1; default: 0.05,0.25,0.5,0.75,0.95")
-      .takes("Q,...")
       .takes_number()
       .parted_by_commas();
-  command
-      .option("-o,--output", arguments->output,
-              "write FILE.csv, or - for CSV on standard output (default)")
-      .takes("FILE");
+  command.option("-o,--output FILE", arguments->output,
+                 "write FILE.csv, or - for CSV on standard output (default)");
   command.does([arguments, &options] { return summarize(*arguments, options); });
 }
 

@@ -117,40 +117,31 @@ void add_new(Command& command, const Options& options) {
       .takes_one_of({"controller", "rig"});
   command.option("LANGUAGE", arguments->language, "for a controller: python, c or arduino")
       .takes_one_of({"python", "c", "arduino"});
-  command
-      .option("-o,--output", arguments->output,
-              "write it to FILE; default: controller.py, controller.c, controller.ino or "
-              "my-rig.yaml, in the current folder; - is standard output")
-      .takes("FILE");
+  command.option("-o,--output FILE", arguments->output,
+                 "write it to FILE; default: controller.py, controller.c, controller.ino or "
+                 "my-rig.yaml, in the current folder; - is standard output");
   command.flag("--force", arguments->force,
                "replace files that -o does not name, whatever they contain");
   RigWords& rig = arguments->rig;
-  command
-      .option(
-          "--plate", rig.plate,
-          "for a rig: sides along x and y, or the diameter of a disc; default: \"300 mm x 200 mm\"")
-      .takes("SIZE");
-  command
-      .option("--ball", rig.ball,
-              "for a rig: ping-pong (default), steel, rubber, golf, or diameter and mass, such as "
-              "\"40 mm 2.7 g\"; hollow or solid may follow")
-      .takes("BALL");
+  command.option(
+      "--plate SIZE", rig.plate,
+      "for a rig: sides along x and y, or the diameter of a disc; default: \"300 mm x 200 mm\"");
+  command.option("--ball BALL", rig.ball,
+                 "for a rig: ping-pong (default), steel, rubber, golf, or diameter and mass, such "
+                 "as \"40 mm 2.7 g\"; hollow or solid may follow");
   command
       .option("--actuator", rig.actuator, "for a rig: servo (default), or stepper: stepper motors")
       .takes_one_of({"servo", "stepper"});
   command
-      .option(
-          "--servo", rig.servo,
-          "for a rig: hobby-standard (default), hobby-micro or smart-serial; of stepper motors: "
-          "nema14, nema17 or nema23")
+      .option("--servo", rig.servo,
+              "for a rig: hobby-standard (default), hobby-micro or smart-serial; of stepper "
+              "motors: nema14, nema17 or nema23")
       .takes_one_of(servo_classes());
-  const Option camera =
-      command.option("--camera", rig.camera, "for a rig: frames per second; default: \"30 Hz\"")
-          .takes("RATE");
+  const Option camera = command.option("--camera RATE", rig.camera,
+                                       "for a rig: frames per second; default: \"30 Hz\"");
   command
-      .option("--touch", rig.touch,
+      .option("--touch RATE", rig.touch,
               "for a rig: a touch screen instead of a camera, and its readings per second")
-      .takes("RATE")
       .excludes(camera);
   command
       .option("--legs", rig.legs,
@@ -259,11 +250,9 @@ ExitCode examples(const ExampleArguments& arguments, const Options& options) {
 void add_examples(Command& command, const Options& options) {
   const auto arguments = std::make_shared<ExampleArguments>();
   command.option("NAME", arguments->name, "the scenario to write; default: list all");
-  command
-      .option("-o,--output", arguments->output,
-              "write it to FILE.yaml, and its table beside it; default: NAME.yaml in the current "
-              "folder; - is standard output")
-      .takes("FILE");
+  command.option("-o,--output FILE", arguments->output,
+                 "write it to FILE.yaml, and its table beside it; default: NAME.yaml in the "
+                 "current folder; - is standard output");
   command.flag("--force", arguments->force,
                "replace files that -o does not name, whatever they contain");
   command.does([arguments, &options] { return examples(*arguments, options); });

@@ -17,7 +17,6 @@
 #include "commands.hpp"
 #include "file/default_name.hpp"
 #include "file/format.hpp"
-#include "progress.hpp"
 #include "replay/page.hpp"
 #include "replay/template.hpp"
 #include "terminal.hpp"
@@ -143,30 +142,21 @@ void add_replay(Command& command, const Options& options) {
   command.option(
       "FILES", arguments->files,
       "results (CSV, HDF5) of runs or of sweeps, or scenarios; - is CSV on standard input");
-  command
-      .option(
-          "-o,--output", arguments->output,
-          "write FILE.html, or - for standard output; default: the first file's name with .html")
-      .takes("FILE");
+  command.option(
+      "-o,--output FILE", arguments->output,
+      "write FILE.html, or - for standard output; default: the first file's name with .html");
   add_force(command, arguments->force);
   command.flag("--live", arguments->request.live,
                "a page that changes the scenario and runs it again, in the browser");
-  command
-      .option("--data", arguments->request.logs,
-              "LOG.csv of a real rig, shown with the runs; repeatable")
-      .takes("LOG")
-      .may_be_repeated();
+  command.option("--data LOG", arguments->request.logs,
+                 "LOG.csv of a real rig, shown with the runs; repeatable");
   add_log_options(command, arguments->request.log);
-  command.option("--title", arguments->request.title, "title of the page; default: the scenario's")
-      .takes("TEXT");
-  command
-      .option("--summary", arguments->request.beside.summary,
-              "FILE.json: the summary of a result, from `bbsim run --summary`")
-      .takes("FILE");
-  command
-      .option("--scenario", arguments->request.beside.scenario,
-              "FILE.yaml: the scenario of a result")
-      .takes("FILE");
+  command.option("--title TEXT", arguments->request.title,
+                 "title of the page; default: the scenario's");
+  command.option("--summary FILE", arguments->request.beside.summary,
+                 "FILE.json: the summary of a result, from `bbsim run --summary`");
+  command.option("--scenario FILE", arguments->request.beside.scenario,
+                 "FILE.yaml: the scenario of a result");
   add_overrides(command, arguments->request.beside.overrides);
   command.does([arguments, &options] { return replay_files(*arguments, options); });
 }

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "signals.hpp"
-
 #include <unistd.h>
 
 #include <csignal>
@@ -10,6 +8,7 @@
 #include "base/error.hpp"
 #include "file/children.hpp"
 #include "file/temporaries.hpp"
+#include "terminal.hpp"
 
 namespace bbsim::app {
 namespace {

@@ -58,16 +58,11 @@ void add_sketch(Command& command, const Options& options) {
   const auto arguments = std::make_shared<SketchArguments>();
   command.option("FILES", arguments->job.files, "the sketch: one .ino, or several, in their order")
       .required();
-  command
-      .option("-o,--output", arguments->output,
-              "write the library to FILE.so; default: the first file's name with .so, in the "
-              "current folder")
-      .takes("FILE");
-  command
-      .option("-I,--libraries", arguments->job.folders,
-              "look for libraries in FOLDER, which holds one library or several; repeatable")
-      .takes("FOLDER")
-      .may_be_repeated();
+  command.option("-o,--output FILE", arguments->output,
+                 "write the library to FILE.so; default: the first file's name with .so, in the "
+                 "current folder");
+  command.option("-I,--libraries FOLDER", arguments->job.folders,
+                 "look for libraries in FOLDER, which holds one library or several; repeatable");
   add_force(command, arguments->force);
   command.footer(
       "The compiler is $CXX, c++ or g++. A scenario names the library, and the wiring of its "

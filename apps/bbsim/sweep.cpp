@@ -18,7 +18,6 @@
 #include "base/text.hpp"
 #include "commands.hpp"
 #include "file/atomic_file.hpp"
-#include "progress.hpp"
 #include "scenario/measures.hpp"
 #include "scenario/variation.hpp"
 #include "terminal.hpp"
@@ -253,65 +252,44 @@ void add_sweep(Command& command, const Options& options) {
       "      --samples 100 --expect \"max_distance < 9 cm\"");
   const auto arguments = std::make_shared<SweepArguments>();
   add_scenario(command, arguments->scenario);
+  command.option("--vary KEY=SPEC", arguments->vary,
+                 "values of a key, or of several tied keys (see below); repeatable; default: the "
+                 "scenario's sweep.vary");
   command
-      .option("--vary", arguments->vary,
-              "values of a key, or of several tied keys (see below); repeatable; default: the "
-              "scenario's sweep.vary")
-      .takes("KEY=SPEC")
-      .may_be_repeated();
-  command
-      .option("--combine", arguments->combine,
+      .option("--combine HOW", arguments->combine,
               "grid: every combination (default); zip: the first values together, then the second "
               "ones, ...")
-      .takes("HOW")
       .takes_one_of({"grid", "zip"});
-  command.option("--samples", arguments->samples, "number of cases to draw for uniform and normal")
-      .takes("N")
+  command
+      .option("--samples N", arguments->samples, "number of cases to draw for uniform and normal")
       .takes_whole(1);
-  command.option("--seed", arguments->seed, "seed of drawn values; default: 1")
-      .takes("N")
-      .takes_whole(0);
-  command
-      .option("--measure", arguments->measure,
-              "measures to take instead of the default ones: min_, max_, rms_ or end_ before a "
-              "column of `bbsim columns` (but not ball_q...); x.RiseTime, y.Overshoot, ...; \"when "
-              "x=0.05\"; \"rms_x from 5 s\" (docs/reference/measures.md); repeatable")
-      .takes("NAME,...")
-      .may_be_repeated();
-  command
-      .option("--expect", arguments->expect,
-              "add a column of 1 where it holds and 0 where not, and exit with 1 if it does not "
-              "hold in every case; also <=, > and >=; repeatable")
-      .takes("\"MEASURE < VALUE\"")
-      .may_be_repeated();
-  command
-      .option(
-          "-o,--output", arguments->output,
-          "write rows to FILE.csv or FILE.h5, or - for CSV on standard output; default: SCENARIO's "
-          "name with -sweep.csv, in the current folder; if SCENARIO is -, standard output")
-      .takes("FILE");
+  command.option("--seed N", arguments->seed, "seed of drawn values; default: 1").takes_whole(0);
+  command.option("--measure NAME,...", arguments->measure,
+                 "measures to take instead of the default ones: min_, max_, rms_ or end_ before a "
+                 "column of `bbsim columns` (but not ball_q...); x.RiseTime, y.Overshoot, ...; "
+                 "\"when x=0.05\"; \"rms_x from 5 s\" (docs/reference/measures.md); repeatable");
+  command.option("--expect \"MEASURE < VALUE\"", arguments->expect,
+                 "add a column of 1 where it holds and 0 where not, and exit with 1 if it does not "
+                 "hold in every case; also <=, > and >=; repeatable");
+  command.option(
+      "-o,--output FILE", arguments->output,
+      "write rows to FILE.csv or FILE.h5, or - for CSV on standard output; default: SCENARIO's "
+      "name with -sweep.csv, in the current folder; if SCENARIO is -, standard output");
   add_force(command, arguments->force);
-  command
-      .option("--summary", arguments->summary,
-              "write a summary of the sweep to FILE.json, or - for standard output: its settings, "
-              "how cases ended, the engine")
-      .takes("FILE");
+  command.option("--summary FILE", arguments->summary,
+                 "write a summary of the sweep to FILE.json, or - for standard output: its "
+                 "settings, how cases ended, the engine");
   add_threads(command, arguments->threads);
-  Option shard = command
-                     .option("--shard", arguments->shard,
-                             "run only part K of N, K from 1; `bbsim merge` joins the parts")
-                     .takes("K/N");
+  Option shard = command.option("--shard K/N", arguments->shard,
+                                "run only part K of N, K from 1; `bbsim merge` joins the parts");
   command
-      .option(
-          "--slurm", arguments->slurm,
-          "run nothing: write FILE, a script for Slurm's sbatch that runs the sweep as an array "
-          "of tasks, one shard each, and says how to merge them")
-      .takes("FILE")
+      .option("--slurm FILE", arguments->slurm,
+              "run nothing: write FILE, a script for Slurm's sbatch that runs the sweep as an "
+              "array of tasks, one shard each, and says how to merge them")
       .excludes(shard);
   command
-      .option("--slurm-tasks", arguments->slurm_tasks,
+      .option("--slurm-tasks N", arguments->slurm_tasks,
               "the most tasks of that array; your site's limit; default: 1000")
-      .takes("N")
       .takes_whole(1);
   command.flag("--resume", arguments->resume, "continue a sweep that did not end");
   command.flag("--keep-trajectories", arguments->keep_trajectories,
@@ -350,9 +328,8 @@ void add_merge(Command& command, const Options& options) {
   const auto arguments = std::make_shared<MergeArguments>();
   command.option("PARTS", arguments->parts, "the files of all shards, in any order").required();
   command
-      .option("-o,--output", arguments->output,
+      .option("-o,--output FILE", arguments->output,
               "write FILE.csv or FILE.h5, like the parts; - is CSV on standard output")
-      .takes("FILE")
       .required();
   command.does([arguments, &options] { return merge(*arguments, options); });
 }

@@ -22,7 +22,6 @@
 #include "api/cases.hpp"
 #include "api/check.hpp"
 #include "api/environments.hpp"
-#include "api/inputs.hpp"
 #include "api/linearize.hpp"
 #include "api/run.hpp"
 #include "api/sweep.hpp"

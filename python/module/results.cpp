@@ -16,9 +16,9 @@
 #include <variant>
 #include <vector>
 
-#include "api/inputs.hpp"
 #include "api/measure.hpp"
 #include "api/replay.hpp"
+#include "api/run.hpp"
 #include "base/error.hpp"
 #include "base/progress_line.hpp"
 #include "base/quoted.hpp"
@@ -29,8 +29,7 @@
 #include "module.hpp"
 #include "replay/page.hpp"
 #include "replay/template.hpp"
-#include "results/log.hpp"
-#include "results/read_result.hpp"
+#include "results/result.hpp"
 #include "results/sweep_table.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/measures.hpp"

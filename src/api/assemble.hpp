@@ -1,18 +1,25 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Builds the model of a scenario; errors about a key name its place.
+// Builds the model of a scenario; errors about a key name its place. Commands from outside may
+// replace its law: those of a caller that steps a run, or of a page.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "api/watch.hpp"
 #include "base/error.hpp"
+#include "base/pair.hpp"
 #include "controller/host.hpp"
+#include "model/control/external_controller.hpp"
 #include "model/model.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/family.hpp"
 #include "scenario/reader.hpp"
+#include "scenario/scenario.hpp"
 
 namespace bbsim::api {
 
@@ -41,5 +48,24 @@ auto with_places(const Scenario& scenario, const Make& make) {
 // Starts the user's controller once, before many runs: if it cannot start, the scenario is at
 // fault, not each case. `first` is the scenario of the first case.
 void try_controller(const ScenarioFamily& family, Scenario first, Watch& watch);
+
+// What a controller receives at a sample (docs/reference/controllers.md), SI.
+struct Sample {
+  std::size_t number = 0;
+  double t = 0;
+  std::optional<Pair> ball;
+  Pair reference{}, reference_rate{}, reference_acceleration{};
+  std::size_t commands = 2;  // number of commands; three, like the servos, under drives: legs
+  std::array<double, 3> servo{}, servo_rate{};
+};
+
+[[nodiscard]] Sample copy_of(const model::ControllerSample& sample);
+
+// Replaces the scenario's law with commands from outside. Throws InputError if its controller takes
+// no samples, or drives legs.
+[[nodiscard]] Scenario with_outside_commands(Scenario scenario);
+
+// Throws InputError for a command that is not finite.
+void require_finite(const Pair& command);
 
 }  // namespace bbsim::api

@@ -15,8 +15,6 @@
 
 #include "api/assemble.hpp"
 #include "api/linearize.hpp"
-#include "api/loop_text.hpp"
-#include "api/probe.hpp"
 #include "base/number_text.hpp"
 #include "base/text.hpp"
 #include "model/control/sample_times.hpp"

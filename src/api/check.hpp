@@ -36,8 +36,8 @@ constexpr std::size_t label_width = 12;
 [[nodiscard]] Report describe(const Scenario& scenario);
 
 // The same, with the cases of the scenario's sweep block, all checked, and the answers of the
-// user's controller to test samples (probe.hpp). `reasons`: also says why the solver was chosen,
-// and whether the scene is stiff. Throws model::ControllerFault.
+// user's controller to test samples (probe(), linearize.hpp). `reasons`: also says why the solver
+// was chosen, and whether the scene is stiff. Throws model::ControllerFault.
 [[nodiscard]] Report check(const Scenario& scenario, Watch& watch, bool reasons = false);
 
 }  // namespace bbsim::api

@@ -9,8 +9,6 @@
 #include <utility>
 
 #include "api/assemble.hpp"
-#include "api/loop_text.hpp"
-#include "api/probe.hpp"
 #include "base/number_text.hpp"
 #include "base/text.hpp"
 #include "record/linear_text.hpp"

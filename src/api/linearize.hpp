@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Linear system of a scene: A, B, C, D, poles, zeros and margins.
+// Linear system of a scene: A, B, C, D, poles, zeros and margins; sentences about its loop; and the
+// test of a user's controller, with a ball away from its reference.
 #pragma once
 
 #include <optional>
@@ -11,6 +12,8 @@
 #include "api/watch.hpp"
 #include "base/error.hpp"
 #include "model/control/linearize.hpp"
+#include "model/model.hpp"
+#include "model/spectrum.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim::api {
@@ -52,5 +55,31 @@ struct Linearized {
 
 // Text of a file of that name; its ending selects the format: .m, .py, .csv, else JSON.
 [[nodiscard]] std::string file_text(const Linearized& linearized, const std::string& file);
+
+// "-15.5, -2.27 +- 8.45i, -0.001"
+[[nodiscard]] std::string poles_line(const model::Eigenvalues& poles);
+
+// Poles of a sampled loop, as magnitudes relative to the unit circle.
+[[nodiscard]] std::string sampled_poles_line(const model::Eigenvalues& poles);
+
+// Warns if the closed loop of `model`, the scenario's, is unstable about home, and says if other
+// signs of the gains, or a smaller ball, would make it stable. Else empty.
+[[nodiscard]] std::string instability_warning(const Scenario& scenario, const model::Model& model);
+
+// Why a sampled loop's poles (if `by_sample`, its equations by samples) leave out its camera's
+// frames; empty if they do not.
+[[nodiscard]] std::string without_frames(const Scenario& scenario, bool by_sample);
+
+// Puts the ball beside the reference, on each axis and either side, and asks the model's controller
+// for commands. The model tells where they drive the ball. Small pulses about the reference give
+// the law, as far as it is linear, and the loop's margins. Runs the controller about twenty times
+// for a hundred samples, or for as long as a ball needs to roll off if it does not answer before.
+// Throws model::ControllerFault.
+struct Probed {
+  Report report;
+  std::optional<model::Linearization> loop;  // estimated, as model::loop_with() gives it
+  std::string why;                           // why there is no estimate
+};
+[[nodiscard]] Probed probe(const Scenario& scenario, const model::Model& model);
 
 }  // namespace bbsim::api

@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "api/loop_text.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <cstddef>
 #include <optional>
 
+#include "api/linearize.hpp"
 #include "base/number_text.hpp"
 #include "model/control/sample_times.hpp"
 

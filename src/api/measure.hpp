@@ -11,7 +11,6 @@
 
 #include "api/watch.hpp"
 #include "base/error.hpp"
-#include "results/log.hpp"
 #include "results/result.hpp"
 #include "scenario/scenario.hpp"
 

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "api/probe.hpp"
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -16,7 +14,6 @@
 #include <vector>
 
 #include "api/linearize.hpp"
-#include "api/loop_text.hpp"
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "model/control/derivatives.hpp"

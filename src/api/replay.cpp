@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "api/check.hpp"
-#include "api/inputs.hpp"
 #include "api/live.hpp"
 #include "api/measure.hpp"
+#include "api/run.hpp"
 #include "api/version.hpp"
 #include "base/error.hpp"
 #include "base/quoted.hpp"

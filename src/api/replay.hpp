@@ -15,8 +15,7 @@
 #include "file/table_writer.hpp"
 #include "record/summary.hpp"
 #include "replay/scene.hpp"
-#include "results/log.hpp"
-#include "results/read_result.hpp"
+#include "results/result.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/scenario.hpp"
 

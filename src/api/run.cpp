@@ -12,15 +12,17 @@
 
 #include "api/assemble.hpp"
 #include "api/replay.hpp"
-#include "api/run_sensitivity.hpp"
 #include "api/simulation.hpp"
 #include "base/number_text.hpp"
+#include "controller/host.hpp"
 #include "file/atomic_file.hpp"
 #include "file/default_name.hpp"
 #include "file/memory_table.hpp"
 #include "scenario/expectation.hpp"
+#include "scenario/reader.hpp"
 
 namespace bbsim::api {
+
 namespace {
 
 using Columns = std::vector<const scenario::Column*>;
@@ -196,6 +198,30 @@ RunResult run(const RunRequest& request, Watch& watch) {
     }
   }
   return result;
+}
+
+namespace {
+
+// Declares the files that a scenario names.
+void reads_parts(file::Outputs& outputs, const Scenario& scenario) {
+  for (const TableFile& table : table_files(scenario)) {
+    outputs.reads(table.path, "a table of the scenario");
+  }
+  for (const std::string& file : controller::files_of(scenario)) {
+    outputs.reads(file, "the scenario's controller");
+  }
+}
+
+}  // namespace
+
+void reads_scenario(file::Outputs& outputs, const std::string& file, const Scenario& scenario) {
+  outputs.reads(file, "the scenario");
+  reads_parts(outputs, scenario);
+}
+
+void reads_with_result(file::Outputs& outputs, const results::Result& result) {
+  if (!result.beside.empty()) outputs.reads(result.beside, "the summary of " + result.file);
+  if (result.scenario) reads_parts(outputs, *result.scenario);
 }
 
 }  // namespace bbsim::api

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A run of a scenario from its first row to its last.
+// A run of a scenario from its first row to its last; and the files that are read with it.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +13,12 @@
 
 #include "api/watch.hpp"
 #include "base/error.hpp"
+#include "file/outputs.hpp"
 #include "file/table_writer.hpp"
 #include "model/control/external_controller.hpp"
 #include "record/summary.hpp"
 #include "replay/scene.hpp"
+#include "results/result.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim::api {
@@ -62,5 +64,12 @@ struct RunResult {
 
 // Throws InputError, OutputError, and ControllerFault if the scene's own controller does not begin.
 [[nodiscard]] RunResult run(const RunRequest& request, Watch& watch);
+
+// No output may overwrite what is read. Declares the scenario, its tables and the files of its
+// controller as read.
+void reads_scenario(file::Outputs& outputs, const std::string& file, const Scenario& scenario);
+
+// Declares the files read with a result: its summary, and those that its scenario names.
+void reads_with_result(file::Outputs& outputs, const results::Result& result);
 
 }  // namespace bbsim::api

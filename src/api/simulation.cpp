@@ -7,12 +7,11 @@
 #include <cmath>
 #include <utility>
 
-#include "api/loop_text.hpp"
+#include "api/linearize.hpp"
 #include "api/version.hpp"
 #include "base/cpu_clock.hpp"
 #include "base/number_text.hpp"
 #include "model/control/loop_analysis.hpp"
-#include "record/edge_note.hpp"
 #include "record/recorder.hpp"
 #include "simd/instruction_set.hpp"
 #include "solve/integrate.hpp"

@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "api/outside_commands.hpp"
+#include "api/assemble.hpp"
 #include "api/run.hpp"
 #include "base/pair.hpp"
 

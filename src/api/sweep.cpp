@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "api/assemble.hpp"
-#include "api/inputs.hpp"
+#include "api/run.hpp"
 #include "api/sweep_text.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"

@@ -8,7 +8,6 @@
 
 #include "api/cases.hpp"
 #include "api/check.hpp"
-#include "api/inputs.hpp"
 #include "api/linearize.hpp"
 #include "api/run.hpp"
 #include "api/stepped_run.hpp"

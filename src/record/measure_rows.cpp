@@ -13,7 +13,7 @@
 #include "base/number_text.hpp"
 #include "base/real.hpp"
 #include "record/curve.hpp"
-#include "record/square_sum.hpp"
+#include "record/instants.hpp"
 
 namespace bbsim::record {
 

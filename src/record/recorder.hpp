@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Records a run: columns of its rows in a table, and measures of its motion
-// (scenario/measures.hpp).
+// (scenario/measures.hpp). Notes where a ball leaves its plate.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,6 @@
 #include "file/table_writer.hpp"
 #include "model/model.hpp"
 #include "record/extremes.hpp"
-#include "record/pieces.hpp"
 #include "record/rows.hpp"
 #include "record/summary.hpp"
 #include "record/window_measures.hpp"
@@ -100,6 +99,39 @@ class Recorder : public solve::StateSink {
   std::vector<double> times_;         // of these rows, s
   double last_time_ = 0;              // of the last row, s
   std::vector<double> last_;          // the last row
+};
+
+// The first row whose contact point is beyond the edge.
+struct OffPlate {
+  double t = 0;         // s
+  double x = 0, y = 0;  // m
+};
+
+// For scenes that have no event at the edge of a plate of known size: checks rows as they pass,
+// with two comparisons a row.
+class EdgeNote : public solve::StateSink {
+ public:
+  // Whether the scene's plate has a size and no event at its edge.
+  [[nodiscard]] static bool wanted(const Scenario& scenario);
+
+  // Passes all rows on to `next`.
+  EdgeNote(const model::Model& model, const Plate& plate, const solve::OutputGrid& grid,
+           solve::StateSink& next);
+
+  void accept(std::size_t first, std::size_t count, const double* values) override;
+  [[nodiscard]] solve::PieceSink* pieces() override { return next_.pieces(); }
+
+  [[nodiscard]] const std::optional<OffPlate>& left() const { return left_; }
+
+ private:
+  [[nodiscard]] bool is_beyond(double x, double y) const;
+
+  const Plate plate_;
+  const solve::OutputGrid& grid_;
+  solve::StateSink& next_;
+  std::size_t row_size_;
+  std::optional<std::size_t> x_, y_;  // indices of states; empty if symmetry keeps the state at 0
+  std::optional<OffPlate> left_;
 };
 
 }  // namespace bbsim::record

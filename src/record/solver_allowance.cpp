@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "record/solver_allowance.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <string_view>
 
 #include "base/number_text.hpp"
+#include "record/compare.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/log_columns.hpp"
 #include "scenario/measures.hpp"

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "results/log.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -14,7 +12,7 @@
 #include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "file/clock.hpp"
-#include "results/read_result.hpp"
+#include "results/result.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/log_columns.hpp"
 #include "yaml/quantity.hpp"

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A result for pictures: its columns, and the known facts of its scene.
+// A result, or the log of a real rig, read from files: its columns, and the known facts of its
+// scene. Logs are CSV with any names, units and clocks.
 #pragma once
 
 #include <cstddef>
@@ -53,5 +54,64 @@ struct Result : file::Table {
 // Adds the instant at which an event stopped a run as the last row, if it lies after the last one.
 // The row has the event's values, and NaN or an empty text in all other columns.
 void add_end_row(Result& result);
+
+// The user's options for a log.
+struct LogChoice {
+  // "NAME=[FACTOR*]COLUMN[+OFFSET|-OFFSET][:UNIT]", or a list of these with commas. Each makes a
+  // column of `bbsim columns` from a column of the log.
+  std::vector<std::string> maps{};
+  std::vector<std::string> header{};  // the columns' names, if the file has none
+  std::string period{};               // time between rows, if they have no clock
+  std::string time_offset{};          // a time, "start", or "auto"
+  std::string missing{};              // the number in place of a position that was not seen
+
+  [[nodiscard]] bool given() const {
+    return !maps.empty() || !header.empty() || !period.empty() || !time_offset.empty() ||
+           !missing.empty();
+  }
+  [[nodiscard]] bool aligns() const { return time_offset == "auto"; }
+};
+
+// Reads a log. Its columns get names of bbsim and SI units, as far as `choice` or their own names
+// define them; times are made to increase. Its notes tell the changes. Keeps unmapped columns,
+// unless `only_mapped`. "auto" leaves the times unchanged, for time_offset() in
+// record/log_distance.hpp. Throws InputError with the place in the log or in the map, the text
+// found and the texts allowed.
+[[nodiscard]] Result read_log(const std::string& file, const LogChoice& choice,
+                              bool only_mapped = false);
+
+// Does the same to a log already read.
+void make_log(Result& log, const LogChoice& choice, bool only_mapped);
+
+// What is wrong with a log that lacks times: its columns, also those of text, and the remedy.
+[[nodiscard]] std::string without_clock(const Result& log);
+
+// Throws InputError if "auto" is requested without a run to align with.
+void refuse_auto(const LogChoice& choice);
+
+// Sources for facts that a CSV file cannot hold. Each may be empty.
+struct Beside {
+  std::string summary;                 // written by `bbsim run --summary`
+  std::string scenario;                // the scenario of the run
+  std::vector<std::string> overrides;  // each "key.path=value"
+};
+
+// Reads a CSV or HDF5 file of a run or a sweep, or any other CSV file with a header; "-" is CSV on
+// standard input. HDF5 files describe their scene. For a CSV without a named summary, reads
+// NAME.json beside NAME.csv if it is a summary of that file, with as many rows and no older. A
+// named scenario overrides both. Throws InputError. Reads a CSV as a log if nothing identifies it
+// as a result of bbsim or if `log` has options.
+[[nodiscard]] Result read_result(const std::string& file, const Beside& beside,
+                                 const LogChoice& log = {});
+
+// A result in memory: its columns, of one length, and its summary as `run --summary` writes it,
+// which may be empty.
+[[nodiscard]] Result result_of(std::vector<Column> columns, const std::string& summary);
+
+// NAME.json beside NAME.csv, which read_result() may use; empty if there is none.
+[[nodiscard]] std::string summary_beside(const std::string& file);
+
+// Reads only the columns; `header` names those of a CSV if the file does not. Throws InputError.
+[[nodiscard]] Result read_columns(const std::string& file, const std::vector<std::string>& header);
 
 }  // namespace bbsim::results

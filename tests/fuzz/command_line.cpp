@@ -23,7 +23,7 @@
 #include "controller/foreign_code.hpp"
 #include "folder.hpp"
 #include "fuzz.hpp"
-#include "signals.hpp"
+#include "terminal.hpp"
 
 int bbsim_main(int argc, char** argv);  // main() of apps/bbsim/main.cpp, renamed
 

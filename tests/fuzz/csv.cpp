@@ -15,7 +15,7 @@
 #include "file/table.hpp"
 #include "fuzz.hpp"
 #include "record/compare.hpp"
-#include "results/log.hpp"
+#include "results/result.hpp"
 
 namespace {
 

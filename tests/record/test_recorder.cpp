@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "record/instants.hpp"
 #include "record/recorder.hpp"
-#include "record/square_sum.hpp"
 #include "scenario/reader.hpp"
 #include "support/measured.hpp"
 

@@ -6,7 +6,6 @@
 
 #include "catch.hpp"
 #include "record/compare.hpp"
-#include "record/solver_allowance.hpp"
 
 namespace bbsim_test::test_solver_allowance {
 

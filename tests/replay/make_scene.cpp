@@ -8,7 +8,7 @@
 
 #include "file/table_writer.hpp"
 #include "replay/sources.hpp"
-#include "results/read_result.hpp"
+#include "results/result.hpp"
 #include "scenario/reader.hpp"
 #include "support/folder.hpp"
 #include "support/text.hpp"

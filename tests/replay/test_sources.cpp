@@ -9,7 +9,7 @@
 #include "catch.hpp"
 #include "replay/scene.hpp"
 #include "replay/sources.hpp"
-#include "results/read_result.hpp"
+#include "results/result.hpp"
 #include "scenario/reader.hpp"
 #include "support/folder.hpp"
 

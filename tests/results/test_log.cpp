@@ -10,7 +10,7 @@
 
 #include "base/error.hpp"
 #include "catch.hpp"
-#include "results/log.hpp"
+#include "results/result.hpp"
 #include "support/folder.hpp"
 
 namespace bbsim_test::test_log {

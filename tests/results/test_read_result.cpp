@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "catch.hpp"
-#include "results/read_result.hpp"
+#include "results/result.hpp"
 #include "support/folder.hpp"
 
 namespace bbsim_test::test_read_result {
