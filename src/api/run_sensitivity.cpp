@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "api/assemble.hpp"
+#include "api/cases.hpp"
 #include "api/simulation.hpp"
 #include "base/error.hpp"
 #include "base/number_text.hpp"
@@ -15,7 +16,6 @@
 #include "base/real.hpp"
 #include "model/model.hpp"
 #include "scenario/keys.hpp"
-#include "sweep/sweep.hpp"
 #include "yaml/quantity.hpp"
 #include "yaml/spelling.hpp"
 
@@ -132,31 +132,29 @@ bool is_reliable(const Derivative& found, double largest, double size, double st
 
 }  // namespace
 
-// The run itself comes first, then the neighbors of each key.
-struct Sensitivity::Runs {
-  std::vector<double> measures;              // run after run
-  std::vector<std::vector<double>> columns;  // each run after run
-  std::vector<sweep::CaseStatus> status;
-  bool interrupted = false;
+namespace {
 
-  [[nodiscard]] static Five around(const std::vector<double>& numbers, std::size_t per_run,
-                                   std::size_t at, std::size_t key) {
-    const auto of = [&](std::size_t run) { return numbers[run * per_run + at]; };
-    const std::size_t first = 1 + offsets.size() * key;
-    return {of(first), of(first + 1), of(0), of(first + 2), of(first + 3)};
-  }
+// A number of the run, among those at the neighbors of a key. The run itself comes first, then the
+// neighbors of each key, each with `per_run` numbers.
+Five around(const std::vector<double>& numbers, std::size_t per_run, std::size_t at,
+            std::size_t key) {
+  const auto of = [&](std::size_t run) { return numbers[run * per_run + at]; };
+  const std::size_t first = 1 + offsets.size() * key;
+  return {of(first), of(first + 1), of(0), of(first + 2), of(first + 3)};
+}
 
-  // Why a neighbor of the key ends differently; empty if none does.
-  [[nodiscard]] std::string trouble(std::size_t key) const {
-    for (std::size_t i = 1; i <= offsets.size(); ++i) {
-      const sweep::CaseStatus& neighbor = status[offsets.size() * key + i];
-      if (neighbor.word == status[0].word) continue;
-      return "; a run at a neighboring value is " + neighbor.word +
-             (neighbor.reason.empty() ? "" : ": " + neighbor.reason);
-    }
-    return "";
+// Why a neighbor of the key ends differently; empty if none does.
+std::string trouble(const std::vector<sweep::CaseStatus>& status, std::size_t key) {
+  for (std::size_t i = 1; i <= offsets.size(); ++i) {
+    const sweep::CaseStatus& neighbor = status[offsets.size() * key + i];
+    if (neighbor.word == status[0].word) continue;
+    return "; a run at a neighboring value is " + neighbor.word +
+           (neighbor.reason.empty() ? "" : ": " + neighbor.reason);
   }
-};
+  return "";
+}
+
+}  // namespace
 
 Sensitivity::Sensitivity(const RunRequest& request,
                          const std::vector<const scenario::Column*>& columns,
@@ -173,11 +171,13 @@ Sensitivity::Sensitivity(const RunRequest& request,
            " in --measure, which is of the loop; allowed: measures of the motion");
   }
   const model::Model model = assemble(request.scenario, columns);
+  Source source = request.scenario.source;
   // Steps through switches are short anyway, and a smaller atol only makes more of them.
-  solver_ = {{"solver.method", "auto"},
-             {"solver.rtol", "3e-14"},
-             {"solver.atol", model.hybrid() ? "1e-15" : "1e-18"}};
-  family_ = std::make_unique<const ScenarioFamily>(request.scenario.source);
+  for (const char* const solver : {"solver.method=auto", "solver.rtol=3e-14",
+                                   model.hybrid() ? "solver.atol=1e-15" : "solver.atol=1e-18"}) {
+    source.overrides.emplace_back(solver);
+  }
+  family_ = std::make_unique<const ScenarioFamily>(source);
   for (const std::string& name : scenario::split_measures(request.sensitivity)) {
     for (const SensitivityKey& key : keys_) {
       const std::string path = yaml::american(name) + '.',
@@ -208,56 +208,24 @@ void Sensitivity::add_headers(std::vector<file::ColumnHeader>& headers) const {
   }
 }
 
-Sensitivity::Runs Sensitivity::run_neighbors(Watch& watch) const {
-  std::vector<std::string> names;
-  std::vector<double> here;
-  for (const SensitivityKey& key : keys_) {
-    names.push_back(key.name);
-    here.push_back(key.value);
-  }
-  std::vector<std::vector<double>> cases = {here};
+CasesResult Sensitivity::run_neighbors(Watch& watch) const {
+  CasesRequest request{*family_, 1 + offsets.size() * keys_.size()};
   for (std::size_t k = 0; k < keys_.size(); ++k) {
-    for (const int offset : offsets) {
-      cases.push_back(here);
-      cases.back()[k] += offset * keys_[k].step;
+    std::vector<double> values(request.count, keys_[k].value);
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+      values[1 + offsets.size() * k + i] += offsets[i] * keys_[k].step;
     }
+    request.keys.push_back({keys_[k].name, std::move(values)});
   }
-  const sweep::SweepPlan plan(*family_, names, cases, solver_);
-  sweep::SweepTask task{*family_, plan, measures_, columns_, grid_.size()};
-  task.report = [&watch](std::string_view line) { watch.controller_says(line); };
-
-  Runs runs;
-  runs.columns.resize(columns_.size());
-  const auto append = [](std::vector<double>& into, const std::vector<double>& numbers) {
-    into.insert(into.end(), numbers.begin(), numbers.end());
-  };
-  watch.start(0);
-  runs.interrupted = !sweep::run_sweep(
-      sweep::choose_engine(task), {0, cases.size()}, threads_of(0), stop_of(watch),
-      [](sweep::CaseResults&) {},
-      [&](const sweep::CaseResults& results) {
-        runs.status.insert(runs.status.end(), results.status.begin(), results.status.end());
-        for (std::size_t i = 0; i < results.count; ++i) {  // the time reached comes first
-          const double* const first = &results.numbers[i * (1 + measures_.size())] + 1;
-          runs.measures.insert(runs.measures.end(), first, first + measures_.size());
-        }
-        for (std::size_t c = 0; c < columns_.size(); ++c) {
-          append(runs.columns[c], results.series[c]);
-        }
-        watch.update(static_cast<double>(runs.status.size()) / static_cast<double>(cases.size()),
-                     "derivatives");
-      });
-  watch.end();
-  runs.status.resize(cases.size());
-  runs.measures.resize(cases.size() * measures_.size(), no_number);
-  for (auto& column : runs.columns) column.resize(cases.size() * grid_.size(), no_number);
-  return runs;
+  for (const scenario::Column* const column : columns_) request.columns.emplace_back(column->name);
+  for (const scenario::Measure& measure : measures_) request.measures.push_back(measure.name);
+  return run_cases(request, watch);
 }
 
 std::vector<std::vector<double>> Sensitivity::find(RunResult& run, Watch& watch) const {
   record::RunSummary& summary = run.summary;
-  const Runs runs = run_neighbors(watch);
-  if (runs.interrupted && run.code != ExitCode::interrupted) {
+  const CasesResult runs = run_neighbors(watch);
+  if (runs.code == ExitCode::interrupted && run.code != ExitCode::interrupted) {
     run.code = ExitCode::interrupted;
     summary.status = summary.reason_code = "interrupted";
     summary.reason = "interrupted before all derivatives were known; the rows are complete.";
@@ -280,7 +248,7 @@ std::vector<std::vector<double>> Sensitivity::find(RunResult& run, Watch& watch)
       std::vector<Derivative> rows;
       double largest = 0, size = 0;
       for (std::size_t row = 0; row < summary.rows; ++row) {
-        const Five f = Runs::around(runs.columns[c], grid_.size(), row, k);
+        const Five f = around(runs.columns[c], runs.times, row, k);
         rows.push_back(derivative(f, step));
         found[c * keys_.size() + k].push_back(rows.back().value);
         largest = std::fmax(largest, std::abs(rows.back().value));  // not NaN
@@ -293,7 +261,7 @@ std::vector<std::vector<double>> Sensitivity::find(RunResult& run, Watch& watch)
       doubt(std::string(columns_[c]->name), grid_[static_cast<std::size_t>(first - rows.begin())]);
     }
     for (std::size_t m = 0; m < measures_.size(); ++m) {
-      const Five f = Runs::around(runs.measures, measures_.size(), m, k);
+      const Five f = around(runs.measures[m], 1, 0, k);
       const Derivative estimate = derivative(f, step);
       const bool all = std::ranges::all_of(f, [](double of) { return std::isfinite(of); });
       double largest = 0;  // slope; where it changes its sign, the derivative is no measure
@@ -308,7 +276,7 @@ std::vector<std::vector<double>> Sensitivity::find(RunResult& run, Watch& watch)
     summary.warnings.push_back(
         "note: unreliable derivatives by " + key + ": " + doubts +
         "; differences of runs disagree there, as at a kink, a grazing event or a rounded command" +
-        runs.trouble(k));
+        trouble(runs.status, k));
   }
   return found;
 }

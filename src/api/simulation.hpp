@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "api/cases.hpp"
 #include "api/run.hpp"
 #include "file/table_writer.hpp"
 #include "model/model.hpp"
@@ -66,15 +67,12 @@ class Sensitivity {
   [[nodiscard]] std::vector<std::vector<double>> find(RunResult& run, Watch& watch) const;
 
  private:
-  struct Runs;
-
-  [[nodiscard]] Runs run_neighbors(Watch& watch) const;
+  [[nodiscard]] CasesResult run_neighbors(Watch& watch) const;
 
   std::vector<scenario::Measure> measures_;
   std::vector<const scenario::Column*> columns_;  // states only
   solve::OutputGrid grid_;
-  std::unique_ptr<const ScenarioFamily> family_;
-  std::vector<ScenarioFamily::Setting> solver_;  // of the neighbors
+  std::unique_ptr<const ScenarioFamily> family_;  // with the solver of the neighbors
   std::vector<SensitivityKey> keys_;
   std::vector<std::string> names_, units_, meanings_;  // for each column, key after key
 };

@@ -353,19 +353,6 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, const Sweep& sweep) : combine
   relate(family);
 }
 
-SweepPlan::SweepPlan(const ScenarioFamily& family, const std::vector<std::string>& keys,
-                     const std::vector<std::vector<double>>& cases, std::vector<Setting> always)
-    : always_(std::move(always)), combine_(Combine::zip), cases_(cases.size()) {
-  for (std::size_t k = 0; k < keys.size(); ++k) {
-    PlanAxis& axis = axes_.emplace_back();
-    axis.key = keys[k];
-    axis.lead = k;
-    axis.count = cases_;
-    for (const std::vector<double>& numbers : cases) axis.numbers.push_back(numbers[k]);
-  }
-  relate(family);
-}
-
 SweepPlan::SweepPlan(const ScenarioFamily& family, std::vector<ListedKey> keys, std::size_t cases)
     : combine_(Combine::zip), cases_(cases) {
   std::vector<Setting> seen;
@@ -476,8 +463,7 @@ std::vector<Setting> SweepPlan::settings(std::size_t number) const {
 }
 
 std::vector<Setting> SweepPlan::settings_of(const std::vector<double>& values) const {
-  std::vector<Setting> settings = always_;
-  settings.reserve(always_.size() + axes_.size());
+  std::vector<Setting> settings;
   for (std::size_t a = 0; a < axes_.size(); ++a) {
     std::string text = value_text(axes_[a], values[a]);
     if (!text.empty()) settings.push_back({axes_[a].key, std::move(text)});

@@ -47,12 +47,6 @@ class SweepPlan {
   // which a value is refused, as check() does.
   SweepPlan(const ScenarioFamily& family, const Sweep& sweep);
 
-  // Lists cases, each with a number (SI) for each key. All have the settings `always`. Reads only
-  // the first case: errors in others appear when they are run. Throws InputError.
-  SweepPlan(const ScenarioFamily& family, const std::vector<std::string>& keys,
-            const std::vector<std::vector<double>>& cases,
-            std::vector<ScenarioFamily::Setting> always);
-
   // A key with a value for each case: numbers (SI), or texts in YAML. An empty text leaves the
   // scenario's own value.
   struct ListedKey {
@@ -109,7 +103,6 @@ class SweepPlan {
   [[nodiscard]] static double drawn(const PlanAxis& axis, std::size_t number);
 
   std::vector<PlanAxis> axes_;
-  std::vector<ScenarioFamily::Setting> always_;
   Combine combine_;
   std::size_t samples_ = 1, cases_ = 1, first_ = 0;
   std::uint64_t seed_ = 0;

@@ -160,18 +160,6 @@ TEST_CASE("random values depend only on seed, key and case") {
   }
 }
 
-TEST_CASE("cases are listed with a number for each key, and settings that all have") {
-  const ScenarioFamily family(loop, {});
-  const SweepPlan plan(family, {"gravity"}, {{9.7}, {9.8}}, {{"solver.method", "bdf"}});
-  REQUIRE(plan.cases() == 2);
-  CHECK(plan.independent());
-  const auto settings = plan.settings(1);
-  REQUIRE(settings.size() == 2);
-  CHECK(settings[0].value == "bdf");
-  CHECK(settings[1].key == "gravity");
-  CHECK(settings[1].value == "9.8");
-}
-
 TEST_CASE("numbers of a table's offset are in SI units, whatever the unit of the table") {
   const ScenarioFamily family(
       Source{std::string(BBSIM_SOURCE_DIR) + "/configs/scene.yaml",
