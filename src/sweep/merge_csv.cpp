@@ -78,17 +78,20 @@ class Rows {
   std::string fault() {
     if (line_.find('\0') != std::string_view::npos)
       return "zero bytes";  // a disk page that was never written
-    if (!fields_.take(line_, ',')) return "a quote that is not closed";
-    const std::vector<std::string_view>& fields = fields_.all();
-    const auto number = number_in<std::size_t>(fields[0]);
+    const bool closed = file::split_fields(line_, fields_);
+    written_.clear();
+    for (const std::string& field : fields_) file::append_text(written_, field), written_ += ',';
+    written_.pop_back();
+    if (!closed || written_ != line_) return "quotes that no sweep writes";
+    const auto number = number_in<std::size_t>(fields_[0]);
     if (!number) return "a row that does not begin with the number of a case";
     case_number_ = *number;
-    if (fields.size() != names_.size()) {
-      return std::to_string(fields.size()) + (fields.size() == 1 ? " field" : " fields") +
+    if (fields_.size() != names_.size()) {
+      return std::to_string(fields_.size()) + (fields_.size() == 1 ? " field" : " fields") +
              " where " + std::to_string(names_.size()) + " belong";
     }
-    for (std::size_t i = first_number_; i < fields.size(); ++i) {
-      if (!number_in<double>(fields[i])) {
+    for (std::size_t i = first_number_; i < fields_.size(); ++i) {
+      if (!number_in<double>(fields_[i])) {
         return "something other than a number in field " + std::to_string(i + 1);
       }
     }
@@ -97,8 +100,8 @@ class Rows {
 
   std::string file_, header_;
   file::LineReader lines_;
-  std::vector<std::string> names_;
-  file::Fields fields_;
+  std::vector<std::string> names_, fields_;
+  std::string written_;
   std::size_t first_number_ = 0, case_number_ = 0;
   std::string_view line_;
 };
