@@ -52,66 +52,27 @@ char* write_list(char* to, std::string_view name, std::span<const double> number
   return to;
 }
 
-// Reads a line of JSON from start to end. The functions return false if their item does not follow.
-class Reader {
- public:
-  explicit Reader(std::string_view line) : at_(line.data()), end_(line.data() + line.size()) {}
-
-  bool take(char c) {
-    while (at_ < end_ && (*at_ == ' ' || *at_ == '\t' || *at_ == '\r')) ++at_;
-    if (at_ == end_ || *at_ != c) return false;
-    ++at_;
-    return true;
-  }
-
-  [[nodiscard]] bool at_end() {
-    while (at_ < end_ && (*at_ == ' ' || *at_ == '\t' || *at_ == '\r')) ++at_;
-    return at_ == end_;
-  }
-
-  // Reads a name in quotation marks, with escapes as written.
-  bool take_name(std::string_view& name) {
-    if (!take('"')) return false;
-    const char* const start = at_;
-    while (at_ < end_ && *at_ != '"') at_ += *at_ == '\\' && at_ + 1 < end_ ? 2 : 1;
-    if (at_ >= end_) return false;
-    name = {start, static_cast<std::size_t>(at_ - start)};
-    ++at_;
-    return true;
-  }
-
-  // Reads a JSON number, or NaN or Infinity as Python and others write them.
-  bool take_number(double& number) {
-    take_space();
-    constexpr double infinite = std::numeric_limits<double>::infinity();
-    constexpr std::pair<std::string_view, double> words[] = {
-        {"NaN", no_number}, {"Infinity", infinite}, {"-Infinity", -infinite}};
-    for (const auto& [word, value] : words) {
-      if (!std::string_view(at_, static_cast<std::size_t>(end_ - at_)).starts_with(word)) continue;
-      number = value;
-      at_ += word.size();
-      return true;
+// Programs print NaN and infinities in their own words, which JSON does not have. They become null.
+Json parse_answer(std::string_view line) {
+  Json answer = parse_json(line);
+  if (!answer.is_discarded()) return answer;
+  std::string text(line);
+  for (const std::string_view word :
+       {"-Infinity", "Infinity", "NaN", "-nan", "nan", "-inf", "inf"}) {
+    for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos;) {
+      text.replace(at, word.size(), "null");
     }
-    const char* const first = at_ < end_ && *at_ == '-' ? at_ + 1 : at_;
-    if (first == end_ || *first < '0' || *first > '9') return false;  // from_chars also reads "inf"
-    const auto [after, error] = std::from_chars(at_, end_, number);
-    if (error == std::errc::result_out_of_range) {
-      number = std::numeric_limits<double>::infinity();
-    } else if (error != std::errc()) {
-      return false;
-    }
-    at_ = after;
-    return true;
   }
+  return parse_json(text);
+}
 
- private:
-  void take_space() {
-    while (at_ < end_ && (*at_ == ' ' || *at_ == '\t')) ++at_;
-  }
+bool is_real(const Json& value) {
+  return value.is_number() || value.is_null();
+}
 
-  const char* at_;
-  const char* end_;
-};
+double real_in(const Json& value) {
+  return value.is_number() ? value.get<double>() : no_number;
+}
 
 std::string not_understood(std::string_view line, const std::string& why) {
   return "its answer was " + bbsim::quoted(line, longest_saying) + ": " + why;
@@ -153,7 +114,7 @@ std::string refusal(std::string_view line, const std::string& why) {
 }
 
 std::string advice_on_text(std::string_view line) {
-  if (Reader(line).take('{')) return "";
+  if (trimmed(line).starts_with('{')) return "";
   return "standard output is only for answers, print all else to standard error; ";
 }
 
@@ -279,44 +240,33 @@ std::string read_answer(std::string_view line, std::span<const std::string> name
     return refusal(line, why + form_of(command.size()));
   };
   const auto refuse = [line](const std::string& why) { return refusal(line, why); };
-  const auto take_command = [&](Reader& reader) {
-    for (std::size_t i = 0; i < command.size(); ++i) {
-      if (!reader.take(i == 0 ? '[' : ',') || !reader.take_number(command[i])) return false;
-    }
-    return reader.take(']');
-  };
-  Reader reader(line);
-  if (!reader.take('{')) return refuse_form("");
+  const Json answer = parse_answer(line);
+  if (!answer.is_object()) return refuse_form("");
   std::fill_n(own, names.size(), no_number);
   bool commanded = false;
-  do {
-    std::string_view name;
-    if (!reader.take_name(name) || !reader.take(':')) return refuse_form("");
+  for (const auto& [name, value] : answer.items()) {
     if (name == "command") {
-      commanded = take_command(reader);
-      if (!commanded) {
+      if (!value.is_array() || value.size() != command.size() ||
+          !std::ranges::all_of(value, is_real)) {
         return refuse_form(std::string("found a command that is not ") +
                            (command.size() == 2 ? "two" : "three") + " numbers; ");
       }
-    } else {
-      double number = 0;
-      if (!reader.take_number(number)) {
-        std::vector<std::string_view> known{"command", "error"};
-        known.insert(known.end(), names.begin(), names.end());
-        const std::string meant = yaml::hint(name, known);
-        const char* const kind =
-            name == "error" ? " that is not a string" : " that is not a number";
-        return refuse_form("found " + bbsim::quoted(name) + (meant.empty() ? kind : meant) + "; ");
-      }
+      std::ranges::transform(value, command.begin(), real_in);
+      commanded = true;
+    } else if (is_real(value) && name != "error") {
       const auto wanted = std::ranges::find(names, name);
       if (wanted == names.end()) continue;
-      if (!std::isfinite(number)) {
-        return refuse("found " + bbsim::quoted(name) + " that is not a finite number");
-      }
-      own[wanted - names.begin()] = number;
+      own[wanted - names.begin()] = real_in(value);
+      if (std::isfinite(real_in(value))) continue;
+      return refuse("found " + bbsim::quoted(name) + " that is not a finite number");
+    } else {
+      std::vector<std::string_view> known{"command", "error"};
+      known.insert(known.end(), names.begin(), names.end());
+      const std::string meant = yaml::hint(name, known);
+      const char* const kind = name == "error" ? " that is not a string" : " that is not a number";
+      return refuse_form("found " + bbsim::quoted(name) + (meant.empty() ? kind : meant) + "; ");
     }
-  } while (reader.take(','));
-  if (!reader.take('}') || !reader.at_end()) return refuse_form("");
+  }
   if (!commanded) return refuse_form("found no command" + misspelt(line, "command") + "; ");
   if (!std::ranges::all_of(command, [](double one) { return std::isfinite(one); })) {
     return refuse("found a command that is not a finite number");
