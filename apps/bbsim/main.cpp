@@ -14,7 +14,7 @@
 #include "base/error.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
-#include "file/temporaries.hpp"
+#include "file/leftovers.hpp"
 #include "terminal.hpp"
 
 namespace {

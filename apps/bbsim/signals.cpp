@@ -6,8 +6,7 @@
 #include <csignal>
 
 #include "base/error.hpp"
-#include "file/children.hpp"
-#include "file/temporaries.hpp"
+#include "file/leftovers.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {

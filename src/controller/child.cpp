@@ -23,7 +23,7 @@
 #include "base/quoted.hpp"
 #include "controller/foreign_code.hpp"
 #include "controller/protocol.hpp"
-#include "file/children.hpp"
+#include "file/leftovers.hpp"
 
 namespace bbsim::controller {
 namespace {

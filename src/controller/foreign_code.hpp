@@ -18,7 +18,7 @@ struct Streams {
 };
 
 // Starts a program in `folder` (empty: this one) and in its own process group, with the signals of
-// a login and no descriptors but its streams. Registers it at once (file/children.hpp). Looks up
+// a login and no descriptors but its streams. Registers it at once (file/leftovers.hpp). Looks up
 // the first word on PATH if it has no slash. Returns the process id, or 0 with the error number in
 // `error`.
 [[nodiscard]] pid_t start_program(const std::vector<std::string>& words, const std::string& folder,

@@ -14,7 +14,7 @@
 
 #include "base/error.hpp"
 #include "file/descriptor.hpp"
-#include "file/temporaries.hpp"
+#include "file/leftovers.hpp"
 
 namespace bbsim::file {
 namespace {

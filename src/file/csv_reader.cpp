@@ -16,7 +16,7 @@
 #include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "file/csv_fields.hpp"
-#include "file/formats.hpp"
+#include "file/format.hpp"
 #include "file/line_reader.hpp"
 
 namespace bbsim::file {

@@ -5,7 +5,7 @@
 // double. Each row ends in "\n".
 #include "base/number_text.hpp"
 #include "file/atomic_file.hpp"
-#include "file/formats.hpp"
+#include "file/format.hpp"
 
 namespace bbsim::file {
 namespace {

@@ -12,7 +12,7 @@
 #include <memory>
 
 #include "base/error.hpp"
-#include "file/children.hpp"
+#include "file/leftovers.hpp"
 #include "file/start_process.hpp"
 
 namespace bbsim::file {

@@ -16,7 +16,7 @@
 #include "base/error.hpp"
 #include "base/quoted.hpp"
 #include "file/descriptor.hpp"
-#include "file/formats.hpp"
+#include "file/format.hpp"
 #include "file/hdf5/interface.hpp"
 #include "file/hdf5_module.hpp"
 

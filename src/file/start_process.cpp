@@ -10,7 +10,7 @@
 
 #include <csignal>
 
-#include "file/children.hpp"
+#include "file/leftovers.hpp"
 
 namespace bbsim::file {
 namespace {

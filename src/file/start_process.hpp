@@ -21,7 +21,7 @@ struct NewProcess {
   bool leads_group = false;        // of processes, which end_child() ends
 };
 
-// Starts and remembers a process (file/children.hpp). Returns its id, or 0 with errno in `error`.
+// Starts and remembers a process (file/leftovers.hpp). Returns its id, or 0 with errno in `error`.
 [[nodiscard]] pid_t start_process(const NewProcess& process, int& error);
 
 }  // namespace bbsim::file

@@ -15,8 +15,8 @@
 
 #include "base/error.hpp"
 #include "file/external.hpp"
+#include "file/leftovers.hpp"
 #include "file/share_folders.hpp"
-#include "file/temporaries.hpp"
 #include "file/whole_file.hpp"
 #include "sketch/source.hpp"
 

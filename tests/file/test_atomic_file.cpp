@@ -13,7 +13,7 @@
 #include "base/error.hpp"
 #include "catch.hpp"
 #include "file/atomic_file.hpp"
-#include "file/temporaries.hpp"
+#include "file/leftovers.hpp"
 #include "support/child.hpp"
 #include "support/folder.hpp"
 #include "support/limits.hpp"

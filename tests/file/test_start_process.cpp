@@ -9,8 +9,8 @@
 #include <string>
 
 #include "catch.hpp"
-#include "file/children.hpp"
 #include "file/descriptor.hpp"
+#include "file/leftovers.hpp"
 #include "file/start_process.hpp"
 
 namespace bbsim_test::test_start_process {

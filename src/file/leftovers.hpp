@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Keeps track of child processes, so that they end with this process.
+// Temporary files and child processes that must not outlive this process: a signal that ends it
+// removes them.
 #pragma once
 
 #include <sys/types.h>
@@ -11,6 +12,14 @@
 #include "base/fork_mutex.hpp"
 
 namespace bbsim::file {
+
+// remove_temporaries() removes `name` until forget_temporary(). The characters must stay in place
+// until then. There is room for 64 names; further ones are not removed.
+void remember_temporary(const char* name);
+void forget_temporary(const char* name);
+
+// A signal handler may call this. Does nothing in a forked process.
+void remove_temporaries();
 
 // Until forget_child(), end_children() ends `process` and its group. Call forget_child() before
 // waiting for the process, because its id may be reused afterwards. There is room for 1100
