@@ -309,11 +309,11 @@ struct MergeArguments {
 
 ExitCode merge(const MergeArguments& arguments, const Options& options) {
   Progress progress("merge", options.quiet);
-  const api::MergeResult merged = api::merge(arguments.parts, arguments.output, progress);
+  const auto merged = api::merge(arguments.parts, arguments.output, progress);
   if (!merged.note.empty() && !options.quiet) say(merged.note);
-  if (merged.code != ExitCode::done) {
+  if (merged.interrupted) {
     say("interrupted; nothing was written.");
-    return merged.code;
+    return ExitCode::interrupted;
   }
   if (!options.quiet) {
     say(name_of_output(arguments.output) + ": " + std::to_string(merged.cases) + " cases from " +

@@ -156,10 +156,10 @@ py::list sweep(const Given& given, const Pairs& vary, const std::string& combine
     return api::sweep(request, work.watch());
   });
   py::list columns;
-  for (const api::SweepTable::Column& one : made.table.columns) {
+  for (const file::Column& one : made.table.columns) {
     const auto count = static_cast<py::ssize_t>(one.numbers.size());
     const py::object numbers = py::array_t<double>(count, one.numbers.data());
-    columns.append(py::make_tuple(one.name, one.is_text ? py::cast(one.texts) : numbers));
+    columns.append(py::make_tuple(one.name, one.texts.empty() ? numbers : py::cast(one.texts)));
   }
   return columns;
 }
@@ -265,13 +265,13 @@ void define_linearize(py::module_& module) {
   attributes(
       py::class_<Linearized>(module, "Linearized"), "kind", &Linearized::kind, "at",
       &Linearized::at, "note", &Linearized::note, "system",
-      [](const Linearized& made) { return made.linearisation.system; }, "frequencies",
-      [](const Linearized& made) { return model::open_loop_frequencies(made.linearisation); },
+      [](const Linearized& made) { return made.linearization.system; }, "frequencies",
+      [](const Linearized& made) { return model::open_loop_frequencies(made.linearization); },
       "json", [](const Linearized& made) { return api::file_text(made, ".json"); }, "report",
       [](const Linearized& made) { return to_text(api::report_of(made)); }, "open_loops",
       [](const Linearized& made) {
         std::map<std::string, LinearSystem> loops;
-        for (const auto& its : made.linearisation.margins) {
+        for (const auto& its : made.linearization.margins) {
           loops.emplace(its.command, its.open);
         }
         return loops;

@@ -14,6 +14,7 @@
 #include "model/control/linearize.hpp"
 #include "model/model.hpp"
 #include "model/spectrum.hpp"
+#include "record/linear_text.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim::api {
@@ -33,12 +34,10 @@ struct LinearizeRequest {
   bool estimates = false;
 };
 
-struct Linearized {
+struct Linearized : record::LinearReport {
   ExitCode code = ExitCode::done;
   std::string reason;  // why there is no linear system; empty if there is one
   std::string note;    // what the system leaves out, and what its names mean
-  std::string scenario, kind, at;
-  Linearization linearisation;
 };
 
 // Throws InputError if the scene has no such linear system.

@@ -277,10 +277,8 @@ Compared compare(const CompareRequest& request, Watch& watch) {
 
 std::string summarize(const SummarizeRequest& request) {
   const file::Table table = file::read_table(request.file);
-  const auto groups =
-      record::summarise(table, request.file, request.keys,
-                        scenario::split_measures(request.measures), request.quantiles);
-  return record::to_csv(groups, request.keys, request.quantiles);
+  return record::summarise(table, request.file, request.keys,
+                           scenario::split_measures(request.measures), request.quantiles);
 }
 
 }  // namespace bbsim::api

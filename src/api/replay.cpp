@@ -67,8 +67,9 @@ replay::Run run_of(const Scenario& scenario, file::Table rows, record::RunSummar
   run.status = summary.status;
   run.reason = summary.reason;
   run.version = summary.version;
-  for (const record::EventRecord& event : summary.events) {
-    run.events.push_back({event.t, event.name, event.action, event.x, event.y});
+  for (const model::Occurrence& event : summary.events) {
+    const model::BallMotion& ball = event.sample.ball;
+    run.events.push_back({event.name, event.stopped, event.t, ball.x, ball.y});
   }
   summary.scenario_text.clear();  // replay::Run holds it separately
   run.summary = record::to_json(summary);

@@ -11,8 +11,10 @@
 
 #include "api/watch.hpp"
 #include "base/error.hpp"
+#include "file/table.hpp"
 #include "scenario/family.hpp"
 #include "sweep/case_rows.hpp"
+#include "sweep/merge.hpp"
 
 namespace bbsim::api {
 
@@ -49,17 +51,6 @@ struct SweepRequest {
   std::string script{};               // written in place of a run, for check_sweep(); or empty
 };
 
-// Rows of a sweep, by columns.
-struct SweepTable {
-  struct Column {
-    std::string name, unit;
-    bool is_text = false;
-    std::vector<double> numbers;
-    std::vector<std::string> texts;
-  };
-  std::vector<Column> columns;
-};
-
 struct SweepResult {
   // done; interrupted; ended_early if an expectation fails in a case.
   ExitCode code = ExitCode::done;
@@ -70,7 +61,7 @@ struct SweepResult {
   sweep::StatusCounts statuses;    // of the rows
   std::string repeat;              // the first failed case and the command that repeats it, if any
   std::string engine, output;
-  SweepTable table;  // if the request names no output
+  file::Table table;  // if the request names no output; columns of texts have no numbers
   double seconds = 0;
 };
 
@@ -84,15 +75,9 @@ struct SweepSize {
 // Throws InputError, OutputError, and ControllerFault if the scene's own controller does not begin.
 [[nodiscard]] SweepResult sweep(const SweepRequest& request, Watch& watch);
 
-struct MergeResult {
-  ExitCode code = ExitCode::done;  // or interrupted, with nothing written
-  std::size_t cases = 0;
-  std::string note;  // what the user should know about the parts; may be empty
-};
-
 // Joins the parts of a sweep into the file that one run of it would have written. Throws InputError
 // and OutputError.
-[[nodiscard]] MergeResult merge(const std::vector<std::string>& parts, const std::string& output,
-                                Watch& watch);
+[[nodiscard]] sweep::Merged merge(const std::vector<std::string>& parts, const std::string& output,
+                                  Watch& watch);
 
 }  // namespace bbsim::api
