@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // `bbsim linearize`: A, B, C, D, poles, zeros and margins.
-#include "api/linearize.hpp"
-
 #include <memory>
 #include <string>
 
+#include "api/check.hpp"
 #include "commands.hpp"
 #include "file/atomic_file.hpp"
 #include "terminal.hpp"

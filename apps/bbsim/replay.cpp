@@ -13,7 +13,6 @@
 #include "api/replay.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "command_line.hpp"
 #include "commands.hpp"
 #include "file/default_name.hpp"
 #include "file/format.hpp"

@@ -19,10 +19,8 @@
 #include <vector>
 
 #include "api/accuracy.hpp"
-#include "api/cases.hpp"
 #include "api/check.hpp"
 #include "api/environments.hpp"
-#include "api/linearize.hpp"
 #include "api/run.hpp"
 #include "api/sweep.hpp"
 #include "base/error.hpp"

@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "api/linearize.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "api/assemble.hpp"
+#include "api/check.hpp"
 #include "base/number_text.hpp"
 #include "base/text.hpp"
 #include "study/operating_point.hpp"

@@ -1,15 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "api/live.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <string_view>
 #include <utility>
 
-#include "api/linearize.hpp"
+#include "api/check.hpp"
+#include "api/replay.hpp"
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "model/control/open_loops.hpp"

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "api/check.hpp"
-#include "api/live.hpp"
 #include "api/measure.hpp"
 #include "api/run.hpp"
 #include "api/version.hpp"
@@ -16,7 +15,7 @@
 #include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "file/format.hpp"
-#include "record/log_distance.hpp"
+#include "record/compare.hpp"
 #include "replay/sources.hpp"
 #include "scenario/reader.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "api/linearize.hpp"
+#include "api/check.hpp"
 #include "api/version.hpp"
 #include "base/cpu_clock.hpp"
 #include "base/number_text.hpp"

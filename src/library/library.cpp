@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "api/cases.hpp"
 #include "api/check.hpp"
-#include "api/linearize.hpp"
 #include "api/run.hpp"
 #include "api/stepped_run.hpp"
 #include "api/sweep.hpp"
