@@ -98,17 +98,16 @@ void add_accuracy(Command& command, const Options& options) {
       "rtol / 100. A second table names the fastest choice for each decade of error.\n"
       "CSV columns: method, rtol, atol, error_m, time_us, steps, rhs_evaluations, "
       "jacobian_evaluations, status.");
-  const auto arguments = std::make_shared<AccuracyArguments>();
-  add_scenario(command, arguments->scenario);
+  AccuracyArguments& arguments = command.does(accuracy, options);
+  add_scenario(command, arguments.scenario);
   command
-      .option("--methods NAME,...", arguments->methods,
+      .option("--methods NAME,...", arguments.methods,
               "methods to compare: radau, bdf, adams; default: all")
       .parted_by_commas();
-  command.option("--rtol LOOSEST:TIGHTEST", arguments->rtols, "tolerances, a decade apart")
+  command.option("--rtol LOOSEST:TIGHTEST", arguments.rtols, "tolerances, a decade apart")
       .shows_default();
-  command.option("--csv FILE", arguments->csv,
+  command.option("--csv FILE", arguments.csv,
                  "write all points to FILE as CSV; - is standard output");
-  command.does([arguments, &options] { return accuracy(*arguments, options); });
 }
 
 namespace {
@@ -196,12 +195,11 @@ ExitCode verify(const ScenarioArguments& arguments, const Options& options) {
 }  // namespace
 
 void add_verify(Command& command, const Options& options) {
-  const auto arguments = std::make_shared<ScenarioArguments>();
-  command.option("SCENARIO", arguments->file,
+  ScenarioArguments& arguments = command.does(verify, options);
+  command.option("SCENARIO", arguments.file,
                  "a YAML file, or - for standard input: print the error of simpler models on it; "
                  "default: the paper's Fig. 2");
-  add_overrides(command, arguments->overrides);
-  command.does([arguments, &options] { return verify(*arguments, options); });
+  add_overrides(command, arguments.overrides);
 }
 
 }  // namespace bbsim::app

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -66,6 +67,14 @@ class Option {
 // Words that takes_one_of() set; empty for other options.
 [[nodiscard]] std::vector<std::string> words_of(CLI::Option& option);
 
+// Options of every command.
+struct Options {
+  bool quiet = false;
+};
+
+// Rewords errors about solver.error that --error set as errors about --error.
+[[nodiscard]] InputError as_of_error_option(const InputError& error);
+
 class Command {
  public:
   // If the command line names the command, `chosen` becomes its action. Both outlive the command.
@@ -81,15 +90,27 @@ class Command {
   Option option(const std::string& names, Value& value, const std::string& what);
   Option flag(const std::string& names, bool& value, const std::string& what);
   void does(Chosen what);
+  // Does `what` with the values of the command's options, which outlive the parsing. If they have
+  // an `error`, of --error, faults are reworded as its own.
+  template <class Values>
+  Values& does(ExitCode (*what)(const Values&, const Options&), const Options& options) {
+    const auto values = std::make_shared<Values>();
+    does([values, what, &options] {
+      try {
+        return what(*values, options);
+      } catch (const InputError& fault) {
+        if constexpr (requires { values->error; }) {
+          if (!values->error.empty()) throw as_of_error_option(fault);
+        }
+        throw;
+      }
+    });
+    return *values;
+  }
 
  private:
   CLI::App* app_;
   Chosen* chosen_;
-};
-
-// Options of every command.
-struct Options {
-  bool quiet = false;
 };
 
 // Scenario that a command reads, and keys to set in it: SCENARIO [--set key.path=value]...
@@ -103,18 +124,6 @@ void add_error(Command& command, std::string& error);
 [[nodiscard]] ScenarioArguments with_error(ScenarioArguments arguments, const std::string& error);
 // --force: see file::require_like().
 void add_force(Command& command, bool& force);
-// Rewords errors about solver.error that --error set as errors about --error.
-[[nodiscard]] InputError as_of_error_option(const InputError& error);
-// Calls `what`. If --error was given, its InputErrors become as_of_error_option().
-template <class What>
-ExitCode with_error_option(const std::string& error, const What& what) {
-  if (error.empty()) return what();
-  try {
-    return what();
-  } catch (const InputError& fault) {
-    throw as_of_error_option(fault);
-  }
-}
 void add_overrides(Command& command, std::vector<std::string>& overrides);
 
 // --map, --header, --period, --time-offset and --missing of a log.

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -111,18 +110,18 @@ ExitCode make(const NewArguments& arguments, const Options& options) {
 }  // namespace
 
 void add_new(Command& command, const Options& options) {
-  const auto arguments = std::make_shared<NewArguments>();
-  command.option("WHAT", arguments->what, "controller or rig")
+  NewArguments& arguments = command.does(make, options);
+  command.option("WHAT", arguments.what, "controller or rig")
       .required()
       .takes_one_of({"controller", "rig"});
-  command.option("LANGUAGE", arguments->language, "for a controller: python, c or arduino")
+  command.option("LANGUAGE", arguments.language, "for a controller: python, c or arduino")
       .takes_one_of({"python", "c", "arduino"});
-  command.option("-o,--output FILE", arguments->output,
+  command.option("-o,--output FILE", arguments.output,
                  "write it to FILE; default: controller.py, controller.c, controller.ino or "
                  "my-rig.yaml, in the current folder; - is standard output");
-  command.flag("--force", arguments->force,
+  command.flag("--force", arguments.force,
                "replace files that -o does not name, whatever they contain");
-  RigWords& rig = arguments->rig;
+  RigWords& rig = arguments.rig;
   command.option(
       "--plate SIZE", rig.plate,
       "for a rig: sides along x and y, or the diameter of a disc; default: \"300 mm x 200 mm\"");
@@ -157,7 +156,6 @@ void add_new(Command& command, const Options& options) {
       "  bbsim new controller python\n"
       "  bbsim new rig\n"
       "  bbsim new rig --plate \"250 mm\" --ball steel --touch \"50 Hz\" -o disc.yaml");
-  command.does([arguments, &options] { return make(*arguments, options); });
 }
 
 namespace {
@@ -248,14 +246,13 @@ ExitCode examples(const ExampleArguments& arguments, const Options& options) {
 }  // namespace
 
 void add_examples(Command& command, const Options& options) {
-  const auto arguments = std::make_shared<ExampleArguments>();
-  command.option("NAME", arguments->name, "the scenario to write; default: list all");
-  command.option("-o,--output FILE", arguments->output,
+  ExampleArguments& arguments = command.does(examples, options);
+  command.option("NAME", arguments.name, "the scenario to write; default: list all");
+  command.option("-o,--output FILE", arguments.output,
                  "write it to FILE.yaml, and its table beside it; default: NAME.yaml in the "
                  "current folder; - is standard output");
-  command.flag("--force", arguments->force,
+  command.flag("--force", arguments.force,
                "replace files that -o does not name, whatever they contain");
-  command.does([arguments, &options] { return examples(*arguments, options); });
 }
 
 }  // namespace bbsim::app
