@@ -85,15 +85,6 @@ std::vector<std::string> names_of_commands(const CLI::App& app) {
   return names;
 }
 
-std::vector<std::string> aliases_of_commands(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) {
-    const std::vector<std::string>& aliases = command->get_aliases();
-    names.insert(names.end(), aliases.begin(), aliases.end());
-  }
-  return names;
-}
-
 std::vector<std::string> names_of_options(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::App* app = &command; app != nullptr; app = app->get_parent()) {
@@ -120,7 +111,9 @@ std::string known_commands(const CLI::App& app) {
 [[noreturn]] void refuse_command(const CLI::App& app, const std::string& word) {
   if (const std::string gone = removed_command(word); !gone.empty()) throw InputError(gone);
   std::vector<std::string> names = names_of_commands(app);
-  for (std::string& alias : aliases_of_commands(app)) names.push_back(std::move(alias));
+  for (const CLI::App* command : app.get_subcommands({})) {
+    for (const std::string& alias : command->get_aliases()) names.push_back(alias);
+  }
   const std::string near = nearest(word, names);
   throw InputError("unknown command " + word + "; " +
                    (near.empty() ? known_commands(app) : "did you mean " + near + "?") + more);

@@ -208,18 +208,13 @@ py::tuple simulate(const Given& given, std::size_t count, std::vector<CaseKey> k
 // The scenario's title, or its name without one; and what `bbsim accuracy --csv` writes for all
 // methods.
 std::pair<std::string, std::string> accuracy(const Given& given, const std::string& rtols) {
-  std::vector<Method> methods;
-  for (const NamedMethod& known : named_methods) {
-    if (known.method != Method::automatic) methods.push_back(known.method);
-  }
   const std::vector<double> ladder = api::tolerance_ladder(rtols);
   Work work(given);
   return work.beside([&] {
     const Scenario scenario = first_of(work.family());
     const std::string title =
         scenario.title.empty() ? std::filesystem::path(given.name).stem().string() : scenario.title;
-    return std::pair(title,
-                     api::accuracy_csv(api::accuracy(scenario, methods, ladder, work.watch())));
+    return std::pair(title, study::accuracy_csv(api::accuracy(scenario, {}, ladder, work.watch())));
   });
 }
 
