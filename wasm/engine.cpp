@@ -22,10 +22,9 @@
 #include <string_view>
 #include <vector>
 
-#include "api/cases.hpp"
-#include "api/live.hpp"
-#include "api/assemble.hpp"
+#include "api/sweep.hpp"
 #include "api/replay.hpp"
+#include "api/assemble.hpp"
 #include "api/run.hpp"
 #include "base/json.hpp"
 #include "replay/page.hpp"

@@ -17,6 +17,7 @@
 #include "commands.hpp"
 #include "file/atomic_file.hpp"
 #include "file/outputs.hpp"
+#include "study/verify.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -29,15 +30,8 @@ struct AccuracyArguments {
   std::vector<std::string> methods;
 };
 
-// The methods named; by default all except `auto`, which is one of the others.
 std::vector<Method> methods_named(const std::vector<std::string>& names) {
   std::vector<Method> methods;
-  if (names.empty()) {
-    for (const NamedMethod& known : named_methods) {
-      if (known.method != Method::automatic) methods.push_back(known.method);
-    }
-    return methods;
-  }
   for (const std::string& name : names) {
     const auto known = std::ranges::find(named_methods, name, &NamedMethod::name);
     if (known == named_methods.end()) {
@@ -50,7 +44,7 @@ std::vector<Method> methods_named(const std::vector<std::string>& names) {
   return methods;
 }
 
-void explain_reference(const api::AccuracyStudy& study, double end) {
+void explain_reference(const study::AccuracyStudy& study, double end) {
   say("the reference's own error: about " + rounded(study.reference_error, 2) + " m" +
       (study.reference_by_cvode ? " (CVODE's Adams method at rtol 1e-13)" : ""));
   if (!study.reference_complete && !study.interrupted) {
@@ -70,19 +64,19 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
   if (!arguments.csv.empty()) csv = std::make_unique<file::AtomicFile>(arguments.csv);
 
   Progress progress("accuracy", options.quiet);
-  const api::AccuracyStudy study = api::accuracy(scenario, methods, rtols, progress);
+  const study::AccuracyStudy study = api::accuracy(scenario, methods, rtols, progress);
 
   if (!options.quiet) explain_reference(study, scenario.time.end);
   if (csv) {
-    csv->write(api::accuracy_csv(study));
+    csv->write(study::accuracy_csv(study));
     csv->commit();
   }
-  if (arguments.csv != "-") print(api::accuracy_table(study));
+  if (arguments.csv != "-") print(study::accuracy_table(study));
   if (study.interrupted) {
     say("interrupted.");
     return ExitCode::interrupted;
   }
-  if (api::any_complete(study)) return ExitCode::done;
+  if (!study::best_by_decade(study).empty()) return ExitCode::done;
   say("no method reached the end of the scenario; `bbsim run` says why");
   return ExitCode::ended_early;
 }
@@ -98,17 +92,16 @@ void add_accuracy(Command& command, const Options& options) {
       "rtol / 100. A second table names the fastest choice for each decade of error.\n"
       "CSV columns: method, rtol, atol, error_m, time_us, steps, rhs_evaluations, "
       "jacobian_evaluations, status.");
-  const auto arguments = std::make_shared<AccuracyArguments>();
-  add_scenario(command, arguments->scenario);
+  AccuracyArguments& arguments = command.does(accuracy, options);
+  add_scenario(command, arguments.scenario);
   command
-      .option("--methods NAME,...", arguments->methods,
+      .option("--methods NAME,...", arguments.methods,
               "methods to compare: radau, bdf, adams; default: all")
       .parted_by_commas();
-  command.option("--rtol LOOSEST:TIGHTEST", arguments->rtols, "tolerances, a decade apart")
+  command.option("--rtol LOOSEST:TIGHTEST", arguments.rtols, "tolerances, a decade apart")
       .shows_default();
-  command.option("--csv FILE", arguments->csv,
+  command.option("--csv FILE", arguments.csv,
                  "write all points to FILE as CSV; - is standard output");
-  command.does([arguments, &options] { return accuracy(*arguments, options); });
 }
 
 namespace {
@@ -122,7 +115,7 @@ std::string formatted(const char* format, const Values&... values) {
   return text;
 }
 
-std::string table_of(const api::Verification& verification) {
+std::string table_of(const study::Verification& verification) {
   std::size_t width = 5;
   for (const auto& check : verification.checks) {
     width = std::max(width, check.name.size());
@@ -138,20 +131,20 @@ std::string table_of(const api::Verification& verification) {
   return text + formatted("%zu of %zu checks hold\n", holding, verification.checks.size());
 }
 
-std::string table_of(const Scenario& scenario, const api::FullModelStudy& study) {
+std::string table_of(const Scenario& scenario, const study::FullModelStudy& study) {
   std::string text =
       "\n"
       "What equation (27) adds in " +
       scenario.source.file + ": the error of simpler models\n";
   text += formatted("%-16s  %11s  %9s  %11s  %9s\n", "model", "max |dx| /m", "at t /s",
                     "max |dy| /m", "at t /s");
-  for (const api::SimplerModel& model : study.simpler) {
+  for (const study::SimplerModel& model : study.simpler) {
     text +=
         formatted("%-16s  %11.3g  %9s  %11.3g  %9s\n", model.name.c_str(), model.dx,
                   short_number(model.at_dx).c_str(), model.dy, short_number(model.at_dy).c_str());
   }
   const double end = scenario.time.end;
-  for (const api::SimplerModel& model : study.simpler) {
+  for (const study::SimplerModel& model : study.simpler) {
     if (model.reached >= end) continue;
     text += model.name + " is compared up to t = " + short_number(model.reached) + " s of " +
             short_number(end) + " s, which both models reach\n";
@@ -163,27 +156,29 @@ ExitCode verify(const ScenarioArguments& arguments, const Options& options) {
   // Read the scenes before the checks, so that a mistake is reported at once.
   file::Outputs outputs;
   const std::vector<Scenario> scenes = arguments.file.empty()
-                                           ? api::paper_scenes(arguments.overrides)
+                                           ? study::paper_scenes(arguments.overrides)
                                            : std::vector{read(arguments, options, outputs)};
-  for (const Scenario& scene : scenes) api::require_comparable(scene);
+  for (const Scenario& scene : scenes) study::require_comparable(scene);
   prints(outputs);
   Progress progress("verify", options.quiet);
-  const api::Verification verification = api::verify(progress);
+  const study::Verification verification =
+      study::verify({progress.stop(), [&](double part) { progress.update(part, ""); }});
+  progress.end();
   print(table_of(verification));
   if (verification.interrupted) {
     say("interrupted.");
     return ExitCode::interrupted;
   }
 
-  std::vector<api::SimplerModel> models;
+  std::vector<study::SimplerModel> models;
   for (const Scenario& scene : scenes) {
-    const api::FullModelStudy study = api::compare_simpler(scene, progress);
+    const study::FullModelStudy study = study::compare_simpler(scene, {progress.stop(), {}});
     if (study.interrupted) return ExitCode::interrupted;
     print(table_of(scene, study));
     models = study.simpler;
   }
   std::string equations = "\n";
-  for (const api::SimplerModel& model : models) {
+  for (const study::SimplerModel& model : models) {
     const std::size_t of_y = model.equation.find("y''");  // on a line of its own
     const std::string_view equation = model.equation;
     equations += model.name + ":\n  " + std::string(equation.substr(0, of_y - 1)) + "\n  " +
@@ -196,12 +191,11 @@ ExitCode verify(const ScenarioArguments& arguments, const Options& options) {
 }  // namespace
 
 void add_verify(Command& command, const Options& options) {
-  const auto arguments = std::make_shared<ScenarioArguments>();
-  command.option("SCENARIO", arguments->file,
+  ScenarioArguments& arguments = command.does(verify, options);
+  command.option("SCENARIO", arguments.file,
                  "a YAML file, or - for standard input: print the error of simpler models on it; "
                  "default: the paper's Fig. 2");
-  add_overrides(command, arguments->overrides);
-  command.does([arguments, &options] { return verify(*arguments, options); });
+  add_overrides(command, arguments.overrides);
 }
 
 }  // namespace bbsim::app

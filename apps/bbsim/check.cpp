@@ -4,8 +4,6 @@
 // `bbsim check`: what a scenario models, and its loop.
 #include "api/check.hpp"
 
-#include <memory>
-
 #include "commands.hpp"
 #include "terminal.hpp"
 
@@ -28,11 +26,10 @@ ExitCode check(const Arguments& arguments, const Options& options) {
 }  // namespace
 
 void add_check(Command& command, const Options& options) {
-  const auto arguments = std::make_shared<Arguments>();
-  add_scenario(command, *arguments);
-  command.flag("--verbose", arguments->verbose,
+  Arguments& arguments = command.does(check, options);
+  add_scenario(command, arguments);
+  command.flag("--verbose", arguments.verbose,
                "also say why the solver was chosen, and how stiff the scenario is");
-  command.does([arguments, &options] { return check(*arguments, options); });
 }
 
 }  // namespace bbsim::app

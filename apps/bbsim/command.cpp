@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "command.hpp"
-
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
 #include <string_view>
@@ -10,9 +8,9 @@
 #include <utility>
 
 #include "base/number_text.hpp"
+#include "commands.hpp"
 
 namespace bbsim::app {
-
 namespace {
 
 // Prefix of the validator's name, which is never shown.

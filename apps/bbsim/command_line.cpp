@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "command_line.hpp"
-
 #include <CLI/CLI.hpp>  // at least one source must include all of it
 #include <algorithm>
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "commands.hpp"
 #include "embedded.hpp"
 #include "scenario/keys.hpp"
 #include "terminal.hpp"
@@ -85,15 +85,6 @@ std::vector<std::string> names_of_commands(const CLI::App& app) {
   return names;
 }
 
-std::vector<std::string> aliases_of_commands(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) {
-    const std::vector<std::string>& aliases = command->get_aliases();
-    names.insert(names.end(), aliases.begin(), aliases.end());
-  }
-  return names;
-}
-
 std::vector<std::string> names_of_options(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::App* app = &command; app != nullptr; app = app->get_parent()) {
@@ -120,7 +111,9 @@ std::string known_commands(const CLI::App& app) {
 [[noreturn]] void refuse_command(const CLI::App& app, const std::string& word) {
   if (const std::string gone = removed_command(word); !gone.empty()) throw InputError(gone);
   std::vector<std::string> names = names_of_commands(app);
-  for (std::string& alias : aliases_of_commands(app)) names.push_back(std::move(alias));
+  for (const CLI::App* command : app.get_subcommands({})) {
+    for (const std::string& alias : command->get_aliases()) names.push_back(alias);
+  }
   const std::string near = nearest(word, names);
   throw InputError("unknown command " + word + "; " +
                    (near.empty() ? known_commands(app) : "did you mean " + near + "?") + more);
@@ -297,6 +290,51 @@ ExitCode run_command(int argc, char** argv, std::span<const NamedCommand> comman
     return parsing_ended(app, error);
   }
   return chosen();
+}
+
+namespace {
+
+struct Removed {
+  std::string_view name, instead;
+};
+
+constexpr std::string_view runs_whole =
+    "runs are no longer split: make the whole run again, which takes milliseconds";
+
+constexpr Removed options[] = {
+    {"--save-state", runs_whole},
+    {"--from-state", runs_whole},
+    {"--continuity", "a fit no longer joins windows; --window sets their length"},
+    {"--plot", "`bbsim plot SCENARIO --accuracy` draws what accuracy measures"},
+    {"--until", "runs are no longer split; to end a run earlier, use --set time.end=TIME"},
+};
+constexpr Removed commands[] = {
+    {"completion", "bash's completion is installed as share/bash-completion/completions/bbsim"},
+    {"man", "man pages are installed where help2man is when bbsim is built; or see --help"},
+};
+constexpr Removed endings[] = {
+    {".glb", "glTF is no longer written; allowed: a page, a name that ends in .html"},
+};
+
+std::string text(std::span<const Removed> all, std::string_view name, bool with_name) {
+  const auto found = std::ranges::find(all, name, &Removed::name);
+  if (found == all.end()) return "";
+  const std::string prefix = with_name ? std::string(name) + ": " : "";
+  return prefix + std::string(found->instead) + " (docs/how-to/migrate.md)";
+}
+
+}  // namespace
+
+std::string removed_option(std::string_view option) {
+  return text(options, option, true);
+}
+
+std::string removed_command(std::string_view command) {
+  return text(commands, command, true);
+}
+
+std::string removed_ending(std::string_view ending) {
+  return text(endings, ending, false);
 }
 
 }  // namespace bbsim::app

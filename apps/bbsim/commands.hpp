@@ -1,20 +1,32 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The subcommands. Each add_ function sets the options and the action of one.
+// The subcommands and their options. Each add_ function sets the options and the action of one.
+// Keeps the parser, CLI11, out of their files: each source that includes its headers constructs
+// their validators at every program start, and compiles seconds longer.
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "command.hpp"
+#include "base/error.hpp"
+#include "base/number_text.hpp"
 #include "file/outputs.hpp"
 #include "file/table_writer.hpp"
 #include "scenario/family.hpp"
 #include "scenario/scenario.hpp"
 
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
 namespace bbsim::api {
 struct Line;
 using Report = std::vector<Line>;
@@ -26,9 +38,79 @@ struct LogChoice;
 
 namespace bbsim::app {
 
+// Action that the command line asks for.
+using Chosen = std::function<ExitCode()>;
+
+// Handle of a command's option, cheap to copy.
+class Option {
+ public:
+  explicit Option(CLI::Option& option) : option_(&option) {}
+
+  Option& required();
+  // Shows the default in help.
+  Option& shows_default();
+  // Values separated by commas, in one word: a file may follow.
+  Option& parted_by_commas();
+  // Takes a decimal number.
+  Option& takes_number();
+  // Takes a whole number, also as 1e6.
+  Option& takes_whole(double least, double most = largest_whole);
+  // Takes one value, though it is stored as a list.
+  Option& takes_one();
+  Option& takes_one_of(const std::vector<std::string>& words);
+  Option& excludes(const Option& option);
+
+ private:
+  CLI::Option* option_;
+};
+
+// Words that takes_one_of() set; empty for other options.
+[[nodiscard]] std::vector<std::string> words_of(CLI::Option& option);
+
 // Options of every command.
 struct Options {
   bool quiet = false;
+};
+
+// Rewords errors about solver.error that --error set as errors about --error.
+[[nodiscard]] InputError as_of_error_option(const InputError& error);
+
+class Command {
+ public:
+  // If the command line names the command, `chosen` becomes its action. Both outlive the command.
+  Command(CLI::App& app, Chosen& chosen) : app_(&app), chosen_(&chosen) {}
+
+  [[nodiscard]] std::string name() const;
+  // Text below the options in the command's help.
+  void footer(const std::string& text);
+  // "-o,--output FILE": `names` of an option, and its value in help; or of an argument, without
+  // dashes. `value` outlives the parsing. An option with a list may be given several times, each
+  // with one value: the scenario may follow. A text must not be empty.
+  template <class Value>
+  Option option(const std::string& names, Value& value, const std::string& what);
+  Option flag(const std::string& names, bool& value, const std::string& what);
+  void does(Chosen what);
+  // Does `what` with the values of the command's options, which outlive the parsing. If they have
+  // an `error`, of --error, faults are reworded as its own.
+  template <class Values>
+  Values& does(ExitCode (*what)(const Values&, const Options&), const Options& options) {
+    const auto values = std::make_shared<Values>();
+    does([values, what, &options] {
+      try {
+        return what(*values, options);
+      } catch (const InputError& fault) {
+        if constexpr (requires { values->error; }) {
+          if (!values->error.empty()) throw as_of_error_option(fault);
+        }
+        throw;
+      }
+    });
+    return *values;
+  }
+
+ private:
+  CLI::App* app_;
+  Chosen* chosen_;
 };
 
 // Scenario that a command reads, and keys to set in it: SCENARIO [--set key.path=value]...
@@ -42,18 +124,6 @@ void add_error(Command& command, std::string& error);
 [[nodiscard]] ScenarioArguments with_error(ScenarioArguments arguments, const std::string& error);
 // --force: see file::require_like().
 void add_force(Command& command, bool& force);
-// Rewords errors about solver.error that --error set as errors about --error.
-[[nodiscard]] InputError as_of_error_option(const InputError& error);
-// Calls `what`. If --error was given, its InputErrors become as_of_error_option().
-template <class What>
-ExitCode with_error_option(const std::string& error, const What& what) {
-  if (error.empty()) return what();
-  try {
-    return what();
-  } catch (const InputError& fault) {
-    throw as_of_error_option(fault);
-  }
-}
 void add_overrides(Command& command, std::vector<std::string>& overrides);
 
 // --map, --header, --period, --time-offset and --missing of a log.
@@ -109,5 +179,27 @@ void add_replay(Command& command, const Options& options);
 // Any command that lives beside the program, and its description.
 void add_beside(Command& command, const Options& options);
 [[nodiscard]] std::string description_beside(const std::string& command);
+
+struct NamedCommand {
+  const char* group;               // of the list of commands
+  const char *name, *description;  // without a description: beside the program
+  void (*add_options)(Command& command, const Options& options);
+  std::string_view alias{};  // empty: none
+};
+
+// Carries out the command line. Throws InputError for a mistake in it, with the word found and the
+// command or option nearest to it.
+ExitCode run_command(int argc, char** argv, std::span<const NamedCommand> commands);
+
+// Completion: completion.bash asks `bbsim --words WORD...` how the last word may go on.
+// One candidate a line; none where a file may stand. `app` has all commands, and the options of
+// those among `words`, which begin after the program's name.
+[[nodiscard]] std::string candidates(CLI::App& app, std::span<const std::string> words);
+
+// A sentence about the removed option ("--until"), command ("man") or ending (".glb"); empty if no
+// version had it.
+[[nodiscard]] std::string removed_option(std::string_view option);
+[[nodiscard]] std::string removed_command(std::string_view command);
+[[nodiscard]] std::string removed_ending(std::string_view ending);
 
 }  // namespace bbsim::app

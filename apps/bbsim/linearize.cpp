@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // `bbsim linearize`: A, B, C, D, poles, zeros and margins.
-#include "api/linearize.hpp"
-
-#include <memory>
 #include <string>
 
+#include "api/check.hpp"
 #include "commands.hpp"
 #include "file/atomic_file.hpp"
 #include "terminal.hpp"
@@ -70,25 +68,24 @@ void add_linearize(Command& command, const Options& options) {
       "  bbsim linearize configs/step.yaml\n"
       "  bbsim linearize configs/rig.yaml --sampled -o plant.m\n"
       "  bbsim linearize configs/fig2b.yaml --plant --at \"2 s\" -o plant.json");
-  const auto arguments = std::make_shared<LinearizeArguments>();
-  add_scenario(command, arguments->scenario);
-  command.option("--at POINT", arguments->at,
+  LinearizeArguments& arguments = command.does(linearize, options);
+  add_scenario(command, arguments.scenario);
+  command.option("--at POINT", arguments.at,
                  "home: all states zero (default); equilibrium: at rest under the reference of t = "
                  "0; or a TIME of the run, such as \"2 s\"");
   Option plant = command.flag(
-      "--plant", arguments->plant,
+      "--plant", arguments.plant,
       "the plant, from the gimbal's commands to the ball's position; default without a controller");
-  Option loop = command.flag("--loop", arguments->loop,
+  Option loop = command.flag("--loop", arguments.loop,
                              "the closed loop, from the reference to the position; from sample to "
                              "sample if the controller samples; default with a built-in law");
-  Option sampled = command.flag("--sampled", arguments->sampled,
+  Option sampled = command.flag("--sampled", arguments.sampled,
                                 "the plant under a zero-order hold, with the delays of sensor and "
                                 "controller; default with your own controller");
   loop.excludes(plant);
   sampled.excludes(plant).excludes(loop);
-  command.option("-o,--output FILE", arguments->output,
+  command.option("-o,--output FILE", arguments.output,
                  "write FILE.m, FILE.py, FILE.json or FILE.csv; - is JSON on standard output");
-  command.does([arguments, &options] { return linearize(*arguments, options); });
 }
 
 }  // namespace bbsim::app

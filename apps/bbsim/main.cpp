@@ -12,7 +12,6 @@
 
 #include "api/run.hpp"
 #include "base/error.hpp"
-#include "command_line.hpp"
 #include "commands.hpp"
 #include "file/leftovers.hpp"
 #include "terminal.hpp"

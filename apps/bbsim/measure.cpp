@@ -5,7 +5,6 @@
 // `bbsim summarize`: statistics of a sweep.
 #include "api/measure.hpp"
 
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -91,14 +90,13 @@ void add_measure(Command& command, const Options& options) {
       "  bbsim measure rig.csv --measure \"rms_tracking_error from 5 s\"\n"
       "  bbsim measure log.csv --map t=millis:ms,x=Ballx:mm --measure x.RiseTime\n"
       "  bbsim measure rig.h5 --measure \"when tracking_error stays below 2 mm\"");
-  const auto arguments = std::make_shared<MeasureArguments>();
+  MeasureArguments& arguments = command.does(measure, options);
   command
-      .option("FILE", arguments->file,
+      .option("FILE", arguments.file,
               "the result of a run: CSV, HDF5 (.h5, .hdf5), or - for CSV on standard input")
       .required();
-  add_measures(command, arguments->measures, "measures to take; repeatable").required();
-  add_log_options(command, arguments->log);
-  command.does([arguments, &options] { return measure(*arguments, options); });
+  add_measures(command, arguments.measures, "measures to take; repeatable").required();
+  add_log_options(command, arguments.log);
 }
 
 namespace {
@@ -152,28 +150,27 @@ void add_compare(Command& command, const Options& all) {
       "  bbsim compare old.h5 new.h5\n"
       "  bbsim compare log.csv rig.csv --map t=millis:ms,x=Ballx:mm --time-offset auto\n"
       "  bbsim compare log.csv rig.yaml --set ball.radius=0.02");
-  const auto arguments = std::make_shared<CompareArguments>();
-  api::CompareRequest* const request = &arguments->request;
-  command.option("A", request->a, "CSV, HDF5 (.h5, .hdf5), or - for CSV on standard input")
+  CompareArguments& arguments = command.does(compare, all);
+  api::CompareRequest& request = arguments.request;
+  command.option("A", request.a, "CSV, HDF5 (.h5, .hdf5), or - for CSV on standard input")
       .required();
-  command.option("B", request->b, "the file to compare it with, or a scenario (.yaml) to run")
+  command.option("B", request.b, "the file to compare it with, or a scenario (.yaml) to run")
       .required();
   command
-      .option("--rtol R", request->rtol,
+      .option("--rtol R", request.rtol,
               "tolerance relative to the larger value; default: see below")
       .takes_number();
   command
-      .option("--atol A", request->atol,
+      .option("--atol A", request.atol,
               "absolute tolerance, in the column's unit; default: see below")
       .takes_number();
   command
-      .option("--columns NAME,...", request->columns,
+      .option("--columns NAME,...", request.columns,
               "compare only these columns; default: all; a column that only one file has is a "
               "difference")
       .parted_by_commas();  // a file may follow
-  add_log_options(command, request->log);
-  add_overrides(command, arguments->overrides);
-  command.does([arguments, &all] { return compare(*arguments, all); });
+  add_log_options(command, request.log);
+  add_overrides(command, arguments.overrides);
 }
 
 namespace {
@@ -212,24 +209,23 @@ void add_summarize(Command& command, const Options& options) {
       "  bbsim sweep configs/rig.yaml --vary controller.sensor.seed=linear:1:20:20 \\\n"
       "      --vary controller.gravity_compensation.kp=list:8,12,16 -o seeds.csv\n"
       "  bbsim summarize seeds.csv --by controller.gravity_compensation.kp");
-  const auto arguments = std::make_shared<SummarizeArguments>();
+  SummarizeArguments& arguments = command.does(summarize, options);
   command
-      .option("SWEEP", arguments->file,
+      .option("SWEEP", arguments.file,
               "the result of a sweep: CSV, HDF5 (.h5, .hdf5), or - for CSV on standard input")
       .required();
   command
-      .option("--by KEY,...", arguments->keys,
+      .option("--by KEY,...", arguments.keys,
               "group cases with equal values of these keys; default: one group of all cases")
       .parted_by_commas();
-  command.option("--measure NAME,...", arguments->measures, "only these measures; repeatable");
+  command.option("--measure NAME,...", arguments.measures, "only these measures; repeatable");
   command
-      .option("--quantiles Q,...", arguments->quantiles,
+      .option("--quantiles Q,...", arguments.quantiles,
               "numbers from 0 to 1; default: 0.05,0.25,0.5,0.75,0.95")
       .takes_number()
       .parted_by_commas();
-  command.option("-o,--output FILE", arguments->output,
+  command.option("-o,--output FILE", arguments.output,
                  "write FILE.csv, or - for CSV on standard output (default)");
-  command.does([arguments, &options] { return summarize(*arguments, options); });
 }
 
 }  // namespace bbsim::app

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -80,11 +79,18 @@ ExitCode make_controller(const NewArguments& arguments, const Options& options) 
   return ExitCode::done;
 }
 
+// Name of the first option that was given; empty if none was.
+std::string first_of(const RigWords& words) {
+  const auto given =
+      std::ranges::find_if(words, [](const auto& word) { return !word.second.empty(); });
+  return given == words.end() ? "" : given->first;
+}
+
 ExitCode make_rig(const NewArguments& arguments, const Options& options) {
   const bool named = !arguments.output.empty();
   const std::string output = named ? arguments.output : "my-rig.yaml";
   RigWords words = arguments.rig;
-  if (words.first_given().empty() && !options.quiet && can_ask()) ask(words);
+  if (first_of(words).empty() && !options.quiet && can_ask()) ask(words);
   const std::string file = output == "-" ? "my-rig.yaml" : output;
   const std::string scenario = rig_scenario(words, file);
   write_copies({{output, scenario}}, named, arguments.force);
@@ -101,7 +107,7 @@ ExitCode make(const NewArguments& arguments, const Options& options) {
     throw InputError("found " + arguments.language + ", which bbsim new rig does not take." + help);
   }
   if (rig) return make_rig(arguments, options);
-  if (const std::string option = arguments.rig.first_given(); !option.empty()) {
+  if (const std::string option = first_of(arguments.rig); !option.empty()) {
     throw InputError(option + ": an option of bbsim new rig" + help);
   }
   if (arguments.language.empty()) throw InputError("LANGUAGE is required" + help);
@@ -111,40 +117,41 @@ ExitCode make(const NewArguments& arguments, const Options& options) {
 }  // namespace
 
 void add_new(Command& command, const Options& options) {
-  const auto arguments = std::make_shared<NewArguments>();
-  command.option("WHAT", arguments->what, "controller or rig")
+  NewArguments& arguments = command.does(make, options);
+  command.option("WHAT", arguments.what, "controller or rig")
       .required()
       .takes_one_of({"controller", "rig"});
-  command.option("LANGUAGE", arguments->language, "for a controller: python, c or arduino")
+  command.option("LANGUAGE", arguments.language, "for a controller: python, c or arduino")
       .takes_one_of({"python", "c", "arduino"});
-  command.option("-o,--output FILE", arguments->output,
+  command.option("-o,--output FILE", arguments.output,
                  "write it to FILE; default: controller.py, controller.c, controller.ino or "
                  "my-rig.yaml, in the current folder; - is standard output");
-  command.flag("--force", arguments->force,
+  command.flag("--force", arguments.force,
                "replace files that -o does not name, whatever they contain");
-  RigWords& rig = arguments->rig;
+  RigWords& rig = arguments.rig;
   command.option(
-      "--plate SIZE", rig.plate,
+      "--plate SIZE", rig["--plate"],
       "for a rig: sides along x and y, or the diameter of a disc; default: \"300 mm x 200 mm\"");
-  command.option("--ball BALL", rig.ball,
+  command.option("--ball BALL", rig["--ball"],
                  "for a rig: ping-pong (default), steel, rubber, golf, or diameter and mass, such "
                  "as \"40 mm 2.7 g\"; hollow or solid may follow");
   command
-      .option("--actuator", rig.actuator, "for a rig: servo (default), or stepper: stepper motors")
+      .option("--actuator", rig["--actuator"],
+              "for a rig: servo (default), or stepper: stepper motors")
       .takes_one_of({"servo", "stepper"});
   command
-      .option("--servo", rig.servo,
+      .option("--servo", rig["--servo"],
               "for a rig: hobby-standard (default), hobby-micro or smart-serial; of stepper "
               "motors: nema14, nema17 or nema23")
       .takes_one_of(servo_classes());
-  const Option camera = command.option("--camera RATE", rig.camera,
+  const Option camera = command.option("--camera RATE", rig["--camera"],
                                        "for a rig: frames per second; default: \"30 Hz\"");
   command
-      .option("--touch RATE", rig.touch,
+      .option("--touch RATE", rig["--touch"],
               "for a rig: a touch screen instead of a camera, and its readings per second")
       .excludes(camera);
   command
-      .option("--legs", rig.legs,
+      .option("--legs", rig["--legs"],
               "for a rig: 2 servos with push rods on a gimbal (default), or 3 under the plate")
       .takes_one_of({"2", "3"});
   command.footer(
@@ -157,7 +164,6 @@ void add_new(Command& command, const Options& options) {
       "  bbsim new controller python\n"
       "  bbsim new rig\n"
       "  bbsim new rig --plate \"250 mm\" --ball steel --touch \"50 Hz\" -o disc.yaml");
-  command.does([arguments, &options] { return make(*arguments, options); });
 }
 
 namespace {
@@ -248,14 +254,13 @@ ExitCode examples(const ExampleArguments& arguments, const Options& options) {
 }  // namespace
 
 void add_examples(Command& command, const Options& options) {
-  const auto arguments = std::make_shared<ExampleArguments>();
-  command.option("NAME", arguments->name, "the scenario to write; default: list all");
-  command.option("-o,--output FILE", arguments->output,
+  ExampleArguments& arguments = command.does(examples, options);
+  command.option("NAME", arguments.name, "the scenario to write; default: list all");
+  command.option("-o,--output FILE", arguments.output,
                  "write it to FILE.yaml, and its table beside it; default: NAME.yaml in the "
                  "current folder; - is standard output");
-  command.flag("--force", arguments->force,
+  command.flag("--force", arguments.force,
                "replace files that -o does not name, whatever they contain");
-  command.does([arguments, &options] { return examples(*arguments, options); });
 }
 
 }  // namespace bbsim::app

@@ -138,27 +138,30 @@ struct Rig {
   bool touch = false, three_legs = false, stepper = false;
 };
 
-std::string or_default(const std::string& text, const char* otherwise) {
-  return text.empty() ? otherwise : text;
+std::string word(const RigWords& words, const std::string& option, const char* otherwise = "") {
+  const auto found = words.find(option);
+  return found == words.end() || found->second.empty() ? otherwise : found->second;
 }
 
 Rig read_rig(const RigWords& words) {
   Rig rig;
-  rig.plate = read_plate(or_default(words.plate, "300 mm x 200 mm"));
-  rig.ball = read_ball(or_default(words.ball, "ping-pong"), rig.plate);
-  rig.stepper = words.actuator == "stepper";
-  if (!words.servo.empty() && is_motor_class(words.servo) != rig.stepper) {
-    throw refused("--servo", words.servo,
+  rig.plate = read_plate(word(words, "--plate", "300 mm x 200 mm"));
+  rig.ball = read_ball(word(words, "--ball", "ping-pong"), rig.plate);
+  rig.stepper = word(words, "--actuator") == "stepper";
+  rig.servo = word(words, "--servo");
+  if (!rig.servo.empty() && is_motor_class(rig.servo) != rig.stepper) {
+    throw refused("--servo", rig.servo,
                   rig.stepper
                       ? "nema14, nema17, nema23 with --actuator stepper"
                       : "hobby-standard, hobby-micro, smart-serial; motor classes only with "
                         "--actuator stepper");
   }
-  rig.servo = rig.stepper ? words.servo : or_default(words.servo, "hobby-standard");
-  rig.touch = !words.touch.empty();
-  rig.rate = rig.touch ? read_rate("--touch", words.touch)
-                       : read_rate("--camera", or_default(words.camera, "30 Hz"));
-  rig.three_legs = words.legs == "3";
+  if (rig.servo.empty() && !rig.stepper) rig.servo = "hobby-standard";
+  const std::string touch = word(words, "--touch");
+  rig.touch = !touch.empty();
+  rig.rate = rig.touch ? read_rate("--touch", touch)
+                       : read_rate("--camera", word(words, "--camera", "30 Hz"));
+  rig.three_legs = word(words, "--legs") == "3";
   return rig;
 }
 
@@ -292,19 +295,19 @@ constexpr std::array questions = {
     Question{"Plate, such as 300 mm x 200 mm, or 250 mm for a disc [300 mm x 200 mm]",
              [](RigWords& words, const std::string& answer) {
                (void)read_plate(answer);
-               words.plate = answer;
+               words["--plate"] = answer;
              }},
     Question{"Ball: ping-pong, steel, rubber, golf, or such as 40 mm 2.7 g [ping-pong]",
              [](RigWords& words, const std::string& answer) {
                (void)read_ball(answer, read_rig(words).plate);
-               words.ball = answer;
+               words["--ball"] = answer;
              }},
     Question{
         "Servos: hobby-standard, hobby-micro, smart-serial; or stepper motors: stepper, nema14, "
         "nema17, nema23 [hobby-standard]",
         [](RigWords& words, const std::string& answer) {
           if (answer.starts_with("stepper")) {
-            words.actuator = "stepper";
+            words["--actuator"] = "stepper";
             return;
           }
           const std::vector<std::string> known = servo_classes();
@@ -313,8 +316,8 @@ constexpr std::array questions = {
                           "hobby-standard, hobby-micro, smart-serial, stepper, nema14, nema17, "
                           "nema23");
           }
-          if (is_motor_class(answer)) words.actuator = "stepper";
-          words.servo = answer;
+          if (is_motor_class(answer)) words["--actuator"] = "stepper";
+          words["--servo"] = answer;
         }},
     Question{"Sensor, such as camera 30 Hz or touch 50 Hz [camera 30 Hz]",
              [](RigWords& words, const std::string& answer) {
@@ -325,12 +328,12 @@ constexpr std::array questions = {
                  throw refused("sensor", answer, "camera or touch, and a rate");
                }
                (void)read_rate("--" + kind, rate);
-               (kind == "touch" ? words.touch : words.camera) = rate;
+               words["--" + kind] = rate;
              }},
     Question{"Legs: 2 push rods of a gimbal, or 3 servos under the plate [2]",
              [](RigWords& words, const std::string& answer) {
                if (answer != "2" && answer != "3") throw refused("--legs", answer, "2, 3");
-               words.legs = answer;
+               words["--legs"] = answer;
              }},
 };
 
@@ -338,21 +341,6 @@ constexpr std::array questions = {
 
 std::vector<std::string> servo_classes() {
   return {"hobby-standard", "hobby-micro", "smart-serial", "nema14", "nema17", "nema23"};
-}
-
-std::string RigWords::first_given() const {
-  const std::array<std::pair<const char*, const std::string*>, 7> options = {
-      {{"--plate", &plate},
-       {"--ball", &ball},
-       {"--actuator", &actuator},
-       {"--servo", &servo},
-       {"--camera", &camera},
-       {"--touch", &touch},
-       {"--legs", &legs}}};
-  for (const auto& [name, text] : options) {
-    if (!text->empty()) return name;
-  }
-  return "";
 }
 
 void ask(RigWords& words) {

@@ -5,6 +5,7 @@
 // sensor, with gains that suit the delays.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,13 +14,8 @@ namespace bbsim::app {
 // The values of servo.model.
 [[nodiscard]] std::vector<std::string> servo_classes();
 
-// Values of the options as text. Empty: not given.
-struct RigWords {
-  std::string plate, ball, actuator, servo, camera, touch, legs;
-
-  // Name of the first option that was given; empty if none was.
-  [[nodiscard]] std::string first_given() const;
-};
+// Values of the options as text, by their names, such as --plate; empty or absent: not given.
+using RigWords = std::map<std::string, std::string>;
 
 // Asks for each on standard error and reads the answers from standard input, a terminal. An empty
 // answer keeps the default, and the end of the input keeps all remaining defaults.

@@ -6,14 +6,12 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "api/replay.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "command_line.hpp"
 #include "commands.hpp"
 #include "file/default_name.hpp"
 #include "file/format.hpp"
@@ -138,27 +136,26 @@ void add_replay(Command& command, const Options& options) {
       "  bbsim replay configs/rig.yaml --data log.csv \\\n"
       "      --map t=Time:ms,x=Ballx:mm,y=Bally:mm\n"
       "  bbsim replay fig2b-sweep.csv --scenario configs/fig2b.yaml");
-  const auto arguments = std::make_shared<ReplayArguments>();
+  ReplayArguments& arguments = command.does(replay_files, options);
   command.option(
-      "FILES", arguments->files,
+      "FILES", arguments.files,
       "results (CSV, HDF5) of runs or of sweeps, or scenarios; - is CSV on standard input");
   command.option(
-      "-o,--output FILE", arguments->output,
+      "-o,--output FILE", arguments.output,
       "write FILE.html, or - for standard output; default: the first file's name with .html");
-  add_force(command, arguments->force);
-  command.flag("--live", arguments->request.live,
+  add_force(command, arguments.force);
+  command.flag("--live", arguments.request.live,
                "a page that changes the scenario and runs it again, in the browser");
-  command.option("--data LOG", arguments->request.logs,
+  command.option("--data LOG", arguments.request.logs,
                  "LOG.csv of a real rig, shown with the runs; repeatable");
-  add_log_options(command, arguments->request.log);
-  command.option("--title TEXT", arguments->request.title,
+  add_log_options(command, arguments.request.log);
+  command.option("--title TEXT", arguments.request.title,
                  "title of the page; default: the scenario's");
-  command.option("--summary FILE", arguments->request.beside.summary,
+  command.option("--summary FILE", arguments.request.beside.summary,
                  "FILE.json: the summary of a result, from `bbsim run --summary`");
-  command.option("--scenario FILE", arguments->request.beside.scenario,
+  command.option("--scenario FILE", arguments.request.beside.scenario,
                  "FILE.yaml: the scenario of a result");
-  add_overrides(command, arguments->request.beside.overrides);
-  command.does([arguments, &options] { return replay_files(*arguments, options); });
+  add_overrides(command, arguments.request.beside.overrides);
 }
 
 }  // namespace bbsim::app

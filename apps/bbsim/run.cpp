@@ -4,7 +4,6 @@
 // `bbsim run`: simulates a scenario.
 #include "api/run.hpp"
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -99,29 +98,26 @@ void add_run(Command& command, const Options& options) {
       "  bbsim run configs/rig.yaml -o - -q | head -3\n"
       "  bbsim run configs/rig.yaml -o rig.h5 --replay rig.html\n"
       "  sed 's/-10 cm/-5 cm/' configs/fig2a.yaml | bbsim run - -o near.csv");
-  const auto arguments = std::make_shared<RunArguments>();
-  add_scenario(command, arguments->scenario);
+  RunArguments& arguments = command.does(run, options);
+  add_scenario(command, arguments.scenario);
   command.option(
-      "-o,--output FILE", arguments->output,
+      "-o,--output FILE", arguments.output,
       "write rows to FILE.csv or FILE.h5, or - for CSV on standard output; default: SCENARIO's "
       "name with .csv, in the current folder; if SCENARIO is -, standard output");
-  add_force(command, arguments->force);
-  add_error(command, arguments->error);
-  add_measures(command, arguments->request.measures,
+  add_force(command, arguments.force);
+  add_error(command, arguments.error);
+  add_measures(command, arguments.request.measures,
                "print measures of the motion as CSV, measure,value (see below); repeatable");
-  command.option("--expect \"MEASURE < VALUE\"", arguments->request.expect,
+  command.option("--expect \"MEASURE < VALUE\"", arguments.request.expect,
                  "exit with code 1 if this does not hold, such as \"max_tilt < 5 deg\"; any "
                  "measure, with <, <=, > or >=; repeatable");
-  command.option("--sensitivity KEY[,KEY]", arguments->request.sensitivity,
+  command.option("--sensitivity KEY[,KEY]", arguments.request.sensitivity,
                  "add columns d(x)/d(KEY), the derivatives of the states in output.columns by "
                  "these keys, and gradients of measures to the summary; repeatable");
-  command.option("--summary FILE", arguments->request.summary,
+  command.option("--summary FILE", arguments.request.summary,
                  "write a summary of the run to FILE.json, or - for standard output: how it ended, "
                  "the model, statistics");
-  command.option("--replay FILE", arguments->replay, "also write FILE.html, like bbsim replay");
-  command.does([arguments, &options] {
-    return with_error_option(arguments->error, [&] { return run(*arguments, options); });
-  });
+  command.option("--replay FILE", arguments.replay, "also write FILE.html, like bbsim replay");
 }
 
 }  // namespace bbsim::app

@@ -3,7 +3,6 @@
 
 // `bbsim sketch`: compiles an Arduino sketch as a controller.
 #include <filesystem>
-#include <memory>
 #include <string>
 
 #include "commands.hpp"
@@ -30,7 +29,7 @@ std::string hint(const std::string& messages) {
          " belongs to a library: name the library's folder with -I";
 }
 
-ExitCode make(const SketchArguments& arguments, const Options& options) {
+ExitCode compile(const SketchArguments& arguments, const Options& options) {
   const std::string& first = arguments.job.files.front();
   const std::string output = arguments.output.empty()
                                  ? std::filesystem::path(first).stem().string() + ".so"
@@ -55,20 +54,19 @@ ExitCode make(const SketchArguments& arguments, const Options& options) {
 }  // namespace
 
 void add_sketch(Command& command, const Options& options) {
-  const auto arguments = std::make_shared<SketchArguments>();
-  command.option("FILES", arguments->job.files, "the sketch: one .ino, or several, in their order")
+  SketchArguments& arguments = command.does(compile, options);
+  command.option("FILES", arguments.job.files, "the sketch: one .ino, or several, in their order")
       .required();
-  command.option("-o,--output FILE", arguments->output,
+  command.option("-o,--output FILE", arguments.output,
                  "write the library to FILE.so; default: the first file's name with .so, in the "
                  "current folder");
-  command.option("-I,--libraries FOLDER", arguments->job.folders,
+  command.option("-I,--libraries FOLDER", arguments.job.folders,
                  "look for libraries in FOLDER, which holds one library or several; repeatable");
-  add_force(command, arguments->force);
+  add_force(command, arguments.force);
   command.footer(
       "The compiler is $CXX, c++ or g++. A scenario names the library, and the wiring of its "
       "pins:\n"
       "controller: {library: {file: FILE.so, wiring: FILE.yaml}, ...}");
-  command.does([arguments, &options] { return make(*arguments, options); });
 }
 
 }  // namespace bbsim::app

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -48,30 +47,53 @@ struct PartName {
 
 constexpr std::string_view task = "\"$SLURM_ARRAY_TASK_ID\"";
 
-// The script that runs a sweep as a Slurm job array, one shard for each task.
-struct SlurmJob {
-  std::string script;                // where it is written, as in the advice to submit it
-  std::vector<std::string> options;  // of `bbsim sweep`, behind the scenario; one or two words each
-  std::string scenario;
-  std::string output, summary;  // of the sweep as a whole; no summary if empty
-  std::size_t cases = 0, tasks = 1;
-  std::size_t threads = 0;  // of a task; 0: as many as Slurm gives it
+struct SweepArguments {
+  ScenarioArguments scenario;
+  std::vector<std::string> vary, expect;
+  std::string output, summary, shard, error, slurm;
+  api::SweepChoice choice;  // without `vary`
+  std::size_t threads = 0, slurm_tasks = 1000;
+  bool resume = false, keep_trajectories = false, force = false;
 };
 
-std::string slurm_script(const SlurmJob& job) {
-  const std::string tasks = std::to_string(job.tasks);
-  const PartName part(job.output);
+// The options of a sweep that each of its shards needs, as words for a shell.
+std::vector<std::string> options_of(const SweepArguments& arguments) {
+  const api::SweepChoice& choice = arguments.choice;
+  std::vector<std::string> options;
+  const auto add = [&](const std::string& name, const std::string& value) {
+    if (!value.empty()) options.push_back(name + ' ' + shell_word(value));
+  };
+  const auto add_all = [&](const std::string& name, const std::vector<std::string>& values) {
+    for (const std::string& value : values) add(name, value);
+  };
+  add_all("--set", arguments.scenario.overrides);
+  add("--error", arguments.error);
+  add_all("--vary", arguments.vary);
+  add("--combine", choice.combine);
+  if (choice.samples) add("--samples", number_text(*choice.samples));
+  if (choice.seed) add("--seed", number_text(*choice.seed));
+  add_all("--measure", choice.measures);
+  add_all("--expect", arguments.expect);
+  if (arguments.keep_trajectories) options.emplace_back("--keep-trajectories");
+  return options;
+}
+
+// The script that runs a sweep as a Slurm job array, one shard for each task.
+std::string slurm_script(const SweepArguments& arguments, const api::SweepRequest& request,
+                         std::size_t cases, std::size_t shards) {
+  const std::string tasks = std::to_string(shards);
+  const PartName part(request.output);
   const std::string merge =
-      "bbsim merge " + part.word("*", job.tasks) + " -o " + shell_word(job.output);
+      "bbsim merge " + part.word("*", shards) + " -o " + shell_word(request.output);
   std::string text =
       "#!/bin/sh\n"
       "# A sweep of " +
-      std::to_string(job.cases) + " cases as a Slurm job array of " + tasks +
+      std::to_string(cases) + " cases as a Slurm job array of " + tasks +
       " tasks. Submit it from the folder\n"
       "# in which bbsim wrote it, because names of files are relative to that folder:\n"
       "#\n"
       "#   sbatch " +
-      shell_word(job.script) +
+      shell_word(request.script) +
       "\n"
       "#\n"
       "# A task that is queued again continues where it stopped. When all tasks are done, join "
@@ -90,29 +112,21 @@ std::string slurm_script(const SlurmJob& job) {
       "#SBATCH --job-name=bbsim\n"
       "#SBATCH --array=1-" +
       tasks + "\n";
-  if (job.threads > 0) text += "#SBATCH --cpus-per-task=" + std::to_string(job.threads) + '\n';
+  if (arguments.threads > 0)
+    text += "#SBATCH --cpus-per-task=" + std::to_string(arguments.threads) + '\n';
   text +=
       "#SBATCH --requeue\n"
       "#SBATCH --output=bbsim-%A_%a.log\n"
       "exec \"${BBSIM:-bbsim}\" sweep " +
-      shell_word(job.scenario);
-  for (const std::string& option : job.options) text += " \\\n  " + option;
-  if (!job.summary.empty()) {
-    text += " \\\n  --summary " + PartName(job.summary).word(task, job.tasks);
+      shell_word(request.file);
+  for (const std::string& option : options_of(arguments)) text += " \\\n  " + option;
+  if (!request.summary.empty()) {
+    text += " \\\n  --summary " + PartName(request.summary).word(task, shards);
   }
   text += " \\\n  -j \"${SLURM_CPUS_PER_TASK:-1}\" --resume --shard " + std::string(task) + '/' +
-          tasks + " \\\n  -o " + part.word(task, job.tasks) + '\n';
+          tasks + " \\\n  -o " + part.word(task, shards) + '\n';
   return text;
 }
-
-struct SweepArguments {
-  ScenarioArguments scenario;
-  std::vector<std::string> vary, measure, expect;
-  std::string combine, output, summary, shard, error, slurm;
-  std::optional<double> samples, seed;
-  std::size_t threads = 0, slurm_tasks = 1000;
-  bool resume = false, keep_trajectories = false, force = false;
-};
 
 api::Shard read_shard(const std::string& text) {
   api::Shard shard;
@@ -128,8 +142,7 @@ api::Shard read_shard(const std::string& text) {
 
 // The scenario's sweep block, with the command line taking precedence.
 Sweep sweep_of(const SweepArguments& arguments, const Sweep& in_scenario) {
-  api::SweepChoice choice{
-      {}, arguments.combine, arguments.samples, arguments.seed, arguments.measure};
+  api::SweepChoice choice = arguments.choice;
   for (const std::string& variation : arguments.vary) {
     choice.vary.push_back(scenario::split_variation(variation));
   }
@@ -163,27 +176,6 @@ std::string written_text(const api::SweepResult& result) {
   return line + ", " + std::string(how(result.engine)) + ", " + rounded(result.seconds, 3) + " s";
 }
 
-// The options of a sweep that each of its shards needs, as words for a shell.
-std::vector<std::string> options_of(const SweepArguments& arguments) {
-  std::vector<std::string> options;
-  const auto add = [&](const std::string& name, const std::string& value) {
-    if (!value.empty()) options.push_back(name + ' ' + shell_word(value));
-  };
-  const auto add_all = [&](const std::string& name, const std::vector<std::string>& values) {
-    for (const std::string& value : values) add(name, value);
-  };
-  add_all("--set", arguments.scenario.overrides);
-  add("--error", arguments.error);
-  add_all("--vary", arguments.vary);
-  add("--combine", arguments.combine);
-  if (arguments.samples) add("--samples", number_text(*arguments.samples));
-  if (arguments.seed) add("--seed", number_text(*arguments.seed));
-  add_all("--measure", arguments.measure);
-  add_all("--expect", arguments.expect);
-  if (arguments.keep_trajectories) options.emplace_back("--keep-trajectories");
-  return options;
-}
-
 // Writes the script that runs the sweep on a cluster, in place of a run.
 ExitCode write_slurm(const SweepArguments& arguments, api::SweepRequest request,
                      const Options& options) {
@@ -196,9 +188,7 @@ ExitCode write_slurm(const SweepArguments& arguments, api::SweepRequest request,
   Progress progress(request.family.source().file, options.quiet, true);
   const api::SweepSize size = api::check_sweep(request, progress);
   const std::size_t tasks = std::min(size.shards, arguments.slurm_tasks);
-  file::write_file(arguments.slurm, slurm_script({arguments.slurm, options_of(arguments),
-                                                  request.file, request.output, request.summary,
-                                                  size.cases, tasks, arguments.threads}));
+  file::write_file(arguments.slurm, slurm_script(arguments, request, size.cases, tasks));
   if (!options.quiet) {
     say(name_of_output(arguments.slurm) + ": " + std::to_string(size.cases) + " cases in " +
         counted(tasks, "task") + "; submit it with sbatch");
@@ -250,54 +240,53 @@ void add_sweep(Command& command, const Options& options) {
       "      --shard 2/8 --resume -o part-2of8.csv\n"
       "  bbsim sweep configs/rig.yaml --vary \"gimbal.servo.damping=normal:0.8:0.05\" \\\n"
       "      --samples 100 --expect \"max_distance < 9 cm\"");
-  const auto arguments = std::make_shared<SweepArguments>();
-  add_scenario(command, arguments->scenario);
-  command.option("--vary KEY=SPEC", arguments->vary,
+  SweepArguments& arguments = command.does(sweep, options);
+  add_scenario(command, arguments.scenario);
+  command.option("--vary KEY=SPEC", arguments.vary,
                  "values of a key, or of several tied keys (see below); repeatable; default: the "
                  "scenario's sweep.vary");
   command
-      .option("--combine HOW", arguments->combine,
+      .option("--combine HOW", arguments.choice.combine,
               "grid: every combination (default); zip: the first values together, then the second "
               "ones, ...")
       .takes_one_of({"grid", "zip"});
   command
-      .option("--samples N", arguments->samples, "number of cases to draw for uniform and normal")
+      .option("--samples N", arguments.choice.samples,
+              "number of cases to draw for uniform and normal")
       .takes_whole(1);
-  command.option("--seed N", arguments->seed, "seed of drawn values; default: 1").takes_whole(0);
-  command.option("--measure NAME,...", arguments->measure,
+  command.option("--seed N", arguments.choice.seed, "seed of drawn values; default: 1")
+      .takes_whole(0);
+  command.option("--measure NAME,...", arguments.choice.measures,
                  "measures to take instead of the default ones: min_, max_, rms_ or end_ before a "
                  "column of `bbsim columns` (but not ball_q...); x.RiseTime, y.Overshoot, ...; "
                  "\"when x=0.05\"; \"rms_x from 5 s\" (docs/reference/measures.md); repeatable");
-  command.option("--expect \"MEASURE < VALUE\"", arguments->expect,
+  command.option("--expect \"MEASURE < VALUE\"", arguments.expect,
                  "add a column of 1 where it holds and 0 where not, and exit with 1 if it does not "
                  "hold in every case; also <=, > and >=; repeatable");
   command.option(
-      "-o,--output FILE", arguments->output,
+      "-o,--output FILE", arguments.output,
       "write rows to FILE.csv or FILE.h5, or - for CSV on standard output; default: SCENARIO's "
       "name with -sweep.csv, in the current folder; if SCENARIO is -, standard output");
-  add_force(command, arguments->force);
-  command.option("--summary FILE", arguments->summary,
+  add_force(command, arguments.force);
+  command.option("--summary FILE", arguments.summary,
                  "write a summary of the sweep to FILE.json, or - for standard output: its "
                  "settings, how cases ended, the engine");
-  add_threads(command, arguments->threads);
-  Option shard = command.option("--shard K/N", arguments->shard,
+  add_threads(command, arguments.threads);
+  Option shard = command.option("--shard K/N", arguments.shard,
                                 "run only part K of N, K from 1; `bbsim merge` joins the parts");
   command
-      .option("--slurm FILE", arguments->slurm,
+      .option("--slurm FILE", arguments.slurm,
               "run nothing: write FILE, a script for Slurm's sbatch that runs the sweep as an "
               "array of tasks, one shard each, and says how to merge them")
       .excludes(shard);
   command
-      .option("--slurm-tasks N", arguments->slurm_tasks,
+      .option("--slurm-tasks N", arguments.slurm_tasks,
               "the most tasks of that array; your site's limit; default: 1000")
       .takes_whole(1);
-  command.flag("--resume", arguments->resume, "continue a sweep that did not end");
-  command.flag("--keep-trajectories", arguments->keep_trajectories,
+  command.flag("--resume", arguments.resume, "continue a sweep that did not end");
+  command.flag("--keep-trajectories", arguments.keep_trajectories,
                "also keep the output rows of each case (HDF5 only)");
-  add_error(command, arguments->error);
-  command.does([arguments, &options] {
-    return with_error_option(arguments->error, [&] { return sweep(*arguments, options); });
-  });
+  add_error(command, arguments.error);
 }
 
 namespace {
@@ -309,11 +298,11 @@ struct MergeArguments {
 
 ExitCode merge(const MergeArguments& arguments, const Options& options) {
   Progress progress("merge", options.quiet);
-  const api::MergeResult merged = api::merge(arguments.parts, arguments.output, progress);
+  const auto merged = api::merge(arguments.parts, arguments.output, progress);
   if (!merged.note.empty() && !options.quiet) say(merged.note);
-  if (merged.code != ExitCode::done) {
+  if (merged.interrupted) {
     say("interrupted; nothing was written.");
-    return merged.code;
+    return ExitCode::interrupted;
   }
   if (!options.quiet) {
     say(name_of_output(arguments.output) + ": " + std::to_string(merged.cases) + " cases from " +
@@ -325,13 +314,12 @@ ExitCode merge(const MergeArguments& arguments, const Options& options) {
 }  // namespace
 
 void add_merge(Command& command, const Options& options) {
-  const auto arguments = std::make_shared<MergeArguments>();
-  command.option("PARTS", arguments->parts, "the files of all shards, in any order").required();
+  MergeArguments& arguments = command.does(merge, options);
+  command.option("PARTS", arguments.parts, "the files of all shards, in any order").required();
   command
-      .option("-o,--output FILE", arguments->output,
+      .option("-o,--output FILE", arguments.output,
               "write FILE.csv or FILE.h5, like the parts; - is CSV on standard output")
       .required();
-  command.does([arguments, &options] { return merge(*arguments, options); });
 }
 
 }  // namespace bbsim::app

@@ -7,8 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "command.hpp"
-#include "command_line.hpp"
+#include "commands.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/keys.hpp"
 #include "scenario/measures.hpp"

@@ -19,10 +19,8 @@
 #include <vector>
 
 #include "api/accuracy.hpp"
-#include "api/cases.hpp"
 #include "api/check.hpp"
 #include "api/environments.hpp"
-#include "api/linearize.hpp"
 #include "api/run.hpp"
 #include "api/sweep.hpp"
 #include "base/error.hpp"
@@ -156,10 +154,10 @@ py::list sweep(const Given& given, const Pairs& vary, const std::string& combine
     return api::sweep(request, work.watch());
   });
   py::list columns;
-  for (const api::SweepTable::Column& one : made.table.columns) {
+  for (const file::Column& one : made.table.columns) {
     const auto count = static_cast<py::ssize_t>(one.numbers.size());
     const py::object numbers = py::array_t<double>(count, one.numbers.data());
-    columns.append(py::make_tuple(one.name, one.is_text ? py::cast(one.texts) : numbers));
+    columns.append(py::make_tuple(one.name, one.texts.empty() ? numbers : py::cast(one.texts)));
   }
   return columns;
 }
@@ -210,18 +208,13 @@ py::tuple simulate(const Given& given, std::size_t count, std::vector<CaseKey> k
 // The scenario's title, or its name without one; and what `bbsim accuracy --csv` writes for all
 // methods.
 std::pair<std::string, std::string> accuracy(const Given& given, const std::string& rtols) {
-  std::vector<Method> methods;
-  for (const NamedMethod& known : named_methods) {
-    if (known.method != Method::automatic) methods.push_back(known.method);
-  }
   const std::vector<double> ladder = api::tolerance_ladder(rtols);
   Work work(given);
   return work.beside([&] {
     const Scenario scenario = first_of(work.family());
     const std::string title =
         scenario.title.empty() ? std::filesystem::path(given.name).stem().string() : scenario.title;
-    return std::pair(title,
-                     api::accuracy_csv(api::accuracy(scenario, methods, ladder, work.watch())));
+    return std::pair(title, study::accuracy_csv(api::accuracy(scenario, {}, ladder, work.watch())));
   });
 }
 
@@ -265,13 +258,13 @@ void define_linearize(py::module_& module) {
   attributes(
       py::class_<Linearized>(module, "Linearized"), "kind", &Linearized::kind, "at",
       &Linearized::at, "note", &Linearized::note, "system",
-      [](const Linearized& made) { return made.linearisation.system; }, "frequencies",
-      [](const Linearized& made) { return model::open_loop_frequencies(made.linearisation); },
+      [](const Linearized& made) { return made.linearization.system; }, "frequencies",
+      [](const Linearized& made) { return model::open_loop_frequencies(made.linearization); },
       "json", [](const Linearized& made) { return api::file_text(made, ".json"); }, "report",
       [](const Linearized& made) { return to_text(api::report_of(made)); }, "open_loops",
       [](const Linearized& made) {
         std::map<std::string, LinearSystem> loops;
-        for (const auto& its : made.linearisation.margins) {
+        for (const auto& its : made.linearization.margins) {
           loops.emplace(its.command, its.open);
         }
         return loops;

@@ -30,7 +30,6 @@
 #include "replay/page.hpp"
 #include "replay/template.hpp"
 #include "results/result.hpp"
-#include "results/sweep_table.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/measures.hpp"
 #include "scenario/reader.hpp"

@@ -4,21 +4,19 @@
 #include "api/accuracy.hpp"
 
 #include <cmath>
-#include <cstdlib>
 #include <optional>
 
 #include "api/assemble.hpp"
 #include "base/error.hpp"
+#include "base/number_text.hpp"
 #include "solve/output_grid.hpp"
 
 namespace bbsim::api {
 namespace {
 
 std::optional<double> tolerance(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (end == text.c_str() || *end != '\0' || !(value >= 1e-14 && value <= 0.1)) return {};
-  return value;
+  const auto value = number_in<double>(text);
+  return value && *value >= 1e-14 && *value <= 0.1 ? value : std::nullopt;
 }
 
 // Rounded commands and readings jump with the last bit of the state, which sets a floor under the
@@ -50,8 +48,8 @@ std::vector<double> tolerance_ladder(const std::string& text) {
   }
 }
 
-AccuracyStudy accuracy(const Scenario& scenario, const std::vector<Method>& methods,
-                       const std::vector<double>& rtols, Watch& watch) {
+study::AccuracyStudy accuracy(const Scenario& scenario, std::vector<Method> methods,
+                              const std::vector<double>& rtols, Watch& watch) {
   const model::Model model =
       assemble(without_resolutions(scenario), scenario::columns_named(scenario.output.columns));
   if (model.rig && model.rig->sampled && model.rig->sampled->law.kind == model::LawKind::held) {
@@ -59,26 +57,16 @@ AccuracyStudy accuracy(const Scenario& scenario, const std::vector<Method>& meth
                      ": controller: found one of your own, which accuracy does not run; allowed: a "
                      "law of bbsim (`bbsim run --error` estimates the error of this scenario)");
   }
-  AccuracyStudy study =
+  if (methods.empty()) {
+    for (const NamedMethod& known : named_methods) {
+      if (known.method != Method::automatic) methods.push_back(known.method);
+    }
+  }
+  study::AccuracyStudy study =
       study::measure_accuracy(model, solve::OutputGrid(scenario.time), methods, rtols,
                               {watch.stop(), [&watch](double part) { watch.update(part, ""); }});
   watch.end();
   return study;
-}
-
-bool any_complete(const AccuracyStudy& study) {
-  return !study::best_by_decade(study).empty();
-}
-
-Verification verify(Watch& watch) {
-  Verification verification =
-      study::verify({watch.stop(), [&watch](double part) { watch.update(part, ""); }});
-  watch.end();
-  return verification;
-}
-
-FullModelStudy compare_simpler(const Scenario& scenario, Watch& watch) {
-  return study::compare_simpler(scenario, {watch.stop(), {}});
 }
 
 }  // namespace bbsim::api

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "api/cases.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <string_view>

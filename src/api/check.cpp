@@ -14,7 +14,6 @@
 #include <variant>
 
 #include "api/assemble.hpp"
-#include "api/linearize.hpp"
 #include "base/number_text.hpp"
 #include "base/text.hpp"
 #include "model/control/sample_times.hpp"

@@ -1,17 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "api/linearize.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "api/assemble.hpp"
+#include "api/check.hpp"
 #include "base/number_text.hpp"
 #include "base/text.hpp"
-#include "record/linear_text.hpp"
 #include "study/operating_point.hpp"
 #include "yaml/quantity.hpp"
 
@@ -126,7 +124,7 @@ Linearized linearize(const LinearizeRequest& request, Watch& watch) {
   linearized.at = request.at;
   const bool own = scenario.controller && scenario.controller->own;
   if (request.estimates && own && kind == LinearKind::loop && request.at == "home") {
-    linearized.linearisation = estimated_loop(scenario, watch);
+    linearized.linearization = estimated_loop(scenario, watch);
     linearized.note = "the law is an estimate from its answers to small pulses about the reference";
     return linearized;
   }
@@ -140,14 +138,14 @@ Linearized linearize(const LinearizeRequest& request, Watch& watch) {
     if (!found) return linearized;
     point = std::move(*found);
   }
-  linearized.linearisation = model::linearize(scenario, model, kind, point);
-  if (linearized.linearisation.poles.empty()) {
+  linearized.linearization = model::linearize(scenario, model, kind, point);
+  if (linearized.linearization.poles.empty()) {
     linearized.reason = "the " + linearized.kind + " about " + linearized.at +
                         " has poles beyond the range of doubles.";
     linearized.code = ExitCode::ended_early;
     return linearized;
   }
-  if (linearized.linearisation.system.period) linearized.note = without_frames(scenario, true);
+  if (linearized.linearization.system.period) linearized.note = without_frames(scenario, true);
   const std::string linkage = behind_linkage(scenario);
   if (!linkage.empty() && !linearized.note.empty()) linearized.note += "; ";
   linearized.note += linkage;
@@ -212,7 +210,7 @@ Report margin_remarks(const model::Linearization& linearization) {
 }
 
 Report report_of(const Linearized& linearized) {
-  const Linearization& linearization = linearized.linearisation;
+  const Linearization& linearization = linearized.linearization;
   const model::LinearSystem& system = linearization.system;
   Report report{
       {"linear", "the " + linearized.kind + (linearized.kind == "sampled" ? " plant" : "") +
@@ -237,12 +235,10 @@ Report report_of(const Linearized& linearized) {
 }
 
 std::string file_text(const Linearized& linearized, const std::string& file) {
-  const record::LinearReport report{linearized.scenario, linearized.kind, linearized.at,
-                                    linearized.linearisation};
-  if (file.ends_with(".m")) return record::to_matlab(report);
-  if (file.ends_with(".py")) return record::to_python(report);
-  if (file.ends_with(".csv")) return record::to_csv(report);
-  return record::to_json(report);
+  if (file.ends_with(".m")) return to_matlab(linearized);
+  if (file.ends_with(".py")) return to_python(linearized);
+  if (file.ends_with(".csv")) return to_csv(linearized);
+  return to_json(linearized);
 }
 
 }  // namespace bbsim::api

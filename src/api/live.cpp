@@ -1,19 +1,17 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "api/live.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <string_view>
 #include <utility>
 
-#include "api/linearize.hpp"
+#include "api/check.hpp"
+#include "api/replay.hpp"
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "model/control/open_loops.hpp"
-#include "record/linear_text.hpp"
 #include "scenario/keys.hpp"
 #include "scenario/measures.hpp"
 #include "scenario/variation.hpp"
@@ -129,7 +127,7 @@ std::optional<replay::Live::Loops> loops_of(const Scenario& scenario) {
   Watch nobody;
   try {
     const Linearization linearization =
-        linearize({scenario, LinearKind::loop}, nobody).linearisation;
+        linearize({scenario, LinearKind::loop}, nobody).linearization;
     if (linearization.margins.empty()) return {};
     model::OpenLoops open = model::open_loops(linearization);
     replay::Live::Loops loops{linearization.system.period,

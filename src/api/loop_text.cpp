@@ -7,12 +7,11 @@
 #include <cstddef>
 #include <optional>
 
-#include "api/linearize.hpp"
+#include "api/check.hpp"
 #include "base/number_text.hpp"
 #include "model/control/sample_times.hpp"
 
 namespace bbsim::api {
-
 namespace {
 
 // Whether this is a pair's second pole, which the first one names. Smaller imaginary parts are

@@ -15,8 +15,7 @@
 #include "base/quoted.hpp"
 #include "file/table.hpp"
 #include "record/compare.hpp"
-#include "record/log_distance.hpp"
-#include "record/measure_rows.hpp"
+#include "record/instants.hpp"
 #include "record/summarise.hpp"
 #include "results/result.hpp"
 #include "scenario/columns.hpp"
@@ -277,10 +276,8 @@ Compared compare(const CompareRequest& request, Watch& watch) {
 
 std::string summarize(const SummarizeRequest& request) {
   const file::Table table = file::read_table(request.file);
-  const auto groups =
-      record::summarise(table, request.file, request.keys,
-                        scenario::split_measures(request.measures), request.quantiles);
-  return record::to_csv(groups, request.keys, request.quantiles);
+  return record::summarise(table, request.file, request.keys,
+                           scenario::split_measures(request.measures), request.quantiles);
 }
 
 }  // namespace bbsim::api

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "api/linearize.hpp"
+#include "api/check.hpp"
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "model/control/derivatives.hpp"

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "api/check.hpp"
-#include "api/live.hpp"
 #include "api/measure.hpp"
 #include "api/run.hpp"
 #include "api/version.hpp"
@@ -16,7 +15,7 @@
 #include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "file/format.hpp"
-#include "record/log_distance.hpp"
+#include "record/compare.hpp"
 #include "replay/sources.hpp"
 #include "scenario/reader.hpp"
 
@@ -67,8 +66,9 @@ replay::Run run_of(const Scenario& scenario, file::Table rows, record::RunSummar
   run.status = summary.status;
   run.reason = summary.reason;
   run.version = summary.version;
-  for (const record::EventRecord& event : summary.events) {
-    run.events.push_back({event.t, event.name, event.action, event.x, event.y});
+  for (const model::Occurrence& event : summary.events) {
+    const model::BallMotion& ball = event.sample.ball;
+    run.events.push_back({event.name, event.stopped, event.t, ball.x, ball.y});
   }
   summary.scenario_text.clear();  // replay::Run holds it separately
   run.summary = record::to_json(summary);

@@ -22,7 +22,6 @@
 #include "scenario/reader.hpp"
 
 namespace bbsim::api {
-
 namespace {
 
 using Columns = std::vector<const scenario::Column*>;

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "api/linearize.hpp"
+#include "api/check.hpp"
 #include "api/version.hpp"
 #include "base/cpu_clock.hpp"
 #include "base/number_text.hpp"
@@ -273,15 +273,8 @@ record::RunSummary summary_of(const Scenario& scenario, const model::Model& mode
   summary.atol = integration.tolerances.atol;
   summary.error_bound = scenario.solver.error;
   summary.error_estimate = integration.error_estimate;
-  for (const model::Occurrence& event : outcome.occurrences) {
-    summary.events.push_back(record::event_record(event));
-  }
-  summary.statistics = {outcome.statistics.steps,
-                        outcome.statistics.rhs_evaluations,
-                        outcome.statistics.jacobian_evaluations,
-                        outcome.statistics.nonlinear_iterations,
-                        outcome.statistics.error_test_failures,
-                        integration.cpu_seconds};
+  summary.events = outcome.occurrences;
+  summary.statistics = {outcome.statistics, integration.cpu_seconds};
   return summary;
 }
 

@@ -20,7 +20,6 @@
 #include "scenario/variation.hpp"
 #include "solve/output_grid.hpp"
 #include "sweep/case_file.hpp"
-#include "sweep/merge.hpp"
 #include "sweep/sweep_measures.hpp"
 
 namespace bbsim::api {
@@ -103,14 +102,14 @@ struct CaseSink {
   std::function<void(const sweep::CaseResults&)> take;
 };
 
-SweepTable table_of(const sweep::CaseFileLayout& layout, file::Hdf5Block block) {
-  SweepTable table;
+file::Table table_of(const sweep::CaseFileLayout& layout, file::Hdf5Block block) {
+  file::Table table;
   block.values.resize(layout.columns.size());
   block.texts.resize(layout.columns.size());
   for (std::size_t c = 0; c < layout.columns.size(); ++c) {
     const file::Hdf5Column& column = layout.columns[c];
-    table.columns.push_back({column.name, column.unit, column.kind == file::Hdf5Kind::text,
-                             std::move(block.values[c]), std::move(block.texts[c])});
+    table.columns.push_back(
+        {column.name, std::move(block.values[c]), std::move(block.texts[c]), column.unit});
   }
   return table;
 }
@@ -278,7 +277,8 @@ SweepResult sweep(const SweepRequest& request, Watch& watch) {
   return result;
 }
 
-MergeResult merge(const std::vector<std::string>& parts, const std::string& output, Watch& watch) {
+sweep::Merged merge(const std::vector<std::string>& parts, const std::string& output,
+                    Watch& watch) {
   file::Outputs outputs;
   for (const std::string& part : parts) {
     outputs.reads(part, "a part");
@@ -287,9 +287,7 @@ MergeResult merge(const std::vector<std::string>& parts, const std::string& outp
     }
   }
   outputs.writes(output, "-o");
-  sweep::Merged merged = sweep::merge_cases(parts, output, stop_of(watch));
-  return {merged.interrupted ? ExitCode::interrupted : ExitCode::done, merged.cases,
-          std::move(merged.note)};
+  return sweep::merge_cases(parts, output, stop_of(watch));
 }
 
 }  // namespace bbsim::api

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Runs of a scenario at many values of its keys, and the merge of a sweep's parts.
+// Runs of a scenario at many values of its keys, and the merge of a sweep's parts. Runs
+// with values, times and starts of their own, as arrays.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +12,11 @@
 
 #include "api/watch.hpp"
 #include "base/error.hpp"
+#include "file/table.hpp"
 #include "scenario/family.hpp"
 #include "sweep/case_rows.hpp"
+#include "sweep/merge.hpp"
+#include "sweep/task.hpp"
 
 namespace bbsim::api {
 
@@ -49,17 +53,6 @@ struct SweepRequest {
   std::string script{};               // written in place of a run, for check_sweep(); or empty
 };
 
-// Rows of a sweep, by columns.
-struct SweepTable {
-  struct Column {
-    std::string name, unit;
-    bool is_text = false;
-    std::vector<double> numbers;
-    std::vector<std::string> texts;
-  };
-  std::vector<Column> columns;
-};
-
 struct SweepResult {
   // done; interrupted; ended_early if an expectation fails in a case.
   ExitCode code = ExitCode::done;
@@ -70,7 +63,7 @@ struct SweepResult {
   sweep::StatusCounts statuses;    // of the rows
   std::string repeat;              // the first failed case and the command that repeats it, if any
   std::string engine, output;
-  SweepTable table;  // if the request names no output
+  file::Table table;  // if the request names no output; columns of texts have no numbers
   double seconds = 0;
 };
 
@@ -84,15 +77,33 @@ struct SweepSize {
 // Throws InputError, OutputError, and ControllerFault if the scene's own controller does not begin.
 [[nodiscard]] SweepResult sweep(const SweepRequest& request, Watch& watch);
 
-struct MergeResult {
-  ExitCode code = ExitCode::done;  // or interrupted, with nothing written
-  std::size_t cases = 0;
-  std::string note;  // what the user should know about the parts; may be empty
-};
-
 // Joins the parts of a sweep into the file that one run of it would have written. Throws InputError
 // and OutputError.
-[[nodiscard]] MergeResult merge(const std::vector<std::string>& parts, const std::string& output,
-                                Watch& watch);
+[[nodiscard]] sweep::Merged merge(const std::vector<std::string>& parts, const std::string& output,
+                                  Watch& watch);
+
+struct CasesRequest {
+  const ScenarioFamily& family;
+  std::size_t count;                                // of cases
+  std::vector<sweep::SweepPlan::ListedKey> keys{};  // that differ between the cases
+  std::vector<std::string> columns{}, measures{};
+  std::optional<sweep::CaseTimes> times{};  // of the columns; empty: the scenario's output times
+  sweep::Windows windows{};
+  double threads = 0;  // at most most_threads; 0: as many as processors
+};
+
+struct CasesResult {
+  ExitCode code = ExitCode::done;  // or interrupted; cases without a status were not run
+  std::size_t times = 0;           // of a case
+  // For each column, count x times; for each measure, count. NaN where a case has no value.
+  std::vector<std::vector<double>> columns, measures;
+  std::vector<sweep::CaseStatus> status;  // for each case: done, stopped, failed or refused
+};
+
+// Runs cases in lanes if lanes carry the scenario, and no case has a window or its own times.
+// Otherwise runs them one by one. At output times, and without windows, columns and measures are
+// those of a sweep. Cases with bad values are refused; if all are, InputError has the faults of the
+// first. Throws InputError, and ControllerFault if the scene's own controller does not begin.
+[[nodiscard]] CasesResult run_cases(const CasesRequest& request, Watch& watch);
 
 }  // namespace bbsim::api

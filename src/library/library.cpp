@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "api/cases.hpp"
 #include "api/check.hpp"
-#include "api/linearize.hpp"
 #include "api/run.hpp"
 #include "api/stepped_run.hpp"
 #include "api/sweep.hpp"
@@ -294,7 +292,7 @@ Table sweep(const Scenario& scenario, const SweepOptions& options) {
     api::SweepResult sweep_result = api::sweep(request, watch);
     Table table;
     table.complete = sweep_result.code == ExitCode::done;
-    for (api::SweepTable::Column& column : sweep_result.table.columns) {
+    for (file::Column& column : sweep_result.table.columns) {
       table.columns.push_back({std::move(column.name), std::move(column.unit),
                                std::move(column.numbers), std::move(column.texts)});
     }
@@ -348,7 +346,7 @@ LinearSystem linearize(const Scenario& scenario, const std::string& kind, const 
     Watch watch({});
     const api::Linearized linearized = api::linearize(request, watch);
     if (!linearized.reason.empty()) refuse(linearized.reason);
-    const model::LinearSystem& its = linearized.linearisation.system;
+    const model::LinearSystem& its = linearized.linearization.system;
     const auto rows = [](const Eigen::MatrixXd& matrix) {
       std::vector<std::vector<double>> all;
       for (Eigen::Index i = 0; i < matrix.rows(); ++i) {

@@ -13,7 +13,7 @@ namespace bbsim::record {
 // A linearization with its origin.
 struct LinearReport {
   std::string scenario, kind, at;  // such as kind "loop", at "home"
-  const model::Linearization& linearization;
+  model::Linearization linearization{};
 };
 
 // An object with states, inputs, outputs, A, B, C, D, poles and period (null in continuous time),

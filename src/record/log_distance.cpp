@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "record/log_distance.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>

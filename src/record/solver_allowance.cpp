@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/number_text.hpp"
+#include "base/text.hpp"
 #include "record/compare.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/log_columns.hpp"
@@ -40,15 +41,8 @@ std::optional<double> number(const file::Table& table, std::string_view name) {
 }
 
 Source source_of(const file::Table& table) {
-  Source source{"", attribute(table, "scenario_text").value_or(""), {}};
-  std::string_view rest;
-  const std::string overrides = attribute(table, "overrides").value_or("");
-  for (rest = overrides; !rest.empty();) {
-    const std::size_t end = rest.find('\n');
-    source.overrides.emplace_back(rest.substr(0, end));
-    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-  }
-  return source;
+  return {"", attribute(table, "scenario_text").value_or(""),
+          lines_of(attribute(table, "overrides").value_or(""))};
 }
 
 // A file's statement of its accuracy.

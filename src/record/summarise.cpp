@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
@@ -47,34 +48,39 @@ double quantile(const std::vector<double>& sorted, double part) {
   return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
 }
 
-GroupFigures figures_of(const std::string& measure, std::vector<double> values,
-                        const std::vector<double>& quantiles) {
+// ",count,mean,deviation,min", quantiles and ",max" of the values.
+std::string figures_of(std::vector<double> values, const std::vector<double>& quantiles) {
   std::ranges::sort(values);
-  GroupFigures figures{measure, values.size(), no_number, no_number, no_number, no_number, {}};
-  for (const double part : quantiles) figures.quantiles.push_back(quantile(values, part));
-  if (values.empty()) return figures;
-  figures.least = values.front();
-  figures.greatest = values.back();
+  const bool none = values.empty();
   const auto count = static_cast<double>(values.size());
+  const double least = none ? no_number : values.front();
   // Sums differences from the least value, so that nearly equal large values keep their digits.
-  double sum = 0;
-  for (const double value : values) sum += value - figures.least;
-  figures.mean = figures.least + sum / count;
-  if (values.size() < 2) return figures;
-  double squares = 0;
-  for (const double value : values) {
-    squares += (value - figures.mean) * (value - figures.mean);
-  }
-  figures.deviation = std::sqrt(squares / (count - 1));
-  return figures;
+  double sum = 0, squares = 0;
+  for (const double value : values) sum += value - least;
+  const double mean = none ? no_number : least + sum / count;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  std::string text = ',' + std::to_string(values.size());
+  const auto add = [&text](double value) { text += ',' + number_text(value); };
+  add(mean);
+  add(values.size() < 2 ? no_number : std::sqrt(squares / (count - 1)));
+  add(least);
+  for (const double part : quantiles) add(quantile(values, part));
+  add(none ? no_number : values.back());
+  return text;
 }
+
+struct Group {
+  std::string keys;                         // their values, as fields of its rows
+  std::size_t cases = 0;                    // all, however they ended
+  std::vector<std::vector<double>> values;  // of each measure
+};
 
 }  // namespace
 
-std::vector<Group> summarise(const file::Table& table, const std::string& name,
-                             const std::vector<std::string>& keys,
-                             const std::vector<std::string>& measures,
-                             const std::vector<double>& quantiles) {
+std::string summarise(const file::Table& table, const std::string& name,
+                      const std::vector<std::string>& keys,
+                      const std::vector<std::string>& measures,
+                      const std::vector<double>& quantiles) {
   std::vector<const file::Column*> by;
   for (const std::string& key : keys) by.push_back(&column_of(table, name, key, "--by"));
   const std::vector<std::string> names = measures.empty() ? all_measures(table) : measures;
@@ -95,35 +101,25 @@ std::vector<Group> summarise(const file::Table& table, const std::string& name,
   const file::Column* const ends = table.find("status");
 
   std::vector<Group> groups;
-  std::map<std::vector<std::string>, std::size_t> places;
-  std::vector<std::vector<std::vector<double>>> values;  // by group and measure
+  std::map<std::string, std::size_t> places;
   for (std::size_t i = 0; i < table.rows; ++i) {
-    std::vector<std::string> key;
+    std::string key;
     for (const file::Column* column : by) {
-      key.push_back(column->has_text(i) ? column->texts[i] : number_text(column->numbers[i]));
+      file::append_text(key,
+                        column->has_text(i) ? column->texts[i] : number_text(column->numbers[i]));
+      key += ',';
     }
     const auto [place, is_new] = places.emplace(key, groups.size());
-    if (is_new) {
-      groups.push_back({key, 0, {}});
-      values.emplace_back(columns.size());
-    }
-    ++groups[place->second].cases;
+    if (is_new) groups.push_back({key, 0, std::vector<std::vector<double>>(columns.size())});
+    Group& group = groups[place->second];
+    ++group.cases;
     if (ends != nullptr && ends->has_text(i) && ends->texts[i] != "done") continue;
     for (std::size_t m = 0; m < columns.size(); ++m) {
       const double value = columns[m]->numbers[i];
-      if (std::isfinite(value)) values[place->second][m].push_back(value);
+      if (std::isfinite(value)) group.values[m].push_back(value);
     }
   }
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    for (std::size_t m = 0; m < columns.size(); ++m) {
-      groups[g].figures.push_back(figures_of(names[m], std::move(values[g][m]), quantiles));
-    }
-  }
-  return groups;
-}
 
-std::string to_csv(const std::vector<Group>& groups, const std::vector<std::string>& keys,
-                   const std::vector<double>& quantiles) {
   std::string text;
   for (const std::string& key : keys) text += key + ',';
   text += "measure,cases,count,mean,deviation,min";
@@ -132,22 +128,10 @@ std::string to_csv(const std::vector<Group>& groups, const std::vector<std::stri
     text += ",q" + number_text(std::round(part * 1e12) / 1e10);
   }
   text += ",max\n";
-  for (const Group& group : groups) {
-    std::string front;
-    for (const std::string& value : group.values) {
-      file::append_text(front, value);
-      front += ',';
-    }
-    for (const GroupFigures& figures : group.figures) {
-      text += front + figures.measure + ',' + std::to_string(group.cases) + ',' +
-              std::to_string(figures.count);
-      const auto add = [&text](double value) { text += ',' + number_text(value); };
-      add(figures.mean);
-      add(figures.deviation);
-      add(figures.least);
-      for (const double value : figures.quantiles) add(value);
-      add(figures.greatest);
-      text += '\n';
+  for (Group& group : groups) {
+    for (std::size_t m = 0; m < names.size(); ++m) {
+      text += group.keys + names[m] + ',' + std::to_string(group.cases) +
+              figures_of(std::move(group.values[m]), quantiles) + '\n';
     }
   }
   return text;

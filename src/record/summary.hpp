@@ -13,18 +13,9 @@
 #include "base/maxima.hpp"
 #include "file/table_writer.hpp"
 #include "model/sample.hpp"
+#include "solve/outcome.hpp"
 
 namespace bbsim::record {
-
-// An event that occurred, with the states of the ball and the gimbal.
-struct EventRecord {
-  double t = 0;  // s
-  std::string name, action;
-  double x = 0, y = 0, vx = 0, vy = 0, spin = 0;            // m, m/s, rad/s
-  double phi = 0, theta = 0, phi_rate = 0, theta_rate = 0;  // rad, rad/s
-};
-
-[[nodiscard]] EventRecord event_record(const model::Occurrence& occurrence);
 
 // The greatest loads of the two motors over the run and their times (s). The motors carry the ball,
 // and the plate if its inertia is known.
@@ -65,7 +56,7 @@ struct RunSummary {
   std::vector<std::string> model_notes;  // on modeling, with reasons, one sentence each
   std::string method;
   double rtol = 0, atol = 0;
-  std::vector<EventRecord> events;
+  std::vector<model::Occurrence> events;
   // The results of --measure, by name.
   using Numbers = std::vector<std::pair<std::string, double>>;
   Numbers measures;
@@ -76,10 +67,8 @@ struct RunSummary {
   std::optional<MotorPeaks> peaks;  // if a column needs forces, or with plate.inertia
   // With solver.error only: the requested bound and the estimate reached, m.
   std::optional<double> error_bound, error_estimate;
-  struct {
-    std::size_t steps = 0, rhs_evaluations = 0, jacobian_evaluations = 0;
-    std::size_t nonlinear_iterations = 0, error_test_failures = 0;
-    double cpu_seconds = 0;
+  struct Statistics : solve::Statistics {
+    double cpu_seconds = 0;  // of the integration
   } statistics;
 };
 

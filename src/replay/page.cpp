@@ -107,10 +107,10 @@ Json events_json(const Run& run) {
   // Keeps the first events and the last one, which may have stopped the run.
   for (std::size_t i = 0; i < run.events.size(); ++i) {
     if (i + 1 >= most_events && i + 1 < run.events.size()) continue;
-    const Event& event = run.events[i];
+    const results::Event& event = run.events[i];
     events.push_back({{"t", event.t},
                       {"name", event.name},
-                      {"action", event.action},
+                      {"action", event.stopped ? "stop" : "note"},
                       {"x", event.x},
                       {"y", event.y}});
   }

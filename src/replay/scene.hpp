@@ -16,16 +16,10 @@
 #include "base/quaternion.hpp"
 #include "file/table.hpp"
 #include "replay/live.hpp"
+#include "results/result.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim::replay {
-
-// An event: "edge" at 0.54 s, which stopped the run.
-struct Event {
-  double t = 0;
-  std::string name, action;  // action: stop or note
-  double x = 0, y = 0;       // the contact point, plane frame
-};
 
 // Poles of the loop about home: in 1/s for a continuous loop, in the z plane for a sampled one.
 // `period` is that of the sampled loop, s.
@@ -52,7 +46,7 @@ struct Run : file::Table {
   // Whether the path determines the ball's rotation. It does not if the ball may slide, or if that
   // is unknown.
   bool rolls = true;
-  std::vector<Event> events;
+  std::vector<results::Event> events;
   Plate plate;
   std::optional<double> ball_radius{};
   std::optional<double> rolling_radius{};  // if different

@@ -14,7 +14,7 @@
 #include "model/model.hpp"
 #include "model/signals/signal_pair.hpp"
 #include "model/spectrum.hpp"
-#include "results/sweep_table.hpp"
+#include "results/result.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/measures.hpp"
 
@@ -182,9 +182,7 @@ Run run_of_result(results::Result result, const std::string& name) {
   run.rolls =
       result.scenario && (result.find("gamma") != nullptr || result.find("spin") != nullptr ||
                           result.find("x") == nullptr || result.find("y") == nullptr);
-  for (const results::Event& event : result.events) {
-    run.events.push_back({event.t, event.name, event.stopped ? "stop" : "note", event.x, event.y});
-  }
+  run.events = std::move(result.events);
   take_columns(run, result);
   take_orientation(run);
   return run;

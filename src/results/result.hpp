@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A result, or the log of a real rig, read from files: its columns, and the known facts of its
-// scene. Logs are CSV with any names, units and clocks.
+// scene. Logs are CSV with any names, units and clocks. Of a sweep: the keys that vary in it.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "file/table.hpp"
@@ -75,7 +76,7 @@ struct LogChoice {
 // Reads a log. Its columns get names of bbsim and SI units, as far as `choice` or their own names
 // define them; times are made to increase. Its notes tell the changes. Keeps unmapped columns,
 // unless `only_mapped`. "auto" leaves the times unchanged, for time_offset() in
-// record/log_distance.hpp. Throws InputError with the place in the log or in the map, the text
+// record/compare.hpp. Throws InputError with the place in the log or in the map, the text
 // found and the texts allowed.
 [[nodiscard]] Result read_log(const std::string& file, const LogChoice& choice,
                               bool only_mapped = false);
@@ -113,5 +114,35 @@ struct Beside {
 
 // Reads only the columns; `header` names those of a CSV if the file does not. Throws InputError.
 [[nodiscard]] Result read_columns(const std::string& file, const std::vector<std::string>& header);
+
+// A key that has more than one value.
+struct Key {
+  std::string name;
+  std::vector<double> values;         // one for each case; index into `labels` for a text
+  std::vector<double> distinct;       // in increasing order
+  std::vector<std::string> labels{};  // of a text, in order of appearance
+  std::string unit{};                 // from the file; empty if unknown
+  bool drawn = false;                 // at random
+  std::size_t leader = 0;             // the first key that varies together with it
+
+  [[nodiscard]] bool is_text() const { return !labels.empty(); }
+};
+
+struct SweepTable {
+  std::vector<Key> keys;
+  std::vector<std::string> status;  // one word for each case
+  std::vector<const Column*> measures;
+  // Each status except `done`, in order of appearance, and its number of cases.
+  std::vector<std::pair<std::string, std::size_t>> others{};
+
+  [[nodiscard]] bool done(std::size_t a_case) const { return status[a_case] == "done"; }
+  // Names of the keys that vary together with this one.
+  [[nodiscard]] std::vector<std::string> followers(const Key& key) const;
+};
+
+// Columns before `status` are keys, numbers after it measures. `end_time` is a measure if the cases
+// end at different times. If the file does not tell, a key counts as drawn if more than half of
+// many cases have distinct values in no order.
+[[nodiscard]] SweepTable sweep_table(const Result& sweep);
 
 }  // namespace bbsim::results

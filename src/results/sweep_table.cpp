@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "results/sweep_table.hpp"
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <map>
 #include <utility>
+
+#include "results/result.hpp"
 
 namespace bbsim::results {
 namespace {

@@ -11,7 +11,6 @@
 #include "catch.hpp"
 #include "record/curve.hpp"
 #include "record/instants.hpp"
-#include "record/measure_rows.hpp"
 #include "record/recorder.hpp"
 #include "scenario/reader.hpp"
 #include "solve/integrate.hpp"

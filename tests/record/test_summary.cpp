@@ -36,7 +36,7 @@ RunSummary a_run() {
   run.method = "adams";
   run.rtol = 1e-8;
   run.atol = 0.1;
-  run.statistics = {200, 300, 4, 500, 6, 1.0 / 3};
+  run.statistics = {{200, 300, 4, 500, 6}, 1.0 / 3};
   return run;
 }
 

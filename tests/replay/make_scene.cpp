@@ -26,8 +26,8 @@ void add_summary(Run& run, const std::string& text) {
   run.reason = json.at("reason").get<std::string>();
   run.version = json.at("version").get<std::string>();
   for (const auto& event : json.at("events")) {
-    run.events.push_back({event.at("t").get<double>(), event.at("event").get<std::string>(),
-                          event.at("action").get<std::string>(), event.at("x").get<double>(),
+    run.events.push_back({event.at("event").get<std::string>(), event.at("action") == "stop",
+                          event.at("t").get<double>(), event.at("x").get<double>(),
                           event.at("y").get<double>()});
   }
 }

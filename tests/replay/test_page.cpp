@@ -118,7 +118,7 @@ TEST_CASE("hostile text stays text everywhere") {
   run.version = hostile;
   run.summary = R"({"title": "</script>"})";
   run.columns.push_back({hostile, {1, 2, 3}, {}, hostile});
-  run.events.push_back({0.01, hostile, hostile, 0, 0});
+  run.events.push_back({hostile, true, 0.01, 0, 0});
   Scene scene = scene_of(run);
   scene.version = hostile;
   scene.sweeps.push_back(swept());

@@ -196,7 +196,7 @@ TEST_CASE("a result includes its summary's data and the ball's orientation") {
   CHECK(run.summary.find("scenario_text") == std::string::npos);
   CHECK(run.summary.find("it fell") != std::string::npos);
   REQUIRE(run.events.size() == 1);
-  CHECK(run.events[0].action == "stop");
+  CHECK(run.events[0].stopped);
   CHECK(run.columns.size() == 3);
   REQUIRE(run.orientation.size() == 3);
   CHECK(run.orientation[1] == Quaternion{0, 0, 1, 0});
