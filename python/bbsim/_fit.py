@@ -60,14 +60,9 @@ def _log(given: _bbsim.Given, stored: _bbsim.Stored, columns: Sequence[str], not
         doubt = name != "t" and _bbsim.unit_doubt(name, largest)
         if doubt:
             notes.append(f"warning: {file}: {name} goes up to {largest!r}, read in SI: it looks like {doubt}")
-    times = values[0]
-    wrong = np.flatnonzero(~np.isfinite(times) | (np.diff(times, prepend=-np.inf) <= 0))
-    if wrong.size:
-        found = f"column t, row {wrong[0] + 1}: found {times[wrong[0]]:.17g}; allowed: finite times that increase"
-        raise fault(f"{file}: {found}")
     if not np.isfinite(values[1:]).any():
         raise fault(f"{file}: found no finite numbers in {', '.join(columns)}")
-    return Log(file, times, np.array(values[1:]), given)
+    return Log(file, values[0], np.array(values[1:]), given)
 
 
 def _log_key(text: str, columns: Sequence[str], units: Sequence[str]) -> LogKey:

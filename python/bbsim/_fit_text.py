@@ -67,13 +67,12 @@ def report(fitted: Any) -> str:
 def as_document(fitted: Any, _: Any) -> str:
     """The JSON."""
     keys = ("key", "estimate", "sd", "interval", "at_bound")
-    made = {"parameters": [{key: getattr(one, key) for key in keys} for one in fitted.parameters],
-            "residual_rms": fitted.residual_rms, "hold_out_rms": fitted.hold_out_rms, "ideal_rms": fitted.ideal_rms,
-            "hold_out_ideal_rms": fitted.hold_out_ideal_rms, "identifiable": fitted.identifiable,
-            "correlations": fitted.correlations.tolist(), "white": fitted.white, "suggestion": fitted.suggestion,
-            "outliers": fitted.outliers, "notes": fitted.notes, "interrupted": fitted.interrupted}  # fmt: skip
+    names = ("residual_rms", "hold_out_rms", "ideal_rms", "hold_out_ideal_rms", "identifiable", "correlations", "white",
+             "suggestion", "outliers", "notes", "interrupted")  # fmt: skip
     optional = ("ideal_rms", "hold_out_ideal_rms", "suggestion", "interrupted")
-    return as_json({name: value for name, value in made.items() if value or name not in optional})
+    made: Dict[str, Any] = {"parameters": [{key: getattr(one, key) for key in keys} for one in fitted.parameters]}
+    made.update((name, getattr(fitted, name)) for name in names if name not in optional or getattr(fitted, name))
+    return as_json({**made, "correlations": fitted.correlations.tolist()})
 
 
 def scenario(fitted: Any, given: _bbsim.Given) -> str:
@@ -132,16 +131,12 @@ def page(fitted: Any, given: _bbsim.Given) -> str:
     names = list(fitted.units)
     pairs = [pair for pair in (["x", "y"], ["x_measured", "y_measured"]) if set(pair) <= set(names)]
     symbols = {column[0]: column[1] for column in _bbsim.known_columns("rad")}
-    radius = {one.key: one.estimate for one in fitted.parameters}.get("ball.radius")
-    if radius is None:
-        radius = given.value("ball.radius")
+    radius = {one.key: one.estimate for one in fitted.parameters}.get("ball.radius", given.value("ball.radius"))
     rows = sum(len(one.times) for one in fitted.series)
     step = max(1, -(-rows // _MOST_ROWS))
-    runs = []
-    for number, log in enumerate(fitted.logs):
-        windows = sorted((one for one in fitted.series if one.log == number), key=lambda one: one.times[0])
-        if windows:
-            runs.append(_run(fitted, log, windows, step))
+    of_logs = [[one for one in fitted.series if one.log == number] for number in range(len(fitted.logs))]
+    runs = [_run(fitted, log, sorted(windows, key=lambda one: one.times[0]), step)
+            for log, windows in zip(fitted.logs, of_logs) if windows]  # fmt: skip
     tables = {name: {"head": lines[0], "rows": lines[1:]}
               for name, lines in (("parameters", _parameters(fitted)), ("residuals", _residuals(fitted)))}  # fmt: skip
     columns = [{"name": name, "symbol": symbols.get(name, name), "meaning": "", "unit": unit}
