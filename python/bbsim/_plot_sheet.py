@@ -29,20 +29,12 @@ Legend = Sequence[Tuple[str, Stroke]]
 
 
 class Box(NamedTuple):
-    """mm from the left, and from below the heading."""
+    """mm from the left, and from below the heading; width and height."""
 
     left: float
     top: float
-    right: float
-    bottom: float
-
-    @property
-    def across(self) -> float:
-        return self.right - self.left
-
-    @property
-    def up(self) -> float:
-        return self.bottom - self.top
+    across: float
+    up: float
 
 
 _STYLE = {
@@ -189,7 +181,7 @@ class Sheet:
                      columnspacing=self._GAP / em, labelspacing=0.35, numpoints=1)  # fmt: skip
 
     def axes(self, box: Box) -> Axes:
-        corner = box.left / self.width, 1 - (self._heading + box.bottom) / self.height
+        corner = box.left / self.width, 1 - (self._heading + box.top + box.up) / self.height
         return self.figure.add_axes([*corner, box.across / self.width, box.up / self.height])
 
     def panel(self, box: Box, heading: str, legend: Legend = ()) -> Axes:
