@@ -441,8 +441,6 @@ def design(scenario: Union[Scenario, _bbsim.Given], free: Union[str, Sequence[st
 
 
 def command(options: Dict[str, Any], say: Any) -> int:
-    """`bbsim design`; `say` prints a message unless -q is given."""
-
     def task(rig: _bbsim.Given, options: Dict[str, Any], progress: Progress, say: Any) -> SimpleNamespace:
         for remark in rig.remarks():
             say(remark)

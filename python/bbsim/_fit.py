@@ -385,7 +385,6 @@ def _carry_out(given: _bbsim.Given, options: Dict[str, Any], progress: Progress,
 
 
 def command(options: Dict[str, Any], say: Any) -> int:
-    """`bbsim fit`; `say` prints a message unless -q is given."""
     options["logs"] = options.pop("log")
     made = carry_out("fit", _carry_out, options, say)
     return 130 if made is None or made.interrupted else 0

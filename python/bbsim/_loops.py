@@ -284,7 +284,6 @@ def draw_root_locus(columns: Columns, loop: Linearization, key: str, width: floa
 
 
 def draw_step(columns: Columns, loop: Linearization, width: float = 135.0) -> Figure:
-    """The response of x and y to a unit step of their references."""
     figure = _figure(width, 0.55 * width)
     axes = figure.subplots()
     axes.axhline(1, **QUIET)

@@ -215,7 +215,6 @@ def _declare(tasks: Sequence[Tuple[List[str], str, str]], options: Dict[str, Any
 
 
 def command(options: Dict[str, Any], say: Any) -> None:
-    """`bbsim plot`; `say` prints a message unless -q is given."""
     _bbsim.end_at_signals()
     files, format, shared = options["files"], _format(options["output"], options["format"]), _Options(options)
     tasks = _tasks(files, shared.kind, options, format)

@@ -113,7 +113,6 @@ class Runs:
     def asked(self, lists: Sequence[Sequence[str]]) -> List[Panel]:
         panels = []
         for names in lists:
-            panel: Optional[Panel] = None
             for name in names:
                 found = f"columns: found {name or 'nothing'}"
                 if name == "t":
@@ -122,13 +121,10 @@ class Runs:
                     raise fault(found + self._allowed(name))
                 if self.range(name) is None:
                     raise fault(f"{found}, which holds no finite number")
-                panel = panel or Panel(self.unit(name), [])
-                if self.unit(name) != panel.unit:
-                    beside = f"{found} in a panel with {panel.lines[0].column}, which has another unit"
+                if self.unit(name) != self.unit(names[0]):
+                    beside = f"{found} in a panel with {names[0]}, which has another unit"
                     raise fault(f"{beside}; a semicolon begins another panel")
-                panel.lines.append(self.line(name))
-            if panel:
-                panels.append(panel)
+            panels.append(Panel(self.unit(names[0]), [self.line(name) for name in names]))
         return self._finished(panels, may_split=False)
 
     def _allowed(self, name: str) -> str:

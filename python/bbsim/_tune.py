@@ -53,9 +53,8 @@ class Search:
         self.score, self.all, self.share, self.tried, self.spread = score, np.arange(count), share, 0, 0
         self.merit: Tuple[float, ...] = (np.inf,) * 3  # of the best point that was tried in all cases
         self.best: Any = None
-        self.points: Array
-        self.scores: Array
-        self.merits: List[Any]
+        self.points = self.scores = np.empty(0)
+        self.merits: List[Any] = []
 
     def _in_all(self, point: Array, anew: bool = False) -> Any:
         """The merit of a point, and the cases that are worst by the objective and by each requirement, in turn."""
@@ -375,7 +374,6 @@ def _carry_out(base: _bbsim.Given, options: Dict[str, Any], progress: Progress, 
 
 
 def command(options: Dict[str, Any], say: Any) -> int:
-    """`bbsim tune`; `say` prints a message unless -q is given."""
     options["quantile"] = 1 if options["quantile"] is None else options["quantile"]
     made = carry_out("tune", _carry_out, options, say)
     sys.stderr.write(made.reason + "\n" if made and made.reason else "")
