@@ -44,24 +44,22 @@ def _residuals(fitted: Any) -> List[List[str]]:
     if held:
         tables += [fitted.hold_out_ideal_rms] * ideal + [fitted.hold_out_before_rms, fitted.hold_out_rms]
         head += ["held out: ideal rig", "before", "fitted"] if ideal else ["held out: before", "fitted"]
-    lines = [["rms residual", *head, "unit"]]
-    for name, unit in fitted.units.items():
-        lines.append([name, *(f"{table[name]:.3g}" if name in table else "-" for table in tables), unit or "1"])
-    return lines
+    rows = [[name, *(f"{table[name]:.3g}" if name in table else "-" for table in tables), unit or "1"]
+            for name, unit in fitted.units.items()]  # fmt: skip
+    return [["rms residual", *head, "unit"], *rows]
 
 
-def remarks(fitted: Any) -> str:
+def _remarks(fitted: Any) -> List[str]:
     text = f"{fitted.numbers} numbers in {counted(fitted.windows, 'window')}"
     text += f" of {number(fitted.window)} s" if math.isfinite(fitted.window) else ""
     text += f", {fitted.held} more held out" if fitted.held else ""
     lines = [f"{text}; {counted(len(fitted.logs), 'log')}"]
-    for note in fitted.notes[len(fitted.warnings) :]:
-        lines.append(note if note.startswith("not identifiable: ") else f"note: {note}")
-    return "".join(line + "\n" for line in lines)
+    notes = fitted.notes[len(fitted.warnings) :]
+    return lines + [note if note.startswith("not identifiable: ") else f"note: {note}" for note in notes]
 
 
 def report(fitted: Any) -> str:
-    return _bbsim.aligned(_parameters(fitted)) + "\n" + _bbsim.aligned(_residuals(fitted)) + "\n" + remarks(fitted)
+    return "\n".join([*map(_bbsim.aligned, (_parameters(fitted), _residuals(fitted))), *_remarks(fitted), ""])
 
 
 def as_document(fitted: Any, _: Any) -> str:
@@ -142,6 +140,6 @@ def page(fitted: Any, given: _bbsim.Given) -> str:
     columns = [{"name": name, "symbol": symbols.get(name, name), "meaning": "", "unit": unit}
                for name, unit in fitted.units.items()]  # fmt: skip
     data = {"format": 1, "version": _bbsim.__version__, "title": title, "scenario": given.name,
-            "logs": fitted.logs, **tables, "remarks": remarks(fitted).splitlines(),
+            "logs": fitted.logs, **tables, "remarks": _remarks(fitted),
             "place": pairs[0] if pairs else None, "radius": radius, "columns": columns, "runs": runs}  # fmt: skip
     return _bbsim.filled_page("fit.html", title, json.dumps(data, ensure_ascii=False))

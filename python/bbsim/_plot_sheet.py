@@ -116,17 +116,7 @@ def cut(text: str, room: float, size: float) -> str:
     return next((short for short in kept if width_of(short, size) <= room), "…")
 
 
-def _cut_all(texts: Sequence[str], room: float) -> List[str]:
-    """The texts of a legend; the longest ones are cut until they fit into the room together."""
-    widths = [width_of(clean(text), SMALL) for text in texts]
-    most = max(widths)
-    while sum(min(width, most) for width in widths) > room and most > 3:
-        most *= 0.95
-    return [cut(text, most, SMALL) for text in texts]
-
-
 def number(value: float, digits: int = 4) -> str:
-    """A number for readers."""
     return f"{value:.{digits}g}".replace("-", "−")
 
 
@@ -191,6 +181,10 @@ class Sheet:
         axes.text(-0.5 / width, 1 + 1.4 / box.up, heading, transform=axes.transAxes, size=TEXT, va="baseline", ha="left")
         if legend:
             room = width - width_of(heading, TEXT) - len(legend) * (self._SAMPLE + self._GAP)
-            names = _cut_all([name for name, _ in legend], room)
+            widths = [width_of(clean(name), SMALL) for name, _ in legend]
+            most = max(widths)
+            while sum(min(one, most) for one in widths) > room and most > 3:  # cuts the longest names until all fit
+                most *= 0.95
+            names = [cut(name, most, SMALL) for name, _ in legend]
             self._legend(axes, legend, names, len(names), "lower right", (1, 1 + 1.2 / box.up))
         return axes
