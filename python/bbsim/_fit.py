@@ -363,7 +363,6 @@ def fit(scenario: Scenario, logs: Any, free: Any, *, set: Settings = None, map: 
 
 
 def _carry_out(given: _bbsim.Given, options: Dict[str, Any], progress: Progress, say: Any) -> Any:
-    """Fits, and writes the files that the options ask for."""
     reads = dict.fromkeys(options["logs"], "the log")
     if options["report"]:
         reads[_bbsim.file_of_template("fit.html")] = "the template of pages"

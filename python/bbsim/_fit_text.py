@@ -63,7 +63,6 @@ def report(fitted: Any) -> str:
 
 
 def as_document(fitted: Any, _: Any) -> str:
-    """The JSON."""
     keys = ("key", "estimate", "sd", "interval", "at_bound")
     names = ("residual_rms", "hold_out_rms", "ideal_rms", "hold_out_ideal_rms", "identifiable", "correlations", "white",
              "suggestion", "outliers", "notes", "interrupted")  # fmt: skip
@@ -74,7 +73,6 @@ def as_document(fitted: Any, _: Any) -> str:
 
 
 def scenario(fitted: Any, given: _bbsim.Given) -> str:
-    """The scenario's text with the estimates."""
     text = f"# Fitted by bbsim {_bbsim.__version__} to\n"
     for log in fitted.logs:
         # Standard input has been read.

@@ -128,7 +128,6 @@ ORANGE = "#d55e00"
 
 
 def stroke(index: int) -> Stroke:
-    """That of the index-th line."""
     return {"color": _COLORS[index % len(_COLORS)], "lw": 1.1, "ls": _DASHES[index % len(_DASHES)]}
 
 

@@ -361,7 +361,6 @@ def tune(scenario: Scenario, free: Any, minimize: str, require: Any = (), vary: 
 
 
 def _carry_out(base: _bbsim.Given, options: Dict[str, Any], progress: Progress, say: Any) -> Any:
-    """Tunes, and writes the files that the options ask for."""
     files = files_of(options, base, {}, "output", "json")
     tuning = _Tuning(base, options)
     for remark in base.remarks():
