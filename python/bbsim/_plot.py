@@ -19,7 +19,7 @@ from ._plot_sheet import FONT, Figure, require_font, style
 from ._plot_sweeps import draw_sweep
 from ._result import File, Result, Texts
 from ._scenario import (InputError, Log, Settings, as_files, counted, fault, from_to, given, is_table, listed,
-                        log_choice, overrides, refuse, tables_named, without_folders)  # fmt: skip
+                        log_choice, overrides, refuse, without_folders)  # fmt: skip
 
 Drawn = Union[Log, Result, "np.ndarray[Any, np.dtype[np.void]]"]
 
@@ -155,8 +155,7 @@ def plot(files: Union[Drawn, Sequence[Drawn]], *, columns: Texts = (), over: Tex
     elif not all_files:
         raise refuse("files", "none", "a file, a result, or a list of them")
     else:
-        with tables_named():
-            figure, _ = options.draw(options.read(all_files, lambda note: None))
+        figure, _ = options.draw(options.read(all_files, lambda note: None))
     if output is not None:
         _save(figure, os.fspath(output), chosen)
     return figure

@@ -53,7 +53,8 @@ class InputError(Error, ValueError):
     """The scenario or an argument is wrong: ``problems``, in order, and ``key`` and ``hint`` of the first."""
 
     def __init__(self, problems: Iterable[Tuple[str, str]]) -> None:
-        self.told: List[Tuple[str, str]] = list(problems)  # for a command line, whose options are keywords here
+        # For a command line, whose options are keywords here.
+        self.told = [(without_folders(place), without_folders(message)) for place, message in problems]
         self.problems: List[Problem] = []
         for place, message in self.told:
             if place.startswith(_CALLABLE):
@@ -252,7 +253,7 @@ def as_files(logs: Any) -> Iterator[List[str]]:
     if not any(map(is_table, logs)):
         yield [os.fspath(log) for log in logs]
         return
-    with tempfile.TemporaryDirectory(prefix=_PREFIX) as folder, tables_named():
+    with tempfile.TemporaryDirectory(prefix=_PREFIX) as folder:
         files = [f"{folder}/log-{i}.csv" if is_table(log) else os.fspath(log) for i, log in enumerate(logs, 1)]
         for log, file in zip(logs, files):
             if is_table(log):
@@ -260,18 +261,9 @@ def as_files(logs: Any) -> Iterator[List[str]]:
         yield files
 
 
-@contextlib.contextmanager
-def tables_named() -> Iterator[None]:
-    """Within it, errors name tables in memory without the folders of their files."""
-    try:
-        yield
-    except InputError as error:
-        raise InputError([(without_folders(place), without_folders(text)) for place, text in error.told]) from None
-
-
 def without_folders(text: str) -> str:
-    """The text without the folders of temporary files, which differ each time."""
-    return re.sub(f"{re.escape(tempfile.gettempdir())}/{_PREFIX}[^/]+/", "", text)
+    """The text without the folders of temporary files, which differ each time. The first one sets tempfile.tempdir."""
+    return re.sub(f"{re.escape(tempfile.tempdir or '')}/{_PREFIX}[^/]+/", "", text)
 
 
 def _write(table: Any, file: str) -> None:
