@@ -30,9 +30,9 @@ def number(value: float, sd: float = 0.0) -> str:
 
 def _parameters(fitted: Any) -> List[List[str]]:
     lines = [["key", "before", "estimate", "sd", "95 % from", "to", "unit"]]
-    for one in fitted.parameters:
-        known = [f"{one.sd:.3g}", *(number(end, one.sd) for end in one.interval)] if one.told else ["-"] * 3
-        lines.append([one.key, number(one.before), number(one.estimate, one.sd), *known, one.unit or "1"])
+    for found in fitted.parameters:
+        known = [f"{found.sd:.3g}", *(number(end, found.sd) for end in found.interval)] if found.told else ["-"] * 3
+        lines.append([found.key, number(found.before), number(found.estimate, found.sd), *known, found.unit or "1"])
     return lines
 
 
@@ -79,14 +79,14 @@ def scenario(fitted: Any, given: _bbsim.Given) -> str:
         content = Path(log).read_bytes() if Path(log).is_file() else None
         text += f"#   {log}" + (f" (SHA-256 {hashlib.sha256(content).hexdigest()[:16]})" if content else "") + "\n"
     settings = []
-    for one in fitted.parameters:
-        unit = f" {one.unit}" if one.unit else ""
-        ends = [number(end, one.sd) for end in one.interval]
-        known = f", 95 % from {ends[0]} to {ends[1]}{unit}; was {number(one.before)}{unit}"
-        text += f"# {one.key}: {number(one.estimate, one.sd)}{unit}"
-        text += (known if one.told else ", which the logs do not determine") + "\n"
-        if not one.key.startswith("log."):  # no scenario has those
-            settings.append((one.key, f"{one.estimate!r}{unit}"))
+    for parameter in fitted.parameters:
+        unit = f" {parameter.unit}" if parameter.unit else ""
+        ends = [number(end, parameter.sd) for end in parameter.interval]
+        known = f", 95 % from {ends[0]} to {ends[1]}{unit}; was {number(parameter.before)}{unit}"
+        text += f"# {parameter.key}: {number(parameter.estimate, parameter.sd)}{unit}"
+        text += (known if parameter.told else ", which the logs do not determine") + "\n"
+        if not parameter.key.startswith("log."):  # no scenario has those
+            settings.append((parameter.key, f"{parameter.estimate!r}{unit}"))
     return given.edited(settings, text)
 
 

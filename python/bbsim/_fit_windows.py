@@ -99,10 +99,10 @@ def start_coordinates(columns: Sequence[str], given: _bbsim.Given, from_within: 
     A log that is one window begins with the scenario's spin and gimbal."""
     along = np.array([[name in ("v" + axis, axis, axis + "_measured") for name in columns] for axis in "xy"])
     axes = [axis for axis in (0, 1) if along[axis].any() or not along.any(0).all()]
-    made = [*axes, *(2 + axis for axis in axes)]
+    places = [*axes, *(2 + axis for axis in axes)]
     if from_within and given.begins_anywhere():
-        made += [4, 5, 6, 7]
-    return made + ([_SPIN] if from_within and len(axes) == 2 else [])
+        places += [4, 5, 6, 7]
+    return places + ([_SPIN] if from_within and len(axes) == 2 else [])
 
 
 class _Point(NamedTuple):
@@ -324,8 +324,8 @@ class WindowsFit:
         """The derivatives of the residuals by the keys and all starts."""
         factors = self.over_noise()
         blocks = [csr_matrix((self.base.by_start[w] * factors[w][:, None])[self.there[w]]) for w in range(len(factors))]
-        made = hstack([csr_matrix((self.base.by_key * factors[..., None])[self.there]), block_diag(blocks)], "csr")
-        return made if made.shape[1] > 300 else made.toarray()
+        slopes = hstack([csr_matrix((self.base.by_key * factors[..., None])[self.there]), block_diag(blocks)], "csr")
+        return slopes if slopes.shape[1] > 300 else slopes.toarray()
 
     def find_kinks(self, u: Array, wide: Any = WIDE * KEY_STEP) -> None:
         """Whether the residuals near u have kinks, jumps or flat stretches, as with dry friction or dead bands: slopes

@@ -174,18 +174,18 @@ def carry_out(name: str, task: Any, options: Dict[str, Any], say: Any) -> Any:
     try:
         quiet = options.pop("quiet") or not sys.stderr.isatty()
         with contextlib.nullcontext(silent) if quiet else bar(given.name) as progress:
-            made = task(given, options, progress, say)
+            result = task(given, options, progress, say)
     except KeyboardInterrupt:
         sys.stderr.write(f"{name}: interrupted before the first result; nothing is written\n")
         return None
     try:
-        sys.stdout.write("" if to_files else made.report)
+        sys.stdout.write("" if to_files else result.report)
         sys.stdout.flush()
     except BrokenPipeError:
         raise
     except OSError as error:
         raise OutputError(f"cannot write to standard output: {(error.strerror or '').lower()}") from None
-    return made
+    return result
 
 
 Progress = Callable[[float, str], None]  # the fraction done, and a detail for people
