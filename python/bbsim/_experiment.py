@@ -63,8 +63,8 @@ class Experiment:
             servos = [f"gimbal.servo{axis}" for axis in ("", ".phi", ".theta")]
             servos = [key for key in servos if plain.has(key)]
             smooth += [(f"{key}.{end}", to) for key in servos for end, to in (("scale", "null"), ("dead_band", "0"))]
-        for key, most in (("solver.rtol", 1e-10), ("solver.atol", 1e-12)):
-            smooth.append((key, repr(min(most, plain.value(key) or most))))
+        tolerances = (("solver.rtol", 1e-10), ("solver.atol", 1e-12))
+        smooth += [(key, repr(min(most, plain.value(key) or most))) for key, most in tolerances]
         self._of_tables = plain.changed([*smooth, ("solver.error", "null")])
         terms = "{sinusoid: {amplitude: 0, frequency: 1}}, " * 4
         self._of_waves = self._of_tables.changed([(its, f"[{terms}0]") for its in self._profiles[: 2 * self.tilts]])

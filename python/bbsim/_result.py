@@ -303,8 +303,7 @@ def replay(*files: Union[Scenario, Result], output: Optional[File] = None, data:
            map: Texts = (), header: Texts = (), period: str = "", time_offset: str = "", missing: Any = None,
            title: str = "", summary: File = "", scenario: File = "", set: Settings = None) -> Page:  # fmt: skip
     """A page that plays files or results of runs or sweeps, or scenarios; ``data``: logs beside a scenario, as files,
-    dicts of arrays or DataFrames. ``output`` is NAME.html. The other keywords are the options of ``bbsim replay``.
-    """
+    dicts of arrays or DataFrames. ``output`` is NAME.html. The other keywords are the options of ``bbsim replay``."""
     shown, ran = [], []  # type: List[Any], List[Result]
     for file in files:
         if isinstance(file, Mapping) or is_text(file):
@@ -330,8 +329,7 @@ def compare(a: Log, b: Log, *, rtol: Optional[float] = None, atol: Optional[floa
             map: Texts = (), header: Texts = (), period: str = "", time_offset: str = "", missing: Any = None,
             set: Settings = None) -> Compared:  # fmt: skip
     """Compares two files of results, or a log (also a dict of arrays or a DataFrame) with a run or a scenario's file.
-    The keywords are the options of ``bbsim compare``.
-    """
+    The keywords are the options of ``bbsim compare``."""
     log = log_choice(map, header, period, time_offset, missing)
     for name, found in (("rtol", rtol), ("atol", atol)):
         require(name, 0 if found is None else found, Real, "a number, in SI units")

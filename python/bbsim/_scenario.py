@@ -250,11 +250,9 @@ def as_files(logs: Any) -> Iterator[List[str]]:
     for log in logs:
         if is_text(log) or (isinstance(log, Mapping) and any(isinstance(its, Mapping) for its in log.values())):
             raise fault("found a scenario; allowed: a file, a table or a result, such as bbsim.run(scenario)")
-    if not any(map(is_table, logs)):
-        yield [os.fspath(log) for log in logs]
-        return
-    with tempfile.TemporaryDirectory(prefix=_PREFIX) as folder:
-        files = [f"{folder}/log-{i}.csv" if is_table(log) else os.fspath(log) for i, log in enumerate(logs, 1)]
+    folder: Any = tempfile.TemporaryDirectory(prefix=_PREFIX) if any(map(is_table, logs)) else contextlib.nullcontext()
+    with folder as path:
+        files = [f"{path}/log-{i}.csv" if is_table(log) else os.fspath(log) for i, log in enumerate(logs, 1)]
         for log, file in zip(logs, files):
             if is_table(log):
                 _write(log, file)
