@@ -39,7 +39,7 @@ def _compared(given: _bbsim.Given, maps: Sequence[str], log: _bbsim.Stored, note
     notes += [f"note: {name} is given by gimbal.motion, and not compared with the log" for name in names if name in moved]
     names = [name for name in names if name not in moved]
     for name in names:
-        why = given.lacks(name)[0]
+        why = given.lacks(name)
         if why:
             raise refuse("--map", f"{name}, {why}", "columns that the scenario has")
     if not names:
@@ -264,7 +264,7 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
                              "longer --window, since windows forget which command a servo followed last")  # fmt: skip
     fitted.series = _series(fit, False) if series else []
     ideal = _ideal(task.logs[0].given)
-    if ideal is not None and not any(ideal.lacks(name)[0] for name in task.columns):
+    if ideal is not None and not any(ideal.lacks(name) for name in task.columns):
         fitted.ideal_rms = _rms(_other(search, windows, search.u, True))
     pairs = [(fitted.residual_rms[name], one) for name, one in fitted.ideal_rms.items()]
     if not fitted.exact and sum(math.log(its / one) for its, one in pairs if one > 0) > 1e-3:

@@ -334,9 +334,9 @@ def compare(a: Log, b: Log, *, rtol: Optional[float] = None, atol: Optional[floa
     for name, found in (("rtol", rtol), ("atol", atol)):
         require(name, 0 if found is None else found, Real, "a number, in SI units")
     with as_files([a, b]) as (first, second):
-        compared = _bbsim.compare(first, second, overrides(set), rtol, atol, listed("columns", columns), log)
-    notes = [without_folders(note) for note in compared.warnings]
-    return Compared(compared.alike, without_folders(compared.text), compared.reason, notes)
+        limits = (rtol, atol, listed("columns", columns))
+        alike, text, reason, notes = _bbsim.compare(first, second, overrides(set), *limits, log)
+    return Compared(alike, without_folders(text), reason, [without_folders(note) for note in notes])
 
 
 def examples() -> Dict[str, Path]:

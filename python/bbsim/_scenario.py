@@ -59,12 +59,12 @@ class InputError(Error, ValueError):
         for place, message in self.told:
             if place.startswith(_CALLABLE):
                 message = message.replace("controller.library", "controller.callable")
-            message = _OPTION.sub(lambda its: its[0].lstrip("-").replace("-", "_").lower(), message.removeprefix("--set "))
+            message = _OPTION.sub(lambda found: found[0].lstrip("-").replace("-", "_").lower(), message.removeprefix("--set "))
             key, hint = _bbsim.key_and_hint(message)
             its_place = "" if place.startswith("<dict") else place.removeprefix("--set ")
             self.problems.append(Problem(message, its_place, key or None, hint))
         super().__init__("\n".join(str(problem) for problem in self.problems))
-        self.key, self.hint = next(((one.key, one.hint) for one in self.problems), (None, ""))
+        self.key, self.hint = next(((each.key, each.hint) for each in self.problems), (None, ""))
 
     def __reduce__(self):
         return type(self), (self.told,)
@@ -122,7 +122,7 @@ def numbers(what: str, values: Any, *shapes: Tuple[Any, ...]) -> Array:
     except (TypeError, ValueError):
         raise refuse(what, f"{values!r:.60}", "an array of numbers") from None
     for shape in shapes:
-        if len(shape) == array.ndim and all(isinstance(one, str) or one == its for one, its in zip(shape, array.shape)):
+        if len(shape) == array.ndim and all(isinstance(n, str) or n == m for n, m in zip(shape, array.shape)):
             return array
     raise refuse(what, f"an array of shape {array.shape}", " or ".join(map(str, shapes)).replace("'", ""))
 
@@ -172,8 +172,8 @@ def overrides(settings: Union[Settings, List[str]]) -> List[str]:
     """KEY=VALUE, as ``--set`` takes them; a list of a command line has them."""
     if isinstance(settings, list):
         return listed("set", settings)
-    its = require("set", {} if settings is None else settings, Mapping, "a dict such as {'ball.radius': '2 cm'}")
-    return [f"{key}={as_yaml(value)}" for key, value in its.items()]
+    values = require("set", {} if settings is None else settings, Mapping, "a dict such as {'ball.radius': '2 cm'}")
+    return [f"{key}={as_yaml(value)}" for key, value in values.items()]
 
 
 def counted(count: int, what: str) -> str:
@@ -183,7 +183,7 @@ def counted(count: int, what: str) -> str:
 def listed(what: str, texts: Any, written: Callable[[Any], str] = as_yaml) -> List[str]:
     """Texts of an option: one text or path, or several. A dict has what follows KEY=, or None for the key alone."""
     if isinstance(texts, Mapping):
-        return [str(key) if one is None else f"{key}={written(one)}" for key, one in texts.items()]
+        return [str(key) if value is None else f"{key}={written(value)}" for key, value in texts.items()]
     several = [] if texts is None else [texts] if isinstance(texts, (str, os.PathLike)) else texts
     allowed = "a text, or a list of texts"
     return [os.fspath(require(what, one, (str, os.PathLike), allowed)) for one in require(what, several, Iterable, allowed)]

@@ -58,7 +58,7 @@ class Search:
 
     def _in_all(self, point: Array, anew: bool = False) -> Any:
         """The merit of a point, and the cases that are worst by the objective and by each requirement, in turn."""
-        scores, missed = (one[0] for one in self.score(point[None], self.all))
+        scores, missed = (of_points[0] for of_points in self.score(point[None], self.all))
         merit, self.tried = merit_of(scores, missed, self.share), self.tried + 1
         if anew or merit < self.merit:
             self.merit, self.best = merit, point
