@@ -61,8 +61,7 @@ def _parsed(name: str, table: Dict[str, Any], words: Sequence[str]) -> Dict[str,
             how.update(metavar=names[0], nargs="+" if option.get("repeatable") else None)
             names = [_name_of(option)]
         else:
-            how.update(metavar=option["takes"], dest=_name_of(option), choices=option.get("choices"),
-                       required=option.get("required", False))  # fmt: skip
+            how.update(metavar=option["takes"], choices=option.get("choices"), required=option.get("required", False))
             how.update({"action": "append", "default": []} if option.get("repeatable") else {})
         parser.add_argument(*names, **how)
     parsed, rest = parser.parse_known_intermixed_args(words)
@@ -86,7 +85,8 @@ def _say(text: str) -> None:
 
 
 def main(name: str, words: Optional[List[str]] = None) -> int:
-    """Carries out `bbsim NAME`; returns its exit code."""
+    """Carries out `bbsim NAME` by command() of its module, which gets the options and a function that prints messages,
+    unless -q is given. Returns its exit code."""
     for number in (signal.SIGTERM, signal.SIGHUP):
         if signal.getsignal(number) == signal.SIG_DFL:
             signal.signal(number, signal.default_int_handler)

@@ -140,24 +140,25 @@ def best_sines(experiment: Experiment, middle: float) -> Candidate:
     """Draws motions with multiples around `middle`, and improves the best ones as long as their merits grow."""
     random = np.random.default_rng(1)
     active = owners = pool = [Candidate(experiment, random, middle) for _ in range(_DRAWS)]
-    motions = join(one.motion[:2] for one in pool)
+    motions = join(candidate.motion[:2] for candidate in pool)
     first = 6 if experiment.tilts else 12
     for count in (first, first // 2, 3, 3, 2, 2, 2, 2, 0):
-        before = [one.merit for one in active]
+        before = [candidate.merit for candidate in active]
         found = within(experiment, motions, experiment.tilts)
         for i, slopes in zip(found, experiment.slopes(join(found.values()))[0] if found else np.empty(0)):
             if merits(slopes) > owners[i].merit:
                 owners[i].motion, owners[i].slopes, owners[i].merit = found[i], slopes, merits(slopes)
-        active = [one for one, merit in zip(active, before) if one.merit > merit + 0.1]
-        active = sorted(active, key=lambda one: -one.merit)[:count]
+        active = [candidate for candidate, merit in zip(active, before) if candidate.merit > merit + 0.1]
+        active = sorted(active, key=lambda candidate: -candidate.merit)[:count]
         if not active:
             break
-        near = experiment.play(join(one.changed(_NEAR * np.eye(len(one.turns)))[:2] for one in active))[0]
+        neighbors = join(candidate.changed(_NEAR * np.eye(len(candidate.turns)))[:2] for candidate in active)
+        near = experiment.play(neighbors)[0]
         slopes = np.split(experiment.slopes(near)[0], len(active))
         nears = [near.take(its) for its in np.split(np.arange(len(near.numbers)), len(active))]
-        motions = join(one.best(*its)[:2] for one, *its in zip(active, nears, slopes))
-        owners = [one for one in active for _ in _PARTS]
-    return max(pool, key=lambda one: one.merit)
+        motions = join(candidate.best(*its)[:2] for candidate, *its in zip(active, nears, slopes))
+        owners = [candidate for candidate in active for _ in _PARTS]
+    return max(pool, key=lambda candidate: candidate.merit)
 
 
 def circles(experiment: Experiment, pull: float) -> Motions:
@@ -166,7 +167,7 @@ def circles(experiment: Experiment, pull: float) -> Motions:
     multiples = [1]
     while multiples[-1] < experiment.highest:
         multiples.append(max(multiples[-1] + 1, int(multiples[-1] * 1.33)))
-    w = _TURN / experiment.length * np.array([one for one in multiples if one <= experiment.highest])
+    w = _TURN / experiment.length * np.array([multiple for multiple in multiples if multiple <= experiment.highest])
     radius = 0.01 * pull / w**2 if experiment.tilts else np.full(len(w), 0.01)
     numbers = np.zeros((len(w), 20))  # phi accelerates the ball along x, theta against y
     numbers[:, 0], numbers[:, 12] = -0.01 if experiment.tilts else 0.01, 0.01
@@ -271,7 +272,7 @@ def noise_of(rig: _bbsim.Given, axes: List[int], texts: Sequence[str], units: Di
         if not size or size < 0:
             allowed = "COLUMN=SIZE, a column of `bbsim columns` and a standard deviation greater than 0, such as x=0.5mm"
             raise refuse("noise", f'"{text}"', allowed)
-        why, _ = rig.lacks(name)
+        why = rig.lacks(name)
         if why:
             raise refuse("noise", f"{name}, {why}", "columns that the scenario has")
         sizes[name] = size
@@ -368,8 +369,8 @@ def design(scenario: Union[Scenario, _bbsim.Given], free: Union[str, Sequence[st
         circle, frequency = None, 3.0  # rad/s
         found = within(experiment, circles(experiment, pull))
         if found:  # it shows which frequencies are informative
-            its = join(found.values())
-            circle = its.take([np.argmax(merits(experiment.slopes(its)[0]))])
+            tried_circles = join(found.values())
+            circle = tried_circles.take([np.argmax(merits(experiment.slopes(tried_circles)[0]))])
             frequency = float(circle.waves[0, 0, 0])
         chosen = best_sines(experiment, frequency * seconds / _TURN)
         if not np.isfinite(chosen.merit):
@@ -382,14 +383,14 @@ def design(scenario: Union[Scenario, _bbsim.Given], free: Union[str, Sequence[st
         tried, final = experiment.played, chosen.motion.table(experiment.times)
         place = final.numbers[0, -4:-2] = np.round(final.numbers[0, -4:-2], 3) + 0.0  # placed by hand
         rise = within(experiment, step(experiment)).get(0)
-        played: List[Any] = [one and experiment.play(one)[0] for one in (final, circle, rise)]
-        slopes, effects = zip(*(experiment.slopes(one, True) if one else (None, None) for one in played))
+        played: List[Any] = [motion and experiment.play(motion)[0] for motion in (final, circle, rise)]
+        slopes, effects = zip(*(experiment.slopes(motion, True) if motion else (None, None) for motion in played))
     idle = [key.name for key, effect in zip(keys, effects[0][0]) if effect <= 1e-6]  # in units of noise
     if idle:
         what = f"free: {idle[0]}: has no effect on {', '.join(deviations_of_log)}"
         raise fault(f"{what}; allowed: keys that the log's columns depend on")
-    of_u = [np.full(len(keys), np.inf) if one is None else deviations(one[0]) for one in slopes]
-    sds = [[float(f"{sd * abs(key.slope(0)):.8g}") for sd, key in zip(one, keys)] for one in of_u]
+    of_u = [np.full(len(keys), np.inf) if slope is None else deviations(slope[0]) for slope in slopes]
+    sds = [[float(f"{sd * abs(key.slope(0)):.8g}") for sd, key in zip(of_motion, keys)] for of_motion in of_u]
     used = dict.fromkeys((limit[0] for limit in limits), 0.0)
     for (kind, *_), share in zip((limit for limit in limits for _ in limit[-1]), played[0].shares[0].max(1)):
         used[kind] = max(used[kind], float(share))
@@ -397,7 +398,7 @@ def design(scenario: Union[Scenario, _bbsim.Given], free: Union[str, Sequence[st
     for i in axes:
         cosine, sine = chosen.motion.numbers[0, 8 * i : 8 * i + 8].reshape(2, 4)
         waves = np.stack([np.hypot(cosine, sine), chosen.motion.waves[0, i], np.arctan2(cosine, sine)], 1).tolist()
-        sines[experiment.names[i]] = [dict(zip(("amplitude", "frequency", "phase"), one)) for one in waves]
+        sines[experiment.names[i]] = [dict(zip(("amplitude", "frequency", "phase"), wave)) for wave in waves]
     result = {
         "parameters": [dict(zip(("key", "value", "sd", "circle_sd", "step_sd"), (key.name, float(key.value(0)), *its)))
                        for key, *its in zip(keys, *sds)],
@@ -441,8 +442,6 @@ def design(scenario: Union[Scenario, _bbsim.Given], free: Union[str, Sequence[st
 
 
 def command(options: Dict[str, Any], say: Any) -> int:
-    """`bbsim design`; `say` prints a message unless -q is given."""
-
     def task(rig: _bbsim.Given, options: Dict[str, Any], progress: Progress, say: Any) -> SimpleNamespace:
         for remark in rig.remarks():
             say(remark)

@@ -11,6 +11,7 @@ from typing import Any, Dict, List, NamedTuple, Tuple
 import numpy as np
 
 from . import _bbsim
+from ._fit_windows import Log, cut, start_coordinates
 from ._result import simulate
 from ._scenario import Array
 from ._task import ROUGH, FreeKey, Progress
@@ -62,8 +63,8 @@ class Experiment:
             servos = [f"gimbal.servo{axis}" for axis in ("", ".phi", ".theta")]
             servos = [key for key in servos if plain.has(key)]
             smooth += [(f"{key}.{end}", to) for key in servos for end, to in (("scale", "null"), ("dead_band", "0"))]
-        for key, most in (("solver.rtol", 1e-10), ("solver.atol", 1e-12)):
-            smooth.append((key, repr(min(most, plain.value(key) or most))))
+        tolerances = (("solver.rtol", 1e-10), ("solver.atol", 1e-12))
+        smooth += [(key, repr(min(most, plain.value(key) or most))) for key, most in tolerances]
         self._of_tables = plain.changed([*smooth, ("solver.error", "null")])
         terms = "{sinusoid: {amplitude: 0, frequency: 1}}, " * 4
         self._of_waves = self._of_tables.changed([(its, f"[{terms}0]") for its in self._profiles[: 2 * self.tilts]])
@@ -72,18 +73,13 @@ class Experiment:
         self.times = self._times[::parts]
         # The highest multiple of 1/length: faster tilts move a ball by less than its sensor resolves.
         self.highest = max(4, int(min(3, rate / 8) * length))
-        # Windows as in a fit. Columns of one axis tell nothing about the start of the other.
-        ends = np.arange(1, max(1, round(length / window))) * window * (1 - 1e-9)
-        windows = np.split(np.arange(len(self.times)), np.searchsorted(self.times, ends))
-        windows = [one for one in windows if len(one) > 1]
-        sizes = np.array(list(map(len, windows)))
-        self.windows, self.numbers = len(windows), int(sizes.sum()) * len(noise)
-        self._rows = np.array([np.pad(one, (0, sizes.max() - len(one)), "edge") for one in windows])
-        self._real = np.arange(sizes.max()) < sizes[:, None]
-        self._begins = self._rows[:, 0] * parts
-        of_axis = [{name, f"v{name}", f"{name}_measured"} for name in ("x", "y")]
-        self._free = [i for i in range(4) if set(noise) - of_axis[1 - i % 2]]
-        self._free += [4, 5, 6, 7] if plain.begins_anywhere() and len(windows) > 1 else []
+        rows = np.arange(len(self.times), dtype=float)
+        windows, _ = cut([Log("", self.times, rows[None], plain)], window, 0, 0, 0)  # as in a fit
+        self.windows, self.numbers = len(windows), int(windows.rows.sum()) * len(noise)
+        self._window_times, self._real = windows.times, np.isfinite(windows.values[:, 0])
+        self._begins = windows.values[:, 0, 0].astype(int) * parts
+        starts = start_coordinates(list(noise), plain, len(windows) > 1)
+        self._free = [place for place in starts if _bbsim.START[place] != "spin"]
         home = [plain.value(f"gimbal.start.{name}") for name in _bbsim.START[4:8]]
         self._home = np.array([*home, plain.value("ball.spin")], float)
 
@@ -150,7 +146,7 @@ class Experiment:
         values = np.column_stack([key.value(steps[:, free + k]) for k, key in enumerate(self.keys)])
         starts = np.zeros((len(steps), 1, len(_bbsim.START)))
         starts[:, 0, self._free] = steps[:, :free]
-        at = np.tile(self.times[self._rows], (count * len(steps), 1))
+        at = np.tile(self._window_times, (count * len(steps), 1))
         keys = {key.name: np.tile(np.repeat(its, windows), count) for key, its in zip(self.keys, values.T)
                 if key.name not in ROUGH}  # fmt: skip
         begins = (motions.states[:, None] + starts).reshape(-1, len(_bbsim.START))

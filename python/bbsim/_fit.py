@@ -33,13 +33,13 @@ _CANDIDATES = ("ball.inertia_factor", "ball.losses.rolling", "ball.losses.viscou
 def _compared(given: _bbsim.Given, maps: Sequence[str], log: _bbsim.Stored, notes: List[str]) -> List[str]:
     """The columns that the user maps, else those that the log has."""
     moved = _GIMBAL if given.has("gimbal.motion") else ()
-    mapped = [one.partition("=")[0].replace(" ", "") for text in maps for one in text.split(",")]
+    mapped = [part.partition("=")[0].replace(" ", "") for text in maps for part in text.split(",")]
     names = [name for name in dict.fromkeys(mapped) if name != "t"]
     names = names or [name for name in _BALL + _GIMBAL if name in log.names and name not in moved]
     notes += [f"note: {name} is given by gimbal.motion, and not compared with the log" for name in names if name in moved]
     names = [name for name in names if name not in moved]
     for name in names:
-        why = given.lacks(name)[0]
+        why = given.lacks(name)
         if why:
             raise refuse("--map", f"{name}, {why}", "columns that the scenario has")
     if not names:
@@ -60,14 +60,9 @@ def _log(given: _bbsim.Given, stored: _bbsim.Stored, columns: Sequence[str], not
         doubt = name != "t" and _bbsim.unit_doubt(name, largest)
         if doubt:
             notes.append(f"warning: {file}: {name} goes up to {largest!r}, read in SI: it looks like {doubt}")
-    times = values[0]
-    wrong = np.flatnonzero(~np.isfinite(times) | (np.diff(times, prepend=-np.inf) <= 0))
-    if wrong.size:
-        found = f"column t, row {wrong[0] + 1}: found {times[wrong[0]]:.17g}; allowed: finite times that increase"
-        raise fault(f"{file}: {found}")
     if not np.isfinite(values[1:]).any():
         raise fault(f"{file}: found no finite numbers in {', '.join(columns)}")
-    return Log(file, times, np.array(values[1:]), given)
+    return Log(file, values[0], np.array(values[1:]), given)
 
 
 def _log_key(text: str, columns: Sequence[str], units: Sequence[str]) -> LogKey:
@@ -216,11 +211,11 @@ class _Task:
 
 def _other(search: Search, windows: Windows, u: Array, ideal: bool = False) -> Optional[WindowsFit]:
     """Other windows at u, or those of an ideal rig; None if one does not run."""
-    its, logs = search.windows, search.windows.logs
+    fit, logs = search.windows, search.windows.logs
     if ideal:
         logs = [Log(log.name, log.times, log.values, _ideal(log.given)) for log in logs]
-    other = WindowsFit(logs, its.columns, windows, [] if ideal else its.keys, its.free, its.threads)
-    other.reweigh(its.noise)
+    other = WindowsFit(logs, fit.columns, windows, [] if ideal else fit.keys, fit.free, fit.threads)
+    other.reweigh(fit.noise)
     other.residuals(np.empty(0) if ideal else u)
     return other if other.point.runs.all() else None
 
@@ -241,10 +236,11 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
     windows, held, free, length = task.cut()
     fit = WindowsFit(task.logs, task.columns, windows, task.keys, free, task.threads)
     search, before = Search(fit, task.robust, progress), None
-    made = SimpleNamespace(interrupted=False, logs=[without_folders(file) for file in task.files], windows=len(windows),
-                           held=len(held), numbers=fit.size, window=length, suggestion=None,
-                           units=dict(zip(task.columns, task.units)), hold_out_before_rms={},
-                           hold_out_rms={}, ideal_rms={}, hold_out_ideal_rms={})  # fmt: skip
+    fitted = SimpleNamespace(
+        logs=[without_folders(file) for file in task.files], units=dict(zip(task.columns, task.units)), window=length,
+        windows=len(windows), held=len(held), numbers=fit.size, interrupted=False, suggestion=None,
+        ideal_rms={}, hold_out_before_rms={}, hold_out_rms={}, hold_out_ideal_rms={},
+    )  # fmt: skip
     try:
         fit.residuals(search.u)
         w = int(np.argmin(fit.point.runs))
@@ -258,42 +254,42 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
     except KeyboardInterrupt:
         if before is None:
             raise
-        made.interrupted = True
+        fitted.interrupted = True
     fit.residuals(search.u)
-    made.before_rms, made.residual_rms = before, _rms(fit)
-    notes = _describe(made, search)
-    if fit.kinked and fit.jumps and not made.white:
+    fitted.before_rms, fitted.residual_rms = before, _rms(fit)
+    notes = _describe(fitted, search)
+    if fit.kinked and fit.jumps and not fitted.white:
         search.doubts.append("the residuals jump, as with a dead band, and are correlated: the fit may be held between two "
                              "jumps, for which no deviation accounts; try starting values nearby, --starts, or a "
                              "longer --window, since windows forget which command a servo followed last")  # fmt: skip
-    made.series = _series(fit, False) if series else []
+    fitted.series = _series(fit, False) if series else []
     ideal = _ideal(task.logs[0].given)
-    if ideal is not None and not any(ideal.lacks(name)[0] for name in task.columns):
-        made.ideal_rms = _rms(_other(search, windows, search.u, True))
-    pairs = [(made.residual_rms[name], one) for name, one in made.ideal_rms.items()]
-    if not made.exact and sum(math.log(its / one) for its, one in pairs if one > 0) > 1e-3:
+    if ideal is not None and not any(ideal.lacks(name) for name in task.columns):
+        fitted.ideal_rms = _rms(_other(search, windows, search.u, True))
+    pairs = [(fitted.residual_rms[name], one) for name, one in fitted.ideal_rms.items()]
+    if not fitted.exact and sum(math.log(its / one) for its, one in pairs if one > 0) > 1e-3:
         search.doubts.append("the fit is worse than an ideal rig: try other starting values, bounds or keys")
     if len(held):
-        made.hold_out_before_rms = _rms(_other(search, held, np.zeros(len(task.keys))))
+        fitted.hold_out_before_rms = _rms(_other(search, held, np.zeros(len(task.keys))))
         its = _other(search, held, search.u)
-        made.hold_out_rms, made.series = _rms(its), made.series + (_series(its, True) if series and its else [])
-        made.hold_out_ideal_rms = _rms(_other(search, held, search.u, True)) if made.ideal_rms else {}
-    notes = _estimate(made, search) + notes
-    if made.interrupted:
+        fitted.hold_out_rms, fitted.series = _rms(its), fitted.series + (_series(its, True) if series and its else [])
+        fitted.hold_out_ideal_rms = _rms(_other(search, held, search.u, True)) if fitted.ideal_rms else {}
+    notes = _estimate(fitted, search) + notes
+    if fitted.interrupted:
         notes.append(f"interrupted after {counted(search.iterations, 'iteration')}: these are the best values so far")
-    if not made.white:
-        notes.append(f"neighboring residuals are correlated ({made.correlated}); the model is incomplete and the "
+    if not fitted.white:
+        notes.append(f"neighboring residuals are correlated ({fitted.correlated}); the model is incomplete and the "
                      "intervals are too short")  # fmt: skip
-        best = None if made.interrupted else search.suggestion(_candidates(task))
+        best = None if fitted.interrupted else search.suggestion(_candidates(task))
         if best is not None:
-            made.suggestion = {"key": best[0], "residuals_smaller_by": best[1]}
+            fitted.suggestion = {"key": best[0], "residuals_smaller_by": best[1]}
             notes.append(f"--free {best[0]} could make the residuals about {_bbsim.rounded(100 * best[1], 2)} % smaller")
-    made.warnings = [text.partition(": ")[2] for text in task.warnings]
-    made.notes = [*made.warnings, *task.notes, *search.doubts, *notes]
-    return made
+    fitted.warnings = [text.partition(": ")[2] for text in task.warnings]
+    fitted.notes = [*fitted.warnings, *task.notes, *search.doubts, *notes]
+    return fitted
 
 
-def _describe(made: Any, search: Search) -> List[str]:
+def _describe(fitted: Any, search: Search) -> List[str]:
     """What the residuals tell: whether they are white; notes on outliers."""
     fit, (rms, usual, counts) = search.windows, search.windows.sizes()
     errors = np.nan_to_num(fit.point.differences).reshape(fit.windows.values.shape)
@@ -301,45 +297,45 @@ def _describe(made: Any, search: Search) -> List[str]:
     products = (weighted[..., 1:] * weighted[..., :-1]).sum((0, 2)) / np.maximum((weighted**2).sum((0, 2)), 1e-300)
     exact = rms <= 1e-6 * search.spreads
     # Fitting the starts reduces correlation, so white residuals rarely reach this.
-    made.white = bool(np.all(exact | (products < 3 / np.sqrt(np.maximum(counts, 1)))))
-    made.exact = bool(exact.all())
-    made.correlated = ", ".join(f"{name}: {_bbsim.rounded(one, 2)}" for name, one in zip(fit.columns, products))
+    fitted.white = bool(np.all(exact | (products < 3 / np.sqrt(np.maximum(counts, 1)))))
+    fitted.exact = bool(exact.all())
+    fitted.correlated = ", ".join(f"{name}: {_bbsim.rounded(one, 2)}" for name, one in zip(fit.columns, products))
     far, notes = (np.abs(errors) > 5 * usual[:, None]) & ~exact[:, None], []
-    made.outliers = dict(zip(fit.columns, map(int, far.sum((0, 2)))))
-    for c, (name, count) in enumerate(made.outliers.items()):
+    fitted.outliers = dict(zip(fit.columns, map(int, far.sum((0, 2)))))
+    for c, (name, count) in enumerate(fitted.outliers.items()):
         if count:
             w, row = (int(one[0]) for one in np.nonzero(far[:, c]))
             words = f"{count} number of {name} is" if count == 1 else f"{count} numbers of {name} are"
-            place = f"t = {fit.windows.times[w, row]:.6g} s of {made.logs[fit.windows.log[w]]}"
+            place = f"t = {fit.windows.times[w, row]:.6g} s of {fitted.logs[fit.windows.log[w]]}"
             notes.append(f"{words} beyond 5 standard deviations, the first at {place}"
                          + ("" if search.robust else "; --loss huber gives such numbers less weight"))  # fmt: skip
     return notes
 
 
-def _estimate(made: Any, search: Search) -> List[str]:
+def _estimate(fitted: Any, search: Search) -> List[str]:
     """The parameters, and notes on them."""
     linear, scatter, u = search.linear(), search.scatter(), search.u
-    made.parameters, made.correlations = [], linear.correlations
+    fitted.parameters, fitted.correlations = [], linear.correlations
     for k, key in enumerate(search.keys):
-        one = SimpleNamespace(key=key.name, unit=key.unit, before=key.start, estimate=float(key.value(u[k])),
-                              sd=math.inf, told=bool(linear.told[k]), interval=[-math.inf, math.inf])  # fmt: skip
-        one.at_bound = one.estimate in (key.lower, key.upper)
-        if one.told:
-            one.sd = math.sqrt(linear.covariance[k, k] * scatter) * abs(key.slope(u[k]))
+        parameter = SimpleNamespace(key=key.name, unit=key.unit, before=key.start, estimate=float(key.value(u[k])),
+                                    sd=math.inf, told=bool(linear.told[k]), interval=[-math.inf, math.inf])  # fmt: skip
+        parameter.at_bound = parameter.estimate in (key.lower, key.upper)
+        if parameter.told:
+            parameter.sd = math.sqrt(linear.covariance[k, k] * scatter) * abs(key.slope(u[k]))
             try:
-                one.interval = search.interval(k, linear, not made.interrupted)
+                parameter.interval = search.interval(k, linear, not fitted.interrupted)
             except KeyboardInterrupt:
-                made.interrupted = True
-                one.interval = search.interval(k, linear, False)
-        made.parameters.append(one)
-    made.identifiable = not linear.untold and not search.doubts
+                fitted.interrupted = True
+                parameter.interval = search.interval(k, linear, False)
+        fitted.parameters.append(parameter)
+    fitted.identifiable = not linear.untold and not search.doubts
     notes = [f"not identifiable: {words}" for words in linear.untold]
     deaf = search.windows.deaf
     if deaf.any():
         unheard = ", ".join(key.name for key, its in zip(search.keys, deaf.T) if its.any())
         notes.append(f"{deaf.any(1).sum()} of {counted(len(deaf), 'window')} tell nothing of {unheard}: no command passes "
                      "the dead band in them")  # fmt: skip
-    notes += [f"{one.key} is at a bound of its range" for one in made.parameters if one.at_bound]
+    notes += [f"{one.key} is at a bound of its range" for one in fitted.parameters if one.at_bound]
     most = np.abs(np.nan_to_num(linear.correlations) * (1 - np.eye(len(u)))).max(0)
     names = [key.name for key, one in zip(search.keys, most) if one > 0.95]
     if names:
@@ -368,7 +364,6 @@ def fit(scenario: Scenario, logs: Any, free: Any, *, set: Settings = None, map: 
 
 
 def _carry_out(given: _bbsim.Given, options: Dict[str, Any], progress: Progress, say: Any) -> Any:
-    """Fits, and writes the files that the options ask for."""
     reads = dict.fromkeys(options["logs"], "the log")
     if options["report"]:
         reads[_bbsim.file_of_template("fit.html")] = "the template of pages"
@@ -381,16 +376,15 @@ def _carry_out(given: _bbsim.Given, options: Dict[str, Any], progress: Progress,
         _bbsim.filled_page("fit.html", "", "{}")
     for text in task.warnings:
         say(text)
-    made = _fit(task, progress, bool(files["report"]))
+    fitted = _fit(task, progress, bool(files["report"]))
     progress(1, "")
-    made.report = _fit_text.report(made)
+    fitted.report = _fit_text.report(fitted)
     texts = {"json": _fit_text.as_document, "output": _fit_text.scenario, "report": _fit_text.page}
-    write_all(given, files, {name: its(made, given) for name, its in texts.items() if files[name]}, say)
-    return made
+    write_all(given, files, {name: its(fitted, given) for name, its in texts.items() if files[name]}, say)
+    return fitted
 
 
 def command(options: Dict[str, Any], say: Any) -> int:
-    """`bbsim fit`; `say` prints a message unless -q is given."""
     options["logs"] = options.pop("log")
-    made = carry_out("fit", _carry_out, options, say)
-    return 130 if made is None or made.interrupted else 0
+    fitted = carry_out("fit", _carry_out, options, say)
+    return 130 if fitted is None or fitted.interrupted else 0

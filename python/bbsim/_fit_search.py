@@ -126,7 +126,6 @@ class Search:
         self.progress(self.iterations / (self.iterations + 5), f"iteration {self.iterations}, rms residual {rms} noise")
 
     def begin(self, starts: Optional[int]) -> None:
-        """Chooses where to start."""
         changes, known = self.scale_keys(), self.windows.deaf.all(0)
         known |= _fit_servos.begin_at_delays(self)
         self.windows.find_kinks(self.u)

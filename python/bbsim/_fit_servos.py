@@ -14,6 +14,7 @@ from . import _bbsim
 from ._result import simulate
 from ._scenario import Array
 
+DEAD_BANDS = tuple(f"gimbal.servo{axis}.dead_band" for axis in ("", ".phi", ".theta"))
 _FORGET = 1.0  # s; a servo comes to rest in less
 _SCANNED, _DELAYS = 201, 0.2  # delays in a scan, and how far it goes without bounds (s)
 
@@ -38,11 +39,10 @@ def _quiet(log: Any, begins: Array, ends: Array) -> Array:
 def deaf_windows(logs: Sequence[Any], windows: Any, keys: List[str]) -> Array:
     """Of each window and key: whether the key acts only through servos that follow no command there."""
     deaf, given = np.zeros((len(windows), len(keys)), bool), logs[0].given
-    bands = [f"gimbal.servo{axis}.dead_band" for axis in ("", ".phi", ".theta")]
     servos = [bool(re.match(r"gimbal\.servo|controller\.commands.*\.delay$", key)) for key in keys]
     # A band that is free may be narrower; behind a linkage, commands to servos are not phi and theta.
     has = [given.has(key) for key in ("controller.commands", "gimbal.linkage", "gimbal.three_servos")]
-    banded = any(given.value(one) for one in bands) and not set(bands) & set(keys)
+    banded = any(map(given.value, DEAD_BANDS)) and not {*DEAD_BANDS} & {*keys}
     if not (any(servos) and banded and has == [True, False, False]):
         return deaf
     for number in np.unique(windows.log):

@@ -30,9 +30,9 @@ def number(value: float, sd: float = 0.0) -> str:
 
 def _parameters(fitted: Any) -> List[List[str]]:
     lines = [["key", "before", "estimate", "sd", "95 % from", "to", "unit"]]
-    for one in fitted.parameters:
-        known = [f"{one.sd:.3g}", *(number(end, one.sd) for end in one.interval)] if one.told else ["-"] * 3
-        lines.append([one.key, number(one.before), number(one.estimate, one.sd), *known, one.unit or "1"])
+    for found in fitted.parameters:
+        known = [f"{found.sd:.3g}", *(number(end, found.sd) for end in found.interval)] if found.told else ["-"] * 3
+        lines.append([found.key, number(found.before), number(found.estimate, found.sd), *known, found.unit or "1"])
     return lines
 
 
@@ -44,54 +44,49 @@ def _residuals(fitted: Any) -> List[List[str]]:
     if held:
         tables += [fitted.hold_out_ideal_rms] * ideal + [fitted.hold_out_before_rms, fitted.hold_out_rms]
         head += ["held out: ideal rig", "before", "fitted"] if ideal else ["held out: before", "fitted"]
-    lines = [["rms residual", *head, "unit"]]
-    for name, unit in fitted.units.items():
-        lines.append([name, *(f"{table[name]:.3g}" if name in table else "-" for table in tables), unit or "1"])
-    return lines
+    rows = [[name, *(f"{table[name]:.3g}" if name in table else "-" for table in tables), unit or "1"]
+            for name, unit in fitted.units.items()]  # fmt: skip
+    return [["rms residual", *head, "unit"], *rows]
 
 
-def remarks(fitted: Any) -> str:
+def _remarks(fitted: Any) -> List[str]:
     text = f"{fitted.numbers} numbers in {counted(fitted.windows, 'window')}"
     text += f" of {number(fitted.window)} s" if math.isfinite(fitted.window) else ""
     text += f", {fitted.held} more held out" if fitted.held else ""
     lines = [f"{text}; {counted(len(fitted.logs), 'log')}"]
-    for note in fitted.notes[len(fitted.warnings) :]:
-        lines.append(note if note.startswith("not identifiable: ") else f"note: {note}")
-    return "".join(line + "\n" for line in lines)
+    notes = fitted.notes[len(fitted.warnings) :]
+    return lines + [note if note.startswith("not identifiable: ") else f"note: {note}" for note in notes]
 
 
 def report(fitted: Any) -> str:
-    return _bbsim.aligned(_parameters(fitted)) + "\n" + _bbsim.aligned(_residuals(fitted)) + "\n" + remarks(fitted)
+    return "\n".join([*map(_bbsim.aligned, (_parameters(fitted), _residuals(fitted))), *_remarks(fitted), ""])
 
 
 def as_document(fitted: Any, _: Any) -> str:
-    """The JSON."""
     keys = ("key", "estimate", "sd", "interval", "at_bound")
-    made = {"parameters": [{key: getattr(one, key) for key in keys} for one in fitted.parameters],
-            "residual_rms": fitted.residual_rms, "hold_out_rms": fitted.hold_out_rms, "ideal_rms": fitted.ideal_rms,
-            "hold_out_ideal_rms": fitted.hold_out_ideal_rms, "identifiable": fitted.identifiable,
-            "correlations": fitted.correlations.tolist(), "white": fitted.white, "suggestion": fitted.suggestion,
-            "outliers": fitted.outliers, "notes": fitted.notes, "interrupted": fitted.interrupted}  # fmt: skip
+    names = ("residual_rms", "hold_out_rms", "ideal_rms", "hold_out_ideal_rms", "identifiable", "correlations", "white",
+             "suggestion", "outliers", "notes", "interrupted")  # fmt: skip
     optional = ("ideal_rms", "hold_out_ideal_rms", "suggestion", "interrupted")
-    return as_json({name: value for name, value in made.items() if value or name not in optional})
+    made: Dict[str, Any] = {"parameters": [{key: getattr(one, key) for key in keys} for one in fitted.parameters]}
+    made.update((name, getattr(fitted, name)) for name in names if name not in optional or getattr(fitted, name))
+    return as_json({**made, "correlations": fitted.correlations.tolist()})
 
 
 def scenario(fitted: Any, given: _bbsim.Given) -> str:
-    """The scenario's text with the estimates."""
     text = f"# Fitted by bbsim {_bbsim.__version__} to\n"
     for log in fitted.logs:
         # Standard input has been read.
         content = Path(log).read_bytes() if Path(log).is_file() else None
         text += f"#   {log}" + (f" (SHA-256 {hashlib.sha256(content).hexdigest()[:16]})" if content else "") + "\n"
     settings = []
-    for one in fitted.parameters:
-        unit = f" {one.unit}" if one.unit else ""
-        ends = [number(end, one.sd) for end in one.interval]
-        known = f", 95 % from {ends[0]} to {ends[1]}{unit}; was {number(one.before)}{unit}"
-        text += f"# {one.key}: {number(one.estimate, one.sd)}{unit}"
-        text += (known if one.told else ", which the logs do not determine") + "\n"
-        if not one.key.startswith("log."):  # no scenario has those
-            settings.append((one.key, f"{one.estimate!r}{unit}"))
+    for parameter in fitted.parameters:
+        unit = f" {parameter.unit}" if parameter.unit else ""
+        ends = [number(end, parameter.sd) for end in parameter.interval]
+        known = f", 95 % from {ends[0]} to {ends[1]}{unit}; was {number(parameter.before)}{unit}"
+        text += f"# {parameter.key}: {number(parameter.estimate, parameter.sd)}{unit}"
+        text += (known if parameter.told else ", which the logs do not determine") + "\n"
+        if not parameter.key.startswith("log."):  # no scenario has those
+            settings.append((parameter.key, f"{parameter.estimate!r}{unit}"))
     return given.edited(settings, text)
 
 
@@ -132,21 +127,17 @@ def page(fitted: Any, given: _bbsim.Given) -> str:
     names = list(fitted.units)
     pairs = [pair for pair in (["x", "y"], ["x_measured", "y_measured"]) if set(pair) <= set(names)]
     symbols = {column[0]: column[1] for column in _bbsim.known_columns("rad")}
-    radius = {one.key: one.estimate for one in fitted.parameters}.get("ball.radius")
-    if radius is None:
-        radius = given.value("ball.radius")
+    radius = {one.key: one.estimate for one in fitted.parameters}.get("ball.radius", given.value("ball.radius"))
     rows = sum(len(one.times) for one in fitted.series)
     step = max(1, -(-rows // _MOST_ROWS))
-    runs = []
-    for number, log in enumerate(fitted.logs):
-        windows = sorted((one for one in fitted.series if one.log == number), key=lambda one: one.times[0])
-        if windows:
-            runs.append(_run(fitted, log, windows, step))
+    of_logs = [[one for one in fitted.series if one.log == number] for number in range(len(fitted.logs))]
+    runs = [_run(fitted, log, sorted(windows, key=lambda one: one.times[0]), step)
+            for log, windows in zip(fitted.logs, of_logs) if windows]  # fmt: skip
     tables = {name: {"head": lines[0], "rows": lines[1:]}
               for name, lines in (("parameters", _parameters(fitted)), ("residuals", _residuals(fitted)))}  # fmt: skip
     columns = [{"name": name, "symbol": symbols.get(name, name), "meaning": "", "unit": unit}
                for name, unit in fitted.units.items()]  # fmt: skip
     data = {"format": 1, "version": _bbsim.__version__, "title": title, "scenario": given.name,
-            "logs": fitted.logs, **tables, "remarks": remarks(fitted).splitlines(),
+            "logs": fitted.logs, **tables, "remarks": _remarks(fitted),
             "place": pairs[0] if pairs else None, "radius": radius, "columns": columns, "runs": runs}  # fmt: skip
     return _bbsim.filled_page("fit.html", title, json.dumps(data, ensure_ascii=False))

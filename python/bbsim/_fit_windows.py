@@ -13,7 +13,7 @@ import numpy as np
 from scipy.sparse import block_diag, csr_matrix, hstack
 
 from . import _bbsim
-from ._fit_servos import deaf_windows
+from ._fit_servos import DEAD_BANDS, deaf_windows
 from ._result import simulate
 from ._scenario import Array, InputError
 from ._task import FreeKey
@@ -88,9 +88,8 @@ def _windows(parts: Sequence[Tuple[int, Array, Array]], delay: float) -> Windows
     rows = np.array([len(part[2]) for part in kept], int)
     most = rows.max(initial=0)
     times = np.array([np.pad(t, (0, most - len(t)), "edge") for _, _, t, _ in kept]).reshape(len(kept), most)
-    values = np.full((len(kept), len(kept[0][3]) if kept else 0, most), np.nan)
-    for into, (_, _, t, its) in zip(values, kept):
-        into[:, : len(t)] = its
+    filled = [np.pad(its, ((0, 0), (0, most - len(t))), constant_values=np.nan) for _, _, t, its in kept]
+    values = np.array(filled).reshape(len(kept), len(kept[0][3]) if kept else 0, most)
     logs, begin = np.array([part[0] for part in kept], int), np.array([part[1] for part in kept], float)
     return Windows(logs, begin, times[:, -1:].ravel(), rows, times, values)
 
@@ -100,10 +99,10 @@ def start_coordinates(columns: Sequence[str], given: _bbsim.Given, from_within: 
     A log that is one window begins with the scenario's spin and gimbal."""
     along = np.array([[name in ("v" + axis, axis, axis + "_measured") for name in columns] for axis in "xy"])
     axes = [axis for axis in (0, 1) if along[axis].any() or not along.any(0).all()]
-    made = [*axes, *(2 + axis for axis in axes)]
+    places = [*axes, *(2 + axis for axis in axes)]
     if from_within and given.begins_anywhere():
-        made += [4, 5, 6, 7]
-    return made + ([_SPIN] if from_within and len(axes) == 2 else [])
+        places += [4, 5, 6, 7]
+    return places + ([_SPIN] if from_within and len(axes) == 2 else [])
 
 
 class _Point(NamedTuple):
@@ -137,8 +136,7 @@ class WindowsFit:
         self._solvers: Optional[Tuple[Array, Array]]
         self.restart()
         given = logs[0].given
-        self.jumps = bool(given.value("controller.sampling.resolution")) or any(
-            given.value(f"gimbal.servo{axis}.dead_band") for axis in ("", ".phi", ".theta"))
+        self.jumps = any(map(given.value, (*DEAD_BANDS, "controller.sampling.resolution")))
         self.deaf = deaf_windows(logs, windows, [key.name for key in keys])
         self.key_steps, self.start_steps = np.full(len(keys), KEY_STEP), _START_STEPS.copy()
 
@@ -326,8 +324,8 @@ class WindowsFit:
         """The derivatives of the residuals by the keys and all starts."""
         factors = self.over_noise()
         blocks = [csr_matrix((self.base.by_start[w] * factors[w][:, None])[self.there[w]]) for w in range(len(factors))]
-        made = hstack([csr_matrix((self.base.by_key * factors[..., None])[self.there]), block_diag(blocks)], "csr")
-        return made if made.shape[1] > 300 else made.toarray()
+        slopes = hstack([csr_matrix((self.base.by_key * factors[..., None])[self.there]), block_diag(blocks)], "csr")
+        return slopes if slopes.shape[1] > 300 else slopes.toarray()
 
     def find_kinks(self, u: Array, wide: Any = WIDE * KEY_STEP) -> None:
         """Whether the residuals near u have kinks, jumps or flat stretches, as with dry friction or dead bands: slopes
@@ -394,9 +392,8 @@ class WindowsFit:
 
     def guess_velocities(self, u: Array) -> Array:
         """Starts: in each window, that which fits best of some with velocities over the first rows, and at rest."""
-        best = self._guess()
+        best = starts = self._guess()
         least = np.full(len(best), np.inf)
-        starts = best
         for rows in (0, 2, 4, 8):
             tried = starts.copy()
             for axis, name in ((0, "x"), (1, "y")):

@@ -91,7 +91,7 @@ def root_locus(rig: _bbsim.Given, key: str, bounds: Sequence[str], count: int) -
 def step(loop: Linearization) -> Columns:
     """The linear responses to a unit step of each reference, until the slowest mode has decayed to 0.1 %, or has grown
     tenfold. A sampled loop has a row for each sample."""
-    from scipy.signal import cont2discrete, dlsim  # take long to import
+    from scipy.signal import cont2discrete, dstep  # take long to import
 
     if not loop.inputs:
         raise fault("found a controller of your own, whose answer to a reference is not known; allowed: a law of bbsim")
@@ -101,13 +101,12 @@ def step(loop: Linearization) -> Columns:
     end = math.log(1000) / -growth if growth < 0 else math.log(10) / growth
     count = min(int(round(end / loop.dt)), 20000) if loop.dt else 500
     period = loop.dt or end / count
+    system = (loop.A, loop.B, loop.C, loop.D)
+    responses = dstep((*system, period) if loop.dt else cont2discrete(system, period), n=count + 1)[1]
     columns = {"t": np.arange(count + 1) * period, "x": np.full(count + 1, np.nan), "y": np.full(count + 1, np.nan)}
     for output in ("x", "y"):
         if output in loop.outputs and f"{output}_reference" in loop.inputs:
-            row, of = [loop.outputs.index(output)], [loop.inputs.index(f"{output}_reference")]
-            system = (loop.A, loop.B[:, of], loop.C[row], loop.D[row][:, of])
-            sampled = (*system, period) if loop.dt else cont2discrete(system, period)
-            columns[output] = dlsim(sampled, np.ones(count + 1))[1][:, 0]
+            columns[output] = responses[loop.inputs.index(f"{output}_reference")][:, loop.outputs.index(output)]
     return columns
 
 
@@ -285,7 +284,6 @@ def draw_root_locus(columns: Columns, loop: Linearization, key: str, width: floa
 
 
 def draw_step(columns: Columns, loop: Linearization, width: float = 135.0) -> Figure:
-    """The response of x and y to a unit step of their references."""
     figure = _figure(width, 0.55 * width)
     axes = figure.subplots()
     axes.axhline(1, **QUIET)
@@ -336,7 +334,7 @@ def draw_accuracy(text: str, title: str, wide: Optional[float]) -> Tuple[Any, in
     width = wide or 135.0
     height = 0.6 * (width - 19)
     sheet = Sheet(width, height + 14, title, "", list(looks.items()))
-    axes = sheet.panel(Box(15.0, 4.8, width - 4, 4.8 + height), "processor time of a run (µs)")
+    axes = sheet.panel(Box(15.0, 4.8, width - 19, height), "processor time of a run (µs)")
     every = [point for method in points.values() for point in method]
     label = "error: largest |Δx|, |Δy| over the output times (m)"
     logarithmic(axes.xaxis, covered([error for error, _ in every]), label, air=0.04)

@@ -19,7 +19,7 @@ from ._plot_sheet import FONT, Figure, require_font, style
 from ._plot_sweeps import draw_sweep
 from ._result import File, Result, Texts
 from ._scenario import (InputError, Log, Settings, as_files, counted, fault, from_to, given, is_table, listed,
-                        log_choice, overrides, refuse, tables_named, without_folders)  # fmt: skip
+                        log_choice, overrides, refuse, without_folders)  # fmt: skip
 
 Drawn = Union[Log, Result, "np.ndarray[Any, np.dtype[np.void]]"]
 
@@ -81,17 +81,17 @@ class _Options:
             raise fault("set: allowed with --scenario, in which it sets a key")
 
     def read(self, files: Sequence[Any], say: Any) -> List[_bbsim.Stored]:
-        stored, beside = [], _bbsim.Beside(self.summary, self.scenario, overrides(self.set))
+        results, beside = [], _bbsim.Beside(self.summary, self.scenario, overrides(self.set))
         for file in files:
             if isinstance(file, Result) or not (isinstance(file, (str, os.PathLike)) or is_table(file)):
-                stored.append(_in_memory(file))
+                results.append(_in_memory(file))
                 continue
             with as_files(file) as (name,):
-                one, notes = _bbsim.read_result(name, beside, self.log)
-            stored.append(one)
+                result, notes = _bbsim.read_result(name, beside, self.log)
+            results.append(result)
             for note in notes:
                 say(without_folders(note))
-        return stored
+        return results
 
     def draw(self, results: Sequence[_bbsim.Stored]) -> Tuple[Figure, str]:
         """The figure, and what is in it."""
@@ -155,8 +155,7 @@ def plot(files: Union[Drawn, Sequence[Drawn]], *, columns: Texts = (), over: Tex
     elif not all_files:
         raise refuse("files", "none", "a file, a result, or a list of them")
     else:
-        with tables_named():
-            figure, _ = options.draw(options.read(all_files, lambda note: None))
+        figure, _ = options.draw(options.read(all_files, lambda note: None))
     if output is not None:
         _save(figure, os.fspath(output), chosen)
     return figure
@@ -190,12 +189,12 @@ def _tasks(files: List[str], kind: str, options: Dict[str, Any], ending: str) ->
     if output:
         return [(files, str(output), "-o")]
     tasks = []
-    for its in [files] if together else [[file] for file in files]:
-        if its[0] == "-":
+    for group in [files] if together else [[file] for file in files]:
+        if group[0] == "-":
             raise fault("output: missing; standard input (-) gives the picture no name")
-        name = Path(Path(its[0]).name if kind else its[0]).with_suffix("")
+        name = Path(Path(group[0]).name if kind else group[0]).with_suffix("")
         ends = f"-{together}.{ending}" if together else f".{ending}"
-        tasks.append((its, f"{name}{ends}", f"the picture of {its[0]}, without -o"))
+        tasks.append((group, f"{name}{ends}", f"the picture of {group[0]}, without -o"))
     return tasks
 
 
@@ -215,7 +214,6 @@ def _declare(tasks: Sequence[Tuple[List[str], str, str]], options: Dict[str, Any
 
 
 def command(options: Dict[str, Any], say: Any) -> None:
-    """`bbsim plot`; `say` prints a message unless -q is given."""
     _bbsim.end_at_signals()
     files, format, shared = options["files"], _format(options["output"], options["format"]), _Options(options)
     tasks = _tasks(files, shared.kind, options, format)
@@ -224,18 +222,18 @@ def command(options: Dict[str, Any], say: Any) -> None:
     _declare(tasks, options)
     # Draw what can be drawn, even if other files have faults.
     problems: List[Tuple[str, str]] = []
-    for its, output, what in tasks:
+    for group, output, what in tasks:
         try:
-            if "-" in its and not shared.kind and sys.stdin.isatty():
+            if "-" in group and not shared.kind and sys.stdin.isatty():
                 say("reading a CSV from the terminal; Ctrl-D ends it, Ctrl-C ends bbsim")
-            results = [] if shared.kind else shared.read(its, say)
+            results = [] if shared.kind else shared.read(group, say)
             outputs = _bbsim.Outputs()
             for result in results:
                 outputs.reads_with(result)
             outputs.writes(output, what)
             if not options["output"] and not options["force"]:
                 _bbsim.require_mark(output, "a picture of bbsim's", _MARK)
-            figure, content = shared.draw(results) if results else shared.draw_scenario(its[0], output)
+            figure, content = shared.draw(results) if results else shared.draw_scenario(group[0], output)
             _save(figure, output, format)
             if output != "-":
                 say(f"{output}: {content}")

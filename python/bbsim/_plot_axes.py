@@ -178,10 +178,6 @@ def linear(axis: Any, low: float, high: float, label: str = "", *, numbered: boo
     _set(axis, low, high, locator, formatter, label, numbered)
 
 
-def better_by_log(range_: Range, decades: float = 3) -> bool:
-    return range_ is not None and range_[0] > 0 and range_[1] / range_[0] > 10**decades
-
-
 def _of_decade(value: float, _: int) -> str:
     exponent = math.floor(math.log10(value) + 1e-9)
     mantissa, ten = round(value / 10.0**exponent), power_of_ten(exponent)

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections import namedtuple
 from dataclasses import dataclass
-from typing import Dict, List, Optional, Sequence
+from typing import Dict, List, Sequence
 
 import numpy as np
 
@@ -113,29 +113,22 @@ class Runs:
     def asked(self, lists: Sequence[Sequence[str]]) -> List[Panel]:
         panels = []
         for names in lists:
-            panel: Optional[Panel] = None
             for name in names:
                 found = f"columns: found {name or 'nothing'}"
                 if name == "t":
                     raise fault(f"{found}, over which the others are drawn")
                 if not self.having(name):
-                    raise fault(found + self._allowed(name))
+                    its, source = self.runs[0].names, self.runs[0].file or "the result"
+                    near = _bbsim.nearest(name, [*its, "path"])
+                    hint = f"; did you mean {near}?" if near else ""
+                    raise fault(f"{found}{hint}; {source} has {', '.join(its)}, and path is their picture in the plane")
                 if self.range(name) is None:
                     raise fault(f"{found}, which holds no finite number")
-                panel = panel or Panel(self.unit(name), [])
-                if self.unit(name) != panel.unit:
-                    beside = f"{found} in a panel with {panel.lines[0].column}, which has another unit"
+                if self.unit(name) != self.unit(names[0]):
+                    beside = f"{found} in a panel with {names[0]}, which has another unit"
                     raise fault(f"{beside}; a semicolon begins another panel")
-                panel.lines.append(self.line(name))
-            if panel:
-                panels.append(panel)
+            panels.append(Panel(self.unit(names[0]), [self.line(name) for name in names]))
         return self._finished(panels, may_split=False)
-
-    def _allowed(self, name: str) -> str:
-        names, source = self.runs[0].names, self.runs[0].file or "the result"
-        near = _bbsim.nearest(name, [*names, "path"])
-        hint = f"; did you mean {near}?" if near else ""
-        return f"{hint}; {source} has {', '.join(names)}, and path is their picture in the plane"
 
     def _finished(self, wanted: Sequence[Panel], may_split: bool) -> List[Panel]:
         panels: List[Panel] = []

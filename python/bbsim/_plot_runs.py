@@ -259,11 +259,11 @@ def draw_runs(results: Sequence[_bbsim.Stored], asked: Sequence[Sequence[str]], 
     tallest = max(top + pitch * count for top, count in zip(tops, counts))
     sheet = Sheet(sheet_width, tallest + _UNDER, title, subtitle, legend)
     if with_path:
-        path.draw(sheet, Box(_LEFT, _ABOVE, _LEFT + part, path_room - _BELOW))
+        path.draw(sheet, Box(_LEFT, _ABOVE, part, path_height))
     waiting, abscissa = iter(panels), _Abscissa(runs)
     for column in sorted(range(len(counts)), reverse=with_path):  # with a path, panels fill the right column first
         for i in range(counts[column]):
             left, top = _LEFT + column * (part + _BETWEEN), tops[column] + i * pitch
-            box = Box(left, top + _ABOVE, left + part, top + pitch - _BELOW)
+            box = Box(left, top + _ABOVE, part, pitch - _ABOVE - _BELOW)
             _time_panel(sheet, box, runs, next(waiting), abscissa, lowest=i + 1 == counts[column])
     return sheet.figure, len(panels) + with_path

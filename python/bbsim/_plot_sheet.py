@@ -29,20 +29,12 @@ Legend = Sequence[Tuple[str, Stroke]]
 
 
 class Box(NamedTuple):
-    """mm from the left, and from below the heading."""
+    """mm from the left, and from below the heading; width and height."""
 
     left: float
     top: float
-    right: float
-    bottom: float
-
-    @property
-    def across(self) -> float:
-        return self.right - self.left
-
-    @property
-    def up(self) -> float:
-        return self.bottom - self.top
+    across: float
+    up: float
 
 
 _STYLE = {
@@ -124,17 +116,7 @@ def cut(text: str, room: float, size: float) -> str:
     return next((short for short in kept if width_of(short, size) <= room), "…")
 
 
-def _cut_all(texts: Sequence[str], room: float) -> List[str]:
-    """The texts of a legend; the longest ones are cut until they fit into the room together."""
-    widths = [width_of(clean(text), SMALL) for text in texts]
-    most = max(widths)
-    while sum(min(width, most) for width in widths) > room and most > 3:
-        most *= 0.95
-    return [cut(text, most, SMALL) for text in texts]
-
-
 def number(value: float, digits: int = 4) -> str:
-    """A number for readers."""
     return f"{value:.{digits}g}".replace("-", "−")
 
 
@@ -146,7 +128,6 @@ ORANGE = "#d55e00"
 
 
 def stroke(index: int) -> Stroke:
-    """That of the index-th line."""
     return {"color": _COLORS[index % len(_COLORS)], "lw": 1.1, "ls": _DASHES[index % len(_DASHES)]}
 
 
@@ -189,7 +170,7 @@ class Sheet:
                      columnspacing=self._GAP / em, labelspacing=0.35, numpoints=1)  # fmt: skip
 
     def axes(self, box: Box) -> Axes:
-        corner = box.left / self.width, 1 - (self._heading + box.bottom) / self.height
+        corner = box.left / self.width, 1 - (self._heading + box.top + box.up) / self.height
         return self.figure.add_axes([*corner, box.across / self.width, box.up / self.height])
 
     def panel(self, box: Box, heading: str, legend: Legend = ()) -> Axes:
@@ -199,6 +180,10 @@ class Sheet:
         axes.text(-0.5 / width, 1 + 1.4 / box.up, heading, transform=axes.transAxes, size=TEXT, va="baseline", ha="left")
         if legend:
             room = width - width_of(heading, TEXT) - len(legend) * (self._SAMPLE + self._GAP)
-            names = _cut_all([name for name, _ in legend], room)
+            widths = [width_of(clean(name), SMALL) for name, _ in legend]
+            most = max(widths)
+            while sum(min(one, most) for one in widths) > room and most > 3:  # cuts the longest names until all fit
+                most *= 0.95
+            names = [cut(name, most, SMALL) for name, _ in legend]
             self._legend(axes, legend, names, len(names), "lower right", (1, 1 + 1.2 / box.up))
         return axes

@@ -12,7 +12,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm, Normalize
 
 from . import _bbsim
-from ._plot_axes import (CLOSE, Unit, Units, better_by_log, choose_scale, covered, fitted, is_wide, linear,
+from ._plot_axes import (CLOSE, Unit, Units, choose_scale, covered, fitted, is_wide, linear,
                          linear_limits, width, words)  # fmt: skip
 from ._plot_sheet import ORANGE, Box, Sheet, Stroke, mark, number, stroke
 from ._scenario import counted, fault, refuse
@@ -44,7 +44,7 @@ class _Measure:
     def __init__(self, sweep: _Sweep, name: str, close: float = CLOSE, decades: float = 3) -> None:
         self.name, self.values = name, sweep.stored.numbers(name)
         whole = covered(self.values[sweep.done])
-        self.log = better_by_log(whole, decades)
+        self.log = whole is not None and whole[0] > 0 and whole[1] / whole[0] > 10**decades
         unit, column = _bbsim.measure_unit(name)
         # Frequencies of the loop stay in rad/s.
         drawn = sweep.units.drawn(unit, column in ("gamma", "spin")) if column or unit != "rad/s" else Unit(unit)
@@ -150,7 +150,7 @@ def _shared(key: _Key) -> Tuple[Any, Any, Any]:
 def _map(sweep: _Sweep, name: str, over: _bbsim.SweepKey, against: _bbsim.SweepKey, sheet: Sheet, box: Box,
          lowest: bool) -> None:  # fmt: skip
     """A map of medians, with a color scale on its right, logarithmic over more than two decades."""
-    box = box._replace(right=box.right - 16)
+    box = box._replace(across=box.across - 16)
     along, up, colors = _Key(sweep, over), _Key(sweep, against), _Measure(sweep, name, close=1e-2, decades=2)
     axes = sheet.panel(box, colors.heading)
     axes.grid(False)
@@ -162,7 +162,7 @@ def _map(sweep: _Sweep, name: str, over: _bbsim.SweepKey, against: _bbsim.SweepK
     if colors.range is not None:
         low, high = colors.range if is_wide(colors.range) else linear_limits(colors.range, 0)
         norm = (LogNorm if colors.log else Normalize)(low, high)
-        scale = sheet.axes(box._replace(left=box.right + 2.5, right=box.right + 5))
+        scale = sheet.axes(box._replace(left=box.left + box.across + 2.5, across=2.5))
         sheet.figure.colorbar(ScalarMappable(norm, "viridis"), scale).solids.set_rasterized(True)
         colors.set(scale.yaxis, 0.0)
     if scattered:
@@ -345,7 +345,7 @@ def draw_sweep(stored: _bbsim.Stored, asked: Sequence[str], over: Sequence[str],
     sheet = Sheet(sheet_width, pitch * rows + (1 if histogram else 8.5), title, subtitle, legend + others)
     for m, name in enumerate(measures):
         x, y = left + (m % columns) * (part + between), pitch * (m // columns)
-        box, lowest = Box(x, y + 5.0, x + part, y + pitch - (9.5 if histogram else 1.5)), m + columns >= len(measures)
+        box, lowest = Box(x, y + 5.0, part, pitch - (14.5 if histogram else 6.5)), m + columns >= len(measures)
         if form.over is None:
             _histogram(sweep, name, sheet, box)
         elif form.against is not None:

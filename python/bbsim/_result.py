@@ -103,7 +103,7 @@ class Result(Columns):
             return ""
         low, high = points.min(0), points.max(0)
         points = (points - (low + high) / 2) * 200 / (1.1 * max((high - low).max(), 1e-9)) + 100
-        start = [f"{one:.1f}" for one in points[0]]
+        start = [f"{place:.1f}" for place in points[0]]
         shown = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
         return (
             "<svg width='200' height='200' viewBox='0 0 200 200' role='img' aria-label='path of the ball'>"
@@ -115,11 +115,12 @@ class Result(Columns):
 class Simulated(Columns):
     """The columns, measures and status of each case; ``made["x"]`` has a row for each case."""
 
-    def __init__(self, made: Any, columns: Sequence[str], measures: Sequence[str]) -> None:
-        super().__init__(dict(zip(columns, made[0])))
-        self.measures: Dict[str, Array] = dict(zip(measures, made[1]))
-        self.status: "np.ndarray[Any, np.dtype[np.str_]]" = np.array(made[2], dtype=np.str_)
-        self.reason: List[str] = made[3]
+    def __init__(self, cases: Any, columns: Sequence[str], measures: Sequence[str]) -> None:
+        arrays, values, status, reasons = cases
+        super().__init__(dict(zip(columns, arrays)))
+        self.measures: Dict[str, Array] = dict(zip(measures, values))
+        self.status: "np.ndarray[Any, np.dtype[np.str_]]" = np.array(status, dtype=np.str_)
+        self.reason: List[str] = reasons
 
     def __len__(self) -> int:
         return len(self.status)
@@ -135,11 +136,11 @@ def _key(key: str, values: Any) -> Tuple[str, Array, List[str]]:
     what = f"cases: {key}"
     if isinstance(values, (str, bytes, Mapping)) or not hasattr(values, "__len__") or getattr(values, "ndim", 1) == 0:
         raise refuse(what, f"{values!r:.60}", "an array or list with a value for each case")
-    plain = isinstance(values, np.ndarray) or all(isinstance(one, (float, int)) for one in values)
+    plain = isinstance(values, np.ndarray) or all(isinstance(value, (float, int)) for value in values)
     array = np.asarray(values) if plain else None
     if array is not None and array.ndim == 1 and array.dtype.kind in "fiu":
         return key, array.astype(float), []
-    return key, np.empty(0), [as_yaml(one) for one in values]
+    return key, np.empty(0), [as_yaml(value) for value in values]
 
 
 def _keys(cases: Cases) -> Tuple[Optional[int], List[Any]]:
@@ -147,10 +148,10 @@ def _keys(cases: Cases) -> Tuple[Optional[int], List[Any]]:
     if isinstance(cases, Mapping):
         keys = [_key(str(key), values) for key, values in cases.items()]
         return next(map(len, cases.values()), None), keys
-    if isinstance(cases, (str, bytes)) or not all(isinstance(one, Mapping) for one in cases):
+    if isinstance(cases, (str, bytes)) or not all(isinstance(case, Mapping) for case in cases):
         raise refuse("cases", f"{cases!r:.60}", "{KEY: array}, or a list of {KEY: value}")
-    names = dict.fromkeys(str(key) for one in cases for key in one)
-    lists = {name: [one.get(name, "") for one in cases] for name in names}
+    names = dict.fromkeys(str(key) for case in cases for key in case)
+    lists = {name: [case.get(name, "") for case in cases] for name in names}
     return len(cases), [_key(name, values) for name, values in lists.items()]
 
 
@@ -168,7 +169,7 @@ def simulate(scenario: Scenario, cases: Cases, columns: Texts, times: Any = None
     A case that does not run to its end says why in ``status`` and ``reason``. Raises InputError.
     """
     count, keys = _keys(cases)
-    ends = [numbers(name, () if its is None else its, (), ("n",)) for name, its in (("begin", begin), ("end", end))]
+    ends = [numbers(name, () if when is None else when, (), ("n",)) for name, when in (("begin", begin), ("end", end))]
     width = len(_bbsim.START)
     states = numbers("start", np.empty((0, width)) if start is None else start, ("n", width))
     at = None if times is None else numbers("times", times, ("m",), ("n", "m"))
@@ -178,18 +179,18 @@ def simulate(scenario: Scenario, cases: Cases, columns: Texts, times: Any = None
     ends = [array if array.ndim else np.full(count, array) for array in ends]
     names, asked = listed("columns", columns), listed("measures", measures)
     windows = (at, *ends, states, require("events", events, (bool, np.bool_), "True or False"))
-    made = _bbsim.simulate(given(scenario, set), count, keys, names, asked, *windows, threads)
-    return Simulated(made, names, asked)
+    cases_done = _bbsim.simulate(given(scenario, set), count, keys, names, asked, *windows, threads)
+    return Simulated(cases_done, names, asked)
 
 
 class _StateSpace:
     """dz = A z + B u, y = C z + D u: dz is z', or z after one period ``dt``."""
 
-    def __init__(self, made: Any) -> None:
-        self._matrices: Tuple[Array, Array, Array, Array] = (made.A, made.B, made.C, made.D)
+    def __init__(self, system: Any) -> None:
+        self._matrices: Tuple[Array, Array, Array, Array] = (system.A, system.B, system.C, system.D)
         self.A, self.B, self.C, self.D = self._matrices
-        self.dt: Optional[float] = made.dt
-        signals = (made.states, made.inputs, made.outputs)
+        self.dt: Optional[float] = system.dt
+        signals = (system.states, system.inputs, system.outputs)
         self.states, self.inputs, self.outputs = ([name for name, _ in its] for its in signals)
 
     def to_scipy(self) -> Any:
@@ -215,10 +216,10 @@ class OpenLoop(_StateSpace):
 
     dt: float
 
-    def __init__(self, made: Any) -> None:
-        super().__init__(made)
-        self.dt = made.dt or 0.0
-        (self.command, self.unit), = made.inputs
+    def __init__(self, system: Any) -> None:
+        super().__init__(system)
+        self.dt = system.dt or 0.0
+        (self.command, self.unit), = system.inputs
         self.outputs = [self.command]
 
     def response(self, frequencies: Any) -> "np.ndarray[Any, np.dtype[np.complex128]]":
@@ -234,14 +235,14 @@ class OpenLoop(_StateSpace):
 class Linearization(_StateSpace):
     """A scenario as a linear system. In continuous time ``dt`` is None."""
 
-    def __init__(self, made: Any) -> None:
-        super().__init__(made.system)
-        self.units: Dict[str, str] = dict([*made.system.states, *made.system.inputs, *made.system.outputs])
-        self.kind, self.at, self.note = (str(its) for its in (made.kind, made.at, made.note))
-        self._json: Dict[str, Any] = json.loads(made.json)
-        self._report: str = made.report.rstrip("\n")
-        self._loops = {name: OpenLoop(loop) for name, loop in made.open_loops.items()}
-        self._frequencies = np.array(made.frequencies)  # at which to look at these loops
+    def __init__(self, linear: Any) -> None:
+        super().__init__(linear.system)
+        self.units: Dict[str, str] = dict([*linear.system.states, *linear.system.inputs, *linear.system.outputs])
+        self.kind, self.at, self.note = (str(text) for text in (linear.kind, linear.at, linear.note))
+        self._json: Dict[str, Any] = json.loads(linear.json)
+        self._report: str = linear.report.rstrip("\n")
+        self._loops = {name: OpenLoop(loop) for name, loop in linear.open_loops.items()}
+        self._frequencies = np.array(linear.frequencies)  # at which to look at these loops
 
     @property
     def poles(self) -> "np.ndarray[Any, np.dtype[np.complex128]]":
@@ -302,8 +303,7 @@ def replay(*files: Union[Scenario, Result], output: Optional[File] = None, data:
            map: Texts = (), header: Texts = (), period: str = "", time_offset: str = "", missing: Any = None,
            title: str = "", summary: File = "", scenario: File = "", set: Settings = None) -> Page:  # fmt: skip
     """A page that plays files or results of runs or sweeps, or scenarios; ``data``: logs beside a scenario, as files,
-    dicts of arrays or DataFrames. ``output`` is NAME.html. The other keywords are the options of ``bbsim replay``.
-    """
+    dicts of arrays or DataFrames. ``output`` is NAME.html. The other keywords are the options of ``bbsim replay``."""
     shown, ran = [], []  # type: List[Any], List[Result]
     for file in files:
         if isinstance(file, Mapping) or is_text(file):
@@ -317,26 +317,26 @@ def replay(*files: Union[Scenario, Result], output: Optional[File] = None, data:
     if target and not target.lower().endswith(".html"):
         raise refuse("output", target, "a name that ends in .html")
     with as_files(data) as logs:
-        made = _bbsim.replay(shown, logs, log, beside, title, target)
+        page, reason, notes = _bbsim.replay(shown, logs, log, beside, title, target)
     if target:
-        _bbsim.write_file(target, made[0])
-    notes = [text for one in ran for text in one.warnings] + [without_folders(note) for note in made[2]]
-    return Page(made[0], next((one.reason for one in ran if one.reason), made[1]), notes)
+        _bbsim.write_file(target, page)
+    warnings = [text for run in ran for text in run.warnings]
+    reason = next((run.reason for run in ran if run.reason), reason)
+    return Page(page, reason, warnings + [without_folders(note) for note in notes])
 
 
 def compare(a: Log, b: Log, *, rtol: Optional[float] = None, atol: Optional[float] = None, columns: Texts = (),
             map: Texts = (), header: Texts = (), period: str = "", time_offset: str = "", missing: Any = None,
             set: Settings = None) -> Compared:  # fmt: skip
     """Compares two files of results, or a log (also a dict of arrays or a DataFrame) with a run or a scenario's file.
-    The keywords are the options of ``bbsim compare``.
-    """
+    The keywords are the options of ``bbsim compare``."""
     log = log_choice(map, header, period, time_offset, missing)
     for name, found in (("rtol", rtol), ("atol", atol)):
         require(name, 0 if found is None else found, Real, "a number, in SI units")
-    with as_files([a, b]) as (one, other):
-        made = _bbsim.compare(one, other, overrides(set), rtol, atol, listed("columns", columns), log)
-    notes = [without_folders(text) for text in made.warnings]
-    return Compared(made.alike, without_folders(made.text), made.reason, notes)
+    with as_files([a, b]) as (first, second):
+        limits = (rtol, atol, listed("columns", columns))
+        alike, text, reason, notes = _bbsim.compare(first, second, overrides(set), *limits, log)
+    return Compared(alike, without_folders(text), reason, [without_folders(note) for note in notes])
 
 
 def examples() -> Dict[str, Path]:

@@ -53,17 +53,18 @@ class InputError(Error, ValueError):
     """The scenario or an argument is wrong: ``problems``, in order, and ``key`` and ``hint`` of the first."""
 
     def __init__(self, problems: Iterable[Tuple[str, str]]) -> None:
-        self.told: List[Tuple[str, str]] = list(problems)  # for a command line, whose options are keywords here
+        # For a command line, whose options are keywords here.
+        self.told = [(without_folders(place), without_folders(message)) for place, message in problems]
         self.problems: List[Problem] = []
         for place, message in self.told:
             if place.startswith(_CALLABLE):
                 message = message.replace("controller.library", "controller.callable")
-            message = _OPTION.sub(lambda its: its[0].lstrip("-").replace("-", "_").lower(), message.removeprefix("--set "))
+            message = _OPTION.sub(lambda found: found[0].lstrip("-").replace("-", "_").lower(), message.removeprefix("--set "))
             key, hint = _bbsim.key_and_hint(message)
             its_place = "" if place.startswith("<dict") else place.removeprefix("--set ")
             self.problems.append(Problem(message, its_place, key or None, hint))
         super().__init__("\n".join(str(problem) for problem in self.problems))
-        self.key, self.hint = next(((one.key, one.hint) for one in self.problems), (None, ""))
+        self.key, self.hint = next(((each.key, each.hint) for each in self.problems), (None, ""))
 
     def __reduce__(self):
         return type(self), (self.told,)
@@ -121,7 +122,7 @@ def numbers(what: str, values: Any, *shapes: Tuple[Any, ...]) -> Array:
     except (TypeError, ValueError):
         raise refuse(what, f"{values!r:.60}", "an array of numbers") from None
     for shape in shapes:
-        if len(shape) == array.ndim and all(isinstance(one, str) or one == its for one, its in zip(shape, array.shape)):
+        if len(shape) == array.ndim and all(isinstance(n, str) or n == m for n, m in zip(shape, array.shape)):
             return array
     raise refuse(what, f"an array of shape {array.shape}", " or ".join(map(str, shapes)).replace("'", ""))
 
@@ -171,8 +172,8 @@ def overrides(settings: Union[Settings, List[str]]) -> List[str]:
     """KEY=VALUE, as ``--set`` takes them; a list of a command line has them."""
     if isinstance(settings, list):
         return listed("set", settings)
-    its = require("set", {} if settings is None else settings, Mapping, "a dict such as {'ball.radius': '2 cm'}")
-    return [f"{key}={as_yaml(value)}" for key, value in its.items()]
+    values = require("set", {} if settings is None else settings, Mapping, "a dict such as {'ball.radius': '2 cm'}")
+    return [f"{key}={as_yaml(value)}" for key, value in values.items()]
 
 
 def counted(count: int, what: str) -> str:
@@ -182,7 +183,7 @@ def counted(count: int, what: str) -> str:
 def listed(what: str, texts: Any, written: Callable[[Any], str] = as_yaml) -> List[str]:
     """Texts of an option: one text or path, or several. A dict has what follows KEY=, or None for the key alone."""
     if isinstance(texts, Mapping):
-        return [str(key) if one is None else f"{key}={written(one)}" for key, one in texts.items()]
+        return [str(key) if value is None else f"{key}={written(value)}" for key, value in texts.items()]
     several = [] if texts is None else [texts] if isinstance(texts, (str, os.PathLike)) else texts
     allowed = "a text, or a list of texts"
     return [os.fspath(require(what, one, (str, os.PathLike), allowed)) for one in require(what, several, Iterable, allowed)]
@@ -249,29 +250,18 @@ def as_files(logs: Any) -> Iterator[List[str]]:
     for log in logs:
         if is_text(log) or (isinstance(log, Mapping) and any(isinstance(its, Mapping) for its in log.values())):
             raise fault("found a scenario; allowed: a file, a table or a result, such as bbsim.run(scenario)")
-    if not any(map(is_table, logs)):
-        yield [os.fspath(log) for log in logs]
-        return
-    with tempfile.TemporaryDirectory(prefix=_PREFIX) as folder, tables_named():
-        files = [f"{folder}/log-{i}.csv" if is_table(log) else os.fspath(log) for i, log in enumerate(logs, 1)]
+    folder: Any = tempfile.TemporaryDirectory(prefix=_PREFIX) if any(map(is_table, logs)) else contextlib.nullcontext()
+    with folder as path:
+        files = [f"{path}/log-{i}.csv" if is_table(log) else os.fspath(log) for i, log in enumerate(logs, 1)]
         for log, file in zip(logs, files):
             if is_table(log):
                 _write(log, file)
         yield files
 
 
-@contextlib.contextmanager
-def tables_named() -> Iterator[None]:
-    """Within it, errors name tables in memory without the folders of their files."""
-    try:
-        yield
-    except InputError as error:
-        raise InputError([(without_folders(place), without_folders(text)) for place, text in error.told]) from None
-
-
 def without_folders(text: str) -> str:
-    """The text without the folders of temporary files, which differ each time."""
-    return re.sub(f"{re.escape(tempfile.gettempdir())}/{_PREFIX}[^/]+/", "", text)
+    """The text without the folders of temporary files, which differ each time. The first one sets tempfile.tempdir."""
+    return re.sub(f"{re.escape(tempfile.tempdir or '')}/{_PREFIX}[^/]+/", "", text)
 
 
 def _write(table: Any, file: str) -> None:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import math
 import os
@@ -12,7 +13,7 @@ import shutil
 import sys
 import time
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, List, NoReturn, Sequence, Tuple
+from typing import Any, Callable, Dict, Iterator, List, NoReturn, Sequence, Tuple
 
 import numpy as np
 
@@ -171,19 +172,20 @@ def carry_out(name: str, task: Any, options: Dict[str, Any], say: Any) -> Any:
     given = _bbsim.Given(options.pop("scenario"), None, options.pop("set"), None).changed([])  # reads standard input once
     to_files = "-" in [options.get(name) for name in ("output", "json", "report", "table", "sketch")]
     try:
-        with Bar(given.name, options.pop("quiet")) as progress:
-            made = task(given, options, progress, say)
+        quiet = options.pop("quiet") or not sys.stderr.isatty()
+        with contextlib.nullcontext(silent) if quiet else bar(given.name) as progress:
+            result = task(given, options, progress, say)
     except KeyboardInterrupt:
         sys.stderr.write(f"{name}: interrupted before the first result; nothing is written\n")
         return None
     try:
-        sys.stdout.write("" if to_files else made.report)
+        sys.stdout.write("" if to_files else result.report)
         sys.stdout.flush()
     except BrokenPipeError:
         raise
     except OSError as error:
         raise OutputError(f"cannot write to standard output: {(error.strerror or '').lower()}") from None
-    return made
+    return result
 
 
 Progress = Callable[[float, str], None]  # the fraction done, and a detail for people
@@ -194,32 +196,25 @@ def silent(fraction: float, detail: str = "") -> None:
     pass
 
 
-class Bar:
-    """Draws a bar on standard error if that is a terminal; `with Bar(name, quiet) as progress: ...`."""
+@contextlib.contextmanager
+def bar(label: str) -> Iterator[Progress]:
+    """Gives a function that draws a bar on standard error, from the first second on. The end, or a fraction of 1 after
+    which messages may follow, clears it."""
+    start = last = time.monotonic()
 
-    def __init__(self, label: str, quiet: bool) -> None:
-        self._label, self._draws, self._drawn = label, not quiet and sys.stderr.isatty(), False
-        self._start = self._last = time.monotonic()
-
-    def __enter__(self) -> Progress:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        if self._drawn:
-            sys.stderr.write(_CLEAR)
-            sys.stderr.flush()
-        self._drawn = False
-
-    def __call__(self, fraction: float, detail: str = "") -> None:
-        if fraction >= 1:  # messages may follow
-            return self.__exit__()
+    def draw(fraction: float, detail: str = "") -> None:
+        nonlocal last
         now = time.monotonic()
-        if not self._draws or now - self._start < 1 or now - self._last < 0.1:
-            return
-        self._last = now
-        done = min(max(fraction, 0.0), 1.0)
-        left = (now - self._start) * (1 - done) / done if done > 0.01 else None
-        columns = max(shutil.get_terminal_size().columns - 1, 10)
-        sys.stderr.write(_CLEAR + _bbsim.progress_line(self._label, detail, done, left, columns))
+        if fraction >= 1 and last > start:
+            sys.stderr.write(_CLEAR)
+        elif fraction < 1 and now - start >= 1 and now - last >= 0.1:
+            last = now
+            left = (now - start) * (1 - fraction) / fraction if fraction > 0.01 else None
+            columns = max(shutil.get_terminal_size().columns - 1, 10)
+            sys.stderr.write(_CLEAR + _bbsim.progress_line(label, detail, max(fraction, 0.0), left, columns))
         sys.stderr.flush()
-        self._drawn = True
+
+    try:
+        yield draw
+    finally:
+        draw(1)

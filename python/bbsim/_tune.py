@@ -53,13 +53,12 @@ class Search:
         self.score, self.all, self.share, self.tried, self.spread = score, np.arange(count), share, 0, 0
         self.merit: Tuple[float, ...] = (np.inf,) * 3  # of the best point that was tried in all cases
         self.best: Any = None
-        self.points: Array
-        self.scores: Array
-        self.merits: List[Any]
+        self.points = self.scores = np.empty(0)
+        self.merits: List[Any] = []
 
     def _in_all(self, point: Array, anew: bool = False) -> Any:
         """The merit of a point, and the cases that are worst by the objective and by each requirement, in turn."""
-        scores, missed = (one[0] for one in self.score(point[None], self.all))
+        scores, missed = (of_points[0] for of_points in self.score(point[None], self.all))
         merit, self.tried = merit_of(scores, missed, self.share), self.tried + 1
         if anew or merit < self.merit:
             self.merit, self.best = merit, point
@@ -226,15 +225,15 @@ class _Tuning:
         cases = {name: np.tile(values, len(points)) for name, values in rigs.items()}
         cases.update((name, np.repeat(factor * numbers[:, at], shape[1])) for name, _, factor, at in self.keys)
         try:
-            made = simulate(self.quick, cases, [], measures=self.asked, threads=self.threads)
+            runs = simulate(self.quick, cases, [], measures=self.asked, threads=self.threads)
         except InputError as error:  # no rig has such a scenario
             self.reason = str(error)
             return np.full((*shape, len(self.measures)), np.nan), np.ones(shape)
-        done = made.status == "done"
-        for i in [i for i, why in enumerate(made.reason) if why][-1:]:
-            self.reason = made.reason[i] if done[i] else f"{made.status[i]}: {made.reason[i]}"
-        missed = np.where(done, 0, 1 - np.nan_to_num(made.measures.get("end_t", 0.0)) / self.end)
-        values = np.stack([np.where(done, made.measures[name], np.nan) for name in self.measures], 1)
+        done = runs.status == "done"
+        for i in [i for i, why in enumerate(runs.reason) if why][-1:]:
+            self.reason = runs.reason[i] if done[i] else f"{runs.status[i]}: {runs.reason[i]}"
+        missed = np.where(done, 0, 1 - np.nan_to_num(runs.measures.get("end_t", 0.0)) / self.end)
+        values = np.stack([np.where(done, runs.measures[name], np.nan) for name in self.measures], 1)
         return values.reshape(*shape, -1), np.clip(missed, 0, 1).reshape(shape)
 
     def scores(self, values: Array) -> Array:
@@ -298,10 +297,10 @@ class _Tuning:
 
     def result(self, found: Any) -> Any:
         short, numbers, reasons, count = _bbsim.short_number, self.numbers(found.point), [], len(found.after)
-        made = SimpleNamespace(parameters=[], objective=0.0, requirements=[], interrupted=found.interrupted)
+        result = SimpleNamespace(parameters=[], objective=0.0, requirements=[], interrupted=found.interrupted)
         keys = [["key", "before", "tuned", "from", "to", "unit"]]
         for name, unit, factor, at in self.keys:
-            made.parameters.append(SimpleNamespace(key=name, value=float(factor * numbers[at])))
+            result.parameters.append(SimpleNamespace(key=name, value=float(factor * numbers[at])))
             its = factor * np.array([self.start[at], numbers[at], *self.bounds[:, at]])
             keys.append([name, *map(short, its), unit or "1"])
         rigs = f"the worst of {count} rigs" if self.share == 1 else f"the {short(self.share)} quantile of {count} rigs"
@@ -316,29 +315,29 @@ class _Tuning:
             fails = " (does not hold)" if i and not good else ""
             comments += f"#   {name}{fails}: {short(value)} {unit}".rstrip() + "\n"
             if i:
-                made.requirements.append(SimpleNamespace(text=name, value=value, holds=good))
+                result.requirements.append(SimpleNamespace(text=name, value=value, holds=good))
                 reasons += [] if good else [f"{name}; the best has {short(value)} {unit}".rstrip()]
             else:
-                made.objective = value
-        if not reasons and not np.isfinite(made.objective):
+                result.objective = value
+        if not reasons and not np.isfinite(result.objective):
             reasons.append(f"a finite {self.measures[0]}")
         lines = [f"tune: found no values with {reason}" for reason in reasons]
         lines += [f"  a rig: {self.reason}"] if reasons and self.reason else []
         if found.interrupted:
             lines.insert(0, f"tune: interrupted after {found.tried} tries; the result is the best of them")
-        made.met, made.reason = not reasons, "\n".join(lines)
-        made.report = f"{_bbsim.aligned(keys)}\n{_bbsim.aligned(measures)}\non {rigs}; {found.tried} tries\n"
+        result.met, result.reason = not reasons, "\n".join(lines)
+        result.report = f"{_bbsim.aligned(keys)}\n{_bbsim.aligned(measures)}\non {rigs}; {found.tried} tries\n"
         share = float(np.mean(found.passes)) if len(found.passes) else None
-        made.hold_out = SimpleNamespace(cases=len(found.passes), share_that_holds=share)
+        result.hold_out = SimpleNamespace(cases=len(found.passes), share_that_holds=share)
         if share is not None:
             text = f"ll requirements hold on {_bbsim.rounded(100 * share, 4)} % of {len(found.passes)} rigs held out"
-            made.report, comments = f"{made.report}a{text}\n", f"{comments}# A{text}.\n"
+            result.report, comments = f"{result.report}a{text}\n", f"{comments}# A{text}.\n"
         for goal, part in zip(self.goals, found.tighter):
             if part:
                 spare = _bbsim.rounded(100 * part, 2)
-                made.report += f"searched for {goal.text} with {spare} % to spare, for rigs held out\n"
-        made.scenario = self.scenario(comments, numbers)
-        return made
+                result.report += f"searched for {goal.text} with {spare} % to spare, for rigs held out\n"
+        result.scenario = self.scenario(comments, numbers)
+        return result
 
 
 def _count(rigs: Any) -> int:
@@ -362,21 +361,19 @@ def tune(scenario: Scenario, free: Any, minimize: str, require: Any = (), vary: 
 
 
 def _carry_out(base: _bbsim.Given, options: Dict[str, Any], progress: Progress, say: Any) -> Any:
-    """Tunes, and writes the files that the options ask for."""
     files = files_of(options, base, {}, "output", "json")
     tuning = _Tuning(base, options)
     for remark in base.remarks():
         say(remark)
-    made = tuning.result(tuning.find(progress))
+    result = tuning.result(tuning.find(progress))
     progress(1, "")
-    told = {name: getattr(made, name) for name in ("parameters", "objective", "requirements", "hold_out")}
-    write_all(base, files, {"output": made.scenario, "json": as_json(told)}, say)
-    return made
+    told = {name: getattr(result, name) for name in ("parameters", "objective", "requirements", "hold_out")}
+    write_all(base, files, {"output": result.scenario, "json": as_json(told)}, say)
+    return result
 
 
 def command(options: Dict[str, Any], say: Any) -> int:
-    """`bbsim tune`; `say` prints a message unless -q is given."""
     options["quantile"] = 1 if options["quantile"] is None else options["quantile"]
-    made = carry_out("tune", _carry_out, options, say)
-    sys.stderr.write(made.reason + "\n" if made and made.reason else "")
-    return 130 if not made or made.interrupted else 0 if made.met else 1
+    result = carry_out("tune", _carry_out, options, say)
+    sys.stderr.write(result.reason + "\n" if result and result.reason else "")
+    return 130 if not result or result.interrupted else 0 if result.met else 1

@@ -61,13 +61,12 @@ Pairs tables(const Given& given) {
   return files;
 }
 
-// Why the scenario lacks a column, and what is allowed; empty if it has the column.
-std::pair<std::string, std::string> lacks(const Given& given, const std::string& column) {
+// Why the scenario lacks a column; empty if it has the column.
+std::string lacks(const Given& given, const std::string& column) {
   const scenario::Column* const found = scenario::find_column(column);
-  if (found == nullptr) return {"unknown", "the names that `bbsim columns` lists"};
+  if (found == nullptr) return "unknown";
   const auto missing = scenario::missing(*found, scenario_of(given));
-  if (!missing) return {};
-  return {missing.why, missing.instead};
+  return missing ? missing.why : "";
 }
 
 std::string unit_doubt(const std::string& column, double largest) {

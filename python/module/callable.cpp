@@ -71,41 +71,39 @@ class Callable::Controller : public model::ExternalController {
       : callable_(callable), watch_(watch), own_(scenario::own_columns(scenario)) {}
 
   void begin() override {
-    with_lock([this] {
-      ask("to start", [this] {
-        if (py::hasattr(callable_.function_, "reset")) callable_.function_.attr("reset")();
-      });
+    ask("to start", [this] {
+      if (py::hasattr(callable_.function_, "reset")) callable_.function_.attr("reset")();
     });
   }
 
   model::Commands command(const model::ControllerSample& at, double* own) override {
     model::Commands command{};
     commands_ = at.servo.size();
-    with_lock([&] {
-      ask("at sample " + std::to_string(at.number) + " (t = " + number_text(at.t) + " s)",
-          [&] { read(callable_.function_(api::copy_of(at)), command, own); });
-    });
+    ask("at sample " + std::to_string(at.number) + " (t = " + number_text(at.t) + " s)",
+        [&] { read(callable_.function_(api::copy_of(at)), command, own); });
     return command;
   }
 
  private:
   template <class Question>
   void ask(const std::string& when, const Question& question) {
-    const Watch::WithinCallable within(watch_);
-    try {
-      question();
-    } catch (py::error_already_set& error) {
-      const bool interrupted = !error.matches(PyExc_Exception);
-      const std::string fault = "the controller (" + callable_.name_ + ") failed " + when + ": " +
-                                std::string(py::str(error.type().attr("__name__"))) + ": " +
-                                std::string(py::str(error.value()));
-      if (!callable_.raised_) {
-        callable_.raised_.emplace(std::move(error));
-        callable_.fault_ = fault;
+    with_lock([&] {
+      const Watch::WithinCallable within(watch_);
+      try {
+        question();
+      } catch (py::error_already_set& error) {
+        const bool interrupted = !error.matches(PyExc_Exception);
+        const std::string fault = "the controller (" + callable_.name_ + ") failed " + when + ": " +
+                                  std::string(py::str(error.type().attr("__name__"))) + ": " +
+                                  std::string(py::str(error.value()));
+        if (!callable_.raised_) {
+          callable_.raised_.emplace(std::move(error));
+          callable_.fault_ = fault;
+        }
+        watch_.end_soon();
+        throw ControllerFault(fault, interrupted);
       }
-      watch_.end_soon();
-      throw ControllerFault(fault, interrupted);
-    }
+    });
   }
 
   void read(const py::object& answer, model::Commands& command, double* own) const {

@@ -165,9 +165,10 @@ Page replay(const std::vector<Shown>& shown, const Texts& logs, const results::L
   return page;
 }
 
-api::Compared compare(const std::string& a, const std::string& b, const Texts& overrides,
-                      std::optional<double> rtol, std::optional<double> atol, const Texts& columns,
-                      const results::LogChoice& log) {
+// Whether they are alike, the table, why a scenario's run ended early, and warnings.
+std::tuple<bool, std::string, std::string, Texts> compare(
+    const std::string& a, const std::string& b, const Texts& overrides, std::optional<double> rtol,
+    std::optional<double> atol, const Texts& columns, const results::LogChoice& log) {
   Watch watch;
   api::Compared made = watch.beside([&] {
     api::CompareRequest request{a, b, rtol, atol, columns, log, {}};
@@ -179,7 +180,7 @@ api::Compared compare(const std::string& a, const std::string& b, const Texts& o
     return api::compare(request, watch);
   });
   watch.throw_if_interrupted();
-  return made;
+  return {made.alike, made.text, made.reason, made.warnings};
 }
 
 // From now on a signal ends the process at once, even while it waits for input; no part of a file
@@ -201,7 +202,6 @@ void end_at_signals() {
 }  // namespace
 
 void define_results(py::module_& module) {
-  using api::Compared;
   using file::Outputs;
   using results::Event;
   using results::Key;
@@ -249,8 +249,6 @@ void define_results(py::module_& module) {
     const std::vector<std::string_view> views(names.begin(), names.end());
     return std::string(yaml::nearest_name(word, views));
   });
-  attributes(py::class_<Compared>(module, "Compared"), "alike", &Compared::alike, "reason",
-             &Compared::reason, "text", &Compared::text, "warnings", &Compared::warnings);
   module.def("replay", &replay);
   module.def("compare", &compare);
   py::class_<Outputs>(module, "Outputs")
