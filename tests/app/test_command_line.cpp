@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Behavior common to all commands: help, -q, errors, standard input and a reader that closes early.
-#include <chrono>
-#include <csignal>
+#include <algorithm>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -70,102 +70,6 @@ TEST_CASE("run and sweep show examples, and the examples run") {
   CHECK(examples >= 8);
 }
 
-TEST_CASE("a misspelled command or option is answered with the nearest one") {
-  const auto [line, told] = GENERATE(table<std::string, std::string>({
-      {"", "found no command; known: run check"},
-      {"fly", "unknown command fly; known: run check"},
-      {"swep a.yaml", "unknown command swep; did you mean sweep?"},
-      {"comapre a b", "did you mean compare?"},
-      {"sumarize", "did you mean summarize?"},
-      {"sumarise", "did you mean summarise?"},
-      {"run a.yaml --sumary s.json",
-       "unknown option --sumary of bbsim run; did you mean --summary?"},
-      {"run --eror=1e-6 a.yaml", "unknown option --eror of bbsim run; did you mean --error?"},
-      {"run --sumary", "did you mean --summary?"},  // rather than: SCENARIO is required
-      {"sweep a.yaml --sampels 3", "did you mean --samples?"},
-      {"run a.yaml --quite", "did you mean --quiet?"},
-      {"run a.yaml --wings", "unknown option --wings of bbsim run\n"},
-      {"--verison", "unknown option --verison of bbsim; did you mean --version?"},
-      {"-o a.csv run a.yaml", "-o: found before run; allowed: the options of a command after it."},
-      {"run a.yaml b.yaml", "found b.yaml, which bbsim run does not take."},
-      {"run", "SCENARIO is required"},
-      {"help rnu", "unknown command rnu; did you mean run?"},
-  }));
-  const Result result = expect(2, call(line), {told, "--help"});
-  CHECK(result.out.empty());
-}
-
-TEST_CASE("an option's invalid number is answered with the allowed range") {
-  const std::string number = GENERATE("0", "-1", "2.5", "x", "1e300");
-  expect(2, call("sweep a.yaml --samples " + number),
-         {"found " + number + "; allowed: a whole number from 1 up"});
-  expect(2, call("sweep a.yaml -j 4096"), {"found 4096; allowed: a whole number from 1 to 1024"});
-}
-
-TEST_CASE("the flag -q may stand anywhere, and keeps the reason for a nonzero exit code") {
-  const Folder folder;
-  CHECK(call("check -q @fig2a.yaml").out == call("-q check @fig2a.yaml").out);
-  CHECK(expect(0, "run @fig2a.yaml -q -o a.csv", folder).err.empty());
-  expect(0, "compare -q a.csv a.csv", folder);
-  expect(0, "columns -q", folder);
-  expect(1, "run @fig2b-literal.yaml -q", folder, {"the run ended early, at t = 0.74"});
-  expect(1, "run @falls.yaml -q", folder, {"the run stopped at t = ", "!rows"});
-  expect(1, "run @fig2a.yaml --error 1e-20 -q", folder, {"is out of reach"});
-  expect(130,
-         bbsim(Launch{words_of("sweep @fig2a.yaml -q -j 1 --vary "
-                               "gimbal.motion.phi.sinusoid.phase=linear:0:1:10000000 -o s.csv"),
-                      folder.path(), SIGINT, std::chrono::milliseconds(1500)}),
-         {"interrupted "});
-}
-
-TEST_CASE("a scenario may come from standard input") {
-  const Folder folder;
-  folder.write("incline.yaml",
-               folder.read(config("incline.yaml")) + "sweep: {vary: {gravity: 'linear:9:10:3'}}\n");
-  const Result file = expect(0, "run incline.yaml -o - -q", folder);
-  const auto piped = [&](int code, const std::string& line, const Names& errors = {},
-                         const Names& output = {}) {
-    return expect(code, shell(line, folder), errors, output);
-  };
-  // Without -o, a scenario from standard input writes its result to standard output.
-  CHECK(piped(0, "cat incline.yaml | $BBSIM run - -q").out == file.out);
-  piped(0, "$BBSIM run - -o a.csv --set time.end=1 < incline.yaml", {"a.csv: "});
-  // A slow writer is waited for, longer than for a file.
-  CHECK(piped(0, "(sleep 6; cat incline.yaml) | $BBSIM run - -q").out == file.out);
-  piped(0, "cat incline.yaml | $BBSIM check -", {},
-        {"standard input is valid", "3 cases of bbsim sweep, over gravity"});
-  piped(0, "$BBSIM sweep - < incline.yaml", {}, {"case,gravity,status"});
-  piped(2, "echo 'ball: {raduis: 1}' | $BBSIM run -",
-        {"standard input:1:8: ball.raduis: unknown key"});
-  piped(2, "$BBSIM run - < /dev/null");
-  expect(2, "run missing.yaml", folder, {"missing.yaml"});
-}
-
-TEST_CASE("a reader that closes early ends the program quietly with exit code 3") {
-  const Folder folder;
-  folder.write("s.yaml", short_scene);
-  for (const std::string line :
-       {"run s.yaml -q -o - --set time.step=0.00001 | head -3",
-        "sweep s.yaml -q -o - --vary gravity=linear:9:10:100000 | head -3"}) {
-    // Not 0, because part of the output was lost.
-    const Result result = expect(3, shell("$BBSIM " + line, folder), {}, {"\n"});
-    CHECK(result.err.empty());
-  }
-  for (const std::string line : {"columns", "--help"}) {
-    CHECK(shell("$BBSIM " + line + " | true; sleep 0.1", folder).err.empty());
-  }
-}
-
-TEST_CASE("reports that cannot be written give exit code 3") {
-  const Folder folder;
-  folder.write("s.yaml", short_scene);
-  for (const std::string words : {"--help", "--version", "--schema", "--licenses", "run --help",
-                                  "help run", "columns", "check s.yaml"}) {
-    expect(3, shell("$BBSIM " + words + " > /dev/full", folder),
-           {"cannot write standard output: no space left on device"});
-  }
-}
-
 TEST_CASE("names from outside do not reach the terminal as control sequences") {
   const Folder folder;
   const std::string red = "\x1b[31mred", sweep = "sweep @fig2a.yaml --vary gravity=list:1,2 ";
@@ -204,5 +108,59 @@ TEST_CASE("names from outside do not reach the terminal as control sequences") {
     CHECK(result.err.size() + result.out.size() > 0);
   }
 }
+
+TEST_CASE("on a terminal, reports break between words below their text") {
+  const Folder folder;
+  const std::string shown = on_terminal("check @rig.yaml", 80, folder, 5);
+  CAPTURE(shown);
+  CHECK(contains(shown, "\r\n             "));
+  for (const std::string& line : lines(shown)) CHECK(line.size() <= 80);  // with its "\r"
+  const std::string loop = on_terminal("linearize @rig.yaml", 60, folder, 5);
+  CAPTURE(loop);
+  // Poles and zeros that differ from zero by rounding are zero.
+  CHECK_FALSE(contains(loop, "e-1"));
+  // A pipe gets whole lines.
+  expect(0, "check @rig.yaml", folder, {}, {"; phase 35.7 deg at 4.81 rad/s; delay"});
+}
+
+TEST_CASE("examples are the scenarios of configs") {
+  const Folder folder;
+  const Result list = expect(0, call("examples"));
+  CHECK(list.err.empty());
+  std::size_t scenarios = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(BBSIM_SOURCE_DIR "/configs")) {
+    if (entry.path().extension() != ".yaml") continue;
+    ++scenarios;
+    const std::string name = entry.path().stem(), text = folder.read(entry.path());
+    CAPTURE(name);
+    CHECK(contains('\n' + list.out, '\n' + name + ' '));
+    expect(0, "examples " + name + " -q --force", folder);
+    CHECK(folder.read(name + ".yaml") == text);
+    CHECK(call("examples " + name + " -o - -q").out == text);
+  }
+  CHECK(lines(list.out).size() == scenarios);
+}
+
+#ifdef BBSIM_PYTHON
+// "+AAo-" is a line break in UTF-7; in the name, it could make Python read the file as UTF-7.
+TEST_CASE("a scenario's name stays text in the programs that linearize writes") {
+  const Folder folder;
+  const std::string name = "coding: utf-7 +AAo-open('ran', 'w')+AAo- \xce\xb8 \xff.yaml";
+  std::filesystem::copy_file(config("fig2b.yaml"), folder / name);
+  for (const std::string program : {"plant.py", "plant.m"}) {
+    expect(0, bbsim({"linearize", name, "-o", program}, folder.path()));
+    const std::string text = folder.read(program);
+    CHECK(std::ranges::all_of(text, [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }));
+    for (const std::size_t line : {0U, 1U}) CHECK_FALSE(contains(lines(text).at(line), "coding"));
+    CHECK(contains(text,
+                   "coding: utf-7 +AAo-open('ran', 'w')+AAo- \\xce\\xb8 \\xff.yaml about home"));
+  }
+  const Result run = expect(0, shell("mkdir empty && echo 'array = list' > empty/numpy.py && "
+                                     "PYTHONPATH=empty python3 plant.py",
+                                     folder));
+  CHECK(run.err.empty());
+  CHECK_FALSE(std::filesystem::exists(folder / "ran"));
+}
+#endif
 
 }  // namespace bbsim_test::test_command_line
