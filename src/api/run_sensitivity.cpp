@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "api/assemble.hpp"
-#include "api/cases.hpp"
 #include "api/simulation.hpp"
+#include "api/sweep.hpp"
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"

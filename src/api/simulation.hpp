@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "api/cases.hpp"
 #include "api/run.hpp"
+#include "api/sweep.hpp"
 #include "file/table_writer.hpp"
 #include "model/model.hpp"
 #include "scenario/columns.hpp"
