@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "api/simulation.hpp"
+#include "api/run_sensitivity.hpp"
 #include "base/error.hpp"
 #include "controller/host.hpp"
 #include "controller/program.hpp"

@@ -12,6 +12,7 @@
 
 #include "api/assemble.hpp"
 #include "api/replay.hpp"
+#include "api/run_sensitivity.hpp"
 #include "api/simulation.hpp"
 #include "base/number_text.hpp"
 #include "controller/host.hpp"

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "api/run_sensitivity.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,8 +10,6 @@
 #include <utility>
 
 #include "api/assemble.hpp"
-#include "api/simulation.hpp"
-#include "api/sweep.hpp"
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"

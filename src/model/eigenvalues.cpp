@@ -21,14 +21,13 @@ namespace bbsim {
 static Quad sqrt(const Quad& square) {
   return root_along(square, Quad(1.0));
 }
-static bool isfinite(const Quad& value) {
-  return std::isfinite(plain(value));
-}
 
 }  // namespace bbsim
 
 namespace bbsim::model {
 namespace {
+
+using std::abs;
 
 template <class Real>
 std::vector<std::complex<double>> eigenvalues_in(const Eigen::MatrixXd& matrix) {
@@ -38,13 +37,27 @@ std::vector<std::complex<double>> eigenvalues_in(const Eigen::MatrixXd& matrix) 
   const Eigen::MatrixXd even = balanced(matrix);
   const double unit = unit_of(even);
   using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
-  const Eigen::EigenSolver<Matrix> solver((even / unit).cast<Real>(), false);
-  if (solver.info() != Eigen::Success) return {};
+  const Eigen::RealSchur<Matrix> schur((even / unit).cast<Real>(), false);
+  if (schur.info() != Eigen::Success) return {};
+  const Matrix& t = schur.matrixT();
   std::vector<std::complex<double>> values;
-  for (const auto& value : solver.eigenvalues()) {
-    values.push_back(unit * std::complex<double>(static_cast<double>(value.real()),
-                                                 static_cast<double>(value.imag())));
-    if (!std::isfinite(values.back().real()) || !std::isfinite(values.back().imag())) return {};
+  const auto add = [&](const Real& real, const Real& imaginary) {
+    values.push_back(unit * std::complex<double>(value_of(real), value_of(imaginary)));
+  };
+  // A block of two rows has a complex pair.
+  for (Eigen::Index i = 0; i < t.rows(); ++i) {
+    if (i + 1 == t.rows() || t(i + 1, i) == Real(0.0)) {
+      add(t(i, i), Real(0.0));
+      continue;
+    }
+    const Real half = Real(0.5) * (t(i, i) - t(i + 1, i + 1)), middle = t(i + 1, i + 1) + half;
+    const Real apart = root_along(abs(half * half + t(i + 1, i) * t(i, i + 1)), Real(1.0));
+    add(middle, apart);
+    add(middle, -apart);
+    ++i;
+  }
+  for (const auto& value : values) {
+    if (!std::isfinite(value.real()) || !std::isfinite(value.imag())) return {};
   }
   return values;
 }
