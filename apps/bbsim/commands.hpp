@@ -28,8 +28,7 @@ class App;
 class Option;
 }  // namespace CLI
 namespace bbsim::api {
-struct Line;
-using Report = std::vector<Line>;
+struct Report;
 struct RunResult;
 }  // namespace bbsim::api
 namespace bbsim::results {
