@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/real.hpp"
 
 namespace bbsim::record {
 
@@ -41,8 +42,6 @@ bool has_plate_inertia(const model::BallConstants& constants) {
   return std::any_of(constants.plate_inertia.begin(), constants.plate_inertia.end(),
                      [](double moment) { return moment > 0; });
 }
-
-constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
 // Groups the measures by their windows.
 std::vector<std::unique_ptr<WindowMeasures>> by_window(const std::vector<Measure>& measures) {
@@ -146,7 +145,7 @@ void Recorder::look_for_gaps(std::size_t count) {
 void Recorder::finish(const solve::Outcome& outcome, double* results) {
   whys_.assign(request_.measures.size(), nullptr);
   if (outcome.rows == 0) {
-    std::fill_n(results, request_.measures.size(), not_measured);
+    std::fill_n(results, request_.measures.size(), no_number);
     whys_.assign(request_.measures.size(), "the run ended before it began");
     return;
   }
