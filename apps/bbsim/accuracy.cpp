@@ -17,7 +17,6 @@
 #include "commands.hpp"
 #include "file/atomic_file.hpp"
 #include "file/outputs.hpp"
-#include "study/verify.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "new_rig.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,6 +14,7 @@
 #include "base/number_text.hpp"
 #include "base/quoted.hpp"
 #include "base/text.hpp"
+#include "commands.hpp"
 #include "embedded.hpp"
 #include "terminal.hpp"
 #include "yaml/quantity.hpp"

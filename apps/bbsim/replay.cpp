@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // `bbsim replay`: a page that plays runs, sweeps and logs; and replay files.
-#include "replay.hpp"
+#include "api/replay.hpp"
 
 #include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <vector>
 
-#include "api/replay.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "commands.hpp"

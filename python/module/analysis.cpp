@@ -32,7 +32,7 @@ namespace bbsim::python {
 namespace {
 
 Scenario scenario_of(const Given& given) {
-  return first_of(shared_family(given));
+  return shared_family(given).itself();
 }
 
 // Of each axis: the limits of its command, and of its servo's angle and rate.

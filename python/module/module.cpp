@@ -87,7 +87,7 @@ api::RunResult run(const Given& given, const std::optional<Texts>& measures, con
   return work.here([&] {
     const ScenarioFamily family = work.family();
     api::RunRequest request;
-    request.scenario = first_of(family);
+    request.scenario = family.itself();
     request.inputs = family.inputs();
     const bool feeds_back = request.scenario.controller && commands_of(request.scenario) == nullptr;
     request.measures = measures ? *measures : scenario::default_measures(feeds_back);
@@ -107,7 +107,7 @@ std::string check(const Given& given) {
   Work work(given);
   return work.beside([&] {
     const ScenarioFamily family = work.family();
-    return to_text(api::check(first_of(family), work.watch()));
+    return to_text(api::check(family.itself(), work.watch()));
   });
 }
 
@@ -120,7 +120,7 @@ api::Linearized linearize(const Given& given, const std::optional<std::string>& 
   Work work(given);
   api::Linearized made = work.beside([&] {
     const ScenarioFamily family = work.family();
-    request.scenario = first_of(family);
+    request.scenario = family.itself();
     return api::linearize(request, work.watch());
   });
   if (!made.reason.empty()) throw InputError(made.reason);
@@ -211,7 +211,7 @@ std::pair<std::string, std::string> accuracy(const Given& given, const std::stri
   const std::vector<double> ladder = api::tolerance_ladder(rtols);
   Work work(given);
   return work.beside([&] {
-    const Scenario scenario = first_of(work.family());
+    const Scenario scenario = work.family().itself();
     const std::string title =
         scenario.title.empty() ? std::filesystem::path(given.name).stem().string() : scenario.title;
     return std::pair(title, study::accuracy_csv(api::accuracy(scenario, {}, ladder, work.watch())));

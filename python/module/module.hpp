@@ -42,13 +42,6 @@ inline ScenarioFamily family_of(const Given& given) {
   return ScenarioFamily(Source{given.name, *given.text, given.overrides});
 }
 
-// The scenario itself, with its text.
-inline Scenario first_of(const ScenarioFamily& family) {
-  Scenario scenario = family.read({});
-  scenario.source = family.source();
-  return scenario;
-}
-
 // Reads it only once, without its callable. Call it with the interpreter's lock.
 inline const ScenarioFamily& shared_family(const Given& given) {
   if (!given.family) given.family = std::make_shared<const ScenarioFamily>(family_of(given));

@@ -10,6 +10,7 @@
 #include "api/watch.hpp"
 #include "scenario/scenario.hpp"
 #include "study/accuracy.hpp"
+#include "study/verify.hpp"
 
 namespace bbsim::api {
 

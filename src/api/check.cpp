@@ -44,19 +44,17 @@ void report_gain(Report& report, const Scenario& scenario, const model::Model& m
     return joined(gain,
                   [](double value) { return short_number(std::abs(value) < 1e-12 ? 0 : value); });
   };
-  report.push_back({"gain phi", row(law.gain[0])});
-  report.push_back({"gain theta", row(law.gain[1])});
-  report.push_back({"", "on x, y, vx, vy, phi, theta, phi_rate, theta_rate"});
+  report.add("gain phi", row(law.gain[0]));
+  report.add("gain theta", row(law.gain[1]));
+  report.add("", "on x, y, vx, vy, phi, theta, phi_rate, theta_rate");
 }
 
 // Margins mean nothing for an unstable loop.
 void report_margins(Report& report, const Scenario& scenario, const model::Model& model) {
   const model::Linearization linearization =
       model::linearize(scenario, model, model::LinearKind::loop, model::home_point());
-  report.push_back({"margins", "of each command's loop, the other one closed"});
-  for (const Report& lines : {margin_lines(linearization), margin_remarks(linearization)}) {
-    report.insert(report.end(), lines.begin(), lines.end());
-  }
+  report.add(margins_of(linearization));
+  report.add(margin_remarks(linearization));
 }
 
 // Says which axis poles and margins leave out.
@@ -64,17 +62,17 @@ void report_idle_axis(Report& report, const model::Model& model) {
   const std::optional<int> idle = model::idle_axis(model);
   if (!idle) return;
   const bool x = *idle == 0;
-  report.push_back({"", std::string("without ") + (x ? "x and phi" : "y and theta") +
-                            ": no command moves the ball along " + (x ? "x" : "y") +
-                            ", and it has no reference there"});
+  report.add("", std::string("without ") + (x ? "x and phi" : "y and theta") +
+                     ": no command moves the ball along " + (x ? "x" : "y") +
+                     ", and it has no reference there");
 }
 
 void report_sampled_loop(Report& report, const Scenario& scenario, const model::Model& model) {
   const model::Eigenvalues poles = model::sampled_poles(model);
   if (poles.empty()) {
-    report.push_back(
-        {"WARNING",
-         "the poles of the sampled loop exceed the range of doubles: its gains are too large"});
+    report.add(
+        "WARNING",
+        "the poles of the sampled loop exceed the range of doubles: its gains are too large");
     return;
   }
   const std::string warning = instability_warning(scenario, model);
@@ -84,29 +82,27 @@ void report_sampled_loop(Report& report, const Scenario& scenario, const model::
                              ? short_number(cycle.samples) + " sample periods, with " +
                                    short_number(cycle.frames) + " of the sensor's frames,"
                              : "a sample period";
-  report.push_back({"closed loop", std::to_string(poles.size()) + " poles of " + of +
-                                       " about home: " + sampled_poles_line(poles)});
+  report.add("closed loop", std::to_string(poles.size()) + " poles of " + of +
+                                " about home: " + sampled_poles_line(poles));
   report_idle_axis(report, model);
   if (const std::string frames = without_frames(scenario, false); !frames.empty()) {
-    report.push_back({"", frames});
+    report.add("", frames);
   }
   if (!warning.empty()) {
-    report.push_back({"WARNING", warning});
+    report.add("WARNING", warning);
     return;
   }
   const double size = std::abs(poles.front()), period = loop.sampling.period * cycle.samples;
-  report.push_back({"", "stable: the slowest mode decays by a factor of " + short_number(size) +
-                            (cycle.samples > 1 ? " in these periods" : " a period") +
-                            ", with a time constant of " + rounded(-period / std::log(size), 3) +
-                            " s"});
+  report.add("", "stable: the slowest mode decays by a factor of " + short_number(size) +
+                     (cycle.samples > 1 ? " in these periods" : " a period") +
+                     ", with a time constant of " + rounded(-period / std::log(size), 3) + " s");
   const Gimbal& gimbal = scenario.gimbal;
-  report.push_back(
-      {"", std::string("without noise, dropouts, rounding, limits, dead band and backlash") +
-               (gimbal.has_steppers() ? "; steppers' ramps are over at once" : "")});
+  report.add("", std::string("without noise, dropouts, rounding, limits, dead band and backlash") +
+                     (gimbal.has_steppers() ? "; steppers' ramps are over at once" : ""));
   if (!model::why_not_linear(scenario).empty()) return;
   if (cycle.samples > 1) {
-    report.push_back(
-        {"margins", "none: the loop differs from sample to sample because of the sensor's frames"});
+    report.add("margins",
+               "none: the loop differs from sample to sample because of the sensor's frames");
   } else {
     report_margins(report, scenario, model);
   }
@@ -115,11 +111,11 @@ void report_sampled_loop(Report& report, const Scenario& scenario, const model::
 // For loops that are open, or whose law bbsim cannot see.
 void report_plant(Report& report, const model::Model& model, const std::string& why) {
   const model::Eigenvalues poles = model::plant_poles(model);
-  report.push_back({"plant", poles.empty() ? "poles about home beyond the range of doubles"
-                                           : std::to_string(poles.size()) +
-                                                 " poles about home under a held command (1/s): " +
-                                                 poles_line(poles)});
-  report.push_back({"closed loop", "no poles: " + why});
+  report.add("plant", poles.empty() ? "poles about home beyond the range of doubles"
+                                    : std::to_string(poles.size()) +
+                                          " poles about home under a held command (1/s): " +
+                                          poles_line(poles));
+  report.add("closed loop", "no poles: " + why);
 }
 
 void report_closed_loop(Report& report, const Scenario& scenario, const model::Model& model) {
@@ -132,30 +128,29 @@ void report_closed_loop(Report& report, const Scenario& scenario, const model::M
   if (model.rig && model.rig->sampled) return report_sampled_loop(report, scenario, model);
   const model::Eigenvalues poles = model::closed_loop_poles(model);
   if (poles.empty()) {
-    report.push_back({"WARNING",
-                      "the closed loop has no linearization about home: the law is singular there, "
-                      "or poles exceed "
-                      "the range of doubles"});
+    report.add("WARNING",
+               "the closed loop has no linearization about home: the law is singular there, or "
+               "poles exceed the range of doubles");
     return;
   }
   const std::string warning = instability_warning(scenario, model);
-  report.push_back({"closed loop", std::to_string(poles.size()) +
-                                       " poles about home (1/s): " + poles_line(poles)});
+  report.add("closed loop",
+             std::to_string(poles.size()) + " poles about home (1/s): " + poles_line(poles));
   report_idle_axis(report, model);
   if (warning.empty()) {
-    report.push_back({"", model.dry ? "stable, without dry friction and limits" : "stable"});
+    report.add("", model.dry ? "stable, without dry friction and limits" : "stable");
     if (model::why_not_linear(scenario).empty()) report_margins(report, scenario, model);
   } else {
-    report.push_back({"WARNING", warning});
+    report.add("WARNING", warning);
   }
 }
 
 void report_solver(Report& report, const Solver& solver) {
-  report.push_back({"solver", std::string(method_name(choose_method(solver.method))) +
-                                  (solver.error ? ", error of x and y at most " +
-                                                      short_number(*solver.error) + " m"
-                                                : ", rtol " + short_number(solver.rtol) +
-                                                      ", atol " + short_number(solver.atol))});
+  report.add("solver",
+             std::string(method_name(choose_method(solver.method))) +
+                 (solver.error ? ", error of x and y at most " + short_number(*solver.error) + " m"
+                               : ", rtol " + short_number(solver.rtol) + ", atol " +
+                                     short_number(solver.atol)));
 }
 
 // How many times the fastest mode decays by a factor of e over the run. Above about 100, stability
@@ -178,18 +173,18 @@ double decays_over_run(const model::Model& model, double end) {
 }
 
 void report_reasons(Report& report, const Scenario& scenario, const model::Model& model) {
-  report.push_back({"", scenario.solver.method == Method::automatic
-                            ? "auto takes the method that was fastest in all measurements"
-                            : "asked for"});
+  report.add("", scenario.solver.method == Method::automatic
+                     ? "auto takes the method that was fastest in all measurements"
+                     : "asked for");
   const double decays = decays_over_run(model, scenario.time.end);
   if (decays <= 1) {
-    report.push_back({"", "not stiff: no motion decays within the run"});
+    report.add("", "not stiff: no motion decays within the run");
     return;
   }
-  report.push_back({"", std::string(decays > 100 ? "stiff" : "not stiff") +
-                            ": the fastest motion decays with a time constant of " +
-                            rounded(scenario.time.end / decays, 3) + " s, in a run of " +
-                            short_number(scenario.time.end) + " s"});
+  report.add("", std::string(decays > 100 ? "stiff" : "not stiff") +
+                     ": the fastest motion decays with a time constant of " +
+                     rounded(scenario.time.end / decays, 3) + " s, in a run of " +
+                     short_number(scenario.time.end) + " s");
 }
 
 // Describes the scenario's sweep block, after a check of its values.
@@ -198,8 +193,8 @@ void report_sweep(Report& report, const Scenario& scenario) {
   const ScenarioFamily family(scenario.source);
   const sweep::SweepPlan plan(family, scenario.sweep);
   static_cast<void>(plan.check(family, 0, plan.cases(), [](double) { return true; }));
-  report.push_back({"sweep", std::to_string(plan.cases()) + " cases of bbsim sweep, over " +
-                                 joined(plan.axes(), &sweep::PlanAxis::key)});
+  report.add("sweep", std::to_string(plan.cases()) + " cases of bbsim sweep, over " +
+                          joined(plan.axes(), &sweep::PlanAxis::key));
 }
 
 void report_exercise(Report& report, const Scenario& scenario) {
@@ -207,11 +202,10 @@ void report_exercise(Report& report, const Scenario& scenario) {
   if (!exercise) return;
   const std::string free = joined(exercise->free);
   const std::size_t count = exercise->tasks.size();
-  report.push_back(
-      {"exercise", counted(count, "task") + "; free keys: " + (free.empty() ? "none" : free)});
+  report.add("exercise", counted(count, "task") + "; free keys: " + (free.empty() ? "none" : free));
   for (std::size_t i = 0; i < count; ++i) {
     const auto& [text, expect] = exercise->tasks[i];
-    report.push_back({"", std::to_string(i + 1) + ". " + text + " (" + expect + ')'});
+    report.add("", std::to_string(i + 1) + ". " + text + " (" + expect + ')');
   }
 }
 
@@ -228,7 +222,7 @@ void report_controller(Report& report, const Scenario& scenario, Watch& watch) {
       assemble(scenario, scenario::columns_named(scenario.output.columns), host);
   std::string label = "controller";
   for (const std::string& line : host.describe()) {
-    report.push_back({std::exchange(label, ""), line});
+    report.add(std::exchange(label, ""), line);
   }
   // A function of the calling program is not probed: it may remember earlier calls.
   if (std::holds_alternative<ControllerFactory>(scenario.controller->own->by)) return;
@@ -242,7 +236,7 @@ void report_controller(Report& report, const Scenario& scenario, Watch& watch) {
     }
     return answers;
   });
-  report.insert(report.end(), found.begin(), found.end());
+  report.add(found);
 }
 
 Report report_of(const Scenario& scenario, bool sweep, bool reasons) {
@@ -251,30 +245,29 @@ Report report_of(const Scenario& scenario, bool sweep, bool reasons) {
   const solve::OutputGrid grid(scenario.time);
 
   Report report;
-  report.push_back({"scenario", scenario.source.file + " is valid"});
-  if (!scenario.title.empty()) report.push_back({"title", scenario.title});
-  report.push_back({"model", std::to_string(model.state_names().size()) +
-                                 " states: " + joined(model.state_names())});
+  report.add("scenario", scenario.source.file + " is valid");
+  if (!scenario.title.empty()) report.add("title", scenario.title);
+  report.add("model", std::to_string(model.state_names().size()) +
+                          " states: " + joined(model.state_names()));
   for (const model::Note& note : model::explain(scenario, model)) {
-    report.push_back({"  " + note.part, note.reason});
+    report.add("  " + note.part, note.reason);
   }
 
   std::string names;
   for (const std::string& name : scenario.output.columns) names += " " + name;
-  report.push_back({"output", std::to_string(grid.size()) +
-                                  " rows to t = " + short_number(grid.end()) + " s:" + names});
+  report.add("output", std::to_string(grid.size()) + " rows to t = " + short_number(grid.end()) +
+                           " s:" + names);
   if (!scenario::need_dynamics(columns) && !scenario.plate.inertia) {
-    report.push_back({"", "no forces, torques or energy: no output column asks for them"});
+    report.add("", "no forces, torques or energy: no output column asks for them");
   }
 
   report_gain(report, scenario, model);
   if (model.closed_loop()) {
     report_closed_loop(report, scenario, model);
   } else if (const model::Eigenvalues poles = model::closed_loop_poles(model); !poles.empty()) {
-    report.push_back(
-        {"plant", std::to_string(poles.size()) +
-                      " poles about home under no torque (1/s): " + poles_line(poles)});
-    if (model.dry) report.push_back({"", "without dry friction and limits"});
+    report.add("plant", std::to_string(poles.size()) +
+                            " poles about home under no torque (1/s): " + poles_line(poles));
+    if (model.dry) report.add("", "without dry friction and limits");
   }
 
   report_solver(report, scenario.solver);
@@ -283,7 +276,7 @@ Report report_of(const Scenario& scenario, bool sweep, bool reasons) {
     report_sweep(report, scenario);
     report_exercise(report, scenario);
   }
-  for (const std::string& remark : scenario.remarks) report.push_back({"remark", remark});
+  for (const std::string& remark : scenario.remarks) report.add("remark", remark);
   return report;
 }
 

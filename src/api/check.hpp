@@ -28,7 +28,11 @@ using model::LinearKind;
 struct Line {
   std::string label, text;
 };
-using Report = std::vector<Line>;
+struct Report : std::vector<Line> {
+  using vector::vector;
+  void add(const std::string& label, const std::string& text) { push_back({label, text}); }
+  void add(const Report& lines) { insert(end(), lines.begin(), lines.end()); }
+};
 
 constexpr std::size_t label_width = 12;
 
@@ -72,11 +76,11 @@ struct Linearized : record::LinearReport {
 // Throws InputError if the scene has no such linear system.
 [[nodiscard]] Linearized linearize(const LinearizeRequest& request, Watch& watch);
 
-// Margins of each command's loop, and the bandwidths.
-[[nodiscard]] Report margin_lines(const Linearization& linearization);
+// Margins of each command's loop, and the bandwidths; empty without margins. `how` they were found.
+[[nodiscard]] Report margins_of(const Linearization& linearization, const std::string& how = "");
 
 // Remarks on gain margins under 6 dB and phase margins under 30 degrees of a stable loop.
-[[nodiscard]] Report margin_remarks(const model::Linearization& linearization);
+[[nodiscard]] Report margin_remarks(const Linearization& linearization);
 
 // Operating points, names and units, poles, zeros and margins.
 [[nodiscard]] Report report_of(const Linearized& linearized);

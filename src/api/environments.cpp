@@ -66,7 +66,7 @@ double farthest_on(const Plate& plate) {
 Environments::Environments(ScenarioFamily family, std::size_t count, std::vector<std::string> keys,
                            bool keeps_rows)
     : family_(std::move(family)),
-      scenario_(family_.read({})),
+      scenario_(family_.itself()),
       keys_(std::move(keys)),
       keeps_rows_(keeps_rows),
       runs_(count),
@@ -74,7 +74,6 @@ Environments::Environments(ScenarioFamily family, std::size_t count, std::vector
   if (!scenario_.controller) {
     throw InputError("controller: found none; allowed: a controller with sampling and drives");
   }
-  scenario_.source = family_.source();
   // Fewer runs would leave lanes empty, and single runs match `bbsim run` bit for bit.
   if (keeps_rows_ || count < group || !scenario_.controller->sampling) return;
   for (std::size_t first = 0; first < count; first += group) {

@@ -152,10 +152,15 @@ Linearized linearize(const LinearizeRequest& request, Watch& watch) {
   return linearized;
 }
 
-Report margin_lines(const model::Linearization& linearization) {
+Report margins_of(const Linearization& linearization, const std::string& how) {
   Report lines;
+  if (linearization.margins.empty()) return lines;
+  lines.add("margins", how + "of each command's loop, the other one closed" +
+                           (linearization.stable ? ""
+                                                 : "; the loop is not stable: these are where "
+                                                   "poles cross the stability limit"));
   for (const model::LoopMargins& loop : linearization.margins) {
-    lines.push_back({"  " + loop.command.substr(0, loop.command.find('_')), text_of(loop.margins)});
+    lines.add("  " + loop.command.substr(0, loop.command.find('_')), text_of(loop.margins));
   }
   const auto bandwidths = [&linearization](double model::Bandwidth::*of) {
     return joined(linearization.bandwidths, [of](const model::Bandwidth& its) {
@@ -170,22 +175,20 @@ Report margin_lines(const model::Linearization& linearization) {
   };
   if (linearization.bandwidths.empty()) return lines;
   if (all_end(&model::Bandwidth::value)) {
-    lines.push_back({"  bandwidth", bandwidths(&model::Bandwidth::value)});
+    lines.add("  bandwidth", bandwidths(&model::Bandwidth::value));
   } else if (all_end(&model::Bandwidth::of_feedback)) {
-    lines.push_back(
-        {"  bandwidth", bandwidths(&model::Bandwidth::of_feedback) +
-                            ", of the feedback: with the reference's accelerations, which the law "
-                            "knows, the response does not fall to 1/sqrt(2)"});
+    lines.add("  bandwidth", bandwidths(&model::Bandwidth::of_feedback) +
+                                 ", of the feedback: with the reference's accelerations, which the "
+                                 "law knows, the response does not fall to 1/sqrt(2)");
   } else {
-    lines.push_back(
-        {"  bandwidth", bandwidths(&model::Bandwidth::value) +
-                            ": the response does not fall to 1/sqrt(2)" +
-                            (linearization.system.period ? " up to half the sampling rate" : "")});
+    lines.add("  bandwidth",
+              bandwidths(&model::Bandwidth::value) + ": the response does not fall to 1/sqrt(2)" +
+                  (linearization.system.period ? " up to half the sampling rate" : ""));
   }
   return lines;
 }
 
-Report margin_remarks(const model::Linearization& linearization) {
+Report margin_remarks(const Linearization& linearization) {
   constexpr double least_gain = 6, least_phase = 30;  // dB, deg
   const auto decibels = [](double factor) { return 20 * std::log10(factor); };
   Report remarks;
@@ -201,10 +204,10 @@ Report margin_remarks(const model::Linearization& linearization) {
     if (margins.reduction > 0) add("gain down ", -decibels(margins.reduction), least_gain, " dB");
     add("phase ", std::abs(margins.phase) * 180 / std::numbers::pi, least_phase, " deg");
     if (small.empty()) continue;
-    remarks.push_back(
-        {"remark", loop.command.substr(0, loop.command.find('_')) + ": small margins: " + small +
-                       "; with less than 6 dB or 30 deg, a loop rings, and small errors of the "
-                       "model may make it unstable"});
+    remarks.add("remark", loop.command.substr(0, loop.command.find('_')) +
+                              ": small margins: " + small +
+                              "; with less than 6 dB or 30 deg, a loop rings, and small errors of "
+                              "the model may make it unstable");
   }
   return remarks;
 }
@@ -221,16 +224,7 @@ Report report_of(const Linearized& linearized) {
       {"period", system.period ? short_number(*system.period) + " s" : "continuous time"},
       {"poles", values_line(linearization.poles)},
       {"zeros", values_line(linearization.zeros)}};
-  if (!linearization.margins.empty()) {
-    report.push_back(
-        {"margins",
-         std::string("of each command's loop, the other one closed") +
-             (linearization.stable
-                  ? ""
-                  : "; the loop is not stable: these are where poles cross the stability limit")});
-  }
-  const Report margins = margin_lines(linearization);
-  report.insert(report.end(), margins.begin(), margins.end());
+  report.add(margins_of(linearization));
   return report;
 }
 

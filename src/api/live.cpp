@@ -57,9 +57,7 @@ bool is_of_rig(const LiveKey& key) {
 
 // Draws each number within 10 % of its value, as far as it is allowed.
 std::vector<Variation> tolerances(const ScenarioFamily& family) {
-  Scenario scenario = family.read({});
-  scenario.source = family.source();  // where the exercise stands
-  const auto exercise = scenario::checked_exercise(scenario);
+  const auto exercise = scenario::checked_exercise(family.itself());
   std::vector<Variation> vary;
   for (const LiveKey& key : keys_of(family)) {
     const bool is_free = !exercise || exercise->free.empty() ||

@@ -388,19 +388,11 @@ Probed estimated_loop(const Scenario& scenario, const model::Model& model, Bench
     if (!estimate.law) return none(estimate.why);
     model::Linearization loop = model::loop_with(plant, *estimate.law, axes);
     Report report;
-    if (!loop.stable) report.push_back({"WARNING", "the loop is not stable, by its estimate"});
-    report.push_back(
-        {"margins", std::string("estimated from its answers to small pulses; of each command's "
-                                "loop, the other one closed") +
-                        (loop.stable ? ""
-                                     : "; the loop is not stable: these are where poles cross the "
-                                       "stability limit")});
-    for (const Report& lines :
-         {margin_lines(loop), loop.stable ? margin_remarks(loop) : Report{}}) {
-      report.insert(report.end(), lines.begin(), lines.end());
-    }
+    if (!loop.stable) report.add("WARNING", "the loop is not stable, by its estimate");
+    report.add(margins_of(loop, "estimated from its answers to small pulses; "));
+    if (loop.stable) report.add(margin_remarks(loop));
     if (const std::string note = without_frames(scenario, true); !note.empty()) {
-      report.push_back({"", note});
+      report.add("", note);
     }
     return {report, std::move(loop), {}};
   } catch (const InputError& error) {  // the plant has no linear system
@@ -431,12 +423,12 @@ Probed probe(const Scenario& scenario, const model::Model& model) {
     return Pair{0.01 * std::cos(0.1 * sample), 0.007 * std::sin(0.1 * sample)};
   };
   if (bench.commands(answers.count, moves) != bench.commands(answers.count, moves)) {
-    report.push_back({"WARNING", "the controller answers differently to the same samples, " +
-                                     within + "; does it read a wall clock?"});
+    report.add("WARNING", "the controller answers differently to the same samples, " + within +
+                              "; does it read a wall clock?");
   }
   if (std::ranges::none_of(axes, [&](int axis) { return depend(answers, axis); })) {
     const std::string idle = "its commands do not depend on where the ball is, " + within;
-    report.push_back({"WARNING", idle});
+    report.add("WARNING", idle);
     return {report, {}, idle};
   }
   std::size_t sample = 0;  // from which on all commands answer
@@ -444,9 +436,9 @@ Probed probe(const Scenario& scenario, const model::Model& model) {
     sample = std::max(sample, answers.first(static_cast<std::size_t>(axis)).value_or(0));
   }
   if (sample > 0) {
-    report.push_back(
-        {"", "it answers to where the ball is from sample " + std::to_string(sample) +
-                 " on, t = " + short_number(static_cast<double>(sample) * bench.period()) + " s"});
+    report.add("", "it answers to where the ball is from sample " + std::to_string(sample) +
+                       " on, t = " + short_number(static_cast<double>(sample) * bench.period()) +
+                       " s");
   }
   const Eigen::MatrixXd effect = effect_of(model);
   const std::string unit = command_unit(scenario.controller->drives);
@@ -455,8 +447,8 @@ Probed probe(const Scenario& scenario, const model::Model& model) {
   for (const int axis : axes) {
     const auto command = static_cast<std::size_t>(axis);
     if (!legs && answers.is_constant(command) && !moves_along(scenario, bench, command)) {
-      report.push_back({"", std::string(angles[command]) + ": stays the same, and nothing moves " +
-                                "the ball along " + coordinates[command]});
+      report.add("", std::string(angles[command]) + ": stays the same, and nothing moves " +
+                         "the ball along " + coordinates[command]);
       continue;
     }
     driven.push_back(axis);

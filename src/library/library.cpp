@@ -76,7 +76,6 @@ class Watch : public api::Watch {
   void update(double fraction, const std::string& /*detail*/) override {
     if (goes_on_ && !goes_on_(fraction)) stop_ = true;
   }
-  void note(const std::string& /*text*/) override {}
   [[nodiscard]] const std::atomic<bool>* stop() override { return &stop_; }
 
  private:
@@ -91,11 +90,6 @@ struct Scenario::State {
   bool is_file = false;
 
   [[nodiscard]] ScenarioFamily family() const { return ScenarioFamily(source); }
-  [[nodiscard]] static house::Scenario first(const ScenarioFamily& family) {
-    house::Scenario scenario = family.read({});
-    scenario.source = family.source();
-    return scenario;
-  }
 };
 
 Scenario::Scenario(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -137,8 +131,7 @@ const Scenario::State& Scenario::state() const {
 std::string Scenario::check() const {
   return guarded([&] {
     Watch watch({});
-    const ScenarioFamily family = state().family();
-    return to_text(api::check(State::first(family), watch));
+    return to_text(api::check(state().family().itself(), watch));
   });
 }
 
@@ -162,7 +155,7 @@ api::RunRequest request_of(const Scenario& scenario, const RunOptions& options) 
   const Scenario::State& state = scenario.state();
   const ScenarioFamily family = state.family();
   api::RunRequest request;
-  request.scenario = Scenario::State::first(family);
+  request.scenario = family.itself();
   request.inputs = family.inputs();
   request.measures = options.measures;
   request.keeps_rows = options.keep_rows;
@@ -341,8 +334,7 @@ Cases simulate(const Scenario& scenario, std::size_t count, const std::vector<Ca
 
 LinearSystem linearize(const Scenario& scenario, const std::string& kind, const std::string& at) {
   return guarded([&] {
-    const ScenarioFamily family = scenario.state().family();
-    api::LinearizeRequest request{Scenario::State::first(family), api::kind_named(kind), at};
+    api::LinearizeRequest request{scenario.state().family().itself(), api::kind_named(kind), at};
     Watch watch({});
     const api::Linearized linearized = api::linearize(request, watch);
     if (!linearized.reason.empty()) refuse(linearized.reason);

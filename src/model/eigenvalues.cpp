@@ -51,7 +51,9 @@ std::vector<std::complex<double>> eigenvalues_in(const Eigen::MatrixXd& matrix) 
       continue;
     }
     const Real half = Real(0.5) * (t(i, i) - t(i + 1, i + 1)), middle = t(i + 1, i + 1) + half;
-    const Real apart = root_along(abs(half * half + t(i + 1, i) * t(i, i + 1)), Real(1.0));
+    const Real size = std::max({abs(half), abs(t(i + 1, i)), abs(t(i, i + 1))});  // none overflows
+    const Real square = (half / size) * (half / size) + t(i + 1, i) / size * (t(i, i + 1) / size);
+    const Real apart = size * root_along(abs(square), Real(1.0));
     add(middle, apart);
     add(middle, -apart);
     ++i;

@@ -76,6 +76,12 @@ Scenario ScenarioFamily::read(const std::vector<Setting>& settings) const {
   return state_->read(settings, nullptr);
 }
 
+Scenario ScenarioFamily::itself() const {
+  Scenario scenario = read({});
+  scenario.source = source();
+  return scenario;
+}
+
 std::optional<double> ScenarioFamily::number_at(const std::string& key,
                                                 const std::vector<Setting>& settings) const {
   std::map<std::string, NotedNumber> numbers;

@@ -42,6 +42,8 @@ class ScenarioFamily {
   // The scenario with these settings, applied in order. Its source lists only the overrides. Throws
   // InputError with all problems; those of a setting begin with "KEY=VALUE".
   [[nodiscard]] Scenario read(const std::vector<Setting>& settings) const;
+  // The scenario without settings, with its whole source.
+  [[nodiscard]] Scenario itself() const;
 
   // The unit of the single number at the key, with these settings: "m". Empty if the value is not a
   // single number, or if its unit depends on more than the key, as for a gain.
