@@ -244,13 +244,13 @@ def limits_of(rig: _bbsim.Given, tilt: Optional[float], rate: Optional[float], m
                   "usual; --max-tilt-rate sets it")  # fmt: skip
 
     def parts(columns: Sequence[str], most: Any) -> List[Tuple[str, float]]:
-        return [(column, sign / one) for column, one in zip(columns, most) for sign in (1, -1)]
+        return [(column, sign / limit) for column, limit in zip(columns, most) for sign in (1, -1)]
 
     def degrees(most: Any) -> str:
-        return " and ".join(dict.fromkeys(rounded(np.degrees(one), 3) for one in most)) + " deg"
+        return " and ".join(dict.fromkeys(rounded(np.degrees(angle), 3) for angle in most)) + " deg"
 
     limits = [
-        ("edge", "ball from the center", " and ".join(rounded(100 * one, 4) for one in edges) + " cm",
+        ("edge", "ball from the center", " and ".join(rounded(100 * edge, 4) for edge in edges) + " cm",
          "plate and margin", parts(("x", "y") if len(edges) > 1 else ("distance",), edges)),
         ("tilt", "tilt", degrees(tilts) + (f", in all {degrees([total])}" if total else ""), tilts_from,
          parts(("phi", "theta"), tilts) + (parts(("tilt",), [total]) if total else [])),
@@ -288,7 +288,7 @@ def player_sketch(hertz: float, tilts: Array, place: Array) -> str:
     unit = 0.001 if np.abs(np.degrees(tilts)).max() < 32 else 0.01
     pairs = [f"{{{phi}, {theta}}}," for phi, theta in np.rint(np.degrees(tilts.T) / unit).astype(int)]
     table = "\n".join("  " + " ".join(pairs[i : i + 6]) for i in range(0, rows, 6))
-    x, y = (_bbsim.short_number(100 * one) for one in place)
+    x, y = (_bbsim.short_number(100 * coordinate) for coordinate in place)
     parts = {"X": x, "Y": y, "ROWS": rows, "UNIT": unit, "PERIOD": round(1e6 / hertz), "TABLE": table}
     text = (Path(__file__).parent / "player.ino").read_text("utf-8")
     return re.sub("@([A-Z]+)@", lambda found: str(parts[found[1]]), text)
@@ -312,7 +312,7 @@ def design(scenario: Union[Scenario, _bbsim.Given], free: Union[str, Sequence[st
     The result has the names of the JSON as attributes, and ``report``. Raises InputError and OutputError.
     """
     rig, short = given(scenario, set), _bbsim.short_number
-    output, table = (one and os.fspath(one) for one in (output, table))
+    output, table = (file and os.fspath(file) for file in (output, table))
     if table and table != "-" and not table.lower().endswith(".csv"):
         raise refuse("table", table, "FILE.csv, or - for standard output")
     if output and (table == "-" or (not table and output == "-")):

@@ -29,7 +29,7 @@ class Motions(NamedTuple):
     states: Array = np.empty(0)  # at the begins of windows: (motion, window, state)
 
     def take(self, which: Any) -> "Motions":
-        return Motions(*(one[which] if len(one) else one for one in self))
+        return Motions(*(array[which] if len(array) else array for array in self))
 
     def at(self, times: Array) -> Array:
         """The values of both axes."""
@@ -137,12 +137,12 @@ class Experiment:
         explain: (motion, number, key). And the norms of the derivatives with known starts: (motion, key)."""
         count, free, windows = len(motions.numbers), len(self._free), self.windows
         if count > 8:  # for progress, and less memory
-            some = [self.slopes(motions.take(slice(i, i + 8)), central) for i in range(0, count, 8)]
-            return np.concatenate([one for one, _ in some]), np.concatenate([one for _, one in some])
+            parts = [self.slopes(motions.take(slice(i, i + 8)), central) for i in range(0, count, 8)]
+            return np.concatenate([slopes for slopes, _ in parts]), np.concatenate([norms for _, norms in parts])
         # A value at its bound has a neighbor on one side only.
         signs = np.array([1] * free + [-1 if key.value(_STEP) == key.value(0) else 1 for key in self.keys])
-        one = _STEP * np.diag(signs)
-        steps = np.vstack([0 * one[:1], one, -one] if central else [0 * one[:1], one])
+        single = _STEP * np.diag(signs)
+        steps = np.vstack([0 * single[:1], single, -single] if central else [0 * single[:1], single])
         values = np.column_stack([key.value(steps[:, free + k]) for k, key in enumerate(self.keys)])
         starts = np.zeros((len(steps), 1, len(_bbsim.START)))
         starts[:, 0, self._free] = steps[:, :free]
@@ -158,8 +158,8 @@ class Experiment:
         moves = (values != values[0]).any(1) | starts.any((1, 2)) | (np.arange(len(steps)) == 0)
         done = (run.status == "done").reshape(shape) & np.isfinite(log).all(-1) & moves[:, None]
         log = np.where(done[..., None], log, np.where(done[:, :1, :, None], log[:, :1], 0))
-        up, down = log[:, 1 : 1 + len(one)], log[:, 1 + len(one) :] if central else log[:, :1]
-        width = (done[:, 1:] & done[:, :1]).reshape(count, -1, len(one), windows).sum(1)[..., None]
+        up, down = log[:, 1 : 1 + len(single)], log[:, 1 + len(single) :] if central else log[:, :1]
+        width = (done[:, 1:] & done[:, :1]).reshape(count, -1, len(single), windows).sum(1)[..., None]
         width[:, free:] *= (width[:, :free] > 0).all(1)[:, None]
         slopes = np.divide(up - down, _STEP * signs[:, None, None] * width, out=np.zeros_like(up), where=width > 0)
         by_start, by_key = np.moveaxis(slopes[:, :free], 1, -1), np.moveaxis(slopes[:, free:], 1, -1)

@@ -75,7 +75,7 @@ def _log_key(text: str, columns: Sequence[str], units: Sequence[str]) -> LogKey:
         place = columns.index(column)
         key = LogKey(name, units[place] if of == "offset" else "", of=of, column=place)
     else:
-        allowed = ", ".join(f"log.{one}.scale, log.{one}.offset" for one in columns)
+        allowed = ", ".join(f"log.{name}.scale, log.{name}.offset" for name in columns)
         refuse_free(f"{name}: allowed for a log: log.delay, {allowed}")
     if equals:
         read_bounds(bounds, key)
@@ -92,7 +92,7 @@ def _candidates(task: "_Task") -> List[FreeKey]:
     """Keys of this scenario that are not free."""
     given = task.logs[0].given
     tables = [file.removesuffix(".file") for file, _ in given.tables()]
-    tables = [one for one in tables if one.startswith(("gimbal.motion", "controller.commands"))]
+    tables = [table for table in tables if table.startswith(("gimbal.motion", "controller.commands"))]
     found: List[FreeKey] = []
     for name in [f"{table}.{of}" for table in tables for of in ("offset", "delay", "scale")] + list(_CANDIDATES):
         try:
@@ -102,7 +102,7 @@ def _candidates(task: "_Task") -> List[FreeKey]:
     delay = _log_key("log.delay", task.columns, task.units)
     delay.start = 0.0
     found += [delay, *(_log_key(f"log.{name}.scale", task.columns, task.units) for name in task.columns)]
-    return [key for key in found if key.name not in {one.name for one in task.keys}]
+    return [key for key in found if key.name not in {free.name for free in task.keys}]
 
 
 def _ideal(given: _bbsim.Given) -> Optional[_bbsim.Given]:
@@ -174,7 +174,7 @@ class _Task:
         for name in ("gimbal.servo.dead_band", "gimbal.servo.backlash"):
             its = [f"gimbal.servo.{axis}.{name[13:]}" for axis in ("phi", "theta")]
             if not free & {name, *its}:
-                parts += [(one, "0") for one in its if given.has(one)]
+                parts += [(part, "0") for part in its if given.has(part)]
                 parts += [(name, "0")] if given.value(name) else []
         if parts:
             self.notes.append("the fit leaves out noise, rounding, dead band and backlash in the loop, unless they are free")
@@ -266,8 +266,8 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
     ideal = _ideal(task.logs[0].given)
     if ideal is not None and not any(ideal.lacks(name) for name in task.columns):
         fitted.ideal_rms = _rms(_other(search, windows, search.u, True))
-    pairs = [(fitted.residual_rms[name], one) for name, one in fitted.ideal_rms.items()]
-    if not fitted.exact and sum(math.log(its / one) for its, one in pairs if one > 0) > 1e-3:
+    pairs = [(fitted.residual_rms[name], rms) for name, rms in fitted.ideal_rms.items()]
+    if not fitted.exact and sum(math.log(rms / ideal_rms) for rms, ideal_rms in pairs if ideal_rms > 0) > 1e-3:
         search.doubts.append("the fit is worse than an ideal rig: try other starting values, bounds or keys")
     if len(held):
         fitted.hold_out_before_rms = _rms(_other(search, held, np.zeros(len(task.keys))))
@@ -299,12 +299,12 @@ def _describe(fitted: Any, search: Search) -> List[str]:
     # Fitting the starts reduces correlation, so white residuals rarely reach this.
     fitted.white = bool(np.all(exact | (products < 3 / np.sqrt(np.maximum(counts, 1)))))
     fitted.exact = bool(exact.all())
-    fitted.correlated = ", ".join(f"{name}: {_bbsim.rounded(one, 2)}" for name, one in zip(fit.columns, products))
+    fitted.correlated = ", ".join(f"{name}: {_bbsim.rounded(its, 2)}" for name, its in zip(fit.columns, products))
     far, notes = (np.abs(errors) > 5 * usual[:, None]) & ~exact[:, None], []
     fitted.outliers = dict(zip(fit.columns, map(int, far.sum((0, 2)))))
     for c, (name, count) in enumerate(fitted.outliers.items()):
         if count:
-            w, row = (int(one[0]) for one in np.nonzero(far[:, c]))
+            w, row = (int(places[0]) for places in np.nonzero(far[:, c]))
             words = f"{count} number of {name} is" if count == 1 else f"{count} numbers of {name} are"
             place = f"t = {fit.windows.times[w, row]:.6g} s of {fitted.logs[fit.windows.log[w]]}"
             notes.append(f"{words} beyond 5 standard deviations, the first at {place}"
@@ -335,9 +335,9 @@ def _estimate(fitted: Any, search: Search) -> List[str]:
         unheard = ", ".join(key.name for key, its in zip(search.keys, deaf.T) if its.any())
         notes.append(f"{deaf.any(1).sum()} of {counted(len(deaf), 'window')} tell nothing of {unheard}: no command passes "
                      "the dead band in them")  # fmt: skip
-    notes += [f"{one.key} is at a bound of its range" for one in fitted.parameters if one.at_bound]
+    notes += [f"{parameter.key} is at a bound of its range" for parameter in fitted.parameters if parameter.at_bound]
     most = np.abs(np.nan_to_num(linear.correlations) * (1 - np.eye(len(u)))).max(0)
-    names = [key.name for key, one in zip(search.keys, most) if one > 0.95]
+    names = [key.name for key, size in zip(search.keys, most) if size > 0.95]
     if names:
         size = _bbsim.rounded(most.max(), 4)
         notes.append(f"{', '.join(names[:-1])} and {names[-1]} are correlated, up to {size}: the logs determine a "

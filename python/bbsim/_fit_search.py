@@ -74,14 +74,14 @@ class Search:
         def derivatives(x: Array) -> Array:
             u = first + x - 1
             self._advance(u)
-            made, slopes = residuals(x), np.concatenate([windows.derivatives(u)[0], weak])
-            step, gain = _best_step(slopes, made, u <= low, u >= high)
-            variance = np.mean(made**2)
+            rest, slopes = residuals(x), np.concatenate([windows.derivatives(u)[0], weak])
+            step, gain = _best_step(slopes, rest, u <= low, u >= high)
+            variance = np.mean(rest**2)
             # Those of a point more than 3 % of a standard deviation away?
             away = slopes[: -len(u)] @ (u - windows.base.u)
             if exact and gain < variance and float(np.linalg.norm(away)) ** 2 > 1e-3 * self.scatter():
                 slopes[: -len(u)] = windows.derivatives(u, near=False)[0]
-                step, gain = _best_step(slopes, made, u <= low, u >= high)
+                step, gain = _best_step(slopes, rest, u <= low, u >= high)
             if gain <= (1e-5 if exact else 0.1) * variance:  # SciPy would look for a decrease among rounding errors
                 self.u = np.clip(u + step, low, high)
                 raise _Done
@@ -269,8 +269,8 @@ class Search:
         Statistics, 1981, section 7.6)."""
         residuals = self.windows.residuals(self.u)
         weights = self.windows.weights[self.windows.there]
-        made = float(((residuals * (weights if self.robust else 1)) ** 2).sum()) / self.degrees_of_freedom()
-        return made / max(float(np.mean(weights >= 1)), 0.1)
+        variance = float(((residuals * (weights if self.robust else 1)) ** 2).sum()) / self.degrees_of_freedom()
+        return variance / max(float(np.mean(weights >= 1)), 0.1)
 
     def suggestion(self, candidates: Sequence[FreeKey]) -> Optional[Tuple[str, float]]:
         """The candidate that, free together with the keys, would reduce the residuals most, and by which share; None if
@@ -323,7 +323,7 @@ class Search:
         grown = self.windows.base.least / np.sqrt(np.diag(covariance) * self.scatter())
         covariance *= np.outer(np.fmax(grown, 1), np.fmax(grown, 1))
         told = ~(np.abs(directions[~known]) > 0.02).any(0)
-        untold = [self._words(one / sizes, np.abs(one) > 0.02) for one in directions[~known]]
+        untold = [self._words(direction / sizes, np.abs(direction) > 0.02) for direction in directions[~known]]
         deviations = np.where(told, np.sqrt(np.diag(covariance)), np.nan)
         correlations = covariance / np.outer(deviations, np.where(deviations > 0, deviations, np.nan))
         return Linear(covariance, told, untold, correlations)

@@ -24,16 +24,16 @@ def _quiet(log: Any, begins: Array, ends: Array) -> Array:
     quiet = np.zeros((len(begins), 2), bool)
     times = np.arange(max(log.times[0], 0.0), log.times[-1], log.given.value("controller.sampling.period"))
     columns = ["phi_command", "theta_command"]
-    made = simulate(log.given, {}, columns, times, begin=times[:1], end=times[-1:], events=False)
+    run = simulate(log.given, {}, columns, times, begin=times[:1], end=times[-1:], events=False)
     for axis, name in enumerate(("phi", "theta")):
         own, followed, last = log.given.value(f"gimbal.servo.{name}.dead_band"), [], 0.0
         dead_band = log.given.value("gimbal.servo.dead_band") if own is None else own
-        for t, command in zip(times, made[columns[axis]][0]):
+        for t, command in zip(times, run[columns[axis]][0]):
             if abs(command - last) > (dead_band or 0.0):
                 last = command
                 followed.append(t)
         quiet[:, axis] = np.searchsorted(followed, ends) == np.searchsorted(followed, begins - _FORGET)
-    return quiet & (made.status == "done").all()
+    return quiet & (run.status == "done").all()
 
 
 def deaf_windows(logs: Sequence[Any], windows: Any, keys: List[str]) -> Array:

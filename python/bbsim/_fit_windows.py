@@ -217,17 +217,17 @@ class WindowsFit:
         moves = np.concatenate([np.zeros((1, moves.shape[2])), moves.reshape(-1, moves.shape[2])])
         all_u = np.repeat(u + moves[:, :keys], count, axis=0)
         all_starts = (starts + moves[:, None, keys:]).reshape(-1, starts.shape[1])
-        made, runs, why = self._run(np.tile(np.arange(count), len(moves)), all_u, all_starts)
-        made, runs = made.reshape(len(moves), count, -1), runs.reshape(len(moves), count)
+        shown, runs, why = self._run(np.tile(np.arange(count), len(moves)), all_u, all_starts)
+        shown, runs = shown.reshape(len(moves), count, -1), runs.reshape(len(moves), count)
         # A value at its bound has a neighbor on one side only.
         moved = (runs[1:] & runs[0]).reshape(len(beside), len(steps), count)
         for k, key in enumerate(self.keys):
             moved[:, k] &= (key.value(u[k] + at[:, k]) != key.value(u[k]))[:, None]
-        sides = np.where(moved[..., None], made[1:].reshape(*moved.shape, -1), made[0])
-        by_all, jumps = self._slopes(sides, made[0], np.where(moved, at[..., None], 0.0))
+        sides = np.where(moved[..., None], shown[1:].reshape(*moved.shape, -1), shown[0])
+        by_all, jumps = self._slopes(sides, shown[0], np.where(moved, at[..., None], 0.0))
         by_all[..., :keys] *= ~self.deaf[:, None]
         least = np.where(jumps[:keys], steps[:keys], 0.0)
-        self.base = _Point(u, starts, made[0], runs[0], why[:count], by_all[..., :keys], by_all[..., keys:], least)
+        self.base = _Point(u, starts, shown[0], runs[0], why[:count], by_all[..., :keys], by_all[..., keys:], least)
         self._solvers = None
 
     def _slopes(self, sides: Array, middle: Array, at: Array) -> Tuple[Array, Array]:
@@ -245,7 +245,7 @@ class WindowsFit:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # numpy's, on windows that do not run
                 median = np.nanmedian(parts, 0)
-            sizes = [np.nansum((one * self.over_noise()) ** 2, (1, 2)) for one in (median, slopes)]
+            sizes = [np.nansum((each * self.over_noise()) ** 2, (1, 2)) for each in (median, slopes)]
             jumps = sizes[0] < _ONLY_JUMPS**2 * sizes[1]
             slopes = np.where(jumps[:, None, None], slopes, median)
         return np.nan_to_num(np.moveaxis(slopes, 0, -1)), jumps
@@ -335,14 +335,14 @@ class WindowsFit:
         before = self.key_steps, self.start_steps
         self.key_steps, self.start_steps = np.broadcast_to(wide, u.shape), WIDE * before[1]
         self.linearize(u, self.base.starts)
-        small, large = (np.concatenate([one.by_key, one.by_start], -1) * factors for one in (smooth, self.base))
-        change, size = (np.sqrt((one**2).sum(1)) for one in (small - large, large))  # windows x numbers
+        small, large = (np.concatenate([point.by_key, point.by_start], -1) * factors for point in (smooth, self.base))
+        change, size = (np.sqrt((slope**2).sum(1)) for slope in (small - large, large))  # windows x numbers
         widths = np.concatenate([self.key_steps, self.start_steps[self.free]])
         seen = size * widths > 1e-3
         kinked = np.mean((change > 0.2 * size) & seen, 0) > np.maximum(0.3 * np.mean(seen, 0), 1e-9)
         if self.jumps:  # in one window, with more effect than all that the starts cannot undo
-            alone = [one - slopes @ (inverse @ one) for one in (small - large, large)]
-            change, size = (np.sqrt((one**2).sum((0, 1))) for one in alone)
+            alone = [slope - slopes @ (inverse @ slope) for slope in (small - large, large)]
+            change, size = (np.sqrt((slope**2).sum((0, 1))) for slope in alone)
             kinked |= seen.any(0) & (change > 0.5 * size)
         self.key_steps = np.where(kinked[: len(u)], self.key_steps, before[0])
         self.start_steps = before[1].copy()
@@ -400,7 +400,7 @@ class WindowsFit:
                 if rows and 2 + axis in self.free and name in self.columns:
                     its = self.windows.values[:, self.columns.index(name), :rows]
                     times = np.where(np.isfinite(its), self.windows.times[:, :rows], np.nan)
-                    times, its = (one - np.nanmean(one, 1, keepdims=True) for one in (times, its))
+                    times, its = (array - np.nanmean(array, 1, keepdims=True) for array in (times, its))
                     tried[:, 2 + axis] = np.nansum(times * its, 1) / np.maximum(np.nansum(times**2, 1), 1e-12)
             cost = np.nan_to_num(((self._run_all(u, tried)[0] * self.over_noise()) ** 2).sum(1), nan=np.inf)
             best, least = np.where((cost < least)[:, None], tried, best), np.minimum(cost, least)
@@ -414,8 +414,8 @@ class WindowsFit:
         """Of each column's differences at the last point, in SI units: rms; robust, 1.4826 times the median; number."""
         places = np.broadcast_to(self.column_of, self.there.shape)
         its = [np.abs(self.point.differences[self.there & (places == c)]) for c in range(len(self.columns))]
-        return np.array([(math.sqrt(np.mean(one**2)), 1.4826 * np.sort(one)[one.size // 2], one.size)
-                         if one.size else (0, 0, 0) for one in its], float).T  # fmt: skip
+        return np.array([(math.sqrt(np.mean(column**2)), 1.4826 * np.sort(column)[column.size // 2], column.size)
+                         if column.size else (0, 0, 0) for column in its], float).T  # fmt: skip
 
 
 def _times(matrices: Array, vectors: Array) -> Array:

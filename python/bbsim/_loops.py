@@ -268,8 +268,8 @@ def draw_root_locus(columns: Columns, loop: Linearization, key: str, width: floa
     for its in np.unique(value):
         now = (columns["real"] + 1j * columns["imag"])[value == its]
         if len(before) == len(now):
-            one, other = linear_sum_assignment(np.abs(before[:, None] - now))
-            ends = np.stack([before[one], now[other]], axis=1)
+            from_pole, to_pole = linear_sum_assignment(np.abs(before[:, None] - now))
+            ends = np.stack([before[from_pole], now[to_pole]], axis=1)
             lines += list(np.stack([ends.real, ends.imag], axis=2))
             colors += [its] * len(now)
         before = now

@@ -102,7 +102,7 @@ def _prefixed(unit: Unit, most: float) -> Scale:
     if most < _SMALLEST:
         return Scale(unit.factor, 0.0, unit.text)
     prefixes = _AUTO.get(unit.text, [("", 1, 0)])
-    prefix, size, _ = [one for one in prefixes if most >= one[2]][-1]
+    prefix, size, _ = [entry for entry in prefixes if most >= entry[2]][-1]
     for own, its, _ in prefixes:
         if own == unit.prefix and 0.5 <= most / its < 1e4:
             prefix, size = own, its
@@ -137,8 +137,8 @@ def choose_scales(unit: Unit, x: Range, y: Range) -> Tuple[Scale, Scale]:
     far = [range_ is not None and wide <= CLOSE * largest(range_) for range_ in (x, y)]
     if wide <= _ROUNDING * size or not any(far):
         return (_prefixed(unit, size),) * 2
-    one, other = (_shifted(unit, its, wide) if off and its else _prefixed(unit, wide) for its, off in zip((x, y), far))
-    return one, other
+    of_x, of_y = (_shifted(unit, its, wide) if off and its else _prefixed(unit, wide) for its, off in zip((x, y), far))
+    return of_x, of_y
 
 
 def linear_limits(range_: Range, air: float = 0.06) -> Tuple[float, float]:

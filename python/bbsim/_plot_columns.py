@@ -51,10 +51,10 @@ class Runs:
     """The runs of a picture, and how their columns are drawn."""
 
     def __init__(self, runs: Sequence[_bbsim.Stored]) -> None:
-        self.runs, self.one = runs, len(runs) == 1
+        self.runs, self.single = runs, len(runs) == 1
         self.kinds = list(dict.fromkeys(event.name for run in runs for event in run.events))  # of events
         self.units = Units(next((run.scenario_text for run in runs if run.scenario_text), ""))
-        self.known = {one[0]: Known(*one) for one in _bbsim.known_columns(_command_unit(runs[0]))}
+        self.known = {column[0]: Known(*column) for column in _bbsim.known_columns(_command_unit(runs[0]))}
 
     def having(self, column: str) -> List[_bbsim.Stored]:
         return [run for run in self.runs if column in run.names]
@@ -70,7 +70,7 @@ class Runs:
         if known is None:
             return self.units.drawn(next((run.unit(column) for run in self.having(column) if run.unit(column)), ""))
         if known.role == COMMAND and not all(run.units_known for run in self.runs):
-            known = Known(*next(one for one in _bbsim.known_columns("rad") if one[0] == column))
+            known = Known(*next(its for its in _bbsim.known_columns("rad") if its[0] == column))
         return self.units.drawn(known.unit, column in ("gamma", "spin"))
 
     def facts(self, column: str) -> Known:
@@ -84,7 +84,7 @@ class Runs:
 
     def mark(self, run: _bbsim.Stored, kind: str) -> Stroke:
         """That of a kind of event, the same in all panels."""
-        color = ORANGE if self.one else self.stroke(run)["color"]
+        color = ORANGE if self.single else self.stroke(run)["color"]
         return mark(("^", "D", "s", " s", "+")[self.kinds.index(kind) % 5], color, 3.5)
 
     def planned(self) -> List[Panel]:
@@ -98,7 +98,7 @@ class Runs:
                 places.setdefault(known.panel, Panel(self.unit(name), [])).lines.append(self.line(name))
         for _, panel in sorted(places.items()):
             # x and y, or phi and theta, share a panel if it has no other quantity.
-            alone = [one.lines[0].column for one in panels[-1:] + [panel] if len(one.lines) == 1]
+            alone = [each.lines[0].column for each in panels[-1:] + [panel] if len(each.lines) == 1]
             if alone in (["x", "y"], ["phi", "theta"]):
                 panels[-1].lines.append(panel.lines[0])
             else:
@@ -134,7 +134,7 @@ class Runs:
         panels: List[Panel] = []
         for panel in wanted:
             roles = [line.role for line in panel.lines]
-            if not self.one:
+            if not self.single:
                 # Lines of a panel differ by run, so two quantities cannot share one. References can: they are bands.
                 panels += self._split(panel, [line for line in panel.lines if line.role != REFERENCE])
             elif may_split and roles.count(MAIN) > 1 and (COMMAND in roles or self._flattens(panel)):

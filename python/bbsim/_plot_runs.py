@@ -42,9 +42,9 @@ def _legend_of_events(runs: Runs) -> Legend:
     for kind in runs.kinds:
         events = [event for run in runs.runs for event in run.events if event.name == kind]
         text = kind + (f", {len(events)} times" if len(events) > 1 else "")
-        text += " (stops)" if runs.one and any(event.stopped for event in events) else ""
+        text += " (stops)" if runs.single and any(event.stopped for event in events) else ""
         look = runs.mark(runs.runs[0], kind)
-        entries.append((text, look if runs.one else {**look, "color": "#000000"}))
+        entries.append((text, look if runs.single else {**look, "color": "#000000"}))
     return entries
 
 
@@ -70,9 +70,9 @@ def _time_panel(sheet: Sheet, box: Box, runs: Runs, planned: Panel, abscissa: _A
         mains = 0
         for line in planned.lines:
             look = {MEASURED: _MEASURED_STROKE, COMMAND: _COMMAND_STROKE}.get(line.role) or stroke(mains)
-            look = BAND if line.role == REFERENCE else look if runs.one else runs.stroke(run)
+            look = BAND if line.role == REFERENCE else look if runs.single else runs.stroke(run)
             mains += line.role == MAIN
-            if len(planned.lines) > 1 and run is runs.runs[0] and (runs.one or line.role == REFERENCE):
+            if len(planned.lines) > 1 and run is runs.runs[0] and (runs.single or line.role == REFERENCE):
                 legend.append((line.name, look))
             if line.column in run.names:
                 curves.append((run, line, look))
@@ -149,7 +149,7 @@ class _Path:
         self._x, self._y = ranges(spots, *self._edges)
 
     def legend(self) -> Legend:
-        entries: Dict[str, Stroke] = {"path": stroke(0)} if self._runs.one else {}
+        entries: Dict[str, Stroke] = {"path": stroke(0)} if self._runs.single else {}
         entries.update(("reference", look) for _, look in self._references)
         entries.update([("plate's edge", _EDGE)] if self._edges else [])
         return [*entries.items(), ("start", mark(" o")), ("end", mark("o", size=4))]
@@ -186,7 +186,7 @@ class _Path:
             if look is not BAND:
                 spot(reference, 0, look)
         for run in runs.runs:
-            color = "#000000" if runs.one else runs.stroke(run)["color"]
+            color = "#000000" if runs.single else runs.stroke(run)["color"]
             spot(_points(run), 0, mark(" o", color))
             spot(_points(run), -1, mark("o", color, 4))
             for event in run.events:
@@ -201,14 +201,14 @@ _NARROW = 125.0  # mm: narrower pictures have one column
 def _layout(path: bool, panels: int, wide: Optional[float]) -> Tuple[float, float, float, List[int]]:
     """The picture's width, the height of a panel with its gaps, and that of the path, mm; and the number of panels in
     each column, the first of them below the path."""
-    least, two = 20.0, 180.0 if wide is None else wide
+    least, two = 20.0, wide or 180.0
     if path and panels == 0:
-        one = 88.0 if wide is None else wide
-        return one, 0.0, min(one - _LEFT - _RIGHT, 130.0), [0]
+        across = wide or 88.0
+        return across, 0.0, min(across - _LEFT - _RIGHT, 130.0), [0]
     if two < _NARROW or (not path and panels <= 6):
-        one = 135.0 if wide is None else wide
+        across = wide or 135.0
         pitch = max((66 if panels > 1 else 54) / panels, least)
-        return one, pitch, 0.85 * (one - _LEFT - _RIGHT), [panels]
+        return across, pitch, 0.85 * (across - _LEFT - _RIGHT), [panels]
     if not path:
         return two, least, 0.0, [panels - panels // 2, panels // 2]
     right = panels if panels < 6 else (panels + 5) // 2
@@ -227,7 +227,7 @@ def _status(run: _bbsim.Stored) -> str:
 def _titles(runs: Runs) -> Tuple[str, str, Legend]:
     first = runs.runs[0]
     title = first.title if all(run.title == first.title for run in runs.runs) else ""
-    if not runs.one:
+    if not runs.single:
         shown = [run.shown_file for run in runs.runs]
         names = [run.file if shown.count(run.shown_file) > 1 else run.shown_file for run in runs.runs]
         if not any(names):

@@ -182,7 +182,7 @@ class Sheet:
             room = width - width_of(heading, TEXT) - len(legend) * (self._SAMPLE + self._GAP)
             widths = [width_of(clean(name), SMALL) for name, _ in legend]
             most = max(widths)
-            while sum(min(one, most) for one in widths) > room and most > 3:  # cuts the longest names until all fit
+            while sum(min(need, most) for need in widths) > room and most > 3:  # cuts the longest names until all fit
                 most *= 0.95
             names = [cut(name, most, SMALL) for name, _ in legend]
             self._legend(axes, legend, names, len(names), "lower right", (1, 1 + 1.2 / box.up))

@@ -324,12 +324,12 @@ def draw_sweep(stored: _bbsim.Stored, asked: Sequence[str], over: Sequence[str],
         raise fault(f"{stored.file or 'the sweep'}: nothing to draw: {why}")
     form = _choose_form(sweep.table, over)
     histogram, is_map = form.over is None, form.against is not None
-    one = len(measures) == 1
-    sheet_width = wide or (135.0 if one else 180.0)
-    columns = 1 if one or sheet_width < 125 else 2
+    single = len(measures) == 1
+    sheet_width = wide or (135.0 if single else 180.0)
+    columns = 1 if single or sheet_width < 125 else 2
     left, right, between = (15.0, 4.0, 19.0)
     part = (sheet_width - left - right - between * (columns - 1)) / columns
-    pitch = 0.42 * part + 20 if one else 0.5 * part + 11 if is_map else 34.5 if histogram else 30.5
+    pitch = 0.42 * part + 20 if single else 0.5 * part + 11 if is_map else 34.5 if histogram else 30.5
     rows = -(-len(measures) // columns)
     cases = f"{stored.rows} cases{_taken_over(sweep.table, form)}"
     others = [(f"{word}: {counted(n, 'case')}", sweep.mark(word)) for word, n in sweep.table.others]

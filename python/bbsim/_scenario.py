@@ -59,7 +59,7 @@ class InputError(Error, ValueError):
         for place, message in self.told:
             if place.startswith(_CALLABLE):
                 message = message.replace("controller.library", "controller.callable")
-            message = _OPTION.sub(lambda found: found[0].lstrip("-").replace("-", "_").lower(), message.removeprefix("--set "))
+            message = _OPTION.sub(lambda m: m[0].lstrip("-").replace("-", "_").lower(), message.removeprefix("--set "))
             key, hint = _bbsim.key_and_hint(message)
             its_place = "" if place.startswith("<dict") else place.removeprefix("--set ")
             self.problems.append(Problem(message, its_place, key or None, hint))

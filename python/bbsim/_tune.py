@@ -77,9 +77,9 @@ class Search:
     def _take(self, points: Array, anew: bool = False) -> int:
         """Tries points in the chosen cases; returns the best one's place. `anew`: forgets the others."""
         scores, missed = self.score(points, self.cases)
-        merits, self.tried = [merit_of(*one, self.share) for one in zip(scores, missed)], self.tried + len(points)
+        merits, self.tried = [merit_of(*its, self.share) for its in zip(scores, missed)], self.tried + len(points)
         if self.share < 1:  # the cases that count depend on the point
-            scores = np.stack([worst_of(one, self.share)[None] for one in scores])
+            scores = np.stack([worst_of(of_point, self.share)[None] for of_point in scores])
         if not anew:
             points, scores = np.concatenate([self.points, points]), np.concatenate([self.scores, scores])
         self.points, self.scores, self.merits = points, scores, merits if anew else self.merits + merits
@@ -138,8 +138,8 @@ class Search:
                 scan = self._around(np.full(size, 0.5), 0.5, _SCANNED * (1 + size))
                 self._take(np.concatenate([start[None], scan]), anew=True)
                 order = sorted(range(len(scan) + 1), key=self.merits.__getitem__)
-                for one in dict.fromkeys([*order[: max(1, size // 2)], 0]):
-                    self._descend(one, _FIRST)
+                for place in dict.fromkeys([*order[: max(1, size // 2)], 0]):
+                    self._descend(place, _FIRST)
             else:
                 near = self._around(self.best, _LATER, 2 * size)
                 self._descend(self._take(np.concatenate([self.best[None], near]), anew=True), _LATER)
@@ -257,7 +257,7 @@ class _Tuning:
         def score(points: Array, cases: Array) -> Tuple[Array, Array]:
             done = search.tried / (60 * (1 + len(start)))
             progress(done / (0.2 + done), f"{self.measures[0]} {search.merit[-1]:.3g}")
-            values, missed = self.measured(points, {name: one[cases] for name, one in self.rigs.items()})
+            values, missed = self.measured(points, {name: drawn[cases] for name, drawn in self.rigs.items()})
             if len(cases) == len(search.all):
                 seen.update((point.tobytes(), its) for point, its in zip(points, values))
             return self.scores(values) + [0, *tighter], missed
@@ -270,7 +270,7 @@ class _Tuning:
                     break
                 progress(0.99, "rigs held out")
                 others = self.draw(self.hold_out, 2 + turn) if turn else self.others
-                values, missed = (one[0] for one in self.measured(search.best[None], others))
+                values, missed = (of_points[0] for of_points in self.measured(search.best[None], others))
                 scores, drawn = self.scores(values), self.scores(seen[search.best.tobytes()])
                 kept, held = merit_of(drawn, np.zeros(len(drawn)), self.share), merit_of(scores, missed, self.share)
                 passes = np.isfinite(scores[:, 0]) & (scores[:, 1:] <= 0).all(1)
