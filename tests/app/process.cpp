@@ -122,17 +122,6 @@ Result call_with(const std::string& variable, const std::string& value, const st
   return call(line, folder, [&] { setenv(variable.c_str(), value.c_str(), 1); });
 }
 
-Result signal_once(const Folder& folder, const std::string& file, std::uintmax_t bytes, int signal,
-                   const std::string& line) {
-  Launch launch{words_of(line), folder.path(), signal};
-  launch.signal_when = [&] {
-    std::error_code none;
-    const std::uintmax_t size = fs::file_size(folder / file, none);
-    return !none && size >= bytes;
-  };
-  return bbsim(launch);
-}
-
 nlohmann::json summary_of(const Folder& folder, const std::string& name) {
   return nlohmann::json::parse(folder.read(name));
 }

@@ -86,10 +86,6 @@ inline Result expect(int exit_code, const std::string& line, const Folder& folde
   return expect(exit_code, call(line, folder), errors, output);
 }
 
-// Sends a signal to a command once a file of the folder has this many bytes.
-Result signal_once(const Folder& folder, const std::string& file, std::uintmax_t bytes, int signal,
-                   const std::string& line);
-
 // The JSON that a command wrote.
 nlohmann::json summary_of(const Folder& folder, const std::string& name);
 

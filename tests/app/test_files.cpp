@@ -1,14 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Input and output files: no file is lost, whatever its name and however the program ends.
+// Limits of the system, rights, and signals; transcripts/files.txt has more of files.
 #include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -21,12 +19,6 @@ using Names = std::vector<std::string>;
 namespace fs = std::filesystem;
 
 namespace {
-
-const std::string samples = "t,a\n0,0\n1,0.01\n2,0\n3,0.01\n";
-const std::string scene_with_table =
-    "ball: {radius: 0.01}\n"
-    "gimbal: {motion: {phi: {table: {file: t.csv, time: t, value: a}}}}\n"
-    "time: {end: 3, step: 0.1}\n";
 
 void limit(int resource, rlim_t value) {
   const rlimit both{value, value};
@@ -49,47 +41,6 @@ TEST_CASE("a folder, unreadable file or device in place of a summary gives exit 
     expect(2, call("replay r.csv --summary " + file, folder, drop_rights_before_exec), {why});
   }
   CHECK(folder.files() == Names{"closed", "folder", "in.yaml", "r.csv"});
-}
-
-TEST_CASE("the instruction set is named") {
-  const Folder folder;
-  const std::string version = expect(0, "--version", folder).out;
-  CHECK_THAT(version, Catch::Matchers::Matches(
-                          "bbsim " BBSIM_VERSION "\n"
-                          "instruction set: [a-z0-9]+\n"
-                          "commit: ([0-9a-f]{7,}(, with changes)?|unknown: .*)\n"
-                          "libraries: SUNDIALS [0-9.]+, Eigen [0-9.]+, yaml-cpp [0-9.]+, CLI11 "
-                          "[0-9.]+, nlohmann-json [0-9.]+, HDF5 [0-9.]+\n"));
-  folder.write("in.yaml", short_scene);
-  expect(0, "run in.yaml -q --summary s.json", folder);
-  CHECK("instruction set: " + summary_of(folder, "s.json")["instruction_set"].get<std::string>() ==
-        lines(version)[1]);
-  expect(2, call_with("BBSIM_SIMD", "none", "--version", folder));
-}
-
-TEST_CASE("files name the commit beside the version") {
-  const Folder folder;
-  const std::string commit = lines(call("--version").out)[2].substr(8);
-  std::string version = BBSIM_VERSION;
-  if (!commit.starts_with("unknown")) {
-    const std::size_t end = commit.find(',');
-    version += "+g" + commit.substr(0, end) + (end == std::string::npos ? "" : ".changed");
-  }
-  folder.write("in.yaml", short_scene);
-  expect(0, "run in.yaml -q -o r.h5 --summary r.json", folder);
-  expect(0, "sweep in.yaml -q --vary gravity=list:9,10 -o s.h5 --summary s.json", folder);
-  for (const std::string name : {"r", "s"}) {
-    CHECK(summary_of(folder, name + ".json")["version"] == version);
-    CHECK(contains(folder.read(name + ".h5"), version));
-  }
-}
-
-TEST_CASE("a folder name that is not UTF-8 does not stop a sweep with a table") {
-  const Folder folder;
-  fs::create_directory(folder / "s\xff");
-  folder.write("s\xff/in.yaml", scene_with_table);
-  folder.write("s\xff/t.csv", samples);
-  expect(0, "sweep s\xff/in.yaml --vary gravity=list:1,2 -o s.csv", folder);
 }
 
 TEST_CASE("if fewer threads are available, fewer are used") {

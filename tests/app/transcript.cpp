@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Runs the cases of tests/app/transcripts; README.md there has their statements.
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -14,11 +15,13 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "file/hdf5_table.hpp"
 #include "shell.hpp"
 
 namespace bbsim_test {
 
 using nlohmann::json;
+namespace file = bbsim::file;
 
 namespace {
 
@@ -59,8 +62,30 @@ std::vector<Statement> statements_of(const std::string& text, const std::string&
   return found;
 }
 
-// A CSV as an array of rows, or the JSON of any other file.
+// Attributes, columns and the inputs' columns of an HDF5 file.
+json hdf5_of(const std::string& path) {
+  file::Hdf5TableReader file(path);
+  json made;
+  for (const auto& [name, value] : file.head().attributes) {
+    std::visit([&, &key = name](const auto& its) { made["attributes"][key] = its; }, value.value());
+  }
+  file::Hdf5Block block;
+  (void)file.read(block);
+  for (std::size_t i = 0; i < file.columns().size(); ++i) {
+    const file::Hdf5Column& column = file.columns()[i];
+    made["columns"][column.name] = {{"unit", column.unit}};
+    if (column.kind == file::Hdf5Kind::number) {
+      made["columns"][column.name]["greatest"] = *std::ranges::max_element(block.values[i]);
+    }
+  }
+  made["inputs"] = json::array();
+  for (const auto& [name, data] : file.read_inputs()) made["inputs"].push_back(data->names());
+  return made;
+}
+
+// A CSV as an array of rows, an HDF5 file, or the JSON of any other file.
 json table_of(const Folder& folder, const std::string& file) {
+  if (file.ends_with(".h5")) return hdf5_of(file.front() == '/' ? file : folder / file);
   if (!file.ends_with(".csv")) return summary_of(folder, file);
   json table = json::array();
   const auto cells = rows(folder.read(file));
@@ -332,6 +357,7 @@ void play(const std::string& transcript, const std::string& title) {
   const std::string text =
       Folder().read(BBSIM_SOURCE_DIR "/tests/app/transcripts/" + transcript + ".txt");
   Player({{"SOURCE", BBSIM_SOURCE_DIR},
+          {"BBSIM_VERSION", BBSIM_VERSION},
           {"CHILD", BBSIM_TEST_CHILD},
           {"PID", BBSIM_EXAMPLE_LIBRARY},
           {"LEGS", BBSIM_EXAMPLE_LEGS},

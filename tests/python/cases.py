@@ -47,7 +47,11 @@ class Case(unittest.TestCase):
             self.assertEqual(main(words[0], list(map(str, words[1:]))), code, (words, said.getvalue()))
         return out.getvalue(), said.getvalue()
 
-    def refuses(self, message, call, *words, **options):
+    def refuses(self, message, call, *words, key=None, **options):
+        """`key`: what the first problem names."""
         with self.assertRaises(bbsim.InputError) as caught:
             call(*words, **options)
         self.assertIn(message, str(caught.exception))
+        if key is not None:
+            self.assertEqual(caught.exception.key, key)
+        return caught.exception

@@ -336,9 +336,8 @@ class Pages(cases.Case):
         bbsim.run(CONFIGS / "fig2a.yaml", output="run.csv")
         os.rename("run.csv", "run.html")
         self.refuses("output", bbsim.replay, "run.html", output="run.html")
-        with self.assertRaises(bbsim.InputError) as caught:
-            bbsim.replay(CONFIGS / "none.yaml", CONFIGS / "neither.yaml")
-        self.assertEqual(len(caught.exception.problems), 2)
+        missing = self.refuses("none.yaml", bbsim.replay, CONFIGS / "none.yaml", CONFIGS / "neither.yaml")
+        self.assertEqual(len(missing.problems), 2)
 
     def test_examples_run(self):
         files = bbsim.examples()
@@ -346,7 +345,7 @@ class Pages(cases.Case):
         self.assertEqual(bbsim.run(files["recorded"]).status, "done")
 
 
-class Callables(unittest.TestCase):
+class Callables(cases.Case):
     def test_pd_equals_the_built_in_one(self):
         built_in, own = bbsim.run(LOOP), bbsim.run(with_callable(SampledPd()))
         for column in built_in:
@@ -433,22 +432,19 @@ class Callables(unittest.TestCase):
         np.testing.assert_allclose(own["end_x"], built_in["end_x"], rtol=0, atol=1e-6)
 
     def test_no_callable(self):
-        with self.assertRaises(bbsim.InputError) as caught:
-            bbsim.run(with_callable(3))
-        self.assertEqual(caught.exception.key, "controller.callable")
+        self.refuses("", bbsim.run, with_callable(3), key="controller.callable")
         laws = with_callable(lambda sample: (0, 0))
         off = {"controller.sampling": None}
         for more, settings, key in (({"pd": 1}, {}, "callable"), ({}, off, "callable"), ({"library": {}}, {}, "library")):
-            with self.assertRaises(bbsim.InputError) as caught:
-                bbsim.run({**laws, "controller": {**laws["controller"], **more}}, settings)
-            self.assertIn(f"controller.{key}", [problem.key for problem in caught.exception.problems])
-            self.assertEqual("library" in str(pickled(caught.exception)), key == "library")
+            error = self.refuses("", bbsim.run, {**laws, "controller": {**laws["controller"], **more}}, settings)
+            self.assertIn(f"controller.{key}", [problem.key for problem in error.problems])
+            self.assertEqual("library" in str(pickled(error)), key == "library")
 
     def test_help_has_units(self):
         self.assertIn("rad", bbsim.Sample.__doc__)
 
 
-class Sweeps(unittest.TestCase):
+class Sweeps(cases.Case):
     def test_equals_the_program(self):
         for file, vary, spec in (
             ("fig2a.yaml", {"ball.position.0": np.linspace(-0.1, 0.1, 41)}, "ball.position.0=linear:-0.1:0.1:41"),
@@ -485,9 +481,8 @@ class Sweeps(unittest.TestCase):
         wrong = [0, -1, 2.5, math.nan, math.inf, 1e300]
         for name, values in (("samples", [*wrong, None]), ("seed", wrong[1:]), ("threads", [*wrong[1:], 2**62])):
             for value in values:
-                with self.subTest(name, value=value), self.assertRaises(bbsim.InputError) as raised:
-                    bbsim.sweep(CONFIGS / "fig2b.yaml", vary, "end_x", **{**fine, name: value})
-                self.assertEqual(raised.exception.key, name)
+                with self.subTest(name, value=value):
+                    self.refuses("", bbsim.sweep, CONFIGS / "fig2b.yaml", vary, "end_x", **{**fine, name: value}, key=name)
 
     def test_measures_and_draws(self):
         made = bbsim.sweep(CONFIGS / "fig2b.yaml", {"ball.position.0": "normal:5 cm:2 mm"}, ["max_tilt", "end_x"],
@@ -523,8 +518,7 @@ class Linear(cases.Case):
             self.assertEqual(made.states, [one for one in told["states"]])
             self.assertEqual(len(made.poles), len(told["poles"]))
         self.assertIsNone(bbsim.linearize(CONFIGS / "fig2b.yaml", kind="plant").dt)
-        with self.assertRaises(bbsim.InputError):
-            bbsim.linearize(CONFIGS / "fig2b.yaml", kind="plants")
+        self.refuses("", bbsim.linearize, CONFIGS / "fig2b.yaml", kind="plants")
 
     def test_scipy(self):
         try:
@@ -547,9 +541,7 @@ class Environments(cases.Case):
 
     def test_a_range_that_is_none_is_refused_at_once(self):
         for wrong in ("1 cm", ("1 cm", "2 cm"), 0.01, (0.01, 0.02, 0.03)):
-            with self.assertRaises(bbsim.InputError) as raised:
-                bbsim.VectorEnv(self.SCENE, 2, {"ball.position.0": wrong})
-            self.assertEqual(raised.exception.key, "ball.position.0")
+            self.refuses("", bbsim.VectorEnv, self.SCENE, 2, {"ball.position.0": wrong}, key="ball.position.0")
 
     def test_equals_a_run_with_the_same_actions(self):
         envs = bbsim.VectorEnv(self.SCENE, 3, {"ball.position.0": (0.03, 0.05)}, seed=5, record=True,
@@ -776,9 +768,7 @@ class Environments(cases.Case):
             envs = bbsim.VectorEnv(CONFIGS / "rig.yaml", n)
             envs.reset(seed=1)
             for mask in (np.ones(n + 1, bool), np.ones(n - 1, bool), np.ones((n, 1), bool), np.arange(n), True, "x"):
-                with self.assertRaises(bbsim.InputError) as raised:
-                    envs.reset(options={"reset_mask": mask})
-                self.assertEqual(raised.exception.key, "reset_mask")
+                self.refuses("", envs.reset, options={"reset_mask": mask}, key="reset_mask")
             envs.reset(options={"reset_mask": [True] * n})
 
     def test_a_call_within_a_call_is_refused(self):
@@ -825,13 +815,11 @@ class Environments(cases.Case):
                 return one[3]
 
             step()
-            with self.assertRaises(bbsim.InputError):
-                envs.reset()
+            self.refuses("", envs.reset)
             while not step().any():
                 pass
             drawn[:] = [0] * (n + n // 2 - 2)  # the second run of the next episodes is refused
-            with self.assertRaises(bbsim.InputError):
-                envs.step(np.full((n, 2), 0.05))
+            self.refuses("", envs.step, np.full((n, 2), 0.05))
             while not step().any():
                 pass
 
@@ -853,19 +841,15 @@ class Environments(cases.Case):
         self.assertIn(envs.action_space.sample(), envs.action_space)
         observations, _ = envs.reset(options={"ball.position.0": 0.02})
         self.assertEqual(observations[:, 0].tolist(), [0.02, 0.02])
-        with self.assertRaises(bbsim.InputError):
-            envs.reset(options={"gravity": 3})
+        self.refuses("", envs.reset, options={"gravity": 3})
         self.refuses("actions: found an array of shape (3, 2); allowed: (2, 2)", envs.step, np.zeros((3, 2)))
         for many in (envs, bbsim.VectorEnv(self.SCENE, 8)):
             many.reset()
-            with self.assertRaises(bbsim.InputError):
-                many.step(np.full((many.num_envs, 2), np.nan))
+            self.refuses("", many.step, np.full((many.num_envs, 2), np.nan))
             many.step(np.zeros((many.num_envs, 2)))
-        with self.assertRaises(bbsim.InputError):
-            bbsim.VectorEnv(CONFIGS / "fig2b.yaml", 1).reset()
+        self.refuses("", bbsim.VectorEnv(CONFIGS / "fig2b.yaml", 1).reset)
         for n in (0, -1, 2**40):
-            with self.assertRaises(bbsim.InputError):
-                bbsim.VectorEnv(self.SCENE, n)
+            self.refuses("", bbsim.VectorEnv, self.SCENE, n)
         with self.assertRaises(TypeError):
             bbsim.VectorEnv(self.SCENE, 2.5)
 
@@ -1071,28 +1055,6 @@ class OpenLoops(cases.Case):
         self.refuses("do not depend", bbsim.linearize, with_callable(lambda sample: (0, 0)), kind="loop")
         self.refuses("", _loops.step, estimate)  # an estimate has no reference
 
-    def test_pictures(self):
-        key = "controller.gravity_compensation.kp"
-        for scene in (CONFIGS / "rig.yaml", CONFIGS / "fig2b.yaml", CONFIGS / "beam.yaml"):
-            loop = _loops.linearized(scene)
-            bode = _loops.draw_bode(_loops.bode(loop), loop)
-            texts = {text.get_text() for axes in bode.axes for text in axes.texts}
-            for its in loop.margins.values():
-                self.assertIn(f"{math.degrees(its['phase']):.3g}°", texts)
-                self.assertIn(f"{20 * math.log10(its['gain']):+.3g} dB", texts)
-            figures = [bode, _loops.draw_nyquist(_loops.nyquist(loop), loop), _loops.draw_poles(_loops.poles(loop), loop)]
-            figures.append(_loops.draw_step(_loops.step(loop), loop))
-            if scene.stem == "rig":
-                locus = _loops.draw_root_locus(_loops.root_locus(given(scene), key, ("2", "8"), 3), loop, key)
-                self.assertEqual(len(locus.axes), 2)
-                figures.append(locus)
-            for figure in figures:
-                with warnings.catch_warnings():
-                    warnings.simplefilter("error")
-                    drawn = io.StringIO()
-                    figure.savefig(drawn, format="svg")
-                self.assertIn("</svg>", drawn.getvalue())
-
     def test_scenes_without_a_loop(self):
         for scene in ("fig2a", "recorded"):
             self.refuses("", lambda: _loops.bode(_loops.linearized(CONFIGS / f"{scene}.yaml")))
@@ -1223,9 +1185,7 @@ class Simulations(cases.Case):
 
 class Faults(cases.Case):
     def test_input(self):
-        with self.assertRaises(bbsim.InputError) as caught:
-            bbsim.run({**LOOP, "ball": {"radius": -1, "position": [0, 0]}, "gravty": 3})
-        error = caught.exception
+        error = self.refuses("", bbsim.run, {**LOOP, "ball": {"radius": -1, "position": [0, 0]}, "gravty": 3})
         self.assertIsInstance(error, ValueError)
         self.assertEqual({problem.key for problem in error.problems}, {"ball.radius", "gravty"})
         hints = {problem.key: problem.hint for problem in error.problems}
@@ -1243,9 +1203,7 @@ class Faults(cases.Case):
 
     def test_file_and_settings(self):
         self.refuses("no-such-file.yaml", bbsim.run, "no-such-file.yaml")
-        with self.assertRaises(bbsim.InputError) as caught:
-            bbsim.run(CONFIGS / "fig2b.yaml", {"ball.radius": float("nan")})
-        self.assertEqual(caught.exception.key, "ball.radius")
+        self.refuses("", bbsim.run, CONFIGS / "fig2b.yaml", {"ball.radius": float("nan")}, key="ball.radius")
         self.refuses("radius", bbsim.sweep, CONFIGS / "fig2b.yaml", {"ball.radios": [1, 2]})
         with self.assertRaises(TypeError):
             bbsim.run({**LOOP, "ball": object()})

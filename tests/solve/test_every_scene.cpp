@@ -65,7 +65,7 @@ void check_same_events(const Run& a, const Run& b, double within) {
 
 TEST_CASE("every scene: the integrators agree on its motion, its switches and its events") {
   signgam = 7;  // shared by threads: std::lgamma would write it, and cases of a sweep race on it
-  for (const SceneCase& one : scene_cases) {
+  for (const SceneCase& one : scene_cases()) {
     CAPTURE(one.what);
     const Scenario scene = load(one);
     const Run radau = run_in_memory(scene, Method::radau, usual);
@@ -94,7 +94,7 @@ TEST_CASE("every scene: the integrators agree on its motion, its switches and it
 
 TEST_CASE("every scene: rows, noted events, an interrupt or a later end change no bit of it") {
   const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
-  for (const SceneCase& one : scene_cases) {
+  for (const SceneCase& one : scene_cases()) {
     if (method == Method::adams && one.stiff) continue;
     CAPTURE(one.what, int(method));
     const Scenario scene = load(one);
@@ -150,7 +150,7 @@ TEST_CASE("every scene: rows, noted events, an interrupt or a later end change n
 }
 
 TEST_CASE("every scene: the general equations give the same motion, whose energy balances") {
-  for (const SceneCase& one : scene_cases) {
+  for (const SceneCase& one : scene_cases()) {
     CAPTURE(one.what);
     Scenario scene = load(one);
     const Run plain = run_in_memory(scene, Method::radau, usual);
