@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// A subcommand and its options, by CLI11.
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
 #include <string_view>

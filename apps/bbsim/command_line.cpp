@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The command line: its commands, help, messages about mistakes, and completion.
 #include <CLI/CLI.hpp>  // at least one source must include all of it
 #include <algorithm>
 #include <memory>

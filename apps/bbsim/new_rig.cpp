@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// `bbsim new rig`: a scenario for your rig to start from.
 #include <algorithm>
 #include <array>
 #include <cmath>

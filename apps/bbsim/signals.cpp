@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Signals that end the program, such as Ctrl-C (terminal.hpp).
 #include <unistd.h>
 
 #include <csignal>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Runs of a scenario with values, times and starts of their own, as arrays.
 #include <algorithm>
 #include <cmath>
 #include <string_view>

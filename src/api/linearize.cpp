@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Linear system of a scene: A, B, C, D, poles, zeros and margins.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// A run for a live page: with measures, and the tasks of the scenario's exercise.
 #include <algorithm>
 #include <cmath>
 #include <iterator>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Sentences about the loop near home: its poles, and whether it is stable.
 #include <algorithm>
 #include <cmath>
 #include <complex>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Test of the user's controller with a ball away from its reference.
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// How far the log of a rig is from a run of bbsim, and the time offset between their clocks.
 #include <algorithm>
 #include <array>
 #include <cmath>

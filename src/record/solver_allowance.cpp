@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// How far two results may differ according to the tolerances of their solvers.
 #include <algorithm>
 #include <cmath>
 #include <string_view>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Reads logs of real rigs: any CSV, with any names, units and clocks.
 #include <algorithm>
 #include <cmath>
 #include <optional>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The keys that vary in a sweep, and its results.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
