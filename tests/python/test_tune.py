@@ -134,9 +134,10 @@ class Rigs(cases.Case):
 
     def test_as_good_as_by_cobyla(self):
         """The objectives are those of the C++ search of commit 41547b38, by NLopt's COBYLA. Noise and rounding make the
-        measures rough: 1 % is the difference between one lucky point and another."""
+        measures rough: gravity that differs by 1e-13 moved one of these by -0.3 to 2.0 %, so the mean counts."""
         ten, tilt = {"time.end": 10}, "max_tilt < 1.2 deg"
         both = {"vary": [SERVO, DELAY], "samples": 40, "set": ten}
+        ratios = []
         for options, objective in [
             ({"set": {}, "vary": (), "samples": None, "require": "max_tilt < 1 deg"}, 3.69837e-4),
             ({**both, "require": tilt}, 4.85081e-4),
@@ -147,7 +148,9 @@ class Rigs(cases.Case):
         ]:  # fmt: skip
             made = tune(**options)
             self.assertTrue(made.met, made.reason)
-            self.assertLess(made.objective, 1.015 * objective, options)
+            ratios.append(made.objective / objective)
+            self.assertLess(ratios[-1], 1.03, options)
+        self.assertLess(np.mean(ratios), 1.01, ratios)
 
     def test_a_requirement_holds_on_rigs_not_seen(self):
         # By the C++ search, which did not tighten, it held on 93 % of these rigs.
