@@ -38,14 +38,11 @@ class Search:
         self.spreads = np.array([max(float(np.std(its)), 1e-9) if its.size else 1.0 for its in values])
         self.doubts: List[str] = []  # why the estimates may be wrong
         self.rivals = np.empty((0, len(self.u)))
-        self.delays = _fit_servos.delays_of(windows)
+        self.bounds, self.delays = windows.bounds, _fit_servos.delays_of(windows)
         windows.reweigh(self.spreads)
 
     def degrees_of_freedom(self) -> float:
         return max(1.0, float(self.windows.size - self.windows.starts_rank() - len(self.keys)))
-
-    def bounds(self) -> Array:
-        return np.array([key.ends() for key in self.keys]).T
 
     def scale_keys(self) -> Array:
         """Reduces the scale of each key that changes the logs by more than ten times the noise: such differences would

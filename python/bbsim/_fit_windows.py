@@ -140,6 +140,10 @@ class WindowsFit:
         self.deaf = deaf_windows(logs, windows, [key.name for key in keys])
         self.key_steps, self.start_steps = np.full(len(keys), KEY_STEP), _START_STEPS.copy()
 
+    def bounds(self) -> Array:
+        """Of the keys' numbers."""
+        return np.array([key.ends() for key in self.keys]).T
+
     def over_noise(self) -> Array:
         """The factor of each difference; 0 where the log has no number."""
         return np.where(self.there, self.weights / self.noise[self.column_of], 0.0)
@@ -378,7 +382,7 @@ class WindowsFit:
         (slopes, inverse), factors, count = self._solve(), self.over_noise(), len(self.windows)
         by_key = self.base.by_key * factors[..., None]
         by_key = np.linalg.pinv((by_key - slopes @ (inverse @ by_key)).reshape(-1, by_key.shape[2]))
-        ends, starts = np.array([key.ends() for key in self.keys]).T, np.tile(self.base.starts, (len(many), 1))
+        starts = np.tile(self.base.starts, (len(many), 1))
         for turn in range(2):
             its = self._run(np.tile(np.arange(count), len(many)), np.repeat(many, count, 0), starts)[0]
             rest = its.reshape(len(many), *factors.shape) * factors
@@ -386,7 +390,7 @@ class WindowsFit:
             rest -= _times(slopes, step)  # the motion depends on its start almost linearly
             starts.reshape(len(many), count, -1)[..., self.free] -= step
             if moves and not turn:
-                many = np.clip(many - np.nan_to_num(rest.reshape(len(many), -1)) @ by_key.T, *ends)
+                many = np.clip(many - np.nan_to_num(rest.reshape(len(many), -1)) @ by_key.T, *self.bounds())
         costs = np.nan_to_num(np.linalg.norm(rest, axis=(1, 2)), nan=np.inf)
         return many, starts.reshape(len(many), count, -1), costs**2
 

@@ -163,10 +163,11 @@ def plot(files: Union[Drawn, Sequence[Drawn]], *, columns: Texts = (), over: Tex
 
 def _format(output: Optional[str], asked: Optional[str]) -> str:
     name = asked or ("svg" if output in (None, "-") else Path(str(output)).suffix[1:].lower())
-    if name not in ("svg", "png", "pdf"):
-        allowed = ("output", output, "a name that ends in .svg, .png or .pdf")
-        raise refuse("format", asked, "svg, png and pdf") if asked else refuse(*allowed)
-    return name
+    if name in ("svg", "png", "pdf"):
+        return name
+    if asked:
+        raise refuse("format", asked, "svg, png and pdf")
+    raise refuse("output", output, "a name that ends in .svg, .png or .pdf")
 
 
 def _save(figure: Figure, output: str, format: str) -> None:

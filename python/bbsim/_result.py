@@ -103,12 +103,11 @@ class Result(Columns):
             return ""
         low, high = points.min(0), points.max(0)
         points = (points - (low + high) / 2) * 200 / (1.1 * max((high - low).max(), 1e-9)) + 100
-        start = [f"{place:.1f}" for place in points[0]]
         shown = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
         return (
             "<svg width='200' height='200' viewBox='0 0 200 200' role='img' aria-label='path of the ball'>"
             f"<polyline points='{shown}' fill='none' stroke='currentColor' stroke-width='1.5'/>"
-            f"<circle cx='{start[0]}' cy='{start[1]}' r='3' fill='currentColor'/></svg>"
+            f"<circle cx='{points[0, 0]:.1f}' cy='{points[0, 1]:.1f}' r='3' fill='currentColor'/></svg>"
         )
 
 

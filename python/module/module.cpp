@@ -48,6 +48,7 @@ class Work {
     if (callable_) family.give_controller(callable_->factory(watch_));
     return family;
   }
+  [[nodiscard]] Scenario scenario() { return first_of(family()); }
 
   template <class Does>
   auto here(const Does& does) {
@@ -105,10 +106,7 @@ api::RunResult run(const Given& given, const std::optional<Texts>& measures, con
 
 std::string check(const Given& given) {
   Work work(given);
-  return work.beside([&] {
-    const ScenarioFamily family = work.family();
-    return to_text(api::check(family.itself(), work.watch()));
-  });
+  return work.beside([&] { return to_text(api::check(work.scenario(), work.watch())); });
 }
 
 api::Linearized linearize(const Given& given, const std::optional<std::string>& kind,
@@ -119,8 +117,7 @@ api::Linearized linearize(const Given& given, const std::optional<std::string>& 
   request.estimates = true;
   Work work(given);
   api::Linearized made = work.beside([&] {
-    const ScenarioFamily family = work.family();
-    request.scenario = family.itself();
+    request.scenario = work.scenario();
     return api::linearize(request, work.watch());
   });
   if (!made.reason.empty()) throw InputError(made.reason);
@@ -211,7 +208,7 @@ std::pair<std::string, std::string> accuracy(const Given& given, const std::stri
   const std::vector<double> ladder = api::tolerance_ladder(rtols);
   Work work(given);
   return work.beside([&] {
-    const Scenario scenario = work.family().itself();
+    const Scenario scenario = work.scenario();
     const std::string title =
         scenario.title.empty() ? std::filesystem::path(given.name).stem().string() : scenario.title;
     return std::pair(title, study::accuracy_csv(api::accuracy(scenario, {}, ladder, work.watch())));
