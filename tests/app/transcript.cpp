@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "base/number_text.hpp"
 #include "catch.hpp"
 #include "file/hdf5_table.hpp"
 #include "shell.hpp"
@@ -81,6 +82,24 @@ json hdf5_of(const std::string& path) {
   made["inputs"] = json::array();
   for (const auto& [name, data] : file.read_inputs()) made["inputs"].push_back(data->names());
   return made;
+}
+
+// Writes the scenario and the tables that an HDF5 file contains.
+void unpack(const Folder& folder, const std::string& from, const std::string& scenario) {
+  file::Hdf5TableReader file(folder / from);
+  for (const auto& [name, value] : file.head().attributes) {
+    if (name == "scenario_text") folder.write(scenario, value.text());
+  }
+  for (const auto& [name, data] : file.read_inputs()) {
+    std::string text;
+    for (const std::string& column : data->names()) text += (text.empty() ? "" : ",") + column;
+    for (std::size_t row = 0; row < data->columns[0].numbers.size(); ++row) {
+      for (std::size_t c = 0; c < data->columns.size(); ++c) {
+        text += (c == 0 ? '\n' : ',') + bbsim::number_text(data->columns[c].numbers[row]);
+      }
+    }
+    folder.write(std::filesystem::path(scenario).parent_path() / name, text + '\n');
+  }
 }
 
 // A CSV as an array of rows, an HDF5 file, or the JSON of any other file.
@@ -189,6 +208,8 @@ class Player {
       CHECK(lines(folder_.read(words.at(1))).size() == std::stoul(words.at(2)));
     } else if (word == "value") {
       compare(words, statement.head);
+    } else if (word == "unpack") {
+      unpack(folder_, words.at(1), words.at(2));
     } else if (word == "started") {
       const auto [all, running] = processes();
       CHECK(running == 0);
