@@ -160,9 +160,7 @@ ExitCode verify(const ScenarioArguments& arguments, const Options& options) {
   for (const Scenario& scene : scenes) study::require_comparable(scene);
   prints(outputs);
   Progress progress("verify", options.quiet);
-  const study::Verification verification =
-      study::verify({progress.stop(), [&](double part) { progress.update(part, ""); }});
-  progress.end();
+  const study::Verification verification = api::verify(progress);
   print(table_of(verification));
   if (verification.interrupted) {
     say("interrupted.");
@@ -171,7 +169,7 @@ ExitCode verify(const ScenarioArguments& arguments, const Options& options) {
 
   std::vector<study::SimplerModel> models;
   for (const Scenario& scene : scenes) {
-    const study::FullModelStudy study = study::compare_simpler(scene, {progress.stop(), {}});
+    const study::FullModelStudy study = api::compare_simpler(scene, progress);
     if (study.interrupted) return ExitCode::interrupted;
     print(table_of(scene, study));
     models = study.simpler;

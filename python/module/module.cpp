@@ -48,7 +48,7 @@ class Work {
     if (callable_) family.give_controller(callable_->factory(watch_));
     return family;
   }
-  [[nodiscard]] Scenario scenario() { return first_of(family()); }
+  [[nodiscard]] Scenario scenario() { return family().itself(); }
 
   template <class Does>
   auto here(const Does& does) {

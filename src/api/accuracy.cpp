@@ -69,4 +69,15 @@ study::AccuracyStudy accuracy(const Scenario& scenario, std::vector<Method> meth
   return study;
 }
 
+study::Verification verify(Watch& watch) {
+  study::Verification verification =
+      study::verify({watch.stop(), [&watch](double part) { watch.update(part, ""); }});
+  watch.end();
+  return verification;
+}
+
+study::FullModelStudy compare_simpler(const Scenario& scenario, Watch& watch) {
+  return study::compare_simpler(scenario, {watch.stop(), {}});
+}
+
 }  // namespace bbsim::api

@@ -16,7 +16,6 @@
 #include "file/table.hpp"
 #include "record/compare.hpp"
 #include "record/instants.hpp"
-#include "record/summarise.hpp"
 #include "results/result.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/log_columns.hpp"

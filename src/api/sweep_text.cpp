@@ -10,6 +10,7 @@
 #include "api/version.hpp"
 #include "base/json.hpp"
 #include "base/quoted.hpp"
+#include "record/summary.hpp"
 #include "simd/instruction_set.hpp"
 #include "solve/output_grid.hpp"
 
@@ -23,14 +24,6 @@ constexpr std::size_t longest_status = 16;
 
 std::string text_of(const Json& json) {
   return json_text(json, 1) + '\n';
-}
-
-const char* instruction_set() {
-  return simd::name_of(simd::chosen_instruction_set());
-}
-
-const char* combine_of(const Sweep& sweep) {
-  return sweep.combine == Combine::zip ? "zip" : "grid";
 }
 
 // Accuracy of the cases, for comparisons; empty if it varies.
@@ -54,7 +47,7 @@ Json plan_of(const SweepFacts& facts) {
   // out at that moment.
   Json plan = Json::object();
   plan["version"] = version();
-  plan["instruction_set"] = instruction_set();
+  plan["instruction_set"] = simd::name_of(simd::chosen_instruction_set());
   plan["scenario_text"] = source.text;
   plan["overrides"] = source.overrides;
   Json tables = Json::object(), vary = Json::array(), measures = Json::array();
@@ -64,7 +57,7 @@ Json plan_of(const SweepFacts& facts) {
     vary.push_back(variation.key + '=' + variation.spec);
   }
   plan["vary"] = std::move(vary);
-  plan["combine"] = combine_of(sweep);
+  plan["combine"] = sweep.combine == Combine::zip ? "zip" : "grid";
   if (sweep.samples) {
     plan["samples"] = *sweep.samples;
     plan["seed"] = sweep.seed;
@@ -121,30 +114,23 @@ std::string plan_text(const SweepFacts& facts) {
 }
 
 file::Attributes attributes_of(const SweepFacts& facts, const sweep::Engine& engine) {
-  const Source& source = facts.family.source();
-  const Sweep& sweep = facts.sweep;
-  file::Attributes attributes{{"version", std::string(version())},
-                              {"instruction_set", instruction_set()},
-                              {"engine", engine.name},
-                              {"scenario", std::filesystem::path(source.file).filename().string()},
-                              {"scenario_text", source.text}};
-  const auto lines = [](const auto& items, const auto& text) {
-    std::string all;
-    for (const auto& item : items) all += (all.empty() ? "" : "\n") + text(item);
-    return all;
+  const Json plan = plan_of(facts);
+  const std::filesystem::path file(facts.family.source().file);
+  file::Attributes attributes;
+  const auto take = [&](const char* name) {
+    attributes.emplace_back(name, record::attribute_of(plan[name]));
   };
-  attributes.emplace_back("overrides", lines(source.overrides, [](const auto& o) { return o; }));
-  attributes.emplace_back("vary", lines(sweep.vary, [](const Variation& variation) {
-                            return variation.key + '=' + variation.spec;
-                          }));
-  for (const auto& [name, value] : accuracy_of(facts)) {
-    attributes.emplace_back(name, value);
-  }
-  attributes.emplace_back("cases", facts.task.plan.cases());
-  attributes.emplace_back("combine", combine_of(sweep));
-  if (sweep.samples) {
-    attributes.emplace_back("samples", static_cast<std::int64_t>(*sweep.samples));
-    attributes.emplace_back("seed", static_cast<std::int64_t>(sweep.seed));
+  take("version");
+  take("instruction_set");
+  attributes.emplace_back("engine", engine.name);
+  attributes.emplace_back("scenario", file.filename().string());
+  for (const char* name : {"scenario_text", "overrides", "vary"}) take(name);
+  for (const auto& [name, value] : accuracy_of(facts)) attributes.emplace_back(name, value);
+  take("cases");
+  take("combine");
+  if (facts.sweep.samples) {
+    attributes.emplace_back("samples", static_cast<std::int64_t>(*facts.sweep.samples));
+    attributes.emplace_back("seed", static_cast<std::int64_t>(facts.sweep.seed));
   }
   return attributes;
 }

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Compares two tables and finds where they differ most, also by the tolerances of their solvers;
-// and how far the log of a rig is from a run, and the time offset between their clocks.
+// Evaluates tables: compares two and finds where they differ most, also by the tolerances of their
+// solvers; how far the log of a rig is from a run, and the time offset between their clocks; and
+// statistics of a sweep's cases by group, for noise or draws that repeat a case.
 #pragma once
 
 #include <cstddef>
@@ -137,5 +138,19 @@ struct LogDistance {
 // A table of the columns, then the time in common.
 [[nodiscard]] std::string to_text(const LogDistance& distance, const std::string& log_name,
                                   const std::string& run_name);
+
+// CSV: a row for each group and measure, with the keys, measure, cases, count, mean, deviation,
+// min, a column per quantile (q5, q50, ...) and max. `cases` are all cases of the group; the
+// statistics are those of finite values in cases that ran to their end. The deviation is the
+// sample's, over count - 1; quantiles are interpolated linearly, as in numpy; what needs more
+// values is NaN.
+//
+// Groups appear in the order of their first case; without keys, all cases form one. If `measures`
+// is empty, all numeric columns after the status, if any, are used. Throws InputError if the table,
+// named `name`, lacks a column or has texts instead of numbers.
+[[nodiscard]] std::string summarise(const file::Table& table, const std::string& name,
+                                    const std::vector<std::string>& keys,
+                                    const std::vector<std::string>& measures,
+                                    const std::vector<double>& quantiles);
 
 }  // namespace bbsim::record

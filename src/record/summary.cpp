@@ -88,15 +88,6 @@ Json list_of(const Records& records, const Make& make) {
   return list;
 }
 
-file::AttributeValue value_of(const Json& value) {
-  if (value.is_string()) return value.get<std::string>();
-  if (value.is_number_float()) return value.get<double>();
-  if (value.is_number()) return value.get<std::size_t>();
-  std::string lines;
-  for (const Json& line : value) lines += (lines.empty() ? "" : "\n") + line.get<std::string>();
-  return lines;
-}
-
 // "t=0.54 event=edge action=stop x=0.16 y=-0.02"
 std::string words_of(const Json& members) {
   std::string line;
@@ -108,6 +99,15 @@ std::string words_of(const Json& members) {
 }
 
 }  // namespace
+
+file::AttributeValue attribute_of(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_float()) return value.get<double>();
+  if (value.is_number()) return value.get<std::size_t>();
+  std::string lines;
+  for (const Json& line : value) lines += (lines.empty() ? "" : "\n") + line.get<std::string>();
+  return lines;
+}
 
 std::string to_json(const RunSummary& summary) {
   const auto members = [](const auto& record) { return members_of(record); };
@@ -135,7 +135,8 @@ file::Attributes to_attributes(const RunSummary& summary, const std::string& sce
   file::Attributes attributes;
   const auto add = [&](const std::string& name, const Json& value) {
     // Equal runs give the same bytes, even with other output files and durations.
-    if (name != "output" && name != "cpu_seconds") attributes.emplace_back(name, value_of(value));
+    if (name != "output" && name != "cpu_seconds")
+      attributes.emplace_back(name, attribute_of(value));
   };
   const auto add_all = [&](const Json& members) {
     for (const auto& [name, value] : members.items()) add(name, value);

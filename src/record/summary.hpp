@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -81,5 +82,8 @@ struct RunSummary {
 // left out, because they differ between equal runs.
 [[nodiscard]] file::Attributes to_attributes(const RunSummary& summary,
                                              const std::string& scenario_text);
+
+// A member of JSON as an attribute: a text, a number, or the lines of a list.
+[[nodiscard]] file::AttributeValue attribute_of(const nlohmann::ordered_json& value);
 
 }  // namespace bbsim::record
