@@ -230,7 +230,7 @@ TEST_CASE("measures of stored rows pass over values that a row lacks") {
   }
   CHECK(value("max_x from 2.5 to 3.5") == Approx(3.5));
   CHECK(value("rms_x") == Approx(std::sqrt(10.0)));  // of 1, 2 and 5
-  CHECK(value("find x at 5") == 5);  // only empty cells follow
+  CHECK(value("find x at 5") == 5);                  // only empty cells follow
   CHECK(std::isnan(value("find x at 0.5")));
   CHECK(std::isnan(value("end_x")));
 }
