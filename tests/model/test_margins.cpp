@@ -230,6 +230,20 @@ TEST_CASE("rounding of a loss that stops the ball makes no pole unstable") {
   }
 }
 
+TEST_CASE("a narrow resonance between two frequencies is seen") {
+  // 0.1 / (s^2 + 0.02 s + 1), above 1 from 0.95 to 1.05 rad/s only.
+  const model::FrequencyResponse open_loop(MatrixXd{{0, 1}, {-1, -0.02}}, MatrixXd{{0}, {1}},
+                                           MatrixXd{{0.1, 0}}, MatrixXd{{0}}, 0);
+  const auto phase = [&](const std::vector<double>& frequencies) {
+    return model::margins_of(open_loop, frequencies, 1e-3, {false, true}).phase;
+  };
+  const double expected = phase({0.1, 0.5, 0.9, 1, 1.1, 2});
+  CHECK(expected == Approx(std::asin(0.02 * std::sqrt(1.0998) / 0.1)).epsilon(1e-3));
+  for (const double near : {0.8, 0.9, 0.94, 1.06, 1.1}) {
+    CHECK(phase({0.1, 0.5, near, 1.5, 3}) == Approx(expected));
+  }
+}
+
 TEST_CASE("eigenvalues in quads are accurate beside others 1e25 times as large") {
   MatrixXd a(4, 4);
   // Two blocks with (-1e12, -1e-13) and (2 +- 3i); the first acts on the second.
