@@ -98,7 +98,7 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
     const reach = Math.max(...extents.map(({greatest}) => greatest)) - Math.min(...extents.map(({least}) => least));
     if (some.length > 20 && reach < 500 * (data.quantile(some, 0.9) - data.quantile(some, 0.1))) return null;
     const values = sorted(curves.flatMap((curve) => Array.from(curve.values)));
-    const low = data.quantile(values, 0.01), high = data.quantile(values, 0.99), span = high - low;
+    const few = Math.ceil(0.01 * values.length), low = values[few], high = values[values.length - 1 - few], span = high - low;
     if (values.length < 20 || !(span > 0) || reach < 1000 * span) return null;
     return {low: low - 0.5 * span, high: high + 0.5 * span};
   }

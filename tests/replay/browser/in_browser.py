@@ -131,14 +131,14 @@ class InBrowser(unittest.TestCase):
         found = self.ask(f"const begun = performance.now(); let is; while (!(is = {condition})) {{"
                          "  if (performance.now() - begun > 20000) throw new Error('it never came');"
                          "  await new Promise((resolve) => setTimeout(resolve, 20));"
-                         "} return is")  # fmt: skip
+                         "} return is")
         self.assertFalse(isinstance(found, dict) and "fault" in found, condition)
         return found
 
     def box(self, selector):
         """Left, top, width and height of an element."""
         return self.js("(({left, top, width, height}) => [left, top, width, height])"
-                       "(document.querySelector(arguments[0]).getBoundingClientRect())", selector)  # fmt: skip
+                       "(document.querySelector(arguments[0]).getBoundingClientRect())", selector)
 
     def hidden(self, name):
         return self.js("document.getElementById(arguments[0]).hidden", name)

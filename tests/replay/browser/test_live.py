@@ -45,13 +45,13 @@ class Live(InBrowser):
         """Moves a key's slider; its range."""
         return self.ask("const slider = document.querySelector(`[data-key='${args[0]}']`); slider.value = args[1];"
                         "for (const type of ['input', 'change']) slider.dispatchEvent(new Event(type));"
-                        "return [slider.min, slider.max].map(Number)", key, value)  # fmt: skip
+                        "return [slider.min, slider.max].map(Number)", key, value)
 
     def columns_of(self, text, **keys):
         found = self.ask("await bbsim.live.edit(args[0]);"
                          "for (const [key, value] of Object.entries(args[1])) await bbsim.live.set(key, value);"
                          "return Object.fromEntries(Object.entries(bbsim.live.columns).map(([key, values]) => "
-                         "[key, [...values].map(String)]))", text, keys)  # fmt: skip
+                         "[key, [...values].map(String)]))", text, keys)
         self.assertNotIn("fault", found)
         return {name: [float(value.replace("Infinity", "inf")) for value in values] for name, values in found.items()}
 
@@ -190,7 +190,7 @@ class Page(Live):
                 self.ask("await bbsim.live.set(...args)", *change)
             self.wait("Number.isFinite(bbsim.live.measures['x.Overshoot'])")
             table = bbsim("run", "configs/step.yaml", "-o", files("step.csv"), "--measure", "x.Overshoot",
-                          *(f"--set={change[0]}={change[1]}" for _ in change[:1]))  # fmt: skip
+                          *(f"--set={change[0]}={change[1]}" for _ in change[:1]))
             self.near(self.js("bbsim.live.measures['x.Overshoot']"), float(table.split(",")[-1]), 0.01)
 
     def test_faults_are_told_at_their_line(self):
@@ -262,7 +262,7 @@ class Sight(unittest.TestCase):
                     (top, bottom), (first, last) = browser.run("""
                         document.querySelector(arguments[0]).scrollIntoView({block: arguments[0] === '.live-bode' ? 'end' : 'start'});
                         return ['.tuning', arguments[1]].map((one) => document.querySelector(one).getBoundingClientRect())
-                            .map(({top, bottom}) => [top, bottom])""", begin, place)  # fmt: skip
+                            .map(({top, bottom}) => [top, bottom])""", begin, place)
                     self.assertGreaterEqual(top, 0)
                     self.assertLess(bottom, first)
                     self.assertLessEqual(last, height + 1)
@@ -355,7 +355,7 @@ class ManyRuns(Live):
         cell = found["status"].index("done", 40)
         values = [found["x"][cell], found["y"][cell]]
         bbsim("run", "configs/fig2b.yaml", "-o", files("cell.csv"), "--summary", files("cell.json"), "--measure",
-              "max_tracking_error", *(f"--set={key}={value!r}" for key, value in zip(keys, values)))  # fmt: skip
+              "max_tracking_error", *(f"--set={key}={value!r}" for key, value in zip(keys, values)))
         wanted = json.loads(content_of(files("cell.json")))["measures"]["max_tracking_error"]
         self.assertAlmostEqual(found["values"][cell], wanted, delta=1e-4 * wanted)
         self.js("document.querySelector('.map canvas').scrollIntoView()")
@@ -431,7 +431,7 @@ class Controllers(Live):
         for key in ["", "gravity"]:
             with self.subTest(key):
                 self.ask("bbsim.live.reset(); if (args[1]) await bbsim.live.set(args[1], '9.5');"
-                         "await bbsim.live.control(args[0])", script, key)  # fmt: skip
+                         "await bbsim.live.control(args[0])", script, key)
                 hash_ = self.wait(f"location.hash.includes('controller=') && location.hash.includes('{key}') && location.hash")
                 error = self.js("bbsim.live.measures.max_tracking_error")
                 self.open("rig", end=hash_)

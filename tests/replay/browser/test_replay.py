@@ -54,7 +54,7 @@ class Pages(InBrowser):
     def in_plot(self, t):
         """The place of a time in the first plot, halfway up."""
         return self.js("""(() => { const {graph, canvas} = bbsim.plots.plots[0], box = canvas.getBoundingClientRect();
-            return [box.left + graph.toDomXCoord(arguments[0]), box.top + box.height / 2]; })()""", t)  # fmt: skip
+            return [box.left + graph.toDomXCoord(arguments[0]), box.top + box.height / 2]; })()""", t)
 
     def columns_shown(self):
         return set(self.js("bbsim.plots.plots.flatMap((p) => p.curves.map((c) => c.name))"))
@@ -72,7 +72,7 @@ class Pages(InBrowser):
             bbsim.data.runs[arguments[0]].shown = shown;
             const ink = bbsim.picture.whole().getContext('2d');
             return [...ink.getImageData(arguments[1] - left - arguments[3], arguments[2] - top - arguments[3],
-                                        2 * arguments[3], 2 * arguments[3]).data]; })""", run, x, y, half)  # fmt: skip
+                                        2 * arguments[3], 2 * arguments[3]).data]; })""", run, x, y, half)
 
 
 class TheBall(Pages):
@@ -111,7 +111,7 @@ class TheBall(Pages):
             corner = [math.floor(x) - 60, math.floor(y) - 60]
             ball, plate = self.with_and_without(0, corner[0] + 60, corner[1] + 60, 60)
             changed = [(i // 4 % 120, i // 480) for i in range(0, len(ball), 4)
-                       if max(abs(a - b) for a, b in zip(ball[i:i + 3], plate[i:i + 3])) > 24]  # fmt: skip
+                       if max(abs(a - b) for a, b in zip(ball[i:i + 3], plate[i:i + 3])) > 24]
             self.js("bbsim.data.runs[0].shown = true")
             self.assertGreater(len(changed), 200)
             # Seen from above, away from the middle, perspective shifts the ball's outline by less than a pixel.
@@ -200,7 +200,7 @@ class Time(Pages):
                 clock.play();
                 while (seen.length < 6 || seen.at(-1)[0] - seen[1][0] < 0.5) await new Promise(requestAnimationFrame);
                 clock.pause();
-                return [seen[1], seen.at(-1)]""", speed)  # fmt: skip
+                return [seen[1], seen.at(-1)]""", speed)
             # Both clocks are those of the browser's frames.
             self.near((b - a) / (wall_b - wall_a), speed, 0.001 * speed)
 
@@ -214,7 +214,7 @@ class Time(Pages):
                 while (clock.playing && clock.now >= args[0]) await new Promise(requestAnimationFrame);
                 const found = [clock.playing, clock.now];
                 clock.pause();
-                return found""", last - 0.05)  # fmt: skip
+                return found""", last - 0.05)
             self.assertEqual(playing, loop)
             self.assertEqual(now < last - 0.05, loop)
         self.assertEqual(now, last)
@@ -234,7 +234,7 @@ class Time(Pages):
             ("1", view, "free"), ("2", view, "above"), ("3", view, "front"), ("4", view, "axis"), ("5", view, "plate"),
             ("t", theme, "dark"), ("t", theme, "light"), ("?", dialog, True),
             (" ", playing, False),  # a dialog handles its own keys
-        ]:  # fmt: skip
+        ]:
             self.browser.keys(key)
             self.assertEqual(self.js(place), value, (key, place))
 
@@ -420,7 +420,7 @@ class Sweeps(Pages):
 
     def test_map_lines_and_the_command_of_a_case(self):
         page, table = files.sweep("gains", "fig2b", "--vary", "controller.pd.kv.0.0=linear:0.5:3.5:7", "--vary",
-                                  "controller.pd.kp.0.0=linear:0:6:5", "--set", "time.end=3")  # fmt: skip
+                                  "controller.pd.kp.0.0=linear:0:6:5", "--set", "time.end=3")
         self.open(page)
         cases = cases_of(table)
         self.assertIn("35 cases", self.browser.text("#sweeps"))
@@ -455,7 +455,7 @@ class Sweeps(Pages):
             self.open(page)
             self.assertEqual(self.js(self.STATE + ".kind"), "lines")
         page, _ = files.sweep("drawn", "fig2b", "--vary", "ball.position.0=normal:5 cm:3 mm", "--samples", "60", "--set",
-                              "time.end=2")  # fmt: skip
+                              "time.end=2")
         self.open(page)
         self.browser.click("[data-kind=histogram]")
         self.assertIn("median", self.browser.text(".over"))
@@ -463,7 +463,7 @@ class Sweeps(Pages):
     def test_tied_keys_are_one_and_all_others_have_sliders(self):
         page, table = files.sweep("tied", "hold", "--vary", "controller.pd.kp.0.0,-controller.pd.kp.1.1=linear:0.5:1.5:3",
                                   "--vary", "controller.pd.kv.0.0,-controller.pd.kv.1.1=linear:0.4:1.2:4", "--vary",
-                                  "ball.position.0=linear:0.01:0.03:2", "--set", "time.end=2")  # fmt: skip
+                                  "ball.position.0=linear:0.01:0.03:2", "--set", "time.end=2")
         self.open(page)
         # The two keys with the most values are the axes, as in a plot; the third one has a slider.
         self.assertEqual(self.js(f"[{self.STATE}.kind, {self.STATE}.x, {self.STATE}.y]"), ["map", 0, 1])
@@ -477,12 +477,12 @@ class Sweeps(Pages):
     def test_medians_over_draws(self):
         page, table = files.sweep("draws", "fig2b", "--vary", "controller.pd.kv.0.0=linear:1:2:3", "--vary",
                                   "controller.pd.kp.0.0=list:1,2", "--vary", "ball.position.0=normal:5 cm:3 mm",
-                                  "--samples", "7", "--set", "time.end=2")  # fmt: skip
+                                  "--samples", "7", "--set", "time.end=2")
         self.open(page)
         # The middle one of the cases in a cell is selected.
         cases = cases_of(table)
         cell = [case for case in cases
-                if all(case[key] == cases[9][key] for key in ("controller.pd.kv.0.0", "controller.pd.kp.0.0"))]  # fmt: skip
+                if all(case[key] == cases[9][key] for key in ("controller.pd.kv.0.0", "controller.pd.kp.0.0"))]
         self.assertEqual(len(cell), 7)
         middle = sorted(cell, key=lambda case: float(case["rms_tracking_error"]))[3]
         self.click_case(cell[0]["case"])
@@ -542,7 +542,7 @@ class Texts(Pages):
             (files.replay("fig2b-literal"), "failed at", "grows without bound"),
             (files.page("interrupted", files("interrupted.csv"), "--scenario", "configs/fig2a.yaml"),
              "interrupted at 10 s", "Interrupted at t = 10 s of 99 s."),
-        ]:  # fmt: skip
+        ]:
             with self.subTest(page):
                 self.open(page)
                 self.assertIn(subtitle, self.browser.text("#subtitle"))
@@ -594,7 +594,7 @@ class Texts(Pages):
             self.open(page)
             self.assertEqual(self.js("""[...document.querySelectorAll('button, input, select, canvas, [role=img]')].filter((e) =>
                 !(e.getAttribute('aria-label') || e.textContent.trim() || (e.labels && e.labels.length) ||
-                  e.querySelector('title') || e.closest('.plot'))).map((e) => e.outerHTML)"""), [])  # fmt: skip
+                  e.querySelector('title') || e.closest('.plot'))).map((e) => e.outerHTML)"""), [])
 
 
 class Missing(Pages):
@@ -697,13 +697,13 @@ class TheStage(Pages):
             const up = bbsim.placeLabels(wanted);
             const boxes = wanted.map((w, i) => up[i] === null ? null : [w.x - 20, -up[i] - 6, w.x + 20, -up[i] + 6]).filter(Boolean);
             return [boxes.length > 1, boxes.some((a, i) => boxes.some((b, k) => i < k && a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]))]; })()"""),
-            [True, False])  # fmt: skip
+            [True, False])
 
     def test_marks_are_above_their_rims(self):
         """Regression: rims drawn later than what they surround used to hide it."""
         self.show("slides")
         orders = self.js("bbsim.picture.rig.plane.children.flatMap((group) => group.children).filter((mark) => mark.children.length === 2)"
-                         ".map((mark) => mark.children.map((part) => part.renderOrder))")  # fmt: skip
+                         ".map((mark) => mark.children.map((part) => part.renderOrder))")
         marks = [order for order in orders if order[0] != order[1]]
         self.assertGreaterEqual(len(marks), 3)
         for rim, inner in marks:
@@ -723,7 +723,7 @@ class Hands(Pages):
         def wheel(modifiers=0):
             x, y = self.place
             self.browser.devtools("Input.dispatchMouseEvent", {"type": "mouseWheel", "x": x, "y": y, "deltaX": 0,
-                                                               "deltaY": 120, "modifiers": modifiers})  # fmt: skip
+                                                               "deltaY": 120, "modifiers": modifiers})
             self.browser.frame()
 
         distance = lambda: math.hypot(*self.eye()[:3])
@@ -745,7 +745,7 @@ class Hands(Pages):
         def touch(*shifts):
             for kind, points in [("touchStart", [0]), *(("touchMove", [shift]) for shift in shifts), ("touchEnd", [])]:
                 self.browser.devtools("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [
-                    {"x": self.place[0] + shift, "y": self.place[1]} for shift in points]})  # fmt: skip
+                    {"x": self.place[0] + shift, "y": self.place[1]} for shift in points]})
             self.browser.frame()
 
         action = "getComputedStyle(document.getElementById('canvas')).touchAction"
@@ -766,7 +766,7 @@ class Pace(Pages):
         # Draws as many pictures as are examined, each after this time; the page's own frames are stopped.
         self.js("[window.fake = 0, performance.now = () => window.fake, window.requestAnimationFrame = () => 0, bbsim.clock.play()]")
         frames = lambda *its: self.js("Array.from({length: arguments[0]}, () => [window.fake += arguments[1],"
-                                      "bbsim.seek(bbsim.clock.now + 1e-3)]).length", *its)  # fmt: skip
+                                      "bbsim.seek(bbsim.clock.now + 1e-3)]).length", *its)
         for count, span, flat in [(30, 20, False), (8, 60, False), (8, 120, True)]:
             frames(count, span)
             self.assertEqual(self.js("bbsim.screen.isFlat"), flat, span)
@@ -888,7 +888,7 @@ class Linkages(Pages):
             self.near(normal[1] / size, -math.sin(row["theta"]), 1e-5)
             # The meshes' ends are at the computed places.
             ends = self.js("bbsim.picture.rig.legs.group.children.filter((mesh) => mesh.geometry.type.startsWith('Sphere'))"
-                           ".map((mesh) => mesh.position.toArray())")  # fmt: skip
+                           ".map((mesh) => mesh.position.toArray())")
             for end, (_, _, joint) in zip(ends, legs):
                 self.near(math.dist(end, joint), 0, 1e-9)
 
@@ -909,7 +909,7 @@ class Linkages(Pages):
                 # The joint goes with the plate: its place in the frame that the axis turns is always the same.
                 fixed = self.js("""((joint, axis) => { const {rig} = bbsim.picture, base = [rig.base, rig.cross][axis], turned = [rig.ring, rig.hinge][axis];
                     return new THREE.Vector3(...joint).applyMatrix4(base.matrixWorld).applyMatrix4(new THREE.Matrix4().getInverse(turned.matrixWorld)).toArray(); })
-                    (arguments[0], arguments[1])""", ends["joint"], axis)  # fmt: skip
+                    (arguments[0], arguments[1])""", ends["joint"], axis)
                 self.near(fixed[axis], [-arm, arm][axis], 1e-6)
                 self.near(fixed[2], 0, 1e-6)
                 moved.append(ends["horn"])
@@ -927,7 +927,7 @@ def fit_page():
         logs = []
         for which in [1, 2]:
             bbsim("run", "configs/recorded.yaml", "--set", "ball.inertia_factor=0.6", "--set",
-                  f"ball.position=[{which} cm, 0]", "--set", "output.columns=[t,x,y]", "-o", files("fit-run.csv"))  # fmt: skip
+                  f"ball.position=[{which} cm, 0]", "--set", "output.columns=[t,x,y]", "-o", files("fit-run.csv"))
             text = "t,x,y\n"
             # An error like a sensor's, and rows without x.
             for i, row in enumerate(rows_of(files("fit-run.csv"))):
@@ -936,7 +936,7 @@ def fit_page():
             logs.append(files.write(f"fit-log-{which}.csv", text))
         bbsim("fit", "configs/recorded.yaml", *logs, "--free", "ball.inertia_factor", "--free",
               "gimbal.motion.phi.table.offset", "--window", "1 s", "--hold-out", "0.34", "--report", page,
-              "--json", files("fit.json"))  # fmt: skip
+              "--json", files("fit.json"))
     return "file://" + page
 
 
@@ -961,7 +961,7 @@ class AFit(Pages):
     def test_draws_log_and_model(self):
         self.js("bbsim.plots.plots.forEach((plot) => plot.build())")
         self.assertEqual(self.js("bbsim.plots.plots.map((plot) => plot.group.title)"),
-                         ["x", "x: model minus log", "y", "y: model minus log"])  # fmt: skip
+                         ["x", "x: model minus log", "y", "y: model minus log"])
         row = rows_of(files("fit-log-1.csv"))[123]
         self.js("bbsim.seek(arguments[0])", row["t"])
         read = self.js("bbsim.plots.plots.map((plot) => plot.readings.map((one) => one.textContent))")

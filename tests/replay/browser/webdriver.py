@@ -195,5 +195,5 @@ def small_png(browser, png):
         const all = ink.getImageData(0, 0, canvas.width, canvas.height);
         all.data.forEach((value, i) => { all.data[i] = value & 0xFC | value >> 6; });
         ink.putImageData(all, 0, 0);
-        return canvas.toDataURL('image/png')""", base64.b64encode(png).decode())  # fmt: skip
+        return canvas.toDataURL('image/png')""", base64.b64encode(png).decode())
     return base64.b64decode(url.split(",")[1])
