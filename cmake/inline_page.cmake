@@ -3,15 +3,13 @@
 
 # Combines an HTML file with its local styles and scripts in one file:
 #
-#   cmake -DINDEX=index.html -DLIBRARIES=FILE|FILE -DNOTICES=NAME=FILE|NAME=FILE -DOUTPUT=page.html
+#   cmake -DINDEX=replay.html -DLIBRARIES=FILE|FILE -DNOTICES=FOLDER -DOUTPUT=page.html
 #         -P inline_page.cmake
 #
-# Each file that index.html names is beside it or, by name, in LIBRARIES. The script NAME gets a comment with its
-# notice, the text of FILE, at its start.
+# Each file that INDEX names is beside it or, by name, in LIBRARIES. @NOTICE:NAME@ becomes the text of NAME in NOTICES.
 file(READ "${INDEX}" page)
 get_filename_component(folder "${INDEX}" DIRECTORY)
 string(REPLACE "|" ";" LIBRARIES "${LIBRARIES}")
-string(REPLACE "|" ";" NOTICES "${NOTICES}")
 
 function(content_of name result)
   set(file "${folder}/${name}")
@@ -38,15 +36,6 @@ function(content_of name result)
   if(name STREQUAL "three.min.js")
     string(REGEX REPLACE "(var [a-z0-9_]+=)\"[^\"]*\\\\n[^\"]*\"" "\\1\"\"" content "${content}")
   endif()
-  foreach(notice IN LISTS NOTICES)
-    if(notice MATCHES "^([^=]+)=(.+)$" AND CMAKE_MATCH_1 STREQUAL name)
-      file(READ "${CMAKE_MATCH_2}" text)
-      if(text MATCHES "[*]/|</")
-        message(FATAL_ERROR "${CMAKE_MATCH_2} contains '${CMAKE_MATCH_0}': a comment in a page cannot contain it")
-      endif()
-      set(content "/*!\n${text}*/\n${content}")
-    endif()
-  endforeach()
   set(${result} "${content}" PARENT_SCOPE)
 endfunction()
 
@@ -62,6 +51,16 @@ foreach(script IN LISTS scripts)
   string(REGEX REPLACE ".*src=\"([^\"]*)\".*" "\\1" name "${script}")
   content_of("${name}" content)
   string(REPLACE "${script}" "<script>\n${content}\n</script>" page "${page}")
+endforeach()
+
+string(REGEX MATCHALL "@NOTICE:[^@]*@" notices "${page}")
+foreach(notice IN LISTS notices)
+  string(REGEX REPLACE "@NOTICE:(.*)@" "\\1" name "${notice}")
+  file(READ "${NOTICES}/${name}" text)
+  string(STRIP "${text}" text)
+  string(REPLACE "&" "&amp;" text "${text}")
+  string(REPLACE "<" "&lt;" text "${text}")
+  string(REPLACE "${notice}" "${text}" page "${page}")
 endforeach()
 
 if(page MATCHES "(href|src)=\"[^\"#]+\\.(js|css)\"")

@@ -8,27 +8,13 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <string>
+#include <utility>
 
 namespace bbsim::replay {
 namespace {
 
-// The words of the values, little endian.
-template <class WordOf>
-std::string encoded(std::span<const double> values, WordOf word_of) {
-  std::vector<unsigned char> bytes;
-  bytes.reserve(values.size() * sizeof word_of(0));
-  for (const double value : values) {
-    const auto word = word_of(value);
-    for (std::size_t i = 0; i < sizeof word; ++i) {
-      bytes.push_back(static_cast<unsigned char>(word >> (8 * i) & 0xFFU));
-    }
-  }
-  return base64(bytes);
-}
-
-}  // namespace
-
-std::string base64(std::span<const unsigned char> bytes) {
+std::string base64(const std::vector<unsigned char>& bytes) {
   constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   text.reserve((bytes.size() + 2) / 3 * 4);
@@ -43,22 +29,40 @@ std::string base64(std::span<const unsigned char> bytes) {
   return text;
 }
 
-float to_float(double value) {
-  constexpr double largest = std::numeric_limits<float>::max();
-  return static_cast<float>(std::abs(value) > largest ? std::copysign(HUGE_VAL, value) : value);
+}  // namespace
+
+// Each value becomes a word, little endian.
+template <class WordOf>
+Numbers::Json Numbers::list(std::vector<double> values, WordOf word_of) const {
+  if (arrays_ != nullptr) {
+    arrays_->push_back(std::move(values));
+    return arrays_->size() - 1;
+  }
+  std::vector<unsigned char> bytes;
+  bytes.reserve(values.size() * sizeof word_of(0));
+  for (const double value : values) {
+    const auto word = word_of(value);
+    for (std::size_t i = 0; i < sizeof word; ++i) {
+      bytes.push_back(static_cast<unsigned char>(word >> (8 * i) & 0xFFU));
+    }
+  }
+  return base64(bytes);
 }
 
-std::string base64_of_floats(std::span<const double> values) {
-  return encoded(values,
-                 [](double value) { return std::bit_cast<std::uint32_t>(to_float(value)); });
+Numbers::Json Numbers::floats(std::vector<double> values) const {
+  return list(std::move(values), [](double value) {
+    // Overflow, where a plain conversion is undefined.
+    if (std::abs(value) > std::numeric_limits<float>::max()) value = std::copysign(HUGE_VAL, value);
+    return std::bit_cast<std::uint32_t>(static_cast<float>(value));
+  });
 }
 
-std::string base64_of_doubles(std::span<const double> values) {
-  return encoded(values, [](double value) { return std::bit_cast<std::uint64_t>(value); });
+Numbers::Json Numbers::doubles(std::vector<double> values) const {
+  return list(std::move(values), [](double value) { return std::bit_cast<std::uint64_t>(value); });
 }
 
-std::string base64_of_parts(std::span<const double> values) {
-  return encoded(values, [](double value) {
+Numbers::Json Numbers::parts(std::vector<double> values) const {
+  return list(std::move(values), [](double value) {
     return static_cast<std::uint16_t>(std::lround(std::clamp(value, -1.0, 1.0) * 32767));
   });
 }

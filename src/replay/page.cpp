@@ -23,7 +23,6 @@ constexpr std::size_t most_bytes = 2'400'000;
 constexpr std::size_t most_cases = 40000;
 constexpr std::size_t most_sweep_numbers = 320000;
 constexpr std::size_t most_events = 2000;
-constexpr std::size_t longest_chord = 50;  // points
 
 template <class Value>
 std::vector<Value> picked(const std::vector<Value>& values, const std::vector<std::size_t>& rows) {
@@ -117,32 +116,10 @@ Json events_json(const Run& run) {
   return events;
 }
 
-// The distance of a point from the line between two others.
-double off_line(const std::array<double, 2>& from, const std::array<double, 2>& point,
-                const std::array<double, 2>& to) {
-  const double dx = to[0] - from[0], dy = to[1] - from[1], length = std::hypot(dx, dy);
-  const double px = point[0] - from[0], py = point[1] - from[1];
-  if (!(length > 0) || px * dx + py * dy > length * length) return std::hypot(px, py);
-  return std::abs(px * dy - py * dx) / length;
-}
-
-// The points of the reference path that a polyline needs to look like it: where it leaves the line
-// from the last one by 1/20000 of the path's extent.
-std::vector<double> reference_points(const Run& run) {
-  const auto& path = run.reference;
-  double extent = 0;
-  for (const auto& point : path)
-    extent = std::max({extent, std::abs(point[0]), std::abs(point[1])});
-  const double tolerance = extent / 20000;
+Json reference_json(const Run& run, const Numbers& numbers) {
   std::vector<double> points;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    const bool must = i == 0 || i + 1 == path.size() || i - kept >= longest_chord;
-    if (!must && off_line(path[kept], path[i], path[i + 1]) < tolerance) continue;
-    points.insert(points.end(), path[i].begin(), path[i].end());
-    kept = i;
-  }
-  return points;
+  for (const auto& point : run.reference) points.insert(points.end(), point.begin(), point.end());
+  return numbers.floats(std::move(points));
 }
 
 Json poles_json(const Poles& poles) {
@@ -215,7 +192,7 @@ Json run_json(const Run& run, const Stage& stage, std::size_t most, const Number
   json["unitsKnown"] = run.units_known;
   json["events"] = events_json(run);
   json["eventCount"] = run.events.size();
-  json["reference"] = numbers.floats(reference_points(run));
+  json["reference"] = reference_json(run, numbers);
   json["friction"] = run.friction ? Json(*run.friction) : Json();
   json["scenario"] = source_json(run.source);
   json["summary"] = run.summary.empty() ? Json() : parse_json(run.summary);
@@ -225,25 +202,25 @@ Json run_json(const Run& run, const Stage& stage, std::size_t most, const Number
   return json;
 }
 
-Json sweep_column_json(const SweepColumn& column, const std::vector<std::size_t>& cases,
-                       bool exact) {
+Json sweep_column_json(const SweepColumn& column, const std::vector<std::size_t>& cases, bool exact,
+                       const Numbers& numbers) {
   Json json = {{"name", column.name}, {"unit", column.unit}};
   if (!column.words.empty()) {
     json["words"] = picked(column.words, cases);
   } else {
-    const std::vector<double> values = picked(column.values, cases);
+    std::vector<double> values = picked(column.values, cases);
     json[exact ? "doubles" : "floats"] =
-        exact ? base64_of_doubles(values) : base64_of_floats(values);
+        exact ? numbers.doubles(std::move(values)) : numbers.floats(std::move(values));
   }
   return json;
 }
 
-Json sweep_json(const Sweep& sweep, std::size_t sweeps) {
-  const std::size_t numbers = 2 * sweep.keys.size() + sweep.measures.size() + 1;
+Json sweep_json(const Sweep& sweep, std::size_t sweeps, const Numbers& numbers) {
+  const std::size_t of_case = 2 * sweep.keys.size() + sweep.measures.size() + 1;
   const std::vector<std::size_t> cases = cases_kept(
-      sweep, std::max<std::size_t>(1, std::min(most_cases, most_sweep_numbers / numbers) / sweeps));
+      sweep, std::max<std::size_t>(1, std::min(most_cases, most_sweep_numbers / of_case) / sweeps));
   Json json = {{"name", sweep.name}, {"title", sweep.title}, {"cases", sweep.status.size()}};
-  json["numbers"] = base64_of_doubles(picked(sweep.cases, cases));
+  json["numbers"] = numbers.doubles(picked(sweep.cases, cases));
   // Most cases end alike. Lists each ending once, and its index for every case.
   std::vector<std::string> ways;
   Json status = Json::array();
@@ -256,12 +233,12 @@ Json sweep_json(const Sweep& sweep, std::size_t sweeps) {
   json["status"] = status;
   Json keys = Json::array(), measures = Json::array();
   for (const SweepColumn& key : sweep.keys) {
-    keys.push_back(sweep_column_json(key, cases, true));
+    keys.push_back(sweep_column_json(key, cases, true, numbers));
     if (key.drawn) keys.back()["drawn"] = true;
     if (!key.along.empty()) keys.back()["along"] = key.along;
   }
   for (const SweepColumn& measure : sweep.measures) {
-    measures.push_back(sweep_column_json(measure, cases, false));
+    measures.push_back(sweep_column_json(measure, cases, false, numbers));
   }
   json["keys"] = std::move(keys);
   json["measures"] = std::move(measures);
@@ -283,7 +260,8 @@ Json json_of(const Scene& scene, const Numbers& numbers) {
       runs.push_back(run_json(run, stage, rows_allowed(scene), numbers));
     }
   }
-  for (const Sweep& sweep : scene.sweeps) sweeps.push_back(sweep_json(sweep, scene.sweeps.size()));
+  for (const Sweep& sweep : scene.sweeps)
+    sweeps.push_back(sweep_json(sweep, scene.sweeps.size(), numbers));
   json["plots"] = plots_json();
   json["runs"] = std::move(runs);
   json["sweeps"] = std::move(sweeps);

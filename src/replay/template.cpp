@@ -84,10 +84,9 @@ std::string with_engine(std::string page_template, std::string_view engine) {
 std::string read_template(const std::string& name, const std::vector<std::string>& folders) {
   std::string looked_in;
   for (const std::string& folder : folders.empty() ? file::share_folders() : folders) {
-    try {
-      return file::read_whole(std::filesystem::path(folder) / name);
-    } catch (const InputError&) {  // try the next folder
-    }
+    const std::filesystem::path file = std::filesystem::path(folder) / name;
+    std::error_code error;
+    if (std::filesystem::exists(file, error)) return file::read_whole(file);
     looked_in.append(looked_in.empty() ? "" : " and ").append(folder);
   }
   if (name == engine_name) {

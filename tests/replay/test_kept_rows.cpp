@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "make_scene.hpp"
+#include "circling.hpp"
 #include "replay/kept.hpp"
 #include "replay/scene.hpp"
 

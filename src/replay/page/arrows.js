@@ -21,27 +21,24 @@ bbsim.makeArrows = (run, plane, length, materials) => {
     const row = Math.max(1, Math.min(run.row(t) + 1, run.t.length - 1)), seconds = run.t[row] - run.t[row - 1];
     return ['x', 'y'].map((name) => (run.values(name)[row] - run.values(name)[row - 1]) / seconds || 0);
   }
-  const greatest = (values) => values.reduce((most, value) => (Number.isFinite(value) && value > most ? value : most), 0);
-  const fastest = greatest(Array.from(run.t, (t) => Math.hypot(...velocityAt(t))));
+  const fastest = bbsim.data.extent(Array.from(run.t, (t) => Math.hypot(...velocityAt(t)))).greatest;
   const force = run.columns.get('normal_force');
   return {
     // Each with the place of its name, `tip`.
     meshes: made,
-    // Returns all numbers that they depend on.
     pose(t, place) {
       const [vx, vy] = velocityAt(t);
       const down = new THREE.Vector3(0, 0, -1).applyQuaternion(plane.getWorldQuaternion(turned).inverse());
       const vectors = {velocity: new THREE.Vector3(vx, vy, 0).divideScalar(fastest || 1), gravity: down,
                        'normal force': new THREE.Vector3(0, 0, force ? run.at(t, 'normal_force', 0) / (force.size || 1) : 0)};
-      return Object.entries(vectors).flatMap(([name, vector]) => {
+      for (const [name, vector] of Object.entries(vectors)) {
         const one = made[name], size = vector.length();
         one.visible = size > 1e-3;
         one.position.copy(place);
         one.tip.copy(place).addScaledVector(vector, 1.1 * length);
         if (one.visible) one.quaternion.setFromUnitVectors(along, vector.clone().normalize());
         one.scale.setScalar(Math.max(size, 1e-3));
-        return vector.toArray();
-      });
+      }
     },
   };
 };

@@ -23,11 +23,10 @@ bbsim.makeBode = (loops, ask) => {
   }
   show(loops, data.floats);
 
-  // The newest wish wins.
-  async function draw() {
-    if (wanted === null) return;
-    const state = wanted;
-    wanted = null;
+  async function draw(state) {
+    // Runs come first: they may need both processors.
+    if (state === wanted) await new Promise((resolve) => setTimeout(resolve, 50));
+    if (state !== wanted) return;  // the newest wish wins
     try {
       const {loops: its, arrays} = await ask(state);
       show(its, (place) => arrays[place]);
@@ -38,9 +37,8 @@ bbsim.makeBode = (loops, ask) => {
   return {
     root,
     follow(state) {
-      // Runs come first: they may need both processors.
-      if (wanted === null) asking = asking.then(() => new Promise((resolve) => setTimeout(resolve, 50))).then(draw);
       wanted = state;
+      asking = asking.then(() => draw(state));
     },
     async margins() {
       await asking;

@@ -19,7 +19,7 @@ bbsim.makeCamera = (canvas, rig, told) => {
   }
   const controls = bbsim.makeOrbit(canvas, eye, {changed: told.changed, left: told.left, begun, ended: notify});
   // The unit of length is the longest side of the plate, as in the picture.
-  const scale = () => 1 / rig.size, radius = () => rig.ballRadius * scale();
+  const radius = () => rig.ballRadius / rig.size;
   controls.minDistance = Math.min(0.05, 3 * radius());
   controls.maxDistance = 20;
   const reduced = matchMedia('(prefers-reduced-motion: reduce)');
@@ -32,7 +32,7 @@ bbsim.makeCamera = (canvas, rig, told) => {
     const half = Math.tan(fov * Math.PI / 360) * 0.93, target = new THREE.Vector3();
     let far = 0;
     for (let again = 0; again < 3; ++again) {
-      const seen = rig.outline().map((point) => point.clone().multiplyScalar(scale()).sub(target));
+      const seen = rig.outline().map((point) => point.clone().sub(target));
       far = Math.max(...seen.map((p) => p.dot(back) + Math.max(Math.abs(p.dot(over)) / half, Math.abs(p.dot(right)) / half / camera.aspect)));
       const heights = seen.map((p) => p.dot(over) / (far - p.dot(back)));
       target.addScaledVector(over, far * (Math.max(...heights) + Math.min(...heights)) / 2);
@@ -68,25 +68,19 @@ bbsim.makeCamera = (canvas, rig, told) => {
   }
 
   function glide(to) {
-    const target = controls.target.clone(), begun = performance.now();
+    const begun = performance.now(), target = controls.target.clone();
     // Moves around the target, not through it.
     const from = eye.position.clone().sub(target), way = to.position.clone().sub(to.target);
-    const far = [from.length(), way.length()], turned = new THREE.Quaternion().setFromUnitVectors(from.normalize(), way.normalize());
     moving = to;
-    const frame = (time) => {
+    requestAnimationFrame(function frame(time) {
       if (moving !== to) return;
       const part = Math.min(1, (time - begun) / 350), eased = part * part * (3 - 2 * part);
-      if (part < 1) {
-        const now = target.clone().lerp(to.target, eased), back = from.clone().applyQuaternion(new THREE.Quaternion().slerp(turned, eased));
-        set({position: back.multiplyScalar(far[0] + eased * (far[1] - far[0])).add(now), target: now});
-        requestAnimationFrame(frame);
-      } else {
-        moving = null;
-        set(to);
-        notify();
-      }
-    };
-    requestAnimationFrame(frame);
+      const now = target.clone().lerp(to.target, eased), far = from.length() + eased * (way.length() - from.length());
+      set({position: from.clone().lerp(way, eased).setLength(far).add(now), target: now});
+      if (part < 1) return requestAnimationFrame(frame);
+      moving = null;
+      notify();
+    });
   }
 
   function go(name, atOnce = false) {

@@ -4,39 +4,29 @@
 'use strict';
 // The time that picture, plots and scrubber show, and its progress.
 bbsim.makeClock = (data) => {
-  const {runs} = data;
-  let {start, end} = data;
-  const listeners = [], stateListeners = [], relaxed = [];
-  let span = 0, due = 0;  // ms between calls of the relaxed listeners while time runs
-  let now = start, playing = false, speed = 1, loop = false, last = null;
+  const listeners = [], stateListeners = [];
+  let now = data.start, playing = false, speed = 1, loop = false, last = null;
 
   function notify() {
     for (const listener of listeners) listener(now);
-    const time = performance.now();
-    if (playing && time < due) return;
-    due = time + span;
-    for (const listener of relaxed) listener(now);
   }
-  const tellState = () => {
-    if (!playing) for (const listener of relaxed) listener(now);
+  function tellState() {
     for (const listener of stateListeners) listener();
-  };
+  }
 
   function frame(time) {
     if (!playing) return;
     // The first frame only sets the reference time.
-    const next = now + (last === null ? 0 : (time - last) / 1000 * speed);
+    const {start, end} = data, next = now + (last === null ? 0 : (time - last) / 1000 * speed);
     last = time;
-    if (next >= end) {
-      if (loop && end > start) {
-        now = start + (next - start) % (end - start);
-      } else {
-        now = end;
-        playing = false;
-        tellState();
-      }
-    } else {
+    if (next < end) {
       now = next;
+    } else if (loop && end > start) {
+      now = start + (next - start) % (end - start);
+    } else {
+      now = end;
+      playing = false;
+      tellState();
     }
     notify();
     if (playing) requestAnimationFrame(frame);
@@ -49,12 +39,12 @@ bbsim.makeClock = (data) => {
     get loop() { return loop; },
     seek(t) {
       if (!Number.isFinite(t)) return;
-      now = Math.min(Math.max(t, start), end);
+      now = Math.min(Math.max(t, data.start), data.end);
       notify();
     },
     play() {
-      if (playing || end <= start) return;
-      if (now >= end) now = start;
+      if (playing || data.end <= data.start) return;
+      if (now >= data.end) now = data.start;
       playing = true;
       last = null;
       tellState();
@@ -79,23 +69,21 @@ bbsim.makeClock = (data) => {
     },
     // Goes to a row of the leading run, forward or back from the current time.
     step(rows) {
-      const [run] = runs;
+      const [run] = data.runs;
       clock.pause();
       const row = run.row(now), onRow = Math.abs(run.t[row] - now) < 1e-12 * Math.max(1, Math.abs(now));
       const next = rows > 0 ? row + rows : row + rows + (onRow ? 0 : 1);
       clock.seek(run.t[Math.min(Math.max(next, 0), run.t.length - 1)]);
     },
     onTime: (listener) => listeners.push(listener),
-    // For listeners that need not follow every frame if frames are slow.
-    onTimeRelaxed: (listener) => relaxed.push(listener),
-    relax(least) { span = least; },
-    // The runs have changed: stays at the time, as far as they have it.
-    reset() {
-      ({start, end} = data);
-      clock.seek(now);
-    },
     onState: (listener) => stateListeners.push(listener),
   };
   return clock;
 };
 bbsim.clock = bbsim.makeClock(bbsim.data);
+
+// What the button that plays and pauses will do.
+bbsim.showPlaying = ({playing}) => {
+  document.getElementById('play').setAttribute('aria-label', playing ? 'Pause' : 'Play');
+  document.getElementById('play-sign').setAttribute('d', playing ? 'M5 3h4v14H5zM11 3h4v14h-4z' : 'M5 3l12 7-12 7z');
+};

@@ -26,8 +26,8 @@ bbsim.makeControllerCard = (use) => {
     own.hidden = mine === null;
     area.value = choice.value === '' ? mine : examples[choice.value];
   });
-  const off = element('button', {type: 'button', 'aria-disabled': 'true', onclick: () => { if (off.getAttribute('aria-disabled') !== 'true') use(''); }}, 'Use the scenario\'s law');
-  const on = element('button', {type: 'button', onclick: () => use(area.value)}, 'Use this controller');
+  const off = element('button', {'aria-disabled': 'true', onclick: () => { if (off.getAttribute('aria-disabled') !== 'true') use(''); }}, 'Use the scenario\'s law');
+  const on = element('button', {onclick: () => use(area.value)}, 'Use this controller');
   const root = element('details', {class: 'card'}, element('summary', {}, element('h3', {}, 'Your controller')),
                        element('p', {class: 'buttons'}, choice, on, off), area,
                        element('p', {class: 'fine'}, 'step(sample) gets {sample, t, ball, reference, reference_rate, reference_acceleration, servo, servo_rate, period} in SI units, once a sampling period, and returns [phi, theta]. It runs in this page alone, without network.'));

@@ -35,6 +35,9 @@ bbsim.data = (() => {
                              : {least: 0, greatest: 0, size: 0};
   }
 
+  // The value of a sorted list below which this part of it lies.
+  const quantile = (sorted, part) => sorted[Math.min(sorted.length - 1, Math.floor(part * sorted.length))];
+
   class Run {
     constructor(json, index) {
       this.index = index;
@@ -84,12 +87,16 @@ bbsim.data = (() => {
       return low;
     }
 
+    // The row before t, and the part of the way to the next one; 0 at the ends.
+    rowAndPart(t) {
+      const row = this.row(t), within = t > this.t[row] && row + 1 < this.t.length;
+      return [row, within ? (t - this.t[row]) / (this.t[row + 1] - this.t[row]) : 0];
+    }
+
     // Interpolates linearly between two rows.
     between(t, values) {
-      const row = this.row(t), a = values[row];
-      if (t <= this.t[row] || row + 1 >= this.t.length) return a;
-      const part = (t - this.t[row]) / (this.t[row + 1] - this.t[row]);
-      return a + part * (values[row + 1] - a);
+      const [row, part] = this.rowAndPart(t);
+      return part > 0 ? values[row] + part * (values[row + 1] - values[row]) : values[row];
     }
 
     // The value of a column. `otherwise` if the run lacks the column or the number.
@@ -115,12 +122,8 @@ bbsim.data = (() => {
     // that can be drawn.
     placeAt(t) {
       if (this.hand) return [this.hand.x, this.hand.y];
-      const row = this.row(t), between = t > this.t[row] && row + 1 < this.t.length;
-      const far = ['x', 'y'].some((name) => {
-        const values = this.values(name);
-        return Math.abs(values[row]) > scene.stage.largest || (between && Math.abs(values[row + 1]) > scene.stage.largest);
-      });
-      if (far) return 'beyond';
+      const [row, part] = this.rowAndPart(t), rows = part > 0 ? [row, row + 1] : [row];
+      if (rows.some((one) => ['x', 'y'].some((name) => Math.abs(this.values(name)[one]) > scene.stage.largest))) return 'beyond';
       const place = [this.at(t, 'x'), this.at(t, 'y')];
       return place.every(Number.isFinite) ? place : 'missing';
     }
@@ -134,13 +137,13 @@ bbsim.data = (() => {
     // Writes the ball's orientation in the plane's frame to a THREE.Quaternion.
     orientationAt(t, into) {
       if (this.hand) return into.copy(this.hand.turned);
-      const q = this.quaternions, row = this.row(t), i = 4 * row;
-      into.set(q[i + 1], q[i + 2], q[i + 3], q[i]).normalize();
-      if (t > this.t[row] && row + 1 < this.t.length) {
-        const part = (t - this.t[row]) / (this.t[row + 1] - this.t[row]);
-        into.slerp(new THREE.Quaternion(q[i + 5], q[i + 6], q[i + 7], q[i + 4]).normalize(), part);
-      }
-      return into;
+      const [row, part] = this.rowAndPart(t);
+      const at = (one) => {
+        const [w, x, y, z] = this.quaternions.subarray(4 * one, 4 * one + 4);
+        return new THREE.Quaternion(x, y, z, w).normalize();
+      };
+      into.copy(at(row));
+      return part > 0 ? into.slerp(at(row + 1), part) : into;
     }
   }
 
@@ -148,7 +151,7 @@ bbsim.data = (() => {
   const runs = scene.runs.map((run, index) => new Run(run, index));
   const listeners = [];
   return {
-    scene, runs, floats, doubles, extent,
+    scene, runs, floats, doubles, extent, quantile,
     before: null,  // in a live page: the run to compare with
     fan: null,     // in a live page: many rigs (fan.js)
     get start() { return Math.min(...runs.map((run) => run.start)); },

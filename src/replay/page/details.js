@@ -25,18 +25,12 @@ bbsim.makeDetails = (container) => {
   }
 
   // The peaks of the motors' loads: {peak_torque_phi, peak_torque_phi_at, ...}.
-  function motorsOf(motors) {
-    const rows = [['φ', 'peak_torque_phi', 'N m'], ['θ', 'peak_torque_theta', 'N m'], ['power', 'peak_power', 'W']];
-    const body = element('tbody', {});
-    for (const [name, key, unit] of rows) {
-      if (typeof motors[key] !== 'number') continue;
+  function peaksOf(motors) {
+    const peaks = [['torque φ', 'peak_torque_phi', 'N m'], ['torque θ', 'peak_torque_theta', 'N m'], ['power', 'peak_power', 'W']];
+    return Object.fromEntries(peaks.filter(([, key]) => typeof motors[key] === 'number').map(([name, key, unit]) => {
       const shown = text.shownIn(unit, Math.abs(motors[key])), at = motors[`${key}_at`];
-      body.append(element('tr', {}, element('th', {scope: 'row'}, unit === 'W' ? name : `torque ${name}`),
-                          element('td', {}, `${text.number(motors[key] * shown.factor)} ${shown.unit}`),
-                          element('td', {}, typeof at === 'number' ? `${text.number(at, 6)} s` : '')));
-    }
-    return element('table', {class: 'motors'}, element('caption', {}, `with ${motors.carries || 'ball'}`),
-                   element('thead', {}, element('tr', {}, element('th', {}, ''), element('th', {scope: 'col'}, 'peak'), element('th', {scope: 'col'}, 'at'))), body);
+      return [name, `${text.number(motors[key] * shown.factor)} ${shown.unit}${typeof at === 'number' ? ` at ${text.number(at, 6)} s` : ''}`];
+    }));
   }
 
   function rowsNote(run) {
@@ -47,16 +41,6 @@ bbsim.makeDetails = (container) => {
         `${run.buckets} stretches, and those needed to draw the motion within ` +
         `${run.motionError <= 1 ? 'half a thousandth' : `${text.number(Math.max(1, run.motionError) * 0.05, 2)} %`} of its extent. ` +
         `The result file has all rows.${end}`;
-  }
-
-  // Reports rows that the picture leaves out.
-  function beyondNote(run) {
-    const xs = run.values('x'), ys = run.values('y');
-    const far = Array.from(run.t.keys()).filter((i) => [xs[i], ys[i]].some((v) => Math.abs(v) > data.scene.stage.largest));
-    if (far.length === 0) return '';
-    const unit = run.unitsKnown ? ' m' : '';
-    return `In ${far.length} rows, from ${text.number(run.t[far[0]], 6)} s on, the ball is more than ` +
-        `${text.number(data.scene.stage.largest)}${unit} away: there it is not drawn.`;
   }
 
   function section(run) {
@@ -74,12 +58,7 @@ bbsim.makeDetails = (container) => {
       root.append(card('Set beside the text', element('pre', {}, scenario.overrides.join('\n'))));
     }
     if (run.events.length > 0) root.append(eventsOf(run));
-    if (run.poles && run.poles.values.length > 0) {
-      root.append(card(run.poles.period === null ? 'Poles about home' : `Poles of a period of ${text.number(run.poles.period * 1e3)} ms`,
-                       element('figure', {}, bbsim.drawPoles(run.poles),
-                               element('figcaption', {}, run.poles.period === null ? 'stable left of the line, 1/s'
-                                                                                   : 'stable within the circle')), bbsim.polesTable(run.poles)));
-    }
+    if (run.poles && run.poles.values.length > 0) root.append(card('Poles about home', element('figure', {}, ...bbsim.showPoles(run.poles))));
     if (run.check.length > 0) root.append(card('Model', element('pre', {class: 'wrap'}, run.check.join('\n'))));
     if (summary) {
       const {statistics, events, model_notes, motors, measures, expectations, ...rest} = summary;
@@ -88,17 +67,16 @@ bbsim.makeDetails = (container) => {
       if (expectations && expectations.length > 0) {
         root.append(card('Expectations', element('pre', {class: 'wrap'}, expectations.map(({text: words, holds}) => `${holds ? '✓' : '✗'} ${words}`).join('\n'))));
       }
-      if (motors && typeof motors === 'object') root.append(card('Motors', motorsOf(motors)));
+      if (motors && typeof motors === 'object') root.append(card(`Peaks of the motors, with ${motors.carries || 'ball'}`, rowsOf(peaksOf(motors))));
       if (statistics) root.append(card('Statistics', rowsOf(statistics)));
     }
     const notes = [rowsNote(run)];
     if (!run.turns) notes.push('How the ball turns is not known, so it is drawn without marks: the columns ball_qw to ball_qz would show it.');
     else if (!run.orientationGiven) notes.push('The ball is drawn as one that rolls straight from row to row: its orientation was not recorded.');
     if (!run.unitsKnown) notes.push('The units of the file are not known: its summary or --scenario would give them.');
-    if (beyondNote(run)) notes.push(beyondNote(run));
     if (run.version) notes.push(`Run by bbsim ${run.version}.`);
     root.append(element('p', {class: 'fine'}, notes.join(' ')));
-    if (several) root.append(element('button', {type: 'button', onclick: () => bbsim.save.csv(run)}, 'Save as CSV'));
+    if (several) root.append(element('button', {onclick: () => bbsim.save.csv(run)}, 'Save as CSV'));
     return root;
   }
 
@@ -110,7 +88,7 @@ bbsim.makeDetails = (container) => {
   function eventsOf(run) {
     const list = element('ol', {class: 'events'});
     for (const event of run.events.slice(0, 50)) {
-      list.append(element('li', {}, element('button', {type: 'button', class: 'link', onclick: () => {
+      list.append(element('li', {}, element('button', {class: 'link', onclick: () => {
         bbsim.clock.pause();
         bbsim.clock.seek(event.t);
       }}, `${event.action === 'stop' ? '■' : '◆'} ${text.number(event.t, 6)} s`), ` ${event.name}, ${event.action === 'stop' ? 'stopped' : 'noted'}, ` +

@@ -47,7 +47,7 @@ bbsim.makeEditor = ({yaml, take, paths}) => {
   // Offers the keys that fit at the caret as buttons, which come after the text for the keyboard too.
   async function offer() {
     const {from, names} = bbsim.completions(area.value, area.selectionStart, await paths());
-    offers.replaceChildren(...names.slice(0, 12).map((name) => element('button', {type: 'button', onclick: () => {
+    offers.replaceChildren(...names.slice(0, 12).map((name) => element('button', {onclick: () => {
       area.setRangeText(`${name}: `, from, area.selectionStart, 'end');
       offers.replaceChildren();
       area.focus();

@@ -89,11 +89,9 @@ bbsim.makeEngine = () => {
         stop(fault);  // nobody knows what state it is in
         return;
       }
-      try {
-        resolve({answer: JSON.parse(answer), arrays});
-      } catch (error) {
-        reject(error);
-      }
+      const its = JSON.parse(answer), {faults} = its;
+      if (faults) reject(Object.assign(new Error(faults.map(({message}) => message).join('\n')), {faults}));
+      else resolve({answer: its, arrays});
     };
     worker.onerror = (event) => stop(event.lineno > 0 && event.lineno <= lines
         ? `the controller of this page, line ${event.lineno}: ${event.message.replace(/^Uncaught /, '')}`
@@ -117,7 +115,8 @@ bbsim.makeEngine = () => {
       stop('the controller has changed');
       controller = script;
     },
-    // Fulfilled with {answer, arrays}, in the order of the calls.
+    // Fulfilled with {answer, arrays}, in the order of the calls; rejected with an error with the answer's
+    // `faults` [{place, message}], if it has any.
     ask(request) {
       if (!worker) start();
       return new Promise((resolve, reject) => {

@@ -7,8 +7,8 @@
 bbsim.makeFan = (cases, requestOf) => {
   const {data, palette} = bbsim;
   const count = 100, ghosts = 20;
-  const series = cases.makeSeries();
   const status = bbsim.text.element('span', {class: 'live-status', role: 'status'});
+  const series = cases.makeSeries(status, 'rigs');
 
   class Fan {
     constructor(keys) {
@@ -75,23 +75,21 @@ bbsim.makeFan = (cases, requestOf) => {
 
   let on = false;
   async function draw(state) {
-    const begun = performance.now(), request = requestOf(state);
-    let painted = 0, fan = null;
+    let fan = null;
     try {
+      const request = requestOf(state);
       series.end();
       const {answer, arrays} = await cases.ask({...request, rigs: count});
       fan = new Fan(Object.fromEntries(Object.entries(answer.keys).map(([key, place]) => [key, arrays[place]])));
       const all = await series.begin(request, {keys: fan.keys, columns: columnsOf()}, (first, words, columns) => {
         fan.add(words, columns);
-        status.textContent = `${fan.status.length} of ${count} rigs`;
-        if (fan.status.length < count && performance.now() - painted < 200) return;
+      }, () => {
         data.fan = fan;
         bbsim.plots.repaint();
-        painted = performance.now();
       });
       if (!all) return null;
       const ended = fan.status.filter((word) => word !== 'done').length;
-      status.textContent = `${count} rigs in ${bbsim.text.number(performance.now() - begun, 3)} ms${ended > 0 ? `, ${ended} ended early` : ''}`;
+      if (ended > 0) status.textContent += `, ${ended} ended early`;
       status.title = `Drawn: ${Object.keys(fan.keys).join(', ')}`;
     } catch (error) {
       status.textContent = error.message;

@@ -12,7 +12,7 @@
   document.title = text.visible(scene.title);
   get('title').textContent = text.visible(scene.title);
   get('subtitle').textContent = text.visible(`${scene.scenario}, to ${scene.logs.join(', ')} · bbsim ${scene.version}`);
-  get('made-by').textContent = text.visible(`Made by bbsim ${scene.version}. It holds all that it shows. Plots by dygraphs, whose MIT license is in the source of this page.`);
+  get('made-by').textContent = text.visible(`Made by bbsim ${scene.version}. It holds all that it shows.`);
   get('theme').addEventListener('click', () => palette.choose(palette.isDark() ? 'light' : 'dark'));
 
   function table(caption, {head, rows}) {
@@ -107,11 +107,6 @@
     if (get('time').textContent !== words) get('time').textContent = words;
     if (plan) plan.show(t, transport.timeText(t));
   }
-  function showState() {
-    const {playing} = bbsim.clock;
-    get('play').setAttribute('aria-label', playing ? 'Pause' : 'Play');
-    get('play-sign').setAttribute('d', playing ? 'M5 3h4v14H5zM11 3h4v14h-4z' : 'M5 3l12 7-12 7z');
-  }
   scrub.addEventListener('input', () => {
     const {clock, data} = bbsim, [run] = data.runs;
     clock.pause();
@@ -137,10 +132,10 @@
     get('held-sign').hidden = !run.windows.some(({held}) => held);
     get('thinned').textContent = run.every > 1 ? `One row in ${run.every} of ${run.rows} is shown.` : '';
     scrub.max = run.rowNumbers.length - 1;
-    bbsim.clock.onTimeRelaxed(showTime);
-    bbsim.clock.onState(showState);
+    bbsim.clock.onTime(showTime);
+    bbsim.clock.onState(() => bbsim.showPlaying(bbsim.clock));
     showTime(bbsim.clock.now);
-    showState();
+    bbsim.showPlaying(bbsim.clock);
   }
 
   get('choice').hidden = runs.length < 2;

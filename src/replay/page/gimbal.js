@@ -127,53 +127,44 @@ bbsim.gimbal = (() => {
       plane.add(box([2 * bar, 2 * bar, Math.abs(height)], [0, 0, height / 2 - thickness / 2], materials.axle));
     }
 
-    // The points that must be in the picture: ends of the posts and rods, and corners of the ring and
-    // the plate at all of their angles.
-    function outlineAt(factor) {
-      const angles = (name) => {
+    const set = (phi, theta, servos = null) => {
+      links.set(phi, theta);
+      if (legs) legs.set(phi, theta, servos);
+      rods.forEach((one, axis) => one && one.set([phi, theta][axis]));
+    };
+
+    // The points of the world that must be in the picture: some of each part's, from its least to its greatest angles.
+    const parts = [];
+    base.traverse((part) => { if (part.isMesh) parts.push(part); });
+    let factor = 1, outline = null;
+    function findOutline() {
+      const [phis, thetas] = ['phi', 'theta'].map((name) => {
         const seen = runs.map((one) => one.columns.get(name)).filter(Boolean);
         const within = (angle) => Math.min(Math.max(factor * angle, -Math.PI), Math.PI);
-        const low = within(Math.min(0, ...seen.map((column) => column.least)));
-        const high = within(Math.max(0, ...seen.map((column) => column.greatest)));
-        const steps = Math.min(10, Math.ceil((high - low) / 0.3)) || 1;
+        const low = within(Math.min(0, ...seen.map(({least}) => least))), high = within(Math.max(0, ...seen.map(({greatest}) => greatest)));
+        const steps = Math.ceil((high - low) / 0.7) || 1;
         return Array.from({length: steps + 1}, (_, i) => low + i / steps * (high - low));
-      };
-      const points = [], turned = linksOf(run);
-      const add = (link, x, y, z) => points.push(new THREE.Vector3(x, y, z).applyMatrix4(link.matrixWorld));
-      const corners = stage.round ? Array.from({length: 12}, (_, i) => [Math.cos(i * Math.PI / 6), Math.sin(i * Math.PI / 6)])
-                                  : [[-1, -1], [-1, 1], [1, -1], [1, 1]];
-      turned.base.updateMatrixWorld(true);
-      for (const [x, y] of legs ? corners : []) add(turned.base, x * legs.reach, y * legs.reach, -foot);
-      for (const y of legs ? [] : [-1, 1]) {
-        for (const x of [-1, 1]) add(turned.base, x * 2.5 * bar, y * (postY + bar), -foot);
-        add(turned.base, 0, y * (postY + 1.4 * bar), bar);
-      }
-      const thetas = angles('theta');
-      for (const phi of angles('phi')) {
-        for (const theta of thetas) {
-          turned.set(phi, theta);
-          turned.base.updateMatrixWorld(true);
-          for (const [x, y] of corners) {
-            add(turned.plane, x * stage.width / 2, y * stage.depth / 2, height);
-            for (const z of legs || theta !== thetas[0] ? [] : [-bar, bar]) add(turned.ring, x * (halfX + bar), y * (halfY + bar), z);
-          }
-          rods.forEach((one, axis) => one && one.pointsAt([phi, theta][axis]).forEach((point) => add([turned.base, turned.cross][axis], ...point)));
+      });
+      const points = [], now = [ring.rotation.y, hinge.rotation.x];
+      for (const [phi, theta] of phis.flatMap((one) => thetas.map((other) => [one, other]))) {
+        set(phi, theta);
+        base.parent.updateMatrixWorld(true);
+        for (const {geometry: {attributes: {position}}, matrixWorld} of parts) {
+          const every = Math.ceil(position.count / 24);
+          for (let i = 0; i < position.count; i += every) points.push(new THREE.Vector3().fromBufferAttribute(position, i).applyMatrix4(matrixWorld));
         }
       }
+      set(...now);
+      base.parent.updateMatrixWorld(true);
       return points;
     }
-    let outline = outlineAt(1);
     return {
       ...links, size, foot, legs, rods, solids,
       ballRadius: run.ball.radius, ball: new THREE.Vector3(),
       long: stage.depth > 2 * stage.width ? 'y' : 'x',
-      outline: () => outline,
-      reach(factor) { outline = outlineAt(factor); },
-      set(phi, theta, servos) {
-        links.set(phi, theta);
-        if (legs) legs.set(phi, theta, servos);
-        rods.forEach((one, axis) => one && one.set([phi, theta][axis]));
-      },
+      outline: () => outline || (outline = findOutline()),
+      reach(value) { [factor, outline] = [value, null]; },
+      set,
     };
   }
 
@@ -192,5 +183,5 @@ bbsim.gimbal = (() => {
     return links;
   }
 
-  return {build, buildGhost, paintPlate, gridSpacing};
+  return {linksOf, build, buildGhost, paintPlate, gridSpacing};
 })();

@@ -73,15 +73,12 @@ bbsim.makeHand = (ask, fault) => {
       lean(0, 0);
     });
   }
-  const leanByKeys = () => lean(...[0, 1].map((i) => [...pressed].reduce((sum, key) => sum + way[key][i], 0)));
-  listen('keydown', ({key}) => {
-    pressed.add(key);
-    leanByKeys();
-  });
-  listen('keyup', ({key}) => {
-    pressed.delete(key);
-    leanByKeys();
-  });
+  for (const [type, change] of [['keydown', 'add'], ['keyup', 'delete']]) {
+    listen(type, ({key}) => {
+      pressed[change](key);
+      lean(...[0, 1].map((i) => [...pressed].reduce((sum, one) => sum + way[one][i], 0)));
+    });
+  }
 
   return {
     get state() { return lead.hand; },

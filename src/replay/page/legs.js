@@ -17,58 +17,46 @@ bbsim.legs = (() => {
   // each leg, from the center of the joints at home, m. Without the servos' angles, the plate keeps
   // its height at home.
   function kinematics({legs, phiOffset, thetaOffset}) {
-    const parts = legs.map((leg) => ({...leg, ex: Math.cos(leg.angle), ey: Math.sin(leg.angle)}));
-    let xx = 0, xy = 0, yy = 0;
-    parts.forEach((leg, i) => {
-      const next = parts[(i + 1) % 3], last = parts[(i + 2) % 3];
-      leg.twist = next.ex * last.ey - next.ey * last.ex;
-      xx += leg.ey * leg.ey;
-      xy -= leg.ey * leg.ex;
-      yy += leg.ex * leg.ex;
-    });
-    for (const leg of parts) leg.home = bend(leg, leg.plate - leg.base, leg.height, -1);
+    const parts = legs.map((leg) => ({
+      ...leg, home: bend(leg, leg.plate - leg.base, leg.height, -1),
+      out: new THREE.Vector3(Math.cos(leg.angle), Math.sin(leg.angle), 0), aside: new THREE.Vector3(-Math.sin(leg.angle), Math.cos(leg.angle), 0),
+    }));
+    // A sum over the legs in which a shift of the plate cancels.
+    const between = (i, k) => parts[i].out.clone().cross(parts[k].out).z;
+    const sum = (termOf) => parts.reduce((all, leg, i) => all + between((i + 1) % 3, (i + 2) % 3) * termOf(leg), 0);
+
+    // The joints on a tilted plate, turned about its normal and shifted such that each is in its leg's plane.
+    function jointsOn(normal) {
+      const tilt = new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), normal);
+      const tilted = (vector) => vector.clone().applyQuaternion(tilt);
+      // The turn: a cos + b sin + c = 0.
+      const a = sum(({plate, aside, out}) => plate * aside.dot(tilted(out))), b = sum(({plate, aside}) => plate * aside.dot(tilted(aside)));
+      const c = sum(({joint, aside}) => joint * aside.dot(normal));
+      const square = a * a + b * b, root = Math.sign(b) * Math.sqrt(Math.max(0, square - c * c));
+      const cosine = (b * root - a * c) / square, sine = -(b * c + a * root) / square;
+      const joints = parts.map(({plate, joint, out, aside}) => tilted(out).multiplyScalar(plate * cosine)
+          .addScaledVector(tilted(aside), plate * sine).addScaledVector(normal, joint));
+      const [p, q] = parts.map(({aside}) => aside), far = p.dot(joints[0]), other = q.dot(joints[1]);
+      const shift = new THREE.Vector3(other * p.y - far * q.y, far * q.x - other * p.x, 0).divideScalar(between(0, 1));
+      return joints.map((joint) => joint.add(shift));
+    }
 
     function at(phi, theta, servos) {
       const [f, t] = [phi - phiOffset, theta - thetaOffset];
-      const p = Math.sin(f) * Math.cos(t), q = -Math.sin(t), n = Math.cos(f) * Math.cos(t), w = 1 / (1 + n);
-      let a = 0, b = 0, c = 0;
-      for (const leg of parts) {
-        leg.e = leg.ex * p + leg.ey * q;
-        leg.f = leg.ex * q - leg.ey * p;
-        a -= leg.twist * leg.plate * w * leg.e * leg.f;
-        b += leg.twist * leg.plate * (1 - w * leg.f * leg.f);
-        c += leg.twist * leg.joint * leg.f;
-      }
-      const square = a * a + b * b, root = Math.sign(b) * Math.sqrt(Math.max(0, square - c * c));
-      const cosine = (b * root - a * c) / square, sine = -(b * c + a * root) / square;
-      let gx = 0, gy = 0;
-      for (const leg of parts) {
-        const falls = leg.plate * (cosine * leg.e + sine * leg.f);
-        const beside = leg.plate * sine - w * leg.f * falls + leg.joint * leg.f;
-        leg.along = leg.plate * cosine - w * leg.e * falls + leg.joint * leg.e;
-        leg.z = leg.joint * n - falls;
-        gx -= leg.ey * beside;
-        gy += leg.ex * beside;
-      }
-      const size = xx * yy - xy * xy, shift = [-(yy * gx - xy * gy) / size, -(xx * gy - xy * gx) / size];
-      let lift = 0;
-      parts.forEach((leg, i) => {
-        leg.x = leg.along + shift[0] * leg.ex + shift[1] * leg.ey;
-        if (!servos) return;
-        // The rod determines the joint's height above the horn's end.
-        const horn = leg.home + leg.offset + leg.direction * servos[i];
-        const out = leg.x - leg.base - leg.horn * Math.cos(horn);
-        lift += (leg.joint - leg.height + leg.horn * Math.sin(horn) +
-                 Math.sqrt(Math.max(0, leg.rod * leg.rod - out * out)) - leg.z) / 3;
-      });
-      return parts.map((leg) => {
-        const foot = leg.joint - leg.height, z = leg.z + lift;
-        const horn = bend(leg, leg.x - leg.base, z - foot, -1), end = leg.base + leg.horn * Math.cos(horn);
-        const point = (out, up) => [out * leg.ex, out * leg.ey, up];
-        return {horn, axis: point(leg.base, foot), knee: point(end, foot + leg.horn * Math.sin(horn)), joint: point(leg.x, z)};
+      const joints = jointsOn(new THREE.Vector3(Math.sin(f) * Math.cos(t), -Math.sin(t), Math.cos(f) * Math.cos(t)));
+      // The rods determine the joints' heights above the horns' ends.
+      const lifts = servos ? parts.map((leg, i) => {
+        const horn = leg.home + leg.offset + leg.direction * servos[i], out = joints[i].dot(leg.out) - leg.base - leg.horn * Math.cos(horn);
+        return leg.joint - leg.height + leg.horn * Math.sin(horn) + Math.sqrt(Math.max(0, leg.rod * leg.rod - out * out)) - joints[i].z;
+      }) : [0, 0, 0];
+      const lift = (lifts[0] + lifts[1] + lifts[2]) / 3;
+      return parts.map((leg, i) => {
+        const foot = leg.joint - leg.height, far = joints[i].dot(leg.out), z = joints[i].z + lift;
+        const horn = bend(leg, far - leg.base, z - foot, -1), point = (out, up) => leg.out.clone().multiplyScalar(out).setZ(up).toArray();
+        return {axis: point(leg.base, foot), knee: point(leg.base + leg.horn * Math.cos(horn), foot + leg.horn * Math.sin(horn)), joint: point(far, z)};
       });
     }
-    return {at, depth: Math.max(...parts.map((leg) => leg.height - leg.joint)), reach: Math.max(...parts.map((leg) => leg.base + leg.horn))};
+    return {at, depth: Math.max(...parts.map((leg) => leg.height - leg.joint))};
   }
 
   // A servo with horn, rod and joint; place() moves them.
@@ -121,7 +109,6 @@ bbsim.legs = (() => {
     let places = null;
     return {
       group,
-      pointsAt: (angle) => Object.values(placesAt(angle)).slice(1),
       places: () => places,
       set(angle) {
         places = placesAt(angle);
@@ -143,7 +130,6 @@ bbsim.legs = (() => {
     return {
       group,
       depth: chain.depth - level + 2 * limbs[0].thick,
-      reach: chain.reach,
       // Axis, knee and joint of each leg in the base's frame, m.
       points: () => points,
       set(phi, theta, servos) {
@@ -156,5 +142,5 @@ bbsim.legs = (() => {
     };
   }
 
-  return {kinematics, build, buildRod};
+  return {build, buildRod};
 })();

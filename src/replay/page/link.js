@@ -12,36 +12,25 @@ bbsim.makeLink = ({changes, apply, bring}) => {
   const fragmentOf = ({set, script}) => [set.length > 0 ? `set=${encodeURIComponent(JSON.stringify(set))}` : '',
                                          script ? `controller=${encodeURIComponent(script)}` : ''].filter(Boolean).join('&');
 
-  // What the address has as this name; '' if it cannot be read.
-  function part(name) {
-    const [, words] = new RegExp(`[#&]${name}=([^&]*)`).exec(location.hash) || [];
-    try {
-      return decodeURIComponent(words || '');
-    } catch {
-      return '';
-    }
-  }
   function readSet() {
-    let wanted;
+    const isSetting = (one) => Array.isArray(one) && one.length === 2 && one.every((words) => typeof words === 'string' && words.length <= 1000);
     try {
-      wanted = JSON.parse(part('set'));
+      const wanted = JSON.parse(bbsim.address.said('set'));
+      return Array.isArray(wanted) && wanted.length <= 100 && wanted.every(isSetting) ? wanted : [];
     } catch {
       return [];
     }
-    const valid = Array.isArray(wanted) && wanted.length > 0 && wanted.length <= 100 &&
-        wanted.every((one) => Array.isArray(one) && one.length === 2 && one.every((words) => typeof words === 'string' && words.length <= 1000));
-    return valid ? wanted : [];
   }
 
   function offer() {
-    const set = readSet(), script = part('controller');
+    const set = readSet(), script = bbsim.address.said('controller') || '';
     if (set.length === 0 && !script) return;
     offered = fragmentOf({set, script});
     const end = () => {
       offered = '';
       root.replaceChildren();
     };
-    const button = (words, action) => element('button', {type: 'button', onclick: action}, words);
+    const button = (words, action) => element('button', {onclick: action}, words);
     root.replaceChildren(element('div', {class: 'offer', role: 'group', 'aria-label': 'Changes of this link'},
                                  ...(set.length > 0 ? [element('p', {}, 'This link changes the scenario:'),
                                                        element('ul', {}, ...set.map(([key, value]) => element('li', {}, element('code', {}, `${key} = ${value}`))))] : []),

@@ -25,7 +25,7 @@ bbsim.makeLive = (container) => {
   // --- Runs ---------------------------------------------------------------------------------
 
   const status = element('p', {class: 'live-status'});
-  const stop = element('button', {type: 'button', hidden: true, onclick: () => {
+  const stop = element('button', {hidden: true, onclick: () => {
     for (const {reject} of waiting) reject(new Error('stopped'));
     waiting = [];
     engine.stop('stopped');
@@ -39,10 +39,12 @@ bbsim.makeLive = (container) => {
   function showFaults(list) {
     faults.replaceChildren(...list.map(({place, message}) => {
       const line = Number((/:(\d+):\d+$/.exec(place) || [])[1]);
-      return element('li', {}, line > 0 ? element('button', {type: 'button', class: 'link', onclick: () => editing.goTo(line)}, `line ${line}`) : null,
+      return element('li', {}, line > 0 ? element('button', {class: 'link', onclick: () => editing.goTo(line)}, `line ${line}`) : null,
                      line > 0 ? `: ${message}` : message);
     }));
   }
+
+  const showError = (error) => showFaults(error.faults || [{place: '', message: error.message}]);
 
   // Shows the answer to a state in all views.
   function show(state, {answer, arrays}) {
@@ -82,19 +84,12 @@ bbsim.makeLive = (container) => {
     waiting = [];
     computing = true;
     clearTimeout(calm);
-    let told = false;
     const late = setInterval(() => {
       status.textContent = `computing for ${Math.round((performance.now() - begun) / 1000)} s`;
       stop.hidden = false;
     }, 1000);
     try {
       const result = await ask(state, {keys: keysDue});
-      if (result.answer.faults) {
-        editing.show(state.text);  // whose lines they name
-        showFaults(result.answer.faults);
-        told = true;
-        throw new Error(result.answer.faults.map(({message}) => message).join('\n'));
-      }
       status.textContent = `computed in ${text.number(performance.now() - begun, 3)} ms`;
       show(state, result);
       const drawn = () => { for (const {resolve} of asked) resolve(); };
@@ -104,7 +99,8 @@ bbsim.makeLive = (container) => {
     } catch (error) {
       broken.add(state);
       status.textContent = error.message === 'stopped' ? 'stopped' : 'not run';
-      if (!told) showFaults([{place: '', message: error.message}]);
+      if (error.faults) editing.show(state.text);  // whose lines they name
+      showError(error);
       for (const {reject} of asked) reject(error);
     } finally {
       clearInterval(late);
@@ -118,13 +114,13 @@ bbsim.makeLive = (container) => {
   async function describe(state) {
     try {
       const {answer} = await ask(state, {checked: true});
-      if (answer.faults || !same(state, wanted)) return;
+      if (!same(state, wanted)) return;
       Object.assign(lead, {check: answer.scene.runs[0].check, summary: answer.scene.runs[0].summary});
       offered.measures = answer.scene.live.measures;
       showNumbers();
       bbsim.details.fill();
     } catch {
-      // The engine was stopped.
+      // The engine was stopped, or another text came meanwhile.
     }
   }
 
@@ -179,11 +175,12 @@ bbsim.makeLive = (container) => {
   }
 
   const sliders = bbsim.makeSliders({remember, change: (key, words) => quietly(setKey(key, words)), valueOf: (key) => (wanted.set.find(([other]) => other === key) || [])[1]});
-  let known = null;
-  const editing = bbsim.makeEditor({yaml, take(words) {
+  function edit(words) {
     remember();
-    return quietly(change({text: words, set: [], pokes: []}));
-  }, paths() {
+    return change({text: words, set: [], pokes: []});
+  }
+  let known = null;
+  const editing = bbsim.makeEditor({yaml, take: (words) => quietly(edit(words)), paths() {
     known = known || engine.ask({paths: true}).then(({answer}) => answer.paths);
     return known.catch(() => (known = null) || []);
   }});
@@ -202,9 +199,9 @@ bbsim.makeLive = (container) => {
   function poke([x, y], t = bbsim.clock.now) {
     const mass = (offered.keys.find(({key}) => key === 'ball.mass') || {value: NaN}).value, at = lead.placeAt(t);
     if (!Number.isFinite(mass) || !Array.isArray(at)) {
-      const message = 'A poke needs ball.mass, and a ball on the plate.';
-      showFaults([{place: '', message}]);
-      return Promise.reject(new Error(message));
+      const error = new Error('A poke needs ball.mass, and a ball on the plate.');
+      showError(error);
+      return Promise.reject(error);
     }
     remember();
     const pokes = [...wanted.pokes, {t, force: [x - at[0], y - at[1]].map((far) => 2 * 1.4 * mass * far / 0.5 / duration)}];
@@ -244,20 +241,13 @@ bbsim.makeLive = (container) => {
     })));
     exercise.replaceChildren(...tasks.map(({text: words, expect, holds}) => element(
         'li', {class: holds ? 'holds' : 'open'}, element('b', {}, holds ? '✓ ' : '✗ '), words, element('small', {}, ` ${expect}`))));
-    poles.replaceChildren(...(lead.poles && lead.poles.values.length > 0
-        ? [bbsim.drawPoles(lead.poles), element('figcaption', {}, lead.poles.period === null ? 'Poles: stable left of the line, 1/s' : 'Poles of a period: stable within the circle'), bbsim.polesTable(lead.poles)] : []));
+    poles.replaceChildren(...bbsim.showPoles(lead.poles));
   }
 
   // --- Buttons ------------------------------------------------------------------------------
 
-  const button = (words, title, action) => element('button', {type: 'button', title, onclick: action}, words);
-  const toggle = (words, title, action = () => {}) => {
-    const made = element('button', {type: 'button', title, 'aria-pressed': 'false', onclick: () => {
-      made.setAttribute('aria-pressed', String(made.getAttribute('aria-pressed') !== 'true'));
-      action(made.getAttribute('aria-pressed') === 'true');
-    }}, words);
-    return made;
-  };
+  const button = (words, title, action) => element('button', {title, onclick: action}, words);
+  const toggle = (words, title, action) => text.toggle(words, {title}, action);
   const undoing = button('Undo', 'Take back the last change', undo);
   const pin = toggle('Pin', 'Keep the pale curves as they are', (on) => {
     pinned = on;
@@ -283,12 +273,8 @@ bbsim.makeLive = (container) => {
     undoing.setAttribute('aria-disabled', String(history.length === 0));
   }
 
-  const hand = bbsim.makeHand(async (piece) => {
-    const {answer} = await engine.ask({...requestOf(wanted), hand: piece});
-    if (answer.faults) throw new Error(answer.faults.map(({message}) => message).join('\n'));
-    return answer;
-  }, (error) => {
-    showFaults([{place: '', message: error.message}]);
+  const hand = bbsim.makeHand(async (piece) => (await engine.ask({...requestOf(wanted), hand: piece})).answer, (error) => {
+    showError(error);
     tilting.setAttribute('aria-pressed', 'false');
   });
   const toTilt = `Drag across the picture${byFinger ? '' : ', or press the arrow keys'}: the ball rolls as the plate tilts. Press the button again for the scenario's run.`;
@@ -324,9 +310,9 @@ bbsim.makeLive = (container) => {
 
   // The columns of the page's own run, before the engine has run.
   const pageColumns = () => Object.fromEntries([['t', lead.t], ...[...lead.columns].map(([key, {values}]) => [key, Float64Array.from(values)])]);
+  // For scripts: docs/how-to/live.md, "From a script".
   bbsim.live = {
-    // Sets a key: a number in SI units, or a text such as "2 cm". Fulfilled when the run is drawn. A
-    // value that does not run leaves no trace in the next call.
+    // A value that does not run leaves no trace in the next call.
     set(key, value) {
       remember();
       const drawn = setKey(key, value), tried = wanted;
@@ -339,27 +325,13 @@ bbsim.makeLive = (container) => {
         throw error;
       });
     },
-    // Replaces the whole text. Fulfilled when the run is drawn.
-    edit(words) {
-      remember();
-      return change({text: words, set: [], pokes: []});
-    },
-    // Lets a script with step(sample) control the gimbal; '' for the scenario's law.
-    control,
-    // Pokes the ball towards a point of the plate (m), now or at a time.
-    poke,
+    edit, control, poke, hand, undo, reset, fragment: link.fragment,
     get columns() { return columns || pageColumns(); },
     get yaml() { return yaml; },
     get measures() { return Object.fromEntries(Object.entries(offered.measures).map(([key, one]) => [key, valueOf(one)])); },
-    // Fulfilled with {phi_command: {gain, gain_frequency, ...}, ...}, as bbsim linearize writes them.
     margins: () => bode.margins(),
     get tasks() { return offered.tasks.map(({holds}) => holds); },
-    // Tilting by hand: start(), lean(x, y) between -1 and 1, state, stop(); step() computes a piece.
-    hand,
-    // Shows rigs within their tolerances in the plots: {keys, status, columns}, by cases.
     rigs: () => fan.show(wanted),
-    // Draws a map of a measure over two keys: {keys, status, values}, by cells.
     map: (x, y, measure, count = 20) => map.show(x, y, measure, count),
-    undo, reset, fragment: link.fragment,
   };
 };

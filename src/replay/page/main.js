@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// Draws the first picture; reading.js then adds the rest.
+// Draws the first picture, and then adds what can wait until it is on the screen.
 (() => {
   const {data, clock, palette, text} = bbsim;
-  const {scene, runs} = data;
+  const {element} = text, {scene, runs} = data;
   const get = (id) => document.getElementById(id);
   const hasRuns = runs.length > 0;
 
@@ -16,16 +16,15 @@
   entitle();
   get('made-by').textContent = text.visible(`Made by bbsim ${scene.version}. It holds all that it shows.`);
   get('help').addEventListener('click', () => get('keys').showModal());
-  get('licences').addEventListener('click', () => get('licence-texts').showModal());
   const toggleTheme = () => palette.choose(palette.isDark() ? 'light' : 'dark');
   get('theme').addEventListener('click', toggleTheme);
 
   const statusSigns = {done: '●', stopped: '■', failed: '▲', interrupted: '❚❚'};
   function describe(run) {
-    if (!run.status) return text.element('span', {}, run.name);
+    if (!run.status) return element('span', {}, run.name);
     const until = run.status === 'done' ? '' : ` at ${text.number(run.reached, 6)} s${run.end > 0 ? ` of ${text.number(run.end)} s` : ''}`;
-    return text.element('span', {title: text.visible(run.reason)}, `${run.name}  `,
-                        text.element('b', {class: `status ${run.status}`}, `${statusSigns[run.status] || '○'} ${run.status}${until}`));
+    return element('span', {title: text.visible(run.reason)}, `${run.name}  `,
+                   element('b', {class: `status ${run.status}`}, `${statusSigns[run.status] || '○'} ${run.status}${until}`));
   }
 
   // Reports the error itself, instead of blaming a browser without 3D graphics.
@@ -34,8 +33,7 @@
     try {
       picture = bbsim.makePicture(get('canvas'), () => hint('Ctrl and the wheel zoom, or click the picture first.'));
     } catch (error) {
-      const probe = document.createElement('canvas');
-      const has = ['webgl', 'experimental-webgl'].some((kind) => probe.getContext(kind));
+      const has = document.createElement('canvas').getContext('webgl');
       get('trouble').textContent = text.visible(has ? `The picture is drawn flat, because drawing in three dimensions failed: ${error.message}.`
           : 'This browser gives the page no 3D graphics (WebGL), so the picture is drawn flat.');
       get('trouble').hidden = false;
@@ -51,13 +49,61 @@
   }
   bbsim.hint = hint;
 
-  bbsim.ready = new Promise((resolve, reject) => { Object.assign(bbsim, {isReady: resolve, isNot: reject}); });
+  // The list of several runs: their names, their distances from the first run now, and whether they
+  // are shown.
+  function listRuns(container) {
+    const list = element('ul', {class: 'runs'});
+    const lines = runs.map((run) => {
+      const apart = element('output', {});
+      const box = element('input', {type: 'checkbox', checked: true, 'data-run': String(run.index), onchange: () => {
+        run.shown = box.checked;
+        bbsim.screen.invalidate();
+      }});
+      const words = run.status && run.status !== 'done' ? ` (${run.status} at ${text.number(run.reached, 6)} s)` : '';
+      const item = element('li', {}, element('label', {}, box, bbsim.swatch({pattern: palette.dash(run.index)}), element('span', {}, run.name + words)), apart);
+      list.append(item);
+      return {run, apart, item};
+    });
+    const recolour = () => lines.forEach(({run, item}) => item.style.setProperty('--colour', palette.run(run.index)));
+    const show = (t) => {
+      for (const {run, apart} of lines.slice(1)) {
+        const far = t >= run.start && t <= run.last ? Math.hypot(run.at(t, 'x') - runs[0].at(t, 'x'), run.at(t, 'y') - runs[0].at(t, 'y')) : NaN;
+        const shown = text.shownIn(run.unitsKnown && runs[0].unitsKnown ? 'm' : '', far < 1 ? 0.1 : far);
+        apart.textContent = Number.isFinite(far) ? `${text.steady(far * shown.factor, 100)} ${shown.unit} apart` : 'over';
+      }
+    };
+    lines[0].apart.textContent = 'leads';
+    recolour();
+    palette.onChange(recolour);
+    clock.onTime(show);
+    show(clock.now);
+    container.append(element('h2', {}, `${runs.length} runs`), list);
+    container.hidden = false;
+  }
+
+  // The plots, what was run, and sweeps.
+  function read() {
+    if (runs.length > 1) listRuns(get('runs'));
+    if (hasRuns) {
+      bbsim.plots = bbsim.makePlots(get('plots'));
+      bbsim.details = bbsim.makeDetails(get('details'));
+      bbsim.preparePrint();
+      if (bbsim.makeLive) bbsim.makeLive(get('live'));
+    }
+    get('sweeps').hidden = scene.sweeps.length === 0;
+    bbsim.sweeps = scene.sweeps.map((sweep) => bbsim.makeSweep(sweep, get('sweeps')));
+  }
+  const painted = () => new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve, 0)));
+  bbsim.ready = painted().then(read).then(painted);  // one more frame, for parts that wait for it
+
   if (!hasRuns) {
-    get('sweeps').hidden = false;
+    const [sweep] = scene.sweeps;
+    get('subtitle').textContent = text.visible(scene.sweeps.map(({title}) => title).filter((title) => title && title !== scene.title).join(', '));
+    get('save-csv').addEventListener('click', () => bbsim.save.offer(
+        new Blob([bbsim.sweeps[0].csv()], {type: 'text/csv'}), bbsim.save.fileName(sweep.name, '-page.csv')));
     document.querySelectorAll('.for-runs').forEach((part) => { part.hidden = true; });
     bbsim.seek = () => {};
     bbsim.ballOnScreen = () => null;
-    palette.onChange(() => {});
     bbsim.address.apply(null, null);
     return;
   }
@@ -66,8 +112,7 @@
   makePicture();
   const screen = bbsim.makeScreen(picture, () => bbsim.makeFlat(get('flat-canvas')),
       (rate) => hint(`This browser draws only ${rate} pictures a second in three dimensions, so the picture is flat now. Choose a view to bring it back.`));
-  bbsim.screen = screen;
-  bbsim.picture = picture;
+  Object.assign(bbsim, {screen, picture});
 
   // Factors for the plate's angles in the picture, as far as it stays within 45 degrees.
   let factors = [1];
@@ -84,7 +129,7 @@
     get('exaggeration').setAttribute('aria-valuetext', `${nearest} times`);
     get('factor').textContent = `×${nearest}`;
     showFactor();
-    if (later) later();
+    if (bbsim.addressLater) bbsim.addressLater();
   }
   // The flat picture shows no tilt.
   function showFactor() {
@@ -93,11 +138,9 @@
     get('exaggerated').hidden = factor === 1;
     document.querySelector('.tilt').hidden = screen.isFlat;
   }
-  let later = null;
   get('exaggeration').addEventListener('input', () => setFactor(factors[get('exaggeration').value]));
 
-  const transport = bbsim.makeTransport();
-  bbsim.transport = transport;
+  const transport = bbsim.transport = bbsim.makeTransport();
 
   const say = (words) => { get('said').textContent = words; };
   function goTo(name) {
@@ -106,7 +149,9 @@
     screen.choose();
     picture.eyes.go(name);
   }
-  const views = [...document.querySelectorAll('[data-view]')];
+  const views = Object.entries(bbsim.views).map(([view, [words, from]], i) =>
+      element('button', {'data-view': view, title: `${from} (${i + 1})`, onclick: () => goTo(view)}, words));
+  get('views').append(...views);
   const mark = () => {
     showFactor();
     for (const button of views) {
@@ -115,36 +160,28 @@
       button.setAttribute('aria-pressed', String(view === 'flat' ? screen.isFlat : !screen.isFlat && view === picture.eyes.view && !picture.eyes.touched));
     }
   };
-  for (const button of views) button.addEventListener('click', () => goTo(button.dataset.view));
   screen.onChange(mark);
   if (picture) picture.eyes.onChange(mark);
 
-  const chip = (name, words, sign) => {
-    const button = text.element('button', {type: 'button', class: 'chip', 'aria-pressed': String(bbsim.visible[name])},
-                                text.element('span', {class: `sign ${sign}`, 'aria-hidden': 'true'}), words);
-    button.addEventListener('click', () => {
-      const on = button.getAttribute('aria-pressed') !== 'true';
-      button.setAttribute('aria-pressed', String(on));
-      screen.show(name, on);
-    });
+  // What can be switched off, with its sign, and whether a run has it.
+  const chips = [
+    ['trail', 'line', () => true], ['reference', 'dashed', (run) => run.path.length > 0 || run.hasReference],
+    ['sensor', 'cross', (run) => run.isMeasured], ['events', 'diamond', (run) => run.events.length > 0],
+    ['axes', 'axes', () => true], ['gimbal', 'frame', () => picture !== null], ['arrows', 'line', () => picture !== null],
+  ].map(([name, sign, has]) => {
+    const button = text.toggle(name, {class: 'chip'}, (on) => screen.show(name, on), bbsim.visible[name]);
+    button.prepend(element('span', {class: `sign ${sign}`, 'aria-hidden': 'true'}));
     get('shown').append(button);
-  };
-  const scale = text.element('p', {class: 'scale'});
+    return {button, has};
+  });
+  const scale = element('p', {class: 'scale'});
   get('screen').append(scale);
   // What depends on the runs.
   function renew() {
     const [lead] = runs;
     get('subtitle').replaceChildren(describe(lead));
     findFactors();
-    const chips = [['trail', 'line', true], ['reference', 'dashed', lead.path.length > 0 || lead.hasReference], ['sensor', 'cross', lead.isMeasured],
-                   ['events', 'diamond', lead.events.length > 0], ['axes', 'axes', true], ['gimbal', 'frame', picture !== null], ['arrows', 'line', picture !== null]].filter(([, , has]) => has);
-    // The same chips stay, with their focus.
-    const names = chips.map(([name]) => name).join();
-    if (names !== get('shown').dataset.names) {
-      get('shown').dataset.names = names;
-      get('shown').replaceChildren();
-      for (const [name, sign] of chips) chip(name, name, sign);
-    }
+    for (const {button, has} of chips) button.hidden = !has(lead);
     const spacing = bbsim.gimbal.gridSpacing(), shown = text.shownIn(lead.unitsKnown ? 'm' : '', spacing);
     const grid = `grid ${text.number(spacing * shown.factor)} ${shown.unit}`.trim();
     get('canvas').setAttribute('aria-label', text.visible(
@@ -161,7 +198,7 @@
     const factor = picture ? picture.factor : 1;
     renew();
     if (!factors.includes(factor)) setFactor(factor);
-    clock.reset();
+    clock.seek(clock.now);  // as far as the runs have it
   });
   if (picture) picture.recolour();
   screen.setFlat(false);
@@ -173,8 +210,7 @@
   window.addEventListener('resize', screen.resize);
 
   bbsim.address.apply(screen, {setFactor});
-  later = bbsim.address.keep(screen, {setFactor});
-  bbsim.addressLater = later;
+  bbsim.addressLater = bbsim.address.keep(screen, {setFactor});
 
   const csv = () => bbsim.save.csv(runs[0]), png = () => bbsim.save.png(screen.shown, transport.timeText);
   get('save-csv').addEventListener('click', csv);
@@ -193,8 +229,4 @@
   bbsim.seek = clock.seek;
   bbsim.ballOnScreen = () => screen.shown.ballOnScreen();
   bbsim.view = () => picture && picture.view();
-  if (!screen.isFlat) {
-    picture.drawn();
-    bbsim.firstPicture = performance.now();  // ms since the page was requested
-  }
 })();

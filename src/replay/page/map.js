@@ -5,10 +5,10 @@
 // A map of a measure over two keys of a live page's scenario. `load([[key, value], ...])` shows the
 // case of a cell.
 bbsim.makeMap = (cases, requestOf, load) => {
-  const {element, number} = bbsim.text;
-  const series = cases.makeSeries();
-  const status = element('span', {class: 'live-status', role: 'status'}), area = element('div', {class: 'map'});
-  const stop = element('button', {type: 'button', hidden: true, onclick: () => {
+  const {element} = bbsim.text;
+  const status = element('span', {class: 'live-status', role: 'status'}), series = cases.makeSeries(status, 'cases');
+  const area = element('div', {class: 'map'});
+  const stop = element('button', {hidden: true, onclick: () => {
     series.end();
     stop.hidden = true;
     status.textContent = 'stopped';
@@ -74,9 +74,8 @@ bbsim.makeMap = (cases, requestOf, load) => {
       shown = begin();
       mark();
     }
-    const {keys, json, picture} = shown, [{name, doubles}] = json.measures, begun = performance.now();
+    const {keys, json, picture} = shown, [{name, doubles}] = json.measures;
     shown.basis = basisOf(state);
-    let painted = 0, done = 0;
     stop.hidden = false;
     try {
       const all = await series.begin(requestOf(state), {keys, measures: [name]}, (first, words, _, measures) => {
@@ -85,14 +84,8 @@ bbsim.makeMap = (cases, requestOf, load) => {
           json.status[first + i] = json.statuses.indexOf(word);
           doubles[first + i] = measures[name] ? measures[name][i] : NaN;
         });
-        done += words.length;
-        if (done < doubles.length && performance.now() - painted < 150) return;
-        status.textContent = `${done} of ${doubles.length}`;
-        picture.update();
-        painted = performance.now();
-      });
+      }, picture.update);
       if (!all) return null;
-      status.textContent = `${doubles.length} cases in ${number(performance.now() - begun, 3)} ms`;
     } catch (error) {
       status.textContent = error.message;
     }
@@ -122,8 +115,7 @@ bbsim.makeMap = (cases, requestOf, load) => {
       [across.value, up.value, measure.value, cells.value] = [x, y, what, String(count)];
       shown = null;
       root.open = true;
-      const drawn = draw(true);  // before its toggle event
-      return drawn;
+      return draw(true);  // before its toggle event
     },
   };
 };

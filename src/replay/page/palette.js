@@ -7,13 +7,13 @@
 // shapes, everything has a name.
 bbsim.palette = (() => {
   const light = {
-    background: '#eef1f5', ground: '#dfe4ea', ink: '#1d2733', plate: '#eef2f6', grid: '#bcc7d3', rim: '#77869a',
+    background: '#eef1f5', ink: '#1d2733', plate: '#eef2f6', grid: '#bcc7d3', rim: '#77869a',
     frame: '#4a5663', metal: '#9aa6b3', cream: '#fbf7ee', x: '#0068a8', y: '#00805c', sensor: '#a8447e',
     reference: '#3b4654', band: '#c9d2dc', faint: 0.62, light: 0.42, sky: '#ffffff', earth: '#8f9aa6', hemisphere: 0.56,
     runs: ['#c94f00', '#0068a8', '#00805c', '#a8447e', '#8a6d00', '#2f7fb5'],
   };
   const dark = {
-    background: '#12171d', ground: '#1a2129', ink: '#e8edf2', plate: '#303b47', grid: '#4a5867', rim: '#8b99a8',
+    background: '#12171d', ink: '#e8edf2', plate: '#303b47', grid: '#4a5867', rim: '#8b99a8',
     frame: '#8794a3', metal: '#5e6b79', cream: '#fbf7ee', x: '#5ab4f0', y: '#2fc99a', sensor: '#e28fbd',
     reference: '#cfd8e2', band: '#465463', faint: 0.62, light: 0.6, sky: '#dfe8f2', earth: '#39434e', hemisphere: 0.55,
     runs: ['#ff8a3d', '#5ab4f0', '#2fc99a', '#e28fbd', '#e0c040', '#8fd0ff'],

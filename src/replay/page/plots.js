@@ -2,6 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
+// A piece of a curve, for its name in a legend.
+bbsim.swatch = ({dots, pattern, width}) => {
+  const {svg} = bbsim.text;
+  const shape = dots === 'cross' ? [svg('path', {d: 'M1.5 5h5m-2.5 -2.5v5M10.5 5h5m-2.5 -2.5v5M19.5 5h5m-2.5 -2.5v5', style: 'stroke-width: 1.4'})]
+      : dots ? [4, 13, 22].map((x) => svg('circle', {cx: x, cy: 5, r: 2}))
+      : [svg('path', {d: 'M1 5H25', 'stroke-dasharray': pattern ? pattern.join(' ') : 'none',
+                      style: `stroke-width: ${Math.min(2.4, width || 1.8) + (width > 3 ? 3 : 0.4)}`})];
+  return svg('svg', {viewBox: '0 0 26 10', class: 'swatch', 'aria-hidden': 'true'}, ...shape);
+};
+
 // Plots over time beside the picture, with one cursor in all of them, at the clock's time or at the
 // pointer. `behind` paints below the curves; `pointed` receives the time at the pointer.
 bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
@@ -16,19 +26,6 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
 
   // Canvases of this size are faster to paint in memory than through a graphics card.
   Dygraph.getContext = (canvas) => canvas.getContext('2d', {willReadFrequently: true});
-
-  function swatch(curve) {
-    const line = text.svg('svg', {viewBox: '0 0 26 10', class: 'swatch', 'aria-hidden': 'true'});
-    if (curve.dots === 'cross') {
-      line.append(text.svg('path', {d: 'M1.5 5h5m-2.5 -2.5v5M10.5 5h5m-2.5 -2.5v5M19.5 5h5m-2.5 -2.5v5', style: 'stroke-width: 1.4'}));
-    } else if (curve.dots) {
-      for (const x of [4, 13, 22]) line.append(text.svg('circle', {cx: x, cy: 5, r: 2}));
-    } else {
-      line.append(text.svg('path', {d: 'M1 5H25', 'stroke-dasharray': curve.pattern ? curve.pattern.join(' ') : 'none',
-                                    style: `stroke-width: ${Math.min(2.4, curve.width || 1.8) + (curve.width > 3 ? 3 : 0.4)}`}));
-    }
-    return line;
-  }
 
   // Draws points as dots or crosses, far enough apart to show each one and the curve below. With
   // `every`, omits only points on top of the one before.
@@ -94,17 +91,15 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
   // The range of a plot in which a few values are a thousand times farther out than all others, as
   // where a ball takes off: that of the others. Null if there are none.
   function innerRange(curves) {
+    const sorted = (values) => values.filter(Number.isFinite).sort((a, b) => a - b);
     // A few hundred values tell nearly always that there are none.
-    const some = curves.flatMap(({values}) => Array.from({length: Math.min(values.length, 100)}, (_, i) => values[Math.floor(i * values.length / 100)]))
-        .filter(Number.isFinite).sort((a, b) => a - b);
+    const some = sorted(curves.flatMap(({values}) => Array.from({length: Math.min(values.length, 100)}, (_, i) => values[Math.floor(i * values.length / 100)])));
     const extents = curves.map((curve) => data.extent(curve.values));
     const reach = Math.max(...extents.map(({greatest}) => greatest)) - Math.min(...extents.map(({least}) => least));
-    if (some.length > 20 && reach < 500 * (some[Math.floor(0.9 * some.length)] - some[Math.floor(0.1 * some.length)])) return null;
-    const values = curves.flatMap((curve) => Array.from(curve.values).filter(Number.isFinite)).sort((a, b) => a - b);
-    const few = Math.ceil(0.01 * values.length);
-    if (values.length < 20) return null;
-    const low = values[few], high = values[values.length - 1 - few], span = high - low;
-    if (!(span > 0) || values[values.length - 1] - values[0] < 1000 * span) return null;
+    if (some.length > 20 && reach < 500 * (data.quantile(some, 0.9) - data.quantile(some, 0.1))) return null;
+    const values = sorted(curves.flatMap((curve) => Array.from(curve.values)));
+    const few = Math.ceil(0.01 * values.length), low = values[few], high = values[values.length - 1 - few], span = high - low;
+    if (values.length < 20 || !(span > 0) || reach < 1000 * span) return null;
     return {low: low - 0.5 * span, high: high + 0.5 * span};
   }
 
@@ -126,11 +121,11 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
       this.hidden = hidden.get(title);
       this.readings = curves.map(() => element('output', {}));
       const legend = element('ul', {class: 'legend'}, ...curves.map((curve, i) => {
-        const name = element('button', {type: 'button', class: 'label', 'aria-pressed': String(!this.hidden.has(curve.label)), title: 'Hide or show this curve', onclick: () => {
-          this.hidden[this.hidden.has(curve.label) ? 'delete' : 'add'](curve.label);
-          name.setAttribute('aria-pressed', String(!this.hidden.has(curve.label)));
+        const name = text.toggle(curve.label, {class: 'label', title: 'Hide or show this curve'}, (on) => {
+          this.hidden[on ? 'delete' : 'add'](curve.label);
           if (this.graph) this.graph.updateOptions({visibility: this.visibility(), valueRange: this.valueRange()});
-        }}, swatch(curve), curve.label);
+        }, !this.hidden.has(curve.label));
+        name.prepend(bbsim.swatch(curve));
         const item = element('li', {title: text.visible(curve.meaning || '')}, name, this.readings[i]);
         item.style.setProperty('--colour', curve.colour());
         return item;
@@ -223,9 +218,7 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
     }
 
     colours() {
-      const colours = palette.isDark() ? {gridLineColor: '#2d3742', axisLineColor: '#5a6775'}
-                                       : {gridLineColor: '#e0e5eb', axisLineColor: '#9aa5b1'};
-      return colours;
+      return palette.isDark() ? {gridLineColor: '#2d3742', axisLineColor: '#5a6775'} : {gridLineColor: '#e0e5eb', axisLineColor: '#9aa5b1'};
     }
 
     recolour() {
@@ -307,18 +300,14 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
     for (const plot of plots) {
       plot.placeCursor();
       if (!plot.graph) continue;
-      if (t === null) {
-        if (plot.graph.getSelection() >= 0) plot.graph.clearSelection();
-      } else if (plot.graph.getSelection() < 0 || plot.graph.lastx_ !== t) {
-        const {rows} = plot;
-        const row = plot.graph.getRowForX(t);
-        if (row !== null) plot.graph.setSelection(row);
-      }
+      const row = t === null ? null : plot.graph.getRowForX(t);
+      if (row !== null) plot.graph.setSelection(row);
+      else if (plot.graph.getSelection() >= 0) plot.graph.clearSelection();
     }
   }
 
   container.append(element('div', {class: 'plots-head'}, element('h2', {}, 'Over time'), readAt,
-                           element('button', {type: 'button', class: 'link', id: 'unzoom', onclick: () => {
+                           element('button', {class: 'link', id: 'unzoom', onclick: () => {
                              for (const plot of plots) if (plot.graph && plot.graph.isZoomed('y')) plot.graph.resetZoom();
                              setRange(null);
                            }}, 'all of it')));
@@ -362,7 +351,7 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
   // Cursors follow the time. While it runs, numbers change a few times a second, as fast as one can
   // read.
   let readAgain = 0;
-  clock.onTimeRelaxed((t) => {
+  clock.onTime((t) => {
     follow(t);
     const now = performance.now(), reading = !clock.playing || now >= readAgain;
     if (reading) readAgain = now + 125;

@@ -24,6 +24,14 @@ bbsim.polesTable = ({period, values}) => {
       modes.length > shown.length ? element('caption', {}, `and ${modes.length - shown.length} faster ones`) : null);
 };
 
+// The poles of a run, if it has any: their picture, what it shows, and their table.
+bbsim.showPoles = (poles) => {
+  if (!poles || poles.values.length === 0) return [];
+  const {period} = poles, {element, number} = bbsim.text;
+  const words = period === null ? 'Poles: stable left of the line, 1/s' : `Poles of a period of ${number(period * 1e3)} ms: stable within the circle`;
+  return [bbsim.drawPoles(poles), element('figcaption', {}, words), bbsim.polesTable(poles)];
+};
+
 // A small picture of the loop's poles: the s plane or, for a sampled loop, the unit circle.
 bbsim.drawPoles = ({period, values}) => {
   const {svg, number} = bbsim.text;

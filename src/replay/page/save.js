@@ -46,32 +46,21 @@ bbsim.save = (() => {
 
   // The view with its title and time below, as wide as on the screen.
   function png(picture, timeText) {
-    const view = picture.whole(), {zoom} = picture;
-    const caption = Math.round(34 * zoom);
-    const canvas = document.createElement('canvas');
-    canvas.width = view.width;
-    canvas.height = view.height + caption;
-    const ink = canvas.getContext('2d'), colours = bbsim.palette.now();
+    const view = picture.whole(), {zoom} = picture, time = timeText(bbsim.clock.now), colours = bbsim.palette.now();
+    const canvas = Object.assign(document.createElement('canvas'), {width: view.width, height: view.height + Math.round(34 * zoom)});
+    const ink = canvas.getContext('2d');
     ink.fillStyle = colours.background;
     ink.fillRect(0, 0, canvas.width, canvas.height);
     ink.drawImage(view, 0, 0);
-    ink.fillStyle = colours.ink;
-    ink.textBaseline = 'middle';
-    ink.font = `600 ${15 * zoom}px system-ui, sans-serif`;
-    const middle = view.height + caption / 2;
-    const tilted = picture.factor === 1 ? '' : `, tilt drawn ${picture.factor} times`;
-    const right = `t = ${timeText(bbsim.clock.now)} s${tilted}`;
-    ink.textAlign = 'right';
-    ink.fillText(right, canvas.width - 14 * zoom, middle);
-    ink.textAlign = 'left';
-    const room = canvas.width - 42 * zoom - ink.measureText(right).width;
-    ink.fillText(text.visible(bbsim.data.scene.title), 14 * zoom, middle, Math.max(room, 40 * zoom));
-    canvas.toBlob((blob) => offer(blob, fileName(picture.lead.name, `-${timeText(bbsim.clock.now)}s.png`)), 'image/png');
+    Object.assign(ink, {fillStyle: colours.ink, font: `600 ${15 * zoom}px system-ui, sans-serif`});
+    const caption = `${text.visible(bbsim.data.scene.title)}, t = ${time} s${picture.factor === 1 ? '' : `, tilt drawn ${picture.factor} times`}`;
+    ink.fillText(caption, 14 * zoom, view.height + 22 * zoom, canvas.width - 28 * zoom);
+    canvas.toBlob((blob) => offer(blob, fileName(picture.lead.name, `-${time}s.png`)), 'image/png');
   }
 
   // A text with a button that copies it. `code` shows it; `words` are copied.
   function copyable(code, attributes = {}, words = code.textContent) {
-    const button = text.element('button', {type: 'button', class: 'copy', onclick: async () => {
+    const button = text.element('button', {class: 'copy', onclick: async () => {
       try {
         await navigator.clipboard.writeText(words);
         button.textContent = 'Copied';

@@ -66,7 +66,7 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
     const kinds = [['map', 'Map', leads.length >= 2], ['lines', 'Lines', true], ['histogram', 'Histogram', true]].filter(([, , can]) => can);
     const group = element('div', {class: 'segments', role: 'group', 'aria-label': 'Kind of picture'});
     for (const [kind, words] of kinds) {
-      group.append(element('button', {type: 'button', 'data-kind': kind, 'aria-pressed': String(state.kind === kind), onclick: () => {
+      group.append(element('button', {'data-kind': kind, 'aria-pressed': String(state.kind === kind), onclick: () => {
         state.kind = kind;
         refresh();
       }}, words));
@@ -152,7 +152,7 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
   // 98th percentile if a few are far out.
   function colourRange(values) {
     values.sort((a, b) => a - b);
-    const at = (part) => values[Math.min(values.length - 1, Math.floor(part * values.length))];
+    const at = (part) => data.quantile(values, part);
     const range = {low: at(0), high: at(1), clipped: false, logarithmic: at(0) > 0 && at(1) > 10 * at(0)};
     if (range.logarithmic) return range;
     if (values.length < 20 || range.high - range.low <= 4 * (at(0.98) - at(0.02))) return range;
@@ -293,7 +293,7 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
       frame({ticks: []}, {ticks: []}, text.columnName(measure.name), 'cases');
       return;
     }
-    const at = (part) => measure.values[values[Math.min(values.length - 1, Math.floor(part * values.length))]];
+    const at = (part) => measure.values[data.quantile(values, part)];
     const low = measure.values[values[0]], high = measure.values[values[values.length - 1]];
     // Bars have the width of Freedman and Diaconis; there are 5 to 60 of them.
     const bar = 2 * (at(0.75) - at(0.25)) / Math.cbrt(values.length) || (high - low) / 10 || 1;
@@ -360,17 +360,15 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
                          bbsim.save.copyable(element('code', {id: 'rerun'}, swept.commandOf(i)), {class: 'wrap'}));
   }
 
+  // The mark with the least cost below `most`; null if there is none.
+  const markOfLeast = (costOf, most) => marks.reduce(([best, least], mark) => (costOf(mark) < least ? [mark, costOf(mark)] : [best, least]), [null, most])[0];
   function nearest(event) {
     const bounds = canvas.getBoundingClientRect();
     const px = (event.clientX - bounds.left) * width / bounds.width, py = (event.clientY - bounds.top) * height / bounds.height;
-    let best = null, least = 30 * 30;
-    for (const mark of marks) {
-      const dx = Math.max(mark.x - px, 0, px - mark.x - mark.w), dy = Math.max(mark.y - py, 0, py - mark.y - mark.h);
-      const middle = Math.hypot(mark.x + mark.w / 2 - px, mark.y + mark.h / 2 - py) * 1e-3;
-      const far = dx * dx + dy * dy + middle;
-      if (far < least) [best, least] = [mark, far];
-    }
-    return best;
+    return markOfLeast(({x, y, w, h}) => {
+      const dx = Math.max(x - px, 0, px - x - w), dy = Math.max(y - py, 0, py - y - h);
+      return dx * dx + dy * dy + 1e-3 * Math.hypot(x + w / 2 - px, y + h / 2 - py);
+    }, 30 * 30);
   }
 
   canvas.addEventListener('pointermove', (event) => {
@@ -402,12 +400,11 @@ bbsim.makeSweep = (json, container, chosen = () => {}) => {
     event.preventDefault();
     const now = markOf(state.chosen);
     if (!now) return choose(marks[0].i);
-    let best = null, least = Infinity;
-    for (const mark of marks) {
-      const dx = mark.x - now.x, dy = mark.y - now.y, ahead = dx * way[0] + dy * way[1], aside = Math.abs(dx * way[1]) + Math.abs(dy * way[0]);
-      if (ahead > 0.5 && ahead + 3 * aside < least) [best, least] = [mark, ahead + 3 * aside];
-    }
-    if (best) choose(best.i);
+    const next = markOfLeast(({x, y}) => {
+      const dx = x - now.x, dy = y - now.y, ahead = dx * way[0] + dy * way[1], aside = Math.abs(dx * way[1]) + Math.abs(dy * way[0]);
+      return ahead > 0.5 ? ahead + 3 * aside : Infinity;
+    }, Infinity);
+    if (next) choose(next.i);
   });
 
   function refresh() {

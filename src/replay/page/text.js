@@ -18,26 +18,28 @@ bbsim.text = (() => {
         });
   }
 
-  // element('p', {class: 'x', onclick: f}, 'text', child...): texts become text nodes.
-  function element(name, attributes = {}, ...children) {
-    const made = document.createElement(name);
+  function fill(made, attributes, children) {
     for (const [key, value] of Object.entries(attributes)) {
       if (value === false || value === undefined || value === null) continue;
       if (key.startsWith('on')) made.addEventListener(key.slice(2), value);
       else made.setAttribute(key, value === true ? '' : value);
     }
     for (const child of children) {
-      if (child !== null && child !== undefined) {
-        made.append(typeof child === 'string' ? visible(child) : child);
-      }
+      if (child !== null && child !== undefined) made.append(typeof child === 'string' ? visible(child) : child);
     }
     return made;
   }
+  // element('p', {class: 'x', onclick: f}, 'text', child...): texts become text nodes.
+  const element = (name, attributes = {}, ...children) => fill(document.createElement(name), attributes, children);
+  const svg = (name, attributes = {}, ...children) => fill(document.createElementNS('http://www.w3.org/2000/svg', name), attributes, children);
 
-  function svg(name, attributes = {}, ...children) {
-    const made = document.createElementNS('http://www.w3.org/2000/svg', name);
-    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-    for (const child of children) made.append(typeof child === 'string' ? visible(child) : child);
+  // A button that is pressed or not; `action(on)` follows each change.
+  function toggle(words, attributes, action, on = false) {
+    const made = element('button', {...attributes, 'aria-pressed': String(on), onclick() {
+      const now = made.getAttribute('aria-pressed') !== 'true';
+      made.setAttribute('aria-pressed', String(now));
+      action(now);
+    }}, words);
     return made;
   }
 
@@ -103,5 +105,5 @@ bbsim.text = (() => {
     return Math.max(1, Math.min(6, Math.ceil(-Math.log10(step || 0.01) - 1e-9)));
   }
 
-  return {visible, element, svg, number, steady, shownIn, roundUp, ticks, columnName, decimalsOfTime, degrees};
+  return {visible, element, svg, toggle, number, steady, shownIn, roundUp, ticks, columnName, decimalsOfTime, degrees};
 })();

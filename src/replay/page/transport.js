@@ -5,16 +5,12 @@
 // The plate's true tilt at a time, without exaggeration: its angle, and the downhill direction in
 // the plate's frame. Null if the run does not give both angles; on a beam the other angle is zero.
 bbsim.tilt = (run, t) => {
-  const phi = run.angleAt(t, 'phi'), theta = run.angleAt(t, 'theta');
-  if (!Number.isFinite(phi) || !Number.isFinite(theta)) return null;
-  const {skew, yaw, baseTilt} = run.mounting;
-  // Turns the vertical back into the plate's frame, link by link.
-  let [x, y, z] = [0, Math.sin(baseTilt), Math.cos(baseTilt)];
-  const turn = (a, b, angle) => [a * Math.cos(angle) + b * Math.sin(angle), b * Math.cos(angle) - a * Math.sin(angle)];
-  [z, x] = turn(z, x, phi);
-  [x, y] = turn(x, y, skew);
-  [y, z] = turn(y, z, theta);
-  [x, y] = turn(x, y, yaw - skew);
+  const angles = ['phi', 'theta'].map((name) => run.angleAt(t, name));
+  if (!angles.every(Number.isFinite)) return null;
+  const links = bbsim.gimbal.linksOf(run);
+  links.set(...angles);
+  links.base.updateMatrixWorld(true);
+  const {x, y, z} = new THREE.Vector3(0, 0, 1).transformDirection(new THREE.Matrix4().getInverse(links.plane.matrixWorld));
   return {angle: Math.atan2(Math.hypot(x, y), z), x: -x, y: -y};
 };
 
@@ -23,23 +19,23 @@ bbsim.tilt = (run, t) => {
 bbsim.makeTransport = () => {
   const {clock, text, data} = bbsim;
   const [lead] = data.runs;
-  let {start, end} = data;
   const get = (id) => document.getElementById(id);
-  const scrub = get('scrub'), time = get('time'), play = get('play'), speed = get('speed'), loop = get('loop');
+  const scrub = get('scrub'), time = get('time'), speed = get('speed'), loop = get('loop');
   let decimals, early, endText, scale;  // set by renew()
   const steps = Number(scrub.max);
 
   const timeText = (t) => t.toFixed(decimals).replace('-', '−');
   // A run that ended between two rows shows its end time, to six digits.
   const isOver = (t) => early && t >= lead.last - 1e-9 * Math.max(1, Math.abs(lead.last));
-  const shownTime = (t) => (isOver(t) && t === end ? endText : timeText(t));
+  const shownTime = (t) => (isOver(t) && t === data.end ? endText : timeText(t));
   const put = (node, words) => { if (node.textContent !== words) node.textContent = words; };
   const of = document.createTextNode('');
   time.append(text.element('b', {}), of);
 
+  // The part of the time that is over.
+  const partOf = (t) => (data.end > data.start ? (t - data.start) / (data.end - data.start) : 0);
   function showTime(t) {
-    scrub.value = end > start ? Math.round((t - start) / (end - start) * steps) : 0;
-    scrub.style.setProperty('--done', `${end > start ? 100 * (t - start) / (end - start) : 0}%`);
+    scrub.value = Math.round(partOf(t) * steps);
     scrub.setAttribute('aria-valuetext', `${shownTime(t)} s of ${endText} s`);
     put(time.firstChild, shownTime(t));
     showLevel(t);
@@ -50,7 +46,7 @@ bbsim.makeTransport = () => {
   // Reports parts of the picture that do not show recorded values.
   function showMissing(t) {
     const words = [], place = lead.placeAt(t);
-    if (place === 'beyond') words.push(`The ball is ${far(t)}: it is not drawn.`);
+    if (place === 'beyond') words.push('The ball is too far away here: it is not drawn.');
     if (place === 'missing') words.push('The ball\'s position is not recorded here: the ball stays where it was.');
     if (bbsim.tilt(lead, t) === null) {
       words.push(lead.hasAngles ? 'The tilt is not recorded here: the plate is drawn level.' : 'No tilt was recorded: the plate is drawn level.');
@@ -59,15 +55,8 @@ bbsim.makeTransport = () => {
     get('missing').hidden = words.length === 0;
   }
 
-  const unit = lead.unitsKnown ? ' m' : '';
-  function far(t) {
-    const row = lead.nearest(t), size = Math.max(Math.abs(lead.values('x')[row]), Math.abs(lead.values('y')[row]));
-    return size === Infinity ? 'farther away than the page has numbers for' : `${text.number(size)}${unit} away`;
-  }
-
   function showState() {
-    play.setAttribute('aria-label', clock.playing ? 'Pause' : 'Play');
-    get('play-sign').setAttribute('d', clock.playing ? 'M5 3h4v14H5zM11 3h4v14h-4z' : 'M5 3l12 7-12 7z');
+    bbsim.showPlaying(clock);
     speed.value = String(clock.speed);
     loop.setAttribute('aria-pressed', String(clock.loop));
   }
@@ -80,71 +69,55 @@ bbsim.makeTransport = () => {
   }
   get('level').title = 'Tilt of the plate: the dot shows downhill, in the plate\'s own axes';
 
-  let lastTilt;
   function showLevel(t) {
-    const tilt = bbsim.tilt(lead, t), same = tilt && lastTilt && ['angle', 'x', 'y'].every((name) => tilt[name] === lastTilt[name]);
-    if (same || (tilt === null && lastTilt === null)) return;
-    lastTilt = tilt;
+    const tilt = bbsim.tilt(lead, t);
     get('level').classList.toggle('missing', tilt === null);
     get('level-bubble').setAttribute('visibility', tilt ? 'visible' : 'hidden');
     get('level-unknown').setAttribute('visibility', tilt ? 'hidden' : 'visible');
-    get('level-scale').textContent = tilt ? `of ${scale}°` : 'not known';
-    if (tilt === null) {
-      get('level-slope').setAttribute('d', '');
-      put(get('level-tilt'), '–');
-      return;
-    }
-    const degrees = tilt.angle * text.degrees;
-    const far = Math.min(1, degrees / scale) * 46, length = Math.hypot(tilt.x, tilt.y) || 1;
-    const x = tilt.x / length * far, y = -tilt.y / length * far;
-    get('level-bubble').setAttribute('cx', x.toFixed(2));
-    get('level-bubble').setAttribute('cy', y.toFixed(2));
-    get('level-slope').setAttribute('d', `M0 0L${x.toFixed(2)} ${y.toFixed(2)}`);
-    put(get('level-tilt'), `${text.steady(degrees, scale)}°`);
+    put(get('level-scale'), tilt ? `of ${scale}°` : 'not known');
+    const degrees = tilt ? tilt.angle * text.degrees : 0, length = tilt && Math.hypot(tilt.x, tilt.y) || 1;
+    const [x, y] = [tilt ? tilt.x : 0, tilt ? -tilt.y : 0].map((part) => (part / length * Math.min(1, degrees / scale) * 46).toFixed(2));
+    get('level-bubble').setAttribute('transform', `translate(${x} ${y})`);
+    get('level-slope').setAttribute('d', `M0 0L${x} ${y}`);
+    put(get('level-tilt'), tilt ? `${text.steady(degrees, scale)}°` : '–');
   }
 
   scrub.addEventListener('input', () => {
     clock.pause();
-    clock.seek(start + scrub.value / steps * (end - start));
+    clock.seek(data.start + scrub.value / steps * (data.end - data.start));
   });
   // The page's keys replace those of the slider, and go by rows.
   scrub.addEventListener('keydown', (event) => {
     if (event.key.startsWith('Arrow') || ['Home', 'End', 'PageUp', 'PageDown'].includes(event.key)) event.preventDefault();
   });
-  play.addEventListener('click', clock.toggle);
-  get('to-start').addEventListener('click', () => clock.seek(start));
+  get('play').addEventListener('click', clock.toggle);
+  get('to-start').addEventListener('click', () => clock.seek(data.start));
   get('back').addEventListener('click', () => clock.step(-1));
   get('forward').addEventListener('click', () => clock.step(1));
   speed.addEventListener('change', () => clock.setSpeed(Number(speed.value)));
   loop.addEventListener('click', () => clock.setLoop(!clock.loop));
 
-  const tickOf = (event) => {
-    const part = end > start ? (event.t - start) / (end - start) : 0;
-    return text.element('button', {
-      type: 'button', class: `tick ${event.action === 'stop' ? 'stop' : 'note'}`, style: `left: ${100 * part}%`, tabindex: '-1',
-      title: text.visible(`${event.name} at ${event.t.toFixed(decimals + 1)} s`), onclick: () => clock.seek(event.t),
-      'aria-label': text.visible(`To ${event.name} at ${event.t.toFixed(decimals + 1)} s`),
-    });
+  const tickOf = ({t, name, action}) => {
+    const title = text.visible(`To ${name} at ${t.toFixed(decimals + 1)} s`);
+    return text.element('button', {class: `tick ${action}`, style: `left: ${100 * partOf(t)}%`, tabindex: '-1', title, 'aria-label': title, onclick: () => clock.seek(t)});
   };
 
   // What depends on the run, not on the time.
   function renew() {
-    ({start, end} = data);
     decimals = text.decimalsOfTime(lead.t.length > 1 ? (lead.last - lead.start) / (lead.t.length - 1) : 0.1);
     early = lead.status && lead.status !== 'done';
-    endText = early && end === lead.last && timeText(lead.reached) * 1 !== lead.reached ? text.number(lead.reached, 6) : timeText(end);
+    endText = early && data.end === lead.last && timeText(lead.reached) * 1 !== lead.reached ? text.number(lead.reached, 6) : timeText(data.end);
     of.textContent = ` / ${endText} s`;
     scale = scaleOfLevel();
-    lastTilt = undefined;
     get('ticks').replaceChildren(...lead.events.slice(0, 300).map(tickOf));
     const [why] = (lead.reason || '').split('\n');
     get('ended').textContent = text.visible(why ? why[0].toUpperCase() + why.slice(1) : `The run ended here: ${lead.status}`);
   }
   renew();
   data.onChange(renew);
-  clock.onTimeRelaxed(showTime);
+  clock.onTime(showTime);
   clock.onState(showState);
   showTime(clock.now);
   showState();
-  return {timeText, shownTime};
+  return {timeText};
 };

@@ -8,12 +8,10 @@ import json
 import shutil
 import socket
 import subprocess
-import struct
 import tempfile
 import time
 import urllib.error
 import urllib.request
-import zlib
 
 # Software rendering for WebGL, without network access of its own.
 FLAGS = [
@@ -81,15 +79,19 @@ class Browser:
         # The size of the page, without the window's own frame.
         self.devtools("Emulation.setDeviceMetricsOverride",
                       {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": self.phone})
-        self.devtools("Emulation.setEmulatedMedia", {"features": [
-            {"name": "prefers-color-scheme", "value": "dark" if self.dark else "light"},
-            {"name": "prefers-reduced-motion", "value": "reduce" if self.still else "no-preference"}]})
+        self.emulate()
         # Offline, so that the page has only what its file contains.
         self.devtools("Network.enable", {})
         self.devtools("Network.emulateNetworkConditions",
                       {"offline": True, "latency": 0, "downloadThroughput": 0, "uploadThroughput": 0})
         self.call("POST", "/timeouts", {"script": 120000, "pageLoad": 120000})
         return self
+
+    def emulate(self):
+        """The theme and the wish for stillness of its user, on a screen."""
+        self.devtools("Emulation.setEmulatedMedia", {"media": "", "features": [
+            {"name": "prefers-color-scheme", "value": "dark" if self.dark else "light"},
+            {"name": "prefers-reduced-motion", "value": "reduce" if self.still else "no-preference"}]})
 
     def __exit__(self, *_):
         if self.session:
@@ -121,19 +123,22 @@ class Browser:
         self.ready()
 
     def ready(self):
-        self.call("POST", "/execute/async", {
-            "script": "const done = arguments[0]; bbsim.ready.then(() => requestAnimationFrame(() => done(true)));",
-            "args": []})
+        self.ask("await bbsim.ready; await new Promise(requestAnimationFrame)")
 
     def run(self, script, *arguments):
         return self.call("POST", "/execute/sync", {"script": script, "args": list(arguments)})
 
+    def ask(self, script, *arguments):
+        """The value of an async function's body about `args`; a rejection becomes {fault: its message}."""
+        return self.call("POST", "/execute/async", {
+            "script": "const done = arguments[arguments.length - 1], args = [...arguments];"
+                      f"(async () => {{ {script} }})().then(done, (error) => done({{fault: error.message}}));",
+            "args": list(arguments)})
+
     def frame(self):
         """Waits until the page has drawn its pending changes."""
-        self.call("POST", "/execute/async", {
-            "script": "const done = arguments[0];"
-                      "requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 0)));",
-            "args": []})
+        self.ask("for (const _ of [1, 2]) await new Promise(requestAnimationFrame);"
+                 "await new Promise((resolve) => setTimeout(resolve, 0))")
 
     def find(self, selector):
         return self.call("POST", "/element", {"using": "css selector", "value": selector})[ELEMENT]
@@ -144,39 +149,29 @@ class Browser:
     def text(self, selector):
         return self.run("return document.querySelector(arguments[0]).textContent", selector)
 
-    def keys(self, *keys):
-        actions = []
-        for key in keys:
-            actions += [{"type": "keyDown", "value": key}, {"type": "keyUp", "value": key}]
-        self.call("POST", "/actions", {"actions": [{"type": "key", "id": "keyboard", "actions": actions}]})
+    def act(self, kind, actions, **options):
+        self.call("POST", "/actions", {"actions": [{"type": kind, "id": kind, "actions": actions, **options}]})
+
+    def keys(self, *keys, held=()):
+        """Presses keys, one after the other, while others are held."""
+        press = lambda kind, its: [{"type": kind, "value": key} for key in its]
+        pressed = [action for key in keys for action in press("keyDown", key) + press("keyUp", key)]
+        self.act("key", press("keyDown", held) + pressed + press("keyUp", held))
+
+    def mouse(self, *actions):
+        move = lambda point: {"type": "pointerMove", "duration": 50, "x": round(point[0]), "y": round(point[1])}
+        self.act("pointer", [{"type": one, "button": 0} if isinstance(one, str) else move(one) for one in actions],
+                 parameters={"pointerType": "mouse"})
 
     def drag(self, start, *stops):
-        move = lambda point, ms: {"type": "pointerMove", "duration": ms, "x": round(point[0]), "y": round(point[1])}
-        actions = [move(start, 0), {"type": "pointerDown", "button": 0}]
-        actions += [move(stop, 60) for stop in stops]
-        actions += [{"type": "pointerUp", "button": 0}]
-        self.call("POST", "/actions", {"actions": [
-            {"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}, "actions": actions}]})
+        self.mouse(start, "pointerDown", *stops, "pointerUp")
 
     def click_at(self, x, y):
         self.drag((x, y))
 
-    def hover(self, x, y):
-        self.call("POST", "/actions", {"actions": [
-            {"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"},
-             "actions": [{"type": "pointerMove", "duration": 50, "x": round(x), "y": round(y)}]}]})
-
-    def picture(self, whole=False, clip=None):
-        """PNG bytes of the window, of the whole page, or of (x, y, width, height)."""
-        parameters = {"format": "png"}
-        if clip:
-            x, y, width, height = clip
-            parameters["clip"] = {"x": x, "y": y, "width": width, "height": height, "scale": 1}
-        if whole:
-            size = self.run("return [document.documentElement.scrollWidth, document.documentElement.scrollHeight]")
-            parameters.update(captureBeyondViewport=True,
-                              clip={"x": 0, "y": 0, "width": size[0], "height": size[1], "scale": 1})
-        return base64.b64decode(self.devtools("Page.captureScreenshot", parameters)["data"])
+    def picture(self):
+        """PNG bytes of the window."""
+        return base64.b64decode(self.devtools("Page.captureScreenshot", {"format": "png"})["data"])
 
     def console(self):
         """New console messages since the last call: level and message."""
@@ -192,55 +187,13 @@ class Browser:
         return asked
 
 
-def pixels(png):
-    """Width, height and rows of (r, g, b) bytes of an 8-bit PNG without interlacing."""
-    position, packed, width, height, channels = 8, b"", 0, 0, 3
-    while position < len(png):
-        length, kind = struct.unpack(">I4s", png[position:position + 8])
-        data = png[position + 8:position + 8 + length]
-        if kind == b"IHDR":
-            width, height, _, colour = struct.unpack(">IIBB", data[:10])
-            channels = {2: 3, 6: 4}[colour]
-        elif kind == b"IDAT":
-            packed += data
-        position += 12 + length
-    raw, rows, previous = zlib.decompress(packed), [], bytes(width * channels)
-    stride = width * channels
-    for y in range(height):
-        kind, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-        for i in range(stride):
-            left = line[i - channels] if i >= channels else 0
-            up, corner = previous[i], previous[i - channels] if i >= channels else 0
-            if kind == 1:
-                line[i] = (line[i] + left) & 255
-            elif kind == 2:
-                line[i] = (line[i] + up) & 255
-            elif kind == 3:
-                line[i] = (line[i] + (left + up) // 2) & 255
-            elif kind == 4:
-                a, b, c = abs(up - corner), abs(left - corner), abs(left + up - 2 * corner)
-                line[i] = (line[i] + (left if a <= b and a <= c else up if b <= c else corner)) & 255
-        previous = bytes(line)
-        rows.append([tuple(line[i:i + 3]) for i in range(0, stride, channels)])
-    return width, height, rows
-
-
-def small_png(png):
-    """The same picture in fewer bytes: six bits per color, which looks the same, and no transparency."""
-    width, height, rows = pixels(png)
-    raw, previous = bytearray(), bytes(3 * width)
-    for row in rows:
-        line = bytes(value & 0xFC | value >> 6 for pixel in row for value in pixel)
-        up = bytes((a - b) & 255 for a, b in zip(line, previous))
-        left = line[:3] + bytes((a - b) & 255 for a, b in zip(line[3:], line))
-        # The filter among three with the smallest residual.
-        kind, best = min(((0, line), (1, left), (2, up)), key=lambda way: sum(min(b, 256 - b) for b in way[1]))
-        raw.append(kind)
-        raw += best
-        previous = line
-
-    def chunk(name, data):
-        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
-
-    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(bytes(raw), 9)) + chunk(b"IEND", b"")
+def small_png(browser, png):
+    """The same picture in fewer bytes: six bits per color, which looks the same. The browser packs it again."""
+    url = browser.ask("""const picture = new Image(); picture.src = 'data:image/png;base64,' + args[0]; await picture.decode();
+        const canvas = Object.assign(document.createElement('canvas'), {width: picture.width, height: picture.height});
+        const ink = canvas.getContext('2d'); ink.drawImage(picture, 0, 0);
+        const all = ink.getImageData(0, 0, canvas.width, canvas.height);
+        all.data.forEach((value, i) => { all.data[i] = value & 0xFC | value >> 6; });
+        ink.putImageData(all, 0, 0);
+        return canvas.toDataURL('image/png')""", base64.b64encode(png).decode())
+    return base64.b64decode(url.split(",")[1])
