@@ -8,7 +8,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,7 +18,6 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
-#include "file/atomic_file.hpp"
 #include "file/outputs.hpp"
 #include "file/table_writer.hpp"
 #include "scenario/family.hpp"
@@ -33,9 +31,6 @@ namespace bbsim::api {
 struct Report;
 struct RunResult;
 }  // namespace bbsim::api
-namespace bbsim::replay {
-struct Scene;
-}
 namespace bbsim::results {
 struct LogChoice;
 }
@@ -205,41 +200,5 @@ ExitCode run_command(int argc, char** argv, std::span<const NamedCommand> comman
 [[nodiscard]] std::string removed_option(std::string_view option);
 [[nodiscard]] std::string removed_command(std::string_view command);
 [[nodiscard]] std::string removed_ending(std::string_view ending);
-
-// Throws InputError unless the name ends in .html or is "-": standard output.
-void require_replay_ending(const std::string& file, const std::string& option);
-
-// Declares the replay file as an output, which messages call `what`, and the template as an input.
-void declare_replay(file::Outputs& outputs, const std::string& file, const std::string& what);
-
-// Opened before the work that it will show, so that a missing file or template is reported at once.
-class ReplayFile {
- public:
-  // Throws OutputError if the file cannot be written, or the template of pages is missing or, for a
-  // live page, its engine.
-  explicit ReplayFile(const std::string& target, bool live = false);
-
-  // Writes the whole file or nothing, and reports it. Throws InputError, OutputError.
-  void write(const replay::Scene& scene, bool quiet);
-
- private:
-  std::string target_;
-  std::string template_, engine_;
-  file::AtomicFile file_;
-};
-
-// `bbsim new rig`: a template filled in for a plate, a ball, servos and a sensor, with gains that
-// suit the delays. The values of servo.model.
-[[nodiscard]] std::vector<std::string> servo_classes();
-
-// Values of the options as text, by their names, such as --plate; empty or absent: not given.
-using RigWords = std::map<std::string, std::string>;
-
-// Asks for each on standard error and reads the answers from standard input, a terminal. An empty
-// answer keeps the default, and the end of the input keeps all remaining defaults.
-void ask(RigWords& words);
-
-// Text of the scenario for `file`. Throws InputError.
-[[nodiscard]] std::string rig_scenario(const RigWords& words, const std::string& file);
 
 }  // namespace bbsim::app

@@ -14,6 +14,7 @@
 #include "commands.hpp"
 #include "embedded.hpp"
 #include "file/share_folders.hpp"
+#include "new_rig.hpp"
 #include "terminal.hpp"
 #include "yaml/spelling.hpp"
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // `bbsim new rig`: a scenario for your rig to start from.
+#include "new_rig.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -14,6 +14,7 @@
 #include "commands.hpp"
 #include "file/default_name.hpp"
 #include "file/format.hpp"
+#include "replay.hpp"
 #include "replay/page.hpp"
 #include "replay/template.hpp"
 #include "terminal.hpp"

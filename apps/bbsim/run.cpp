@@ -12,6 +12,7 @@
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "commands.hpp"
+#include "replay.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {

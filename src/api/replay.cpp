@@ -15,7 +15,7 @@
 #include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "file/format.hpp"
-#include "record/compare.hpp"
+#include "record/log_distance.hpp"
 #include "replay/sources.hpp"
 #include "scenario/reader.hpp"
 

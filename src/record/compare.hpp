@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Evaluates tables: compares two and finds where they differ most, also by the tolerances of their
-// solvers; how far the log of a rig is from a run, and the time offset between their clocks; and
-// statistics of a sweep's cases by group, for noise or draws that repeat a case.
+// Compares two tables and finds where they differ most, also by the tolerances of their solvers.
 #pragma once
 
 #include <cstddef>
@@ -108,49 +106,5 @@ struct Comparison {
 // and texts, have the standard tolerances.
 [[nodiscard]] std::optional<Allowances> solver_allowances(const file::Table& a,
                                                           const file::Table& b);
-
-struct ColumnDistance {
-  std::string name;
-  double rms = 0;
-  double greatest = 0, at = 0;  // |log - run| and its time, s
-  double log = 0, run = 0;      // the values there
-  std::size_t rows = 0;         // compared rows
-};
-
-struct LogDistance {
-  std::vector<ColumnDistance> columns;
-  double from = 0, to = 0;                // the times in common, s
-  std::size_t rows = 0, rows_of_log = 0;  // in common; of the log
-};
-
-// The distance at the log's rows. Between its rows, the run is a cubic if it has the slope (vx, vy,
-// phi_rate, theta_rate), and a straight line otherwise. Both tables need a column t with increasing
-// times. `columns` selects some; if it is empty, all columns in common are compared. Both
-// are columns of numbers. Throws InputError.
-[[nodiscard]] LogDistance log_distance(const file::Table& log, const file::Table& run,
-                                       const std::vector<std::string>& columns = {});
-
-// Returns the time (s) that, added to the log's times, makes it most like the run, over all columns
-// in common and at least half of the shorter one. Throws InputError if nothing in common varies.
-[[nodiscard]] double time_offset(const file::Table& log, const file::Table& run,
-                                 const std::vector<std::string>& columns = {});
-
-// A table of the columns, then the time in common.
-[[nodiscard]] std::string to_text(const LogDistance& distance, const std::string& log_name,
-                                  const std::string& run_name);
-
-// CSV: a row for each group and measure, with the keys, measure, cases, count, mean, deviation,
-// min, a column per quantile (q5, q50, ...) and max. `cases` are all cases of the group; the
-// statistics are those of finite values in cases that ran to their end. The deviation is the
-// sample's, over count - 1; quantiles are interpolated linearly, as in numpy; what needs more
-// values is NaN.
-//
-// Groups appear in the order of their first case; without keys, all cases form one. If `measures`
-// is empty, all numeric columns after the status, if any, are used. Throws InputError if the table,
-// named `name`, lacks a column or has texts instead of numbers.
-[[nodiscard]] std::string summarise(const file::Table& table, const std::string& name,
-                                    const std::vector<std::string>& keys,
-                                    const std::vector<std::string>& measures,
-                                    const std::vector<double>& quantiles);
 
 }  // namespace bbsim::record

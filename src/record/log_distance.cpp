@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How far the log of a rig is from a run of bbsim, and the time offset between their clocks.
+#include "record/log_distance.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -76,7 +76,7 @@ struct LogChoice {
 // Reads a log. Its columns get names of bbsim and SI units, as far as `choice` or their own names
 // define them; times are made to increase. Its notes tell the changes. Keeps unmapped columns,
 // unless `only_mapped`. "auto" leaves the times unchanged, for time_offset() in
-// record/compare.hpp. Throws InputError with the place in the log or in the map, the text
+// record/log_distance.hpp. Throws InputError with the place in the log or in the map, the text
 // found and the texts allowed.
 [[nodiscard]] Result read_log(const std::string& file, const LogChoice& choice,
                               bool only_mapped = false);

@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "base/noise.hpp"
 #include "catch.hpp"
-#include "record/compare.hpp"
+#include "record/log_distance.hpp"
 
 namespace bbsim_test::test_log_distance {
 

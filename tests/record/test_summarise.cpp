@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "catch.hpp"
-#include "record/compare.hpp"
+#include "record/summarise.hpp"
 
 namespace bbsim_test::test_summarise {
 
