@@ -4,13 +4,19 @@
 'use strict';
 // The time that picture, plots and scrubber show, and its progress.
 bbsim.makeClock = (data) => {
-  const listeners = [], stateListeners = [];
+  const listeners = [], stateListeners = [], relaxed = [];
+  let span = 0, due = 0;  // ms between calls of the relaxed listeners while time runs
   let now = data.start, playing = false, speed = 1, loop = false, last = null;
 
   function notify() {
     for (const listener of listeners) listener(now);
+    const time = performance.now();
+    if (playing && time < due) return;
+    due = time + span;
+    for (const listener of relaxed) listener(now);
   }
   function tellState() {
+    if (!playing) for (const listener of relaxed) listener(now);
     for (const listener of stateListeners) listener();
   }
 
@@ -76,6 +82,9 @@ bbsim.makeClock = (data) => {
       clock.seek(run.t[Math.min(Math.max(next, 0), run.t.length - 1)]);
     },
     onTime: (listener) => listeners.push(listener),
+    // For listeners that need not follow every frame if frames are slow.
+    onTimeRelaxed: (listener) => relaxed.push(listener),
+    relax(least) { span = least; },
     onState: (listener) => stateListeners.push(listener),
   };
   return clock;

@@ -132,7 +132,7 @@
     get('held-sign').hidden = !run.windows.some(({held}) => held);
     get('thinned').textContent = run.every > 1 ? `One row in ${run.every} of ${run.rows} is shown.` : '';
     scrub.max = run.rowNumbers.length - 1;
-    bbsim.clock.onTime(showTime);
+    bbsim.clock.onTimeRelaxed(showTime);
     bbsim.clock.onState(() => bbsim.showPlaying(bbsim.clock));
     showTime(bbsim.clock.now);
     bbsim.showPlaying(bbsim.clock);

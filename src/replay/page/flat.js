@@ -3,42 +3,42 @@
 
 'use strict';
 // The picture from above, drawn flat in the plate's frame, for browsers with slow 3D or without 3D.
-// What stays is painted once.
+// What stays is painted once, and the trails are added as they grow.
 bbsim.makeFlat = (canvas) => {
   const {scene: {stage}, runs, shown} = bbsim.data;
   const {palette, text, visible} = bbsim;
   const [lead] = runs;
   const inkOf = (one) => one.getContext('2d', {willReadFrequently: true});
-  const ink = inkOf(canvas), ground = inkOf(document.createElement('canvas'));
+  const ink = inkOf(canvas), ground = inkOf(document.createElement('canvas')), base = inkOf(document.createElement('canvas'));
   let width = 0, height = 0, ratio = 1, scale = 1, waiting = false, stale = true;
-  const trails = runs.map((run) => ({run, place: [0, 0]}));  // where the balls were last
+  // For each run, the row up to which its trail is in `base`, the trail's length, and the ball's place.
+  const trails = runs.map((run) => ({run, until: 0, along: 0, place: [0, 0]}));
   const turned = new THREE.Quaternion(), point = new THREE.Vector3();
 
   // From the plane to the canvas.
   const px = (x) => width / 2 + x * scale, py = (y) => height / 2 - y * scale;
 
-  function setSize() {
-    const box = canvas.parentElement.getBoundingClientRect();
-    ratio = Math.min(Math.max(window.devicePixelRatio || 1, 1), 2);
+  function setSize(box = canvas.parentElement.getBoundingClientRect(), most = 0) {
+    ratio = Math.max(Math.min(Math.max(window.devicePixelRatio || 1, 1), 2), most);
     [width, height] = [Math.max(1, Math.round(box.width * ratio)), Math.max(1, Math.round(box.height * ratio))];
     // Leaves room for the dial and the buttons: beside the plate, or on a narrow screen above and
     // below it.
     const [beside, above] = box.width > 560 ? [104, 54] : [14, 88];
     scale = Math.min(Math.max(width - 2 * beside * ratio, 0.5 * width) / stage.width, Math.max(height - 2 * above * ratio, 0.5 * height) / stage.depth);
-    for (const one of [ink, ground]) [one.canvas.width, one.canvas.height] = [width, height];
+    for (const one of [ink, ground, base]) [one.canvas.width, one.canvas.height] = [width, height];
     stale = true;
   }
 
   function pen(on, colour, line, dash = []) {
-    Object.assign(on, {strokeStyle: colour, fillStyle: colour, lineWidth: line * ratio, lineJoin: 'round'});
+    Object.assign(on, {strokeStyle: colour, fillStyle: colour, lineWidth: line * ratio, lineJoin: 'round', lineDashOffset: 0});
     on.setLineDash(dash.map((n) => n * ratio));
     on.beginPath();
   }
 
   // A line through points; one that is too far away to be drawn leaves a gap.
-  function path(on, xs, ys, count = xs.length) {
+  function path(on, xs, ys, from = 0, to = xs.length) {
     let joined = false;
-    for (let i = 0; i < count; ++i) {
+    for (let i = from; i < to; ++i) {
       const here = shown(xs[i]) && shown(ys[i]);
       if (here) on[joined ? 'lineTo' : 'moveTo'](px(xs[i]), py(ys[i]));
       joined = here;
@@ -107,14 +107,24 @@ bbsim.makeFlat = (canvas) => {
     }
     if (visible.events) paintEvents(colours, words);
     bbsim.writeWords(ground, words, ratio);
-    stale = false;
   }
 
+  // Adds the new part of the trails, or all of it if time has gone back.
   function paintTrails(t) {
-    for (const {run} of visible.trail ? trails : []) {
-      if (!run.shown) continue;
-      pen(ink, palette.run(run.index), 3, (run !== lead && palette.dash(run.index)) || []);
-      path(ink, run.values('x'), run.values('y'), run.row(t) + 1);
+    const rows = runs.map((run) => run.row(t));
+    if (stale || trails.some(({until}, i) => rows[i] < until)) {
+      base.drawImage(ground.canvas, 0, 0);
+      for (const trail of trails) Object.assign(trail, {until: 0, along: 0});
+    }
+    stale = false;
+    for (const [i, trail] of trails.entries()) {
+      const {run, until} = trail, xs = run.values('x'), ys = run.values('y');
+      trail.until = rows[i];
+      if (rows[i] === until || !visible.trail || !run.shown) continue;
+      pen(base, palette.run(run.index), 3, (i > 0 && palette.dash(run.index)) || []);
+      base.lineDashOffset = trail.along;  // dashes go on from piece to piece
+      path(base, xs, ys, until, rows[i] + 1);
+      for (let k = until + 1; i > 0 && k <= rows[i]; ++k) trail.along += scale * Math.hypot(xs[k] - xs[k - 1], ys[k] - ys[k - 1]) || 0;
     }
   }
 
@@ -170,8 +180,8 @@ bbsim.makeFlat = (canvas) => {
     if (width === 0) setSize();
     const t = bbsim.clock.now, colours = palette.now();
     if (stale) paintGround();
-    ink.drawImage(ground.canvas, 0, 0);
     paintTrails(t);
+    ink.drawImage(base.canvas, 0, 0);
     pen(ink, colours.sensor, 2);
     for (const [x, y] of visible.sensor ? bbsim.lastSeen(lead, t) : []) if (shown(x) && shown(y)) paintPlus(x, y, 0, 5 * ratio);
     ink.stroke();
@@ -212,6 +222,14 @@ bbsim.makeFlat = (canvas) => {
     whole() {
       draw();
       return canvas;
+    },
+    print(w, h) {
+      setSize({width: w, height: h}, 2);
+      return flat.whole();
+    },
+    printed() {
+      setSize();
+      draw();
     },
     // The point [x, y] of the plate at a point of the window, CSS pixels.
     plateAt(left, top) {

@@ -75,7 +75,7 @@
     lines[0].apart.textContent = 'leads';
     recolour();
     palette.onChange(recolour);
-    clock.onTime(show);
+    clock.onTimeRelaxed(show);
     show(clock.now);
     container.append(element('h2', {}, `${runs.length} runs`), list);
     container.hidden = false;

@@ -7,10 +7,12 @@ bbsim.paint = (() => {
   // A ribbon along points (xs, ys), with one quad for each segment. `dash` cuts it into dashes of
   // lengths [on, off]. Points too far away to be drawn leave a gap. The material sets the ribbon's
   // width (`spread`); `width` is its usual value. The returned geometry has `until`, the number of
-  // indices for the first n points.
+  // indices for the first n points, and `reached`, the last of these points that the ribbon
+  // reaches.
   function ribbon(xs, ys, width, dash = null) {
-    const positions = [], aside = [], indices = [], until = new Uint32Array(xs.length + 1);
+    const positions = [], aside = [], indices = [], until = new Uint32Array(xs.length + 1), reached = new Int32Array(xs.length + 1);
     const [on, off] = dash || [Number.MAX_VALUE, 0];
+    reached[0] = -1;
     let along = 0;
     const quad = (ax, ay, bx, by, ux, uy) => {
       const first = positions.length / 3, nx = -uy / 2, ny = ux / 2;
@@ -43,6 +45,7 @@ bbsim.paint = (() => {
         last = -1;
       }
       until[i + 1] = indices.length;
+      reached[i + 1] = last;
     }
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(positions), 3));
@@ -50,7 +53,8 @@ bbsim.paint = (() => {
     geometry.setAttribute('normal', new THREE.BufferAttribute(new Float32Array(aside), 3));
     geometry.setAttribute('uv', new THREE.BufferAttribute(new Float32Array(positions.length / 3 * 2), 2));
     geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(indices), 1));
-    return Object.assign(geometry, {until});
+    Object.assign(geometry, {until, reached});
+    return geometry;
   }
 
   const white = new THREE.DataTexture(new Uint8Array([255, 255, 255, 255]), 1, 1, THREE.RGBAFormat);

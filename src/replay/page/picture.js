@@ -113,6 +113,8 @@ bbsim.makePicture = (canvas, left) => {
       const pattern = leads ? null : palette.dash(run.index);
       const dash = pattern && pattern.slice(0, 2).map((n) => n * 0.0022 * size);
       const past = ribbonOf(1, (material) => new THREE.Mesh(paint.ribbon(xs, ys, trailWidth, dash), material));
+      // A ribbon of length 1 along x, with the width of its material.
+      const tip = new THREE.Mesh(paint.ribbon([-0.5, 0.5], [0, 0], 1, [2, 0]), past.material);
       const future = ribbonOf(0.9, (material) => new THREE.Mesh(
           leads ? paint.ribbon(xs, ys, 0.9 * trailWidth, [0.02 * size, 0.009 * size]) : past.geometry.clone(), material));
       future.visible = leads;
@@ -120,10 +122,11 @@ bbsim.makePicture = (canvas, left) => {
       shadow.scale.set(1.5 * run.ball.radius, 1.5 * run.ball.radius, 1);
       onPlate(future, 3, plane);
       onPlate(past, 5, plane);
+      onPlate(tip, 5, plane);
       onPlate(shadow, 8, plane);
       const marker = paint.marker(paint.flat({depthTest: false}), materials.rim);
       root.add(marker);
-      return {run, leads, links, plane, ball, past, future, shadow, edge, marker};
+      return {run, leads, links, plane, ball, past, tip, future, shadow, edge, marker};
     });
     leader = actors[0];
 
@@ -222,21 +225,25 @@ bbsim.makePicture = (canvas, left) => {
     invalidate();
   }
 
-  let factor = 1, waiting = false;
+  let factor = 1, waiting = false, forced = false, pixels = 1;
   const turn = new THREE.Quaternion();
   let last = runs.map(() => [0, 0]);
+  // An unknown angle is drawn level; the page says so.
+  const angle = (run, t, name) => run.angleAt(t, name) || 0;
 
-  // Moves everything to its place at time t.
+  // Moves everything to its place at time t. Returns all numbers that the picture depends on.
   function pose(t) {
-    // An unknown angle is drawn level; the page says so.
-    const anglesOf = (run) => ['phi', 'theta'].map((name) => factor * (run.angleAt(t, name) || 0));
+    const state = [factor * angle(lead, t, 'phi'), factor * angle(lead, t, 'theta')];
     // The servos' angles do not fit exaggerated tilts.
-    rig.set(...anglesOf(lead), factor === 1 && lead.legs ? lead.servosAt(t) : null);
+    const servos = factor === 1 && lead.legs ? lead.servosAt(t) : null;
+    rig.set(...state, servos);
+    if (servos) state.push(...servos);
     for (const actor of actors) {
       const {run} = actor;
       if (actor.links && !actor.leads) {
-        actor.links.set(...anglesOf(run));
-        actor.links.base.visible = run.shown;
+        const angles = [factor * angle(run, t, 'phi'), factor * angle(run, t, 'theta')];
+        actor.links.set(...angles);
+        state.push(...angles);
       }
       // If a row has no number, the ball stays where it was. A ball that is too far away is not
       // drawn.
@@ -251,13 +258,26 @@ bbsim.makePicture = (canvas, left) => {
       actor.shadow.visible = shown;
       actor.shadow.position.x = x + 0.12 * run.ball.radius;
       actor.shadow.position.y = y - 0.25 * run.ball.radius;
+      const row = run.row(t), {until, reached} = actor.past.geometry;
       actor.past.visible = run.shown && visible.trail;
       actor.future.visible = run.shown && visible.trail && actor.leads;
-      actor.past.geometry.setDrawRange(0, actor.past.geometry.until[run.row(t) + 1]);
+      actor.past.geometry.setDrawRange(0, until[row + 1]);
+      // The tip connects the end of the ribbon with the ball.
+      const from = reached[row + 1], dx = x - run.values('x')[from], dy = y - run.values('y')[from], length = Math.hypot(dx, dy);
+      actor.tip.visible = shown && visible.trail && from >= 0 && Array.isArray(found) && length > 0;
+      if (actor.tip.visible) {
+        actor.tip.position.x = x - dx / 2;
+        actor.tip.position.y = y - dy / 2;
+        actor.tip.rotation.z = Math.atan2(dy, dx);
+        actor.tip.scale.x = length;
+      }
+      if (actor.links && !actor.leads) actor.links.base.visible = run.shown;
+      state.push(x, y, shown ? 1 : 0, until[row + 1], from, ...actor.ball.mesh.quaternion.toArray());
     }
     if (target.visible) {
       target.position.x = lead.at(t, 'x_reference', lead.path[0]);
       target.position.y = lead.at(t, 'y_reference', lead.path[1]);
+      state.push(target.position.x, target.position.y);
     }
     const points = bbsim.lastSeen(lead, t, seen.length);
     seen.forEach((mark, i) => {
@@ -265,29 +285,39 @@ bbsim.makePicture = (canvas, left) => {
       if (mark.visible) [mark.position.x, mark.position.y] = points[i];
     });
     for (const [name, group] of Object.entries(parts)) group.visible = visible[name];
-    if (visible.arrows) arrows.pose(t, leader.ball.mesh.position);
+    if (visible.arrows) state.push(...arrows.pose(t, leader.ball.mesh.position));
     for (const part of rig.solids) part.visible = visible.gimbal;
     floor.visible = visible.gimbal;
     root.updateMatrixWorld(true);
+    return state;
   }
 
-  function draw() {
-    waiting = false;
+  let drawn = [];
+  function draw(whole = true) {
+    waiting = forced = false;
     begun = true;
-    pose(bbsim.clock.now);
+    const state = pose(bbsim.clock.now);
     eyes.update();
+    state.push(...eyes.camera.matrixWorld.elements);
+    // Skips a picture in which nothing has moved.
+    if (!whole && state.length === drawn.length && state.every((value, i) => value === drawn[i])) return;
+    drawn = state;
     sizeToScreen();
     writeLabels();
     renderer.render(root, eyes.camera);
   }
-  function invalidate() {
-    if (waiting || !picture.active) return;
+  function ask(whole) {
+    forced = forced || whole;
+    if (waiting) return;
     waiting = true;
-    requestAnimationFrame(() => { if (waiting) draw(); });
+    requestAnimationFrame(() => { if (waiting) draw(forced); });
+  }
+  function invalidate() {
+    if (picture.active) ask(true);
   }
 
   let begun = false;
-  const eyes = bbsim.makeCamera(canvas, rig, {changed: invalidate, left});
+  const eyes = bbsim.makeCamera(canvas, rig, {changed: () => picture.active && ask(false), left});
 
   function setSize(w, h) {
     if (w !== width || h !== height) renderer.setSize(w, h, false);
@@ -326,6 +356,23 @@ bbsim.makePicture = (canvas, left) => {
       return made;
     },
     invalidate, resize, draw, recolour,
+    // Draws with this part of the pixels; fewer are faster.
+    setPixels(part) {
+      if (part === pixels) return;
+      pixels = part;
+      renderer.setPixelRatio(sharp() * part);
+      if (picture.active) draw();
+    },
+    // Draws for paper; the size is in CSS pixels.
+    print(w, h) {
+      renderer.setPixelRatio(2);
+      setSize(w, h);
+      return picture.whole();
+    },
+    printed() {
+      renderer.setPixelRatio(sharp() * pixels);
+      setSize(...sizeOf());
+    },
     exaggerate(value) {
       factor = value;
       rig.reach(value);
@@ -360,7 +407,7 @@ bbsim.makePicture = (canvas, left) => {
       };
     },
   };
-  bbsim.clock.onTime(invalidate);
+  bbsim.clock.onTime(() => picture.active && ask(false));
   palette.onChange(recolour);
   bbsim.data.onChange(() => {
     stale = true;

@@ -351,7 +351,7 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
   // Cursors follow the time. While it runs, numbers change a few times a second, as fast as one can
   // read.
   let readAgain = 0;
-  clock.onTime((t) => {
+  clock.onTimeRelaxed((t) => {
     follow(t);
     const now = performance.now(), reading = !clock.playing || now >= readAgain;
     if (reading) readAgain = now + 125;

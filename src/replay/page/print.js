@@ -23,7 +23,7 @@ bbsim.preparePrint = () => {
     bbsim.clock.pause();
     root.classList.add('printing');
     bbsim.palette.print(true);
-    if (screen) copy(bbsim.screen.shown.whole(), screen);
+    if (screen) copy(bbsim.screen.shown.print(screen.clientWidth, screen.clientHeight), screen);
     const {plots} = bbsim.plots, columns = plots.length > 12 ? 3 : 2;
     root.style.setProperty('--plots-beside', columns);
     bbsim.plots.print({width: Math.floor((width - 8 * (columns - 1)) / columns - 14), height});
@@ -36,6 +36,7 @@ bbsim.preparePrint = () => {
     root.classList.remove('printing');
     bbsim.palette.print(false);
     bbsim.plots.print(null);
+    if (screen) bbsim.screen.shown.printed();
   }
 
   window.addEventListener('beforeprint', begin);

@@ -12,29 +12,41 @@ bbsim.views = {
 // Shows one of two pictures: the one in three dimensions if the browser can draw it, or the flat
 // one, which is made when needed.
 //
-// If frames are slow while time runs, the picture becomes flat, and `notify` gets the rate. A view that
-// the user has chosen stays.
+// While time runs, adapts the page to slow frames, in three stages. First, everything but the
+// picture follows only a few times a second, because a browser composes everything between changed
+// parts again. Then the picture gets fewer pixels. If that does not suffice, it becomes flat, and
+// `notify` gets the rate. A picture at rest has all pixels. A view that the user has chosen stays.
 bbsim.makeScreen = (solid, makeFlat, notify) => {
   const {clock} = bbsim, get = (id) => document.getElementById(id), listeners = [];
-  const slow = 1000 / 15, several = 6;  // ms a frame; frames to judge
+  const slow = 1000 / 24, tooSlow = 1000 / 15, several = 6;  // ms a frame; frames to judge
   let isFlat = solid === null, flat = null, begun = false;
-  let last = null, spans = [], chosen = false;
+  let last = null, spans = [], coarse = false, chosen = false;
 
+  function judge() {
+    const middle = spans.sort((a, b) => a - b)[several >> 1];
+    spans = [];
+    if (middle <= slow) return;
+    clock.relax(100);
+    if (isFlat) return;
+    if (!coarse) {
+      coarse = true;
+      solid.setPixels(0.5);
+    } else if (!chosen && middle > tooSlow) {
+      screen.setFlat(true);
+      notify(Math.round(1000 / middle));
+    }
+  }
   clock.onTime(() => {
     if (!clock.playing) return;
     const now = performance.now();
     if (last !== null) spans.push(now - last);
     last = now;
-    if (spans.length < several) return;
-    const middle = spans.sort((a, b) => a - b)[several >> 1];
-    spans = [];
-    if (middle <= slow || isFlat || chosen) return;
-    screen.setFlat(true);
-    notify(Math.round(1000 / middle));
+    if (spans.length >= several) judge();
   });
   clock.onState(() => {
     last = null;
     spans = [];
+    if (solid) solid.setPixels(clock.playing && coarse ? 0.5 : 1);
   });
 
   const screen = {

@@ -115,7 +115,7 @@ bbsim.makeTransport = () => {
   }
   renew();
   data.onChange(renew);
-  clock.onTime(showTime);
+  clock.onTimeRelaxed(showTime);
   clock.onState(showState);
   showTime(clock.now);
   showState();
