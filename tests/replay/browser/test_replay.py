@@ -761,20 +761,39 @@ class Hands(Pages):
 
 
 class Pace(Pages):
-    def test_slow_pictures_become_flat(self):
+    def test_slow_pictures_have_fewer_pixels_and_then_are_flat(self):
         self.show("rig")
         # Draws as many pictures as are examined, each after this time; the page's own frames are stopped.
         self.js("[window.fake = 0, performance.now = () => window.fake, window.requestAnimationFrame = () => 0, bbsim.clock.play()]")
         frames = lambda *its: self.js("Array.from({length: arguments[0]}, () => [window.fake += arguments[1],"
                                       "bbsim.seek(bbsim.clock.now + 1e-3)]).length", *its)
-        for count, span, flat in [(30, 20, False), (8, 60, False), (8, 120, True)]:
+        ratio = "bbsim.picture.renderer.getPixelRatio()"
+        for count, span, pixels in [(30, 20, 1), (8, 60, 0.5)]:
             frames(count, span)
-            self.assertEqual(self.js("bbsim.screen.isFlat"), flat, span)
+            self.assertEqual((self.js(ratio), self.js("bbsim.screen.isFlat")), (pixels, False))
+        self.js("bbsim.clock.pause()")
+        self.assertEqual(self.js(ratio), 1)  # a still picture has full resolution
+        self.js("bbsim.clock.play()")
+        frames(8, 120)
         self.assertEqual([self.hidden(name) for name in ("flat", "picture", "hint")], [False, True, False])
         # A user who chooses three dimensions keeps them.
         self.browser.click("[data-view=above]")
         frames(30, 120)
         self.assertFalse(self.js("bbsim.screen.isFlat"))
+
+    def test_what_has_not_changed_is_not_drawn_again(self):
+        self.show("hard/rest")
+        drawn = lambda: self.js("bbsim.picture.renderer.info.render.frame")
+        self.js("bbsim.seek(1e5)")
+        self.browser.frame()
+        before = drawn()
+        for t in [2e5, 3.3e5, 7e5]:
+            self.js("bbsim.seek(arguments[0])", t)
+            self.browser.frame()
+        self.assertEqual(drawn(), before)
+        self.js("bbsim.picture.eyes.turn(0.1, 0)")
+        self.browser.frame()
+        self.assertGreater(drawn(), before)
 
 
 class Flat(Pages):
