@@ -305,8 +305,8 @@ ExitCode merge(const MergeArguments& arguments, const Options& options) {
     return ExitCode::interrupted;
   }
   if (!options.quiet) {
-    say(name_of_output(arguments.output) + ": " + std::to_string(merged.cases) + " cases from " +
-        std::to_string(arguments.parts.size()) + " parts");
+    say(name_of_output(arguments.output) + ": " + counted(merged.cases, "case") + " from " +
+        counted(arguments.parts.size(), "part"));
   }
   return ExitCode::done;
 }
