@@ -91,7 +91,7 @@ def root_locus(rig: _bbsim.Given, key: str, bounds: Sequence[str], count: int) -
 def step(loop: Linearization) -> Columns:
     """The linear responses to a unit step of each reference, until the slowest mode has decayed to 0.1 %, or has grown
     tenfold. A sampled loop has a row for each sample."""
-    from scipy.signal import cont2discrete, dstep  # take long to import
+    from scipy.signal import cont2discrete, dlsim  # take long to import
 
     if not loop.inputs:
         raise fault("found a controller of your own, whose answer to a reference is not known; allowed: a law of bbsim")
@@ -102,11 +102,13 @@ def step(loop: Linearization) -> Columns:
     count = min(int(round(end / loop.dt)), 20000) if loop.dt else 500
     period = loop.dt or end / count
     system = (loop.A, loop.B, loop.C, loop.D)
-    responses = dstep((*system, period) if loop.dt else cont2discrete(system, period), n=count + 1)[1]
+    sampled = (*system, period) if loop.dt else cont2discrete(system, period)
     columns = {"t": np.arange(count + 1) * period, "x": np.full(count + 1, np.nan), "y": np.full(count + 1, np.nan)}
     for output in ("x", "y"):
         if output in loop.outputs and f"{output}_reference" in loop.inputs:
-            columns[output] = responses[loop.inputs.index(f"{output}_reference")][:, loop.outputs.index(output)]
+            steps = np.zeros((count + 1, len(loop.inputs)))
+            steps[:, loop.inputs.index(f"{output}_reference")] = 1
+            columns[output] = dlsim(sampled, steps)[1][:, loop.outputs.index(output)]
     return columns
 
 

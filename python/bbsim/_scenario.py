@@ -261,7 +261,7 @@ def as_files(logs: Any) -> Iterator[List[str]]:
 
 def without_folders(text: str) -> str:
     """The text without the folders of temporary files, which differ each time. The first one sets tempfile.tempdir."""
-    return re.sub(f"{re.escape(tempfile.tempdir or '')}/{_PREFIX}[^/]+/", "", text)
+    return re.sub(f"{re.escape(tempfile.tempdir)}/{_PREFIX}[^/]+/", "", text) if tempfile.tempdir else text
 
 
 def _write(table: Any, file: str) -> None:

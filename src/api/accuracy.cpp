@@ -15,7 +15,7 @@ namespace bbsim::api {
 namespace {
 
 std::optional<double> tolerance(const std::string& text) {
-  const auto value = number_in<double>(text);
+  const auto value = number_in<double>(text.starts_with('+') ? text.substr(1) : text);
   return value && *value >= 1e-14 && *value <= 0.1 ? value : std::nullopt;
 }
 

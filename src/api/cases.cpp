@@ -176,7 +176,7 @@ class Cases {
     if (!request_.columns.empty()) {
       task.series = series_;
       task.series_rows = times_.count;
-      task.series_in_lanes = true;
+      task.series_in_lanes = request_.in_lanes;
       if (own_rows) task.times = &times_;
       finished = run(task);
       task.series.clear();

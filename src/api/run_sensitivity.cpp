@@ -210,6 +210,7 @@ void Sensitivity::add_headers(std::vector<file::ColumnHeader>& headers) const {
 
 CasesResult Sensitivity::run_neighbors(Watch& watch) const {
   CasesRequest request{*family_, 1 + offsets.size() * keys_.size()};
+  request.in_lanes = false;
   for (std::size_t k = 0; k < keys_.size(); ++k) {
     std::vector<double> values(request.count, keys_[k].value);
     for (std::size_t i = 0; i < offsets.size(); ++i) {

@@ -89,7 +89,8 @@ struct CasesRequest {
   std::vector<std::string> columns{}, measures{};
   std::optional<sweep::CaseTimes> times{};  // of the columns; empty: the scenario's output times
   sweep::Windows windows{};
-  double threads = 0;  // at most most_threads; 0: as many as processors
+  double threads = 0;    // at most most_threads; 0: as many as processors
+  bool in_lanes = true;  // false: columns of each case as a run has them, to the bit
 };
 
 struct CasesResult {

@@ -52,22 +52,36 @@ char* write_list(char* to, std::string_view name, std::span<const double> number
   return to;
 }
 
-// Programs print NaN and infinities in their own words, which JSON does not have. They become null.
+// What a number that is not finite becomes, since JSON has none.
+constexpr const char* not_finite = "NaN";
+
+// Programs print NaN and infinities in their own words, which JSON does not have.
 Json parse_answer(std::string_view line) {
   Json answer = parse_json(line);
   if (!answer.is_discarded()) return answer;
-  std::string text(line);
-  for (const std::string_view word :
-       {"-Infinity", "Infinity", "NaN", "-nan", "nan", "-inf", "inf"}) {
-    for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos;) {
-      text.replace(at, word.size(), "null");
+  constexpr std::string_view words[] = {"-Infinity", "Infinity", "NaN", "-nan",
+                                        "nan",       "-inf",     "inf"};
+  std::string text;
+  bool quoted = false;
+  for (std::size_t at = 0; at < line.size();) {
+    const std::string_view rest = line.substr(at);
+    const auto* const word =
+        std::ranges::find_if(words, [&](std::string_view one) { return rest.starts_with(one); });
+    if (!quoted && word != std::end(words)) {
+      (text += '"').append(not_finite) += '"';
+      at += word->size();
+      continue;
     }
+    if (rest[0] == '"') quoted = !quoted;
+    const std::size_t count = quoted && rest[0] == '\\' ? 2 : 1;
+    text += rest.substr(0, count);
+    at += count;
   }
   return parse_json(text);
 }
 
 bool is_real(const Json& value) {
-  return value.is_number() || value.is_null();
+  return value.is_number() || value == Json(not_finite);
 }
 
 double real_in(const Json& value) {
@@ -253,7 +267,7 @@ std::string read_answer(std::string_view line, std::span<const std::string> name
       }
       std::ranges::transform(value, command.begin(), real_in);
       commanded = true;
-    } else if (is_real(value) && name != "error") {
+    } else if (is_real(value)) {
       const auto wanted = std::ranges::find(names, name);
       if (wanted == names.end()) continue;
       own[wanted - names.begin()] = real_in(value);

@@ -112,6 +112,14 @@ TEST_CASE("an answer may use any valid JSON formatting") {
     CHECK(answer.fault.empty());
     CHECK(answer.command == std::vector{0.5, -0.001});
   }
+  // Words for numbers that are not finite, but not within names; and a number called error.
+  for (const char* line : {"{\"info\": 1, \"command\": [0, 1], \"extra\": nan, \"error\": 0.5}",
+                           "{\"info\": 1, \"command\": [0, 1], \"error\": 0.5}"}) {
+    CAPTURE(line);
+    const Read kept = read(line, {"info", "error"});
+    CHECK(kept.fault.empty());
+    CHECK(kept.own == std::vector<double>{1, 0.5});
+  }
   const Read named = read("{\"b\": 2, \"command\": [0, 1], \"a\": -1.5e3, \"c\": 9}", {"a", "b"});
   CHECK(named.fault.empty());
   CHECK(named.own == std::vector<double>{-1500, 2});
@@ -128,7 +136,7 @@ TEST_CASE("faults of an answer are reported with the answer") {
       {"{\"command\": [.1, 0.2]}", "allowed"},
       {"{\"command\": [inf, 0.2]}", "found a command that is not a finite number"},
       {"{\"command\": [-Infinity, 0.2]}", "found a command that is not a finite number"},
-      {"{\"command\": [null, 0.2]}", "found a command that is not a finite number"},
+      {"{\"command\": [null, 0.2]}", "found a command that is not two numbers"},
       {"{\"command\": [0, 0], \"u\": \"a\"}", "found \"u\" that is not a number"},
       {"{\"command\": [0, 0], \"a\": NaN}", "found \"a\" that is not a finite number"},
       {"{\"command\": [0, 0]}", "found no \"a\", which output.columns asks for"},

@@ -158,6 +158,11 @@ class Layout(Case):
                     self.assertTrue(finite or scene == "beam.yaml")  # which has no loop of theta
         self.assertEqual(self.read("loop.csv").splitlines()[0], "value,real,imag")
 
+    def test_a_step_has_all_its_samples(self):
+        """Regression: for some periods a response lacked its last sample."""
+        bbsim.plot(CONFIGS / "falls.yaml", step=True, csv=self.folder / "step.csv")
+        self.assertTrue(np.isfinite(np.genfromtxt(self.folder / "step.csv", delimiter=",", names=True)["x"]).all())
+
     def test_the_margins_of_a_bode_plot_are_those_of_check(self):
         for scene in ("rig.yaml", "fig2b.yaml", "beam.yaml"):
             words = words_of(bbsim.plot(CONFIGS / scene, bode=True))

@@ -45,7 +45,7 @@ bbsim.address = (() => {
     const view = said.get('view');
     const eye = (said.get('eye') || '').split(',').map(Number);
     if (view === 'flat') screen.setFlat(true);
-    else if (screen.solid && view in bbsim.views) {
+    else if (screen.solid && Object.keys(bbsim.views).includes(view)) {
       const usable = eye.length === 6 && eye.every(Number.isFinite) && Math.hypot(eye[0] - eye[3], eye[1] - eye[4], eye[2] - eye[5]) > 0;
       screen.setFlat(false);
       screen.solid.eyes.restore(view, said.has('eye') && usable ? eye : null);

@@ -26,19 +26,21 @@ bbsim.makeArrows = (run, plane, length, materials) => {
   return {
     // Each with the place of its name, `tip`.
     meshes: made,
+    // Returns all numbers that they depend on.
     pose(t, place) {
       const [vx, vy] = velocityAt(t);
       const down = new THREE.Vector3(0, 0, -1).applyQuaternion(plane.getWorldQuaternion(turned).inverse());
       const vectors = {velocity: new THREE.Vector3(vx, vy, 0).divideScalar(fastest || 1), gravity: down,
                        'normal force': new THREE.Vector3(0, 0, force ? run.at(t, 'normal_force', 0) / (force.size || 1) : 0)};
-      for (const [name, vector] of Object.entries(vectors)) {
+      return Object.entries(vectors).flatMap(([name, vector]) => {
         const one = made[name], size = vector.length();
         one.visible = size > 1e-3;
         one.position.copy(place);
         one.tip.copy(place).addScaledVector(vector, 1.1 * length);
         if (one.visible) one.quaternion.setFromUnitVectors(along, vector.clone().normalize());
         one.scale.setScalar(Math.max(size, 1e-3));
-      }
+        return vector.toArray();
+      });
     },
   };
 };

@@ -642,6 +642,13 @@ class TheStage(Pages):
                         v.project(bbsim.picture.eyes.camera); return [v.x, v.y]; })""")
                     self.assertLessEqual(max(abs(c) for c in corners), 1, scene)
 
+    def test_is_drawn_with_every_part(self):
+        for scene in ["rig", "three-servos"]:
+            self.show(scene)
+            for name in self.js("Object.keys(bbsim.visible)"):
+                for on in (True, False, True):
+                    self.js("[bbsim.screen.show(arguments[0], arguments[1]), bbsim.picture.draw()].length", name, on)
+
     def test_of_one_axis_is_a_beam_whose_frame_has_no_cracks(self):
         """Regression: a corner of a long frame was open. Rays from above meet the frame all around."""
         self.show("beam")
