@@ -81,9 +81,11 @@ ExitCode make_controller(const NewArguments& arguments, const Options& options) 
 
 // Name of the first option that was given; empty if none was.
 std::string first_of(const RigWords& words) {
-  const auto given =
-      std::ranges::find_if(words, [](const auto& word) { return !word.second.empty(); });
-  return given == words.end() ? "" : given->first;
+  for (const char* const option :
+       {"--plate", "--ball", "--actuator", "--servo", "--camera", "--touch", "--legs"}) {
+    if (!words.at(option).empty()) return option;
+  }
+  return "";
 }
 
 ExitCode make_rig(const NewArguments& arguments, const Options& options) {

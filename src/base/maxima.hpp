@@ -70,13 +70,22 @@ struct Bracket {
   double guess = 0;
 };
 
+// The parabola through three points, the middle one the highest: its slope there, and minus half
+// its second derivative.
+struct Parabola {
+  double slope, bend;
+
+  [[nodiscard]] static Parabola through(const Peak& from, const Peak& best, const Peak& to) {
+    const double before = best.at - from.at, after = to.at - best.at;
+    const double rise = (best.value - from.value) / before, fall = (best.value - to.value) / after;
+    return {(rise * after - fall * before) / (before + after), (rise + fall) / (before + after)};
+  }
+};
+
 // A bracket within the range, to start at the top of the parabola through its three points.
 [[nodiscard]] inline Bracket within(const Peak& from, const Peak& best, const Peak& to) {
-  const double before = best.at - from.at, after = to.at - best.at;
-  const double rise = (best.value - from.value) / before, fall = (best.value - to.value) / after;
-  const double slope = (rise * after - fall * before) / (before + after);
-  const double bend = (rise + fall) / (before + after);
-  return {from, best, to, best.at + (bend > 0 ? slope / (2 * bend) : after / 2)};
+  const auto [slope, bend] = Parabola::through(from, best, to);
+  return {from, best, to, best.at + (bend > 0 ? slope / (2 * bend) : (to.at - best.at) / 2)};
 }
 
 // The zero of a function by bisection, to rounding. It has different signs at both ends.
@@ -132,18 +141,15 @@ void for_each_bracket(const ChebyshevPoints& points, const double* values, const
     const double here = values[i];
     if ((i > 0 && !(here >= values[i - 1])) || (i < last && !(here >= values[i + 1]))) continue;
     if (i > 0 && i < last) {
-      const double before = points[i] - points[i - 1], after = points[i + 1] - points[i];
-      const double rise = (here - values[i - 1]) / before, fall = (here - values[i + 1]) / after;
-      if (!(rise + fall > 0)) continue;  // level
-      const double slope = (rise * after - fall * before) / (before + after);
-      const double bend = (rise + fall) / (before + after);  // minus half the second derivative
-      const double more = between == Between::kinks ? std::max(rise * after, fall * before)
+      const Peak from{points[i - 1], values[i - 1]}, peak{points[i], here};
+      const Peak to{points[i + 1], values[i + 1]};
+      const auto [slope, bend] = Parabola::through(from, peak, to);
+      if (!(bend > 0)) continue;  // level
+      const double before = peak.at - from.at, after = to.at - peak.at;
+      const double more = between == Between::kinks ? std::max((here - from.value) / before * after,
+                                                               (here - to.value) / after * before)
                                                     : slope * slope / (2 * bend);
-      if (!promises(here + more)) continue;
-      use(Bracket{{points[i - 1], values[i - 1]},
-                  {points[i], here},
-                  {points[i + 1], values[i + 1]},
-                  points[i] + slope / (2 * bend)});
+      if (promises(here + more)) use(within(from, peak, to));
       continue;
     }
     // The maximum may lie at an end, or between the end and the next point.

@@ -333,7 +333,7 @@ SerialAnswer read_serial_answer(std::string_view line, std::span<const std::stri
   };
   const std::string form =
       "allowed: {\"serial\": \"BYTES\"}, optionally with \"baud\": NUMBER, \"NAME\": NUMBER";
-  const Json answer = parse_json(line);
+  const Json answer = parse_answer(line);
   if (!answer.is_object()) return refuse(form);
   std::vector<std::string_view> known{"serial", "baud", "error"};
   known.insert(known.end(), names.begin(), names.end());
@@ -345,12 +345,12 @@ SerialAnswer read_serial_answer(std::string_view line, std::span<const std::stri
       }
     } else if (name == "baud" && value.is_number() && value.get<double>() > 0) {
       result.baud = value.get<double>();
-    } else if (name == "serial" || name == "baud" || !value.is_number()) {
+    } else if (name == "serial" || name == "baud" || !is_real(value)) {
       const std::string meant = yaml::hint(name, known);
       return refuse("found " + bbsim::quoted(name) +
                     (meant.empty() ? " with a value that is not allowed" : meant) + "; " + form);
     } else if (const auto wanted = std::ranges::find(names, name); wanted != names.end()) {
-      own[wanted - names.begin()] = value.get<double>();
+      own[wanted - names.begin()] = real_in(value);
     }
   }
   for (std::size_t i = 0; i < names.size(); ++i) {

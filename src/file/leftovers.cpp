@@ -13,7 +13,7 @@
 namespace bbsim::file {
 namespace {
 
-// Things of the process that filled it, each in a place of its own.
+// Names or ids that this process remembers. A forked process has none of them.
 template <class Thing, int most>
 struct Remembered {
   std::atomic<Thing> places[most]{};

@@ -12,6 +12,7 @@
 #include "record/curve.hpp"
 #include "record/instants.hpp"
 #include "record/recorder.hpp"
+#include "record/stored_run.hpp"
 #include "scenario/reader.hpp"
 #include "solve/integrate.hpp"
 #include "support/measured.hpp"
