@@ -125,6 +125,22 @@ TEST_CASE("an answer may use any valid JSON formatting") {
   CHECK(named.own == std::vector<double>{-1500, 2});
 }
 
+TEST_CASE("an answer over a serial line has bytes and numbers, and says which is not finite") {
+  const std::vector<std::string> names{"info"};
+  double own = 0;
+  const auto answer =
+      controller::read_serial_answer("{\"serial\": \"a\\u00ff\", \"info\": 2}", names, &own);
+  CHECK(answer.fault.empty());
+  CHECK(answer.bytes == "a\xff");
+  CHECK(own == 2);
+  for (const char* word : {"NaN", "-inf"}) {
+    const std::string line = std::string("{\"serial\": \"nan\", \"info\": ") + word + "}";
+    const auto refused = controller::read_serial_answer(line, names, &own);
+    CHECK(contains(refused.fault, "found no finite \"info\""));
+    CHECK(refused.bytes == "nan");
+  }
+}
+
 TEST_CASE("faults of an answer are reported with the answer") {
   const auto [line, told] = GENERATE(table<std::string, std::string>({
       {"", "allowed: {\"command\": [PHI, THETA]}"},
