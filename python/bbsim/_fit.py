@@ -13,7 +13,6 @@ import numpy as np
 
 from . import _bbsim, _fit_text
 from ._fit_search import Search
-from ._fit_servos import compare_delays
 from ._fit_windows import Log, LogKey, Windows, WindowsFit, cut, start_coordinates
 from ._scenario import (Array, InputError, Scenario, Settings, as_files, counted, fault, from_to, given as given_of,
                         listed, log_choice, refuse, without_folders)  # fmt: skip
@@ -250,7 +249,7 @@ def _fit(task: _Task, progress: Progress, series: bool) -> Any:
         before = _rms(fit)
         search.begin(task.starts)
         search.settle()
-        compare_delays(search)
+        search.compare_delays()
     except KeyboardInterrupt:
         if before is None:
             raise

@@ -5,13 +5,13 @@
 from __future__ import annotations
 
 import math
-from typing import Any, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Iterator, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 from scipy.optimize import least_squares, lsq_linear
 from scipy.special import stdtrit
 
-from . import _bbsim, _fit_servos
+from . import _bbsim
 from ._fit_windows import KEY_STEP, WIDE, LogKey, WindowsFit
 from ._scenario import Array
 from ._task import FreeKey, Progress, refuse_free, silent
@@ -20,6 +20,7 @@ _HUBER = 1.345  # standard deviations; costs 5 % of the efficiency for Gaussian 
 _KINKED_STARTS = 3
 _UNTOLD = 1e-4  # of the largest singular value; smaller ones are errors of differences
 _WIDEST = 0.3  # of the steps of a key's number
+_SCANNED, _DELAYS = 201, 0.2  # delays in a scan, and how far it goes without bounds (s)
 _HOPS, _DRAWS, _WIDER = 40, 20, (0.3, 1, 3, 10, 30)  # over jumps: the most; draws for each multiple of the deviations
 
 
@@ -38,7 +39,10 @@ class Search:
         self.spreads = np.array([max(float(np.std(its)), 1e-9) if its.size else 1.0 for its in values])
         self.doubts: List[str] = []  # why the estimates may be wrong
         self.rivals = np.empty((0, len(self.u)))
-        self.bounds, self.delays = windows.bounds, _fit_servos.delays_of(windows)
+        self.bounds = windows.bounds
+        # The keys that are delays of commands which a servo with a dead band follows, or which are rounded.
+        self.delays = [k for k, key in enumerate(self.keys) if windows.jumps and not windows.deaf[:, k].all()
+                       and key.name.startswith("controller.commands") and key.name.endswith("delay")]  # fmt: skip
         windows.reweigh(self.spreads)
 
     def degrees_of_freedom(self) -> float:
@@ -124,7 +128,7 @@ class Search:
 
     def begin(self, starts: Optional[int]) -> None:
         changes, known = self.scale_keys(), self.windows.deaf.all(0)
-        known |= _fit_servos.begin_at_delays(self)
+        known |= self._begin_at_delays()
         self.windows.find_kinks(self.u)
         if self.windows.kinked:
             changes = self.windows.derivatives(self.u)[1]
@@ -144,6 +148,42 @@ class Search:
         count = starts or (_KINKED_STARTS if self.windows.kinked else 1)
         if count > 1:
             self._try_starts(count)
+
+    def _scans(self) -> Iterator[Tuple[int, Array, Array]]:
+        """For each delay, numbers within its bounds, and sums of squares there with the other keys as they are. Which
+        commands a servo follows, or how they are rounded, changes in steps with the delay: residuals have a valley for
+        each period of the samples, or are flat between two steps."""
+        for k in self.delays:
+            key, bounds = self.keys[k], self.bounds()[:, k]
+            limits = float(key.value(self.u[k])) + np.array([-_DELAYS, _DELAYS])
+            ends = np.where(np.isfinite(bounds), bounds, [*map(key.number, limits)])
+            many = np.tile(self.u, (_SCANNED, 1))
+            many[:, k] = np.linspace(ends[0], ends[1], _SCANNED)
+            yield k, many[:, k], self.windows.tried(many, False)[2]
+
+    def _begin_at_delays(self) -> Array:
+        """Moves to the best delays of scans. Returns which keys have an effect in them."""
+        acts = np.zeros(len(self.u), bool)
+        for _ in self.delays:  # once more for each other delay
+            for k, at, costs in self._scans():
+                acts[k] |= np.ptp(costs) > 1e-7 * costs.min()
+                if costs.min() < self.cost() * (1 - 1e-4):
+                    self.u = np.where(np.arange(len(self.u)) == k, at[costs.argmin()], self.u)
+                    self.windows.restart()
+                    self.windows.residuals(self.u)
+        return acts
+
+    def compare_delays(self) -> None:
+        """Finds other delays that fit as well: they count for the intervals, and as doubts."""
+        for k, at, costs in self._scans():
+            near = at[costs <= self.cost() * (1 + 4 / self.degrees_of_freedom())]
+            others = np.tile(self.u, (len(near), 1))
+            others[:, k] = near
+            self.rivals = np.concatenate([self.rivals, others])
+            if len(near) > 1:
+                low, high = (_bbsim.short_number(float(self.keys[k].value(end))) for end in near[[0, -1]])
+                self.doubts.append(f"{self.keys[k].name}: values from {low} to {high} fit equally well: between them, "
+                                   "the servos follow the same commands")  # fmt: skip
 
     def _try_starts(self, count: int, ends: Sequence[Tuple[float, Array, Array]] = ()) -> None:
         """Continues from the best of several starts, or of what is known; the first start is the present one."""

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import math
+import re
 import warnings
 from dataclasses import dataclass
 from typing import Any, List, NamedTuple, Optional, Sequence, Tuple
@@ -13,7 +14,6 @@ import numpy as np
 from scipy.sparse import block_diag, csr_matrix, hstack
 
 from . import _bbsim
-from ._fit_servos import DEAD_BANDS, deaf_windows
 from ._result import simulate
 from ._scenario import Array, InputError
 from ._task import FreeKey
@@ -29,6 +29,8 @@ _ONLY_JUMPS = 1e-4  # if the median has less than this part of the mean's size, 
 _START_STEPS = np.array([1e-3] * 8 + [0.1])  # m, m/s, rad, rad/s; the spin has little effect
 _LEAST_EFFECT = 1e-9  # directions of a start with less effect than this part stay fixed
 _LONGEST_PAUSE = 60.0  # s; within a window that has no length
+_DEAD_BANDS = tuple(f"gimbal.servo{axis}.dead_band" for axis in ("", ".phi", ".theta"))
+_FORGET = 1.0  # s; a servo comes to rest in less
 _SPIN = _bbsim.START.index("spin")
 
 
@@ -105,6 +107,41 @@ def start_coordinates(columns: Sequence[str], given: _bbsim.Given, from_within: 
     return places + ([_SPIN] if from_within and len(axes) == 2 else [])
 
 
+def _quiet(log: Log, begins: Array, ends: Array) -> Array:
+    """Of each window and axis: whether the servo follows no command that could still move it."""
+    quiet = np.zeros((len(begins), 2), bool)
+    times = np.arange(max(log.times[0], 0.0), log.times[-1], log.given.value("controller.sampling.period"))
+    columns = ["phi_command", "theta_command"]
+    run = simulate(log.given, {}, columns, times, begin=times[:1], end=times[-1:], events=False)
+    for axis, name in enumerate(("phi", "theta")):
+        own, followed, last = log.given.value(f"gimbal.servo.{name}.dead_band"), [], 0.0
+        dead_band = log.given.value("gimbal.servo.dead_band") if own is None else own
+        for t, command in zip(times, run[columns[axis]][0]):
+            if abs(command - last) > (dead_band or 0.0):
+                last = command
+                followed.append(t)
+        quiet[:, axis] = np.searchsorted(followed, ends) == np.searchsorted(followed, begins - _FORGET)
+    return quiet & (run.status == "done").all()
+
+
+def _deaf_windows(logs: Sequence[Log], windows: Windows, keys: List[str]) -> Array:
+    """Of each window and key: whether the key acts only through servos that follow no command there."""
+    deaf, given = np.zeros((len(windows), len(keys)), bool), logs[0].given
+    servos = [bool(re.match(r"gimbal\.servo|controller\.commands.*\.delay$", key)) for key in keys]
+    # A band that is free may be narrower; behind a linkage, commands to servos are not phi and theta.
+    has = [given.has(key) for key in ("controller.commands", "gimbal.linkage", "gimbal.three_servos")]
+    banded = any(map(given.value, _DEAD_BANDS)) and not {*_DEAD_BANDS} & {*keys}
+    if not (any(servos) and banded and has == [True, False, False]):
+        return deaf
+    for number in np.unique(windows.log):
+        its = windows.log == number
+        quiet = _quiet(logs[number], windows.begin[its], windows.end[its])
+        for k in np.flatnonzero(servos):
+            axes = [axis for axis, name in enumerate(("phi", "theta")) if f".{name}." in keys[k]] or [0, 1]
+            deaf[its, k] = quiet[:, axes].all(1)
+    return deaf
+
+
 class _Point(NamedTuple):
     """The windows at values u, with their starts. Differences are in SI units, windows x numbers."""
 
@@ -136,8 +173,8 @@ class WindowsFit:
         self._solvers: Optional[Tuple[Array, Array]]
         self.restart()
         given = logs[0].given
-        self.jumps = any(map(given.value, (*DEAD_BANDS, "controller.sampling.resolution")))
-        self.deaf = deaf_windows(logs, windows, [key.name for key in keys])
+        self.jumps = any(map(given.value, (*_DEAD_BANDS, "controller.sampling.resolution")))
+        self.deaf = _deaf_windows(logs, windows, [key.name for key in keys])
         self.key_steps, self.start_steps = np.full(len(keys), KEY_STEP), _START_STEPS.copy()
 
     def bounds(self) -> Array:
