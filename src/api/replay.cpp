@@ -61,7 +61,7 @@ replay::Run run_of(const Scenario& scenario, file::Table rows, record::RunSummar
   for (std::size_t c = 0; c < end_row.size(); ++c) rows.columns[c].numbers.push_back(end_row[c]);
   replay::Run run = replay::run_of_table(std::move(rows), short_name(scenario.source.file));
   run.has_end_row = !end_row.empty();
-  run.reached = summary.end_time;
+  run.end_time = summary.end_time;
   describe_scene(run, scenario, checked);
   run.status = summary.status;
   run.reason = summary.reason;
@@ -70,7 +70,7 @@ replay::Run run_of(const Scenario& scenario, file::Table rows, record::RunSummar
     const model::BallMotion& ball = event.sample.ball;
     run.events.push_back({event.name, event.stopped, event.t, ball.x, ball.y});
   }
-  summary.scenario_text.clear();  // replay::Run holds it separately
+  summary.scenario_text.clear();  // the run's scenario has it
   run.summary = record::to_json(summary);
   return run;
 }

@@ -206,7 +206,7 @@ std::vector<std::size_t> cases_kept(const Sweep& sweep, std::size_t most) {
   std::vector<Levels> keys;
   for (const SweepColumn& key : sweep.keys) {
     if (!key.along.empty()) continue;
-    keys.push_back(key.words.empty() ? levels_of(key.values) : levels_of(key.words));
+    keys.push_back(key.texts.empty() ? levels_of(key.numbers) : levels_of(key.texts));
   }
   std::vector<std::size_t> strides(keys.size(), 1);
   std::size_t every = 1;

@@ -128,9 +128,10 @@ Json poles_json(const Poles& poles) {
   return {{"period", poles.period ? Json(*poles.period) : Json()}, {"values", values}};
 }
 
-Json legs_json(const Run& run) {
+Json legs_json(const ThreeServoPlate& plate, const Mounting& mounting) {
   Json legs = Json::array();
-  for (const ServoLeg& leg : run.legs) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ServoLeg leg = plate.leg(i);
     legs.push_back({{"angle", leg.angle},
                     {"base", leg.radius_base},
                     {"plate", leg.radius_plate},
@@ -141,19 +142,19 @@ Json legs_json(const Run& run) {
                     {"offset", leg.offset},
                     {"direction", leg.direction}});
   }
-  return {{"legs", legs},
-          {"phiOffset", run.mounting.phi_offset},
-          {"thetaOffset", run.mounting.theta_offset}};
+  return {
+      {"legs", legs}, {"phiOffset", mounting.phi_offset}, {"thetaOffset", mounting.theta_offset}};
 }
 
 // The push rods of phi and theta; null if there is none.
-Json push_rods_json(const Run& run) {
-  const double zero[] = {run.mounting.phi_offset, run.mounting.theta_offset};
+Json push_rods_json(const Gimbal& gimbal) {
+  const double zero[] = {gimbal.mounting.phi_offset, gimbal.mounting.theta_offset};
   Json rods = Json::array();
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    const auto& its = run.push_rods[axis];
+    const auto& linkage = gimbal.linkage[axis];
+    const auto* const its = linkage ? std::get_if<RodLinkage>(&*linkage) : nullptr;
     rods.push_back(nullptr);
-    if (!its) continue;
+    if (its == nullptr) continue;
     const double fits = std::hypot(its->offset[0] + its->arm - its->horn, its->offset[1]);
     rods.back() = {{"horn", its->horn},
                    {"arm", its->arm},
@@ -169,32 +170,37 @@ Json source_json(const Source& source) {
 }
 
 Json run_json(const Run& run, const Stage& stage, std::size_t most, const Numbers& numbers) {
-  const double radius = run.ball_radius.value_or(stage.ball_radius);
+  static const Scenario unknown;
+  const Scenario& scenario = run.scenario ? *run.scenario : unknown;
+  const Mounting& mounting = scenario.gimbal.mounting;
+  const double radius = ball_radius(run).value_or(stage.ball_radius);
   const std::vector<Quaternion> orientation = orientation_of(run, radius);
   const KeptRows kept = kept_rows(run, orientation, most);
-  Json json = {{"name", run.name},        {"title", run.title},
-               {"status", run.status},    {"reason", run.reason},
-               {"end", run.end},          {"rows", rows_of_file(run)},
-               {"buckets", kept.buckets}, {"motionError", kept.motion_error}};
-  json["ball"] = {{"radius", radius}, {"given", run.ball_radius.has_value()}};
-  json["mounting"] = {{"height", run.mounting.height},
-                      {"skew", run.mounting.skew},
-                      {"yaw", run.mounting.yaw},
-                      {"baseTilt", run.mounting.base_tilt}};
-  if (!run.legs.empty()) json["legs"] = legs_json(run);
-  json["rods"] = push_rods_json(run);
+  Json json = {{"name", run.name},         {"title", run.title},
+               {"status", run.status},     {"reason", run.reason},
+               {"end", scenario.time.end}, {"rows", rows_of_file(run)},
+               {"buckets", kept.buckets},  {"motionError", kept.motion_error}};
+  json["ball"] = {{"radius", radius}, {"given", run.scenario.has_value()}};
+  json["mounting"] = {{"height", mounting.height},
+                      {"skew", mounting.skew},
+                      {"yaw", mounting.yaw},
+                      {"baseTilt", mounting.base_tilt}};
+  const auto& three = scenario.gimbal.three_servos;
+  if (three) json["legs"] = legs_json(*three, mounting);
+  json["rods"] = push_rods_json(scenario.gimbal);
   json["time"] = times_json(picked(run.find("t")->numbers, kept.rows), numbers);
   json["columns"] = columns_json(run, kept.rows, numbers);
   json["orientation"] = numbers.parts(parts_of(orientation, kept.rows));
   json["orientationGiven"] = !run.orientation.empty();
-  json["reached"] = run.reached ? Json(*run.reached) : Json();
+  json["reached"] = run.end_time ? Json(*run.end_time) : Json();
   json["hasEndRow"] = run.has_end_row;
   json["unitsKnown"] = run.units_known;
   json["events"] = events_json(run);
   json["eventCount"] = run.events.size();
   json["reference"] = reference_json(run, numbers);
-  json["friction"] = run.friction ? Json(*run.friction) : Json();
-  json["scenario"] = source_json(run.source);
+  const auto& slip = scenario.events.slip;
+  json["friction"] = slip ? Json(slip->friction) : Json();
+  json["scenario"] = source_json(scenario.source);
   json["summary"] = run.summary.empty() ? Json() : parse_json(run.summary);
   json["check"] = run.check;
   json["poles"] = run.poles ? poles_json(*run.poles) : Json();
@@ -205,10 +211,10 @@ Json run_json(const Run& run, const Stage& stage, std::size_t most, const Number
 Json sweep_column_json(const SweepColumn& column, const std::vector<std::size_t>& cases, bool exact,
                        const Numbers& numbers) {
   Json json = {{"name", column.name}, {"unit", column.unit}};
-  if (!column.words.empty()) {
-    json["words"] = picked(column.words, cases);
+  if (!column.texts.empty()) {
+    json["words"] = picked(column.texts, cases);
   } else {
-    std::vector<double> values = picked(column.values, cases);
+    std::vector<double> values = picked(column.numbers, cases);
     json[exact ? "doubles" : "floats"] =
         exact ? numbers.doubles(std::move(values)) : numbers.floats(std::move(values));
   }

@@ -66,7 +66,7 @@ void check_sweep(const Sweep& sweep) {
   check_rows(sweep.name, "case", sweep.cases.size(), "status", cases);
   for (const auto* columns : {&sweep.keys, &sweep.measures}) {
     for (const SweepColumn& column : *columns) {
-      check_rows(sweep.name, column.name, column.rows(), "status", cases);
+      check_rows(sweep.name, column.name, column.numbers.size(), "status", cases);
     }
   }
 }
@@ -80,6 +80,12 @@ std::size_t row_count(const Run& run) {
 
 std::size_t rows_of_file(const Run& run) {
   return row_count(run) - (run.has_end_row ? 1 : 0);
+}
+
+std::optional<double> ball_radius(const Run& run) {
+  if (!run.scenario) return {};
+  const Ball& ball = run.scenario->ball;
+  return ball.groove ? ball.groove->ball_radius : ball.radius;
 }
 
 std::vector<double> coordinate(const Run& run, std::string_view name) {
@@ -136,30 +142,23 @@ void fit_plate(Stage& stage, const Extent& paths, double ball) {
 
 Stage stage_of(const Scene& scene) {
   Stage stage;
+  std::optional<double> ball;  // of the first run that tells
   for (const Run& run : scene.runs) {
-    if (run.plate.size) {
-      stage.width = (*run.plate.size)[0];
-      stage.depth = (*run.plate.size)[1];
-    } else if (run.plate.diameter) {
-      stage.width = stage.depth = *run.plate.diameter;
-      stage.round = true;
-    } else {
-      continue;
-    }
+    if (!ball) ball = ball_radius(run);
+    const Plate plate = run.scenario ? run.scenario->plate : Plate();
+    if (stage.plate_given || (!plate.size && !plate.diameter)) continue;
     stage.plate_given = true;
-    break;
+    stage.round = !plate.size;
+    stage.width = plate.size ? (*plate.size)[0] : *plate.diameter;
+    stage.depth = plate.size ? (*plate.size)[1] : *plate.diameter;
   }
-  const auto sized = std::find_if(scene.runs.begin(), scene.runs.end(),
-                                  [](const Run& run) { return run.ball_radius.has_value(); });
-  stage.ball_given = sized != scene.runs.end();
-  if (!stage.plate_given) {
-    fit_plate(stage, extent(scene), stage.ball_given ? *sized->ball_radius : 0);
-  }
+  stage.ball_given = ball.has_value();
+  if (!stage.plate_given) fit_plate(stage, extent(scene), ball.value_or(0));
   // On a beam, the ball may be as large as on a plate of the same length.
   constexpr double ball_part = 1.0 / 30;
   const double side =
       stage.plate_given ? std::min(stage.width, stage.depth) : std::max(stage.width, stage.depth);
-  stage.ball_radius = stage.ball_given ? *sized->ball_radius : ball_part * side;
+  stage.ball_radius = ball.value_or(ball_part * side);
   return stage;
 }
 
@@ -211,7 +210,7 @@ std::vector<Quaternion> orientation_of(const Run& run, double radius) {
   const file::Column* const gamma = run.find("gamma");
   const file::Column* const spin = run.find("spin");
   const bool slip_known = run.find("slip_x") != nullptr && run.find("slip_y") != nullptr &&
-                          (gamma != nullptr || spin != nullptr) && run.ball_radius.has_value();
+                          (gamma != nullptr || spin != nullptr) && run.scenario;
   if (!run.rolls && !slip_known) return {};
   std::vector<double> turned;
   if (gamma != nullptr) {
@@ -220,7 +219,8 @@ std::vector<Quaternion> orientation_of(const Run& run, double radius) {
     turned = integral(run.find("t")->numbers, spin->numbers);
   }
   return rolled(way_rolled(run, "x", "slip_x"), way_rolled(run, "y", "slip_y"),
-                turned.empty() ? nullptr : &turned, run.rolling_radius.value_or(radius));
+                turned.empty() ? nullptr : &turned,
+                run.scenario ? run.scenario->ball.radius : radius);
 }
 
 }  // namespace bbsim::replay

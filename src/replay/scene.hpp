@@ -30,47 +30,24 @@ struct Poles {
 
 // A run, or the log of a rig: columns of numbers, NaN where missing, with a unit ("1" if
 // dimensionless). It needs only the columns t and x or y. If x or y is missing, the ball stays on
-// the other axis.
-struct Run : file::Table {
-  std::string name;                 // its file, which identifies it
-  std::string title;                // of its scenario
-  std::string status, reason;       // done, failed, interrupted or stopped; why it ended early
-  double end = 0;                   // time requested, s; 0 if unknown
-  std::optional<double> reached{};  // time of the end, s; may be after the last row
-  // Whether the last row is not from the file but the instant at which an event stopped the run.
-  bool has_end_row = false;
-  bool units_known = true;  // otherwise columns without a unit have an unknown one
+// the other axis. Its scenario is the one that describes it.
+struct Run : results::Result {
+  std::string name;  // its file, which identifies it
   // Rotations from the ball's frame to the plane's, one for each row. If empty, orientation_of()
   // derives them from the columns.
-  std::vector<Quaternion> orientation;
+  std::vector<Quaternion> orientation{};
   // Whether the path determines the ball's rotation. It does not if the ball may slide, or if that
   // is unknown.
   bool rolls = true;
-  std::vector<results::Event> events;
-  Plate plate;
-  std::optional<double> ball_radius{};
-  std::optional<double> rolling_radius{};  // if different
-  Mounting mounting;
-  std::vector<ServoLeg> legs;                            // three, or none
-  std::array<std::optional<RodLinkage>, 2> push_rods{};  // of phi and theta
-  std::vector<std::array<double, 2>> reference;          // points of the whole path, plane frame
-  std::optional<double> friction{};  // coefficient to compare friction_demand with
-  Source source;                     // of the scenario
-  std::string summary;               // JSON of `run --summary`; empty if unknown
-  std::vector<std::string> check;    // the lines of `bbsim check`
+  std::vector<std::array<double, 2>> reference{};  // points of the whole path, plane frame
+  std::vector<std::string> check{};                // the lines of `bbsim check`
   std::optional<Poles> poles{};
-  std::string version;  // of the bbsim that computed it
 };
 
-// A column of a sweep's table: numbers, or words like those of solver.method.
-struct SweepColumn {
-  std::string name, unit;
-  std::vector<double> values;
-  std::vector<std::string> words;  // instead of values
-  bool drawn = false;              // the values of a key are random
-  std::string along{};             // the first key to which this one is tied
-
-  [[nodiscard]] std::size_t rows() const { return words.empty() ? values.size() : words.size(); }
+// A column of a sweep's table: numbers, or texts like those of solver.method.
+struct SweepColumn : file::Column {
+  bool drawn = false;   // the values of a key are random
+  std::string along{};  // the first key to which this one is tied
 };
 
 // Many runs of one scene. All columns have one row for each case.
@@ -95,6 +72,9 @@ struct Scene {
 
 // The number of rows in the run's file: without an end row that is not from the file.
 [[nodiscard]] std::size_t rows_of_file(const Run& run);
+
+// The radius of the run's ball, m; empty if it is unknown.
+[[nodiscard]] std::optional<double> ball_radius(const Run& run);
 
 // Column x or y; zeros if the run does not have it.
 [[nodiscard]] std::vector<double> coordinate(const Run& run, std::string_view name);

@@ -61,10 +61,9 @@ std::optional<Poles> poles_of(const model::Model& model) {
   return Poles{model::closed_loop_poles(model), {}};
 }
 
-// Takes the columns of numbers, with the units of `bbsim columns`.
-void take_columns(Run& run, file::Table& table) {
-  table.take_texts();
-  run.columns = std::move(table.columns);
+// Leaves the columns of numbers, with the units of `bbsim columns`.
+void leave_numbers(Run& run) {
+  run.take_texts();
   for (file::Column& column : run.columns) {
     const scenario::Column* const known = scenario::find_column(column.name);
     if (known != nullptr && column.unit.empty() && run.units_known) column.unit = known->unit;
@@ -73,13 +72,12 @@ void take_columns(Run& run, file::Table& table) {
 
 // Rolls the ball from the last row to the instant at which an event stopped the run.
 void turn_to_the_end(Run& run) {
-  if (!run.has_end_row || !run.rolls || !run.ball_radius || run.orientation.size() < 2) return;
+  if (!run.has_end_row || !run.rolls || run.orientation.size() < 2) return;
   const std::vector<double> x = coordinate(run, "x"), y = coordinate(run, "y");
   const std::size_t end = x.size() - 1;
-  run.orientation[end] = product(rolled({x[end - 1], x[end]}, {y[end - 1], y[end]}, nullptr,
-                                        run.rolling_radius.value_or(*run.ball_radius))
-                                     .back(),
-                                 run.orientation[end - 1]);
+  run.orientation[end] = product(
+      rolled({x[end - 1], x[end]}, {y[end - 1], y[end]}, nullptr, run.scenario->ball.radius).back(),
+      run.orientation[end - 1]);
 }
 
 // If all four parts of the ball's orientation are recorded, makes them the run's orientation and
@@ -102,11 +100,10 @@ void take_orientation(Run& run) {
   });
 }
 
-SweepColumn sweep_column(const results::Column& column) {
-  if (!column.is_text()) return {column.name, column.unit, column.numbers, {}};
-  SweepColumn texts{column.name, column.unit, {}, {}};
-  for (std::size_t i = 0; i < column.texts.size(); ++i) texts.words.push_back(column.text(i));
-  return texts;
+SweepColumn sweep_column(results::Column column) {
+  if (!column.is_text()) column.texts.clear();
+  for (std::size_t i = 0; i < column.texts.size(); ++i) column.texts[i] = column.text(i);
+  return {std::move(column)};
 }
 
 // Notes whether the key was drawn, or is tied to another one.
@@ -123,30 +120,15 @@ void relate(SweepColumn& key, const results::SweepTable& table) {
 Run run_of_table(file::Table table, const std::string& name) {
   Run run;
   run.name = name;
-  take_columns(run, table);
+  run.columns = std::move(table.columns);
+  leave_numbers(run);
   take_orientation(run);
   return run;
 }
 
 void describe_sight(Run& run, const Scenario& scenario) {
   run.title = scenario.title;
-  run.end = scenario.time.end;
-  run.plate = scenario.plate;
-  run.ball_radius = scenario.ball.radius;
-  if (scenario.ball.groove) {
-    run.rolling_radius = run.ball_radius;
-    run.ball_radius = scenario.ball.groove->ball_radius;
-  }
-  run.mounting = scenario.gimbal.mounting;
-  if (const auto& three = scenario.gimbal.three_servos) {
-    for (std::size_t i = 0; i < 3; ++i) run.legs.push_back(three->leg(i));
-  }
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    const auto& linkage = scenario.gimbal.linkage[axis];
-    const auto* const rods = linkage ? std::get_if<RodLinkage>(&*linkage) : nullptr;
-    if (rods != nullptr) run.push_rods[axis] = *rods;
-  }
-  if (scenario.events.slip) run.friction = scenario.events.slip->friction;
+  run.scenario = scenario;
   if (scenario.events.slip && scenario.events.slip->sliding) run.rolls = false;
   // `bbsim columns` lists commands as angles; their unit is that of the gimbal's drive.
   for (file::Column& series : run.columns) {
@@ -155,7 +137,6 @@ void describe_sight(Run& run, const Scenario& scenario) {
     }
   }
   turn_to_the_end(run);
-  run.source = scenario.source;
 }
 
 void describe(Run& run, const Scenario& scenario) {
@@ -168,22 +149,12 @@ void describe(Run& run, const Scenario& scenario) {
 
 Run run_of_result(results::Result result, const std::string& name) {
   results::add_end_row(result);
-  Run run;
-  run.name = name;
-  run.has_end_row = result.has_end_row;
-  run.title = std::move(result.title);
-  run.status = std::move(result.status);
-  run.reason = std::move(result.reason);
-  run.version = std::move(result.version);
-  run.summary = std::move(result.summary);
-  run.reached = result.end_time;
-  run.units_known = result.units_known;
+  Run run{std::move(result), name};
   // The run must also say how the ball pivots. On a beam it does not pivot.
-  run.rolls =
-      result.scenario && (result.find("gamma") != nullptr || result.find("spin") != nullptr ||
-                          result.find("x") == nullptr || result.find("y") == nullptr);
-  run.events = std::move(result.events);
-  take_columns(run, result);
+  run.rolls = run.scenario && (run.find("gamma") != nullptr || run.find("spin") != nullptr ||
+                               run.find("x") == nullptr || run.find("y") == nullptr);
+  run.scenario.reset();
+  leave_numbers(run);
   take_orientation(run);
   return run;
 }

@@ -17,8 +17,9 @@ inline bbsim::replay::Run circling(std::size_t rows) {
   run.name = "circle.csv";
   run.title = "A circle";
   run.status = "done";
-  run.ball_radius = 0.01;
-  run.plate.size = {0.3, 0.2};
+  run.scenario.emplace();
+  run.scenario->ball.radius = 0.01;
+  run.scenario->plate.size = {0.3, 0.2};
   run.columns = {{"t", {}, {}, "s"},          {"x", {}, {}, "m"},
                  {"y", {}, {}, "m"},          {"phi", {}, {}, "rad"},
                  {"theta", {}, {}, "rad"},    {"x_reference", {}, {}, "m"},

@@ -123,16 +123,16 @@ TEST_CASE("a large grid is thinned to a grid, and other sweeps evenly") {
       sweep.status.emplace_back("done");
     }
   }
-  sweep.keys = {{"a", "", {}, {}}, {"b", "", {}, {}}};
+  sweep.keys = {{{"a", {}}}, {{"b", {}}}};
   for (int i = 0; i < 5000; ++i) {
-    sweep.keys[0].values.push_back(i / 50);
-    sweep.keys[1].values.push_back(i % 50);
+    sweep.keys[0].numbers.push_back(i / 50);
+    sweep.keys[1].numbers.push_back(i % 50);
   }
   CHECK(cases_kept(sweep, 5000).size() == 5000);
   const auto grid = cases_kept(sweep, 2000);
   CHECK(grid.size() == 1250);  // every 4th value of the key with 100 values, all of the other's
   for (const std::size_t i : grid) CHECK(i / 50 % 4 == 0);
-  sweep.keys[0].values[7] = 0.123;  // no longer a grid
+  sweep.keys[0].numbers[7] = 0.123;  // no longer a grid
   const auto others = cases_kept(sweep, 2000);
   CHECK(others.size() == 1667);
   CHECK(others[1] == 3);

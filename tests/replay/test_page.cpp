@@ -45,16 +45,16 @@ bbsim::replay::Sweep swept() {
   bbsim::replay::Sweep sweep;
   sweep.name = "swept.csv";
   sweep.source.file = "configs/my scene.yaml";
-  sweep.keys = {{"ball.radius", "", {}, {}}, {"ball.position.0", "", {}, {}}};
-  sweep.measures = {{"max_distance", "m", {}, {}}};
+  sweep.keys = {{{"ball.radius", {}}}, {{"ball.position.0", {}}}};
+  sweep.measures = {{{"max_distance", {}, {}, "m"}}};
   for (int i = 0; i < 41; ++i) {
     for (int k = 0; k < 21; ++k) {
       sweep.cases.push_back(21 * i + k);
-      sweep.keys[0].values.push_back(0.01 + 0.001 * i);
-      sweep.keys[1].values.push_back(-0.1 + 0.01 * k);
+      sweep.keys[0].numbers.push_back(0.01 + 0.001 * i);
+      sweep.keys[1].numbers.push_back(-0.1 + 0.01 * k);
       const bool failed = i + k > 50;
       sweep.status.emplace_back(failed ? "failed at 0.7 s: it grew, \"fast\"" : "done");
-      sweep.measures[0].values.push_back(failed ? std::nan("") : std::hypot(i / 40.0, k / 20.0));
+      sweep.measures[0].numbers.push_back(failed ? std::nan("") : std::hypot(i / 40.0, k / 20.0));
     }
   }
   return sweep;
@@ -155,9 +155,10 @@ TEST_CASE("hostile text stays text everywhere") {
       "\xE2\x80\xAE @BBSIM_DATA@ \xff";
   Run run = circling(3);
   run.name = run.title = run.status = run.reason = hostile;
-  run.source.file = run.source.text = hostile;
+  bbsim::Source& source = run.scenario->source;
+  source.file = source.text = hostile;
   run.check = {hostile};
-  run.source.overrides = {hostile};
+  source.overrides = {hostile};
   run.version = hostile;
   run.summary = R"({"title": "</script>"})";
   run.columns.push_back({hostile, {1, 2, 3}, {}, hostile});
@@ -230,26 +231,26 @@ TEST_CASE("the plate is the scene's, or one that holds the path") {
   CHECK(stage.width == 0.3);
   CHECK(stage.depth == 0.2);
   CHECK(stage.plate_given);
-  scene.runs[0].plate = {};
+  scene.runs[0].scenario->plate = {};
   stage = bbsim::replay::stage_of(scene);
   CHECK_FALSE(stage.plate_given);
   CHECK(stage.width == Approx(2 * 1.2 * 0.05));
-  scene.runs[0].plate.diameter = 0.25;
+  scene.runs[0].scenario->plate.diameter = 0.25;
   CHECK(bbsim::replay::stage_of(scene).round);
   // The path fits even if the ball is mostly in one place.
-  scene.runs[0].plate = {};
+  scene.runs[0].scenario->plate = {};
   scene.runs[0].columns[1].numbers.front() = 50;
   CHECK(bbsim::replay::stage_of(scene).width == Approx(2 * 1.2 * 50));
   scene.runs[0].columns[1].numbers.front() = 0.05;
   // A last row that diverges does not shrink the rest; so far out nothing is drawn.
-  scene.runs[0].plate = {};
+  scene.runs[0].scenario->plate = {};
   scene.runs[0].columns[1].numbers.back() = 1e200;
   CHECK(bbsim::replay::stage_of(scene).width <= 2 * 1.2 * 20 * 0.05);
 }
 
 TEST_CASE("a scene along one axis has a beam-shaped plate, and needs no column of the other") {
   Scene scene = scene_of(circling(2100));
-  scene.runs[0].plate = {};
+  scene.runs[0].scenario->plate = {};
   scene.runs[0].columns[2].numbers.assign(2100, 0.0);
   for (double& y : scene.runs[0].columns.back().numbers) y = 0;
   const auto stage = bbsim::replay::stage_of(scene);
@@ -265,7 +266,7 @@ TEST_CASE("a page gives what is known of turns, units and the end") {
   run.rolls = false;
   run.units_known = false;
   run.has_end_row = true;
-  run.reached = 0.495;
+  run.end_time = 0.495;
   const auto made = data_of(page(scene_of(run), small_template)).at("runs").at(0);
   CHECK(made.at("orientation") == "");
   CHECK(made.at("orientationGiven") == false);
@@ -295,7 +296,7 @@ TEST_CASE("unusable replay input is refused with the reason") {
   CHECK(of_run(0, [](auto&) {}) == file + "it has no rows");
   Scene scene;
   scene.sweeps.push_back(swept());
-  scene.sweeps[0].measures[0].values.pop_back();
+  scene.sweeps[0].measures[0].numbers.pop_back();
   CHECK(refusal(scene) ==
         "swept.csv: cannot be replayed: column max_distance has 860 rows, and status has 861");
 }
@@ -319,7 +320,7 @@ TEST_CASE("a sweep's cases read back: exact keys, each kind of ending once") {
   scene.sweeps.push_back(swept());
   const auto data = data_of(page(scene, small_template)).at("sweeps").at(0);
   CHECK(data.at("cases") == 861);
-  CHECK(numbers_of<double>(data.at("keys").at(0).at("doubles")) == scene.sweeps[0].keys[0].values);
+  CHECK(numbers_of<double>(data.at("keys").at(0).at("doubles")) == scene.sweeps[0].keys[0].numbers);
   CHECK(data.at("statuses") == nlohmann::json{"done", "failed at 0.7 s: it grew, \"fast\""});
   for (std::size_t i = 0; i < 861; ++i) {
     CHECK(data.at("statuses").at(data.at("status").at(i).get<std::size_t>()) ==

@@ -75,7 +75,7 @@ TEST_CASE("a slipping ball turns by its distance minus the slip") {
   // It moves at 1 m/s and slips at 3 - 2 t m/s: in a second it turns by -1 m over its radius.
   Run run;
   run.rolls = false;
-  run.ball_radius = 1;
+  run.scenario.emplace().ball.radius = 1;
   run.columns = {{"t", {}}, {"x", {}}, {"y", {}}, {"slip_x", {}}, {"slip_y", {}}};
   for (int i = 0; i <= 10; ++i) {
     const double t = 0.1 * i;

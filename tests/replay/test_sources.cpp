@@ -48,14 +48,14 @@ replay::Sweep sweep_of_table(const std::string& table) {
 TEST_CASE("a scenario determines what a replay shows") {
   const Run rig = described("rig");
   CHECK(rig.title == "A hobby rig on the circle of Fig. 2(b)");
-  CHECK(rig.plate.size == std::array<double, 2>{0.32, 0.24});
-  CHECK(rig.ball_radius == 0.02);
-  CHECK(rig.friction == 0.3);
-  CHECK(rig.end == 40);
+  CHECK(rig.scenario->plate.size == std::array<double, 2>{0.32, 0.24});
+  CHECK(ball_radius(rig) == 0.02);
+  CHECK(rig.scenario->events.slip->friction == 0.3);
+  CHECK(rig.scenario->time.end == 40);
   REQUIRE(rig.poles);
   CHECK(rig.poles->period == 0.02);
   CHECK(rig.poles->values.size() == 16);
-  CHECK(rig.source.text.find("A hobby rig") != std::string::npos);
+  CHECK(rig.scenario->source.text.find("A hobby rig") != std::string::npos);
   // One closed lap of the circle.
   REQUIRE(rig.reference.size() > 100);
   CHECK(rig.reference.front()[0] == Approx(rig.reference.back()[0]));
@@ -64,7 +64,7 @@ TEST_CASE("a scenario determines what a replay shows") {
   const Run open = described("fig2a");
   CHECK_FALSE(open.poles);
   CHECK(open.reference.empty());
-  CHECK_FALSE(open.plate.size);
+  CHECK_FALSE(open.scenario->plate.size);
   const Run point = described("falls");
   CHECK(point.reference.size() == 1);
   const Run continuous = described("fig2b");
@@ -132,7 +132,7 @@ TEST_CASE(
   CHECK(run.has_end_row);
   CHECK(row_count(run) == 3);
   CHECK(rows_of_file(run) == 2);
-  CHECK(run.reached == 1.5);
+  CHECK(run.end_time == 1.5);
   CHECK(run.find("x")->numbers.back() == 0.11);
   CHECK(run.find("phi")->numbers.back() == 0.3);
   run.rolls = true;
@@ -150,14 +150,14 @@ TEST_CASE("a sweep's table: keys, status and measures") {
   CHECK(sweep.name == "s.csv");
   CHECK(sweep.cases == std::vector<double>{0, 1});
   REQUIRE(sweep.keys.size() == 2);
-  CHECK(sweep.keys[0].values == std::vector<double>{0.01, 0.02});
-  CHECK(sweep.keys[1].words == std::vector<std::string>{"radau", "bdf"});
+  CHECK(sweep.keys[0].numbers == std::vector<double>{0.01, 0.02});
+  CHECK(sweep.keys[1].texts == std::vector<std::string>{"radau", "bdf"});
   CHECK(sweep.status[0] == "done");
   CHECK(sweep.status[1] == "failed: it grew, \"fast\"");
   REQUIRE(sweep.measures.size() == 3);
   CHECK(sweep.measures[0].name == "max_tilt");
   CHECK(sweep.measures[0].unit == "rad");
-  CHECK(std::isnan(sweep.measures[0].values[1]));
+  CHECK(std::isnan(sweep.measures[0].numbers[1]));
   CHECK(sweep.measures[1].unit == "m");
   CHECK(sweep.measures[2].name == "end_time");
   CHECK(sweep.measures[2].unit == "s");
