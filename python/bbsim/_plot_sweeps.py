@@ -72,12 +72,9 @@ class _Key:
             self.scale = choose_scale(sweep.units.drawn(key.unit), covered(self.distinct), 0 if self.log else CLOSE)
             self.label = self.scale.heading(self.label)
 
-    def place(self, values: Any) -> Any:
-        return np.asarray(values, float) if self.is_text else self.scale(values)
-
     def edges(self) -> Any:
         """Of the values' cells: halfway between neighbors, and beyond the outermost values."""
-        at = np.log(self.place(self.distinct)) if self.log else self.place(self.distinct)
+        at = np.log(self.scale(self.distinct)) if self.log else self.scale(self.distinct)
         middle = (at[1:] + at[:-1]) / 2
         edges = np.concatenate([[2 * at[0] - middle[0]], middle, [2 * at[-1] - middle[-1]]])
         return np.exp(edges) if self.log else edges
@@ -87,7 +84,7 @@ class _Key:
         if self.is_text:
             words(axis, self.key.labels, self.label, numbered)
         else:
-            ends = self.edges() if cells else self.place(self.distinct)
+            ends = self.edges() if cells else self.scale(self.distinct)
             fitted(axis, self.log, covered(ends), self.label, air=0.0 if cells else 0.02, numbered=numbered)
 
 
@@ -128,12 +125,12 @@ def _lines(sweep: _Sweep, name: str, over: _bbsim.SweepKey, group: Optional[_bbs
         low, middle, high = levels = np.full((3, len(present)), np.nan)
         for i, bundle in zip(np.searchsorted(present, at), bundles):
             levels[:, i] = np.quantile(bundle, [0.05, 0.5, 0.95])
-        x = along.place(present)
+        x = along.scale(present)
         if any(len(bundle) > 1 for bundle in bundles) and len(groups) <= _MOST_BANDS:
             axes.fill_between(x, low, high, color=look["color"], alpha=0.25, lw=0)
         axes.plot(x, middle, **look)
     for other, _ in sweep.table.others:  # at the foot
-        x = along.place(np.unique(over.values[chosen & (sweep.status == other)]))
+        x = along.scale(np.unique(over.values[chosen & (sweep.status == other)]))
         axes.plot(x, np.zeros(len(x)), transform=axes.get_xaxis_transform(), clip_on=False, **sweep.mark(other))
 
 
@@ -192,7 +189,7 @@ def _map(sweep: _Sweep, name: str, over: _bbsim.SweepKey, against: _bbsim.SweepK
 
 def _points(sweep: _Sweep, axes: Any, colors: _Measure, norm: Any, along: _Key, up: _Key) -> None:
     """A point for each case."""
-    x, y = along.place(along.key.values), up.place(up.key.values)
+    x, y = along.scale(along.key.values), up.scale(up.key.values)
     good = sweep.done & np.isfinite(colors.values)
     many, size = len(x) > _MANY_POINTS, 3 if len(x) > _MANY_POINTS else 14
     axes.scatter(x[good], y[good], size, colors.scale(colors.values[good]), cmap="viridis", norm=norm, lw=0, rasterized=many)
