@@ -17,14 +17,8 @@ bbsim.ball = (() => {
     }
     ink.strokeStyle = 'rgba(20, 24, 30, .55)';
     ink.lineWidth = width / 160;
-    ink.beginPath();
-    for (let sector = 0; sector <= 4; ++sector) {
-      ink.moveTo(sector * width / 4, 0);
-      ink.lineTo(sector * width / 4, height);
-    }
-    ink.moveTo(0, height / 2);
-    ink.lineTo(width, height / 2);
-    ink.stroke();
+    const meridians = [0, 1, 2, 3, 4].map((sector) => `M${sector * width / 4} 0V${height}`);
+    ink.stroke(new Path2D(`${meridians.join('')}M0 ${height / 2}H${width}`));
     ink.fillStyle = 'rgba(20, 24, 30, .8)';
     ink.beginPath();
     ink.ellipse(0.375 * width, 0.27 * height, width / 26, height / 18, 0, 0, 2 * Math.PI);
@@ -35,9 +29,7 @@ bbsim.ball = (() => {
   // run covers those of later ones, which are drawn a little smaller and farther away.
   function build({ball: {radius}, index, turns}) {
     const plain = !turns, ghost = index > 0;
-    const canvas = document.createElement('canvas');
-    canvas.width = 512;
-    canvas.height = 256;
+    const canvas = bbsim.text.element('canvas', {width: 512, height: 256});
     const texture = new THREE.CanvasTexture(canvas);
     const material = bbsim.paint.lit({
       map: texture, gloss: 0.3, transparent: ghost, opacity: ghost ? 0.72 : 1,

@@ -79,19 +79,9 @@
       const [from, to] = graph.xAxisRange();
       const seen = run.windows.filter(({first}) => run.t[first] >= from && run.t[first] <= to);
       ink.setLineDash([3, 4]);
-      for (const {first} of seen.length <= area.w / 8 ? seen : []) {
-        ink.beginPath();
-        ink.moveTo(x(first), area.y);
-        ink.lineTo(x(first), area.y + area.h);
-        ink.stroke();
-      }
-      if (isResidual) {
-        ink.setLineDash([]);
-        ink.beginPath();
-        ink.moveTo(area.x, graph.toDomYCoord(0));
-        ink.lineTo(area.x + area.w, graph.toDomYCoord(0));
-        ink.stroke();
-      }
+      for (const {first} of seen.length <= area.w / 8 ? seen : []) ink.stroke(new Path2D(`M${x(first)} ${area.y}v${area.h}`));
+      ink.setLineDash([]);
+      if (isResidual) ink.stroke(new Path2D(`M${area.x} ${graph.toDomYCoord(0)}h${area.w}`));
       ink.restore();
     };
   }

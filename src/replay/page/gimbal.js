@@ -67,12 +67,7 @@ bbsim.gimbal = (() => {
     ink.strokeStyle = palette.grid;
     for (let many = Math.ceil(size / 2 / spacing) - 1, n = -many; n <= many; ++n) {
       ink.lineWidth = n === 0 ? 2 * line : line;
-      ink.beginPath();
-      ink.moveTo(width / 2 + n * spacing, 0);
-      ink.lineTo(width / 2 + n * spacing, depth);
-      ink.moveTo(0, depth / 2 + n * spacing);
-      ink.lineTo(width, depth / 2 + n * spacing);
-      ink.stroke();
+      ink.stroke(new Path2D(`M${width / 2 + n * spacing} 0V${depth}M0 ${depth / 2 + n * spacing}H${width}`));
     }
     ink.strokeStyle = palette.rim;
     ink.lineWidth = 5 * line;

@@ -141,12 +141,11 @@ bbsim.paint = (() => {
 
   // The mark of an event: an octagon if it stopped the run, a diamond if it was noted.
   function eventMark(action, radius, fill, rim) {
-    const [sides, turn] = action === 'stop' ? [8, Math.PI / 8] : [4, 0], group = new THREE.Group();
+    const [sides, turn] = action === 'stop' ? [8, Math.PI / 8] : [4, 0];
     const outer = new THREE.Mesh(new THREE.CircleBufferGeometry(radius, sides, turn), rim);
     const inner = new THREE.Mesh(new THREE.CircleBufferGeometry(0.68 * radius, sides, turn), fill);
     inner.renderOrder = 0.5;  // draws it above the other one, which is in the same plane
-    group.add(outer, inner);
-    return group;
+    return new THREE.Group().add(outer, inner);
   }
 
   // Places a mesh with sizes in pixels and turns it to the camera. `pixel` is the size of a pixel at
@@ -172,8 +171,7 @@ bbsim.paint = (() => {
 
   // A soft round shadow.
   function shadow(darkness) {
-    const canvas = document.createElement('canvas');
-    canvas.width = canvas.height = 128;
+    const canvas = bbsim.text.element('canvas', {width: 128, height: 128});
     const ink = canvas.getContext('2d', {willReadFrequently: true});
     const fade = ink.createRadialGradient(64, 64, 0, 64, 64, 64);
     for (const [at, part] of [[0, 1], [0.45, 0.75], [0.7, 0.32], [1, 0]]) {
@@ -186,10 +184,8 @@ bbsim.paint = (() => {
 
   // The mark of a sensor point: an upright cross.
   function cross(size, material) {
-    const group = new THREE.Group();
-    group.add(new THREE.Mesh(new THREE.PlaneBufferGeometry(size, 0.22 * size), material),
-              new THREE.Mesh(new THREE.PlaneBufferGeometry(0.22 * size, size), material));
-    return group;
+    const bars = [[size, 0.22 * size], [0.22 * size, size]].map((sides) => new THREE.Mesh(new THREE.PlaneBufferGeometry(...sides), material));
+    return new THREE.Group().add(...bars);
   }
 
   return {lights, ribbon, lit, flat, target, arrow, eventMark, face, marker, shadow, cross};

@@ -26,8 +26,7 @@ bbsim.makePicture = (canvas, left) => {
   root.background = new THREE.Color();
   root.add(world);
 
-  const plate = document.createElement('canvas');
-  plate.width = plate.height = 1024;
+  const plate = text.element('canvas', {width: 1024, height: 1024});
   const plateTexture = new THREE.CanvasTexture(plate);
   plateTexture.anisotropy = 4;
   const materials = {

@@ -236,10 +236,7 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
         const x = graph.toDomXCoord(event.t);
         if (x < area.x || x > area.x + area.w) continue;
         ink.setLineDash(event.action === 'stop' ? [] : [3, 3]);
-        ink.beginPath();
-        ink.moveTo(x, area.y);
-        ink.lineTo(x, area.y + area.h);
-        ink.stroke();
+        ink.stroke(new Path2D(`M${x} ${area.y}v${area.h}`));
       }
       ink.restore();
     }
