@@ -81,8 +81,8 @@ Child::Child(const std::vector<std::string>& words, const std::string& folder, R
     : report_(std::move(report)), stop_(stop), buffer_(longest_line) {
   Pipe input = make_pipe(true), output = make_pipe(false), error = make_pipe(false);
   int fault = 0;
-  process_ =
-      start_program(words, folder, {input.its.get(), output.its.get(), error.its.get()}, fault);
+  process_ = start_program(
+      {words, input.its.get(), output.its.get(), error.its.get(), folder, true}, fault);
   if (process_ == 0) throw std::system_error(fault, std::generic_category());
   input_ = std::move(input.ours);
   output_ = std::move(output.ours);

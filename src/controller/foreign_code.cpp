@@ -5,14 +5,10 @@
 
 #include <dlfcn.h>
 
-#include "file/start_process.hpp"
-
 namespace bbsim::controller {
 
-pid_t start_program(const std::vector<std::string>& words, const std::string& folder,
-                    const Streams& streams, int& error) {
-  return file::start_process({words, streams.input, streams.output, streams.error, folder, true},
-                             error);
+pid_t start_program(const file::NewProcess& program, int& error) {
+  return file::start_process(program, error);
 }
 
 void* open_library(const std::string& path, std::string& error) {

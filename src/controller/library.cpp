@@ -42,10 +42,9 @@ namespace {
 }
 
 template <class Function>
-bool find(void* library, const char* name, Function*& function) {
+void find(void* library, const char* name, Function*& function) {
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): as dlsym gives functions
   function = reinterpret_cast<Function*>(dlsym(library, name));
-  return function != nullptr;
 }
 
 std::shared_ptr<const LibraryFunctions> open(const std::string& path) {
@@ -57,7 +56,8 @@ std::shared_ptr<const LibraryFunctions> open(const std::string& path) {
   }
   const auto functions = std::make_shared<LibraryFunctions>();
   const auto require = [&](const char* name, auto*& function) {
-    if (find(library, name, function)) return;
+    find(library, name, function);
+    if (function != nullptr) return;
     refuse(path, std::string("which has no function ") + name +
                      "; allowed: a shared library, as bbsim/controller.h says");
   };
@@ -72,32 +72,18 @@ std::shared_ptr<const LibraryFunctions> open(const std::string& path) {
   require("bbsim_controller_step", functions->step);
   require("bbsim_controller_destroy", functions->destroy);
   require("bbsim_controller_last_error", functions->last_error);
-  static_cast<void>(find(library, "bbsim_controller_create_wired", functions->create_wired));
-  static_cast<void>(find(library, "bbsim_controller_reset", functions->reset));
-  static_cast<void>(find(library, "bbsim_sketch_printed", functions->printed));
-  static_cast<void>(find(library, "bbsim_sketch_unheard", functions->unheard));
-  static_cast<void>(find(library, "bbsim_sketch_send", functions->send));
-  static_cast<void>(find(library, "bbsim_sketch_receive", functions->receive));
-  static_cast<void>(find(library, "bbsim_sketch_line", functions->line));
+  find(library, "bbsim_controller_create_wired", functions->create_wired);
+  find(library, "bbsim_controller_reset", functions->reset);
+  find(library, "bbsim_sketch_printed", functions->printed);
+  find(library, "bbsim_sketch_unheard", functions->unheard);
+  find(library, "bbsim_sketch_send", functions->send);
+  find(library, "bbsim_sketch_receive", functions->receive);
+  find(library, "bbsim_sketch_line", functions->line);
   return functions;
 }
 
-// The value of bbsim_setup::drives_acceleration.
-std::uint32_t c_drives(Drives drives) {
-  switch (drives) {
-    case Drives::angle:
-      return 0;
-    case Drives::acceleration:
-      return 1;
-    case Drives::torque:
-      return 2;
-    case Drives::voltage:
-      return 3;
-    case Drives::legs:
-      return 4;
-  }
-  return 0;
-}
+// The values of bbsim_setup::drives_acceleration, in the order of Drives.
+constexpr std::uint32_t c_drives[] = {1, 0, 2, 3, 4};
 
 // A setup for a library, valid as long as this object.
 class CSetup {
@@ -107,7 +93,7 @@ class CSetup {
       parameters_.push_back({one.name.c_str(), one.value});
     }
     for (const std::string& name : setup.columns) columns_.push_back(name.c_str());
-    c_ = {BBSIM_CONTROLLER_ABI, c_drives(setup.drives),
+    c_ = {BBSIM_CONTROLLER_ABI, c_drives[static_cast<std::size_t>(setup.drives)],
           setup.period,         setup.delay,
           setup.resolution,     setup.derivative_filter,
           setup.limit,          setup.end,

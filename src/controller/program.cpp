@@ -103,16 +103,16 @@ void Program::begin() {
   if (fault_) throw model::ControllerFault(*fault_);
 }
 
-// `read` reads the answer and returns what is wrong with it. `when` says when bbsim asked for it.
-template <class When, class Read>
-void Program::ask(std::string_view line, When when, Read read) {
+// Sends the line of a sample. `read` reads the answer and returns what is wrong with it.
+template <class Read>
+void Program::ask(std::string_view line, const model::ControllerSample& sample, Read read) {
   if (!child_) throw model::ControllerFault("the controller has already ended");
   try {
     const std::string wrong = read(child_->ask(line, program_.timeout));
     if (!wrong.empty()) throw child_->refuse(wrong);
   } catch (const ChildFault& fault) {
     child_.reset();
-    throw fault_of(when(), fault);
+    throw fault_of(at_sample(sample), fault);
   } catch (const ChildInterrupted&) {
     child_.reset();
     throw model::ControllerFault("interrupted", true);
@@ -123,12 +123,10 @@ model::Commands Program::command(const model::ControllerSample& sample, double* 
   char line[longest_sample];
   const std::size_t size = write_sample(sample, ready_.fields, line);
   model::Commands command{};
-  ask(
-      {line, size}, [&] { return at_sample(sample); },
-      [&](std::string_view answer) {
-        return read_answer(answer, setup_.columns, {command.data(), setup_.commands()}, own,
-                           sample.number == 0);
-      });
+  ask({line, size}, sample, [&](std::string_view answer) {
+    return read_answer(answer, setup_.columns, {command.data(), setup_.commands()}, own,
+                       sample.number == 0);
+  });
   return command;
 }
 
@@ -137,12 +135,10 @@ SerialAnswer Program::exchange(const model::ControllerSample& sample, std::strin
   char line[longest_sample];
   const std::size_t size = write_sample(sample, ready_.fields, line);
   SerialAnswer result;
-  ask(
-      with_serial({line, size}, arrived), [&] { return at_sample(sample); },
-      [&](std::string_view answer) {
-        result = read_serial_answer(answer, names, own);
-        return result.fault;
-      });
+  ask(with_serial({line, size}, arrived), sample, [&](std::string_view answer) {
+    result = read_serial_answer(answer, names, own);
+    return result.fault;
+  });
   return result;
 }
 

@@ -49,8 +49,8 @@ class Program : public model::ExternalController {
  private:
   void start();
   void say_hello();
-  template <class When, class Read>
-  void ask(std::string_view line, When when, Read read);
+  template <class Read>
+  void ask(std::string_view line, const model::ControllerSample& sample, Read read);
   [[nodiscard]] model::ControllerFault fault_of(const std::string& when,
                                                 const ChildFault& fault) const;
 

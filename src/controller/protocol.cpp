@@ -119,6 +119,17 @@ std::optional<std::string> error_of(std::string_view line) {
   return error->get<std::string>();
 }
 
+// The bytes of a text whose characters are U+0000 to U+00FF; false: it has others.
+bool bytes_of(std::string_view text, std::string& bytes) {
+  while (!text.empty()) {
+    const Utf8Character next = first_character(text);
+    if (next.length == 0 || next.code > 0xFF) return false;
+    bytes += static_cast<char>(next.code);
+    text.remove_prefix(next.length);
+  }
+  return true;
+}
+
 }  // namespace
 
 std::string refusal(std::string_view line, const std::string& why) {
@@ -295,23 +306,6 @@ std::string read_answer(std::string_view line, std::span<const std::string> name
   }
   return {};
 }
-
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-// The bytes of a text whose characters are U+0000 to U+00FF; false: it has others.
-bool bytes_of(std::string_view text, std::string& bytes) {
-  while (!text.empty()) {
-    const Utf8Character next = first_character(text);
-    if (next.length == 0 || next.code > 0xFF) return false;
-    bytes += static_cast<char>(next.code);
-    text.remove_prefix(next.length);
-  }
-  return true;
-}
-
-}  // namespace
 
 std::string with_serial(std::string_view sample_line, std::string_view bytes) {
   std::string text;  // UTF-8

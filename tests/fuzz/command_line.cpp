@@ -150,9 +150,7 @@ const std::atomic<bool>& bbsim::app::watch_signals() {
 }
 
 // Replaces src/controller/foreign_code.cpp entirely, because an input could run anything.
-pid_t bbsim::controller::start_program(const std::vector<std::string>& /*words*/,
-                                       const std::string& /*folder*/, const Streams& /*streams*/,
-                                       int& error) {
+pid_t bbsim::controller::start_program(const bbsim::file::NewProcess& /*program*/, int& error) {
   error = EPERM;
   return 0;
 }

@@ -174,9 +174,7 @@ void must_be_read(const Input& input) {
 }  // namespace
 
 // Replaces src/controller/foreign_code.cpp entirely, because an input could run anything.
-pid_t bbsim::controller::start_program(const std::vector<std::string>& /*words*/,
-                                       const std::string& /*folder*/, const Streams& /*streams*/,
-                                       int& error) {
+pid_t bbsim::controller::start_program(const bbsim::file::NewProcess& /*program*/, int& error) {
   error = EPERM;
   return 0;
 }
