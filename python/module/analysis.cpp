@@ -85,18 +85,8 @@ py::list drawn(const Given& given, const Texts& vary, std::optional<double> samp
   sweep.seed = seed;
   const sweep::SweepPlan plan(family, sweep);
   static_cast<void>(plan.check(family, 0, plan.cases(), [](double) { return true; }));
-  std::vector<py::list> values(plan.axes().size());
-  std::vector<double> row(values.size());
-  for (std::size_t i = 0; i < plan.cases(); ++i) {
-    plan.values(i, row.data());
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      const sweep::PlanAxis& axis = plan.axes()[k];
-      values[k].append(axis.numeric ? py::cast(row[k])
-                                    : py::cast(axis.texts[static_cast<std::size_t>(row[k])]));
-    }
-  }
-  for (std::size_t k = 0; k < row.size(); ++k) {
-    keys.append(py::make_tuple(plan.axes()[k].key, values[k]));
+  for (const auto& [key, numbers, texts] : plan.values()) {
+    keys.append(py::make_tuple(key, texts.empty() ? py::cast(numbers) : py::cast(texts)));
   }
   return keys;
 }

@@ -156,15 +156,7 @@ std::vector<sweep::SweepPlan::ListedKey> drawn_rigs(const ScenarioFamily& family
   }
   sweep.samples = static_cast<double>(count);
   sweep.seed = own.seed;
-  const sweep::SweepPlan plan(family, sweep);
-  std::vector<sweep::SweepPlan::ListedKey> rigs;
-  for (const sweep::PlanAxis& axis : plan.axes()) rigs.push_back({axis.key, {}, {}});
-  std::vector<double> values(rigs.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    plan.values(i, values.data());
-    for (std::size_t k = 0; k < rigs.size(); ++k) rigs[k].numbers.push_back(values[k]);
-  }
-  return rigs;
+  return sweep::SweepPlan(family, sweep).values();
 }
 
 }  // namespace bbsim::api

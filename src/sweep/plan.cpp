@@ -436,6 +436,21 @@ std::size_t SweepPlan::sampled(std::size_t i) const {
   return static_cast<std::size_t>(part * static_cast<double>(cases_));
 }
 
+std::vector<SweepPlan::ListedKey> SweepPlan::values() const {
+  std::vector<ListedKey> keys;
+  for (const PlanAxis& axis : axes_) keys.push_back({axis.key});
+  std::vector<double> row(axes_.size());
+  for (std::size_t number = 0; number < cases_; ++number) {
+    values(number, row.data());
+    for (std::size_t a = 0; a < row.size(); ++a) {
+      const PlanAxis& axis = axes_[a];
+      if (axis.numeric) keys[a].numbers.push_back(row[a]);
+      if (!axis.numeric) keys[a].texts.push_back(axis.texts[static_cast<std::size_t>(row[a])]);
+    }
+  }
+  return keys;
+}
+
 void SweepPlan::values(std::size_t number, double* values) const {
   std::size_t rest = number / samples_;
   for (std::size_t a = axes_.size(); a-- > 0;) {

@@ -70,6 +70,8 @@ class SweepPlan {
 
   // Writes the number of each axis in a case, or the index of its text in the list.
   void values(std::size_t number, double* values) const;
+  // Those of all cases.
+  [[nodiscard]] std::vector<ListedKey> values() const;
 
   // The values of a case as settings of a scenario.
   [[nodiscard]] std::vector<ScenarioFamily::Setting> settings(std::size_t number) const;
