@@ -166,8 +166,6 @@ Sweep sweep_of_result(results::Result result, const std::string& name) {
   if (result.scenario) sweep.source = result.scenario->source;
   const results::SweepTable table = results::sweep_table(result);
   const results::Column* const reason = result.find("reason");
-  std::vector<std::string> reasons;
-  if (reason != nullptr) reasons = reason->texts;
   bool before_status = true;
   for (results::Column& column : result.columns) {
     if (column.name == "case") {
@@ -186,8 +184,9 @@ Sweep sweep_of_result(results::Result result, const std::string& name) {
       if (measure.unit.empty() && measure.name == "end_time") measure.unit = "s";
     }
   }
-  for (std::size_t i = 0; i < reasons.size() && i < sweep.status.size(); ++i) {
-    if (!reasons[i].empty()) sweep.status[i] += ": " + reasons[i];
+  const std::size_t reasons = reason == nullptr ? 0 : reason->texts.size();
+  for (std::size_t i = 0; i < std::min(reasons, sweep.status.size()); ++i) {
+    if (!reason->texts[i].empty()) sweep.status[i] += ": " + reason->texts[i];
   }
   // Measures of interest come first; the end time is known for most cases.
   std::stable_partition(sweep.measures.begin(), sweep.measures.end(),
