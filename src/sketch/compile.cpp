@@ -137,8 +137,6 @@ Libraries find_libraries(const std::vector<std::string>& included,
 
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr const char* purpose = "compile the sketch";
 constexpr std::size_t most_in_a_file = (std::size_t{16} << 20U) - 1;  // bytes
 

@@ -33,6 +33,8 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
+// Makes the tokens of a source, which must outlive them. A name, number, string, directive, "::" or
+// "->" is one token, and so is every other character.
 class Scanner {
  public:
   explicit Scanner(std::string_view source) : source_(source) {}
@@ -133,12 +135,6 @@ class Scanner {
   std::size_t at_ = 0;
   Tokens tokens_;
 };
-
-// The source must outlive the tokens. A name, number, string, directive, "::" or "->" is one
-// token, and so is every other character.
-Tokens tokens_of(std::string_view source) {
-  return Scanner(source).tokens();
-}
 
 // Tokens [begin, end): through its semicolon, or through the closing brace of its body.
 struct Declaration {
@@ -309,7 +305,7 @@ class Joined {
 
 std::string joined(const std::vector<SketchFile>& files) {
   const Joined whole(files);
-  const Tokens tokens = tokens_of(whole.text());
+  const Tokens tokens = Scanner(whole.text()).tokens();
   const std::vector<Declaration> declarations = declarations_of(tokens);
   Uses uses = uses_in(tokens, declarations);
   std::unordered_set<std::string_view> cut;       // names whose uses keep_first() has seen
@@ -339,7 +335,7 @@ std::string joined(const std::vector<SketchFile>& files) {
 
 std::vector<std::string> includes_of(const std::string& text) {
   std::vector<std::string> names;
-  for (const Token& token : tokens_of(text)) {
+  for (const Token& token : Scanner(text).tokens()) {
     if (token.kind != Token::Kind::directive) continue;
     const std::size_t word = token.text.find_first_not_of(" \t", 1);
     if (word == std::string_view::npos || !token.text.substr(word).starts_with("include")) continue;

@@ -24,18 +24,14 @@ using yaml::Number;
 
 constexpr double degree = 3.14159265358979323846 / 180;
 
-// The values read. The pointers in `c` are not set yet.
-struct Read {
-  bbsim_wiring c{};
-  std::string frame, lost;
-  std::vector<bbsim_wired_input> inputs;
-  std::vector<int> ignored;
-  std::vector<int> ignored_channels;
-  std::string eeprom_file;
-  int eeprom_size = 1024;
-  bool has_size = false;
-  Wiring::Print print = Wiring::Print::first;
-};
+using Read = Wiring::Content;
+
+// Reports those of the keys that are given.
+void refuse_any(Keys& keys, std::initializer_list<const char*> names, std::string_view why) {
+  for (const char* name : names) {
+    if (const auto given = keys.find(name)) given->report(why);
+  }
+}
 
 // Servo.h's pulse for 90 degrees, in s, and its angle per duration of the pulse, in rad/s.
 constexpr bbsim_wired_servo usual_servo{-1, -1, 1472e-6, 180 * degree / 1856e-6};
@@ -45,7 +41,6 @@ constexpr bbsim_wired_stepper no_stepper{-1, -1, -1, -1, 1, no_number, 0, 0};
 bbsim_wiring by_default() {
   bbsim_wiring c{};
   c.version = BBSIM_WIRING_VERSION;
-  c.setup_before = 1;
   std::ranges::fill(c.servos, usual_servo);
   std::ranges::fill(c.steppers, no_stepper);
   c.oscillator = 25e6;
@@ -89,18 +84,16 @@ void read_servos(Keys& keys, Read& read) {
   if (keys.optional("legs", yaml::ListOf<LegServo, bbsim_wired_servo>{{}, 3, 3, "servos"}, legs) &&
       !legs.empty()) {
     std::ranges::copy(legs, read.c.servos);
-    for (const char* axis : {"phi", "theta"}) {
-      if (const auto given = keys.find(axis)) {
-        given->report("found beside legs; allowed: phi and theta, or the servos of three legs");
-      }
-    }
+    refuse_any(keys, {"phi", "theta"},
+               "found beside legs; allowed: phi and theta, or the servos of three legs");
   }
   if (!keys.find("phi") && !keys.find("theta") && !keys.find("legs"))
     keys.missing("phi", MappingOf(read_servo).allowed());
   keys.optional("ignored", yaml::ListOf<Pin, int>{{}, 1, 70, "pins"}, read.ignored);
+  std::vector<int> channels;
   keys.optional("ignored_channels", yaml::ListOf<Whole, int>{Whole{0, 15}, 1, 16, "channels"},
-                read.ignored_channels);
-  for (const int channel : read.ignored_channels) read.c.ignored_channels |= 1U << channel;
+                channels);
+  for (const int channel : channels) read.c.ignored_channels |= 1U << channel;
   keys.optional("oscillator", Number{Dimension::number, {.above = 0}, "25e6"}, read.c.oscillator);
 }
 
@@ -143,11 +136,8 @@ void read_steppers(Keys& keys, Read& read) {
     keys.optional(legs[i], MappingOf(read_stepper), read.c.steppers[i]);
   }
   if (found_legs) {
-    for (const char* axis : axes) {
-      if (const auto given = keys.find(axis)) {
-        given->report("found beside legs; allowed: phi and theta, or 1, 2 and 3 of three legs");
-      }
-    }
+    refuse_any(keys, {axes[0], axes[1]},
+               "found beside legs; allowed: phi and theta, or 1, 2 and 3 of three legs");
     for (const char* leg : legs) {
       if (!keys.find(leg)) keys.missing(leg, MappingOf(read_stepper).allowed());
     }
@@ -241,12 +231,8 @@ void read_distance(Keys& keys, bbsim_wired_distance& sensor) {
     yaml::NameOf<Chip>{{{Chip::vl53l0x, "vl53l0x"}}}.read(*given, chip);
     sensor.chip = 1;
     sensor.range = 2;
-    for (const char* pin : {"trigger", "echo"}) {
-      if (const auto found = keys.find(pin)) {
-        found->report(
-            "found beside chip; allowed: trigger and echo of an ultrasonic sensor, or chip");
-      }
-    }
+    refuse_any(keys, {"trigger", "echo"},
+               "found beside chip; allowed: trigger and echo of an ultrasonic sensor, or chip");
   } else {
     keys.required("trigger", Pin{}, sensor.trigger);
     keys.required("echo", Pin{}, sensor.echo);
@@ -266,7 +252,6 @@ void read_distances(Keys& keys, bbsim_wiring& wiring) {
 }
 
 void read_eeprom(Keys& keys, Read& read) {
-  read.has_size = keys.find("size").has_value();
   keys.optional("size", Whole{1, 65536}, read.eeprom_size);
   keys.optional("file", yaml::Text{"the name of a file"}, read.eeprom_file);
 }
@@ -286,14 +271,6 @@ void read_costs(Keys& keys, bbsim_call_costs& costs) {
   keys.optional("loop", some, costs.loop);
 }
 
-template <class Enum>
-void read_choice(Keys& keys, const char* key, const yaml::NameOf<Enum>& names,
-                 std::uint32_t& into) {
-  Enum value = static_cast<Enum>(into);
-  keys.optional(key, names, value);
-  into = static_cast<std::uint32_t>(value);
-}
-
 void read_wiring(Keys& keys, Read& read) {
   read.c = by_default();
   keys.exclusive({{"servos"}, {"steppers"}});
@@ -310,9 +287,9 @@ void read_wiring(Keys& keys, Read& read) {
   keys.optional("distances", MappingOf(read_distances), read.c);
   keys.optional("inputs", Inputs{}, read.inputs);
   keys.optional("eeprom", MappingOf(read_eeprom), read);
-  enum class Setup { during, before };
-  read_choice<Setup>(keys, "setup", {{{Setup::before, "before"}, {Setup::during, "during"}}},
-                     read.c.setup_before);
+  enum Setup { during, before } setup = before;
+  keys.optional("setup", yaml::NameOf<Setup>{{{before, "before"}, {during, "during"}}}, setup);
+  read.c.setup_before = setup;
   keys.optional("print",
                 yaml::NameOf<Wiring::Print>{{{Wiring::Print::first, "first"},
                                              {Wiring::Print::all, "all"},
@@ -373,7 +350,6 @@ Wiring::Wiring(const std::string& file) : files_{file} {
   const std::string text = yaml::read_text(file);
   yaml::Problems problems(yaml::name_in_messages(file), yaml::without_byte_order_mark(text), {});
   yaml::Nodes nodes;
-  Read read;
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   try {
     const yaml::Node* const root = yaml::parse_yaml(yaml::check_text(text, 0), 0, nodes);
@@ -382,35 +358,31 @@ Wiring::Wiring(const std::string& file) : files_{file} {
                             "found an empty file; allowed: " + MappingOf(read_wiring).allowed());
     }
     yaml::Context context{problems, folder};
-    MappingOf(read_wiring).read({root, "", {}, &context}, read);
+    MappingOf(read_wiring).read({root, "", {}, &context}, content_);
     check_pins({root, "", {}, &context});
   } catch (const yaml::TextFault& fault) {
     problems.add(fault.position, fault.what());
   }
   problems.throw_if_any();
 
-  frame_ = std::move(read.frame);
-  lost_ = std::move(read.lost);
-  inputs_ = std::move(read.inputs);
-  ignored_ = std::move(read.ignored);
-  if (!read.eeprom_file.empty()) {
-    files_.push_back((folder / read.eeprom_file).string());
-    const auto most = static_cast<std::size_t>(read.has_size ? read.eeprom_size : 65536);
-    eeprom_ = file::read_whole(files_.back(), {}, most);
-    if (!read.has_size) read.eeprom_size = std::max(static_cast<int>(eeprom_.size()), 1);
+  std::string& eeprom = content_.eeprom;
+  std::size_t size = static_cast<std::size_t>(content_.eeprom_size.value_or(1024));
+  if (!content_.eeprom_file.empty()) {
+    files_.push_back((folder / content_.eeprom_file).string());
+    eeprom = file::read_whole(files_.back(), {}, content_.eeprom_size ? size : 65536);
+    if (!content_.eeprom_size) size = std::max<std::size_t>(eeprom.size(), 1);
   }
-  eeprom_.resize(static_cast<std::size_t>(read.eeprom_size), '\xFF');  // as in a new chip
-  c_ = read.c;
-  print_ = read.print;
-  c_.camera.frame = frame_.c_str();
-  c_.camera.lost = lost_.c_str();
-  c_.input_count = inputs_.size();
-  c_.inputs = inputs_.data();
-  c_.ignored_count = ignored_.size();
-  c_.ignored = ignored_.data();
-  c_.eeprom_size = eeprom_.size();
+  eeprom.resize(size, '\xFF');  // as in a new chip
+  bbsim_wiring& c = content_.c;
+  c.camera.frame = content_.frame.c_str();
+  c.camera.lost = content_.lost.c_str();
+  c.input_count = content_.inputs.size();
+  c.inputs = content_.inputs.data();
+  c.ignored_count = content_.ignored.size();
+  c.ignored = content_.ignored.data();
+  c.eeprom_size = eeprom.size();
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): bytes as C has them
-  c_.eeprom = reinterpret_cast<const unsigned char*>(eeprom_.data());
+  c.eeprom = reinterpret_cast<const unsigned char*>(eeprom.data());
 }
 
 }  // namespace bbsim::sketch

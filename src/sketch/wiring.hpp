@@ -6,6 +6,7 @@
 
 #include <bbsim/wiring.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,20 +28,26 @@ class Wiring {
   Wiring& operator=(const Wiring&) = delete;
 
   // Its `print` is null.
-  [[nodiscard]] const bbsim_wiring* get() const { return &c_; }
+  [[nodiscard]] const bbsim_wiring* get() const { return &content_.c; }
   [[nodiscard]] bool has_steppers() const {
-    return c_.steppers[0].step >= 0 || c_.steppers[1].step >= 0;
+    return content_.c.steppers[0].step >= 0 || content_.c.steppers[1].step >= 0;
   }
-  [[nodiscard]] Print print() const { return print_; }
+  [[nodiscard]] Print print() const { return content_.print; }
   // The files that were read.
   [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
 
+  // What the file has. The pointers in `c` are set once all of it is read.
+  struct Content {
+    bbsim_wiring c{};
+    Print print = Print::first;
+    std::string frame, lost, eeprom_file, eeprom;
+    std::optional<int> eeprom_size;
+    std::vector<bbsim_wired_input> inputs;
+    std::vector<int> ignored;
+  };
+
  private:
-  bbsim_wiring c_{};
-  Print print_ = Print::first;
-  std::string frame_, lost_, eeprom_;
-  std::vector<bbsim_wired_input> inputs_;
-  std::vector<int> ignored_;
+  Content content_;
   std::vector<std::string> files_;
 };
 

@@ -33,10 +33,7 @@ struct Pin {
   [[nodiscard]] static std::string allowed() { return "a pin, 0 to 53 or A0 to A15"; }
   [[nodiscard]] static yaml::Declared declared() { return yaml::Declared::Kind::text; }
   static bool read(const yaml::Value& value, int& into) {
-    if (value.node->kind == yaml::Node::Kind::scalar)
-      into = pin_of(value.node->text);
-    else
-      into = -1;
+    into = value.node->kind == yaml::Node::Kind::scalar ? pin_of(value.node->text) : -1;
     return into >= 0 || value.refuse("", allowed());
   }
 };

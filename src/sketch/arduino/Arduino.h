@@ -162,41 +162,24 @@ inline char* utoa(unsigned value, char* into, int base) {
   return ultoa(value, into, base);
 }
 
-inline bool isAlpha(int c) {
-  return isalpha(c) != 0;
-}
-inline bool isAlphaNumeric(int c) {
-  return isalnum(c) != 0;
-}
-inline bool isDigit(int c) {
-  return isdigit(c) != 0;
-}
-inline bool isHexadecimalDigit(int c) {
-  return isxdigit(c) != 0;
-}
-inline bool isLowerCase(int c) {
-  return islower(c) != 0;
-}
-inline bool isUpperCase(int c) {
-  return isupper(c) != 0;
-}
-inline bool isPrintable(int c) {
-  return isprint(c) != 0;
-}
-inline bool isPunct(int c) {
-  return ispunct(c) != 0;
-}
-inline bool isSpace(int c) {
-  return isspace(c) != 0;
-}
+#define BBSIM_IS(name, of) \
+  inline bool name(int c) { \
+    return of(c) != 0; \
+  }
+BBSIM_IS(isAlpha, isalpha)
+BBSIM_IS(isAlphaNumeric, isalnum)
+BBSIM_IS(isDigit, isdigit)
+BBSIM_IS(isHexadecimalDigit, isxdigit)
+BBSIM_IS(isLowerCase, islower)
+BBSIM_IS(isUpperCase, isupper)
+BBSIM_IS(isPrintable, isprint)
+BBSIM_IS(isPunct, ispunct)
+BBSIM_IS(isSpace, isspace)
+BBSIM_IS(isControl, iscntrl)
+BBSIM_IS(isGraph, isgraph)
+#undef BBSIM_IS
 inline bool isAscii(int c) {
   return c >= 0 && c < 128;
-}
-inline bool isControl(int c) {
-  return iscntrl(c) != 0;
-}
-inline bool isGraph(int c) {
-  return isgraph(c) != 0;
 }
 inline int toAscii(int c) {
   return c & 0x7f;

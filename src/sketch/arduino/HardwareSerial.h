@@ -68,12 +68,12 @@ class Stream : public Print {
   float parseFloat();
   String readString() { return read_text(-2); }
   String readStringUntil(char end) { return read_text(static_cast<unsigned char>(end)); }
-  size_t readBytes(char* into, size_t room);
+  size_t readBytes(char* into, size_t room) { return readBytesUntil(-1, into, room); }
   size_t readBytes(uint8_t* into, size_t room) {
     return readBytes(reinterpret_cast<char*>(into), room);
   }
-  size_t readBytesUntil(char end, char* into, size_t room);
-  size_t readBytesUntil(char end, uint8_t* into, size_t room) {
+  size_t readBytesUntil(int end, char* into, size_t room);
+  size_t readBytesUntil(int end, uint8_t* into, size_t room) {
     return readBytesUntil(end, reinterpret_cast<char*>(into), room);
   }
   bool find(const char* wanted);

@@ -119,6 +119,8 @@ double full_scale();
 // core.cpp: spends the time of a bus transaction. `bytes` does not count the bus address.
 void over_wire(int bytes);
 void over_spi(int bytes);
+// The number as text that ends at `end`, with `ten` as its eleventh digit. Returns its begin.
+char* digits_of(unsigned long long value, int base, char ten, char* end);
 
 // serial.cpp: sends the camera's frames up to now.
 void send_frames();

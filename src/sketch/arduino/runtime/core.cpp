@@ -51,6 +51,16 @@ int cells() {
   return static_cast<int>(board.wiring.eeprom_size);
 }
 
+char* digits_of(unsigned long long value, int base, char ten, char* end) {
+  *--end = '\0';
+  do {
+    const auto digit = static_cast<int>(value % static_cast<unsigned long long>(base));
+    *--end = static_cast<char>(digit < 10 ? '0' + digit : ten + digit - 10);
+    value /= static_cast<unsigned long long>(base);
+  } while (value > 0);
+  return end;
+}
+
 }  // namespace bbsim_board
 
 using namespace bbsim_board;
@@ -78,14 +88,7 @@ char* dtostrf(double value, signed char width, unsigned char digits, char* into)
 
 char* ultoa(unsigned long value, char* into, int base) {
   char digits[8 * sizeof value + 1];
-  char* at = digits + sizeof digits - 1;
-  *at = '\0';
-  do {
-    const auto digit = static_cast<int>(value % static_cast<unsigned long>(base));
-    *--at = static_cast<char>(digit < 10 ? '0' + digit : 'a' + digit - 10);
-    value /= static_cast<unsigned long>(base);
-  } while (value > 0);
-  return strcpy(into, at);
+  return strcpy(into, digits_of(value, base, 'a', digits + sizeof digits));
 }
 
 char* ltoa(long value, char* into, int base) {

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "Arduino.h"
+#include "runtime/board.hpp"
 
 size_t Print::write(const uint8_t* bytes, size_t size) {
   size_t written = 0;
@@ -16,15 +17,7 @@ size_t Print::write(const uint8_t* bytes, size_t size) {
 size_t Print::print_unsigned(unsigned long long value, int base) {
   if (base == 0) return write(static_cast<uint8_t>(value));
   char digits[8 * sizeof value + 1];
-  char* at = digits + sizeof digits - 1;
-  *at = '\0';
-  const auto by = static_cast<unsigned long long>(base < 2 ? 10 : base);
-  do {
-    const auto digit = static_cast<int>(value % by);
-    *--at = static_cast<char>(digit < 10 ? '0' + digit : 'A' + digit - 10);
-    value /= by;
-  } while (value > 0);
-  return write(at);
+  return write(bbsim_board::digits_of(value, base < 2 ? 10 : base, 'A', digits + sizeof digits));
 }
 
 size_t Print::print_signed(long long value, int base) {
@@ -121,21 +114,11 @@ float Stream::parseFloat() {
   return static_cast<float>((negative ? -value : value) * place);
 }
 
-size_t Stream::readBytesUntil(char end, char* into, size_t room) {
+size_t Stream::readBytesUntil(int end, char* into, size_t room) {
   size_t count = 0;
   while (count < room) {
     const int letter = timed(&Stream::read);
     if (letter < 0 || letter == end) break;
-    into[count++] = static_cast<char>(letter);
-  }
-  return count;
-}
-
-size_t Stream::readBytes(char* into, size_t room) {
-  size_t count = 0;
-  while (count < room) {
-    const int letter = timed(&Stream::read);
-    if (letter < 0) break;
     into[count++] = static_cast<char>(letter);
   }
   return count;
