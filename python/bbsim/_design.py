@@ -199,14 +199,6 @@ def section_of(rig: _bbsim.Given, sketch: Optional[str]) -> str:
     return "controller.reference"
 
 
-def size_of(option: str, value: Size) -> Optional[float]:
-    unit, allowed = _SIZES[option]
-    size = None if value is None else _bbsim.value_in(str(value), unit)
-    if value is not None and not (size or 0) > 0:
-        raise refuse(option, str(value) if option == "rate" else f'"{value}"', allowed)
-    return size
-
-
 def axes_of(rig: _bbsim.Given) -> List[int]:
     """The axes that move the ball; one if it is in a groove, across which the reader refuses a start."""
     if rig.has("ball.rolling_radius"):
@@ -322,8 +314,12 @@ def design(scenario: Union[Scenario, _bbsim.Given], free: Union[str, Sequence[st
     files = files_of(named, rig, {}, "table", "output", "sketch", "json")  # the scenario refers to the table
     section = section_of(rig, sketch)
     tilts = section != "controller.reference"
-    asked = zip(_SIZES, (rate, length, window, max_tilt, max_tilt_rate, margin))
-    sizes = {option: size_of(option, value) for option, value in asked}
+    sizes: Dict[str, Any] = {}
+    for option, value in zip(_SIZES, (rate, length, window, max_tilt, max_tilt_rate, margin)):
+        unit, allowed = _SIZES[option]
+        sizes[option] = None if value is None else _bbsim.value_in(str(value), unit)
+        if value is not None and not (sizes[option] or 0) > 0:
+            raise refuse(option, str(value) if option == "rate" else f'"{value}"', allowed)
     period = rig.value("controller.sensor.period") or rig.value("controller.sampling.period")
     # Boards and sensors exchange values more often than a log has rows.
     hertz = sizes["rate"] or (min(1 / period, 200.0) if period else 50.0)

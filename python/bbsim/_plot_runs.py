@@ -269,14 +269,6 @@ def _points(run: _bbsim.Stored, suffix: str = "") -> Array:
     return np.where(np.isfinite(points).all(0), points, np.nan)
 
 
-def _plates(runs: Sequence[_bbsim.Stored]) -> List[Array]:
-    """The edges of the known plates, m."""
-    turn = np.linspace(0, 2 * math.pi, 181)
-    circle, square = np.array([np.cos(turn), np.sin(turn)]), np.array([[-1, 1, 1, -1, -1], [-1, -1, 1, 1, -1]])
-    sizes = dict.fromkeys(tuple(run.plate) for run in runs if run.plate)
-    return [np.array(size)[:, None] / 2 * (circle if len(size) == 1 else square) for size in sizes]
-
-
 class _Path:
     """The paths in the plane, to scale."""
 
@@ -292,7 +284,10 @@ class _Path:
             return [covered(*(points[i] for points in (*paths, *more))) for i in range(2)]
 
         shorter, longer = sorted(map(width, ranges()))
-        plates = _plates(runs.runs)
+        turn = np.linspace(0, 2 * math.pi, 181)
+        circle, square = np.array([np.cos(turn), np.sin(turn)]), np.array([[-1, 1, 1, -1, -1], [-1, -1, 1, 1, -1]])
+        sizes = dict.fromkeys(tuple(run.plate) for run in runs.runs if run.plate)
+        plates = [np.array(size)[:, None] / 2 * (circle if len(size) == 1 else square) for size in sizes]
         # Whether the picture shows no more than the columns: the ball stays on a line along x or y.
         self.is_along_an_axis = self.exists and not plates and shorter < 1e-6 * longer
         # A plate ten times the path's size would make the path too small to see.

@@ -220,7 +220,11 @@ def _histogram(sweep: _Sweep, name: str, sheet: Sheet, box: Box) -> None:
     median: Stroke = {"color": "#000000", "lw": 0.9}
     tail: Stroke = {"color": "#000000", "lw": 0.7, "ls": (0, (4, 2))}
     if len(values):
-        counts, edges = _bars(values, is_wide(along.range), along)
+        if is_wide(along.range):  # the bin width of Freedman and Diaconis, within visible limits
+            counts, edges = np.histogram(values, min(max(len(np.histogram_bin_edges(values, "fd")) - 1, 5), 60))
+        else:  # one bar, no wider than others would be
+            thick = 0.05 if along.log else width(linear_limits(along.range, 0.03)) / 40
+            counts, edges = np.array([len(values)]), np.array([values[0] - thick / 2, values[0] + thick / 2])
         at = np.quantile(values, [0.05, 0.5, 0.95])
         at = np.exp(at) if along.log else at
         ends = np.exp(values[[0, -1]]) if along.log else values[[0, -1]]
@@ -239,14 +243,6 @@ def _histogram(sweep: _Sweep, name: str, sheet: Sheet, box: Box) -> None:
         axes.stairs(counts, np.exp(edges) if along.log else edges, fill=True, color="#7fb8d8")
     for value in at:
         axes.axvline(value, **(median if value == at[len(at) // 2] else tail))
-
-
-def _bars(values: Any, wide: bool, along: _Measure) -> Tuple[Any, Any]:
-    """Counts and edges, with the bin width of Freedman and Diaconis within visible limits."""
-    if not wide:  # one bar, no wider than others would be
-        thick = 0.05 if along.log else width(linear_limits(along.range, 0.03)) / 40
-        return np.array([len(values)]), np.array([values[0] - thick / 2, values[0] + thick / 2])
-    return np.histogram(values, min(max(len(np.histogram_bin_edges(values, "fd")) - 1, 5), 60))
 
 
 # What is drawn over what
