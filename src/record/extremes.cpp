@@ -172,7 +172,7 @@ solve::Bounds Extremes::bounds_of(std::size_t i, const solve::Piece& piece, bool
 }
 
 // Finds the columns whose bounds over the piece, which need no rows, do not exclude a value greater
-// than the greatest so far.
+// than the greatest so far. Takes the values of those that rise or fall all the way.
 void Extremes::find_open(const solve::Piece& piece) {
   open_.clear();
   // The greatest and the least value of one column are neighbors and share the bounds.
@@ -186,7 +186,14 @@ void Extremes::find_open(const solve::Piece& piece) {
     if (!may_exceed(i, bounds)) continue;
     if (!close) bounds = bounds_of(i, piece, true);
     close = true;
-    if (may_exceed(i, bounds)) open_.push_back(i);
+    if (!may_exceed(i, bounds)) continue;
+    if (bounds.trend == 0) {
+      open_.push_back(i);
+    } else {
+      const double t = signs_[i] * bounds.trend > 0 ? piece.to() : piece.from();
+      columns_.evaluate(piece, &t, 1, std::span(&i, 1));
+      take(i, signs_[i] * columns_[i][0], t);
+    }
   }
 }
 

@@ -33,6 +33,7 @@ inline constexpr std::size_t bounded_count = 11;
 struct Bounds {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
+  int trend = 0;  // 1 or -1: the column rises or falls all the way; 0: it may turn
 };
 using BoundsOfColumns = std::array<Bounds, bounded_count>;
 

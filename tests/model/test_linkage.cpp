@@ -31,7 +31,8 @@ namespace {
 void angles_of(const model::ThreeServos& three, const double (&servo)[3], double (&plane)[2]) {
   double sine[3], cosine[3];
   three.directions(servo, sine, cosine);
-  const auto at = three.pose(servo, sine, cosine);
+  model::ThreeServos::Jacobian<double> there;
+  const auto at = three.pose(servo, sine, cosine, there);
   const double theta = std::asin(-at.q);
   plane[0] = std::asin(at.p / std::cos(theta)) + three.offset[0];
   plane[1] = theta + three.offset[1];

@@ -34,11 +34,10 @@ struct Servos {
 
 // The ratio of the singular values of the leg equations, with z relative to the plate's radius.
 double singular_ratio(const ThreeServos& legs, const Pose& at, const Servos& servos) {
-  ThreeServos::Slopes<double> m[3];
-  legs.slopes(at, servos.sine, servos.cosine, m);
+  const auto there = legs.jacobian(at, servos.sine, servos.cosine);
   Eigen::Matrix3d by;
   for (int i = 0; i < 3; ++i) {
-    by.row(i) << m[i].of[0], m[i].of[1], m[i].of[2] * legs.leg[0].plate;
+    by.row(i) << there.of[i].of[0], there.of[i].of[1], there.of[i].of[2] * legs.leg[0].plate;
   }
   const Eigen::Vector3d values = Eigen::JacobiSVD<Eigen::Matrix3d>(by).singularValues();
   return values[0] / values[2];
@@ -53,10 +52,10 @@ std::optional<Pose> continued(const ThreeServos& legs, const double (&direction)
                               const Pose& from, double& way) {
   for (double step = 2e-3; step > 1e-12; step /= 2) {
     const Servos servos(legs, direction, way + step);
-    const Pose to = legs.pose_near(from, servos.sine, servos.cosine);
+    ThreeServos::Jacobian<double> there;
+    const Pose to = legs.pose_near(from, servos.sine, servos.cosine, there);
     Pose next;
-    double whole;
-    const bool solves = legs.newton_step(servos.sine, servos.cosine, to, next, whole) < 1e-24;
+    const bool solves = legs.newton_step(servos.sine, servos.cosine, to, next, there) < 1e-24;
     if (!solves || !(distance(legs, from, to) < 1e-3)) continue;
     way += step;
     return to;
@@ -104,10 +103,11 @@ TEST_CASE("in long steps, legs of any size keep their assembly up to singular va
       if (!at_end) fine = *further;
       if (!at_end && way < next) continue;
       const Servos servos(legs, direction, way);
-      coarse = legs.pose_from(coarse, from, servos.angle, servos.sine, servos.cosine);
+      ThreeServos::Jacobian<double> there;
+      coarse = legs.pose_from(coarse, from, servos.angle, servos.sine, servos.cosine, there);
       // Rounding, 500 times; poses of another assembly differ by more than 1e-3.
       REQUIRE(distance(legs, coarse, fine) < 1e-11);
-      const Pose from_home = legs.pose(servos.angle, servos.sine, servos.cosine);
+      const Pose from_home = legs.pose(servos.angle, servos.sine, servos.cosine, there);
       REQUIRE(distance(legs, from_home, fine) < 1e-11);
       if (at_end) break;
       std::copy_n(servos.angle, 3, from);

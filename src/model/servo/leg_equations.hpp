@@ -333,53 +333,63 @@ struct LegEquations {
     return inverse;
   }
 
+  // The leg equations linearized in a pose.
+  template <class Real>
+  struct Jacobian {
+    Slopes<Real> of[3];
+    Inverse<Real> inverse;
+  };
+  template <class Real>
+  [[nodiscard]] Jacobian<Real> jacobian(const Pose<Real>& at, const Real (&sine)[3],
+                                        const Real (&cosine)[3]) const {
+    Jacobian<Real> there;
+    slopes(at, sine, cosine, there.of);
+    there.inverse = inverse_of(there.of);
+    return there;
+  }
+
   // The rates of p, q and z at these rates of the servos.
   template <class Real>
-  [[nodiscard]] Pose<Real> pose_rate(const Slopes<Real> (&m)[3], const Inverse<Real>& inverse,
-                                     const Real (&rate)[3]) const {
+  [[nodiscard]] Pose<Real> pose_rate(const Jacobian<Real>& by, const Real (&rate)[3]) const {
     Real right[3], of[3];
-    for (int i = 0; i < 3; ++i) right[i] = -(m[i].of_horn * (leg[i].turns * rate[i]));
-    inverse.times(right, of);
+    for (int i = 0; i < 3; ++i) right[i] = -(by.of[i].of_horn * (leg[i].turns * rate[i]));
+    by.inverse.times(right, of);
     return {of[0], of[1], of[2]};
   }
   // Their accelerations: the leg equations differentiated twice.
   template <class Real>
   [[nodiscard]] Pose<Real> pose_acceleration(const Pose<Real>& at, const Pose<Real>& pose_rate,
-                                             const Slopes<Real> (&m)[3],
-                                             const Inverse<Real>& inverse, const Real (&sine)[3],
+                                             const Jacobian<Real>& by, const Real (&sine)[3],
                                              const Real (&cosine)[3], const Real (&rate)[3],
                                              const Real (&acceleration)[3]) const {
     Joint<Real> velocity[3], bend[3];
     motions(at, pose_rate, velocity, bend);
     Real right[3], of[3];
     for (int i = 0; i < 3; ++i) {
-      const Joint<Real>& rod = m[i].rod;
+      const Joint<Real>& rod = by.of[i].rod;
       const Real turning = leg[i].horn * (leg[i].turns * rate[i]);
       const Real vx = velocity[i].x + sine[i] * turning, vz = velocity[i].z - cosine[i] * turning;
       const Real inward = leg[i].horn * (rate[i] * rate[i]);
       const Real ax = bend[i].x + cosine[i] * inward, az = bend[i].z + sine[i] * inward;
       right[i] = -(vx * vx + vz * vz + (rod.x * ax + rod.z * az) +
-                   m[i].of_horn * (leg[i].turns * acceleration[i]));
+                   by.of[i].of_horn * (leg[i].turns * acceleration[i]));
     }
-    inverse.times(right, of);
+    by.inverse.times(right, of);
     return {of[0], of[1], of[2]};
   }
 
-  // One step of Newton's iteration for the leg equations, (M54) with (M59). Returns the step's
-  // squared length, with z relative to the plate's radius, and sets the determinant.
+  // One step of Newton's iteration for the leg equations, (M54) with (M59), and the equations'
+  // Jacobian before it. Returns the step's squared length, with z relative to the plate's radius.
   template <class Real>
   Real newton_step(const Real (&sine)[3], const Real (&cosine)[3], const Pose<Real>& at,
-                   Pose<Real>& next, Real& determinant_there) const {
-    Slopes<Real> m[3];
-    slopes(at, sine, cosine, m);
-    const Inverse<Real> inverse = inverse_of(m);
-    determinant_there = inverse.determinant;
+                   Pose<Real>& next, Jacobian<Real>& before) const {
+    before = jacobian(at, sine, cosine);
     Real right[3], step[3];
     for (int i = 0; i < 3; ++i) {
-      const Joint<Real>& rod = m[i].rod;
+      const Joint<Real>& rod = before.of[i].rod;
       right[i] = 0.5 * (rod.x * rod.x + rod.z * rod.z - Real(leg[i].rod * leg[i].rod));
     }
-    inverse.times(right, step);
+    before.inverse.times(right, step);
     next = {at.p - step[0], at.q - step[1], at.z - step[2]};
     const Real rise = (1 / leg[0].plate) * step[2];
     return step[0] * step[0] + step[1] * step[1] + rise * rise;

@@ -573,14 +573,14 @@ ThreeServos make_three_servos(const ThreeServoPlate& of, Assumed assumed, const 
   set_planes(three.leg, key);
   three.assumed = assumed;
   const ThreeServos::Pose<double> home{0, 0, of.leg(0).height};
-  ThreeServos::Slopes<double> m[3];
-  three.slopes(home, sine, cosine, m);
+  const ThreeServos::Jacobian<double> at_home = three.jacobian(home, sine, cosine);
   double scale = 1;
   for (int i = 0; i < 3; ++i) {
     ThreeServos::Leg& leg = three.leg[i];
     // p corresponds to phi, and q to -theta.
-    leg.slope[0] = leg.turns * (-m[i].of[0] / m[i].of_horn);
-    leg.slope[1] = leg.turns * (m[i].of[1] / m[i].of_horn);
+    const ThreeServos::Slopes<double>& m = at_home.of[i];
+    leg.slope[0] = leg.turns * (-m.of[0] / m.of_horn);
+    leg.slope[1] = leg.turns * (m.of[1] / m.of_horn);
     if (const double offset = of.leg(static_cast<std::size_t>(i)).offset; offset != 0) {
       leg.level = -leg.turns * offset;
       leg.sin_zero = std::sin(leg.home + offset);
@@ -589,12 +589,29 @@ ThreeServos make_three_servos(const ThreeServoPlate& of, Assumed assumed, const 
     scale *= leg.rod;
   }
   scale *= three.leg[0].plate * three.leg[0].plate;
-  const ThreeServos::Inverse<double> inverse = ThreeServos::inverse_of(m);
-  three.determinant = inverse.determinant;
+  three.determinant = at_home.inverse.determinant;
   if (!(std::abs(three.determinant) > 1e-9 * scale)) {
     throw KeyError(key,
                    "found rods that are level at home, and do not hold the plate up; allowed: "
                    "another height");
+  }
+  three.pose_slopes(at_home, three.home_slopes);
+  // The pose's acceleration at rates of the servos is a quadratic form of them.
+  const auto form = [&](int i, int j) {
+    double rate[3] = {};
+    const double none[3] = {};
+    rate[i] = rate[j] = 1;
+    const auto [p, q, z] = three.pose_acceleration(home, three.pose_rate(at_home, rate), at_home,
+                                                   sine, cosine, rate, none);
+    return std::array{p, q, z};
+  };
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const auto both = form(i, j), first = form(i, i), second = form(j, j);
+      for (std::size_t k = 0; k < 3; ++k) {
+        three.home_bends[k][i][j] = i == j ? both[k] : (both[k] - first[k] - second[k]) / 2;
+      }
+    }
   }
   const double length = three.leg[0].slope[0] * three.leg[0].slope[0] +
                         three.leg[1].slope[0] * three.leg[1].slope[0] +
@@ -603,10 +620,8 @@ ThreeServos make_three_servos(const ThreeServoPlate& of, Assumed assumed, const 
     // For equal legs, the two columns of slopes are orthogonal and of equal length.
     for (int j = 0; j < 2; ++j) three.inferred[j][i] = three.leg[i].slope[j] / length;
     if (three.equal) continue;
-    double by[3][3];
-    three.pose_slopes(m, inverse, by);
-    three.inferred[0][i] = by[0][i];
-    three.inferred[1][i] = -by[1][i];
+    three.inferred[0][i] = three.home_slopes[0][i];
+    three.inferred[1][i] = -three.home_slopes[1][i];
   }
   return three;
 }

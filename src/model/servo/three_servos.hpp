@@ -31,15 +31,22 @@ struct ThreeServos : LegEquations {
   double inferred[2][3] = {};  // phi and theta from servo angles by the slopes at home
   double cos_offset[2] = {1, 1}, sin_offset[2] = {0, 0}, offset[2] = {0, 0};  // of the plane, rad
   double determinant = 1;                                                     // at home
+  // The first and second derivatives of p, q and z by the servos' angles, at home.
+  double home_slopes[3][3] = {}, home_bends[3][3][3] = {};
 
-  template <class Real>
-  void directions(const Real (&servo)[3], Real (&sine)[3], Real (&cosine)[3]) const {
+  // The directions of the horns at these servo angles. wave(angle) gives sine and cosine.
+  template <class Real, class Wave>
+  void directions(const Real (&servo)[3], Real (&sine)[3], Real (&cosine)[3], Wave wave) const {
     for (int i = 0; i < 3; ++i) {
-      const SinCos<Real> at = sin_cos(servo[i]);
+      const SinCos<Real> at = wave(servo[i]);
       const Leg& of = leg[i];
       sine[i] = of.cos_zero * (of.turns * at.sin) + of.sin_zero * at.cos;
       cosine[i] = of.cos_zero * at.cos - of.sin_zero * (of.turns * at.sin);
     }
+  }
+  template <class Real>
+  void directions(const Real (&servo)[3], Real (&sine)[3], Real (&cosine)[3]) const {
+    directions(servo, sine, cosine, [](const Real& angle) { return sin_cos(angle); });
   }
 
   // Where Newton's iteration gets from the pose `known`, which belongs to the angles `from`, while
@@ -49,17 +56,21 @@ struct ThreeServos : LegEquations {
   [[nodiscard]] Pose<Value> follow(const Pose<Known>& known, const Known (&from)[3],
                                    const Value (&servo)[3], int parts) const {
     Pose<Value> at{Value(known.p), Value(known.q), Value(known.z)}, next;
-    Value between[3], sine[3], cosine[3], whole;
+    Value between[3], sine[3], cosine[3];
+    Jacobian<Value> before;
     for (int k = 1; k < parts; ++k) {
       const double part = static_cast<double>(k) / parts;
       for (int i = 0; i < 3; ++i) {
         between[i] = part * servo[i] + Value((1 - part) * from[i]);
       }
       directions(between, sine, cosine);
-      newton_step(sine, cosine, at, next, whole);
+      newton_step(sine, cosine, at, next, before);
       at = next;
     }
     return at;
+  }
+  [[nodiscard]] static double largest_size(const double (&moved)[3]) {
+    return std::fmax(std::fmax(std::abs(moved[0]), std::abs(moved[1])), std::abs(moved[2]));
   }
   // The number of parts for servos that move this far, rad.
   static constexpr int most_parts = 64;
@@ -68,41 +79,50 @@ struct ThreeServos : LegEquations {
     return motion < most_parts * far ? 1 + static_cast<int>(motion / far) : most_parts;
   }
 
-  // The pose in these directions of the horns near a pose. Newton's iteration goes on until its
-  // steps are small, which takes many only near the edge of the workspace. This needs no
-  // derivatives. The last steps square the error, and provide them. `determinant_near` becomes that
-  // of the leg equations before the last step.
+  // The pose in these directions of the horns near a pose, and the leg equations' Jacobian there.
+  // Newton's iteration goes on until its steps are small, which takes many only near the edge of
+  // the workspace. This needs no derivatives. The last steps square the error, and provide them.
   //
   // With the determinant d over that at home, a step L leaves an error of some (5 / d) L^2. A last
   // step after L^2 <= 1e-9 d^2 therefore leaves 125 / d^3 L^4, which is below rounding.
   template <class Real, class Value>
   [[nodiscard]] Pose<Real> pose_near(Pose<Value> at, const Real (&sine)[3], const Real (&cosine)[3],
-                                     Real* determinant_near = nullptr) const {
-    constexpr int most_steps = 40, last_steps = std::is_same_v<Real, Value> ? 1 : 2;
-    constexpr double small = 1e-9;
+                                     Jacobian<Real>& there) const {
+    constexpr bool plain = std::is_same_v<Real, Value>;
+    constexpr int most_steps = 40, last_steps = plain ? 1 : 2;
+    constexpr double small = 1e-9, negligible = 1e-26;
     Pose<Value> next;
-    Value s[3], c[3], whole;
+    Value s[3], c[3];
     for (int i = 0; i < 3; ++i) {
       s[i] = value_of(sine[i]);
       c[i] = value_of(cosine[i]);
     }
+    // How far a step's squared length is beyond a limit, which shrinks with the determinant.
+    const auto beyond = [this](double limit, const Value& square, const Value& whole) {
+      return (determinant * determinant) * square - limit * (whole * whole);
+    };
     auto goes_on = exceeds(Value(1.0), Value(0.0));
     for (int k = 0; k < most_steps; ++k) {
-      const Value square = newton_step(s, c, at, next, whole);
+      Jacobian<Value> before;
+      const Value square = newton_step(s, c, at, next, before);
       // A lane that has arrived waits for the others, so that its result does not depend on them.
       at = {choose(goes_on, next.p, at.p), choose(goes_on, next.q, at.q),
             choose(goes_on, next.z, at.z)};
-      const Value left = (determinant * determinant) * square - small * (whole * whole);
+      const Value left = beyond(small, square, before.inverse.determinant);
       goes_on = goes_on & exceeds(left, Value(0.0));
       if (!(largest_of(left) > 0)) break;
     }
     Pose<Real> pose{Real(at.p), Real(at.q), Real(at.z)}, better;
-    Real determinant_there;
+    Value square;
     for (int k = 0; k < last_steps; ++k) {
-      newton_step(sine, cosine, pose, better, determinant_there);
+      square = value_of(newton_step(sine, cosine, pose, better, there));
       pose = better;
     }
-    if (determinant_near != nullptr) *determinant_near = determinant_there;
+    // Usually the last step is so short that it does not change the Jacobian.
+    if (!plain ||
+        !(largest_of(beyond(negligible, square, value_of(there.inverse.determinant))) <= 0)) {
+      there = jacobian(pose, sine, cosine);
+    }
     return pose;
   }
 
@@ -111,14 +131,11 @@ struct ThreeServos : LegEquations {
   // iteration may get to the other pose; the way is then cut into more parts.
   [[nodiscard]] Pose<double> pose_from(const Pose<double>& known, const double (&from)[3],
                                        const double (&servo)[3], const double (&sine)[3],
-                                       const double (&cosine)[3]) const {
-    double moved = 0;
-    for (int i = 0; i < 3; ++i) moved = std::fmax(moved, std::abs(servo[i] - from[i]));
-    for (int parts = parts_for(moved);; parts *= 8) {
-      double determinant_near;
-      const Pose<double> at =
-          pose_near(follow(known, from, servo, parts), sine, cosine, &determinant_near);
-      if (determinant_near * determinant > 0 || parts >= most_parts) return at;
+                                       const double (&cosine)[3], Jacobian<double>& there) const {
+    const double moved[3] = {servo[0] - from[0], servo[1] - from[1], servo[2] - from[2]};
+    for (int parts = parts_for(largest_size(moved));; parts *= 8) {
+      const Pose<double> at = pose_near(follow(known, from, servo, parts), sine, cosine, there);
+      if (there.inverse.determinant * determinant > 0 || parts >= most_parts) return at;
     }
   }
 
@@ -128,29 +145,47 @@ struct ThreeServos : LegEquations {
     return {0, 0, leg[0].height};
   }
 
+  // The pose near home by its Taylor polynomial of second order.
+  [[nodiscard]] Pose<double> pose_by_series(const double (&moved)[3]) const {
+    double at[3];
+    for (int k = 0; k < 3; ++k) {
+      at[k] = 0;
+      for (int i = 0; i < 3; ++i) {
+        const double* const bend = home_bends[k][i];
+        const double bent = bend[0] * moved[0] + bend[1] * moved[1] + bend[2] * moved[2];
+        at[k] += moved[i] * (home_slopes[k][i] + 0.5 * bent);
+      }
+    }
+    return {at[0], at[1], leg[0].height + at[2]};
+  }
+
   // The pose at these servo angles, followed from home.
   template <class Real>
   [[nodiscard]] Pose<Real> pose(const Real (&servo)[3], const Real (&sine)[3],
-                                const Real (&cosine)[3]) const {
+                                const Real (&cosine)[3], Jacobian<Real>& there) const {
     using Value = std::decay_t<decltype(value_of(servo[0]))>;
     constexpr int parts = 4;
     const Value to[3] = {value_of(servo[0]), value_of(servo[1]), value_of(servo[2])};
     double from[3];
     const Pose<double> known = home(from);
     if constexpr (std::is_same_v<Real, double>) {
-      return pose_from(known, from, servo, sine, cosine);
+      const double moved[3] = {servo[0] - from[0], servo[1] - from[1], servo[2] - from[2]};
+      if (parts_for(largest_size(moved)) == 1) {
+        const Pose<double> at = pose_near(pose_by_series(moved), sine, cosine, there);
+        if (there.inverse.determinant * determinant > 0) return at;
+      }
+      return pose_from(known, from, servo, sine, cosine, there);
     } else {
-      return pose_near(follow(known, from, to, parts), sine, cosine);
+      return pose_near(follow(known, from, to, parts), sine, cosine, there);
     }
   }
 
   // The derivatives of p, q and z by the servos' angles.
   template <class Real>
-  void pose_slopes(const Slopes<Real> (&m)[3], const Inverse<Real>& inverse,
-                   Real (&by)[3][3]) const {
+  void pose_slopes(const Jacobian<Real>& there, Real (&by)[3][3]) const {
     for (int i = 0; i < 3; ++i) {
-      const Real horn = leg[i].turns * m[i].of_horn;
-      for (int k = 0; k < 3; ++k) by[k][i] = -(inverse.of[k][i] * horn);
+      const Real horn = leg[i].turns * there.of[i].of_horn;
+      for (int k = 0; k < 3; ++k) by[k][i] = -(there.inverse.of[k][i] * horn);
     }
   }
 
@@ -171,10 +206,10 @@ struct ThreeServos : LegEquations {
   // at home, less `before_edge`, and the sines of the angles between horns and rods.
   static constexpr int edge_count = 4;
   template <class Real>
-  void edges(const Slopes<Real> (&m)[3], const Real& determinant_there, Real* into) const {
-    into[0] = (1 / determinant) * determinant_there - Real(before_edge);
+  void edges(const Jacobian<Real>& there, Real* into) const {
+    into[0] = (1 / determinant) * there.inverse.determinant - Real(before_edge);
     for (int i = 0; i < 3; ++i) {
-      into[1 + i] = (leg[i].side / (leg[i].rod * leg[i].horn)) * m[i].of_horn;
+      into[1 + i] = (leg[i].side / (leg[i].rod * leg[i].horn)) * there.of[i].of_horn;
     }
   }
 
@@ -184,20 +219,18 @@ struct ThreeServos : LegEquations {
               GimbalAngle<Real> (&axis)[2]) const {
     Real sine[3], cosine[3];
     directions(servo, sine, cosine);
-    const Pose<Real> at = pose(servo, sine, cosine);
-    Slopes<Real> m[3];
-    slopes(at, sine, cosine, m);
-    planes_in(at, m, inverse_of(m), sine, cosine, rate, acceleration, axis);
+    Jacobian<Real> there;
+    const Pose<Real> at = pose(servo, sine, cosine, there);
+    planes_in(at, there, sine, cosine, rate, acceleration, axis);
   }
 
-  // The same in a pose that is known, with its slopes().
+  // The same in a pose that is known, with its jacobian().
   template <class Real>
-  void planes_in(const Pose<Real>& at, const Slopes<Real> (&m)[3], const Inverse<Real>& inverse,
-                 const Real (&sine)[3], const Real (&cosine)[3], const Real (&rate)[3],
-                 const Real (&acceleration)[3], GimbalAngle<Real> (&axis)[2]) const {
-    const Pose<Real> first = pose_rate(m, inverse, rate);
-    const Pose<Real> second =
-        pose_acceleration(at, first, m, inverse, sine, cosine, rate, acceleration);
+  void planes_in(const Pose<Real>& at, const Jacobian<Real>& there, const Real (&sine)[3],
+                 const Real (&cosine)[3], const Real (&rate)[3], const Real (&acceleration)[3],
+                 GimbalAngle<Real> (&axis)[2]) const {
+    const Pose<Real> first = pose_rate(there, rate);
+    const Pose<Real> second = pose_acceleration(at, first, there, sine, cosine, rate, acceleration);
     // sin theta = -q and sin phi = p / cos theta, (M61), so cos phi cos theta = n.
     const Real one = Real(1.0);
     const Real cos_theta = root_along(one - at.q * at.q, one), over_theta = one / cos_theta;
@@ -239,8 +272,8 @@ struct ThreeServos : LegEquations {
       const Real square = to.x * to.x + to.z * to.z;
       const Real k = (0.5 / of.horn) * (square + Real(of.horn * of.horn - of.rod * of.rod));
       const Real root = root_along(square - k * k, Real(of.side));
-      const Real sine = (k * to.z + root * to.x) / square;
-      const Real cosine = (k * to.x - root * to.z) / square;
+      const Real over = Real(1.0) / square;
+      const Real sine = over * (k * to.z + root * to.x), cosine = over * (k * to.x - root * to.z);
       servo[i] = of.turns * angle_of(Real(of.cos_zero * sine - of.sin_zero * cosine),
                                      Real(of.cos_zero * cosine + of.sin_zero * sine));
     }
@@ -275,15 +308,13 @@ struct ThreeServos : LegEquations {
   // The least of the edges(); -1 beyond the edge, where no pose fits the servos' angles. Where the
   // determinant is zero, the plate's rate is infinite.
   [[nodiscard]] double margin(const double (&servo)[3]) const {
-    double sine[3], cosine[3], whole = 0;
+    double sine[3], cosine[3], margins[edge_count];
     directions(servo, sine, cosine);
-    const Pose<double> at = pose(servo, sine, cosine);
+    Jacobian<double> there;
+    const Pose<double> at = pose(servo, sine, cosine, there);
     Pose<double> next;
-    if (!(newton_step(sine, cosine, at, next, whole) < 1e-12)) return -1;
-    Slopes<double> m[3];
-    slopes(at, sine, cosine, m);
-    double margins[edge_count];
-    edges(m, whole, margins);
+    if (!(newton_step(sine, cosine, at, next, there) < 1e-12)) return -1;
+    edges(there, margins);
     return std::fmin(std::fmin(margins[0], margins[1]), std::fmin(margins[2], margins[3]));
   }
 

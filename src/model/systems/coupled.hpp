@@ -332,10 +332,11 @@ class CoupledLoop {
 
   template <class Time>
   [[nodiscard]] auto inputs(const Time& t) const {
+    const auto of = by == GimbalBy::given_torques ? loop.reference().at(t) : loop.inputs(t);
     if constexpr (pushes) {
-      return push.with(loop.inputs(t), t);
+      return push.with(of, t);
     } else {
-      return loop.inputs(t);
+      return of;
     }
   }
 
@@ -401,7 +402,7 @@ class CoupledLoop {
 
   [[nodiscard]] CoupledExtras extras(double t, const double* z) const {
     double command[2];
-    const Balance<double> now = balance(all_inputs(t), z, command);
+    const Balance<double> now = balance(inputs(t), z, command);
     CoupledExtras extras{};
     loop.put(z, now.axis, extras.rig);
     loop.put_lags(t, z, extras.rig);
@@ -442,16 +443,6 @@ class CoupledLoop {
   void integrate_error(bool yes) { integrates_ = yes ? 1 : 0; }
 
  private:
-  // The inputs with the reference, which loop.inputs() omits while the command is held.
-  [[nodiscard]] auto all_inputs(double t) const {
-    if (loop.mode.rings) return inputs(t);
-    if constexpr (pushes) {
-      return push.with(loop.reference().at(t), t);
-    } else {
-      return loop.reference().at(t);
-    }
-  }
-
   // The columns of H: the moments for a unit acceleration of one axis alone.
   template <class Real, class Ball, class Put>
   void felt(const PlaneMotion<Real>& plane, const Ball& ball, const Directions<Real>& along,

@@ -154,9 +154,7 @@ class RigLoop {
   [[nodiscard]] std::array<Jet<Time>, 2> inputs(const Time& t) const {
     const Jet<Time> nothing{Time(0.0), Time(0.0), Time(0.0)};
     if (mode.rings) return {Jet<Time>{t, Time(1.0), Time(0.0)}, nothing};
-    if constexpr (!integrates) {
-      if (law_.kind == LawKind::held) return {nothing, nothing};
-    }
+    if (law_.kind == LawKind::held) return {nothing, nothing};
     return reference_.at(t);
   }
 

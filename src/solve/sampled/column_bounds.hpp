@@ -24,7 +24,7 @@ namespace bbsim::solve::sampled {
 // The same from its range at the Chebyshev points.
 [[nodiscard]] inline Range widened_closely(const Range& at_points) {
   const double beyond = close_overshoot * (at_points.most - at_points.least);
-  return {at_points.least - beyond, at_points.most + beyond};
+  return {at_points.least - beyond, at_points.most + beyond, at_points.trend};
 }
 
 // Of the cosine of the tilt.
@@ -35,11 +35,11 @@ template <class RangeOf>
 [[nodiscard]] std::optional<Bounds> column_bounds(Bounded column, RangeOf range_of) {
   const auto same = [&](Quantity quantity) {
     const Range of = range_of(quantity);
-    return Bounds{of.least, of.most};
+    return Bounds{of.least, of.most, of.trend};
   };
   const auto root = [&](Quantity squared) {
     const Range of = range_of(squared);
-    return Bounds{std::sqrt(std::max(of.least, 0.0)), std::sqrt(std::max(of.most, 0.0))};
+    return Bounds{std::sqrt(std::max(of.least, 0.0)), std::sqrt(std::max(of.most, 0.0)), of.trend};
   };
   switch (column) {
     case Bounded::x:
@@ -59,7 +59,7 @@ template <class RangeOf>
     case Bounded::tilt: {
       const Range up = range_of(Quantity::up);
       const auto angle = [](double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); };
-      return Bounds{angle(up.most + up_rounding), angle(up.least - up_rounding)};
+      return Bounds{angle(up.most + up_rounding), angle(up.least - up_rounding), -up.trend};
     }
     case Bounded::motor_torque_phi:
       return same(Quantity::torque_phi);
@@ -100,7 +100,7 @@ void for_each_bound(const BoundsOfColumns& within, Use use) {
   square(Bounded::distance, Quantity::distance_squared);
   square(Bounded::tracking_error, Quantity::error_squared);
   square(Bounded::tilt_rate, Quantity::rate_squared);
-  const auto [least, most] = of(Bounded::tilt);
+  const double least = of(Bounded::tilt).least, most = of(Bounded::tilt).most;
   use(Quantity::up, most < std::numbers::pi ? std::cos(std::max(most, 0.0)) + up_rounding : -most,
       least >= 0 ? std::cos(std::min(least, std::numbers::pi)) - up_rounding : -least);
 }

@@ -144,13 +144,11 @@ void HeldPlate::start_plate(const model::ThreeServos& link, PlateMotion& motion)
     double sine[3], cosine[3];
     link.directions(horn, sine, cosine);
     model::ThreeServos::Pose<double>& pose = known_.legs.pose;
-    pose = link.pose_from(pose, known_.horn, horn, sine, cosine);
-    model::ThreeServos::Slopes<double> slopes[3];
-    link.slopes(pose, sine, cosine, slopes);
-    const auto inverse = link.inverse_of(slopes);
-    link.pose_slopes(slopes, inverse, known_.legs.slopes);
-    link.planes_in(pose, slopes, inverse, sine, cosine, rate, acting, known_.plane);
-    link.edges(slopes, inverse.determinant, known_.edges);
+    model::ThreeServos::Jacobian<double> there;
+    pose = link.pose_from(pose, known_.horn, horn, sine, cosine, there);
+    link.pose_slopes(there, known_.legs.slopes);
+    link.planes_in(pose, there, sine, cosine, rate, acting, known_.plane);
+    link.edges(there, known_.edges);
     std::copy_n(horn, 3, known_.horn);
     std::copy_n(rate, 3, known_.rate);
     std::copy_n(acting, 3, known_.acceleration);

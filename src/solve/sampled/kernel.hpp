@@ -119,8 +119,10 @@ enum Quantity : int {
   quantity_count
 };
 
+// The range of a quantity. `trend`: 1 or -1 if it rises or falls all the way, 0 if it may turn.
 struct Range {
   double least, most;
+  int trend = 0;
 };
 
 // Quantities are evaluated at the start and at all nodes but the first, which is close to the
@@ -155,7 +157,7 @@ struct Kernels {
   } papers, general, linked, three;
   // Computes responses by power series, which the length must suit (model::suits_series()).
   void (*answers)(double damping, double stiffness, double length, NodeAnswers& answers);
-  // The range over the Chebyshev points of a quantity with these values.
+  // The range over the Chebyshev points of a quantity with these values, and its trend.
   Range (*narrow)(const double (&values)[nodes]);
   // Evaluates the ball at `count` times (s) after the start of the piece, on its polynomial: x, y,
   // x', y', u and the integral of u.

@@ -134,7 +134,7 @@ struct LaneKernels {
   void (*attempt)(LanePieces& pieces, const LaneScene& scene);
   void (*evaluate_quantities)(const LanePieces& pieces, const LaneScene& scene,
                               const LaneReference& reference, LaneQuantities& quantities);
-  // The range of a lane's quantity over Chebyshev points (close_overshoot).
+  // The range of a lane's quantity over Chebyshev points (close_overshoot), and its trend.
   Range (*narrow)(const LaneQuantities& quantities, Quantity quantity, int lane);
   // The values of a reference (x, y) at the start and at all nodes but the first of a piece.
   void (*reference)(const model::SignalView& of, double from, double length, double (*at)[nodes]);

@@ -25,9 +25,11 @@ struct Kernel {
   using Smaller = typename Layout::Smaller;
   static constexpr const auto& table = Method::table;
 
-  // Interpolates from the start and all nodes but the first to the Chebyshev points.
+  // Interpolates from the start and all nodes but the first to the Chebyshev points. `highest`
+  // gives the last Chebyshev coefficient.
   struct alignas(64) CloseTable {
     double share[nodes][close_points]{};
+    double highest[nodes]{};
     consteval CloseTable() {
       // (1 - cos((2 k + 1) pi / 64)) / 2
       constexpr double first_half[close_points / 2] = {
@@ -43,6 +45,12 @@ struct Kernel {
           for (int i = 0; i < nodes; ++i) {
             if (i != j) share[j][k] *= (s - point(i)) / (point(j) - point(i));
           }
+        }
+      }
+      for (int j = 0; j < nodes; ++j) {
+        highest[j] = 1.0 / (1 << (2 * nodes - 3));
+        for (int i = 0; i < nodes; ++i) {
+          if (i != j) highest[j] /= point(j) - point(i);
         }
       }
     }
@@ -73,7 +81,7 @@ struct Kernel {
             ratio * motion_at(axis, MotionTable::acceleration, p)};
   }
 
-  // Whether the plate's angle stays within pi/4.
+  // Whether the angle of the plate or of the horn stays within pi/4.
   BBSIM_INLINE static bool is_small(const PieceAxis& axis) {
     return size_of(axis.ratio * axis.angle + axis.offset) + motion_of(axis) < 0.785;
   }
@@ -109,7 +117,11 @@ struct Kernel {
   static void move_plate(PlateMotion& plate, const Link& link) {
     constexpr int servos = Link::servos;
     [[maybe_unused]] double motion = 0;
-    for (int i = 0; i < servos; ++i) motion = larger_of(motion, motion_of(plate.axis[i]));
+    [[maybe_unused]] bool small = true;
+    for (int i = 0; i < servos; ++i) {
+      motion = larger_of(motion, motion_of(plate.axis[i]));
+      small = small && is_small(plate.axis[i]);
+    }
     for (int p = 0; p < packs; ++p) {
       P horn[servos], rate[servos], acting[servos];
       for (int i = 0; i < servos; ++i) {
@@ -122,20 +134,23 @@ struct Kernel {
       model::GimbalAngle<P> axis[2];
       if constexpr (servos == 3) {
         P sine[3], cosine[3], edges[Link::edge_count];
-        link.directions(horn, sine, cosine);
+        link.directions(
+            horn, sine, cosine, [small](const P& angle) __attribute__((always_inline)) {
+              return small ? simd::sin_cos_of_small(angle) : sin_cos(angle);
+            });
         const auto near = pose_towards(plate, horn, Link::parts_for(motion));
-        const auto pose = link.pose_near(near, sine, cosine);
-        model::ThreeServos::Slopes<P> slopes[3];
-        link.slopes(pose, sine, cosine, slopes);
-        const auto inverse = link.inverse_of(slopes);
-        link.planes_in(pose, slopes, inverse, sine, cosine, rate, acting, axis);
-        link.edges(slopes, inverse.determinant, edges);
+        typename Link::template Jacobian<P> there;
+        const auto pose = link.pose_near(near, sine, cosine, there);
+        link.planes_in(pose, there, sine, cosine, rate, acting, axis);
+        link.edges(there, edges);
         for (int k = 0; k < Link::edge_count; ++k) edges[k].store(plate.edges[k] + p * lanes);
-        P by[3][3];
-        link.pose_slopes(slopes, inverse, by);
-        plate.legs_end.pose = {last_of(pose.p), last_of(pose.q), last_of(pose.z)};
-        for (int k = 0; k < 3; ++k) {
-          for (int i = 0; i < 3; ++i) plate.legs_end.slopes[k][i] = last_of(by[k][i]);
+        if (p == packs - 1) {
+          P by[3][3];
+          link.pose_slopes(there, by);
+          plate.legs_end.pose = {last_of(pose.p), last_of(pose.q), last_of(pose.z)};
+          for (int k = 0; k < 3; ++k) {
+            for (int i = 0; i < 3; ++i) plate.legs_end.slopes[k][i] = last_of(by[k][i]);
+          }
         }
       } else {
         link.planes(horn, rate, acting, axis);
@@ -301,18 +316,46 @@ struct Kernel {
     }
   }
 
-  // The range over the Chebyshev points of a quantity with the values at(j).
+  // The range over the Chebyshev points of a quantity with the values at(j), and its trend.
   template <class At>
   BBSIM_INLINE static Range close_range(At at) {
     P least, most;
+    alignas(64) double points[close_points];
     for (int k = 0; k < close_points; k += lanes) {
       P value(0.0);
 #pragma GCC unroll 8
       for (int j = 0; j < nodes; ++j) value += P::load(close_table.share[j] + k) * P(at(j));
       least = k == 0 ? value : smaller_of(least, value);
       most = k == 0 ? value : larger_of(most, value);
+      value.store(points + k);
     }
-    return {Layout::reduced(least, Smaller{}), Layout::reduced(most, Larger{})};
+    Range range{Layout::reduced(least, Smaller{}), Layout::reduced(most, Larger{})};
+    range.trend = trend_of(at, points);
+    return range;
+  }
+  // The trend of a quantity with the values at(j), and with these at the Chebyshev points.
+  template <class At>
+  BBSIM_INLINE static int trend_of(At at, const double (&points)[close_points]) {
+    const double start = at(0), end = at(nodes - 1);
+    const int trend = end > start ? 1 : -1;
+    for (int k = 1; k < close_points; ++k) {
+      if (!(trend * (points[k] - points[k - 1]) > 0)) return 0;
+    }
+    // The first and the last interval are an eighth as long as their neighbors. Within them, a
+    // quantity that turns there changes by at most an 80th of its change in the neighbor.
+    constexpr double least_change = 1.0 / 16;
+    constexpr int last = close_points - 1;
+    const double first_change = trend * (points[0] - start),
+                 last_change = trend * (end - points[last]);
+    if (!(first_change > least_change * trend * (points[1] - points[0])) ||
+        !(last_change > least_change * trend * (points[last] - points[last - 1]))) {
+      return 0;
+    }
+    // The nodes must resolve the quantity.
+    constexpr double resolved = 1e-4;
+    double highest = 0;
+    for (int j = 0; j < nodes; ++j) highest += close_table.highest[j] * at(j);
+    return size_of(highest) <= resolved * size_of(end - start) ? trend : 0;
   }
 
   static Range narrow(const double (&values)[nodes]) {

@@ -152,7 +152,8 @@ std::optional<Failure> HeldStepper::step(double limit) {
     }
     ++statistics_.steps;
     const bool needs = steps_.needs_growth(step, arrives);
-    steps_.accept(step, arrives, needs ? step_growth(attempt.error, nodes) : 1);
+    const auto error = static_cast<float>(attempt.error);
+    steps_.accept(step, arrives, needs ? step_growth(error, nodes) : 1);
     finish();
     return {};
   }
@@ -334,10 +335,12 @@ std::optional<Bounds> HeldStepper::bounds(Bounded column, const model::BallConst
   // A value between the nodes exceeds the bounds by no more than the tolerance, unless a servo
   // moves there unseen.
   if (!is_load && loses_motion_) return {};
-  return column_bounds(column, [&](Quantity of) {
+  std::optional<Bounds> bounds = column_bounds(column, [&](Quantity of) {
     const Range at_nodes = range(of);
     return closely ? widened_closely(kernels_.narrow(at_points_.at[of])) : widened(at_nodes);
   });
+  if (bounds && loses_motion_) bounds->trend = 0;
+  return bounds;
 }
 
 }  // namespace bbsim::solve::sampled
