@@ -147,8 +147,6 @@ Option add_measures(Command& command, std::vector<std::string>& lists, const std
                             file::Outputs& outputs,
                             std::vector<file::InputTable>* inputs = nullptr);
 
-void add_threads(Command& command, std::size_t& threads);
-
 // Declares standard output as an output, so that it cannot overwrite an input.
 void prints(file::Outputs& outputs);
 

@@ -271,7 +271,10 @@ void add_sweep(Command& command, const Options& options) {
   command.option("--summary FILE", arguments.summary,
                  "write a summary of the sweep to FILE.json, or - for standard output: its "
                  "settings, how cases ended, the engine");
-  add_threads(command, arguments.threads);
+  command
+      .option("-j,--threads N", arguments.threads,
+              "number of threads; default: number of processors; the result is the same")
+      .takes_whole(1, api::most_threads);
   Option shard = command.option("--shard K/N", arguments.shard,
                                 "run only part K of N, K from 1; `bbsim merge` joins the parts");
   command

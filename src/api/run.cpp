@@ -57,6 +57,26 @@ Columns needed_for(Columns columns, const std::vector<scenario::Measure>& measur
   return columns;
 }
 
+// These columns, followed by others that a picture of the scene needs.
+Columns with_pictured(const Columns& columns, const Scenario& scenario) {
+  std::vector<std::string> names{"t",       "x",       "y",       "phi",    "theta",
+                                 "ball_qw", "ball_qx", "ball_qy", "ball_qz"};
+  if (scenario.controller) {
+    for (const char* name : {"x_reference", "y_reference", "phi_command", "theta_command"}) {
+      names.emplace_back(name);
+    }
+    if (scenario.controller->sampling) {
+      names.emplace_back("x_measured");
+      names.emplace_back("y_measured");
+    }
+  }
+  Columns all = columns;
+  for (const scenario::Column* column : scenario::columns_named(names)) {
+    if (std::ranges::find(all, column) == all.end()) all.push_back(column);
+  }
+  return all;
+}
+
 file::ColumnHeader header_of(const scenario::Column& column) {
   return {column.name, column.unit, column.meaning};
 }
