@@ -110,7 +110,9 @@ std::string known_commands(const CLI::App& app) {
 }
 
 [[noreturn]] void refuse_command(const CLI::App& app, const std::string& word) {
-  if (const std::string gone = removed_command(word); !gone.empty()) throw InputError(gone);
+  if (const std::string instead = instead_of(word); !instead.empty()) {
+    throw InputError(word + ": " + instead);
+  }
   std::vector<std::string> names = names_of_commands(app);
   for (const CLI::App* command : app.get_subcommands({})) {
     for (const std::string& alias : command->get_aliases()) names.push_back(alias);
@@ -138,7 +140,9 @@ bool is_option(std::string_view word) {
     throw InputError(option + ": found before " + command.get_name() +
                      "; allowed: the options of a command after it." + help);
   }
-  if (const std::string gone = removed_option(option); !gone.empty()) throw InputError(gone);
+  if (const std::string instead = instead_of(option); !instead.empty()) {
+    throw InputError(option + ": " + instead);
+  }
   std::string message = "unknown option " + option + " of " + name;
   const std::size_t letters = option.find_first_not_of('-');
   const std::string near = letters == std::string::npos
@@ -293,49 +297,24 @@ ExitCode run_command(int argc, char** argv, std::span<const NamedCommand> comman
   return chosen();
 }
 
-namespace {
-
-struct Removed {
-  std::string_view name, instead;
-};
-
-constexpr std::string_view runs_whole =
-    "runs are no longer split: make the whole run again, which takes milliseconds";
-
-constexpr Removed options[] = {
-    {"--save-state", runs_whole},
-    {"--from-state", runs_whole},
-    {"--continuity", "a fit no longer joins windows; --window sets their length"},
-    {"--plot", "`bbsim plot SCENARIO --accuracy` draws what accuracy measures"},
-    {"--until", "runs are no longer split; to end a run earlier, use --set time.end=TIME"},
-};
-constexpr Removed commands[] = {
-    {"completion", "bash's completion is installed as share/bash-completion/completions/bbsim"},
-    {"man", "man pages are installed where help2man is when bbsim is built; or see --help"},
-};
-constexpr Removed endings[] = {
-    {".glb", "glTF is no longer written; allowed: a page, a name that ends in .html"},
-};
-
-std::string text(std::span<const Removed> all, std::string_view name, bool with_name) {
-  const auto found = std::ranges::find(all, name, &Removed::name);
-  if (found == all.end()) return "";
-  const std::string prefix = with_name ? std::string(name) + ": " : "";
-  return prefix + std::string(found->instead) + " (docs/how-to/migrate.md)";
-}
-
-}  // namespace
-
-std::string removed_option(std::string_view option) {
-  return text(options, option, true);
-}
-
-std::string removed_command(std::string_view command) {
-  return text(commands, command, true);
-}
-
-std::string removed_ending(std::string_view ending) {
-  return text(endings, ending, false);
+std::string instead_of(std::string_view removed) {
+  struct Removed {
+    std::string_view name, instead;
+  };
+  constexpr std::string_view runs_whole =
+      "runs are no longer split: make the whole run again, which takes milliseconds";
+  constexpr Removed all[] = {
+      {"--save-state", runs_whole},
+      {"--from-state", runs_whole},
+      {"--continuity", "a fit no longer joins windows; --window sets their length"},
+      {"--plot", "`bbsim plot SCENARIO --accuracy` draws what accuracy measures"},
+      {"--until", "runs are no longer split; to end a run earlier, use --set time.end=TIME"},
+      {"completion", "bash's completion is installed as share/bash-completion/completions/bbsim"},
+      {"man", "man pages are installed where help2man is when bbsim is built; or see --help"},
+      {".glb", "glTF is no longer written; allowed: a page, a name that ends in .html"},
+  };
+  const auto* const found = std::ranges::find(all, removed, &Removed::name);
+  return found == std::end(all) ? "" : std::string(found->instead) + " (docs/how-to/migrate.md)";
 }
 
 }  // namespace bbsim::app
