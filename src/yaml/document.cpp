@@ -238,6 +238,16 @@ Position position(const YAML::Mark& mark, std::string_view text, int source) {
 
 }  // namespace
 
+std::size_t offset_of(std::string_view text, const Position& position) {
+  std::size_t line_start = 0;
+  for (int line = 1; line < position.line; ++line) {
+    const std::size_t newline = text.find('\n', line_start);
+    if (newline == std::string_view::npos) return text.size();
+    line_start = newline + 1;
+  }
+  return std::min(text.size(), line_start + static_cast<std::size_t>(position.column - 1));
+}
+
 const Node* parse_yaml(std::string_view text, int source, Nodes& nodes) {
   TreeBuilder builder(source, nodes);
   try {
