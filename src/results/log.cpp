@@ -144,14 +144,11 @@ class PartReader {
 std::vector<Mapped> read_maps(const std::vector<std::string>& maps, const Result& log) {
   std::vector<Mapped> all;
   for (const std::string& map : maps) {
-    for (std::size_t start = 0; start <= map.size();) {
-      const std::size_t end = std::min(map.find(',', start), map.size());
-      const std::string_view part = std::string_view(map).substr(start, end - start);
+    for (const std::string_view part : split(map, ",")) {
       all.push_back(PartReader(part, log).read());
       if (std::ranges::count(all, all.back().column, &Mapped::column) > 1) {
         refuse(part, ": " + std::string(all.back().column->name) + " is given twice");
       }
-      start = end + 1;
     }
   }
   return all;

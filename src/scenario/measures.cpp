@@ -300,11 +300,7 @@ std::optional<Measure> find_measure(std::string_view name, const FindColumn& fin
 std::vector<std::string> split_measures(const std::vector<std::string>& lists) {
   std::vector<std::string> names;
   for (const std::string& list : lists) {
-    for (std::size_t start = 0; start != std::string::npos;) {
-      const std::size_t comma = list.find(',', start);
-      names.emplace_back(trimmed(std::string_view(list).substr(start, comma - start)));
-      start = comma == std::string::npos ? comma : comma + 1;
-    }
+    for (const std::string_view name : split(list, ",")) names.emplace_back(trimmed(name));
   }
   return names;
 }
