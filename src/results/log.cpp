@@ -62,10 +62,8 @@ std::optional<double> number_of(std::string_view text) {
 
 const scenario::Column& target_of(std::string_view part, std::string_view name) {
   if (const scenario::Column* const column = scenario::find_column(name)) return *column;
-  std::vector<std::string_view> names;
-  for (const scenario::Column& column : scenario::catalogue) names.push_back(column.name);
-  refuse(part, ": there is no column " + bbsim::quoted(name) + near(name, names) +
-                   "; allowed: those of `bbsim columns`");
+  refuse(part, ": there is no column " + bbsim::quoted(name) +
+                   near(name, scenario::column_names()) + "; allowed: those of `bbsim columns`");
 }
 
 // Reads one part of a map. A column's name may contain signs, colons and stars: a text that is a

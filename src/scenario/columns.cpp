@@ -66,6 +66,12 @@ std::vector<std::string> own_columns(const Scenario& scenario) {
   return names;
 }
 
+std::vector<std::string_view> column_names() {
+  std::vector<std::string_view> names;
+  for (const Column& column : catalogue) names.push_back(column.name);
+  return names;
+}
+
 std::vector<const Column*> columns_named(const std::vector<std::string>& names) {
   std::vector<const Column*> found;
   for (const std::string& name : names) {

@@ -345,6 +345,9 @@ inline constexpr std::size_t most_own_columns = 64;
 // The names of your own controller's numbers among the scene's output columns, in their order.
 [[nodiscard]] std::vector<std::string> own_columns(const Scenario& scenario);
 
+// The names of the catalogue.
+[[nodiscard]] std::vector<std::string_view> column_names();
+
 // Returns the columns in the order of the names. Throws InputError for an unknown name.
 [[nodiscard]] std::vector<const Column*> columns_named(const std::vector<std::string>& names);
 
