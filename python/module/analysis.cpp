@@ -123,7 +123,6 @@ Given without_notes(const Given& given, const Texts& keys, const Texts& measures
 void define_analysis(py::module_& module, py::class_<Given>& given) {
   using scenario::Expectation;
   using scenario::NamedNumber;
-  using Relation = Expectation::Relation;
   static constexpr double unlimited = std::numeric_limits<double>::infinity();
   // A key that takes a number: its value (SI) in the scenario, else its default; and its range.
   attributes(
@@ -139,10 +138,7 @@ void define_analysis(py::module_& module, py::class_<Given>& given) {
       py::class_<Expectation>(module, "Expectation"), "text", &Expectation::text, "value",
       &Expectation::value, "measure", [](const Expectation& its) { return its.measure.name; },
       "unit", [](const Expectation& its) { return its.measure.unit(); }, "upper",
-      [](const Expectation& its) {
-        return its.relation == Relation::below || its.relation == Relation::at_most;
-      },
-      "of_loop",
+      &Expectation::is_upper, "of_loop",
       [](const Expectation& its) { return its.measure.kind == scenario::Measure::Kind::loop; })
       .def("holds", &Expectation::holds);
   given
