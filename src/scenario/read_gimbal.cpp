@@ -26,9 +26,9 @@ void read_motion(yaml::Keys& keys, GimbalMotion& motion) {
 }
 
 void read_torque(yaml::Keys& keys, GimbalMotion& torque) {
-  keys.optional("phi", ProfileRule{ProfileOf::torque}, torque.phi,
+  keys.optional("phi", ProfileRule{yaml::Dimension::torque}, torque.phi,
                 {.meaning = "[profiles](#profiles): torques of the motors", .standard = "0"});
-  keys.optional("theta", ProfileRule{ProfileOf::torque}, torque.theta, yaml::same);
+  keys.optional("theta", ProfileRule{yaml::Dimension::torque}, torque.theta, yaml::same);
 }
 
 void read_dc(yaml::Keys& keys, DcMotor& dc) {
