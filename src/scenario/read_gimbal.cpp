@@ -418,19 +418,25 @@ void read_linkage(yaml::Keys& keys, BothLinkages& both) {
 
 const yaml::Number leg_length{yaml::Dimension::length, {.above = 0}};
 
+struct LegLength {
+  const char* key;
+  double LegLengths::*length;
+  const char* meaning;
+};
+constexpr LegLength leg_lengths[] = {
+    {"radius_base", &LegLengths::radius_base, "radius of the servos' axes"},
+    {"radius_plate", &LegLengths::radius_plate, "radius of the joints under the plate"},
+    {"horn", &LegLengths::horn, "lengths of horn and rod"},
+    {"rod", &LegLengths::rod, "lengths of horn and rod"},
+    {"height", &LegLengths::height,
+     "height of the joints above the servos' axes where the plate is level"}};
+
 // Reads lengths of all legs or of one leg.
-template <class Leg>
-void read_leg_lengths(yaml::Keys& keys, Leg& leg) {
-  const auto length = [&](const char* key, double& into, std::string_view meaning) {
+void read_leg_lengths(yaml::Keys& keys, LegLengths& leg) {
+  for (const auto& [key, length, meaning] : leg_lengths) {
     const yaml::About about{meaning, {}, "required, or in each leg"};
-    if (const auto given = keys.find(key, leg_length, about)) leg_length.read(*given, into);
-  };
-  length("radius_base", leg.radius_base, "radius of the servos' axes");
-  length("radius_plate", leg.radius_plate, "radius of the joints under the plate");
-  length("horn", leg.horn, "lengths of horn and rod");
-  length("rod", leg.rod, "lengths of horn and rod");
-  length("height", leg.height,
-         "height of the joints above the servos' axes where the plate is level");
+    if (const auto given = keys.find(key, leg_length, about)) leg_length.read(*given, leg.*length);
+  }
 }
 
 // Reads the keys of a leg over the common values.

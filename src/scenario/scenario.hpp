@@ -183,11 +183,14 @@ struct CurveLinkage {
 
 using AxisLinkage = std::variant<RodLinkage, CurveLinkage>;
 
-// One of three legs under the plate: a servo with a horn, a rod and a ball joint.
-struct ServoLeg {
+// Lengths of one of three legs under the plate: a servo with a horn, a rod and a ball joint.
+struct LegLengths {
   double radius_base = 0, radius_plate = 0;  // of the servo's axis and of the joint, m, > 0
   double horn = 0, rod = 0;                  // m, > 0
-  double height = 0;             // of the joint above the servo's axis with the plate level, m, > 0
+  double height = 0;  // of the joint above the servo's axis with the plate level, m, > 0
+};
+
+struct ServoLeg : LegLengths {
   double angle = 0;              // azimuth, from the plate's x axis, rad
   double joint_height = 0;       // of the joint in the plate, above a level common to all legs, m
   double offset = 0;             // of the horn from home when the servo is at zero, rad
@@ -196,16 +199,13 @@ struct ServoLeg {
 };
 
 // Three servos below the plate (3-RRS): equal legs at 0, 120 and 240 degrees, or `legs`.
-struct ThreeServoPlate {
-  double radius_base = 0, radius_plate = 0;  // as in ServoLeg
-  double horn = 0, rod = 0;
-  double height = 0;
+struct ThreeServoPlate : LegLengths {
   std::optional<std::array<ServoLeg, 3>> legs{};
 
   [[nodiscard]] ServoLeg leg(std::size_t i) const {
     if (legs) return (*legs)[i];
     constexpr double third = 2.0943951023931953;  // of a turn
-    return {radius_base, radius_plate, horn, rod, height, third * static_cast<double>(i)};
+    return {*this, third * static_cast<double>(i)};
   }
 };
 
