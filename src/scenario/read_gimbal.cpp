@@ -480,49 +480,29 @@ void read_leg(yaml::Keys& keys, ServoLeg& leg) {
   }
 }
 
-struct Legs {
-  [[nodiscard]] static std::string allowed() {
-    return "a list of three mappings, such as {angle: \"120 deg\", radius: \"9 cm\"}";
-  }
-  [[nodiscard]] static yaml::Declared declared() {
-    return yaml::Declared::list(3, 3, yaml::MappingOf(read_leg).declared());
-  }
-  static bool read(const yaml::Value& value, std::array<ServoLeg, 3>& legs) {
-    const yaml::Node& node = *value.node;
-    if (node.kind != yaml::Node::Kind::sequence || node.items.size() != legs.size()) {
-      return value.refuse("", allowed());
-    }
-    bool fine = true;
-    for (std::size_t i = 0; i < legs.size(); ++i) {
-      fine = yaml::MappingOf(read_leg).read(value.item(i), legs[i]) && fine;
-    }
-    return fine;
-  }
-};
-
 }  // namespace
 
 void read_three_servos(yaml::Keys& keys, ThreeServos& of) {
   ThreeServoPlate& plate = of.plate;
   keys.needs_one({{"legs"}, {"radius_base", "radius_plate", "horn", "rod", "height"}});
   read_leg_lengths(keys, plate);
-  const auto given = keys.find("legs", Legs{}, {"a list of three mappings, for legs that differ"});
+  const yaml::ArrayOf<3, yaml::MappingOf<ServoLeg>> each_leg{
+      yaml::MappingOf(read_leg),
+      "a list of three mappings, such as {angle: \"120 deg\", radius: \"9 cm\"}"};
+  const auto given =
+      keys.find("legs", each_leg, {"a list of three mappings, for legs that differ"});
   std::array<ServoLeg, 3> legs;
   for (std::size_t i = 0; i < legs.size(); ++i) {
     legs[i] = plate.leg(i);
     legs[i].servo = of.servo;
   }
-  if (given && Legs::read(*given, legs)) plate.legs = legs;
-  const auto require = [&](const char* key, double ServoLeg::*length) {
-    const auto lacks = [&](const ServoLeg& leg) { return !(leg.*length > 0); };
-    if (!keys.find(key) && std::ranges::any_of(legs, lacks))
-      keys.missing(key, leg_length.allowed());
-  };
-  require("radius_base", &ServoLeg::radius_base);
-  require("radius_plate", &ServoLeg::radius_plate);
-  require("horn", &ServoLeg::horn);
-  require("rod", &ServoLeg::rod);
-  require("height", &ServoLeg::height);
+  if (given && each_leg.read(*given, legs)) plate.legs = legs;
+  for (const LegLength& known : leg_lengths) {
+    const auto lacks = [&](const ServoLeg& leg) { return !(leg.*known.length > 0); };
+    if (!keys.find(known.key) && std::ranges::any_of(legs, lacks)) {
+      keys.missing(known.key, leg_length.allowed());
+    }
+  }
 }
 
 namespace {
