@@ -90,20 +90,15 @@ struct Backlash {
   }
 };
 
-enum class ServoModel { hobby_standard, hobby_micro, smart_serial };
-
 // The keys of commercial servos (docs/reference/scenario.md, "Servos").
-Servo servo_of_model(ServoModel model) {
+yaml::NameOf<Servo> servo_models() {
   constexpr double degree = std::numbers::pi / 180, hertz = 2 * std::numbers::pi;
-  switch (model) {
-    case ServoModel::hobby_standard:
-      return {6 * hertz, 0.9, {}, 60 * degree, 350 * degree, {}, 0.4 * degree, 0.3 * degree};
-    case ServoModel::hobby_micro:
-      return {5 * hertz, 0.8, {}, 60 * degree, 500 * degree, {}, 1 * degree, 0.6 * degree};
-    case ServoModel::smart_serial:
-      break;
-  }
-  return {10 * hertz, 1, {}, 150 * degree, 360 * degree, {}, 0.1 * degree, 0.25 * degree};
+  return {{{{6 * hertz, 0.9, {}, 60 * degree, 350 * degree, {}, 0.4 * degree, 0.3 * degree},
+            "hobby-standard"},
+           {{5 * hertz, 0.8, {}, 60 * degree, 500 * degree, {}, 1 * degree, 0.6 * degree},
+            "hobby-micro"},
+           {{10 * hertz, 1, {}, 150 * degree, 360 * degree, {}, 0.1 * degree, 0.25 * degree},
+            "smart-serial"}}};
 }
 
 // A rate as vendors state it: the time for an angle.
@@ -156,28 +151,24 @@ struct DeadBand {
   }
 };
 
-// Sets the keys of common motors (docs/reference/scenario.md, "Stepper motors"): half of their
-// holding torque, and the inertia of their rotors.
-void set_model(StepperMotor& stepper, StepperModel model) {
-  struct Motor {
-    double torque, inertia;  // N m, kg m^2
-  };
-  constexpr Motor motors[] = {{0.09, 1.4e-6}, {0.175, 5.4e-6}, {0.63, 3e-5}};
-  const Motor& motor = motors[static_cast<std::size_t>(model)];
-  stepper.steps = 200;
-  stepper.torque = motor.torque;
-  stepper.inertia = motor.inertia;
-}
+// Common motors (docs/reference/scenario.md, "Stepper motors"): half of their holding torque (N m),
+// and the inertia of their rotors (kg m^2).
+struct MotorModel {
+  double torque = 0, inertia = 0;
+};
 
 void read_stepper(yaml::Keys& keys, StepperMotor& stepper) {
-  const yaml::NameOf<StepperModel> models{{{StepperModel::nema14, "nema14"},
-                                           {StepperModel::nema17, "nema17"},
-                                           {StepperModel::nema23, "nema23"}}};
+  const yaml::NameOf<MotorModel> models{
+      {{{0.09, 1.4e-6}, "nema14"}, {{0.175, 5.4e-6}, "nema17"}, {{0.63, 3e-5}, "nema23"}}};
   if (const auto given = keys.find(
           "model", models,
           {"values for `steps`, `torque` and `inertia`; a key that is given replaces its value"})) {
-    StepperModel model = StepperModel::nema17;
-    if (models.read(*given, model)) set_model(stepper, model);
+    MotorModel model;
+    if (models.read(*given, model)) {
+      stepper.steps = 200;
+      stepper.torque = model.torque;
+      stepper.inertia = model.inertia;
+    }
   }
   const yaml::Whole count{1, "200"};
   keys.optional("steps", count, stepper.steps,
@@ -216,13 +207,10 @@ void read_stepper(yaml::Keys& keys, StepperMotor& stepper) {
 
 // Reads the keys into `servo`, over its existing values. Does not report missing keys.
 void read_servo_keys(yaml::Keys& keys, Servo& servo) {
-  const yaml::NameOf<ServoModel> models{{{ServoModel::hobby_standard, "hobby-standard"},
-                                         {ServoModel::hobby_micro, "hobby-micro"},
-                                         {ServoModel::smart_serial, "smart-serial"}}};
+  const yaml::NameOf<Servo> models = servo_models();
   if (const auto given = keys.find(
           "model", models, {"values for all keys below; a key that is given replaces its value"})) {
-    ServoModel model = ServoModel::hobby_standard;
-    if (models.read(*given, model)) servo = servo_of_model(model);
+    models.read(*given, servo);
   }
   const yaml::Number time{yaml::Dimension::time, {.above = 0}};
   const yaml::Number frequency{yaml::Dimension::angular_rate, {.above = 0}};

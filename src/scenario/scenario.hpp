@@ -122,9 +122,6 @@ struct GimbalStart {
   double phi_rate = 0, theta_rate = 0;  // rad/s
 };
 
-// Stepper motors by the size of their flange.
-enum class StepperModel { nema14, nema17, nema23 };
-
 // A stepper motor and its driver.
 struct StepperMotor {
   double steps = 200, microsteps = 16;  // in a turn of the motor, and in a step
