@@ -366,14 +366,11 @@ void read_rods(yaml::Keys& keys, RodLinkage& rods) {
                  "home. The rod is upright there if $d_x$ is horn − arm"});
 }
 
-void read_table_linkage(yaml::Keys& keys, CurveLinkage& curve) {
-  keys.required("table", yaml::MappingOf(read_curve), curve);
-}
-
 void read_curve_or_rods(yaml::Keys& keys, std::optional<AxisLinkage>& linkage) {
-  if (keys.find("table", yaml::MappingOf(read_curve))) {
+  const yaml::MappingOf table(read_curve);
+  if (const auto given = keys.find("table", table)) {
     CurveLinkage curve;
-    read_table_linkage(keys, curve);
+    table.read(*given, curve);
     if (!curve.servo.empty()) linkage = std::move(curve);
     return;
   }
