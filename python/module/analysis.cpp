@@ -22,7 +22,6 @@
 #include "scenario/keys.hpp"
 #include "scenario/log_columns.hpp"
 #include "scenario/measures.hpp"
-#include "scenario/reader.hpp"
 #include "scenario/variation.hpp"
 #include "sweep/plan.hpp"
 #include "sweep/window.hpp"
@@ -52,13 +51,6 @@ std::string edited(const Given& given, const Pairs& pairs, const std::string& co
   std::vector<ScenarioFamily::Setting> settings;
   for (const auto& [key, value] : pairs) settings.push_back({key, value});
   return edited_scenario(shared_family(given).source(), comments, settings);
-}
-
-Pairs tables(const Given& given) {
-  Pairs files;
-  for (const TableFile& its : table_files(scenario_of(given)))
-    files.emplace_back(its.key, its.path);
-  return files;
 }
 
 // Why the scenario lacks a column; empty if it has the column.
@@ -173,7 +165,7 @@ void define_analysis(py::module_& module, py::class_<Given>& given) {
       .def("begins_anywhere",
            [](const Given& its) { return sweep::begins_anywhere(scenario_of(its)); })
       .def("edited", &edited)
-      .def("tables", &tables)
+      .def("tables", [](const Given& its) { return scenario_of(its).tables; })
       .def("lacks", &lacks)
       .def("without_notes", &without_notes)
       .def("drawn", &drawn);

@@ -20,7 +20,6 @@
 #include "file/default_name.hpp"
 #include "file/memory_table.hpp"
 #include "scenario/expectation.hpp"
-#include "scenario/reader.hpp"
 
 namespace bbsim::api {
 namespace {
@@ -224,9 +223,7 @@ namespace {
 
 // Declares the files that a scenario names.
 void reads_parts(file::Outputs& outputs, const Scenario& scenario) {
-  for (const TableFile& table : table_files(scenario)) {
-    outputs.reads(table.path, "a table of the scenario");
-  }
+  for (const auto& [key, path] : scenario.tables) outputs.reads(path, "a table of the scenario");
   for (const std::string& file : controller::files_of(scenario)) {
     outputs.reads(file, "the scenario's controller");
   }

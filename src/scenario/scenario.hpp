@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -608,6 +609,8 @@ struct Scenario {
   Sweep sweep;
   bool has_exercise = false;  // which scenario/exercise.hpp reads
   Source source;
+  // Keys that name files of tables, and the files' paths.
+  std::vector<std::pair<std::string, std::string>> tables{};
   // Notes and warnings on valid values that may be mistakes: one line each, with the place.
   std::vector<std::string> remarks{};
 };
