@@ -336,9 +336,7 @@ struct SquareReference {
 };
 
 // Known commands of Law::commands, independent of the ball. They replace a path.
-struct CommandProfiles {
-  Profile phi, theta;  // rad
-};
+using CommandProfiles = GimbalMotion;
 
 using Reference =
     std::variant<PointReference, CircleReference, LissajousReference, WaypointReference,
