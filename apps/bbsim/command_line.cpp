@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/text.hpp"
 #include "commands.hpp"
 #include "embedded.hpp"
 #include "scenario/keys.hpp"
@@ -31,54 +32,42 @@ std::string entry(const std::string& name, const std::string& description) {
 // Layout of --help: no line is wider than 80 columns.
 class HelpFormatter : public CLI::Formatter {
  public:
-  std::string make_option(const CLI::Option* option, bool is_positional) const override;
-  std::string make_option_opts(const CLI::Option* option) const override;
-  std::string make_subcommand(const CLI::App* command) const override;
-  std::string make_description(const CLI::App* command) const override;
-  std::string make_footer(const CLI::App* command) const override;
+  std::string make_option(const CLI::Option* option, bool is_positional) const override {
+    return entry(make_option_name(option, is_positional) + make_option_opts(option),
+                 make_option_desc(option));
+  }
+
+  // The option's value and its default.
+  std::string make_option_opts(const CLI::Option* option) const override {
+    if (option->get_type_size() == 0 || option->get_positional()) return "";
+    const std::string standard = option->get_default_str();
+    return ' ' + option->get_type_name() + (standard.empty() ? "" : '=' + standard);
+  }
+
+  std::string make_subcommand(const CLI::App* command) const override {
+    return entry(command->get_name(), command->get_description());
+  }
+
+  std::string make_description(const CLI::App* command) const override {
+    return wrapped(command->get_description(), 0, 0, line_width) + '\n';
+  }
+
+  // Options of all commands; then the footer, where each line is a paragraph. Lines that start with
+  // a space stay as they are.
+  std::string make_footer(const CLI::App* command) const override {
+    std::string text, footer = command->get_footer();
+    if (const CLI::App* all = command->get_parent()) {
+      const CLI::Option* const quiet = all->get_option_no_throw("--quiet");
+      if (quiet != nullptr) text = "Options of all commands:\n" + make_option(quiet, false) + '\n';
+      // A command without a footer inherits the program's, whose examples do not apply to it.
+      if (footer == all->get_footer()) footer = footer.substr(0, footer.find("\n\nExamples:"));
+    }
+    for (const std::string& line : lines_of(footer)) {
+      text += (line.starts_with(' ') ? line : wrapped(line, 0, 0, line_width)) + '\n';
+    }
+    return text;
+  }
 };
-
-std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positional) const {
-  return entry(make_option_name(option, is_positional) + make_option_opts(option),
-               make_option_desc(option));
-}
-
-// The option's value and its default.
-std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
-  if (option->get_type_size() == 0 || option->get_positional()) return "";
-  const std::string standard = option->get_default_str();
-  return ' ' + option->get_type_name() + (standard.empty() ? "" : '=' + standard);
-}
-
-std::string HelpFormatter::make_subcommand(const CLI::App* command) const {
-  return entry(command->get_name(), command->get_description());
-}
-
-// Options of all commands; then the footer, where each line is a paragraph. Lines that start with a
-// space stay as they are.
-std::string HelpFormatter::make_footer(const CLI::App* command) const {
-  std::string text;
-  if (const CLI::App* all = command->get_parent()) {
-    const CLI::Option* const quiet = all->get_option_no_throw("--quiet");
-    if (quiet != nullptr) text = "Options of all commands:\n" + make_option(quiet, false) + '\n';
-  }
-  std::string footer = command->get_footer();
-  // A command without a footer inherits the program's, whose examples do not apply to it.
-  if (const CLI::App* all = command->get_parent(); all != nullptr && footer == all->get_footer()) {
-    footer = footer.substr(0, footer.find("\n\nExamples:"));
-  }
-  for (std::string_view rest = footer; !rest.empty();) {
-    const std::size_t end = rest.find('\n');
-    const std::string_view line = rest.substr(0, end);
-    text += (line.starts_with(' ') ? std::string(line) : wrapped(line, 0, 0, line_width)) + '\n';
-    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-  }
-  return text;
-}
-
-std::string HelpFormatter::make_description(const CLI::App* command) const {
-  return wrapped(command->get_description(), 0, 0, line_width) + '\n';
-}
 
 std::vector<std::string> names_of_commands(const CLI::App& app) {
   std::vector<std::string> names;
@@ -110,7 +99,9 @@ std::string known_commands(const CLI::App& app) {
 }
 
 [[noreturn]] void refuse_command(const CLI::App& app, const std::string& word) {
-  if (const std::string gone = removed_command(word); !gone.empty()) throw InputError(gone);
+  if (const std::string instead = instead_of(word); !instead.empty()) {
+    throw InputError(word + ": " + instead);
+  }
   std::vector<std::string> names = names_of_commands(app);
   for (const CLI::App* command : app.get_subcommands({})) {
     for (const std::string& alias : command->get_aliases()) names.push_back(alias);
@@ -138,7 +129,9 @@ bool is_option(std::string_view word) {
     throw InputError(option + ": found before " + command.get_name() +
                      "; allowed: the options of a command after it." + help);
   }
-  if (const std::string gone = removed_option(option); !gone.empty()) throw InputError(gone);
+  if (const std::string instead = instead_of(option); !instead.empty()) {
+    throw InputError(option + ": " + instead);
+  }
   std::string message = "unknown option " + option + " of " + name;
   const std::size_t letters = option.find_first_not_of('-');
   const std::string near = letters == std::string::npos
@@ -293,49 +286,24 @@ ExitCode run_command(int argc, char** argv, std::span<const NamedCommand> comman
   return chosen();
 }
 
-namespace {
-
-struct Removed {
-  std::string_view name, instead;
-};
-
-constexpr std::string_view runs_whole =
-    "runs are no longer split: make the whole run again, which takes milliseconds";
-
-constexpr Removed options[] = {
-    {"--save-state", runs_whole},
-    {"--from-state", runs_whole},
-    {"--continuity", "a fit no longer joins windows; --window sets their length"},
-    {"--plot", "`bbsim plot SCENARIO --accuracy` draws what accuracy measures"},
-    {"--until", "runs are no longer split; to end a run earlier, use --set time.end=TIME"},
-};
-constexpr Removed commands[] = {
-    {"completion", "bash's completion is installed as share/bash-completion/completions/bbsim"},
-    {"man", "man pages are installed where help2man is when bbsim is built; or see --help"},
-};
-constexpr Removed endings[] = {
-    {".glb", "glTF is no longer written; allowed: a page, a name that ends in .html"},
-};
-
-std::string text(std::span<const Removed> all, std::string_view name, bool with_name) {
-  const auto found = std::ranges::find(all, name, &Removed::name);
-  if (found == all.end()) return "";
-  const std::string prefix = with_name ? std::string(name) + ": " : "";
-  return prefix + std::string(found->instead) + " (docs/how-to/migrate.md)";
-}
-
-}  // namespace
-
-std::string removed_option(std::string_view option) {
-  return text(options, option, true);
-}
-
-std::string removed_command(std::string_view command) {
-  return text(commands, command, true);
-}
-
-std::string removed_ending(std::string_view ending) {
-  return text(endings, ending, false);
+std::string instead_of(std::string_view removed) {
+  struct Removed {
+    std::string_view name, instead;
+  };
+  constexpr std::string_view runs_whole =
+      "runs are no longer split: make the whole run again, which takes milliseconds";
+  constexpr Removed all[] = {
+      {"--save-state", runs_whole},
+      {"--from-state", runs_whole},
+      {"--continuity", "a fit no longer joins windows; --window sets their length"},
+      {"--plot", "`bbsim plot SCENARIO --accuracy` draws what accuracy measures"},
+      {"--until", "runs are no longer split; to end a run earlier, use --set time.end=TIME"},
+      {"completion", "bash's completion is installed as share/bash-completion/completions/bbsim"},
+      {"man", "man pages are installed where help2man is when bbsim is built; or see --help"},
+      {".glb", "glTF is no longer written; allowed: a page, a name that ends in .html"},
+  };
+  const auto* const found = std::ranges::find(all, removed, &Removed::name);
+  return found == std::end(all) ? "" : std::string(found->instead) + " (docs/how-to/migrate.md)";
 }
 
 }  // namespace bbsim::app

@@ -10,7 +10,6 @@
 
 #include "api/check.hpp"
 #include "api/run.hpp"
-#include "api/sweep.hpp"
 #include "file/atomic_file.hpp"
 #include "results/result.hpp"
 #include "scenario/reader.hpp"
@@ -99,13 +98,6 @@ void print_report(const api::Report& report) {
     line.text = wrapped(line.text, api::label_width + 1, column, width);
   }
   print(to_text(broken));
-}
-
-void add_threads(Command& command, std::size_t& threads) {
-  command
-      .option("-j,--threads N", threads,
-              "number of threads; default: number of processors; the result is the same")
-      .takes_whole(1, api::most_threads);
 }
 
 void add_log_options(Command& command, results::LogChoice& choice) {

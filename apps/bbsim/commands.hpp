@@ -147,8 +147,6 @@ Option add_measures(Command& command, std::vector<std::string>& lists, const std
                             file::Outputs& outputs,
                             std::vector<file::InputTable>* inputs = nullptr);
 
-void add_threads(Command& command, std::size_t& threads);
-
 // Declares standard output as an output, so that it cannot overwrite an input.
 void prints(file::Outputs& outputs);
 
@@ -195,10 +193,8 @@ ExitCode run_command(int argc, char** argv, std::span<const NamedCommand> comman
 // those among `words`, which begin after the program's name.
 [[nodiscard]] std::string candidates(CLI::App& app, std::span<const std::string> words);
 
-// A sentence about the removed option ("--until"), command ("man") or ending (".glb"); empty if no
-// version had it.
-[[nodiscard]] std::string removed_option(std::string_view option);
-[[nodiscard]] std::string removed_command(std::string_view command);
-[[nodiscard]] std::string removed_ending(std::string_view ending);
+// What to use instead of a removed option ("--until"), command ("man") or ending (".glb"); empty if
+// no version had it.
+[[nodiscard]] std::string instead_of(std::string_view removed);
 
 }  // namespace bbsim::app

@@ -10,9 +10,6 @@
 #include "bbsim_examples.hpp"
 #include "bbsim_licenses.hpp"
 #include "bbsim_templates.hpp"
-#include "file/atomic_file.hpp"
-#include "file/default_name.hpp"
-#include "file/outputs.hpp"
 #include "simd/instruction_set.hpp"
 
 namespace bbsim::app {
@@ -31,17 +28,6 @@ std::span<const EmbeddedFile> command_tables() {
 
 std::string_view text_of(std::span<const EmbeddedFile> files, std::string_view name) {
   return std::ranges::find(files, name, &EmbeddedFile::name)->text;
-}
-
-void write_copies(const std::vector<Copy>& copies, bool named, bool force) {
-  file::Outputs outputs;
-  for (const Copy& copy : copies) {
-    const bool first = &copy == &copies.front();
-    outputs.writes(copy.file, first && named ? "-o" : "its name by default");
-    if (force || (first && named)) continue;
-    file::require_new(copy.file, first ? nullptr : &copy.text);
-  }
-  for (const Copy& copy : copies) file::write_file(copy.file, copy.text);
 }
 
 std::string version() {

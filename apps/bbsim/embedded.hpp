@@ -8,7 +8,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace bbsim::app {
 
@@ -25,15 +24,6 @@ struct EmbeddedFile {
 
 // Text of the file of that name, which must exist.
 [[nodiscard]] std::string_view text_of(std::span<const EmbeddedFile> files, std::string_view name);
-
-struct Copy {
-  std::string file;
-  std::string_view text;
-};
-
-// Writes the copies. Unless `force`, they must be new files, except that the first one may replace
-// a file if -o names it (`named`), and the others may exist with the same text.
-void write_copies(const std::vector<Copy>& copies, bool named, bool force);
 
 // Lines: the version, the chosen instruction set, the commit of the source, the libraries of the
 // build.

@@ -13,6 +13,9 @@
 
 #include "commands.hpp"
 #include "embedded.hpp"
+#include "file/atomic_file.hpp"
+#include "file/default_name.hpp"
+#include "file/outputs.hpp"
 #include "file/share_folders.hpp"
 #include "new_rig.hpp"
 #include "terminal.hpp"
@@ -28,6 +31,24 @@ struct NewArguments {
   RigWords rig{};
   bool force = false;
 };
+
+struct Copy {
+  std::string file;
+  std::string_view text;
+};
+
+// Writes the copies. Unless `force`, they must be new files, except that the first one may replace
+// a file if -o names it (`named`), and the others may exist with the same text.
+void write_copies(const std::vector<Copy>& copies, bool named, bool force) {
+  file::Outputs outputs;
+  for (const Copy& copy : copies) {
+    const bool first = &copy == &copies.front();
+    outputs.writes(copy.file, first && named ? "-o" : "its name by default");
+    if (force || (first && named)) continue;
+    file::require_new(copy.file, first ? nullptr : &copy.text);
+  }
+  for (const Copy& copy : copies) file::write_file(copy.file, copy.text);
+}
 
 // Folder that contains bbsim/controller.h, for C compilers.
 std::string header_folder() {

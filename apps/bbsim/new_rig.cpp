@@ -285,7 +285,7 @@ std::optional<std::string> answer_to(const std::string& question) {
   return std::string(trimmed(line));
 }
 
-// Stores an answer in the words, or throws InputError.
+// Stores an answer in the words, or throws InputError. The rig is read again afterwards.
 using Take = void (*)(RigWords&, const std::string&);
 
 struct Question {
@@ -295,15 +295,9 @@ struct Question {
 
 constexpr std::array questions = {
     Question{"Plate, such as 300 mm x 200 mm, or 250 mm for a disc [300 mm x 200 mm]",
-             [](RigWords& words, const std::string& answer) {
-               (void)read_plate(answer);
-               words["--plate"] = answer;
-             }},
+             [](RigWords& words, const std::string& answer) { words["--plate"] = answer; }},
     Question{"Ball: ping-pong, steel, rubber, golf, or such as 40 mm 2.7 g [ping-pong]",
-             [](RigWords& words, const std::string& answer) {
-               (void)read_ball(answer, read_rig(words).plate);
-               words["--ball"] = answer;
-             }},
+             [](RigWords& words, const std::string& answer) { words["--ball"] = answer; }},
     Question{
         "Servos: hobby-standard, hobby-micro, smart-serial; or stepper motors: stepper, nema14, "
         "nema17, nema23 [hobby-standard]",
@@ -329,7 +323,6 @@ constexpr std::array questions = {
                if (rate.empty() || (kind != "camera" && kind != "touch")) {
                  throw refused("sensor", answer, "camera or touch, and a rate");
                }
-               (void)read_rate("--" + kind, rate);
                words["--" + kind] = rate;
              }},
     Question{"Legs: 2 push rods of a gimbal, or 3 servos under the plate [2]",
@@ -351,7 +344,10 @@ void ask(RigWords& words) {
       const std::optional<std::string> answer = answer_to(question.text);
       if (!answer) return;
       try {
-        if (!answer->empty()) question.take(words, *answer);
+        RigWords more = words;
+        if (!answer->empty()) question.take(more, *answer);
+        static_cast<void>(read_rig(more));
+        words = std::move(more);
         taken = true;
       } catch (const InputError& fault) {
         say(fault.what());

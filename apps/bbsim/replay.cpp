@@ -41,9 +41,9 @@ std::string content_text(const replay::Scene& scene) {
 
 void require_replay_ending(const std::string& file, const std::string& option) {
   if (file == "-" || file::lower_ending(file) == ".html") return;
-  const std::string gone = removed_ending(file::lower_ending(file));
-  if (!gone.empty()) throw InputError(option + ": found " + file + ": " + gone);
-  throw InputError(option + ": found " + file + "; allowed: a name that ends in .html");
+  const std::string instead = instead_of(file::lower_ending(file));
+  throw InputError(option + ": found " + file +
+                   (instead.empty() ? "; allowed: a name that ends in .html" : ": " + instead));
 }
 
 void declare_replay(file::Outputs& outputs, const std::string& file, const std::string& what) {

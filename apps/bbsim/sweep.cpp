@@ -49,11 +49,11 @@ constexpr std::string_view task = "\"$SLURM_ARRAY_TASK_ID\"";
 
 struct SweepArguments {
   ScenarioArguments scenario;
-  std::vector<std::string> vary, expect;
-  std::string output, summary, shard, error, slurm;
-  api::SweepChoice choice;  // without `vary`
+  std::vector<std::string> vary;
+  std::string shard, error, slurm;
+  api::SweepChoice choice;    // without `vary`
+  api::SweepRequest request;  // filled in from the options
   std::size_t threads = 0, slurm_tasks = 1000;
-  bool resume = false, keep_trajectories = false, force = false;
 };
 
 // The options of a sweep that each of its shards needs, as words for a shell.
@@ -73,8 +73,8 @@ std::vector<std::string> options_of(const SweepArguments& arguments) {
   if (choice.samples) add("--samples", number_text(*choice.samples));
   if (choice.seed) add("--seed", number_text(*choice.seed));
   add_all("--measure", choice.measures);
-  add_all("--expect", arguments.expect);
-  if (arguments.keep_trajectories) options.emplace_back("--keep-trajectories");
+  add_all("--expect", arguments.request.expect);
+  if (arguments.request.keeps_rows) options.emplace_back("--keep-trajectories");
   return options;
 }
 
@@ -185,7 +185,7 @@ ExitCode write_slurm(const SweepArguments& arguments, api::SweepRequest request,
         "write");
   }
   request.script = arguments.slurm;
-  Progress progress(request.family.source().file, options.quiet, true);
+  Progress progress(request.family->source().file, options.quiet, true);
   const api::SweepSize size = api::check_sweep(request, progress);
   const std::size_t tasks = std::min(size.shards, arguments.slurm_tasks);
   file::write_file(arguments.slurm, slurm_script(arguments, request, size.cases, tasks));
@@ -201,16 +201,14 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   const auto& [file, overrides] = with_error(arguments.scenario, arguments.error);
   say_if_waiting(file, "a scenario", options.quiet);
   const ScenarioFamily family(file, overrides);
-  api::SweepRequest request{file, family, sweep_of(arguments, family.read_sweep()), shard,
-                            arguments.output};
-  request.by_default = arguments.output.empty();
+  api::SweepRequest request = arguments.request;
+  request.file = file;
+  request.family = &family;
+  request.sweep = sweep_of(arguments, family.read_sweep());
+  request.shard = shard;
+  request.by_default = request.output.empty();
   if (request.by_default) request.output = default_output(file, suffix(shard));
-  request.replaces_anything = arguments.force;
-  request.summary = arguments.summary;
   request.threads = static_cast<double>(arguments.threads);
-  request.resumes = arguments.resume;
-  request.keeps_rows = arguments.keep_trajectories;
-  request.expect = arguments.expect;
   if (!arguments.slurm.empty()) return write_slurm(arguments, std::move(request), options);
   Progress progress(family.source().file, options.quiet, true);
   const api::SweepResult result = api::sweep(request, progress);
@@ -260,18 +258,21 @@ void add_sweep(Command& command, const Options& options) {
                  "measures to take instead of the default ones: min_, max_, rms_ or end_ before a "
                  "column of `bbsim columns` (but not ball_q...); x.RiseTime, y.Overshoot, ...; "
                  "\"when x=0.05\"; \"rms_x from 5 s\" (docs/reference/measures.md); repeatable");
-  command.option("--expect \"MEASURE < VALUE\"", arguments.expect,
+  command.option("--expect \"MEASURE < VALUE\"", arguments.request.expect,
                  "add a column of 1 where it holds and 0 where not, and exit with 1 if it does not "
                  "hold in every case; also <=, > and >=; repeatable");
   command.option(
-      "-o,--output FILE", arguments.output,
+      "-o,--output FILE", arguments.request.output,
       "write rows to FILE.csv or FILE.h5, or - for CSV on standard output; default: SCENARIO's "
       "name with -sweep.csv, in the current folder; if SCENARIO is -, standard output");
-  add_force(command, arguments.force);
-  command.option("--summary FILE", arguments.summary,
+  add_force(command, arguments.request.replaces_anything);
+  command.option("--summary FILE", arguments.request.summary,
                  "write a summary of the sweep to FILE.json, or - for standard output: its "
                  "settings, how cases ended, the engine");
-  add_threads(command, arguments.threads);
+  command
+      .option("-j,--threads N", arguments.threads,
+              "number of threads; default: number of processors; the result is the same")
+      .takes_whole(1, api::most_threads);
   Option shard = command.option("--shard K/N", arguments.shard,
                                 "run only part K of N, K from 1; `bbsim merge` joins the parts");
   command
@@ -283,8 +284,8 @@ void add_sweep(Command& command, const Options& options) {
       .option("--slurm-tasks N", arguments.slurm_tasks,
               "the most tasks of that array; your site's limit; default: 1000")
       .takes_whole(1);
-  command.flag("--resume", arguments.resume, "continue a sweep that did not end");
-  command.flag("--keep-trajectories", arguments.keep_trajectories,
+  command.flag("--resume", arguments.request.resumes, "continue a sweep that did not end");
+  command.flag("--keep-trajectories", arguments.request.keeps_rows,
                "also keep the output rows of each case (HDF5 only)");
   add_error(command, arguments.error);
 }

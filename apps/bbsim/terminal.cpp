@@ -17,6 +17,18 @@
 #include "file/atomic_file.hpp"
 
 namespace bbsim::app {
+namespace {
+
+// Escape sequence that clears the terminal's current line, if draws_on_terminal().
+constexpr const char* to_clear_line = "\r\033[K";
+
+// Whether standard error is a terminal that obeys escape sequences (TERM=dumb does not).
+bool draws_on_terminal() {
+  const char* const kind = std::getenv("TERM");
+  return isatty(STDERR_FILENO) == 1 && (kind == nullptr || std::strcmp(kind, "dumb") != 0);
+}
+
+}  // namespace
 
 void say(std::string_view message) {
   try {
@@ -33,11 +45,6 @@ std::size_t columns_of(int descriptor) {
   winsize size{};
   const bool has_width = ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
   return has_width ? std::size_t{size.ws_col} - 1 : 79;
-}
-
-bool draws_on_terminal() {
-  const char* const kind = std::getenv("TERM");
-  return isatty(STDERR_FILENO) == 1 && (kind == nullptr || std::strcmp(kind, "dumb") != 0);
 }
 
 bool can_ask() {

@@ -31,12 +31,6 @@ void print(const std::string& report);
 // the line there.
 [[nodiscard]] std::size_t columns_of(int descriptor);
 
-// Whether standard error is a terminal that obeys escape sequences (TERM=dumb does not).
-[[nodiscard]] bool draws_on_terminal();
-
-// Escape sequence that clears the terminal's current line, if draws_on_terminal().
-inline constexpr const char* to_clear_line = "\r\033[K";
-
 // Whether the program can ask questions: standard input and standard error are terminals.
 [[nodiscard]] bool can_ask();
 

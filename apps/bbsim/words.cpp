@@ -18,9 +18,8 @@ namespace {
 using Names = std::vector<std::string>;
 
 Names columns() {
-  Names names;
-  for (const scenario::Column& column : scenario::catalogue) names.emplace_back(column.name);
-  return names;
+  const std::vector<std::string_view> names = scenario::column_names();
+  return {names.begin(), names.end()};
 }
 
 Names measures() {

@@ -22,7 +22,6 @@
 #include "scenario/keys.hpp"
 #include "scenario/log_columns.hpp"
 #include "scenario/measures.hpp"
-#include "scenario/reader.hpp"
 #include "scenario/variation.hpp"
 #include "sweep/plan.hpp"
 #include "sweep/window.hpp"
@@ -52,13 +51,6 @@ std::string edited(const Given& given, const Pairs& pairs, const std::string& co
   std::vector<ScenarioFamily::Setting> settings;
   for (const auto& [key, value] : pairs) settings.push_back({key, value});
   return edited_scenario(shared_family(given).source(), comments, settings);
-}
-
-Pairs tables(const Given& given) {
-  Pairs files;
-  for (const TableFile& its : table_files(scenario_of(given)))
-    files.emplace_back(its.key, its.path);
-  return files;
 }
 
 // Why the scenario lacks a column; empty if it has the column.
@@ -113,7 +105,6 @@ Given without_notes(const Given& given, const Texts& keys, const Texts& measures
 void define_analysis(py::module_& module, py::class_<Given>& given) {
   using scenario::Expectation;
   using scenario::NamedNumber;
-  using Relation = Expectation::Relation;
   static constexpr double unlimited = std::numeric_limits<double>::infinity();
   // A key that takes a number: its value (SI) in the scenario, else its default; and its range.
   attributes(
@@ -129,10 +120,7 @@ void define_analysis(py::module_& module, py::class_<Given>& given) {
       py::class_<Expectation>(module, "Expectation"), "text", &Expectation::text, "value",
       &Expectation::value, "measure", [](const Expectation& its) { return its.measure.name; },
       "unit", [](const Expectation& its) { return its.measure.unit(); }, "upper",
-      [](const Expectation& its) {
-        return its.relation == Relation::below || its.relation == Relation::at_most;
-      },
-      "of_loop",
+      &Expectation::is_upper, "of_loop",
       [](const Expectation& its) { return its.measure.kind == scenario::Measure::Kind::loop; })
       .def("holds", &Expectation::holds);
   given
@@ -167,7 +155,7 @@ void define_analysis(py::module_& module, py::class_<Given>& given) {
       .def("begins_anywhere",
            [](const Given& its) { return sweep::begins_anywhere(scenario_of(its)); })
       .def("edited", &edited)
-      .def("tables", &tables)
+      .def("tables", [](const Given& its) { return scenario_of(its).tables; })
       .def("lacks", &lacks)
       .def("without_notes", &without_notes)
       .def("drawn", &drawn);

@@ -143,8 +143,7 @@ py::list sweep(const Given& given, const Pairs& vary, const std::string& combine
   Work work(given);
   const api::SweepResult made = work.beside([&] {
     const ScenarioFamily family = work.family();
-    api::SweepRequest request{
-        given.name, family, api::with_choice(family.read_sweep(), choice), {}, {}};
+    api::SweepRequest request{given.name, &family, api::with_choice(family.read_sweep(), choice)};
     // A callable may keep a state, so its cases run one after another.
     request.threads = work.has_callable() ? 1 : threads;
     request.expect = expect;

@@ -84,10 +84,9 @@ py::list known_columns(const std::string& command_unit) {
   py::list all;
   const auto add = [&](const scenario::Column& column) {
     const std::string_view unit = scenario::is_command(column.name) ? command_unit : column.unit;
-    const scenario::Panel panel = scenario::panel_of(column, unit);
-    const auto its = scenario::text_of(panel);
-    all.append(py::make_tuple(column.name, column.symbol, unit, static_cast<int>(panel),
-                              its.heading, static_cast<int>(column.role), column.beside,
+    const scenario::Panel& panel = scenario::panel_of(column, unit);
+    all.append(py::make_tuple(column.name, column.symbol, unit, &panel - scenario::panels.data(),
+                              panel.heading, static_cast<int>(column.role), column.beside,
                               scenario::axis_of(column.name)));
   };
   std::ranges::for_each(scenario::catalogue, add);

@@ -117,9 +117,8 @@ void check_columns(const std::vector<std::string>& names, const Scenario& first)
     const bool is_known = column != nullptr && (column->needs != scenario::Needs::own ||
                                                 std::ranges::find(own, *name) != own.end());
     if (!is_known) {
-      std::vector<std::string_view> all;
-      for (const scenario::Column& known : scenario::catalogue) all.push_back(known.name);
-      refuse("columns", found + yaml::hint(*name, all), "the names that `bbsim columns` lists");
+      refuse("columns", found + yaml::hint(*name, scenario::column_names()),
+             "the names that `bbsim columns` lists");
     }
     if (const scenario::Missing lacks = scenario::missing(*column, first)) {
       refuse("columns", found + ", but " + lacks.why, lacks.instead);

@@ -83,7 +83,7 @@ void report_sampled_loop(Report& report, const Scenario& scenario, const model::
                                    short_number(cycle.frames) + " of the sensor's frames,"
                              : "a sample period";
   report.add("closed loop", std::to_string(poles.size()) + " poles of " + of +
-                                " about home: " + sampled_poles_line(poles));
+                                " about home: " + poles_line(poles, true));
   report_idle_axis(report, model);
   if (const std::string frames = without_frames(scenario, false); !frames.empty()) {
     report.add("", frames);

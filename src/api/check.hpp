@@ -88,11 +88,8 @@ struct Linearized : record::LinearReport {
 // Text of a file of that name; its ending selects the format: .m, .py, .csv, else JSON.
 [[nodiscard]] std::string file_text(const Linearized& linearized, const std::string& file);
 
-// "-15.5, -2.27 +- 8.45i, -0.001"
-[[nodiscard]] std::string poles_line(const model::Eigenvalues& poles);
-
-// Poles of a sampled loop, as magnitudes relative to the unit circle.
-[[nodiscard]] std::string sampled_poles_line(const model::Eigenvalues& poles);
+// "-15.5, -2.27 +- 8.45i, -0.001"; of a sampled loop, the largest six that are not near zero.
+[[nodiscard]] std::string poles_line(const model::Eigenvalues& poles, bool sampled = false);
 
 // Warns if the closed loop of `model`, the scenario's, is unstable about home, and says if other
 // signs of the gains, or a smaller ball, would make it stable. Else empty.

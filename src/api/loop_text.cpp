@@ -31,30 +31,17 @@ void add_pole(std::string& line, const std::complex<double>& pole, double larges
   }
 }
 
-double largest_of(const model::Eigenvalues& poles) {
-  double largest = 0;
-  for (const auto& pole : poles) largest = std::max(largest, std::abs(pole));
-  return largest;
-}
-
 }  // namespace
 
-std::string poles_line(const model::Eigenvalues& poles) {
-  std::string line;
-  const double largest = largest_of(poles);
-  for (const auto& pole : poles) {
-    if (!is_named(pole)) add_pole(line, pole, largest);
-  }
-  return line;
-}
-
-std::string sampled_poles_line(const model::Eigenvalues& poles) {
+std::string poles_line(const model::Eigenvalues& poles, bool sampled) {
   std::string line;
   std::size_t named = 0;
-  const double largest = largest_of(poles);
+  double largest = 0;
+  for (const auto& pole : poles) largest = std::max(largest, std::abs(pole));
   for (const auto& pole : poles) {
     if (is_named(pole)) continue;
-    if (named == 6 || (named > 0 && std::abs(pole) < 1e-3)) return line + ", smaller ones";
+    const bool small = named == 6 || (named > 0 && std::abs(pole) < 1e-3);
+    if (sampled && small) return line + ", smaller ones";
     add_pole(line, pole, largest);
     ++named;
   }
@@ -63,31 +50,37 @@ std::string sampled_poles_line(const model::Eigenvalues& poles) {
 
 namespace {
 
-std::string instability_of_samples(const model::Model& model) {
-  const model::Eigenvalues poles = model::sampled_poles(model);
-  if (poles.empty() || model::stable_by_period(poles)) return "";
-  const int outside = model::growing_by_period(poles);
-  if (outside == 0) {
-    return "the sampled loop is at the stability limit about home, within rounding: poles " +
-           sampled_poles_line(poles);
+// The loop's poles, and how many of them lie beyond the border of stability.
+struct LoopPoles {
+  bool sampled;
+  model::Eigenvalues all;
+  bool stable;
+  int growing;
+};
+
+LoopPoles loop_poles(const model::Model& model) {
+  if (model.rig && model.rig->sampled) {
+    model::Eigenvalues poles = model::sampled_poles(model);
+    return {true, poles, model::stable_by_period(poles), model::growing_by_period(poles)};
   }
-  return "the sampled loop is unstable about home: " + std::to_string(outside) + " of its " +
-         std::to_string(poles.size()) + (outside == 1 ? " poles is" : " poles are") +
-         " outside the unit circle: " + sampled_poles_line(poles);
+  model::Eigenvalues poles = model::closed_loop_poles(model);
+  return {false, poles, model::stable(poles), model::growing(poles)};
 }
 
 std::string instability(const model::Model& model) {
-  if (model.rig && model.rig->sampled) return instability_of_samples(model);
-  const model::Eigenvalues poles = model::closed_loop_poles(model);
-  if (poles.empty() || model::stable(poles)) return "";
-  const int growing = model::growing(poles);
+  const auto [sampled, poles, stable, growing] = loop_poles(model);
+  if (poles.empty() || stable) return "";
+  const std::string loop = sampled ? "the sampled loop" : "the closed loop";
+  const std::string line = poles_line(poles, sampled);
   if (growing == 0) {
-    return "the closed loop is at the stability limit about home, within rounding: poles (1/s) " +
-           poles_line(poles);
+    return loop + " is at the stability limit about home, within rounding: poles " +
+           (sampled ? "" : "(1/s) ") + line;
   }
-  return "the closed loop is unstable about home: " + std::to_string(growing) + " of its " +
-         std::to_string(poles.size()) + (growing == 1 ? " poles has" : " poles have") +
-         " a positive real part (1/s): " + poles_line(poles);
+  const std::string beyond =
+      sampled ? std::string(growing == 1 ? "is" : "are") + " outside the unit circle: "
+              : std::string(growing == 1 ? "has" : "have") + " a positive real part (1/s): ";
+  return loop + " is unstable about home: " + std::to_string(growing) + " of its " +
+         std::to_string(poles.size()) + " poles " + beyond + line;
 }
 
 bool is_pd_or_pid(const Scenario& scenario) {
@@ -138,11 +131,7 @@ bool feeds_back_the_turn(const Scenario& scenario, const model::Model& model) {
   if (!is_pd_or_pid(scenario) || scenario.controller->drives != Drives::angle) return false;
   Scenario variant = scenario;
   variant.controller->kp = variant.controller->ki = {};
-  const model::Model damped = model::assemble(variant, model.gamma);
-  const bool sampled = damped.rig && damped.rig->sampled;
-  const int growing = sampled ? model::growing_by_period(model::sampled_poles(damped))
-                              : model::growing(model::closed_loop_poles(damped));
-  if (growing == 0) return false;
+  if (loop_poles(model::assemble(variant, model.gamma)).growing == 0) return false;
   variant = scenario;
   constexpr double almost_none = 1e-6;
   variant.ball.radius *= almost_none;

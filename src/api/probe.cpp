@@ -147,13 +147,19 @@ struct Answers {
   bool ramps;
   std::array<std::optional<Sides>, 2> near, far;
 
+  // All that were probed.
+  [[nodiscard]] std::vector<const Sides*> all() const {
+    std::vector<const Sides*> found;
+    for (const auto* sides : {&near[0], &near[1], &far[0], &far[1]}) {
+      if (*sides) found.push_back(&**sides);
+    }
+    return found;
+  }
   // The first sample at which a command depends on the ball's position.
   [[nodiscard]] std::optional<std::size_t> first(std::size_t command) const {
     for (std::size_t i = 0; i < count; ++i) {
-      for (const auto* sides : {&near, &far}) {
-        for (const auto& axis_sides : *sides) {
-          if (axis_sides && axis_sides->up[i][command] != axis_sides->down[i][command]) return i;
-        }
+      for (const Sides* const sides : all()) {
+        if (sides->up[i][command] != sides->down[i][command]) return i;
       }
     }
     return {};
@@ -162,19 +168,12 @@ struct Answers {
   [[nodiscard]] std::size_t telling(std::size_t first) const { return ramps ? count - 1 : first; }
   // Whether a command keeps one value at all samples and wherever the ball is.
   [[nodiscard]] bool is_constant(std::size_t command) const {
-    std::optional<double> value;
-    for (const auto* sides : {&near, &far}) {
-      for (const auto& axis_sides : *sides) {
-        if (!axis_sides) continue;
-        for (const Commands* side : {&axis_sides->up, &axis_sides->down}) {
-          for (const Pair& commands : *side) {
-            if (value.value_or(commands[command]) != commands[command]) return false;
-            value = commands[command];
-          }
-        }
-      }
-    }
-    return true;
+    const std::vector<const Sides*> sides = all();
+    return std::ranges::all_of(sides, [&](const Sides* of) {
+      const double value = sides.front()->up.front()[command];
+      const auto is_value = [&](const Pair& commands) { return commands[command] == value; };
+      return std::ranges::all_of(of->up, is_value) && std::ranges::all_of(of->down, is_value);
+    });
   }
 
   // Rise of a command with a coordinate about the reference, in its unit per m.
@@ -191,12 +190,11 @@ bool has_ramps(const Scenario& scenario) {
   return scenario.controller->is_sketch() && scenario.gimbal.has_steppers();
 }
 
-Answers probe_along(Bench& bench, const Scenario& scenario, const std::vector<int>& axes,
+Answers probe_along(Bench& bench, const Scenario& scenario, const std::vector<std::size_t>& axes,
                     std::size_t count) {
   const auto reference = bench.reference_at(0);
   Answers answers{count, has_ramps(scenario), {}, {}};
-  for (const int coordinate : axes) {
-    const auto axis = static_cast<std::size_t>(coordinate);
+  for (const std::size_t axis : axes) {
     const auto at = [&](double distance) {
       const auto commands = [&](double away) {
         Pair from{0, 0};
@@ -215,11 +213,10 @@ Answers probe_along(Bench& bench, const Scenario& scenario, const std::vector<in
 // Samples in the time in which any controller must act: three times that in which the ball rolls
 // the longest distance on a plate tilted by 3 degrees, and the delays.
 std::size_t samples_to_act(const Scenario& scenario, const Bench& bench,
-                           const std::vector<int>& axes) {
+                           const std::vector<std::size_t>& axes) {
   double distance = 0;
   const auto reference = bench.reference_at(0);
-  for (const int coordinate : axes) {
-    const auto axis = static_cast<std::size_t>(coordinate);
+  for (const std::size_t axis : axes) {
     distance = std::max(distance, greatest_distance(scenario, axis, reference[axis].value));
   }
   const double acceleration =
@@ -406,15 +403,14 @@ Probed estimated_loop(const Scenario& scenario, const model::Model& model, Bench
 Probed probe(const Scenario& scenario, const model::Model& model) {
   Bench bench(model);
   Report report;
-  std::vector<int> axes = model::moving_axes(model);
-  if (scenario.ball.groove) axes = {scenario.ball.groove->axis};
-  const auto depend = [](const Answers& answers, int axis) {
-    return answers.first(static_cast<std::size_t>(axis)).has_value();
-  };
+  const std::vector<int> moving =
+      scenario.ball.groove ? std::vector{scenario.ball.groove->axis} : model::moving_axes(model);
+  const std::vector<std::size_t> axes(moving.begin(), moving.end());
   const bool ramps = has_ramps(scenario);
   Answers answers = probe_along(bench, scenario, axes,
                                 ramps ? samples_to_act(scenario, bench, axes) : few_samples);
-  if (!ramps && !std::ranges::all_of(axes, [&](int axis) { return depend(answers, axis); })) {
+  const auto depends = [&](std::size_t axis) { return answers.first(axis).has_value(); };
+  if (!ramps && !std::ranges::all_of(axes, depends)) {
     answers = probe_along(bench, scenario, axes, samples_to_act(scenario, bench, axes));
   }
   const std::string within =
@@ -427,14 +423,14 @@ Probed probe(const Scenario& scenario, const model::Model& model) {
     report.add("WARNING", "the controller answers differently to the same samples, " + within +
                               "; does it read a wall clock?");
   }
-  if (std::ranges::none_of(axes, [&](int axis) { return depend(answers, axis); })) {
+  if (std::ranges::none_of(axes, depends)) {
     const std::string idle = "its commands do not depend on where the ball is, " + within;
     report.add("WARNING", idle);
     return {report, {}, idle};
   }
   std::size_t sample = 0;  // from which on all commands answer
-  for (const int axis : axes) {
-    sample = std::max(sample, answers.first(static_cast<std::size_t>(axis)).value_or(0));
+  for (const std::size_t axis : axes) {
+    sample = std::max(sample, answers.first(axis).value_or(0));
   }
   if (sample > 0) {
     report.add("", "it answers to where the ball is from sample " + std::to_string(sample) +
@@ -445,8 +441,8 @@ Probed probe(const Scenario& scenario, const model::Model& model) {
   const std::string unit = command_unit(scenario.controller->drives);
   const bool legs = model.rig->sampled->legs;
   std::vector<int> driven;
-  for (const int axis : axes) {
-    const auto command = static_cast<std::size_t>(axis);
+  for (const std::size_t command : axes) {
+    const int axis = static_cast<int>(command);
     if (!legs && answers.is_constant(command) && !moves_along(scenario, bench, command)) {
       report.add("", std::string(angles[command]) + ": stays the same, and nothing moves " +
                          "the ball along " + coordinates[command]);

@@ -36,26 +36,6 @@ void describe_scene(replay::Run& run, const Scenario& scenario, bool checked = t
 
 }  // namespace
 
-std::vector<const scenario::Column*> with_pictured(
-    const std::vector<const scenario::Column*>& columns, const Scenario& scenario) {
-  std::vector<std::string> names{"t",       "x",       "y",       "phi",    "theta",
-                                 "ball_qw", "ball_qx", "ball_qy", "ball_qz"};
-  if (scenario.controller) {
-    for (const char* name : {"x_reference", "y_reference", "phi_command", "theta_command"}) {
-      names.emplace_back(name);
-    }
-    if (scenario.controller->sampling) {
-      names.emplace_back("x_measured");
-      names.emplace_back("y_measured");
-    }
-  }
-  std::vector<const scenario::Column*> all = columns;
-  for (const scenario::Column* column : scenario::columns_named(names)) {
-    if (std::ranges::find(all, column) == all.end()) all.push_back(column);
-  }
-  return all;
-}
-
 replay::Run run_of(const Scenario& scenario, file::Table rows, record::RunSummary summary,
                    const std::vector<double>& end_row, bool checked) {
   for (std::size_t c = 0; c < end_row.size(); ++c) rows.columns[c].numbers.push_back(end_row[c]);

@@ -27,10 +27,6 @@
 
 namespace bbsim::api {
 
-// These columns, followed by others that a picture of the scene needs.
-[[nodiscard]] std::vector<const scenario::Column*> with_pictured(
-    const std::vector<const scenario::Column*>& columns, const Scenario& scenario);
-
 // Run of the scenario for a page; `end_row` is that of record::Recorder.
 [[nodiscard]] replay::Run run_of(const Scenario& scenario, file::Table rows,
                                  record::RunSummary summary, const std::vector<double>& end_row,

@@ -20,7 +20,6 @@
 #include "file/default_name.hpp"
 #include "file/memory_table.hpp"
 #include "scenario/expectation.hpp"
-#include "scenario/reader.hpp"
 
 namespace bbsim::api {
 namespace {
@@ -55,6 +54,26 @@ Columns needed_for(Columns columns, const std::vector<scenario::Measure>& measur
     if (measure.instant.column != nullptr) columns.push_back(measure.instant.column);
   }
   return columns;
+}
+
+// These columns, followed by others that a picture of the scene needs.
+Columns with_pictured(const Columns& columns, const Scenario& scenario) {
+  std::vector<std::string> names{"t",       "x",       "y",       "phi",    "theta",
+                                 "ball_qw", "ball_qx", "ball_qy", "ball_qz"};
+  if (scenario.controller) {
+    for (const char* name : {"x_reference", "y_reference", "phi_command", "theta_command"}) {
+      names.emplace_back(name);
+    }
+    if (scenario.controller->sampling) {
+      names.emplace_back("x_measured");
+      names.emplace_back("y_measured");
+    }
+  }
+  Columns all = columns;
+  for (const scenario::Column* column : scenario::columns_named(names)) {
+    if (std::ranges::find(all, column) == all.end()) all.push_back(column);
+  }
+  return all;
 }
 
 file::ColumnHeader header_of(const scenario::Column& column) {
@@ -204,9 +223,7 @@ namespace {
 
 // Declares the files that a scenario names.
 void reads_parts(file::Outputs& outputs, const Scenario& scenario) {
-  for (const TableFile& table : table_files(scenario)) {
-    outputs.reads(table.path, "a table of the scenario");
-  }
+  for (const auto& [key, path] : scenario.tables) outputs.reads(path, "a table of the scenario");
   for (const std::string& file : controller::files_of(scenario)) {
     outputs.reads(file, "the scenario's controller");
   }

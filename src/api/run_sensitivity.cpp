@@ -130,10 +130,6 @@ bool is_reliable(const Derivative& found, double largest, double size, double st
          found.apart <= close * largest + rounding * std::max(size, least_size) / step;
 }
 
-}  // namespace
-
-namespace {
-
 // A number of the run, among those at the neighbors of a key. The run itself comes first, then the
 // neighbors of each key, each with `per_run` numbers.
 Five around(const std::vector<double>& numbers, std::size_t per_run, std::size_t at,

@@ -85,13 +85,11 @@ std::string stopping_text(const Scenario& scenario, const std::string& event) {
 // Why a run failed: when, what the integrator reported, what grew, and what to do.
 std::string failure_text(const Scenario& scenario, const model::Model& model,
                          const solve::Outcome& outcome) {
-  if (outcome.why == solve::Why::controller) {
-    return "the run ended early, at t = " + short_number(outcome.reached) + " s of " +
-           short_number(scenario.time.end) + " s: " + outcome.reason + '.';
-  }
-  const std::vector<std::string> names = model.state_names();
   std::string text = "the run ended early, at t = " + short_number(outcome.reached) + " s of " +
-                     short_number(scenario.time.end) + " s: " + outcome.reason + ".\n";
+                     short_number(scenario.time.end) + " s: " + outcome.reason + '.';
+  if (outcome.why == solve::Why::controller) return text;
+  text += '\n';
+  const std::vector<std::string> names = model.state_names();
   const auto& state = outcome.last_state;
   const auto lost = std::ranges::find_if(state, [](double value) { return !std::isfinite(value); });
   if (lost != state.end()) {
@@ -100,12 +98,7 @@ std::string failure_text(const Scenario& scenario, const model::Model& model,
   }
   const auto largest = std::max_element(
       state.begin(), state.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
-  const auto none =
-      std::find_if(state.begin(), state.end(), [](double z) { return std::isnan(z); });
-  if (none != state.end()) {
-    text += "  " + names[static_cast<std::size_t>(none - state.begin())] +
-            " is no longer a number: the motion has left the range of doubles.\n";
-  } else if (largest != state.end()) {
+  if (largest != state.end()) {
     const auto index = static_cast<std::size_t>(largest - state.begin());
     const char* verb =
         std::abs(*largest) > 1e3 ? " grew without bound, to " : " is the largest, at ";
@@ -116,7 +109,7 @@ std::string failure_text(const Scenario& scenario, const model::Model& model,
   if (!warning.empty()) {
     text += "  The cause is the scenario, not the solver: " + warning + ".\n";
     text += "  Change the gains or the servo; `bbsim check` shows the poles.";
-  } else if (none != state.end() || (largest != state.end() && std::abs(*largest) > 1e30)) {
+  } else if (largest != state.end() && std::abs(*largest) > 1e30) {
     text +=
         "  The cause is the motion, not the solver: end the scenario earlier, or change the "
         "gimbal's "
@@ -188,13 +181,11 @@ Ended how(solve::Ending ending) {
 }
 
 // What was integrated, and how well, as far as the run knows.
-struct Integration {
-  solve::Outcome outcome;
-  solve::Tolerances tolerances;
-  std::optional<double> error_estimate;  // m; only for solver.error
-  std::vector<double> row_estimates;     // for each row
-  bool within_error = true;
+struct Integration : study::ErrorControlled {
+  bool has_estimate = false;  // only for solver.error
   double cpu_seconds = 0;
+
+  [[nodiscard]] bool within_error() const { return met || !has_estimate; }
 };
 
 Integration integrate(const Scenario& scenario, const model::Model& model,
@@ -204,15 +195,10 @@ Integration integrate(const Scenario& scenario, const model::Model& model,
   const Solver& solver = scenario.solver;
   Integration integration;
   if (solver.error) {
-    study::ErrorControlled run =
+    static_cast<study::ErrorControlled&>(integration) =
         study::integrate_to_error(model, solver.method, *solver.error, grid, sink, watch);
-    integration = {std::move(run.outcome), run.tolerances, {}, {}, true, 0};
-    if (integration.outcome.ending == solve::Ending::done ||
-        integration.outcome.ending == solve::Ending::stopped) {
-      integration.error_estimate = run.estimate;
-      integration.row_estimates = std::move(run.row_estimates);
-      integration.within_error = run.met;
-    }
+    integration.has_estimate = integration.outcome.ending == solve::Ending::done ||
+                               integration.outcome.ending == solve::Ending::stopped;
   } else {
     integration.tolerances = {solver.rtol, solver.atol};
     integration.outcome =
@@ -243,10 +229,10 @@ std::string shortfall(const Scenario& scenario, const model::Model& model,
     case solve::Ending::done:
       break;
   }
-  if (integration.within_error) return "";
+  if (integration.within_error()) return "";
   return "an error of " + short_number(*scenario.solver.error) +
          " m is out of reach: the scenario amplifies rounding, and double precision gives about " +
-         short_number(rounded_up(*integration.error_estimate)) +
+         short_number(rounded_up(integration.estimate)) +
          " m.\n"
          "  Ask for that, or end the scenario earlier. The rows are those of the best run.";
 }
@@ -272,7 +258,7 @@ record::RunSummary summary_of(const Scenario& scenario, const model::Model& mode
   summary.rtol = integration.tolerances.rtol;
   summary.atol = integration.tolerances.atol;
   summary.error_bound = scenario.solver.error;
-  summary.error_estimate = integration.error_estimate;
+  if (integration.has_estimate) summary.error_estimate = integration.estimate;
   summary.events = outcome.occurrences;
   summary.statistics = {outcome.statistics, integration.cpu_seconds};
   return summary;
@@ -336,7 +322,7 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
   record::RunSummary& summary = result.summary = summary_of(scenario, model, integration);
   summary.reason = shortfall(scenario, model, integration);
   solve::Why why =
-      integration.within_error ? integration.outcome.why : solve::Why::error_out_of_reach;
+      integration.within_error() ? integration.outcome.why : solve::Why::error_out_of_reach;
   const std::string not_finite = recorder.why_not_finite(wanted.finite_columns);
   if (summary.reason.empty() && !not_finite.empty()) {
     summary.reason = "the motion was computed to its end, but " + not_finite +
@@ -353,7 +339,7 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
   summary.peaks = recorder.peaks();
   result.noted = noted_text(integration.outcome.occurrences);
   result.code = how(integration.outcome.ending).code;
-  const bool whole = integration.within_error && not_finite.empty();
+  const bool whole = integration.within_error() && not_finite.empty();
   if (result.code == ExitCode::done && !whole) result.code = ExitCode::ended_early;
   return simulation;
 }

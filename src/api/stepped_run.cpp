@@ -9,48 +9,37 @@
 
 namespace bbsim::api {
 
-struct SteppedRun::State {
+// The run, and the controller in it, which waits at each sample for the caller of step().
+struct SteppedRun::State : model::ExternalController {
   explicit State(RunRequest of) : request(std::move(of)), fiber([this] { run(); }) {}
 
   void run() { result = api::run(request, watch); }
 
+  void begin() override {}
+  model::Commands command(const model::ControllerSample& at, double* /*own*/) override {
+    sample = copy_of(at);
+    fiber.wait();
+    if (given_up) throw ControllerFault("the run was abandoned", true);
+    return {given[0], given[1], 0};
+  }
+
   RunRequest request;
   Watch watch;
   Sample sample;
-  Pair command{};
+  Pair given{};
   bool given_up = false;
   RunResult result;
   Fiber fiber;
 };
 
-namespace {
-
-// Waits at each sample for the caller of step().
-template <class State>
-class Waiting : public model::ExternalController {
- public:
-  explicit Waiting(State& state) : state_(state) {}
-
-  void begin() override {}
-  model::Commands command(const model::ControllerSample& sample, double* /*own*/) override {
-    state_.sample = copy_of(sample);
-    state_.fiber.wait();
-    if (state_.given_up) throw ControllerFault("the run was abandoned", true);
-    return {state_.command[0], state_.command[1], 0};
-  }
-
- private:
-  State& state_;
-};
-
-}  // namespace
-
 SteppedRun::SteppedRun(const Scenario& scenario, RunRequest request) {
   request.scenario = with_outside_commands(scenario);
   state_ = std::make_unique<State>(std::move(request));
-  state_->request.scenario.controller->own->by = ControllerFactory{
-      "commands from outside",
-      [state = state_.get()](const Scenario&) { return std::make_shared<Waiting<State>>(*state); }};
+  state_->request.scenario.controller->own->by =
+      ControllerFactory{"commands from outside", [state = state_.get()](const Scenario&) {
+                          // The run does not own its state, in which it is.
+                          return std::shared_ptr<State>(std::shared_ptr<void>(), state);
+                        }};
   state_->fiber.resume();
 }
 
@@ -76,7 +65,7 @@ void SteppedRun::step(Pair command) {
     throw InputError("step: found within the run's own step, as in its sink; allowed: after it");
   }
   require_finite(command);
-  state_->command = command;
+  state_->given = command;
   state_->fiber.resume();
 }
 

@@ -73,8 +73,8 @@ void keep_rows(sweep::SweepTask& task, const Scenario& scenario) {
 
 sweep::SweepTask task_of(const SweepRequest& request, const sweep::SweepPlan& plan,
                          const Scenario& first, Watch& watch) {
-  sweep::SweepTask task{request.family, plan,
-                        measures_of(request.sweep, request.family, plan, first)};
+  sweep::SweepTask task{*request.family, plan,
+                        measures_of(request.sweep, *request.family, plan, first)};
   expect(task, request, first);
   task.report = [&watch](std::string_view line) { watch.controller_says(line); };
   if (request.keeps_rows) keep_rows(task, first);
@@ -85,7 +85,7 @@ sweep::SweepTask task_of(const SweepRequest& request, const sweep::SweepPlan& pl
 void declare_files(const SweepRequest& request, const Scenario& first) {
   file::Outputs outputs;
   reads_scenario(outputs, request.file, first);
-  for (const auto& [name, hash] : request.family.table_hashes()) {
+  for (const auto& [name, hash] : request.family->table_hashes()) {
     outputs.reads(name, "a table of the scenario");
   }
   outputs.writes(request.output, request.by_default ? "its name by default, without -o" : "-o");
@@ -180,12 +180,12 @@ Sweep with_choice(Sweep sweep, const SweepChoice& choice) {
 }
 
 SweepSize check_sweep(const SweepRequest& request, Watch& watch) {
-  const sweep::SweepPlan plan(request.family, request.sweep);
-  const Scenario first = request.family.read(plan.settings(0));
+  const sweep::SweepPlan plan(*request.family, request.sweep);
+  const Scenario first = request.family->read(plan.settings(0));
   const sweep::SweepTask task = task_of(request, plan, first, watch);
   declare_files(request, first);
   for (const std::string& remark : first.remarks) watch.note(remark);
-  static_cast<void>(plan.check(request.family, 0, plan.cases(), [&](double part) {
+  static_cast<void>(plan.check(*request.family, 0, plan.cases(), [&](double part) {
     watch.update(part, "checking the cases");
     return true;
   }));
@@ -196,7 +196,7 @@ SweepSize check_sweep(const SweepRequest& request, Watch& watch) {
 
 SweepResult sweep(const SweepRequest& request, Watch& watch) {
   require_whole("threads", request.threads, 0, most_threads);
-  const ScenarioFamily& family = request.family;
+  const ScenarioFamily& family = *request.family;
   const sweep::SweepPlan plan(family, request.sweep);
   const Scenario first = family.read(plan.settings(0));
   const sweep::SweepTask task = task_of(request, plan, first, watch);

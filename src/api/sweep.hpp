@@ -37,11 +37,11 @@ struct Shard {
 constexpr double most_threads = 1024;
 
 struct SweepRequest {
-  std::string file;  // the scenario's, as the user gave it; "-": standard input
-  const ScenarioFamily& family;
-  Sweep sweep;
+  std::string file{};  // the scenario's, as the user gave it; "-": standard input
+  const ScenarioFamily* family = nullptr;
+  Sweep sweep{};
   Shard shard{};
-  std::string output;  // for sweep::CaseFile; empty: the result's table
+  std::string output{};  // for sweep::CaseFile; empty: the result's table
   // The user did not name the output: messages say so, and unless `replaces_anything`, only a table
   // with the same columns is replaced.
   bool by_default = false, replaces_anything = false;

@@ -32,6 +32,18 @@ namespace bbsim {
   return lines;
 }
 
+// The parts between the separators: one more than there are separators.
+[[nodiscard]] inline std::vector<std::string_view> split(std::string_view text,
+                                                         std::string_view separator) {
+  std::vector<std::string_view> parts;
+  for (auto end = text.find(separator); end != text.npos; end = text.find(separator)) {
+    parts.push_back(text.substr(0, end));
+    text.remove_prefix(end + separator.size());
+  }
+  parts.push_back(text);
+  return parts;
+}
+
 // The texts in one line, with ", " between them; of other items, the texts that `as` makes of them.
 template <class Items, class As = std::identity>
 [[nodiscard]] std::string joined(const Items& items, As as = {}) {

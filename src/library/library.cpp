@@ -275,11 +275,8 @@ Table sweep(const Scenario& scenario, const SweepOptions& options) {
     api::SweepChoice choice{{}, {}, options.samples, options.seed, options.measures};
     for (const auto& [key, spec] : options.vary) choice.vary.push_back({key, spec});
     if (!options.vary.empty()) choice.combine = options.zip ? "zip" : "grid";
-    api::SweepRequest request{scenario.state().source.file,
-                              family,
-                              api::with_choice(family.read_sweep(), choice),
-                              {},
-                              {}};
+    api::SweepRequest request{scenario.state().source.file, &family,
+                              api::with_choice(family.read_sweep(), choice)};
     request.threads = static_cast<double>(options.threads);
     Watch watch(options.goes_on);
     api::SweepResult sweep_result = api::sweep(request, watch);

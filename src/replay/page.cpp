@@ -59,18 +59,17 @@ Json plots_json() {
                          {"role", roles[static_cast<int>(column.role)]},
                          {"axis", scenario::axis_of(column.name)}});
     };
-    for (std::size_t p = 0; p < scenario::panels.size(); ++p) {
-      const auto panel = static_cast<scenario::Panel>(p);
-      if (scenario::text_of(panel).plot != title) continue;
+    for (const scenario::Panel& panel : scenario::panels) {
+      if (panel.plot != title) continue;
       const auto add_if_here = [&](const scenario::Column& column) {
         if (column.needs != scenario::Needs::commands) {
-          if (column.panel == panel) add(column, column.unit);
+          if (column.panel == panel.name) add(column, column.unit);
           return;
         }
         for (const Drives drives :
              {Drives::angle, Drives::acceleration, Drives::torque, Drives::voltage}) {
           const std::string_view unit = command_unit(drives);
-          if (scenario::panel_of(column, unit) == panel) add(column, unit);
+          if (&scenario::panel_of(column, unit) == &panel) add(column, unit);
         }
       };
       std::ranges::for_each(scenario::catalogue, add_if_here);

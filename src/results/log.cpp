@@ -62,10 +62,8 @@ std::optional<double> number_of(std::string_view text) {
 
 const scenario::Column& target_of(std::string_view part, std::string_view name) {
   if (const scenario::Column* const column = scenario::find_column(name)) return *column;
-  std::vector<std::string_view> names;
-  for (const scenario::Column& column : scenario::catalogue) names.push_back(column.name);
-  refuse(part, ": there is no column " + bbsim::quoted(name) + near(name, names) +
-                   "; allowed: those of `bbsim columns`");
+  refuse(part, ": there is no column " + bbsim::quoted(name) +
+                   near(name, scenario::column_names()) + "; allowed: those of `bbsim columns`");
 }
 
 // Reads one part of a map. A column's name may contain signs, colons and stars: a text that is a
@@ -144,14 +142,11 @@ class PartReader {
 std::vector<Mapped> read_maps(const std::vector<std::string>& maps, const Result& log) {
   std::vector<Mapped> all;
   for (const std::string& map : maps) {
-    for (std::size_t start = 0; start <= map.size();) {
-      const std::size_t end = std::min(map.find(',', start), map.size());
-      const std::string_view part = std::string_view(map).substr(start, end - start);
+    for (const std::string_view part : split(map, ",")) {
       all.push_back(PartReader(part, log).read());
       if (std::ranges::count(all, all.back().column, &Mapped::column) > 1) {
         refuse(part, ": " + std::string(all.back().column->name) + " is given twice");
       }
-      start = end + 1;
     }
   }
   return all;

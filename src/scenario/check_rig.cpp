@@ -104,16 +104,14 @@ class Checks {
         refuse("controller.sampling.jitter", why + " on average");
       }
     }
-    if (controller.sampling->delay > most_periods * period) {
-      refuse("controller.sampling.delay",
+    const auto check_delay = [&](std::string_view path, double delay) {
+      if (delay <= most_periods * period) return;
+      refuse(path,
              "found more than 100 periods of controller.sampling; allowed: a shorter delay, or a "
              "longer period");
-    }
-    if (controller.sensor && controller.sensor->delay > most_periods * period) {
-      refuse("controller.sensor.delay",
-             "found more than 100 periods of controller.sampling; allowed: a shorter delay, or a "
-             "longer period");
-    }
+    };
+    check_delay("controller.sampling.delay", controller.sampling->delay);
+    if (controller.sensor) check_delay("controller.sensor.delay", controller.sensor->delay);
   }
 
   void contact_force() const {

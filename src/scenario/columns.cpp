@@ -15,6 +15,10 @@ namespace bbsim::scenario {
 
 namespace {
 
+static_assert(std::ranges::all_of(catalogue, [](const Column& column) {
+  return std::ranges::find(panels, column.panel, &Panel::name) != panels.end();
+}));
+
 // Columns of numbers from your own controllers. Each column views its name in the map. Nothing is
 // ever removed, because pointers to columns outlive their scenario.
 struct OwnColumns {
@@ -66,6 +70,12 @@ std::vector<std::string> own_columns(const Scenario& scenario) {
   return names;
 }
 
+std::vector<std::string_view> column_names() {
+  std::vector<std::string_view> names;
+  for (const Column& column : catalogue) names.push_back(column.name);
+  return names;
+}
+
 std::vector<const Column*> columns_named(const std::vector<std::string>& names) {
   std::vector<const Column*> found;
   for (const std::string& name : names) {
@@ -113,13 +123,14 @@ bool is_command(std::string_view name) {
   return column != nullptr && column->needs == Needs::commands;
 }
 
-Panel panel_of(const Column& column, std::string_view unit) {
+const Panel& panel_of(const Column& column, std::string_view unit) {
+  std::string_view name = column.panel;
   if (column.needs == Needs::commands) {
-    if (unit == "rad/s^2") return Panel::accelerations;
-    if (unit == "N m") return Panel::given_torques;
-    if (unit == "V") return Panel::voltages;
+    if (unit == "rad/s^2") name = "accelerations";
+    if (unit == "N m") name = "given_torques";
+    if (unit == "V") name = "voltages";
   }
-  return column.panel;
+  return *std::ranges::find(panels, name, &Panel::name);
 }
 
 Missing missing(const Column& column, const Scenario& scenario) {

@@ -20,16 +20,6 @@ using yaml::Entry;
 using yaml::Node;
 using yaml::Position;
 
-std::size_t offset_of(std::string_view text, const Position& position) {
-  std::size_t line_start = 0;
-  for (int line = 1; line < position.line; ++line) {
-    const std::size_t newline = text.find('\n', line_start);
-    if (newline == std::string_view::npos) return text.size();
-    line_start = newline + 1;
-  }
-  return std::min(text.size(), line_start + static_cast<std::size_t>(position.column - 1));
-}
-
 // The length of a scalar that is written on one line without escapes; empty for any other.
 std::optional<std::size_t> written_length(std::string_view text, const Node& scalar) {
   if (text.starts_with(scalar.text) && !scalar.quoted) return scalar.text.size();
@@ -220,8 +210,7 @@ class Editor {
       if (value->position.line != entry->position.line) continue;
       const std::size_t at = offset_of(text_, value->position);
       if (!written_length(std::string_view(text_).substr(at), *value)) continue;
-      const std::size_t end = std::min(text_.find('\n', at), text_.size());
-      text_.insert(end, "\n" + indent + added);
+      text_.insert(line_end(text_, at), "\n" + indent + added);
       return;
     }
     text_.insert(first, added + "\n" + indent);

@@ -12,22 +12,6 @@
 
 namespace bbsim::scenario {
 
-using Relation = Expectation::Relation;
-
-bool Expectation::holds(double measured) const {
-  switch (relation) {
-    case Relation::below:
-      return measured < value;
-    case Relation::at_most:
-      return measured <= value;
-    case Relation::above:
-      return measured > value;
-    case Relation::at_least:
-      break;
-  }
-  return measured >= value;
-}
-
 Expectation read_expectation(std::string_view where, std::string_view text,
                              const Scenario& scenario) {
   text = trimmed(text);
@@ -39,15 +23,13 @@ Expectation read_expectation(std::string_view where, std::string_view text,
                      "; allowed: \"MEASURE < VALUE\", or with <=, > or >=, such as \"max_tilt < 5 "
                      "deg\"");
   }
-  const bool below = text[sign] == '<';
-  const bool equal = sign + 1 < text.size() && text[sign + 1] == '=';
   Expectation expectation;
-  expectation.relation = below ? (equal ? Relation::at_most : Relation::below)
-                               : (equal ? Relation::at_least : Relation::above);
+  expectation.is_upper = text[sign] == '<';
+  expectation.or_equal = sign + 1 < text.size() && text[sign + 1] == '=';
   expectation.text = text;
   expectation.measure = measure_named(where, std::string(trimmed(text.substr(0, sign))), scenario);
   const std::string unit = expectation.measure.unit();
-  const auto value = yaml::value_in(text.substr(sign + (equal ? 2 : 1)), unit);
+  const auto value = yaml::value_in(text.substr(sign + (expectation.or_equal ? 2 : 1)), unit);
   if (!value) {
     throw InputError(found + ", but " + expectation.measure.name + " is in " + unit +
                      "; allowed: a number in that unit, or a quantity of its kind");

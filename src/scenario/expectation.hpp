@@ -14,13 +14,16 @@
 namespace bbsim::scenario {
 
 struct Expectation {
-  enum class Relation { below, at_most, above, at_least } relation = Relation::below;
   std::string text;  // as given
   Measure measure{};
-  double value = 0;  // in the measure's unit
+  double value = 0;                        // in the measure's unit
+  bool is_upper = true, or_equal = false;  // < or <=, else > or >=; <= or >=
 
   // False for NaN.
-  [[nodiscard]] bool holds(double measured) const;
+  [[nodiscard]] bool holds(double measured) const {
+    if (measured == value) return or_equal;
+    return is_upper ? measured < value : measured > value;
+  }
 };
 
 // Reads "MEASURE < VALUE", or with <=, > or >=. The value may have a unit. Throws InputError,

@@ -58,7 +58,8 @@ Scenario ScenarioFamily::State::read(const std::vector<Setting>& settings,
     }
   }
   Scenario scenario;
-  Context context{problems, std::filesystem::path(source.file).parent_path(), {}, tables, numbers};
+  Context context{problems, std::filesystem::path(source.file).parent_path(), {}, tables, {},
+                  numbers};
   MappingOf(read_sections).read({tree, "", {}, &context}, scenario);
   problems.throw_if_any();
   scenario.remarks = problems.remarks();

@@ -20,21 +20,21 @@ bool is_zero(const Profile& profile) {
 struct StaysAtZero {
   std::size_t i;
 
+  [[nodiscard]] bool are_zero(const std::vector<Pair>& points) const {
+    return std::ranges::all_of(points, [this](const Pair& point) { return point[i] == 0; });
+  }
+
   bool operator()(const PointReference& of) const { return of.position[i] == 0; }
   bool operator()(const CircleReference& of) const { return of.radius == 0 && of.centre[i] == 0; }
   bool operator()(const LissajousReference& of) const {
     return of.amplitude[i] == 0 && of.centre[i] == 0;
   }
-  bool operator()(const WaypointReference& of) const {
-    return std::ranges::all_of(of.points, [this](const Pair& point) { return point[i] == 0; });
-  }
+  bool operator()(const WaypointReference& of) const { return are_zero(of.points); }
   bool operator()(const CommandProfiles& of) const { return is_zero(i == 0 ? of.phi : of.theta); }
   bool operator()(const TableReference& of) const {
     return std::ranges::all_of(i == 0 ? of.x : of.y, [](double value) { return value == 0; });
   }
-  bool operator()(const StaircaseReference& of) const {
-    return std::ranges::all_of(of.points, [this](const Pair& point) { return point[i] == 0; });
-  }
+  bool operator()(const StaircaseReference& of) const { return are_zero(of.points); }
   bool operator()(const SquareReference& of) const {
     return of.amplitude[i] == 0 && of.centre[i] == 0;
   }

@@ -85,9 +85,7 @@ bool is_plain(const Scenario& scenario) {
   }
   if (!scenario.controller) return true;
   const Gimbal& gimbal = scenario.gimbal;
-  if (gimbal.linkage[0] || gimbal.linkage[1] || gimbal.three_servos || gimbal.theta_servo) {
-    return false;
-  }
+  if (bbsim::scenario::is_linked(scenario) || gimbal.theta_servo) return false;
   const Controller& controller = *scenario.controller;
   return controller.law == Law::pd && !controller.limit && !controller.axis_limits &&
          !controller.sampling && (!gimbal.servo || gimbal.servo->plain());

@@ -27,15 +27,20 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
   }
 }
 
+std::string unit_pattern(yaml::Dimension dimension) {
+  std::string units = yaml::unit_names(dimension);
+  replace_all(units, ", ", "|");
+  replace_all(units, "^2", "(\\^2|²)");
+  return units;
+}
+
 // A pattern for a number with a unit. It checks only bounds at zero.
 std::string pattern_of(const Declared& number) {
   const yaml::Range& range = number.range;
   const bool zero = range.at_least == 0.0 && range.at_most == 0.0;
   const bool positive = range.above >= 0.0 || (range.at_least && *range.at_least > 0);
   const bool negative = !positive && !(range.at_least >= 0.0);
-  std::string units = yaml::unit_names(number.dimension);
-  replace_all(units, ", ", "|");
-  replace_all(units, "^2", "(\\^2|²)");
+  std::string units = unit_pattern(number.dimension);
   replace_all(units, "um", "[uµμ]m");
   replace_all(units, "us", "[uµμ]s");
   replace_all(units, "deg", "(deg|°)");
@@ -77,16 +82,16 @@ Json all_of(std::vector<Json> parts) {
   return parts.size() == 1 ? parts.front() : Json{{"allOf", std::move(parts)}};
 }
 
-Json has_any(const std::vector<std::string_view>& keys) {
-  std::vector<Json> parts;
-  for (const std::string_view key : keys) parts.push_back(has(key));
-  return any_of(std::move(parts));
+// The schema of each item.
+template <class Items, class Schema>
+std::vector<Json> each(const Items& items, const Schema& schema) {
+  std::vector<Json> schemas;
+  for (const auto& item : items) schemas.push_back(schema(item));
+  return schemas;
 }
 
-Json has_all(const std::vector<std::string_view>& keys) {
-  std::vector<Json> parts;
-  for (const std::string_view key : keys) parts.push_back(has(key));
-  return all_of(std::move(parts));
+Json has_any(const std::vector<std::string_view>& keys) {
+  return any_of(each(keys, has));
 }
 
 Json unless(Json schema) {
@@ -152,9 +157,7 @@ Json mapping_schema(const Declared& mapping) {
   }
   for (const Choice& choice : mapping.choices) add_choice(choice, mapping, all);
   for (const auto& groups : mapping.needs) {
-    std::vector<Json> parts;
-    for (const auto& group : groups) parts.push_back(has_all(group));
-    all.push_back(any_of(std::move(parts)));
+    all.push_back(any_of(each(groups, [](const auto& keys) { return all_of(each(keys, has)); })));
   }
   for (const auto& [key, other] : mapping.together) {
     all.push_back({{"if", has(key)}, {"then", has(other)}});
@@ -177,12 +180,9 @@ Json schema_of(const Declared& value) {
       if (std::ranges::count(value.names, "true") > 0) names.insert(names.end(), {true, false});
       return {{"enum", names}};
     }
-    case Declared::Kind::unit: {
-      std::string units = yaml::unit_names(value.dimension);
-      replace_all(units, ", ", "|");
-      replace_all(units, "^2", "(\\^2|²)");
-      return {{"type", "string"}, {"pattern", "^\\s*([µμ°]|" + units + ").*$"}};
-    }
+    case Declared::Kind::unit:
+      return {{"type", "string"},
+              {"pattern", "^\\s*([µμ°]|" + unit_pattern(value.dimension) + ").*$"}};
     case Declared::Kind::list: {
       Json schema = {
           {"type", "array"}, {"minItems", value.fewest}, {"items", schema_of(value.parts.front())}};
@@ -194,11 +194,8 @@ Json schema_of(const Declared& value) {
       return mapping_schema(value);
     case Declared::Kind::names:
       return {{"type", "object"}, {"additionalProperties", schema_of(value.parts.front())}};
-    case Declared::Kind::any: {
-      Json parts = Json::array();
-      for (const Declared& part : value.parts) parts.push_back(schema_of(part));
-      return {{"anyOf", parts}};
-    }
+    case Declared::Kind::any:
+      return {{"anyOf", each(value.parts, [](const Declared& part) { return schema_of(part); })}};
     case Declared::Kind::none:
       break;
   }
@@ -237,13 +234,7 @@ Json holds(const Condition& condition) {
 }
 
 Json hold(std::string_view text) {
-  std::vector<Json> alternatives;
-  for (const auto& alternative : conditions(text)) {
-    std::vector<Json> all;
-    for (const Condition& condition : alternative) all.push_back(holds(condition));
-    alternatives.push_back(all_of(std::move(all)));
-  }
-  return any_of(std::move(alternatives));
+  return any_of(each(conditions(text), [](const auto& all) { return all_of(each(all, holds)); }));
 }
 
 Json schema_of(const KeyRelation& relation) {

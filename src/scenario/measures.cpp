@@ -131,45 +131,43 @@ bool is_usable(const Column* column) {
 // Reads "x=0.05 rise=2" or "tracking_error stays below 2 mm".
 std::optional<Instant> read_condition(std::string_view text, const FindColumn& find) {
   Instant instant;
+  std::string_view level;
   const std::size_t stays = text.find(" stays ");
+  std::size_t end = stays;  // of the column's name
   if (stays != std::string_view::npos) {
-    instant.column = find(trimmed(text.substr(0, stays)));
-    std::string_view rest = trimmed(text.substr(stays + 7));
-    if (take_word(rest, "below")) {
+    level = trimmed(text.substr(stays + 7));
+    if (take_word(level, "below")) {
       instant.kind = Instant::Kind::stays_below;
-    } else if (take_word(rest, "above")) {
+    } else if (take_word(level, "above")) {
       instant.kind = Instant::Kind::stays_above;
     } else {
       return {};
     }
-    if (!is_usable(instant.column)) return {};
-    const std::optional<double> level = yaml::value_in(rest, instant.column->unit);
-    if (!level) return {};
-    instant.level = *level;
-    return instant;
+  } else {
+    struct Word {
+      std::string_view text;
+      Instant::Way way;
+    };
+    constexpr Word words[] = {{" rise=", Instant::Way::rise},
+                              {" fall=", Instant::Way::fall},
+                              {" cross=", Instant::Way::either}};
+    for (const Word& word : words) {
+      const std::size_t place = text.find(word.text);
+      if (place == std::string_view::npos) continue;
+      instant.way = word.way;
+      if (!read_number(trimmed(text.substr(place + word.text.size())), instant.number)) return {};
+      text = text.substr(0, place);
+      break;
+    }
+    end = text.find('=');
+    if (end == std::string_view::npos) return {};
+    level = text.substr(end + 1);
   }
-  struct Word {
-    std::string_view text;
-    Instant::Way way;
-  };
-  constexpr Word words[] = {{" rise=", Instant::Way::rise},
-                            {" fall=", Instant::Way::fall},
-                            {" cross=", Instant::Way::either}};
-  for (const Word& word : words) {
-    const std::size_t place = text.find(word.text);
-    if (place == std::string_view::npos) continue;
-    instant.way = word.way;
-    if (!read_number(trimmed(text.substr(place + word.text.size())), instant.number)) return {};
-    text = text.substr(0, place);
-    break;
-  }
-  const std::size_t equals = text.find('=');
-  if (equals == std::string_view::npos) return {};
-  instant.column = find(trimmed(text.substr(0, equals)));
+  instant.column = find(trimmed(text.substr(0, end)));
   if (!is_usable(instant.column)) return {};
-  const std::optional<double> level = yaml::value_in(text.substr(equals + 1), instant.column->unit);
-  if (!level) return {};
-  instant.level = *level;
+  const std::optional<double> value = yaml::value_in(level, instant.column->unit);
+  if (!value) return {};
+  instant.level = *value;
   return instant;
 }
 
@@ -282,10 +280,6 @@ std::string Measure::unit() const {
   return std::string(column->unit);
 }
 
-std::optional<Measure> find_measure(std::string_view name) {
-  return find_measure(name, [](std::string_view column) { return find_column(column); });
-}
-
 std::optional<Measure> find_measure(std::string_view name, const FindColumn& find) {
   const WindowedName windowed = split_window(name);
   std::optional<Measure> measure = find_whole(windowed.base, find);
@@ -300,11 +294,7 @@ std::optional<Measure> find_measure(std::string_view name, const FindColumn& fin
 std::vector<std::string> split_measures(const std::vector<std::string>& lists) {
   std::vector<std::string> names;
   for (const std::string& list : lists) {
-    for (std::size_t start = 0; start != std::string::npos;) {
-      const std::size_t comma = list.find(',', start);
-      names.emplace_back(trimmed(std::string_view(list).substr(start, comma - start)));
-      start = comma == std::string::npos ? comma : comma + 1;
-    }
+    for (const std::string_view name : split(list, ",")) names.emplace_back(trimmed(name));
   }
   return names;
 }
@@ -341,10 +331,6 @@ std::string measure_hint(std::string_view name, std::span<const std::string_view
   for (const LoopMeasure& loop : loop_measures) measures.emplace_back(loop.name);
   const std::vector<std::string_view> known(measures.begin(), measures.end());
   return yaml::hint(name, known);
-}
-
-std::string measure_hint(std::string_view name) {
-  return measure_hint(name, measured_columns());
 }
 
 std::string allowed_measures() {

@@ -179,11 +179,10 @@ struct Measure {
 //   any of these with "from TIME", "to TIME" or both: for that part of the run
 // A VALUE may have a unit of the column's dimension: "5 cm". The measure's own name has numbers in
 // SI instead, except those of the window.
-[[nodiscard]] std::optional<Measure> find_measure(std::string_view name);
-
-// The same for the columns that `find` knows, such as those of a stored file.
+// `find` knows the columns: those of a scenario, or of a stored file.
 using FindColumn = std::function<const Column*(std::string_view name)>;
-[[nodiscard]] std::optional<Measure> find_measure(std::string_view name, const FindColumn& find);
+[[nodiscard]] std::optional<Measure> find_measure(std::string_view name,
+                                                  const FindColumn& find = find_column);
 
 // The measures of the motion, and the indices of measures of motion and loop in the full list.
 struct SplitMeasures {
@@ -199,11 +198,10 @@ struct SplitMeasures {
 [[nodiscard]] std::vector<std::string> measures_of(std::span<const std::string_view> columns);
 [[nodiscard]] std::vector<std::string_view> measured_columns();
 
-// For messages about an unknown name: " (did you mean x.RiseTime?)" from the existing columns, or
-// an empty text; and the text of the allowed names.
-[[nodiscard]] std::string measure_hint(std::string_view name,
-                                       std::span<const std::string_view> columns);
-[[nodiscard]] std::string measure_hint(std::string_view name);  // with the columns of a scenario
+// For messages about an unknown name: " (did you mean x.RiseTime?)" from the existing columns, by
+// default those of a scenario, or an empty text; and the text of the allowed names.
+[[nodiscard]] std::string measure_hint(
+    std::string_view name, std::span<const std::string_view> columns = measured_columns());
 [[nodiscard]] std::string allowed_measures();
 
 // The measure with this name. Throws InputError, starting with `where`, if the name is unknown or

@@ -22,9 +22,9 @@ void read_losses(yaml::Keys& keys, Losses& losses) {
 }
 
 void read_push(yaml::Keys& keys, BallPush& push) {
-  keys.optional("x", ProfileRule{ProfileOf::force}, push.x,
+  keys.optional("x", ProfileRule{yaml::Dimension::force}, push.x,
                 {"[profiles](#profiles): a force on the ball's center, along the plate's axes"});
-  keys.optional("y", ProfileRule{ProfileOf::force}, push.y, yaml::same);
+  keys.optional("y", ProfileRule{yaml::Dimension::force}, push.y, yaml::same);
 }
 
 }  // namespace

@@ -207,9 +207,8 @@ struct Scale {
   static bool read(const yaml::Value& value, Pair& into) {
     const yaml::Number factor{yaml::Dimension::number, {.above = 0}, "1.02"};
     if (value.node->kind == yaml::Node::Kind::sequence) {
-      if (value.node->items.size() != 2) return value.refuse("", allowed());
-      const bool first = factor.read(value.item(0), into[0]);
-      return factor.read(value.item(1), into[1]) && first;
+      const std::string what = allowed();
+      return yaml::ArrayOf<2>{factor, what}.read(value, into);
     }
     if (value.node->kind != yaml::Node::Kind::scalar) return value.refuse("", allowed());
     double both = 1;

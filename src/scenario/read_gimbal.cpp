@@ -26,9 +26,9 @@ void read_motion(yaml::Keys& keys, GimbalMotion& motion) {
 }
 
 void read_torque(yaml::Keys& keys, GimbalMotion& torque) {
-  keys.optional("phi", ProfileRule{ProfileOf::torque}, torque.phi,
+  keys.optional("phi", ProfileRule{yaml::Dimension::torque}, torque.phi,
                 {.meaning = "[profiles](#profiles): torques of the motors", .standard = "0"});
-  keys.optional("theta", ProfileRule{ProfileOf::torque}, torque.theta, yaml::same);
+  keys.optional("theta", ProfileRule{yaml::Dimension::torque}, torque.theta, yaml::same);
 }
 
 void read_dc(yaml::Keys& keys, DcMotor& dc) {
@@ -90,20 +90,15 @@ struct Backlash {
   }
 };
 
-enum class ServoModel { hobby_standard, hobby_micro, smart_serial };
-
 // The keys of commercial servos (docs/reference/scenario.md, "Servos").
-Servo servo_of_model(ServoModel model) {
+yaml::NameOf<Servo> servo_models() {
   constexpr double degree = std::numbers::pi / 180, hertz = 2 * std::numbers::pi;
-  switch (model) {
-    case ServoModel::hobby_standard:
-      return {6 * hertz, 0.9, {}, 60 * degree, 350 * degree, {}, 0.4 * degree, 0.3 * degree};
-    case ServoModel::hobby_micro:
-      return {5 * hertz, 0.8, {}, 60 * degree, 500 * degree, {}, 1 * degree, 0.6 * degree};
-    case ServoModel::smart_serial:
-      break;
-  }
-  return {10 * hertz, 1, {}, 150 * degree, 360 * degree, {}, 0.1 * degree, 0.25 * degree};
+  return {{{{6 * hertz, 0.9, {}, 60 * degree, 350 * degree, {}, 0.4 * degree, 0.3 * degree},
+            "hobby-standard"},
+           {{5 * hertz, 0.8, {}, 60 * degree, 500 * degree, {}, 1 * degree, 0.6 * degree},
+            "hobby-micro"},
+           {{10 * hertz, 1, {}, 150 * degree, 360 * degree, {}, 0.1 * degree, 0.25 * degree},
+            "smart-serial"}}};
 }
 
 // A rate as vendors state it: the time for an angle.
@@ -156,28 +151,24 @@ struct DeadBand {
   }
 };
 
-// Sets the keys of common motors (docs/reference/scenario.md, "Stepper motors"): half of their
-// holding torque, and the inertia of their rotors.
-void set_model(StepperMotor& stepper, StepperModel model) {
-  struct Motor {
-    double torque, inertia;  // N m, kg m^2
-  };
-  constexpr Motor motors[] = {{0.09, 1.4e-6}, {0.175, 5.4e-6}, {0.63, 3e-5}};
-  const Motor& motor = motors[static_cast<std::size_t>(model)];
-  stepper.steps = 200;
-  stepper.torque = motor.torque;
-  stepper.inertia = motor.inertia;
-}
+// Common motors (docs/reference/scenario.md, "Stepper motors"): half of their holding torque (N m),
+// and the inertia of their rotors (kg m^2).
+struct MotorModel {
+  double torque = 0, inertia = 0;
+};
 
 void read_stepper(yaml::Keys& keys, StepperMotor& stepper) {
-  const yaml::NameOf<StepperModel> models{{{StepperModel::nema14, "nema14"},
-                                           {StepperModel::nema17, "nema17"},
-                                           {StepperModel::nema23, "nema23"}}};
+  const yaml::NameOf<MotorModel> models{
+      {{{0.09, 1.4e-6}, "nema14"}, {{0.175, 5.4e-6}, "nema17"}, {{0.63, 3e-5}, "nema23"}}};
   if (const auto given = keys.find(
           "model", models,
           {"values for `steps`, `torque` and `inertia`; a key that is given replaces its value"})) {
-    StepperModel model = StepperModel::nema17;
-    if (models.read(*given, model)) set_model(stepper, model);
+    MotorModel model;
+    if (models.read(*given, model)) {
+      stepper.steps = 200;
+      stepper.torque = model.torque;
+      stepper.inertia = model.inertia;
+    }
   }
   const yaml::Whole count{1, "200"};
   keys.optional("steps", count, stepper.steps,
@@ -216,13 +207,10 @@ void read_stepper(yaml::Keys& keys, StepperMotor& stepper) {
 
 // Reads the keys into `servo`, over its existing values. Does not report missing keys.
 void read_servo_keys(yaml::Keys& keys, Servo& servo) {
-  const yaml::NameOf<ServoModel> models{{{ServoModel::hobby_standard, "hobby-standard"},
-                                         {ServoModel::hobby_micro, "hobby-micro"},
-                                         {ServoModel::smart_serial, "smart-serial"}}};
+  const yaml::NameOf<Servo> models = servo_models();
   if (const auto given = keys.find(
           "model", models, {"values for all keys below; a key that is given replaces its value"})) {
-    ServoModel model = ServoModel::hobby_standard;
-    if (models.read(*given, model)) servo = servo_of_model(model);
+    models.read(*given, servo);
   }
   const yaml::Number time{yaml::Dimension::time, {.above = 0}};
   const yaml::Number frequency{yaml::Dimension::angular_rate, {.above = 0}};
@@ -378,14 +366,11 @@ void read_rods(yaml::Keys& keys, RodLinkage& rods) {
                  "home. The rod is upright there if $d_x$ is horn − arm"});
 }
 
-void read_table_linkage(yaml::Keys& keys, CurveLinkage& curve) {
-  keys.required("table", yaml::MappingOf(read_curve), curve);
-}
-
 void read_curve_or_rods(yaml::Keys& keys, std::optional<AxisLinkage>& linkage) {
-  if (keys.find("table", yaml::MappingOf(read_curve))) {
+  const yaml::MappingOf table(read_curve);
+  if (const auto given = keys.find("table", table)) {
     CurveLinkage curve;
-    read_table_linkage(keys, curve);
+    table.read(*given, curve);
     if (!curve.servo.empty()) linkage = std::move(curve);
     return;
   }
@@ -418,19 +403,25 @@ void read_linkage(yaml::Keys& keys, BothLinkages& both) {
 
 const yaml::Number leg_length{yaml::Dimension::length, {.above = 0}};
 
+struct LegLength {
+  const char* key;
+  double LegLengths::*length;
+  const char* meaning;
+};
+constexpr LegLength leg_lengths[] = {
+    {"radius_base", &LegLengths::radius_base, "radius of the servos' axes"},
+    {"radius_plate", &LegLengths::radius_plate, "radius of the joints under the plate"},
+    {"horn", &LegLengths::horn, "lengths of horn and rod"},
+    {"rod", &LegLengths::rod, "lengths of horn and rod"},
+    {"height", &LegLengths::height,
+     "height of the joints above the servos' axes where the plate is level"}};
+
 // Reads lengths of all legs or of one leg.
-template <class Leg>
-void read_leg_lengths(yaml::Keys& keys, Leg& leg) {
-  const auto length = [&](const char* key, double& into, std::string_view meaning) {
+void read_leg_lengths(yaml::Keys& keys, LegLengths& leg) {
+  for (const auto& [key, length, meaning] : leg_lengths) {
     const yaml::About about{meaning, {}, "required, or in each leg"};
-    if (const auto given = keys.find(key, leg_length, about)) leg_length.read(*given, into);
-  };
-  length("radius_base", leg.radius_base, "radius of the servos' axes");
-  length("radius_plate", leg.radius_plate, "radius of the joints under the plate");
-  length("horn", leg.horn, "lengths of horn and rod");
-  length("rod", leg.rod, "lengths of horn and rod");
-  length("height", leg.height,
-         "height of the joints above the servos' axes where the plate is level");
+    if (const auto given = keys.find(key, leg_length, about)) leg_length.read(*given, leg.*length);
+  }
 }
 
 // Reads the keys of a leg over the common values.
@@ -474,49 +465,29 @@ void read_leg(yaml::Keys& keys, ServoLeg& leg) {
   }
 }
 
-struct Legs {
-  [[nodiscard]] static std::string allowed() {
-    return "a list of three mappings, such as {angle: \"120 deg\", radius: \"9 cm\"}";
-  }
-  [[nodiscard]] static yaml::Declared declared() {
-    return yaml::Declared::list(3, 3, yaml::MappingOf(read_leg).declared());
-  }
-  static bool read(const yaml::Value& value, std::array<ServoLeg, 3>& legs) {
-    const yaml::Node& node = *value.node;
-    if (node.kind != yaml::Node::Kind::sequence || node.items.size() != legs.size()) {
-      return value.refuse("", allowed());
-    }
-    bool fine = true;
-    for (std::size_t i = 0; i < legs.size(); ++i) {
-      fine = yaml::MappingOf(read_leg).read(value.item(i), legs[i]) && fine;
-    }
-    return fine;
-  }
-};
-
 }  // namespace
 
 void read_three_servos(yaml::Keys& keys, ThreeServos& of) {
   ThreeServoPlate& plate = of.plate;
   keys.needs_one({{"legs"}, {"radius_base", "radius_plate", "horn", "rod", "height"}});
   read_leg_lengths(keys, plate);
-  const auto given = keys.find("legs", Legs{}, {"a list of three mappings, for legs that differ"});
+  const yaml::ArrayOf<3, yaml::MappingOf<ServoLeg>> each_leg{
+      yaml::MappingOf(read_leg),
+      "a list of three mappings, such as {angle: \"120 deg\", radius: \"9 cm\"}"};
+  const auto given =
+      keys.find("legs", each_leg, {"a list of three mappings, for legs that differ"});
   std::array<ServoLeg, 3> legs;
   for (std::size_t i = 0; i < legs.size(); ++i) {
     legs[i] = plate.leg(i);
     legs[i].servo = of.servo;
   }
-  if (given && Legs::read(*given, legs)) plate.legs = legs;
-  const auto require = [&](const char* key, double ServoLeg::*length) {
-    const auto lacks = [&](const ServoLeg& leg) { return !(leg.*length > 0); };
-    if (!keys.find(key) && std::ranges::any_of(legs, lacks))
-      keys.missing(key, leg_length.allowed());
-  };
-  require("radius_base", &ServoLeg::radius_base);
-  require("radius_plate", &ServoLeg::radius_plate);
-  require("horn", &ServoLeg::horn);
-  require("rod", &ServoLeg::rod);
-  require("height", &ServoLeg::height);
+  if (given && each_leg.read(*given, legs)) plate.legs = legs;
+  for (const LegLength& known : leg_lengths) {
+    const auto lacks = [&](const ServoLeg& leg) { return !(leg.*known.length > 0); };
+    if (!keys.find(known.key) && std::ranges::any_of(legs, lacks)) {
+      keys.missing(known.key, leg_length.allowed());
+    }
+  }
 }
 
 namespace {

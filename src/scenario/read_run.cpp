@@ -19,12 +19,6 @@ namespace {
 
 constexpr double most_rows = 1e9;
 
-std::vector<std::string_view> column_names() {
-  std::vector<std::string_view> names;
-  for (const Column& column : catalogue) names.push_back(column.name);
-  return names;
-}
-
 struct Columns {
   [[nodiscard]] static std::string allowed() { return "a list of columns, such as [t, x, y]"; }
   // Any other name is a number of your own controller, if there is one.

@@ -41,6 +41,7 @@ void read_sections(Keys& keys, Scenario& scenario) {
   keys.optional("exercise", MappingOf(read_exercise), exercise,
                 {"tasks for a learner: [exercise](#exercise)"});
   scenario.has_exercise = exercise.has_value();
+  scenario.tables = keys.context().table_files;
   place_groove(scenario);
   check_rig(keys.mapping(), scenario);
 }
@@ -97,47 +98,6 @@ Scenario parse_scenario(const std::string& text, const std::string& name,
   problems.throw_if_any();
   scenario.remarks = problems.remarks();
   return scenario;
-}
-
-std::vector<TableFile> table_files(const Scenario& scenario) {
-  const auto folder = std::filesystem::path(scenario.source.file).parent_path();
-  std::vector<TableFile> files;
-  const auto add_profile = [&](const std::string& key, const Profile& profile) {
-    for (std::size_t i = 0; i < profile.size(); ++i) {
-      const auto* const table = std::get_if<Table>(&profile[i]);
-      if (table == nullptr) continue;
-      const std::string term = profile.size() == 1 ? "" : "." + std::to_string(i);
-      files.push_back({key + term + ".table.file", folder / table->file});
-    }
-  };
-  const auto add = [&](const std::string& key, const auto& given) {
-    if (!given) return;
-    add_profile(key + ".phi", given->phi);
-    add_profile(key + ".theta", given->theta);
-  };
-  add("gimbal.motion", scenario.gimbal.motion);
-  add("gimbal.torque", scenario.gimbal.torque);
-  add("controller.commands", commands_of(scenario));
-  if (const auto& push = scenario.ball.push) {
-    add_profile("ball.push.x", push->x);
-    add_profile("ball.push.y", push->y);
-  }
-  for (const auto& linkage : scenario.gimbal.linkage) {
-    const auto* const curve = linkage ? std::get_if<CurveLinkage>(&*linkage) : nullptr;
-    if (curve == nullptr) continue;
-    files.push_back({"gimbal.linkage", folder / curve->file});
-  }
-  if (scenario.controller) {
-    const auto& sampling = scenario.controller->sampling;
-    if (sampling && !sampling->periods_file.empty()) {
-      files.push_back({"controller.sampling.jitter.file", folder / sampling->periods_file});
-    }
-    const auto* table = std::get_if<TableReference>(&scenario.controller->reference);
-    if (table != nullptr) {
-      files.push_back({"controller.reference.table.file", folder / table->file});
-    }
-  }
-  return files;
 }
 
 std::string place_of(const Source& source, std::string_view key) {

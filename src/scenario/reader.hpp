@@ -33,12 +33,6 @@ namespace bbsim {
                                       const std::vector<std::string>& overrides = {},
                                       std::vector<file::InputTable>* inputs = nullptr);
 
-// The table files that a scenario names: the keys that name them, and their paths.
-struct TableFile {
-  std::string key, path;
-};
-[[nodiscard]] std::vector<TableFile> table_files(const Scenario& scenario);
-
 // The place of the key: "file:line:column", or the override that sets it. For a missing key, the
 // place of the nearest key above it. Reads no other keys, as number_at().
 [[nodiscard]] std::string place_of(const Source& source, std::string_view key);

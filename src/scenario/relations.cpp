@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "base/text.hpp"
+
 namespace bbsim::scenario {
 namespace {
 
@@ -296,16 +298,6 @@ constexpr KeyRelation others[] = {
      "found slide with a servo that jolts the plate (time_constant, angle_limit or backlash), "
      "where the sliding motion is not defined; allowed: stop or note"},
 };
-
-std::vector<std::string_view> split(std::string_view text, std::string_view by) {
-  std::vector<std::string_view> parts;
-  for (std::size_t end = text.find(by); end != std::string_view::npos; end = text.find(by)) {
-    parts.push_back(text.substr(0, end));
-    text.remove_prefix(end + by.size());
-  }
-  parts.push_back(text);
-  return parts;
-}
 
 }  // namespace
 

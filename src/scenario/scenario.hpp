@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -122,9 +123,6 @@ struct GimbalStart {
   double phi_rate = 0, theta_rate = 0;  // rad/s
 };
 
-// Stepper motors by the size of their flange.
-enum class StepperModel { nema14, nema17, nema23 };
-
 // A stepper motor and its driver.
 struct StepperMotor {
   double steps = 200, microsteps = 16;  // in a turn of the motor, and in a step
@@ -183,11 +181,14 @@ struct CurveLinkage {
 
 using AxisLinkage = std::variant<RodLinkage, CurveLinkage>;
 
-// One of three legs under the plate: a servo with a horn, a rod and a ball joint.
-struct ServoLeg {
+// Lengths of one of three legs under the plate: a servo with a horn, a rod and a ball joint.
+struct LegLengths {
   double radius_base = 0, radius_plate = 0;  // of the servo's axis and of the joint, m, > 0
   double horn = 0, rod = 0;                  // m, > 0
-  double height = 0;             // of the joint above the servo's axis with the plate level, m, > 0
+  double height = 0;  // of the joint above the servo's axis with the plate level, m, > 0
+};
+
+struct ServoLeg : LegLengths {
   double angle = 0;              // azimuth, from the plate's x axis, rad
   double joint_height = 0;       // of the joint in the plate, above a level common to all legs, m
   double offset = 0;             // of the horn from home when the servo is at zero, rad
@@ -196,16 +197,13 @@ struct ServoLeg {
 };
 
 // Three servos below the plate (3-RRS): equal legs at 0, 120 and 240 degrees, or `legs`.
-struct ThreeServoPlate {
-  double radius_base = 0, radius_plate = 0;  // as in ServoLeg
-  double horn = 0, rod = 0;
-  double height = 0;
+struct ThreeServoPlate : LegLengths {
   std::optional<std::array<ServoLeg, 3>> legs{};
 
   [[nodiscard]] ServoLeg leg(std::size_t i) const {
     if (legs) return (*legs)[i];
     constexpr double third = 2.0943951023931953;  // of a turn
-    return {radius_base, radius_plate, horn, rod, height, third * static_cast<double>(i)};
+    return {*this, third * static_cast<double>(i)};
   }
 };
 
@@ -338,9 +336,7 @@ struct SquareReference {
 };
 
 // Known commands of Law::commands, independent of the ball. They replace a path.
-struct CommandProfiles {
-  Profile phi, theta;  // rad
-};
+using CommandProfiles = GimbalMotion;
 
 using Reference =
     std::variant<PointReference, CircleReference, LissajousReference, WaypointReference,
@@ -611,6 +607,8 @@ struct Scenario {
   Sweep sweep;
   bool has_exercise = false;  // which scenario/exercise.hpp reads
   Source source;
+  // Keys that name files of tables, and the files' paths.
+  std::vector<std::pair<std::string, std::string>> tables{};
   // Notes and warnings on valid values that may be mistakes: one line each, with the place.
   std::vector<std::string> remarks{};
 };

@@ -42,12 +42,10 @@ struct Period {
   }
 };
 
-enum class ProfileOf { angle, torque, force };
-
 // A profile of a gimbal angle, a motor's torque or a force: a number, a shape of ProfileTerm, or a
 // list of these, which are summed.
 struct ProfileRule {
-  ProfileOf of = ProfileOf::angle;
+  yaml::Dimension of = yaml::Dimension::angle;
   [[nodiscard]] std::string allowed() const;
   [[nodiscard]] yaml::Declared declared() const;
   bool read(const yaml::Value& value, Profile& into) const;

@@ -46,6 +46,7 @@ const file::Table* load(yaml::Keys& keys, const std::string& name, const Names& 
   const yaml::Value file = *keys.find("file");
   yaml::Context& context = *file.context;
   const std::filesystem::path path = context.folder / name;
+  context.table_files.emplace_back(file.path, path.string());
   const std::lock_guard lock(context.tables->mutex);
   auto& tables = context.tables->by_file;
   if (!header.empty() && file::format_of(path.string()) == file::Format::hdf5) {

@@ -135,10 +135,10 @@ std::string scaled(const std::string& value, double factor) {
   if (factor == 1) return value;
   const yaml::Decimal decimal = yaml::leading_decimal(value);
   if (decimal.length == 0) return "";
-  const yaml::DecimalValue number = yaml::to_double(decimal, 0);
-  if (number.magnitude != yaml::Magnitude::fine) return "";
+  const std::optional<double> number = yaml::to_double(decimal, 0).value;
+  if (!number) return "";
   // Adding 0 turns -0 into 0.
-  return number_text(factor * number.value + 0.0) + value.substr(decimal.length);
+  return number_text(factor * *number + 0.0) + value.substr(decimal.length);
 }
 
 Variation split_variation(const std::string& assignment) {

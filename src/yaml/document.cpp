@@ -30,17 +30,60 @@ class TreeBuilder : public YAML::EventHandler {
 
   [[nodiscard]] const Node* root() const { return root_; }
 
-  void OnDocumentStart(const YAML::Mark& mark) override;
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (started_) throw TextFault(at(mark), "found a second document; allowed: one in a file");
+    started_ = true;
+  }
   void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override;
-  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override;
+
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    if (expects_key()) throw TextFault(at(mark), "found an empty key; allowed: a name");
+    Node& node = add(Node::Kind::null, mark);
+    // yaml-cpp gives a missing value the mark of the next token, which may be lines below.
+    if (!open_.empty() && open_.back().key) {
+      const Position& key = open_.back().key->position;
+      if (key.line != node.position.line) node.position = key;
+    }
+    complete(node, anchor);
+  }
+
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    if (expects_key()) throw TextFault(at(mark), "found an alias as a key; allowed: a name");
+    const Node* node = anchor < anchored_.size() ? anchored_[anchor] : nullptr;
+    if (node == nullptr) {
+      throw TextFault(at(mark),
+                      "found an alias inside what it stands for; allowed: an alias of "
+                      "something complete");
+    }
+    if (static_cast<int>(open_.size()) + node->height > deepest) {
+      throw TextFault(at(mark), "found nesting deeper than 32 levels; allowed: at most 32");
+    }
+    complete(*node, YAML::NullAnchor);
+  }
+
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                const std::string& value) override;
+                const std::string& value) override {
+    refuse_tag(tag, mark);
+    if (expects_key()) {
+      open_.back().key = Key{value, at(mark)};
+      return;
+    }
+    Node& node = add(Node::Kind::scalar, mark);
+    node.text = value;
+    node.quoted = tag == "!";
+    complete(node, anchor);
+  }
+
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                       YAML::EmitterStyle::value style) override;
+                       YAML::EmitterStyle::value /*style*/) override {
+    open(Node::Kind::sequence, mark, tag, anchor);
+  }
   void OnSequenceEnd() override { close(); }
+
   void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                  YAML::EmitterStyle::value style) override;
+                  YAML::EmitterStyle::value /*style*/) override {
+    open(Node::Kind::mapping, mark, tag, anchor);
+  }
   void OnMapEnd() override { close(); }
 
  private:
@@ -54,13 +97,69 @@ class TreeBuilder : public YAML::EventHandler {
     std::optional<Key> key;  // of a mapping: read, but still without its value
   };
 
-  [[nodiscard]] Position at(const YAML::Mark& mark) const;
-  [[nodiscard]] bool expects_key() const;
-  Node& add(Node::Kind kind, const YAML::Mark& mark);
-  void refuse_tag(const std::string& tag, const YAML::Mark& mark) const;
-  void open(Node::Kind kind, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor);
-  void close();
-  void complete(const Node& node, YAML::anchor_t anchor);
+  [[nodiscard]] Position at(const YAML::Mark& mark) const {
+    return {source_, std::max(mark.line, 0) + 1, std::max(mark.column, 0) + 1};
+  }
+
+  [[nodiscard]] bool expects_key() const {
+    return !open_.empty() && open_.back().node->kind == Node::Kind::mapping && !open_.back().key;
+  }
+
+  Node& add(Node::Kind kind, const YAML::Mark& mark) {
+    if (nodes_.size() >= most_nodes) {
+      throw TextFault(at(mark), "found more than 100000 values; allowed: at most that many");
+    }
+    Node& node = nodes_.emplace_back();
+    node.kind = kind;
+    node.position = at(mark);
+    return node;
+  }
+
+  // yaml-cpp gives plain nodes without a tag the tag "?" or none, and quoted nodes "!".
+  void refuse_tag(const std::string& tag, const YAML::Mark& mark) const {
+    if (tag.empty() || tag == "?" || tag == "!") return;
+    throw TextFault(at(mark), "found a tag (a word after an exclamation mark); allowed: no tags");
+  }
+
+  void open(Node::Kind kind, const YAML::Mark& mark, const std::string& tag,
+            YAML::anchor_t anchor) {
+    refuse_tag(tag, mark);
+    if (static_cast<int>(open_.size()) >= deepest) {
+      throw TextFault(at(mark), "found nesting deeper than 32 levels; allowed: at most 32");
+    }
+    if (expects_key()) {
+      throw TextFault(at(mark),
+                      kind == Node::Kind::mapping
+                          ? "found a mapping as a key, or one without its }; allowed: a name"
+                          : "found a list as a key, or one without its ]; allowed: a name");
+    }
+    open_.push_back({&add(kind, mark), anchor, {}});
+  }
+
+  void close() {
+    const Open closed = std::move(open_.back());
+    open_.pop_back();
+    complete(*closed.node, closed.anchor);
+  }
+
+  void complete(const Node& node, YAML::anchor_t anchor) {
+    if (anchor != YAML::NullAnchor) {
+      if (anchored_.size() <= anchor) anchored_.resize(anchor + 1);
+      anchored_[anchor] = &node;
+    }
+    if (open_.empty()) {
+      root_ = &node;
+      return;
+    }
+    Open& parent = open_.back();
+    parent.node->height = std::max(parent.node->height, node.height + 1);
+    if (parent.node->kind == Node::Kind::sequence) {
+      parent.node->items.push_back(&node);
+    } else {
+      parent.node->entries.push_back({std::move(parent.key->name), parent.key->position, &node});
+      parent.key.reset();
+    }
+  }
 
   int source_;
   Nodes& nodes_;
@@ -69,123 +168,6 @@ class TreeBuilder : public YAML::EventHandler {
   std::vector<Open> open_;
   std::vector<const Node*> anchored_;  // by anchor; nullptr while the node is open
 };
-
-Position TreeBuilder::at(const YAML::Mark& mark) const {
-  return {source_, std::max(mark.line, 0) + 1, std::max(mark.column, 0) + 1};
-}
-
-bool TreeBuilder::expects_key() const {
-  return !open_.empty() && open_.back().node->kind == Node::Kind::mapping && !open_.back().key;
-}
-
-Node& TreeBuilder::add(Node::Kind kind, const YAML::Mark& mark) {
-  if (nodes_.size() >= most_nodes) {
-    throw TextFault(at(mark), "found more than 100000 values; allowed: at most that many");
-  }
-  Node& node = nodes_.emplace_back();
-  node.kind = kind;
-  node.position = at(mark);
-  return node;
-}
-
-// yaml-cpp gives plain nodes without a tag the tag "?" or none, and quoted nodes "!".
-void TreeBuilder::refuse_tag(const std::string& tag, const YAML::Mark& mark) const {
-  if (tag.empty() || tag == "?" || tag == "!") return;
-  throw TextFault(at(mark), "found a tag (a word after an exclamation mark); allowed: no tags");
-}
-
-void TreeBuilder::OnDocumentStart(const YAML::Mark& mark) {
-  if (started_) throw TextFault(at(mark), "found a second document; allowed: one in a file");
-  started_ = true;
-}
-
-void TreeBuilder::OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) {
-  if (expects_key()) throw TextFault(at(mark), "found an empty key; allowed: a name");
-  Node& node = add(Node::Kind::null, mark);
-  // yaml-cpp gives a missing value the mark of the next token, which may be lines below.
-  if (!open_.empty() && open_.back().key) {
-    const Position& key = open_.back().key->position;
-    if (key.line != node.position.line) node.position = key;
-  }
-  complete(node, anchor);
-}
-
-void TreeBuilder::OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) {
-  if (expects_key()) throw TextFault(at(mark), "found an alias as a key; allowed: a name");
-  const Node* node = anchor < anchored_.size() ? anchored_[anchor] : nullptr;
-  if (node == nullptr) {
-    throw TextFault(at(mark),
-                    "found an alias inside what it stands for; allowed: an alias of "
-                    "something complete");
-  }
-  if (static_cast<int>(open_.size()) + node->height > deepest) {
-    throw TextFault(at(mark), "found nesting deeper than 32 levels; allowed: at most 32");
-  }
-  complete(*node, YAML::NullAnchor);
-}
-
-void TreeBuilder::OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                           const std::string& value) {
-  refuse_tag(tag, mark);
-  if (expects_key()) {
-    open_.back().key = Key{value, at(mark)};
-    return;
-  }
-  Node& node = add(Node::Kind::scalar, mark);
-  node.text = value;
-  node.quoted = tag == "!";
-  complete(node, anchor);
-}
-
-void TreeBuilder::OnSequenceStart(const YAML::Mark& mark, const std::string& tag,
-                                  YAML::anchor_t anchor, YAML::EmitterStyle::value /*style*/) {
-  open(Node::Kind::sequence, mark, tag, anchor);
-}
-
-void TreeBuilder::OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                             YAML::EmitterStyle::value /*style*/) {
-  open(Node::Kind::mapping, mark, tag, anchor);
-}
-
-void TreeBuilder::open(Node::Kind kind, const YAML::Mark& mark, const std::string& tag,
-                       YAML::anchor_t anchor) {
-  refuse_tag(tag, mark);
-  if (static_cast<int>(open_.size()) >= deepest) {
-    throw TextFault(at(mark), "found nesting deeper than 32 levels; allowed: at most 32");
-  }
-  if (expects_key()) {
-    throw TextFault(at(mark),
-                    kind == Node::Kind::mapping
-                        ? "found a mapping as a key, or one without its }; allowed: a name"
-                        : "found a list as a key, or one without its ]; allowed: a name");
-  }
-  open_.push_back({&add(kind, mark), anchor, {}});
-}
-
-void TreeBuilder::close() {
-  const Open closed = std::move(open_.back());
-  open_.pop_back();
-  complete(*closed.node, closed.anchor);
-}
-
-void TreeBuilder::complete(const Node& node, YAML::anchor_t anchor) {
-  if (anchor != YAML::NullAnchor) {
-    if (anchored_.size() <= anchor) anchored_.resize(anchor + 1);
-    anchored_[anchor] = &node;
-  }
-  if (open_.empty()) {
-    root_ = &node;
-    return;
-  }
-  Open& parent = open_.back();
-  parent.node->height = std::max(parent.node->height, node.height + 1);
-  if (parent.node->kind == Node::Kind::sequence) {
-    parent.node->items.push_back(&node);
-  } else {
-    parent.node->entries.push_back({std::move(parent.key->name), parent.key->position, &node});
-    parent.key.reset();
-  }
-}
 
 struct Explanation {
   std::string_view yaml_cpp;  // the start of yaml-cpp's message
@@ -237,6 +219,16 @@ Position position(const YAML::Mark& mark, std::string_view text, int source) {
 }
 
 }  // namespace
+
+std::size_t offset_of(std::string_view text, const Position& position) {
+  std::size_t line_start = 0;
+  for (int line = 1; line < position.line; ++line) {
+    const std::size_t newline = text.find('\n', line_start);
+    if (newline == std::string_view::npos) return text.size();
+    line_start = newline + 1;
+  }
+  return std::min(text.size(), line_start + static_cast<std::size_t>(position.column - 1));
+}
 
 const Node* parse_yaml(std::string_view text, int source, Nodes& nodes) {
   TreeBuilder builder(source, nodes);

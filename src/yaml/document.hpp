@@ -4,6 +4,7 @@
 // Parses YAML text into a tree of nodes with their positions. Only this room uses yaml-cpp.
 #pragma once
 
+#include <cstddef>
 #include <deque>
 #include <stdexcept>
 #include <string>
@@ -18,6 +19,9 @@ struct Position {
   int source = 0;
   int line = 1, column = 1;
 };
+
+// The place in the text; its end if the text has fewer lines or a shorter last line.
+[[nodiscard]] std::size_t offset_of(std::string_view text, const Position& position);
 
 struct Node;
 

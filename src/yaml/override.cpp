@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/number_text.hpp"
+#include "base/text.hpp"
 #include "yaml/problems.hpp"
 #include "yaml/spelling.hpp"
 #include "yaml/text_file.hpp"
@@ -19,16 +20,6 @@ namespace bbsim::yaml {
 namespace {
 
 using Path = std::span<const std::string_view>;
-
-std::vector<std::string_view> split(std::string_view path) {
-  std::vector<std::string_view> names;
-  while (true) {
-    const std::size_t dot = path.find('.');
-    names.push_back(path.substr(0, dot));
-    if (dot == std::string_view::npos) return names;
-    path.remove_prefix(dot + 1);
-  }
-}
 
 std::string path_text(Path names) {
   std::string text;
@@ -170,7 +161,7 @@ const Node* apply_override(std::string_view assignment, int source, const Node& 
 
 const Node* apply_override(std::string_view path, std::string_view value, int source,
                            const Node& root, Nodes& nodes) {
-  const std::vector<std::string_view> names = split(path);
+  const std::vector<std::string_view> names = split(path, ".");
   if (std::ranges::find(names, std::string_view()) != names.end()) {
     throw TextFault({source},
                     "found an empty key before the =; allowed: key.path=value, such as "

@@ -18,12 +18,7 @@ constexpr std::size_t longest_override = 200;  // bytes
 
 // Converts a column in bytes to a column in characters.
 int character_column(std::string_view text, const Position& position) {
-  std::size_t line = 0;
-  for (int i = 1; i < position.line && line != std::string_view::npos; ++i) {
-    line = text.find('\n', line);
-    if (line != std::string_view::npos) ++line;
-  }
-  if (line == std::string_view::npos) return position.column;
+  const std::size_t line = offset_of(text, {0, position.line, 1});
   const auto before = text.substr(line, static_cast<std::size_t>(position.column - 1));
   return position.column - static_cast<int>(std::ranges::count_if(before, continues_character));
 }

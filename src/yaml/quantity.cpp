@@ -15,11 +15,12 @@
 namespace bbsim::yaml {
 namespace {
 
-// `fine` for a normal double. `zero` says that the exact value is zero, which is also fine.
-Magnitude magnitude_of(double value, bool zero) {
-  if (!std::isfinite(value)) return Magnitude::too_large;
+// A normal double is a value; so is zero if the exact value is zero.
+Quantity checked(double value, bool zero) {
+  if (!std::isfinite(value)) return {{}, ", too large for a double (at most 1.8e308)"};
   const bool lossy = std::abs(value) < std::numeric_limits<double>::min();
-  return lossy && !zero ? Magnitude::too_small : Magnitude::fine;
+  if (!lossy || zero) return {value, {}};
+  return {{}, ", too small for a double (0, or at least 2.3e-308 in size)"};
 }
 
 // 1 unit = 10^power (factor + rest) in SI. `rest` is the rounding error of `factor`; with it, one
@@ -120,18 +121,11 @@ std::string plain_spelling(std::string_view unit) {
   return result;
 }
 
-std::string size_fault(Magnitude magnitude) {
-  if (magnitude == Magnitude::too_large) return ", too large for a double (at most 1.8e308)";
-  return ", too small for a double (0, or at least 2.3e-308 in size)";
-}
-
 Quantity convert(const Decimal& decimal, const Unit& unit) {
-  const DecimalValue read = to_double(decimal, unit.power);
-  if (read.magnitude != Magnitude::fine) return {{}, size_fault(read.magnitude)};
-  const double value = std::fma(read.value, unit.factor, read.value * unit.rest);
-  const Magnitude magnitude = magnitude_of(value, read.value == 0);
-  if (magnitude != Magnitude::fine) return {{}, size_fault(magnitude)};
-  return {value, {}};
+  const Quantity read = to_double(decimal, unit.power);
+  if (!read.value) return read;
+  const double number = *read.value;
+  return checked(std::fma(number, unit.factor, number * unit.rest), number == 0);
 }
 
 bool is_infinite_or_nan(std::string_view text) {
@@ -261,19 +255,18 @@ Decimal leading_decimal(std::string_view text) {
   return decimal;
 }
 
-DecimalValue to_double(const Decimal& decimal, int shift) {
+Quantity to_double(const Decimal& decimal, int shift) {
   if (decimal.mantissa.find_first_of("123456789") == std::string_view::npos) {
-    return {decimal.mantissa.front() == '-' ? -0.0 : 0.0, Magnitude::fine};
+    return {decimal.mantissa.front() == '-' ? -0.0 : 0.0, {}};
   }
   const long exponent = decimal.exponent + shift;
   const std::string text = std::string(decimal.mantissa) + 'e' + std::to_string(exponent);
   double value = 0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
   if (result.ec == std::errc::result_out_of_range) {
-    const bool large = exponent + leading_power(decimal.mantissa) > 0;
-    return {0, large ? Magnitude::too_large : Magnitude::too_small};
+    value = exponent + leading_power(decimal.mantissa) > 0 ? HUGE_VAL : 0;
   }
-  return {value, magnitude_of(value, false)};
+  return checked(value, false);
 }
 
 }  // namespace bbsim::yaml

@@ -81,16 +81,8 @@ struct Decimal {
 
 [[nodiscard]] Decimal leading_decimal(std::string_view text);
 
-enum class Magnitude { fine, too_large, too_small };
-
-// `value` is valid only if the magnitude is fine. Too small: a double would lose digits (a
-// denormal) or become zero.
-struct DecimalValue {
-  double value = 0;
-  Magnitude magnitude = Magnitude::fine;
-};
-
-// The double nearest to decimal * 10^shift.
-[[nodiscard]] DecimalValue to_double(const Decimal& decimal, int shift);
+// The double nearest to decimal * 10^shift. A fault if it is too large, or too small: a double
+// would lose digits (a denormal) or become zero.
+[[nodiscard]] Quantity to_double(const Decimal& decimal, int shift);
 
 }  // namespace bbsim::yaml

@@ -151,19 +151,9 @@ bool GainMatrix::read(const Value& value, Matrix2& into) const {
     value.note(*quantity.value, Dimension::number);
     return true;
   }
-  if (node.kind != Node::Kind::sequence || node.items.size() != into.size()) {
-    return value.refuse("", allowed());
-  }
-  bool fine = true;
-  for (std::size_t row = 0; row < into.size(); ++row) {
-    const Value numbers = value.item(row);
-    if (numbers.node->kind != Node::Kind::sequence || numbers.node->items.size() != 2) {
-      fine = numbers.refuse("", "a row of two numbers, such as [1, 0]");
-    } else {
-      fine = PairOf{}.read(numbers, into[row]) && fine;
-    }
-  }
-  return fine;
+  constexpr ArrayOf<2> row{{}, "a row of two numbers, such as [1, 0]"};
+  const std::string what = allowed();
+  return ArrayOf<2, ArrayOf<2>>{row, what}.read(value, into);
 }
 
 bool Text::read(const Value& value, std::string& into) const {

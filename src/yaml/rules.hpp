@@ -78,15 +78,16 @@ struct PairOf {
   bool read(const Value& value, Pair& into) const;
 };
 
-// A fixed count of numbers.
-template <std::size_t count>
+// A fixed count of values; `each` reads one.
+template <std::size_t count, class Rule = Number>
 struct ArrayOf {
-  Number each;
+  Rule each;
   std::string_view what;  // "two lengths greater than 0, such as [0.3, 0.2]"
 
   [[nodiscard]] std::string allowed() const { return std::string(what); }
   [[nodiscard]] Declared declared() const { return Declared::list(count, count, each.declared()); }
-  bool read(const Value& value, std::array<double, count>& into) const {
+  template <class T>
+  bool read(const Value& value, std::array<T, count>& into) const {
     if (value.node->kind != Node::Kind::sequence || value.node->items.size() != count) {
       return value.refuse("", allowed());
     }

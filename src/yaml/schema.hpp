@@ -61,6 +61,8 @@ struct Context {
   std::filesystem::path folder;  // the folder of table files
   std::optional<double> end{};   // time.end (s), once read
   std::shared_ptr<Tables> tables = std::make_shared<Tables>();
+  // Keys that name files of tables, and the files' paths, in the order of reading.
+  std::vector<std::pair<std::string, std::string>> table_files{};
   // If set, receives each single number that is read, by the key's path in American spelling.
   std::map<std::string, NotedNumber>* numbers = nullptr;
   bool own_controller = false;  // set once an external controller is read, which may name columns

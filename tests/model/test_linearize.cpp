@@ -187,7 +187,7 @@ TEST_CASE("at home a linkage that the controller knows, or its ratio, has no eff
   linked.controller->assumes = three.controller->assumes = assumes;
   linked.gimbal.linkage = {RodLinkage{0.025, 0.08, {}, {0.06, 0.09}},
                            RodLinkage{0.03, 0.06, 0.08, {0.02, 0.06}}};
-  three.gimbal.three_servos = ThreeServoPlate{0.06, 0.09, 0.04, 0.1, 0.11};
+  three.gimbal.three_servos = ThreeServoPlate{{0.06, 0.09, 0.04, 0.1, 0.11}, {}};
   const auto poles_of = [&](const Scenario& scene) {
     const model::Model model = model::assemble(scene, false);
     return large_ones(sampled ? model::sampled_poles(model) : model::closed_loop_poles(model));

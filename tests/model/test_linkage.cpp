@@ -343,16 +343,16 @@ TEST_CASE("at a knot the servo's direction selects the piece") {
 namespace {
 
 ThreeServoPlate hobby_plate() {
-  return {0.06, 0.09, 0.04, 0.1, 0.11};
+  return {{0.06, 0.09, 0.04, 0.1, 0.11}, {}};
 }
 
 // Three different legs.
 ThreeServoPlate unequal_plate() {
   ThreeServoPlate plate = hobby_plate();
   auto& legs = plate.legs.emplace();
-  legs[0] = {0.06, 0.09, 0.04, 0.1, 0.11, 0.1, 0.003, 0.05, 1, {}};
-  legs[1] = {0.07, 0.085, 0.045, 0.105, 0.115, 2.0, -0.004, 0, -1, {}};
-  legs[2] = {0.055, 0.1, 0.038, 0.11, 0.1, 4.3, 0.001, -0.03, 1, {}};
+  legs[0] = {{0.06, 0.09, 0.04, 0.1, 0.11}, 0.1, 0.003, 0.05, 1, {}};
+  legs[1] = {{0.07, 0.085, 0.045, 0.105, 0.115}, 2.0, -0.004, 0, -1, {}};
+  legs[2] = {{0.055, 0.1, 0.038, 0.11, 0.1}, 4.3, 0.001, -0.03, 1, {}};
   return plate;
 }
 

@@ -339,7 +339,7 @@ TEST_CASE("a page has the plots of all columns, with commands beside their targe
     }
   }
   for (const bbsim::scenario::Column& column : bbsim::scenario::catalogue) {
-    if (column.name == "t" || column.panel == bbsim::scenario::Panel::orientation) continue;
+    if (column.name == "t" || column.panel == "orientation") continue;
     CAPTURE(column.name);
     CHECK(found.contains(std::string(column.name) + ' ' + std::string(column.unit)));
   }

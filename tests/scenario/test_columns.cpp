@@ -62,11 +62,10 @@ InDocs in_docs(const Column& column) {
       return {"Motors", "the same, and `motor.dc`"};
     case Needs::coupled:
     case Needs::work:
-      return {column.panel == Panel::slip ? "The ball" : "Forces, torques and energy",
+      return {column.panel == "slip" ? "The ball" : "Forces, torques and energy",
               "[losses and others](#when-a-column-is-available)"};
     case Needs::pushed:
-      return {column.panel == Panel::push ? "The ball" : "Forces, torques and energy",
-              "`ball.push`"};
+      return {column.panel == "push" ? "The ball" : "Forces, torques and energy", "`ball.push`"};
   }
   return {};
 }
@@ -118,11 +117,11 @@ TEST_CASE("the page of columns has the catalogue's names, units and meanings") {
 TEST_CASE("each column but time has a panel, and each panel's plot is among the replay's") {
   for (const Column& column : catalogue) {
     INFO(column.name);
-    CHECK((column.panel == Panel::none) == (column.name == "t"));
+    CHECK((column.panel == "none") == (column.name == "t"));
     CHECK(!column.symbol.empty());
   }
   std::set<std::string_view> used;
-  for (const PanelText& panel : panels) {
+  for (const Panel& panel : panels) {
     if (panel.plot.empty()) continue;
     CHECK(std::ranges::count(plots, panel.plot) == 1);
     used.insert(panel.plot);
@@ -132,11 +131,11 @@ TEST_CASE("each column but time has a panel, and each panel's plot is among the 
 
 TEST_CASE("commands are placed with their targets") {
   const Column& command = *find_column("theta_command");
-  CHECK(panel_of(command, "rad") == Panel::theta);
-  CHECK(panel_of(command, "rad/s^2") == Panel::accelerations);
-  CHECK(panel_of(command, "N m") == Panel::given_torques);
-  CHECK(panel_of(command, "V") == Panel::voltages);
-  CHECK(panel_of(*find_column("torque_phi"), "N m") == Panel::torques);
+  CHECK(panel_of(command, "rad").name == "theta");
+  CHECK(panel_of(command, "rad/s^2").name == "accelerations");
+  CHECK(panel_of(command, "N m").name == "given_torques");
+  CHECK(panel_of(command, "V").name == "voltages");
+  CHECK(panel_of(*find_column("torque_phi"), "N m").name == "torques");
 }
 
 TEST_CASE("a column's name gives its axis") {

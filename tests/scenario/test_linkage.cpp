@@ -53,8 +53,8 @@ TEST_CASE("a linkage is read for both axes or for each one") {
   CHECK(*std::get<RodLinkage>(*apart.gimbal.linkage[0]).rod == 0.1);
   CHECK(std::get<CurveLinkage>(*apart.gimbal.linkage[1]).plate ==
         std::vector<double>{-0.3, -0.1, 0.1, 0.3});
-  REQUIRE(table_files(apart).size() == 1);
-  CHECK(table_files(apart).front().path == table);
+  REQUIRE(apart.tables.size() == 1);
+  CHECK(apart.tables.front().second == table);
   const Scenario one = parse(base, {"gimbal.linkage={phi: " + rods + "}"});
   CHECK_FALSE(one.gimbal.linkage[1]);
 

@@ -233,7 +233,7 @@ TEST_CASE("three fast servos move the ball as two ideal ones do") {
   ideal.gimbal.linkage = {};
   ideal.controller->assumes.reset();
   Scenario three = ideal;
-  three.gimbal.three_servos = ThreeServoPlate{0.06, 0.09, 0.04, 0.1, 0.11};
+  three.gimbal.three_servos = ThreeServoPlate{{0.06, 0.09, 0.04, 0.1, 0.11}, {}};
   three.controller->assumes = Assumes::exact;
   const bool sampled = GENERATE(false, true);
   if (sampled) {
