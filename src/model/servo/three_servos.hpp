@@ -195,11 +195,11 @@ struct ThreeServos : LegEquations {
     const auto sum = [&](int k) {
       return by[k][0] * rate[0] + by[k][1] * rate[1] + by[k][2] * rate[2];
     };
-    const double square = 1 - at.q * at.q, theta = -(sum(1) / std::sqrt(square));
-    // cos(theta) phi' = (p' + sin(phi) sin(theta) theta') / cos(phi)
-    const double n = std::sqrt(square - at.p * at.p);
-    of[0] = (sum(0) - at.p * at.q / std::sqrt(square) * theta) / n;
-    of[1] = theta;
+    // cos(theta) phi' = (p' + sin(phi) sin(theta) theta') / cos(phi), with one quotient for both.
+    const double square = 1 - at.q * at.q, root = std::sqrt(square);
+    const double n = std::sqrt(square - at.p * at.p), over = 1 / (square * n);
+    of[0] = (sum(0) * square + at.p * at.q * sum(1)) * over;
+    of[1] = -sum(1) * (root * n * over);
   }
 
   // How far the servos are from the edge of the workspace in a pose: the determinant over its value
@@ -270,9 +270,11 @@ struct ThreeServos : LegEquations {
       const Leg& of = leg[i];
       const Joint<Real>& to = joint[i];
       const Real square = to.x * to.x + to.z * to.z;
-      const Real k = (0.5 / of.horn) * (square + Real(of.horn * of.horn - of.rod * of.rod));
-      const Real root = root_along(square - k * k, Real(of.side));
-      const Real over = Real(1.0) / square;
+      // (M55), times 2 horn.
+      const double twice = 2 * of.horn;
+      const Real k = square + Real(of.horn * of.horn - of.rod * of.rod);
+      const Real root = root_along((twice * twice) * square - k * k, Real(of.side));
+      const Real over = Real(1.0) / (twice * square);
       const Real sine = over * (k * to.z + root * to.x), cosine = over * (k * to.x - root * to.z);
       servo[i] = of.turns * angle_of(Real(of.cos_zero * sine - of.sin_zero * cosine),
                                      Real(of.cos_zero * cosine + of.sin_zero * sine));
