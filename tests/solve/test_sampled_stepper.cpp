@@ -271,7 +271,7 @@ TEST_CASE("bounds of a piece contain its columns") {
     const model::Model& model;
     const model::BallConstants& constants;
     record::Rows rows;
-    std::size_t pieces = 0, wide = 0, unbounded = 0;
+    std::size_t pieces = 0, wide = 0, unbounded = 0, trends = 0;
     Looks(const model::Model& m, const model::BallConstants& c,
           const std::vector<const scenario::Column*>& columns)
         : model(m), constants(c), rows(columns) {
@@ -290,16 +290,24 @@ TEST_CASE("bounds of a piece contain its columns") {
           ++unbounded;
           continue;
         }
-        double least = 1e99, most = -1e99;
+        double least = 1e99, most = -1e99, first = 0, last = 0;
         for (int i = 0; i <= 20; ++i) {
-          const double t =
-              i == 20 ? piece.to() : piece.from() + (piece.to() - piece.from()) * i / 20.0;
+          // Closer at the ends.
+          const double part = (1 - std::cos(3.141592653589793 * i / 20)) / 2;
+          const double t = i == 20 ? piece.to() : piece.from() + (piece.to() - piece.from()) * part;
           piece.evaluate(&t, 1, row.data());
           rows.evaluate(&t, row.data(), 1);
-          least = std::min(least, rows[c][0]);
-          most = std::max(most, rows[c][0]);
+          last = rows[c][0];
+          if (i == 0) first = last;
+          least = std::min(least, last);
+          most = std::max(most, last);
         }
         const double rounding = 1e-12;
+        if (close->trend != 0) {
+          ++trends;
+          CHECK(most <= (close->trend > 0 ? last : first) + rounding);
+          CHECK(least >= (close->trend > 0 ? first : last) - rounding);
+        }
         CHECK(least >= bounds->least - rounding);
         CHECK(most <= bounds->most + rounding);
         CHECK(least >= close->least - rounding);
@@ -323,6 +331,7 @@ TEST_CASE("bounds of a piece contain its columns") {
     static_cast<void>(solve::integrate_hybrid(model, by_pieces(grid), tight, grid, rows, {}));
     CHECK(looks.pieces > 5);
     CHECK(looks.wide == 0);  // a close look never widens the bounds
+    CHECK(looks.trends > looks.pieces);
     // A stiff servo moves between the nodes.
     const bool is_stiff = one.what.find("stiff") != std::string::npos;
     CHECK((looks.unbounded > looks.pieces) == is_stiff);
