@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Builds the systems of scenes with couples, sliding, pushes or torques.
-#include <algorithm>
 #include <type_traits>
 #include <utility>
 
@@ -66,19 +65,12 @@ DryParts dry_parts(const Scenario& scene) {
 
 CoupledBall coupled_ball(const Scenario& scene) {
   const Ball& ball = scene.ball;
-  CoupledBall coupled;
-  coupled.r = ball.radius;
-  coupled.m = ball.mass;
-  coupled.g = scene.gravity;
-  coupled.rolling = general_rolling(scene);
+  const BallConstants of = constants_of(scene);
+  CoupledBall coupled{of.radius, of.mass, of.gravity, of.rolling, {}, of.body};
   coupled.law.rolling = ball.losses.rolling;
   coupled.law.viscous = ball.losses.viscous / (ball.mass * ball.radius * ball.radius);
   coupled.law.pivoting = ball.losses.pivoting / ball.radius;
   if (scene.events.slip) coupled.law.sliding = scene.events.slip->sliding.value_or(0);
-  if (scene.plate.inertia) std::ranges::copy(*scene.plate.inertia, coupled.body.plate);
-  coupled.body.imbalance = scene.plate.mass * scene.plate.centre_of_mass;
-  coupled.body.ring = scene.gimbal.ring_inertia;
-  if (scene.gimbal.motor) coupled.body.rotor = scene.gimbal.motor->rotor_inertia;
   return coupled;
 }
 

@@ -4,6 +4,7 @@
 #include "model/ball/dynamics.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "model/ball/rolling.hpp"
 
@@ -34,24 +35,17 @@ BallConstants constants_of(const Scenario& scene) {
   BallConstants constants{scene.ball.radius, scene.ball.mass, scene.gravity};
   constants.papers_rig = is_the_papers(scene);
   constants.rolling = general_rolling(scene);
-  if (scene.plate.inertia) constants.plate_inertia = *scene.plate.inertia;
-  constants.plate_imbalance = scene.plate.mass * scene.plate.centre_of_mass;
-  constants.ring_inertia = scene.gimbal.ring_inertia;
+  GimbalBody& body = constants.body;
+  if (scene.plate.inertia) std::ranges::copy(*scene.plate.inertia, body.plate);
+  body.imbalance = scene.plate.mass * scene.plate.centre_of_mass;
+  body.ring = scene.gimbal.ring_inertia;
   if (scene.gimbal.motor) {
-    constants.rotor_inertia = scene.gimbal.motor->rotor_inertia;
+    body.rotor = scene.gimbal.motor->rotor_inertia;
     if (const auto& dc = scene.gimbal.motor->dc) {
       constants.armature = {dc->resistance, dc->gear * dc->torque_constant};
     }
   }
   return constants;
-}
-
-Turned turned_by_motors(const BallConstants& constants) {
-  const auto& inertia = constants.plate_inertia;
-  return {{inertia[0], inertia[1], inertia[2]},
-          constants.plate_imbalance,
-          constants.ring_inertia + constants.rotor_inertia,
-          constants.rotor_inertia};
 }
 
 namespace {
@@ -114,7 +108,7 @@ struct Kinematics {
 
   // The motor torques for the plate, the ring and the rotors.
   [[nodiscard]] Torques<double> of_plate() const {
-    return plate_torques(plane, phi, theta, turned_by_motors(constants), constants.gravity);
+    return plate_torques(plane, phi, theta, constants.body, constants.gravity);
   }
 
   const BallConstants& constants;
@@ -160,12 +154,12 @@ Dynamics dynamics(const Sample& sample, const BallConstants& constants) {
   const Torques<double> of_plate = now.of_plate();
   result.plate_torque_phi = of_plate.phi;
   result.plate_torque_theta = of_plate.theta;
-  const Vector3d inertia(constants.plate_inertia.data());
+  const GimbalBody& body = constants.body;
+  const Vector3d inertia(body.plate);
   const double phi_rate = now.gimbal.phi_dot, theta_rate = now.gimbal.theta_dot;
   result.gimbal_energy =
-      omega.dot(inertia.cwiseProduct(omega)) / 2 + constants.plate_imbalance * g * now.up.z() +
-      (constants.ring_inertia + constants.rotor_inertia) * phi_rate * phi_rate / 2 +
-      constants.rotor_inertia * theta_rate * theta_rate / 2;
+      omega.dot(inertia.cwiseProduct(omega)) / 2 + body.imbalance * g * now.up.z() +
+      (body.ring + body.rotor) * phi_rate * phi_rate / 2 + body.rotor * theta_rate * theta_rate / 2;
   if (now.coupled != nullptr) {
     result.coupled = *now.coupled;
     for (std::size_t i = 0; i < 2; ++i) {

@@ -14,6 +14,7 @@
 #pragma once
 
 #include "base/real.hpp"
+#include "model/ball/contact_force.hpp"
 #include "model/ball/general_rolling.hpp"
 #include "model/ball/rolling.hpp"
 
@@ -58,13 +59,6 @@ void direction(const DryDirection& of, const Real& x, const Real& y, Real (&into
   into[0] = of.moving * (x / size) + Real(still * of.along[0]);
   into[1] = of.moving * (y / size) + Real(still * of.along[1]);
 }
-
-// The bodies that turn with the gimbal: the plate, the ring (with phi only), and the rotors.
-struct GimbalBody {
-  double plate[3] = {0, 0, 0};  // moments about the gimbal's center, along the plane's axes, kg m^2
-  double imbalance = 0;         // mass times height of its center along the normal, kg m
-  double ring = 0, rotor = 0;   // kg m^2
-};
 
 // The plane's motion without the contributions of phi'' and theta''.
 template <class Real>
