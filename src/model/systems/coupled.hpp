@@ -129,13 +129,8 @@ template <class Time>
   return in.of;
 }
 
-// No push, at no cost.
-struct NoPush {
-  static constexpr bool pushes = false;
-};
 template <class Signals>
 struct Push {
-  static constexpr bool pushes = true;
   Signals on{};  // along the plane's axes, N
 
   template <class Time>
@@ -143,6 +138,21 @@ struct Push {
     const auto now = on.at(t);
     return {of, {now[0].value, now[1].value}};
   }
+  [[nodiscard]] Pair at(double t) const {
+    const auto now = on.at(t);
+    return {now[0].value, now[1].value};
+  }
+  [[nodiscard]] Push<SignalView> view() const { return {on.view()}; }
+};
+// No push, at no cost.
+struct NoPush {
+  template <class Time>
+  [[nodiscard]] std::array<Jet<Time>, 2> with(const std::array<Jet<Time>, 2>& of,
+                                              const Time& /*t*/) const {
+    return of;
+  }
+  [[nodiscard]] Pair at(double /*t*/) const { return {0, 0}; }
+  [[nodiscard]] NoPush view() const { return {}; }
 };
 
 // A push on the ball's center acts like gravity: (M62).
@@ -184,11 +194,7 @@ class CoupledGiven {
 
   template <class Time>
   [[nodiscard]] auto inputs(const Time& t) const {
-    if constexpr (pushes) {
-      return push.with(motion_.at(t), t);
-    } else {
-      return motion_.at(t);
-    }
+    return push.with(motion_.at(t), t);
   }
 
   template <class Time, class Real>
@@ -197,11 +203,7 @@ class CoupledGiven {
   }
 
   [[nodiscard]] CoupledGiven<SignalView, pushes> view() const {
-    if constexpr (pushes) {
-      return {parts, motion_.view(), {push.on.view()}};
-    } else {
-      return {parts, motion_.view()};
-    }
+    return {parts, motion_.view(), push.view()};
   }
 
   template <class In, class Real>
@@ -259,10 +261,7 @@ class CoupledGiven {
     const RigExtras& rig = with.rig;
     Sample sample;
     sample.t = t;
-    if constexpr (pushes) {
-      const auto now = push.on.at(t);
-      sample.push = {now[0].value, now[1].value};
-    }
+    sample.push = push.at(t);
     sample.ball = ball_motion<Shape::full>(Layout::unpack(z), parts.ball.r);
     sample.gimbal = {rig.angle[0], rig.angle[1],        rig.rate[0],
                      rig.rate[1],  rig.acceleration[0], rig.acceleration[1]};
@@ -332,11 +331,7 @@ class CoupledLoop {
 
   template <class Time>
   [[nodiscard]] auto inputs(const Time& t) const {
-    if constexpr (pushes) {
-      return push.with(loop.inputs(t), t);
-    } else {
-      return loop.inputs(t);
-    }
+    return push.with(loop.inputs(t), t);
   }
 
   template <class Time, class Real>
@@ -345,9 +340,7 @@ class CoupledLoop {
   }
 
   [[nodiscard]] CoupledLoop<SignalView, Link> view() const {
-    typename CoupledLoop<SignalView, Link>::template PushOf<SignalView> pushed;
-    if constexpr (pushes) pushed.on = push.on.view();
-    CoupledLoop<SignalView, Link> view{parts, by, motor, loop.view(), pushed};
+    CoupledLoop<SignalView, Link> view{parts, by, motor, loop.view(), push.view()};
     view.motors[0] = motors[0];
     view.motors[1] = motors[1];
     view.integrates_ = integrates_;
@@ -420,10 +413,7 @@ class CoupledLoop {
     Sample sample = loop.sample(t, z, with.rig);
     if (by == GimbalBy::given_torques) sample.reference = {0, 0};
     sample.coupled = with.motion;
-    if constexpr (pushes) {
-      const auto now = push.on.at(t);
-      sample.push = {now[0].value, now[1].value};
-    }
+    sample.push = push.at(t);
     return sample;
   }
   // The sample in the present mode, for monitors: with the distance from a dead point.
@@ -444,12 +434,7 @@ class CoupledLoop {
  private:
   // The inputs with the reference, which loop.inputs() omits while the command is held.
   [[nodiscard]] auto all_inputs(double t) const {
-    if (loop.mode.rings) return inputs(t);
-    if constexpr (pushes) {
-      return push.with(loop.reference().at(t), t);
-    } else {
-      return loop.reference().at(t);
-    }
+    return loop.mode.rings ? inputs(t) : push.with(loop.reference().at(t), t);
   }
 
   // The columns of H: the moments for a unit acceleration of one axis alone.
