@@ -308,15 +308,7 @@ class CoupledLoop {
   static constexpr bool open_loop = false;
   static constexpr bool papers_rig = false;
   static constexpr bool steep = true;  // near rest, where directions turn fast
-  static constexpr auto motions = [] {
-    Motions<11 + servos> all{};
-    int next = 0;
-    for (const Motion& motion : {Motion{0, 2}, Motion{1, 3}}) all.of[next++] = motion;
-    for (int i = 0; i < servos; ++i) all.of[next++] = {Layout::angle + i, Layout::rate + i};
-    all.of[next++] = {-1, 4};
-    for (int i = Layout::integral; i < size; ++i) all.of[next++] = {-1, i};
-    return all;
-  }();
+  static constexpr auto motions = Layout::template motions_of<size>();
 
   CoupledLoop(const CoupledParts& of, GimbalBy moved_by, const MotorLaw& law,
               const RigLoop<true, Signals, Link>& control, PushOf<Signals> pushed = {})

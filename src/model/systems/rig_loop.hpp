@@ -90,6 +90,18 @@ template <int servos>
 struct ServoLayout : BallLayout<Shape::full> {
   static constexpr int angle = BallLayout<Shape::full>::size, rate = angle + servos,
                        integral = rate + servos;
+
+  // All velocities of a system of this size: the states from `integral` on have no velocity.
+  template <int size>
+  static constexpr auto motions_of() {
+    Motions<3 + servos + size - integral> all{};
+    int next = 0;
+    for (const Motion& motion : {Motion{0, 2}, Motion{1, 3}}) all.of[next++] = motion;
+    for (int i = 0; i < servos; ++i) all.of[next++] = {angle + i, rate + i};
+    all.of[next++] = {-1, 4};
+    for (int i = integral; i < size; ++i) all.of[next++] = {-1, i};
+    return all;
+  }
 };
 using RigLayout = ServoLayout<2>;
 
@@ -122,15 +134,7 @@ class RigLoop {
   static constexpr int size = Layout::integral + (integrates ? 2 : 0);
   static constexpr bool open_loop = false;
   static constexpr bool papers_rig = false;
-  static constexpr auto motions = [] {
-    Motions<3 + servos + (integrates ? 2 : 0)> all{};
-    int next = 0;
-    for (const Motion& motion : {Motion{0, 2}, Motion{1, 3}}) all.of[next++] = motion;
-    for (int i = 0; i < servos; ++i) all.of[next++] = {Layout::angle + i, Layout::rate + i};
-    all.of[next++] = {-1, 4};
-    for (int i = Layout::integral; i < size; ++i) all.of[next++] = {-1, i};
-    return all;
-  }();
+  static constexpr auto motions = Layout::template motions_of<size>();
 
   RigLoop(double radius, double gravity, const GeneralRolling& rolling, const ControlLaw& law,
           const ServoResponses& servo, Signals reference, const RigMode& present = {},
