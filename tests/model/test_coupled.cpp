@@ -118,9 +118,9 @@ TEST_CASE("the Jacobian of a coupled scene agrees with differences") {
     const double step = 1e-5, kept = z[j];
     double up[n], down[n];
     z[j] = kept + step;
-    loop.derivative(0.3, z, up);
+    model::derivative(loop, 0.3, z, up);
     z[j] = kept - step;
-    loop.derivative(0.3, z, down);
+    model::derivative(loop, 0.3, z, down);
     z[j] = kept;
     for (int i = 0; i < n; ++i) {
       CAPTURE(i, j);

@@ -59,7 +59,7 @@ Balance<double> SwitchedModel::balance(double t, const double* z) const {
 
 CommandRates SwitchedModel::command_rates(double t, const double* z) const {
   rates_.resize(model_.size());
-  std::visit([&](const auto& any) { any.derivative(t, z, rates_.data()); }, model_.system);
+  std::visit([&](const auto& any) { derivative(any, t, z, rates_.data()); }, model_.system);
   return with_loop([&](const auto& loop) {
     using Loop = std::decay_t<decltype(loop)>;
     using Moving = simd::WithGradient<1>;

@@ -197,11 +197,6 @@ class CoupledGiven {
     return push.with(motion_.at(t), t);
   }
 
-  template <class Time, class Real>
-  void derivative(const Time& t, const Real* z, Real* dz) const {
-    derivative_of(inputs(t), z, dz);
-  }
-
   [[nodiscard]] CoupledGiven<SignalView, pushes> view() const {
     return {parts, motion_.view(), push.view()};
   }
@@ -324,11 +319,6 @@ class CoupledLoop {
   template <class Time>
   [[nodiscard]] auto inputs(const Time& t) const {
     return push.with(loop.inputs(t), t);
-  }
-
-  template <class Time, class Real>
-  void derivative(const Time& t, const Real* z, Real* dz) const {
-    derivative_of(inputs(t), z, dz);
   }
 
   [[nodiscard]] CoupledLoop<SignalView, Link> view() const {

@@ -164,11 +164,6 @@ class RigLoop {
     return reference_.at(t);
   }
 
-  template <class Time, class Real>
-  void derivative(const Time& t, const Real* z, Real* dz) const {
-    derivative_of(inputs(t), z, dz);
-  }
-
   [[nodiscard]] RigLoop<integrates, SignalView, Link> view() const {
     return {r_, g_, rolling_, law_, servo_, reference_.view(), mode, link};
   }

@@ -5,9 +5,9 @@
 //
 // A system is a value with these members:
 //     size                          the number of states, at compile time
-//     derivative(t, z, dz)          z' = f(t, z), for any number types of time and state
-//     inputs(t)                     the part of f that depends only on time
-//     derivative_of(inputs, z, dz)  the rest: f(t, z) = derivative_of(inputs(t), z)
+//     inputs(t)                     the part of z' = f(t, z) that depends only on time
+//     derivative_of(inputs, z, dz)  the rest: f(t, z) = derivative_of(inputs(t), z), for any number
+//                                   types of time and state
 //     motions                       which states are the velocities of which other states
 //     view()                        the system in plain memory, for code of one instruction set
 //     sample(t, z, detail)          the instant in the paper's symbols
@@ -25,6 +25,12 @@
 #include "model/signals/signal_pair.hpp"
 
 namespace bbsim::model {
+
+// z' = f(t, z) of a system.
+template <class System, class Time, class Real>
+void derivative(const System& system, const Time& t, const Real* z, Real* dz) {
+  system.derivative_of(system.inputs(t), z, dz);
+}
 
 // The freedom of the ball: anywhere on the plane, or along one axis if symmetry keeps the other
 // coordinate, the spin and the other gimbal angle at zero.
@@ -167,11 +173,6 @@ class OpenLoop {
     Layout::template derivative<Real>(equation_, in.phi, in.theta, Layout::unpack(z), r_, g_, dz);
   }
 
-  template <class Time, class Real>
-  void derivative(const Time& t, const Real* z, Real* dz) const {
-    derivative_of(inputs(t), z, dz);
-  }
-
   [[nodiscard]] OpenLoop<shape, SignalView, Equation> view() const {
     return {r_, g_, motion_.view(), equation_};
   }
@@ -278,11 +279,6 @@ class ClosedLoop {
   template <class Time>
   [[nodiscard]] std::array<Jet<Time>, 2> inputs(const Time& t) const {
     return reference_.at(t);
-  }
-
-  template <class Time, class Real>
-  void derivative(const Time& t, const Real* z, Real* dz) const {
-    derivative_of(inputs(t), z, dz);
   }
 
   [[nodiscard]] ClosedLoop<shape, drives, SignalView, Equation> view() const {
