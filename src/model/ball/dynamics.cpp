@@ -84,7 +84,7 @@ struct Kinematics {
     const RollingState<double, double, double> state{ball.x, ball.y, ball.x_dot, ball.y_dot,
                                                      r * ball.gamma_dot};
     if (constants.papers_rig) {
-      return {x_acceleration<double>(p, t, state, r, g), y_acceleration<double>(p, t, state, r, g),
+      return {Equation27::x<double>(p, t, state, r, g), Equation27::y<double>(p, t, state, r, g),
               0};
     }
     const auto rates = constants.rolling.rates<double>(p, t, state, r, g);

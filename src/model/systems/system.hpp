@@ -49,25 +49,6 @@ struct Motions {
   Motion of[velocities];
 };
 
-// The ball's equation of motion, a parameter of the systems below: (27), or a simpler equation for
-// comparison (study/verify.cpp).
-struct Equation27 {
-  template <class Real, class Phi, class Theta, class Ball, class Scalar>
-  static Real x(const Phi& phi, const Theta& theta, const Ball& ball, const Scalar& r,
-                const Scalar& g) {
-    return x_acceleration<Real>(phi, theta, ball, r, g);
-  }
-  template <class Real, class Phi, class Theta, class Ball, class Scalar>
-  static Real y(const Phi& phi, const Theta& theta, const Ball& ball, const Scalar& r,
-                const Scalar& g) {
-    return y_acceleration<Real>(phi, theta, ball, r, g);
-  }
-  template <class Real, class Phi, class Theta, class Ball, class Scalar>
-  static Real u(const Phi& phi, const Theta& theta, const Ball& ball, const Scalar& r) {
-    return u_acceleration<Real>(phi, theta, ball, r);
-  }
-};
-
 // Converts between a solver's state vector and the ball's fields.
 template <Shape shape>
 struct BallLayout;
