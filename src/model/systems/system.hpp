@@ -274,27 +274,25 @@ class ClosedLoop {
 
   template <class Time, class Real>
   void derivative_of(const std::array<Jet<Time>, 2>& reference, const Real* z, Real* dz) const {
-    const auto ball = Layout::unpack(z);
-    const Real* angles = z + Layout::size;  // [phi, theta,] then their rates
-    const auto phi = axis<0, Real>(ball, reference, angles);
-    const auto theta = axis<1, Real>(ball, reference, angles);
-    Layout::template derivative<Real>(equation_, phi, theta, ball, r_, g_, dz);
-    put_axes(phi, theta, angles, dz);
+    derivative_of(reference, z, nullptr, dz);
   }
 
   // The same, except that the ball's accelerations use `turning`, the accelerations of the axes
   // (rad/s^2), instead of the servos' own. For integrators in which these are unknowns: computed
   // from a state, a stiff servo's acceleration is a difference of large numbers.
-  template <class Time, class Real>
-  void derivative_of(const std::array<Jet<Time>, 2>& reference, const Real* z, const Real* turning,
-                     Real* dz) const {
+  template <class Time, class Real, class Turning>
+  void derivative_of(const std::array<Jet<Time>, 2>& reference, const Real* z,
+                     const Turning& turning, Real* dz) const {
     const auto ball = Layout::unpack(z);
-    const Real* angles = z + Layout::size;
+    const Real* angles = z + Layout::size;  // [phi, theta,] then their rates
     const auto phi = axis<0, Real>(ball, reference, angles);
     const auto theta = axis<1, Real>(ball, reference, angles);
     Layout::template derivative<Real>(equation_, turned<0>(phi, turning), turned<1>(theta, turning),
                                       ball, r_, g_, dz);
-    put_axes(phi, theta, angles, dz);
+    Real* const angles_dot = dz + Layout::size;
+    for (int i = 0; i < axes; ++i) angles_dot[i] = angles[axes + i];
+    if constexpr (phi_moves(shape)) angles_dot[axes] = phi.acceleration;
+    if constexpr (theta_moves(shape)) angles_dot[2 * axes - 1] = theta.acceleration;
   }
 
   [[nodiscard]] Sample sample(double t, const double* z, Detail detail = Detail::all) const {
@@ -355,17 +353,9 @@ class ClosedLoop {
     }
   }
 
-  template <class Phi, class Theta, class Real>
-  static void put_axes(const Phi& phi, const Theta& theta, const Real* angles, Real* dz) {
-    Real* const angles_dot = dz + Layout::size;
-    for (int i = 0; i < axes; ++i) angles_dot[i] = angles[axes + i];
-    if constexpr (phi_moves(shape)) angles_dot[axes] = phi.acceleration;
-    if constexpr (theta_moves(shape)) angles_dot[2 * axes - 1] = theta.acceleration;
-  }
-
-  template <std::size_t row, class Axis, class Real>
-  static auto turned(const Axis& of, const Real* turning) {
-    if constexpr (std::is_same_v<Axis, LockedAngle>) {
+  template <std::size_t row, class Axis, class Turning>
+  static auto turned(const Axis& of, const Turning& turning) {
+    if constexpr (std::is_same_v<Axis, LockedAngle> || std::is_null_pointer_v<Turning>) {
       return of;
     } else {
       return Axis{of.sin, of.cos, of.rate, turning[row == 0 ? 0 : axes - 1]};
