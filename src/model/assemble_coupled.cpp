@@ -164,30 +164,4 @@ std::vector<double> push_knots(const Scenario& scene) {
   return push_on(scene).knots();
 }
 
-std::vector<double> initial_coupled_state(const Scenario& scene) {
-  const Ball& ball = scene.ball;
-  const double r = ball.radius;
-  std::vector<double> z{ball.position[0], ball.position[1], ball.velocity[0], ball.velocity[1],
-                        r * ball.spin};
-  std::size_t slip = CoupledGivenLayout::slip, size = CoupledGivenLayout::states;
-  if (!scene.gimbal.motion) {
-    const GimbalStart& start = scene.gimbal.start;
-    if (scene.gimbal.three_servos) {
-      z.insert(z.end(), 6, 0.0);  // at home
-      slip = CoupledLayout<3>::slip;
-      size = CoupledLayout<3>::states;
-    } else {
-      z.insert(z.end(), {start.phi, start.theta, start.phi_rate, start.theta_rate});
-      slip = CoupledLoopLayout::slip;
-      size = CoupledLoopLayout::states;
-    }
-  }
-  z.resize(size, 0.0);
-  if (ball.rotation) {
-    z[slip] = ball.velocity[0] - r * (*ball.rotation)[1];
-    z[slip + 1] = ball.velocity[1] + r * (*ball.rotation)[0];
-  }
-  return z;
-}
-
 }  // namespace bbsim::model
