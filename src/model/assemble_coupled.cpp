@@ -12,12 +12,6 @@
 namespace bbsim::model {
 namespace {
 
-CoupledParts coupled_parts(const Scenario& scene) {
-  CoupledParts parts;
-  parts.ball = coupled_ball(scene);
-  return parts;
-}
-
 MotorLaw motor_law(const Scenario& scene) {
   const Motor motor = scene.gimbal.motor.value_or(Motor{});
   MotorLaw law;
@@ -107,17 +101,13 @@ RigLoop<true, SignalPair, Link> torque_loop(const Scenario& scene, const Coupled
 template <class Link>
 CoupledScene coupled_loop(const Scenario& scene, const CoupledParts& parts, SignalPair input) {
   using Loop = CoupledLoop<SignalPair, Link>;
-  CoupledScene result{CoupledGiven<>(parts, {}), {}, {}};
-  const auto put = [&](Loop loop) {
-    if constexpr (Loop::pushes) loop.push.on = push_on(scene);
-    result.system = std::move(loop);
-  };
+  typename Loop::template PushOf<SignalPair> push;
+  if constexpr (Loop::pushes) push.on = push_on(scene);
   const bool torques = scenario::moved_by_torques(scene);
   if constexpr (Link::servos == 2) {
     if (!scene.controller) {
-      put({parts, GimbalBy::given_torques, motor_law(scene),
-           torque_loop<Link>(scene, parts, std::move(input))});
-      return result;
+      return {Loop(parts, GimbalBy::given_torques, motor_law(scene),
+                   torque_loop<Link>(scene, parts, std::move(input)), push)};
     }
   }
   const GimbalBy by = torques ? GimbalBy::torques : GimbalBy::servos;
@@ -128,36 +118,30 @@ CoupledScene coupled_loop(const Scenario& scene, const CoupledParts& parts, Sign
     return plant_at_home(CoupledLoop<>(parts, by, motor, held));
   };
   AssembledRig<true, Link> assembled = assemble_rig<true, Link>(scene, std::move(input), plant);
-  Loop loop(parts, by, motor, assembled.loop);
+  Loop loop(parts, by, motor, assembled.loop, push);
   loop.integrate_error(integrates_error(scene));
-  put(std::move(loop));
-  result.rig = assembled.rig;
-  return result;
+  return {std::move(loop), assembled.rig};
 }
 
 }  // namespace
 
 CoupledScene assemble_coupled(const Scenario& scene, SignalPair input) {
-  const CoupledParts parts = coupled_parts(scene);
+  const CoupledParts parts{coupled_ball(scene)};
   const DryParts dry = dry_parts(scene);
-  const auto with_dry = [&dry](CoupledScene result) {
-    if (dry.switches()) result.dry = dry;
-    return result;
-  };
-  if (scene.gimbal.motion) {
-    if (scene.ball.push) {
-      return with_dry(
-          {CoupledGiven<SignalPair, true>(parts, std::move(input), {push_on(scene)}), {}, {}});
+  const auto without_dry = [&]() -> CoupledScene {
+    if (scene.gimbal.motion) {
+      if (!scene.ball.push) return {CoupledGiven<>(parts, std::move(input))};
+      return {CoupledGiven<SignalPair, true>(parts, std::move(input), {push_on(scene)})};
     }
-    return with_dry({CoupledGiven<>(parts, std::move(input)), {}, {}});
-  }
-  if (scene.gimbal.three_servos) {
-    return with_dry(coupled_loop<ThreeServos>(scene, parts, std::move(input)));
-  }
-  if (scene.ball.push || scenario::is_linked(scene)) {
-    return with_dry(coupled_loop<Linkages>(scene, parts, std::move(input)));
-  }
-  return with_dry(coupled_loop<Direct>(scene, parts, std::move(input)));
+    if (scene.gimbal.three_servos) return coupled_loop<ThreeServos>(scene, parts, std::move(input));
+    if (scene.ball.push || scenario::is_linked(scene)) {
+      return coupled_loop<Linkages>(scene, parts, std::move(input));
+    }
+    return coupled_loop<Direct>(scene, parts, std::move(input));
+  };
+  CoupledScene result = without_dry();
+  if (dry.switches()) result.dry = dry;
+  return result;
 }
 
 std::vector<double> push_knots(const Scenario& scene) {
