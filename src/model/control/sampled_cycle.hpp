@@ -88,7 +88,10 @@ class SampledCycle {
   struct Parts;
   struct Inputs;
   [[nodiscard]] Parts unpacked(const Eigen::MatrixXd& states) const;
-  [[nodiscard]] Eigen::MatrixXd packed(const Parts& parts) const;
+  [[nodiscard]] Eigen::MatrixXd packed(Parts& parts) const;
+  // Calls use(rows) for the parts in the order of the states.
+  template <class Use>
+  void for_each_part(Parts& of, Use use) const;
   void plan();
   Pairs sample(Parts& of, const Inputs& inputs) const;  // returns the law's commands
   void expose(Parts& of) const;
