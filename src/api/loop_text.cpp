@@ -65,8 +65,8 @@ namespace {
 
 std::string instability_of_samples(const model::Model& model) {
   const model::Eigenvalues poles = model::sampled_poles(model);
-  if (poles.empty() || model::stable_by_period(poles)) return "";
-  const int outside = model::growing_by_period(poles);
+  if (poles.empty() || model::stable(poles, true)) return "";
+  const int outside = model::growing(poles, true);
   if (outside == 0) {
     return "the sampled loop is at the stability limit about home, within rounding: poles " +
            sampled_poles_line(poles);
@@ -140,7 +140,7 @@ bool feeds_back_the_turn(const Scenario& scenario, const model::Model& model) {
   variant.controller->kp = variant.controller->ki = {};
   const model::Model damped = model::assemble(variant, model.gamma);
   const bool sampled = damped.rig && damped.rig->sampled;
-  const int growing = sampled ? model::growing_by_period(model::sampled_poles(damped))
+  const int growing = sampled ? model::growing(model::sampled_poles(damped), true)
                               : model::growing(model::closed_loop_poles(damped));
   if (growing == 0) return false;
   variant = scenario;

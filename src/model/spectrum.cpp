@@ -158,8 +158,7 @@ LinearLoop sampled_loop(const Model& model) {
   std::vector<int> states;
   const SampledCycle cycle(cycle_parts(plant, *model.rig, home, states));
   const SampledMap map = cycle.map();
-  const auto names = state_signals(plant.places, "");
-  for (const int i : states) loop.states.push_back(names[static_cast<std::size_t>(i)]);
+  loop.states = state_signals(plant.places, "", states);
   std::ranges::move(cycle.memory(""), std::back_inserter(loop.states));
   loop.a = map.a;
   loop.law = map.law;
@@ -169,10 +168,8 @@ LinearLoop sampled_loop(const Model& model) {
 LinearLoop continuous_loop(const Model& model) {
   const LoopDerivatives of = loop_derivatives(model, home_point());
   const std::vector<int> states = loop_states(of, moving_axes(model));
-  const auto names = state_signals(of.places, "");
-  LinearLoop loop{{}, of.of_state(states, states), of.command_of_state(Eigen::all, states)};
-  for (const int i : states) loop.states.push_back(names[static_cast<std::size_t>(i)]);
-  return loop;
+  return {state_signals(of.places, "", states), of.of_state(states, states),
+          of.command_of_state(Eigen::all, states)};
 }
 
 bool is_sampled(const Model& model) {
@@ -246,23 +243,16 @@ Eigenvalues sampled_poles(const Model& model) {
   return poles_of_period(without_idle(model, sampled_loop(model)));
 }
 
-int growing(const Eigenvalues& poles) {
-  return static_cast<int>(
-      std::ranges::count_if(poles, [](const auto& pole) { return pole.real() > 0; }));
+int growing(const Eigenvalues& poles, bool by_period) {
+  return static_cast<int>(std::ranges::count_if(poles, [=](const auto& pole) {
+    return by_period ? std::abs(pole) > 1 + 4 * epsilon : pole.real() > 0;
+  }));
 }
 
-bool stable(const Eigenvalues& poles) {
-  return std::ranges::all_of(poles, [](const auto& pole) { return pole.real() < 0; });
-}
-
-int growing_by_period(const Eigenvalues& poles) {
-  return static_cast<int>(std::ranges::count_if(
-      poles, [](const auto& pole) { return std::abs(pole) > 1 + 4 * epsilon; }));
-}
-
-bool stable_by_period(const Eigenvalues& poles) {
-  return std::ranges::all_of(poles,
-                             [](const auto& pole) { return std::abs(pole) < 1 - 4 * epsilon; });
+bool stable(const Eigenvalues& poles, bool by_period) {
+  return std::ranges::all_of(poles, [=](const auto& pole) {
+    return by_period ? std::abs(pole) < 1 - 4 * epsilon : pole.real() < 0;
+  });
 }
 
 }  // namespace bbsim::model

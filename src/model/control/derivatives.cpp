@@ -436,8 +436,15 @@ std::vector<int> moving_axes(const Model& model) {
   return {0, 1};
 }
 
-std::vector<LinearSignal> state_signals(const StatePlaces& places,
-                                        const std::string& command_unit) {
+std::vector<LinearSignal> signals_of(const std::vector<LinearSignal>& all,
+                                     const std::vector<int>& indices) {
+  std::vector<LinearSignal> signals;
+  for (const int i : indices) signals.push_back(all[static_cast<std::size_t>(i)]);
+  return signals;
+}
+
+std::vector<LinearSignal> state_signals(const StatePlaces& places, const std::string& command_unit,
+                                        const std::vector<int>& states) {
   std::vector<LinearSignal> signals{
       {"x", "m"}, {"y", "m"}, {"vx", "m/s"}, {"vy", "m/s"}, {spin_name, "m/s"}};
   const char* const three[] = {"servo_phi", "servo_theta", "servo_third"};
@@ -452,7 +459,7 @@ std::vector<LinearSignal> state_signals(const StatePlaces& places,
     signals.push_back({name, command_unit});
   }
   for (const char* name : {"phi_integral", "theta_integral"}) signals.push_back({name, "rad s"});
-  return signals;
+  return signals_of(signals, states);
 }
 
 namespace {
