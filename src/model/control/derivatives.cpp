@@ -286,8 +286,8 @@ MatrixXd kick_of(const Loop& loop, const VectorXd& z) {
   for (int i = 0; i < servos; ++i) {
     VectorXd kicked = z;
     kicked.segment<servos>(rate) = Eigen::Matrix<double, servos, 1>::Unit(i);
-    const auto rates = gimbal.plane_rates(kicked.data());
-    const auto jump = gimbal.impulse(z.data(), rates[0], rates[1]);
+    const RigExtras plane = gimbal.plane(kicked.data());
+    const auto jump = gimbal.impulse(z.data(), plane.rate[0], plane.rate[1]);
     for (int j = 0; j < 3; ++j) kick(2 + j, i) = jump[static_cast<std::size_t>(j)];
     kick(rate + i, i) = 1;
   }

@@ -30,10 +30,7 @@ namespace bbsim::model {
       [&](const auto& any) {
         using Any = std::decay_t<decltype(any)>;
         if constexpr (is_coupled_loop<Any>) {
-          const double still[Any::servos] = {};
-          RigExtras plane{};
-          any.loop.fill(z, still, plane);
-          return energy_of(any.parts.ball, z, plane);
+          return energy_of(any.parts.ball, z, any.loop.plane(z));
         } else {
           return 0.0;
         }

@@ -36,15 +36,6 @@ Demands SwitchedModel::demands(double t, const double* z) const {
   });
 }
 
-RigExtras SwitchedModel::plane(const double* z) const {
-  return with_loop([z](const auto& loop) {
-    const double none[std::decay_t<decltype(loop)>::servos] = {};
-    RigExtras plane{};
-    loop.fill(z, none, plane);
-    return plane;
-  });
-}
-
 Balance<double> SwitchedModel::balance(double t, const double* z) const {
   return std::visit(
       [&](const auto& any) -> Balance<double> {

@@ -79,7 +79,9 @@ class SwitchedModel {
   // The forces of a coupled scene.
   [[nodiscard]] Balance<double> balance(double t, const double* z) const;
   // The plane's angles and rates.
-  [[nodiscard]] RigExtras plane(const double* z) const;
+  [[nodiscard]] RigExtras plane(const double* z) const {
+    return with_loop([z](const auto& loop) { return loop.plane(z); });
+  }
   [[nodiscard]] Sample sample(double t, const double* z, Detail detail) const {
     return std::visit([&](const auto& system) { return system.sample(t, z, detail); },
                       model_.system);

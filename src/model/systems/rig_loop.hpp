@@ -249,18 +249,6 @@ class RigLoop {
     }
   }
 
-  // The rates of phi and theta, rad/s.
-  [[nodiscard]] std::array<double, 2> plane_rates(const double* z) const {
-    if constexpr (Link::direct) {
-      return {mode.axis[0].ratio * z[Layout::rate], mode.axis[1].ratio * z[Layout::rate + 1]};
-    } else {
-      const double none[servos] = {};
-      GimbalAngle<double> axis[2];
-      planes(z, none, axis);
-      return {axis[0].rate, axis[1].rate};
-    }
-  }
-
   // The angles of the horns, after backlash, rad.
   void horns(const double* z, double (&horn)[servos]) const {
     for (int i = 0; i < servos; ++i) {
@@ -302,6 +290,14 @@ class RigLoop {
       const double angle = z[Layout::angle + i];
       extras.lag[i] = of.rings ? of.counted(t).value - angle : (1 - of.ratio) * angle - of.offset;
     }
+  }
+
+  // The plane's angles and rates.
+  [[nodiscard]] RigExtras plane(const double* z) const {
+    const double none[servos] = {};
+    RigExtras plane{};
+    fill(z, none, plane);
+    return plane;
   }
 
   // Computes the plane's motion from the servos' accelerations.
