@@ -75,8 +75,8 @@ TEST_CASE("without couples a ball rolls by the general form of equation (27)") {
     const auto plane = coupled.plane(phi, theta);
     auto cause = coupled.cause(plane, ball, p);
     for (int k = 0; k < 3; ++k) {
-      cause.omega_dot[k] += plane.phi_axis[k] * phi.acceleration;
-      cause.omega_dot[k] += plane.theta_axis[k] * theta.acceleration;
+      cause.omega_dot[k] += plane.axis[0][k] * phi.acceleration;
+      cause.omega_dot[k] += plane.axis[1][k] * theta.acceleration;
     }
     const auto answer = coupled.answer({}, {{0, 0}, {0, 0}}, ball, cause);
     const auto rates = model::general_rolling(scene).rates<double>(phi, theta, ball, r, g);

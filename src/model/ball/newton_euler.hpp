@@ -63,7 +63,7 @@ void direction(const DryDirection& of, const Real& x, const Real& y, Real (&into
 // The plane's motion without the contributions of phi'' and theta''.
 template <class Real>
 struct PlaneMotion {
-  Real phi_axis[3], theta_axis[3], up[3];
+  Real axis[2][3], up[3];  // axes of phi and theta
   Real omega[3], omega_dot[3];
 };
 
@@ -101,10 +101,10 @@ struct CoupledBall {
     PlaneMotion<Real> plane;
     const Real both = phi.rate * theta.rate;
     for (int i = 0; i < 3; ++i) {
-      plane.phi_axis[i] = k.phi_axis[i];
-      plane.theta_axis[i] = Real(i < 2 ? k.theta_axis[i] : 0.0);
+      plane.axis[0][i] = k.phi_axis[i];
+      plane.axis[1][i] = Real(i < 2 ? k.theta_axis[i] : 0.0);
       plane.up[i] = k.up[i];
-      plane.omega[i] = plane.theta_axis[i] * theta.rate + plane.phi_axis[i] * phi.rate;
+      plane.omega[i] = plane.axis[1][i] * theta.rate + plane.axis[0][i] * phi.rate;
       plane.omega_dot[i] = k.phi_axis_slope[i] * both;
     }
     return plane;

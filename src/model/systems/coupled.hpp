@@ -224,17 +224,17 @@ class CoupledGiven {
     Cause<Real> cause = of.cause(plane, ball, now.p);
     add_push(of, inputs, cause);
     for (int i = 0; i < 3; ++i) {
-      cause.omega_dot[i] = cause.omega_dot[i] + plane.phi_axis[i] * axis[0].acceleration +
-                           plane.theta_axis[i] * axis[1].acceleration;
+      cause.omega_dot[i] = cause.omega_dot[i] + plane.axis[0][i] * axis[0].acceleration +
+                           plane.axis[1][i] * axis[1].acceleration;
     }
     now.answer = of.answer(parts.contact, along, ball, cause);
     now.lost_power = of.lost_power(parts.contact, now.answer, ball, now.p, now.slip);
     now.work_power = Real(0.0);
     for (int i = 0; i < 2; ++i) {
-      const auto& about = i == 0 ? plane.phi_axis : plane.theta_axis;
       now.acceleration[i] = axis[i].acceleration;
       now.asked[i] = now.needed[i] = Real(0.0);
-      now.given[i] = of.moment(about, cause, now.answer, ball) + of.own_moment(about, plane);
+      now.given[i] =
+          of.moment(plane.axis[i], cause, now.answer, ball) + of.own_moment(plane.axis[i], plane);
       now.work_power = now.work_power + now.given[i] * axis[i].rate;
     }
     return now;
@@ -425,12 +425,11 @@ class CoupledLoop {
             const Put& put) const {
     const CoupledBall& of = parts.ball;
     for (int j = 0; j < 2; ++j) {
-      const Cause<Real> cause = CoupledBall::of_axis(j == 0 ? plane.phi_axis : plane.theta_axis);
+      const Cause<Real> cause = CoupledBall::of_axis(plane.axis[j]);
       const Answer<Real> answer = of.answer(parts.contact, along, ball, cause);
       for (int i = 0; i < 2; ++i) {
-        const auto& about = i == 0 ? plane.phi_axis : plane.theta_axis;
         const double own = i != j ? 0.0 : of.body.rotor + (i == 0 ? of.body.ring : 0.0);
-        put(i, j, of.moment(about, cause, answer, ball) + Real(own));
+        put(i, j, of.moment(plane.axis[i], cause, answer, ball) + Real(own));
       }
     }
   }
@@ -466,9 +465,7 @@ class CoupledLoop {
     Cause<Real> cause = of.cause(plane, ball, now.p);
     add_push(of, inputs, cause);
     Real own[2];
-    for (int i = 0; i < 2; ++i) {
-      own[i] = of.own_moment(i == 0 ? plane.phi_axis : plane.theta_axis, plane);
-    }
+    for (int i = 0; i < 2; ++i) own[i] = of.own_moment(plane.axis[i], plane);
     Real friction[2] = {Real(0.0), Real(0.0)};
     if (driven) {
       const Answer<Real> rest = of.answer(parts.contact, along, ball, cause);
@@ -481,8 +478,7 @@ class CoupledLoop {
                        motor.from_rate * rate + motor.from_integral * z[Layout::motor + i];
         now.given[i] = mode.factor * now.asked[i] + mode.by_rate * rate + Real(mode.set);
         friction[i] = motor.viscous * rate + Real(motor.friction * mode.opposed);
-        left[i] = now.given[i] - friction[i] -
-                  of.moment(i == 0 ? plane.phi_axis : plane.theta_axis, cause, rest, ball) - own[i];
+        left[i] = now.given[i] - friction[i] - of.moment(plane.axis[i], cause, rest, ball) - own[i];
       }
       // An axis that friction holds has the equation phi'' = 0.
       Real row[2][2], right[2];
@@ -507,15 +503,14 @@ class CoupledLoop {
       }
     }
     for (int i = 0; i < 3; ++i) {
-      cause.omega_dot[i] = cause.omega_dot[i] + plane.phi_axis[i] * axes[0].acceleration +
-                           plane.theta_axis[i] * axes[1].acceleration;
+      cause.omega_dot[i] = cause.omega_dot[i] + plane.axis[0][i] * axes[0].acceleration +
+                           plane.axis[1][i] * axes[1].acceleration;
     }
     now.answer = of.answer(parts.contact, along, ball, cause);
     now.lost_power = of.lost_power(parts.contact, now.answer, ball, now.p, now.slip);
     now.work_power = Real(0.0);
     for (int i = 0; i < 2; ++i) {
-      const auto& about = i == 0 ? plane.phi_axis : plane.theta_axis;
-      if (!driven) now.given[i] = of.moment(about, cause, now.answer, ball) + own[i];
+      if (!driven) now.given[i] = of.moment(plane.axis[i], cause, now.answer, ball) + own[i];
       now.lost_power = now.lost_power + motors[i].free * (friction[i] * z[Layout::rate + i]);
       now.work_power = now.work_power + motors[i].free * (now.given[i] * axes[i].rate);
     }
