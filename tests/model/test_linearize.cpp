@@ -212,12 +212,12 @@ TEST_CASE("with a linkage A is the derivative of the system, also at rest away f
   const model::Model model = model::assemble(scene, false);
   const auto& system =
       std::get<model::CoupledLoop<model::SignalPair, model::Linkages>>(model.system);
-  double z[model::CoupledLoopLayout::states] = {};
+  double z[model::CoupledLayout<2>::states] = {};
   std::copy(at.state.begin(), at.state.end(), z);
-  double rates[model::CoupledLoopLayout::states];
+  double rates[model::CoupledLayout<2>::states];
   model::derivative(system, 0.0, z, rates);
   for (int i = 0; i < 9; ++i) CHECK(std::abs(rates[i]) < 1e-10);  // it is at rest
-  constexpr int size = model::CoupledLoopLayout::states;
+  constexpr int size = model::CoupledLayout<2>::states;
   Eigen::Matrix<double, size, size> full;
   model::jacobian(model.system, 0.0, z, full.data());
   const std::vector<int> states{0, 1, 2, 3, 5, 6, 7, 8};

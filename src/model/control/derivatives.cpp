@@ -31,11 +31,7 @@ using Varied = simd::WithGradient<most_states + 6>;
 // The gimbal's part of a loop: its law, its servos and its linkage.
 template <class Loop>
 auto& gimbal_of(Loop& loop) {
-  if constexpr (is_coupled_loop<std::remove_const_t<Loop>>) {
-    return loop.loop;
-  } else {
-    return loop;
-  }
+  return *rig_loop_of(loop);
 }
 template <class Loop>
 using LinkOf = std::decay_t<decltype(gimbal_of(std::declval<Loop&>()).link)>;

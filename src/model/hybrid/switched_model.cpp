@@ -10,12 +10,7 @@ namespace bbsim::model {
 SwitchedModel::SwitchedModel(const Model& model) : model_(model) {
   std::visit(
       [this](auto& any) {
-        using Any = std::decay_t<decltype(any)>;
-        if constexpr (is_rig<Any>) {
-          mode_ = &any.mode;
-        } else if constexpr (is_coupled_loop<Any>) {
-          mode_ = &any.loop.mode;
-        }
+        if (auto* const loop = rig_loop_of(any)) mode_ = &loop->mode;
       },
       model_.system);
   if (model_.rig) rate_ = angle + static_cast<std::size_t>(model_.rig->servos);

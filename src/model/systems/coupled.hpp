@@ -279,7 +279,6 @@ struct CoupledLayout : ServoLayout<servos> {
                        work = lost + 1;
   static constexpr int states = work + 1;
 };
-using CoupledLoopLayout = CoupledLayout<2>;
 
 // The drive of a CoupledLoop's gimbal.
 enum class GimbalBy {
@@ -533,5 +532,18 @@ template <class Any>
 inline constexpr bool is_coupled_loop = false;
 template <class Signals, class Link>
 inline constexpr bool is_coupled_loop<CoupledLoop<Signals, Link>> = true;
+
+// The RigLoop that a system is or has; null if it has none.
+template <class Any>
+[[nodiscard]] auto* rig_loop_of(Any& any) {
+  using System = std::remove_const_t<Any>;
+  if constexpr (is_coupled_loop<System>) {
+    return &any.loop;
+  } else if constexpr (is_rig<System>) {
+    return &any;
+  } else {
+    return static_cast<RigLoop<>*>(nullptr);
+  }
+}
 
 }  // namespace bbsim::model
