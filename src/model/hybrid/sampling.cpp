@@ -88,9 +88,8 @@ void Sampling::ask_external(double t, double number, const std::optional<Pair>& 
   const Pair measured = seen.value_or(measured_);
   if (rig.sampled->legs) {
     const Commands asked = ask({angle, 3}, {rate, 3});
-    end(controller_.within_limits({asked[0], asked[1]}), measured);
-    exchange_.push_third(controller_.within_limits({asked[2], 0})[0]);
-    return;
+    return end(controller_.within_limits({asked[0], asked[1]}), measured,
+               controller_.within_limits({asked[2], 0})[0]);
   }
   double servo[4] = {angle[0], angle[1], rate[0], rate[1]};
   if (rig.mechanism.three) rig.mechanism.believed(angle, rate, servo);
@@ -99,19 +98,17 @@ void Sampling::ask_external(double t, double number, const std::optional<Pair>& 
 }
 
 std::array<double, most_servos> Sampling::take_command(RigMode& mode) {
-  const Pair command = exchange_.take_command();
+  const std::array<double, most_servos> command = exchange_.take_command();
   if (model_.rig().sampled->legs) {
-    const std::array<double, most_servos> legs{command[0], command[1], exchange_.take_third()};
     // The servos turn towards any angles. Those without a pose leave the tilt that is shown.
-    const Pair tilt = model_.rig().mechanism.tilt(legs);
+    const Pair tilt = model_.rig().mechanism.tilt(command);
     if (std::isfinite(tilt[0]) && std::isfinite(tilt[1])) {
       std::copy(tilt.begin(), tilt.end(), mode.wanted);
     }
-    return legs;
+    return command;
   }
   for (std::size_t i = 0; i < 2; ++i) mode.wanted[i] = command[i];
-  return is_direct_ ? std::array<double, most_servos>{command[0], command[1], 0}
-                    : controller_.servo_commands(command);
+  return is_direct_ ? command : controller_.servo_commands({command[0], command[1]});
 }
 
 }  // namespace bbsim::model
