@@ -152,7 +152,7 @@ Model assemble(const Scenario& scenario, scenario::Integrals integrals, Form for
     std::ranges::sort(knots);
   }
   std::vector<double> stops = stops_at(knots, scenario.time.end);
-  std::vector<double> jumps = stops_at(input.jumps(), scenario.time.end);
+  std::vector<double> jumps = stops_at(input.knots(true), scenario.time.end);
   const Shape shape = form == Form::reduced ? choose_shape(scenario, input) : Shape::full;
 
   std::optional<Rig> rig;
