@@ -75,10 +75,7 @@ Loop placed(Loop loop, const Model& model, const LinearPoint& at) {
     if (at.home) gimbal.link = levelled(gimbal.link);
   }
   if constexpr (std::is_same_v<LinkOf<Loop>, ThreeServos>) {
-    for (int i = 0; i < 2 && at.home; ++i) {
-      gimbal.link.cos_offset[i] = 1;
-      gimbal.link.sin_offset[i] = gimbal.link.offset[i] = 0;
-    }
+    for (int i = 0; i < 2 && at.home; ++i) gimbal.link.set_offset(i, 0);
     for (ThreeServos::Leg& leg : gimbal.link.leg) {
       if (!at.home || std::atan2(leg.sin_zero, leg.cos_zero) == leg.home) continue;
       leg.cos_zero = std::cos(leg.home);

@@ -32,6 +32,12 @@ struct ThreeServos : LegEquations {
   double cos_offset[2] = {1, 1}, sin_offset[2] = {0, 0}, offset[2] = {0, 0};  // of the plane, rad
   double determinant = 1;                                                     // at home
 
+  void set_offset(int axis, double angle) {
+    offset[axis] = angle;
+    cos_offset[axis] = std::cos(angle);
+    sin_offset[axis] = std::sin(angle);
+  }
+
   template <class Real>
   void directions(const Real (&servo)[3], Real (&sine)[3], Real (&cosine)[3]) const {
     for (int i = 0; i < 3; ++i) {
