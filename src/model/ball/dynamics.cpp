@@ -100,17 +100,6 @@ struct Kinematics {
            push;
   }
 
-  // The moment about the gimbal's center that carries the ball.
-  [[nodiscard]] Vector3d ball_moment(const Vector3d& force) const {
-    const Vector3d moment = contact.cross(force);
-    return coupled != nullptr ? Vector3d(moment + Vector3d(coupled->couple)) : moment;
-  }
-
-  // The motor torques for the plate, the ring and the rotors.
-  [[nodiscard]] Torques<double> of_plate() const {
-    return plate_torques(plane, phi, theta, constants.body, constants.gravity);
-  }
-
   const BallConstants& constants;
   const GimbalState& gimbal;
   const BallMotion& ball;
@@ -143,7 +132,9 @@ Dynamics dynamics(const Sample& sample, const BallConstants& constants) {
 
   Dynamics result;
   result.force = now.force();
-  const Vector3d moment = now.ball_moment(result.force);
+  // The moment about the gimbal's center that carries the ball.
+  Vector3d moment = now.contact.cross(result.force);
+  if (now.coupled != nullptr) moment += Vector3d(now.coupled->couple);
   result.torque_phi = now.phi_axis.dot(moment);
   result.torque_theta = now.theta_axis.dot(moment);
   result.kinetic_energy = m * centre_velocity.squaredNorm() / 2 +
@@ -151,10 +142,10 @@ Dynamics dynamics(const Sample& sample, const BallConstants& constants) {
   result.potential_energy = m * g * now.centre.dot(now.up);
 
   result.push_power = now.push.dot(centre_velocity);
-  const Torques<double> of_plate = now.of_plate();
+  const GimbalBody& body = constants.body;
+  const Torques<double> of_plate = plate_torques(now.plane, now.phi, now.theta, body, g);
   result.plate_torque_phi = of_plate.phi;
   result.plate_torque_theta = of_plate.theta;
-  const GimbalBody& body = constants.body;
   const Vector3d inertia(body.plate);
   const double phi_rate = now.gimbal.phi_dot, theta_rate = now.gimbal.theta_dot;
   result.gimbal_energy =
