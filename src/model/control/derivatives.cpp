@@ -218,16 +218,6 @@ void rates_under(const Loop& loop, const std::array<Jet<Number>, 2>& reference, 
   }
 }
 
-// The law's command for an axis: to its servo, or to the plane if there are three servos.
-template <class Loop, class Axes>
-auto command_of(const Axes& axes, int i) {
-  if constexpr (Loop::servos == 2) {
-    return std::decay_t<decltype(gimbal_of(std::declval<Loop&>()))>::servo_command(axes, i);
-  } else {
-    return axes.command.value[i];
-  }
-}
-
 template <class Loop>
 StatePlaces places_of(const Loop& loop) {
   StatePlaces places{Loop::servos, Loop::Layout::integral, 0, false};
@@ -265,8 +255,9 @@ LoopDerivatives differentiate_loop(const Loop& loop, const LinearPoint& at) {
   vary_states<Loop>(at, z);
   const auto reference = varied(at.reference, n);
   rates_under(loop, reference, at.time, z, dz);
-  const auto axes = gimbal_of(loop).axes(reference, z);
-  const Varied commands[2] = {command_of<Loop>(axes, 0), command_of<Loop>(axes, 1)};
+  const auto& gimbal = gimbal_of(loop);
+  const auto axes = gimbal.axes(reference, z);
+  const Varied commands[2] = {gimbal.shown(axes, 0), gimbal.shown(axes, 1)};
   return {places_of(loop), simd::gradients(dz, 0, n), simd::gradients(dz, n, 6),
           simd::gradients(commands, 0, n)};
 }
@@ -546,8 +537,9 @@ std::pair<Pair, Pair> commands_at(const Loop& loop, const Sensor* sensor, const 
   const VectorXd z = states_at<Loop>(at);
   std::array<Jet<double>, 2> reference = at.reference;
   see_by(sensor, z.data(), reference);
-  const auto axes = gimbal_of(loop).axes(reference, z.data());
-  return {{command_of<Loop>(axes, 0), command_of<Loop>(axes, 1)},
+  const auto& gimbal = gimbal_of(loop);
+  const auto axes = gimbal.axes(reference, z.data());
+  return {{gimbal.shown(axes, 0), gimbal.shown(axes, 1)},
           {axes.command.value[0], axes.command.value[1]}};
 }
 
