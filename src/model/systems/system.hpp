@@ -49,9 +49,35 @@ struct Motions {
   Motion of[velocities];
 };
 
-// Converts between a solver's state vector and the ball's fields.
+// Converts between a solver's state vector and the ball's fields. Here along one axis.
 template <Shape shape>
-struct BallLayout;
+struct BallLayout {
+  static constexpr bool along_x = shape == Shape::along_x;
+  static constexpr int size = 2;
+  static constexpr std::array<std::string_view, 2> names{along_x ? "x" : "y",
+                                                         along_x ? "vx" : "vy"};
+  static constexpr Motions<1> motions{{{0, 1}}};
+
+  template <class Real>
+  static auto unpack(const Real* z) {
+    if constexpr (along_x) {
+      return RollingState<Real, Zero, Zero>{z[0], {}, z[1], {}, {}};
+    } else {
+      return RollingState<Zero, Real, Zero>{{}, z[0], {}, z[1], {}};
+    }
+  }
+  template <class Real, class Equation, class Phi, class Theta, class Ball, class Scalar>
+  static void derivative(const Equation& equation, const Phi& phi, const Theta& theta,
+                         const Ball& ball, const Scalar& r, const Scalar& g, Real* dz) {
+    if constexpr (along_x) {
+      dz[0] = ball.x_dot;
+      dz[1] = equation.template x<Real>(phi, theta, ball, r, g);
+    } else {
+      dz[0] = ball.y_dot;
+      dz[1] = equation.template y<Real>(phi, theta, ball, r, g);
+    }
+  }
+};
 
 template <>
 struct BallLayout<Shape::full> {
@@ -78,42 +104,6 @@ struct BallLayout<Shape::full> {
       dz[3] = equation.template y<Real>(phi, theta, ball, r, g);
       dz[4] = equation.template u<Real>(phi, theta, ball, r);
     }
-  }
-};
-
-template <>
-struct BallLayout<Shape::along_x> {
-  static constexpr int size = 2;
-  static constexpr std::array<std::string_view, 2> names{"x", "vx"};
-  static constexpr Motions<1> motions{{{0, 1}}};
-
-  template <class Real>
-  static RollingState<Real, Zero, Zero> unpack(const Real* z) {
-    return {z[0], {}, z[1], {}, {}};
-  }
-  template <class Real, class Equation, class Phi, class Theta, class Ball, class Scalar>
-  static void derivative(const Equation& equation, const Phi& phi, const Theta& theta,
-                         const Ball& ball, const Scalar& r, const Scalar& g, Real* dz) {
-    dz[0] = ball.x_dot;
-    dz[1] = equation.template x<Real>(phi, theta, ball, r, g);
-  }
-};
-
-template <>
-struct BallLayout<Shape::along_y> {
-  static constexpr int size = 2;
-  static constexpr std::array<std::string_view, 2> names{"y", "vy"};
-  static constexpr Motions<1> motions{{{0, 1}}};
-
-  template <class Real>
-  static RollingState<Zero, Real, Zero> unpack(const Real* z) {
-    return {{}, z[0], {}, z[1], {}};
-  }
-  template <class Real, class Equation, class Phi, class Theta, class Ball, class Scalar>
-  static void derivative(const Equation& equation, const Phi& phi, const Theta& theta,
-                         const Ball& ball, const Scalar& r, const Scalar& g, Real* dz) {
-    dz[0] = ball.y_dot;
-    dz[1] = equation.template y<Real>(phi, theta, ball, r, g);
   }
 };
 
