@@ -23,9 +23,8 @@ MotorLaw motor_law(const Scenario& scene) {
     law.from_rate = motor.position_loop->kd;
     law.from_integral = motor.position_loop->ki;
   } else if (scene.controller && scene.controller->drives == Drives::voltage) {
-    const DcMotor& dc = *motor.dc;
-    const double torque_by_current = dc.gear * dc.torque_constant;
-    law.from_command = torque_by_current / dc.resistance;
+    const auto [resistance, torque_by_current] = constants_of(scene).armature;
+    law.from_command = torque_by_current / resistance;
     law.from_rate = torque_by_current * law.from_command;
   }
   return law;
@@ -48,9 +47,9 @@ DryParts dry_parts(const Scenario& scene) {
   dry.torque_limit = motor.torque_limit.value_or(unlimited);
   dry.integrates = motor.position_loop && motor.position_loop->ki > 0;
   if (motor.dc && motor.dc->voltage_limit) {
-    const double torque_by_current = motor.dc->gear * motor.dc->torque_constant;
-    dry.stall_torque = torque_by_current * *motor.dc->voltage_limit / motor.dc->resistance;
-    dry.torque_by_rate = torque_by_current * torque_by_current / motor.dc->resistance;
+    const auto [resistance, torque_by_current] = constants_of(scene).armature;
+    dry.stall_torque = torque_by_current * *motor.dc->voltage_limit / resistance;
+    dry.torque_by_rate = torque_by_current * torque_by_current / resistance;
   }
   return dry;
 }

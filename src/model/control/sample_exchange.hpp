@@ -146,11 +146,8 @@ class SampleExchange {
 
   void go_on(Clock& clock) {
     ++clock.number;
-    put(clock);
+    clock.next = time_of(clock.number) + clock.shift;
   }
-  // Sets the time of the present number.
-  void put(Clock& clock) { clock.next = time_of(clock.number) + clock.shift; }
-  [[nodiscard]] double frame_time() const { return expose_.number * *frames_ + expose_.shift; }
   void go_on_exposing();
   void skip_past();
   void forget_times();
