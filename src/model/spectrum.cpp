@@ -153,16 +153,10 @@ std::vector<int> others_than(const std::vector<int>& states, Eigen::Index count)
 
 LinearLoop sampled_loop(const Model& model) {
   const LinearPoint home = home_point();
-  const PlantDerivatives plant = plant_derivatives(model, home, Heave::left_out);
-  LinearLoop loop;
-  std::vector<int> states;
-  const SampledCycle cycle(cycle_parts(plant, *model.rig, home, states));
+  const SampledCycle cycle(plant_derivatives(model, home, Heave::left_out), *model.rig, home,
+                           SampledCycle::Frames::as_they_are);
   const SampledMap map = cycle.map();
-  loop.states = state_signals(plant.places, "", states);
-  std::ranges::move(cycle.memory(""), std::back_inserter(loop.states));
-  loop.a = map.a;
-  loop.law = map.law;
-  return loop;
+  return {cycle.signals(""), map.a, map.law};
 }
 
 LinearLoop continuous_loop(const Model& model) {

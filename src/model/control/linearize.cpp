@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "model/control/sample_times.hpp"
 #include "model/control/sampled_cycle.hpp"
 #include "model/control/transmission_zeros.hpp"
 #include "model/dense.hpp"
@@ -279,36 +278,17 @@ Linearization continuous_loop_about(const Scenario& scene, const Model& model,
   return linearization;
 }
 
-// The model from sample to sample: the plant, a cycle of one sample, and the states' names.
-struct SampledModel {
-  PlantDerivatives plant;
-  SampledCycle cycle;
-  std::vector<LinearSignal> signals;
-};
-
-SampledModel sampled_about(const Scenario& scene, const Model& model, const LinearPoint& at) {
-  PlantDerivatives plant = plant_derivatives(model, at, heave_of(scene, at));
-  std::vector<int> states;
-  CycleParts parts = cycle_parts(plant, *model.rig, at, states);
-  // There is one system only if all samples see frames of the same age.
-  if (common_cycle(parts.sampling, parts.sensor).samples > 1) parts.sensor.period.reset();
-  SampledCycle cycle(std::move(parts));
-  const std::string unit = command_unit(scene);
-  auto signals = state_signals(plant.places, unit, states);
-  std::ranges::move(cycle.memory(unit), std::back_inserter(signals));
-  return {std::move(plant), std::move(cycle), std::move(signals)};
-}
-
 Linearization sampled_loop_about(const Scenario& scene, const Model& model, const LinearPoint& at,
                                  const LoopParts& parts) {
   const std::vector<int> axes{0, 1};
-  const auto [plant, cycle, signals] = sampled_about(scene, model, at);
+  const PlantDerivatives plant = plant_derivatives(model, at, heave_of(scene, at));
+  const SampledCycle cycle(plant, *model.rig, at, SampledCycle::Frames::of_equal_age);
   const SampledMap closed = cycle.map();
   std::vector<LinearSignal> inputs;
   const std::vector<int> columns = reference_inputs(closed.of_reference, axes, inputs);
   Linearization linearization;
   LinearSystem& system = linearization.system;
-  system = system_of(signals, std::move(inputs), axes, closed.a,
+  system = system_of(cycle.signals(command_unit(scene)), std::move(inputs), axes, closed.a,
                      closed.of_reference(Eigen::all, columns));
   system.period = scene.controller->sampling->period;
   linearization.poles = poles_of_period(system.a);
@@ -336,7 +316,8 @@ Linearization sampled_plant_about(const Scenario& scene, const Model& model,
         "of "
         "the sampled plant; allowed: plant or loop");
   }
-  const auto [plant, cycle, signals] = sampled_about(scene, model, at);
+  const SampledCycle cycle(plant_derivatives(model, at, heave_of(scene, at)), *model.rig, at,
+                           SampledCycle::Frames::of_equal_age);
   const int n = cycle.size(), first = cycle.controller_at();
   // The controller's memory is not part of the plant.
   std::vector<int> kept;
@@ -346,7 +327,7 @@ Linearization sampled_plant_about(const Scenario& scene, const Model& model,
   const SampledMap open = cycle.map(true, true);
   Linearization linearization;
   LinearSystem& system = linearization.system;
-  system = {signals_of(signals, kept),
+  system = {signals_of(cycle.signals(command_unit(scene)), kept),
             signals_of_commands(scene, {0, 1}),
             signals_of_positions({0, 1}, "_measured"),
             open.a(kept, kept),

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <utility>
 
 #include "model/control/sample_times.hpp"
 #include "model/dense.hpp"
@@ -29,11 +28,13 @@ struct SampledCycle::Inputs {
   bool open[2]{};  // whether that loop is open
 };
 
-CycleParts cycle_parts(const PlantDerivatives& plant, const Rig& rig, const LinearPoint& at,
-                       std::vector<int>& states) {
-  states = linear_states(plant.places, plant.of_state, {0, 1}, SpinStands::last);
+SampledCycle::SampledCycle(const PlantDerivatives& plant, const Rig& rig, const LinearPoint& at,
+                           Frames frames)
+    : places_(plant.places),
+      states_(linear_states(plant.places, plant.of_state, {0, 1}, SpinStands::last)) {
+  const std::vector<int>& states = states_;
   const SampledLoop& sampled = *rig.sampled;
-  CycleParts parts;
+  CycleParts& parts = parts_;
   parts.servos = plant.places.servos;
   parts.a = plant.of_state(states, states);
   parts.b = plant.of_command(states, Eigen::all);
@@ -54,10 +55,9 @@ CycleParts cycle_parts(const PlantDerivatives& plant, const Rig& rig, const Line
   const double(&k)[2][2] = sampled.law.integral;
   parts.of_integral << k[0][0], k[0][1], k[1][0], k[1][1];
   for (int i = 0; i < parts.servos; ++i) parts.time_constant[i] = rig.servo[i].time_constant;
-  return parts;
-}
-
-SampledCycle::SampledCycle(CycleParts parts) : parts_(std::move(parts)) {
+  if (frames == Frames::of_equal_age && common_cycle(parts.sampling, parts.sensor).samples > 1) {
+    parts.sensor.period.reset();
+  }
   for (const Eigen::Index i : {0, 1}) {
     if (!parts_.of_integral.row(i).isZero(0)) integrating_.push_back(i);
   }
@@ -166,8 +166,8 @@ int SampledCycle::size() const {
          (begins_held_ ? 2 : 0);
 }
 
-std::vector<LinearSignal> SampledCycle::memory(const std::string& command_unit) const {
-  std::vector<LinearSignal> signals;
+std::vector<LinearSignal> SampledCycle::signals(const std::string& command_unit) const {
+  std::vector<LinearSignal> signals = state_signals(places_, command_unit, states_);
   const auto add = [&signals](const char* first, const char* second, const std::string& suffix,
                               const std::string& unit) {
     signals.push_back({first + suffix, unit});
